@@ -50,7 +50,7 @@ set(gemmi "")
 if(KDS_GEMMI_LIBRARY)
   set(gemmi "${KDS_GEMMI_LIBRARY}")
 endif()
-kds_install_component(motions TARGETS kds_requirements kds_options kds_motions REQUIRES eigen3 fmt zlib gmp
+kds_install_component(motions TARGETS kds_requirements kds_options kds_motions REQUIRES eigen3 fmt zlib gmpxx gmp
                       LIBRARIES ${gemmi})
 kds_install_component(certificates TARGETS kds_certificates REQUIRES kds-motions LIBRARIES "${KDS_FLINT_LIBRARY}")
 kds_install_component(engine TARGETS kds_engine REQUIRES kds-certificates)

@@ -16,12 +16,13 @@ constexpr int most_digits = 12;
 
 Integer power_of_ten(int exponent) {
   Integer power;
-  mpz_ui_pow_ui(power.data(), 10, static_cast<unsigned long>(exponent));
+  mpz_ui_pow_ui(power.get_mpz_t(), 10, static_cast<unsigned long>(exponent));
   return power;
 }
 
 Rational in_units(const Rational& value, int exponent) {
-  return exponent > 0 ? value / Rational(power_of_ten(exponent)) : value * Rational(power_of_ten(-exponent));
+  const Rational power(power_of_ten(std::abs(exponent)));
+  return exponent > 0 ? Rational(value / power) : Rational(value * power);
 }
 
 /// The number digits * 10^exponent. Its last digit is 0 only if the number is 0.
@@ -42,7 +43,7 @@ struct Decimal {
 /// Returns the largest e with 10^e <= |value|.
 int magnitude(const Rational& value) {
   const Rational size = abs(value);
-  const auto bits = [](const Integer& x) { return static_cast<double>(mpz_sizeinbase(x.data(), 2)); };
+  const auto bits = [](const Integer& x) { return static_cast<double>(mpz_sizeinbase(x.get_mpz_t(), 2)); };
   constexpr double decimals_per_bit = 0.30102999566398120;
   int e = static_cast<int>((bits(numerator(size)) - bits(denominator(size))) * decimals_per_bit) + 1;
   while (in_units(size, e) < Rational(1)) --e;
@@ -55,17 +56,17 @@ Decimal rounded_to(const Rational& value, int exponent) {
   Integer whole;
   const Integer twice_numerator = numerator(scaled) * Integer(2) + denominator(scaled);
   const Integer twice_denominator = denominator(scaled) * Integer(2);
-  mpz_fdiv_q(whole.data(), twice_numerator.data(), twice_denominator.data());  // half up
-  const bool tie = mpz_divisible_p(twice_numerator.data(), twice_denominator.data()) != 0;
-  if (tie && mpz_odd_p(whole.data()) != 0) whole -= Integer(1);
-  Decimal decimal{static_cast<std::int64_t>(whole), exponent};
+  mpz_fdiv_q(whole.get_mpz_t(), twice_numerator.get_mpz_t(), twice_denominator.get_mpz_t());  // half up
+  const bool tie = mpz_divisible_p(twice_numerator.get_mpz_t(), twice_denominator.get_mpz_t()) != 0;
+  if (tie && mpz_odd_p(whole.get_mpz_t()) != 0) whole -= Integer(1);
+  Decimal decimal{whole.get_si(), exponent};
   if (decimal.digits == 0) return {};
   for (; decimal.digits % 10 == 0; decimal.digits /= 10) ++decimal.exponent;
   return decimal;
 }
 
 Decimal rounded(const Rational& value) {
-  return value.sign() == 0 ? Decimal{} : rounded_to(value, magnitude(value) + 1 - most_digits);
+  return sgn(value) == 0 ? Decimal{} : rounded_to(value, magnitude(value) + 1 - most_digits);
 }
 
 /// Rounds both numbers to as many digits as possible while the results agree, and returns that result.
@@ -91,12 +92,12 @@ class Scale {
   Scale(double begin, double end) : begin_(begin), length_(Rational(end) - begin_) {}
 
   [[nodiscard]] Rational at(const Dyadic& u) const { return begin_ + u.rational() * length_; }
-  [[nodiscard]] bool is_point() const { return length_.sign() == 0; }
+  [[nodiscard]] bool is_point() const { return sgn(length_) == 0; }
 
   [[nodiscard]] Decimal rounded(ExactTime& time) const {
     Rational at_lower = at(time.lower()), at_upper = at(time.upper());
     while (!time.is_dyadic() && is_wide(at_lower, at_upper)) {
-      if (at_lower.sign() * at_upper.sign() < 0) {
+      if (sgn(at_lower) * sgn(at_upper) < 0) {
         if (compare_with(time, place_of(Rational(0))) == 0) return {};
       } else {
         narrow(time, std::max(abs(at_lower), abs(at_upper)));
@@ -120,7 +121,7 @@ class Scale {
     return abs(a - b) * Rational(power_of_ten(most_digits + 1)) > std::min(abs(a), abs(b));
   }
   void narrow(ExactTime& time, const Rational& size) const {
-    const double width = 0.5e-13 * static_cast<double>(size / abs(length_));
+    const double width = 0.5e-13 * Rational(size / abs(length_)).get_d();
     constexpr double least = 0x1p-900;  // smaller widths may underflow
     if (width < least)
       time.refine();

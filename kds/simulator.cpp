@@ -137,7 +137,7 @@ void Simulator::run_until(const Dyadic& time) {
   ExactTime stop(time);
   if (ExactTime::compare(stop, now_.exact()) < 0 || !(time < Dyadic(1.0)))
     throw std::invalid_argument(fmt::format("a run until u = {}: expected a time from {} on, before 1",
-                                            time.rational().str(), now_.lower()));
+                                            time.rational().get_str(), now_.lower()));
   run_events<false>(&time);
   now_ = Instant(time);
   ++moment_;
@@ -386,7 +386,7 @@ void Simulator::audit(const Dyadic& time) {
     if (const auto difference = structure->audit(time)) {
       ++structure->statistics.audits_failed;
       throw AuditError(fmt::format("audit of {} failed in step {} at u = {} (between {} and {}): {}",
-                                   structure->name(), step_, time.rational().str(), time.round_down(),
+                                   structure->name(), step_, time.rational().get_str(), time.round_down(),
                                    time.round_up(), *difference));
     }
   }

@@ -83,7 +83,7 @@ template <class Number>
 [[nodiscard]] inline int sign_variations_of(const std::vector<Integer>& c) {
   int variations = 0, last = 0;
   for (const Integer& x : c) {
-    const int sign = x.sign();
+    const int sign = sgn(x);
     if (sign == 0) continue;
     if (last != 0 && sign != last) ++variations;
     last = sign;
@@ -92,12 +92,12 @@ template <class Number>
 }
 
 inline void add_product(Integer& sum, const Integer& a, const Integer& b) {
-  mpz_addmul(sum.data(), a.data(), b.data());
+  mpz_addmul(sum.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
 }
 inline void add_product(LeadingDigits& sum, const LeadingDigits& a, const LeadingDigits& b) { sum += a * b; }
 
-/// Returns the approximate length in 64-bit limbs.
-[[nodiscard]] inline std::size_t limbs_of(const Integer& x) { return mpz_size(x.data()) + 1; }
+/// Of 64 bits, roughly.
+[[nodiscard]] inline std::size_t limbs_of(const Integer& x) { return mpz_size(x.get_mpz_t()) + 1; }
 [[nodiscard]] inline std::size_t limbs_of(const LeadingDigits&) { return 1; }
 
 /// The ends of an interval and their distances from 1, over a common denominator 2^exponent.

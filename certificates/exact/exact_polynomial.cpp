@@ -44,7 +44,7 @@ Integers square_free_part(Integers c) {
   return c.size() <= 2 || certainly_square_free(c) ? c : without_repeated_factors(c);
 }
 
-int sign_of(const Integer& x) { return x.sign(); }
+int sign_of(const Integer& x) { return sgn(x); }
 
 }  // namespace
 
@@ -69,7 +69,7 @@ std::size_t ExactPolynomial::largest_bit_length() const {
   if (wide_) return wide_->largest_bit_length();
   std::size_t bits = 0;
   for (const Integer& x : scaled_) {
-    if (x != 0) bits = std::max(bits, mpz_sizeinbase(x.data(), 2));
+    if (x != 0) bits = std::max(bits, mpz_sizeinbase(x.get_mpz_t(), 2));
   }
   return bits;
 }

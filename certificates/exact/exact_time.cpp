@@ -65,7 +65,7 @@ double rough(const ExactTime& time) {
   std::vector<double> c;
   for (const Integer& x : local.scaled()) {
     long exponent = 0;
-    const double fraction = mpz_get_d_2exp(&exponent, x.data());
+    const double fraction = mpz_get_d_2exp(&exponent, x.get_mpz_t());
     c.push_back(std::ldexp(fraction, static_cast<int>(std::max(exponent - shift, -1100L))));
   }
   const auto value = [&c](double s) {
@@ -159,7 +159,7 @@ std::int64_t places_of(const ExactTime& time) {
   const unsigned exponent = std::max(time.lower().exponent(), time.upper().exponent());
   const Integer length = (time.upper().numerator() << (exponent - time.upper().exponent())) -
                          (time.lower().numerator() << (exponent - time.lower().exponent()));
-  return std::int64_t{exponent} - static_cast<std::int64_t>(mpz_sizeinbase(length.data(), 2));
+  return std::int64_t{exponent} - static_cast<std::int64_t>(mpz_sizeinbase(length.get_mpz_t(), 2));
 }
 
 // Refines both times, but not one that is far ahead of the other. A step gains one bit for some times and

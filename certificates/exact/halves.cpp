@@ -19,11 +19,11 @@ Integers binomials(std::size_t degree) {
 }
 
 void shift_up(Integer& to, const Integer& from, std::size_t bits) {
-  mpz_mul_2exp(to.data(), from.data(), bits);
+  mpz_mul_2exp(to.get_mpz_t(), from.get_mpz_t(), bits);
 }
 
 bool is_certain(const Integer& x, const Integer& error) {
-  return error == 0 || mpz_cmpabs(x.data(), error.data()) > 0;
+  return error == 0 || mpz_cmpabs(x.get_mpz_t(), error.get_mpz_t()) > 0;
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ Variations Halves::variations(int sign_at_lower, int sign_at_upper) const {
   count.add(sign_at_lower);
   for (std::size_t k = 1; k + 1 < c_.size(); ++k) {
     if (is_certain(c_[k], error_)) {
-      count.add(c_[k].sign());
+      count.add(sgn(c_[k]));
     } else {
       count.add_unknown();
     }
@@ -67,14 +67,14 @@ Variations Halves::variations(int sign_at_lower, int sign_at_upper) const {
 }
 
 std::optional<int> Halves::sign_of(const Integer& x) const {
-  return is_certain(x, error_) ? std::optional(x.sign()) : std::nullopt;
+  return is_certain(x, error_) ? std::optional(sgn(x)) : std::nullopt;
 }
 
 std::optional<Halves::Cells> Halves::cells_of_cluster(int multiplicity, unsigned digits) const {
   // Neighbouring coefficients differ by the slope divided by the degree.
   const auto steps = [&](const Integer& value, const Integer& next) -> std::optional<Integer> {
     const Integer fall = (value - next) * static_cast<long>(c_.size() - 1);
-    if (value == 0 || fall.sign() != value.sign()) return std::nullopt;
+    if (value == 0 || sgn(fall) != sgn(value)) return std::nullopt;
     return Integer(((value * multiplicity) << digits) / fall);
   };
   const std::optional<Integer> from_lower = steps(c_.front(), c_[1]);
@@ -96,7 +96,7 @@ Halves Halves::halve() {
   if (error_ != 0) {  // round to the previous unit, which adds less than 1 to each error
     const std::size_t degree = c_.size() - 1;
     for (Integers* half : {&c_, &left.c_})
-      for (Integer& x : *half) mpz_fdiv_q_2exp(x.data(), x.data(), degree);
+      for (Integer& x : *half) mpz_fdiv_q_2exp(x.get_mpz_t(), x.get_mpz_t(), degree);
     ++error_;
   }
   left.error_ = error_;

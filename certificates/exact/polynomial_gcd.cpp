@@ -62,7 +62,7 @@ class FlintPolynomial {
   }
   explicit FlintPolynomial(const Integers& p) : FlintPolynomial() {
     for (std::size_t k = p.size(); k-- > 0;)
-      fmpz_poly_set_coeff_mpz(value_, static_cast<slong>(k), p[k].data());
+      fmpz_poly_set_coeff_mpz(value_, static_cast<slong>(k), p[k].get_mpz_t());
   }
   FlintPolynomial(const FlintPolynomial&) = delete;
   FlintPolynomial& operator=(const FlintPolynomial&) = delete;
@@ -73,7 +73,7 @@ class FlintPolynomial {
   [[nodiscard]] Integers coefficients() const {
     Integers result(size());
     for (std::size_t k = 0; k < result.size(); ++k)
-      fmpz_poly_get_coeff_mpz(result[k].data(), value_, static_cast<slong>(k));
+      fmpz_poly_get_coeff_mpz(result[k].get_mpz_t(), value_, static_cast<slong>(k));
     return result;
   }
   /// Sets this to the primitive gcd of two others.
@@ -97,7 +97,7 @@ std::vector<Residue> image_of(const std::vector<Integer>& p) {
   constexpr std::uint64_t fold = residue_folds[0];
   Image image;
   image.reserve(p.size());
-  for (const Integer& x : p) image.push_back({mpz_fdiv_ui(x.data(), Residue::modulus(fold)), fold});
+  for (const Integer& x : p) image.push_back({mpz_fdiv_ui(x.get_mpz_t(), Residue::modulus(fold)), fold});
   return image;
 }
 

@@ -31,7 +31,7 @@ RoundedPolynomial::RoundedPolynomial(const ExactPolynomial& exact) {
   exponent.resize(count);
   long largest = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    whole_.c[k] = mpz_get_d_2exp(&exponent[k], scaled[first + k].data());
+    whole_.c[k] = mpz_get_d_2exp(&exponent[k], scaled[first + k].get_mpz_t());
     largest = std::max(largest, exponent[k]);
   }
   for (std::size_t k = 0; k < count; ++k) {

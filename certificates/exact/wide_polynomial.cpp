@@ -19,8 +19,9 @@ bool has_digits(const LongDigits& x, std::size_t digits) { return x.has_digits(d
 std::int64_t top_bit(const LeadingDigits& x) { return x.top_bit(); }
 std::int64_t top_bit(const LongDigits& x) {
   return x.exponent() +
-         static_cast<std::int64_t>(std::max<std::size_t>(
-             mpz_sizeinbase(x.number().data(), 2), static_cast<std::size_t>(std::bit_width(x.error())))) +
+         static_cast<std::int64_t>(
+             std::max<std::size_t>(mpz_sizeinbase(x.number().get_mpz_t(), 2),
+                                   static_cast<std::size_t>(std::bit_width(x.error())))) +
          1;
 }
 
@@ -58,14 +59,14 @@ bool suffice(const std::vector<Number>& c, std::size_t digits) {
 LeadingDigits between(const Integer& low, const Integer& high) {
   LeadingDigits all = LeadingDigits::of(high);
   const Integer length = high - low;
-  const auto bits = static_cast<std::int64_t>(mpz_sizeinbase(length.data(), 2));
+  const auto bits = static_cast<std::int64_t>(mpz_sizeinbase(length.get_mpz_t(), 2));
   if (const std::int64_t down = bits - 60 - all.exponent; down > 0) {
     all.magnitude = down >= 128 ? 0 : all.magnitude >> static_cast<unsigned>(down);
     all.exponent += down;
     all.error = 1;
   }
   const Integer units = length >> static_cast<std::size_t>(all.exponent);
-  all.error += mpz_get_ui(units.data()) + 1;
+  all.error += mpz_get_ui(units.get_mpz_t()) + 1;
   return all;
 }
 
@@ -165,7 +166,7 @@ int WidePolynomial::first_sign() const {
     if (!x.is_zero()) break;
   }
   for (const Integer& x : whole()) {
-    if (x != 0) return x.sign();
+    if (x != 0) return sgn(x);
   }
   return 0;
 }
@@ -175,7 +176,7 @@ int WidePolynomial::sign_at(const Dyadic& u) const {
   if (leading.empty()) return 0;
   if (u.exponent() == 0 && u.numerator() == 0) {
     const LeadingDigits& first = leading.front();
-    return first.certain_sign() != 0 || first.is_zero() ? first.certain_sign() : whole().front().sign();
+    return first.certain_sign() != 0 || first.is_zero() ? first.certain_sign() : sgn(whole().front());
   }
   const LeadingDigits rough =
       detail::value_of(leading, LeadingDigits::of(1), LeadingDigits::of(u.numerator()),

@@ -185,7 +185,7 @@ ExactPolynomial exact_function(const BeadFunction& function, const C& curves) {
 template <class C>
 int exact_sign_at(const BeadFunction& function, const C& curves, const Dyadic& time) {
   const MomentView<C> view(curves, function.beads, time, function.known.channels());
-  const int sign = play(function.formula, ViewedBeads<MomentView<C>>(view, function.beads))[0].sign();
+  const int sign = sgn(play(function.formula, ViewedBeads<MomentView<C>>(view, function.beads))[0]);
   return function.negative ? -sign : sign;
 }
 

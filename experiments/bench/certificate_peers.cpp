@@ -85,7 +85,7 @@ Algebraic::Polynomial_1 power_form(const ExactPolynomial& p) {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += p.scaled()[k] * power[i];
   }
   std::vector<CGAL::Gmpz> coefficients;
-  for (const Integer& x : sum) coefficients.emplace_back(x.data());
+  for (const Integer& x : sum) coefficients.emplace_back(x.get_mpz_t());
   return {coefficients.begin(), coefficients.end()};
 }
 

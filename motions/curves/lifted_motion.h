@@ -43,8 +43,8 @@ template <class View>
   const auto d = view.difference(i, j);
   const auto w = view.weight_difference(i, j);
   const auto displacement = view.displacement(j);
-  auto start = -w.scaled[0];
-  auto end = -w.scaled[1];
+  typename View::Number start = -w.scaled[0];
+  typename View::Number end = -w.scaled[1];
   for (std::size_t axis = 0; axis < d.size(); ++axis) {
     start += d[axis].scaled[0] * d[axis].scaled[0];
     end += d[axis].scaled[1] * (d[axis].scaled[1] + displacement[axis] + displacement[axis]);

@@ -24,9 +24,9 @@ namespace kds {
 /// they are computed.
 inline constexpr int most_degree_of_function = 61;
 
-/// Returns n over k, for n <= most_degree_of_function.
-[[nodiscard]] constexpr long long binomial(int n, int k) {
-  long long result = 1;
+/// n over k, n at most that.
+[[nodiscard]] constexpr std::int64_t binomial(int n, int k) {
+  std::int64_t result = 1;
   for (int i = 1; i <= k; ++i) result = result * (n - k + i) / i;
   return result;
 }
@@ -100,6 +100,8 @@ constexpr void multiply_by(Number& x, std::int64_t factor) {
     x = Number::constant(static_cast<double>(factor)) * x;
   } else if constexpr (requires { x *= static_cast<long long>(factor); }) {
     x *= static_cast<long long>(factor);
+  } else if constexpr (requires { x *= factor; }) {
+    x *= factor;
   } else {
     x = Number{static_cast<double>(factor)} * x;
   }

@@ -20,21 +20,21 @@ Dyadic::Dyadic(Integer numerator, unsigned exponent) : numerator_(std::move(nume
   if (numerator_ == 0) {
     exponent_ = 0;
   } else if (exponent_ > 0) {
-    const auto zeros = static_cast<unsigned>(mpz_scan1(numerator_.data(), 0));
+    const auto zeros = static_cast<unsigned>(mpz_scan1(numerator_.get_mpz_t(), 0));
     const unsigned shift = zeros < exponent_ ? zeros : exponent_;
     numerator_ >>= shift;
     exponent_ -= shift;
   }
 }
 
-Rational Dyadic::rational() const { return Rational(numerator_, Integer(1) << exponent_); }
+Rational Dyadic::rational() const { return fraction(numerator_, Integer(1) << exponent_); }
 
 namespace {
 
 // Rounds towards zero: mpz_get_d_2exp truncates, and scaling the result is exact unless it becomes subnormal.
 double truncate(const Integer& numerator, unsigned exponent) {
   long scale = 0;
-  const double fraction = mpz_get_d_2exp(&scale, numerator.data());
+  const double fraction = mpz_get_d_2exp(&scale, numerator.get_mpz_t());
   const long power = scale - static_cast<long>(exponent);
   if (power > 1024) return std::copysign(std::numeric_limits<double>::max(), fraction);
   if (power < -1021) {  // a subnormal result: truncate to multiples of 2^-1074
@@ -68,10 +68,10 @@ Dyadic Dyadic::midpoint(const Dyadic& a, const Dyadic& b) {
 }
 
 int Dyadic::compare(const Dyadic& a, const Dyadic& b) {
-  const int order = a.exponent_ == b.exponent_ ? a.numerator_.compare(b.numerator_)
+  const int order = a.exponent_ == b.exponent_ ? cmp(a.numerator_, b.numerator_)
                     : a.exponent_ < b.exponent_
-                        ? (a.numerator_ << (b.exponent_ - a.exponent_)).compare(b.numerator_)
-                        : a.numerator_.compare(b.numerator_ << (a.exponent_ - b.exponent_));
+                        ? cmp(a.numerator_ << (b.exponent_ - a.exponent_), b.numerator_)
+                        : cmp(a.numerator_, b.numerator_ << (a.exponent_ - b.exponent_));
   return (order > 0) - (order < 0);
 }
 

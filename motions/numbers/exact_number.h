@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "motions/numbers/integer.h"
-#include "motions/numbers/rational.h"
 #include "motions/numbers/sum_of_products.h"
 
 namespace kds {
@@ -17,7 +16,7 @@ template <>
 class SumOfProducts<Integer> {
  public:
   SumOfProducts(const Integer& a, const Integer& b) : sum_(a * b) {}
-  void add(const Integer& a, const Integer& b) { mpz_addmul(sum_.data(), a.data(), b.data()); }
+  void add(const Integer& a, const Integer& b) { mpz_addmul(sum_.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t()); }
   [[nodiscard]] Integer value() && { return std::move(sum_); }
 
  private:
@@ -26,7 +25,7 @@ class SumOfProducts<Integer> {
 
 /// A finite double split into mantissa * 2^exponent. The mantissa is odd; zero is 0 * 2^0.
 struct SplitDouble {
-  long long mantissa = 0;
+  std::int64_t mantissa = 0;
   int exponent = 0;
 };
 [[nodiscard]] inline SplitDouble split(double value) {
@@ -36,7 +35,7 @@ struct SplitDouble {
   const std::uint64_t mantissa = power == 0 ? fraction : fraction | (std::uint64_t{1} << 52U);
   if (mantissa == 0) return {};
   const int zeros = std::countr_zero(mantissa);
-  const auto odd = static_cast<long long>(mantissa >> static_cast<unsigned>(zeros));
+  const auto odd = static_cast<std::int64_t>(mantissa >> static_cast<unsigned>(zeros));
   return {value < 0 ? -odd : odd, std::max(power, 1) - 1075 + zeros};
 }
 

@@ -26,7 +26,7 @@ FixedDigits<Most> FixedDigits<Most>::of(long long x) {
 template <int Most>
 void FixedDigits<Most>::set(const Integer& number, std::uint64_t error, std::int64_t exponent) {
   const std::int64_t words = exponent >> 6, bits = exponent & 63;
-  mpz_srcptr whole = number.data();
+  mpz_srcptr whole = number.get_mpz_t();
   const mp_limb_t* limbs = mpz_limbs_read(whole);
   const auto size = static_cast<std::int64_t>(mpz_size(whole));
   negative_ = mpz_sgn(whole) < 0;
@@ -47,13 +47,13 @@ template <int Most>
 FixedDigits<Most> FixedDigits<Most>::between(const Integer& low, const Integer& high) {
   FixedDigits all(high);
   const Integer length = high - low;
-  const auto bits = static_cast<std::int64_t>(mpz_sizeinbase(length.data(), 2));
+  const auto bits = static_cast<std::int64_t>(mpz_sizeinbase(length.get_mpz_t(), 2));
   const std::int64_t words = bits > error_bits - 2 ? (bits - (error_bits - 2) + 63) / 64 : 0;
   // Drop words until the length has few enough bits to be an error bound.
   if (all.size_ == 0) all.exponent_ = words;
   all.drop(words - all.exponent_);
   const Integer units = length >> static_cast<std::size_t>(64 * all.exponent_);
-  all.error_ += mpz_get_ui(units.data()) + 1;
+  all.error_ += mpz_get_ui(units.get_mpz_t()) + 1;
   return all;
 }
 
@@ -61,9 +61,9 @@ template <int Most>
 LongDigits FixedDigits<Most>::long_digits() const {
   Integer number;
   if (size_ > 0) {
-    mp_limb_t* limbs = mpz_limbs_write(number.data(), size_);
+    mp_limb_t* limbs = mpz_limbs_write(number.get_mpz_t(), size_);
     std::copy_n(limbs_.begin(), size_, limbs);
-    mpz_limbs_finish(number.data(), negative_ ? -size_ : size_);
+    mpz_limbs_finish(number.get_mpz_t(), negative_ ? -size_ : size_);
   }
   return {number, error_, 64 * exponent_, static_cast<std::size_t>(64 * Most)};
 }

@@ -74,7 +74,7 @@ Integer FixedInteger::whole_number() const {
   const bool negative = is_negative();
   const FixedInteger magnitude = negative ? -*this : *this;
   Integer result;
-  mpz_import(result.data(), count, -1, sizeof(std::uint64_t), 0, 0, magnitude.limbs_.data());
+  mpz_import(result.get_mpz_t(), count, -1, sizeof(std::uint64_t), 0, 0, magnitude.limbs_.data());
   if (negative) result = -result;
   return result;
 }

@@ -59,7 +59,7 @@ LeadingDigits LeadingDigits::of(long long x) {
 }
 
 LeadingDigits LeadingDigits::of(const Integer& x) {
-  mpz_srcptr whole = x.data();
+  mpz_srcptr whole = x.get_mpz_t();
   LeadingDigits result;
   result.negative = mpz_sgn(whole) < 0;
   const std::size_t limbs = mpz_size(whole);

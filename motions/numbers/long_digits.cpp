@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t most_error_bits = 61;
 
 std::size_t bit_width_of(const Integer& x) {
-  mpz_srcptr whole = x.data();
+  mpz_srcptr whole = x.get_mpz_t();
   const std::size_t limbs = mpz_size(whole);
   return limbs == 0
              ? 0
@@ -21,7 +21,7 @@ std::size_t bit_width_of(const Integer& x) {
 
 /// Returns floor(|x| / 2^bits), which must be less than 2^64.
 std::uint64_t top_of(const Integer& x, std::size_t bits) {
-  mpz_srcptr whole = x.data();
+  mpz_srcptr whole = x.get_mpz_t();
   const auto limb = [&](std::size_t i) {
     return std::uint64_t{mpz_getlimbn(whole, static_cast<mp_size_t>(i))};
   };
@@ -70,8 +70,8 @@ LongDigits::LongDigits(const Integer& value, std::size_t most_bits) : most_bits_
     return;
   }
   const std::size_t below = width - most_bits;
-  mpz_tdiv_q_2exp(value_.data(), value.data(), below);
-  error_ = mpz_scan1(value.data(), 0) >= below ? 0 : 1;
+  mpz_tdiv_q_2exp(value_.get_mpz_t(), value.get_mpz_t(), below);
+  error_ = mpz_scan1(value.get_mpz_t(), 0) >= below ? 0 : 1;
   exponent_ = static_cast<std::int64_t>(below);
 }
 
@@ -97,7 +97,7 @@ LongDigits LongDigits::between(const Integer& low, const Integer& high, std::siz
   const std::size_t width = bit_width_of(length), below = static_cast<std::size_t>(all.exponent_);
   if (width > below + length_bits) all.shift_down(width - below - length_bits);
   const Integer units = length >> static_cast<std::size_t>(all.exponent_);
-  all.error_ += mpz_get_ui(units.data()) + 1;
+  all.error_ += mpz_get_ui(units.get_mpz_t()) + 1;
   return all;
 }
 
@@ -108,7 +108,9 @@ LeadingDigits LongDigits::leading_digits() const {
   return leading;
 }
 
-int LongDigits::certain_sign() const { return mpz_cmpabs_ui(value_.data(), error_) <= 0 ? 0 : value_.sign(); }
+int LongDigits::certain_sign() const {
+  return mpz_cmpabs_ui(value_.get_mpz_t(), error_) <= 0 ? 0 : sgn(value_);
+}
 
 bool LongDigits::has_digits(std::size_t digits) const {
   return error_ == 0 || bit_width_of(value_) > digits + static_cast<std::size_t>(std::bit_width(error_));
@@ -123,8 +125,8 @@ std::size_t LongDigits::room(std::size_t wanted) const {
 }
 
 void LongDigits::shift_down(std::size_t bits) {
-  const bool exact = value_ == 0 || mpz_scan1(value_.data(), 0) >= bits;
-  mpz_tdiv_q_2exp(value_.data(), value_.data(), bits);
+  const bool exact = value_ == 0 || mpz_scan1(value_.get_mpz_t(), 0) >= bits;
+  mpz_tdiv_q_2exp(value_.get_mpz_t(), value_.get_mpz_t(), bits);
   error_ = shifted_down(error_, bits) + (exact ? 0 : 1);
   exponent_ += static_cast<std::int64_t>(bits);
 }

@@ -52,8 +52,10 @@ class LongDigits {
   std::size_t most_bits_;
 };
 
-/// Returns the approximate length of x in 64-bit limbs.
-[[nodiscard]] inline std::size_t limbs_of(const LongDigits& x) { return mpz_size(x.number().data()) + 1; }
+/// Of 64 bits, roughly.
+[[nodiscard]] inline std::size_t limbs_of(const LongDigits& x) {
+  return mpz_size(x.number().get_mpz_t()) + 1;
+}
 
 /// a += b c
 inline void add_product(LongDigits& a, LongDigits b, const LongDigits& c) { a += (b *= c); }

@@ -34,7 +34,7 @@ Integer whole_number(std::span<const std::uint64_t> residues) {
     digits[i] = digit > modulus / 2 ? digit - modulus : digit;
   }
   Integer result = 0;
-  mpz_ptr whole = result.data();
+  mpz_ptr whole = result.get_mpz_t();
   for (std::size_t i = residues.size(); i-- > 0;) {
     mpz_mul_ui(whole, whole, Residue::modulus(residue_folds[i]));
     if (digits[i] < 0) {

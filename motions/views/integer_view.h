@@ -17,6 +17,7 @@
 #include <cstdlib>
 #include <numeric>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "motions/curves/curves.h"
@@ -71,7 +72,7 @@ template <Motion M>
 /// The ring of integers.
 struct Integers {
   using Number = Integer;
-  [[nodiscard]] static Integer of(long long x) { return x; }
+  [[nodiscard]] static Integer of(std::int64_t x) { return x; }
 };
 
 /// Integers of fixed width.
@@ -116,20 +117,23 @@ class ExactView {
   [[nodiscard]] BernsteinVector<Number, degree, dimension> difference(BeadId i, BeadId j) const {
     BernsteinVector<Number, degree, dimension> result;
     for (int axis = 0; axis < dimension; ++axis) {
-      result[static_cast<std::size_t>(axis)] = polynomial([&](int k) {
+      result[static_cast<std::size_t>(axis)] = polynomial([&](int k) -> Number {
         return length(motion_.coordinate(i, k, axis)) - length(motion_.coordinate(j, k, axis));
       });
     }
     return result;
   }
   [[nodiscard]] Bernstein<Number, degree> weight_difference(BeadId i, BeadId j) const {
-    return polynomial([&](int k) { return square(motion_.weight(i, k)) - square(motion_.weight(j, k)); });
+    return polynomial(
+        [&](int k) -> Number { return square(motion_.weight(i, k)) - square(motion_.weight(j, k)); });
   }
   [[nodiscard]] Bernstein<Number, degree> radius_difference(BeadId i, BeadId j) const {
-    return polynomial([&](int k) { return length(motion_.radius(i, k)) - length(motion_.radius(j, k)); });
+    return polynomial(
+        [&](int k) -> Number { return length(motion_.radius(i, k)) - length(motion_.radius(j, k)); });
   }
   [[nodiscard]] Bernstein<Number, degree> radius_sum(BeadId i, BeadId j) const {
-    return polynomial([&](int k) { return length(motion_.radius(i, k)) + length(motion_.radius(j, k)); });
+    return polynomial(
+        [&](int k) -> Number { return length(motion_.radius(i, k)) + length(motion_.radius(j, k)); });
   }
   [[nodiscard]] Bernstein<Number, 1> lift_difference(BeadId i, BeadId j) const requires(lifted<M>) {
     return lift_of(*this, i, j);
@@ -147,6 +151,8 @@ class ExactView {
  private:
   template <std::invocable<int> Value>
   [[nodiscard]] Bernstein<Number, degree> polynomial(Value value) const {
+    static_assert(std::same_as<std::invoke_result_t<Value, int>, Number>,
+                  "an expression outlives its operands");
     Bernstein<Number, degree> result;
     const int own = degree_of(motion_);
     result.set_degree(own);

@@ -12,7 +12,7 @@ namespace kds {
 
 namespace {
 
-int sign_of(const Integer& x) { return x.sign(); }
+int sign_of(const Integer& x) { return sgn(x); }
 /// Returns 1 if x is proved to be positive, otherwise -1: never 0.
 int sign_of(const TrackedDouble& x) { return x.value > x.error * TrackedDouble::inflation ? 1 : -1; }
 
@@ -31,13 +31,13 @@ int radical_sign(const Number& a, const Number& b, const Number& d) {
 
 // Returns n / d * 2^unit, truncated to 64 bits before it is rounded.
 double rounded_quotient(Integer n, const Integer& d, int unit) {
-  if (n.sign() == 0) return 0;
-  const bool negative = n.sign() < 0;
+  if (sgn(n) == 0) return 0;
+  const bool negative = sgn(n) < 0;
   if (negative) n = -n;
-  const int shift = 64 - (static_cast<int>(msb(n)) - static_cast<int>(msb(d)));
+  const int shift = 64 - (static_cast<int>(bit_length(n)) - static_cast<int>(bit_length(d)));
   const Integer q = shift >= 0 ? Integer((n << static_cast<unsigned>(shift)) / d)
                                : Integer(n / (d << static_cast<unsigned>(-shift)));
-  const double size = std::ldexp(static_cast<double>(q), unit - shift);
+  const double size = std::ldexp(q.get_d(), unit - shift);
   return negative ? -size : size;
 }
 
@@ -65,9 +65,9 @@ int whole_unit(const Balls<Dimension>& balls, BeadId first, BeadId last) {
 
 template <int Dimension>
 IntegerBall<Dimension> whole_ball(const Balls<Dimension>& balls, BeadId bead, int unit) {
-  const auto whole = [unit](double x) {
+  const auto whole = [unit](double x) -> Integer {
     const SplitDouble parts = split(x);
-    if (parts.mantissa == 0) return Integer(0);
+    if (parts.mantissa == 0) return 0;
     return Integer(parts.mantissa) << static_cast<unsigned>(parts.exponent - unit);
   };
   IntegerBall<Dimension> ball;
@@ -111,10 +111,11 @@ std::optional<TouchingSphere<Dimension, Number>> TouchingSphere<Dimension, Numbe
   }
   sphere.discriminant_ = sphere.b_ * sphere.b_ - sphere.a_ * sphere.c_;
   if (sign_of(sphere.discriminant_) < 0) return std::nullopt;
-  if (radical_sign(-sphere.b_, Number{1}, sphere.discriminant_) <= 0) return std::nullopt;
+  if (radical_sign<Number>(-sphere.b_, Number{1}, sphere.discriminant_) <= 0) return std::nullopt;
   for (std::size_t i = 0; i < m; ++i) {  // no ball of the basis is larger than the sphere
     const Number twice = s[i] + s[i];
-    if (radical_sign(sphere.c_ + twice * sphere.b_, -twice, sphere.discriminant_) < 0) return std::nullopt;
+    if (radical_sign<Number>(sphere.c_ + twice * sphere.b_, -twice, sphere.discriminant_) < 0)
+      return std::nullopt;
   }
   return sphere;
 }
@@ -126,7 +127,7 @@ bool TouchingSphere<Dimension, Number>::is_proper() const {
   // weight.
   Number rest_e = g_ + g_, rest_s{0};
   const auto positive = [this](const Number& e, const Number& s) {
-    return radical_sign(s * c_ - e * b_, e, discriminant_) > 0;
+    return radical_sign<Number>(s * c_ - e * b_, e, discriminant_) > 0;
   };
   for (std::size_t i = 0; i < m_; ++i) {
     if (!positive(ae_[i], as_[i])) return false;
@@ -144,12 +145,11 @@ bool TouchingSphere<Dimension, Number>::holds(const Ball& ball) const {
   const Number e = dot(d, d) - s * s;
   if (m_ == 0) return sign_of(-s) >= 0 && sign_of(-e) >= 0;
   const Number twice = s + s;
-  if (sign_of(-s) < 0 && radical_sign(c_ + twice * b_, -twice, discriminant_) < 0) return false;
+  if (sign_of(-s) < 0 && radical_sign<Number>(c_ + twice * b_, -twice, discriminant_) < 0) return false;
   const Number f = dot(d, qae_) - g_ * e;
   const Number w = dot(d, qas_) - g_ * s;
-  // The condition is F + W rho >= 0 (ball_in_sphere.h). Here e is twice as large, so rho = c / (2 (sqrt(D) -
-  // b)).
-  return radical_sign(w * c_ - f * b_, f, discriminant_) >= 0;
+  // With e twice as large as in F + W rho >= 0 there, rho = c / (2 (sqrt(D) - b)).
+  return radical_sign<Number>(w * c_ - f * b_, f, discriminant_) >= 0;
 }
 
 // Decides |d - z| <= (1 + eps) R - r, where rho = c / (2 w), w = sqrt(D) - b, and z = (w Q A e + c Q A s) /
@@ -161,11 +161,11 @@ bool TouchingSphere<Dimension, Number>::holds_when_larger(const Ball& ball, cons
   std::array<Integer, Dimension> d;
   for (std::size_t axis = 0; axis < Dimension; ++axis) d[axis] = ball.center[axis] - base_.center[axis];
   const bool one_radius = ball.radius == base_.radius &&
-                          std::all_of(as_.begin(), as_.end(), [](const Integer& x) { return x.sign() == 0; });
+                          std::all_of(as_.begin(), as_.end(), [](const Integer& x) { return sgn(x) == 0; });
   const Integer first = one_radius ? Integer(0) : base_.radius, own = one_radius ? Integer(0) : ball.radius;
   if (m_ == 0) {
     const Integer room = factor * first - unit * own;
-    return room.sign() >= 0 && unit * unit * dot(d, d) <= room * room;
+    return sgn(room) >= 0 && unit * unit * dot(d, d) <= room * room;
   }
   // Both sides times 2 g w units: t0 + t1 w, and the length of v0 + v1 w.
   const Integer t0 = g_ * factor * c_, t1 = 2 * g_ * (factor * first - unit * own);
@@ -174,11 +174,11 @@ bool TouchingSphere<Dimension, Number>::holds_when_larger(const Ball& ball, cons
     v0[axis] = -unit * c_ * qas_[axis];
     v1[axis] = unit * (2 * g_ * d[axis] - qae_[axis]);
   }
-  if (radical_sign(t0 - t1 * b_, t1, discriminant_) < 0) return false;
+  if (radical_sign<Number>(t0 - t1 * b_, t1, discriminant_) < 0) return false;
   const Integer constant = t0 * t0 - dot(v0, v0), linear = 2 * (t0 * t1 - dot(v0, v1));
   const Integer square = t1 * t1 - dot(v1, v1);
-  return radical_sign(constant - linear * b_ + square * (discriminant_ + b_ * b_), linear - 2 * square * b_,
-                      discriminant_) >= 0;
+  return radical_sign<Number>(constant - linear * b_ + square * (discriminant_ + b_ * b_),
+                              linear - 2 * square * b_, discriminant_) >= 0;
 }
 
 template <int Dimension, class Number>
@@ -194,7 +194,7 @@ Sphere TouchingSphere<Dimension, Number>::rounded(int unit) const requires(std::
   // b)). If b > 0 (and so a < 0), it is rewritten by D - b^2 = -a c as (sqrt(D) + b) / (-2 a).
   constexpr unsigned bits = 256;
   const Integer root = sqrt(Integer(discriminant_ << (2 * bits)));
-  const bool conjugate = b_.sign() > 0;
+  const bool conjugate = sgn(b_) > 0;
   const Integer shifted_b = b_ << bits;
   const Integer p = conjugate ? Integer(root + shifted_b) : Integer(c_ << bits);
   const Integer q = conjugate ? Integer((-2 * a_) << bits) : Integer(2 * (root - shifted_b));

@@ -197,12 +197,12 @@ std::optional<std::string> ConvexHull::audit(const Dyadic& time) {
   std::vector<std::array<Rational, 3>> at;
   for (BeadId b = 0; b < motion_.bead_count(); ++b) at.push_back(exact_position(motion_.curves(), b, time));
   const auto order = [&](BeadId a, BeadId b) {
-    const int in_x = at[a][0].compare(at[b][0]);
-    return in_x != 0 ? in_x : at[a][1].compare(at[b][1]);
+    const int in_x = cmp(at[a][0], at[b][0]);
+    return in_x != 0 ? in_x : cmp(at[a][1], at[b][1]);
   };
   const auto turn = [&](BeadId a, BeadId b, BeadId c) {
     const Rational ahead = (at[b][0] - at[a][0]) * (at[c][1] - at[a][1]);
-    return ahead.compare((at[b][1] - at[a][1]) * (at[c][0] - at[a][0]));
+    return cmp(ahead, (at[b][1] - at[a][1]) * (at[c][0] - at[a][0]));
   };
   for (const BeadId corner : corners_)
     if (is_absent(corner)) return "corner " + std::to_string(corner) + " is absent";

@@ -57,7 +57,7 @@ std::optional<std::string> audit_of(const DiagramState<Dimension>& state, const 
   return state.motion.visit([&](const auto& curves) -> std::optional<std::string> {
     const KeptMoment positions(curves, time);
     const auto sign = [&]<class Function>(const Function& function) {
-      int now = Function::formula(positions, function.beads).scaled[0].sign();
+      int now = sgn(Function::formula(positions, function.beads).scaled[0]);
       if constexpr (requires { function.sign; }) now *= function.sign;
       if (now != 0 || frame) return now;
       // The function is zero only at this very moment: its sign just after decides.

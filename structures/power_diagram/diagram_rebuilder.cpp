@@ -130,7 +130,7 @@ void DiagramRebuilder<Dimension>::record(const Dyadic& time, std::span<const Bea
   }
   Change change{Events::rebuild, 1, {time.exponent()}};
   for (Integer rest = time.numerator(); rest != 0 && change.size < change.ids.size(); rest >>= 32U) {
-    change.ids[change.size++] = static_cast<BeadId>(mpz_get_ui(rest.data()) & 0xffffffffU);
+    change.ids[change.size++] = static_cast<BeadId>(mpz_get_ui(rest.get_mpz_t()) & 0xffffffffU);
   }
   state_.record(change);
 }

@@ -86,8 +86,8 @@ struct Geometry : Rationals {
   }
 };
 
-// Returns the exponent of two in the denominator.
-mp_bitcnt_t binary_places(const Rational& x) { return mpz_scan1(mpq_denref(x.data()), 0); }
+// Twos in the denominator.
+mp_bitcnt_t binary_places(const Rational& x) { return mpz_scan1(mpq_denref(x.get_mpq_t()), 0); }
 
 // Returns the exponent of the power of two by which lengths are multiplied. Dyadic numbers then become
 // integers, for which CGAL's rationals need no common divisors. The scaling does not change the
@@ -104,8 +104,8 @@ mp_bitcnt_t places_of(std::span<const ExactBead> beads) {
 Geometry::FT to_cgal(const Rational& x, mp_bitcnt_t places) {
   using Exact = Geometry::FT::ET;
   Rational shifted;
-  mpq_mul_2exp(shifted.data(), x.data(), places);
-  return Geometry::FT(Exact(shifted.data()));
+  mpq_mul_2exp(shifted.get_mpq_t(), x.get_mpq_t(), places);
+  return Geometry::FT(Exact(shifted.get_mpq_t()));
 }
 
 }  // namespace

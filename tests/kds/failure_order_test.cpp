@@ -76,10 +76,10 @@ TEST_F(FailureOrderTest, NarrowingKeepsTheTimeInTheBracket) {
   ScheduledFailure fb = at(0.2, 0.8, b);
   EXPECT_TRUE(order.before(fa, fb));
   EXPECT_LE(fa.time.upper, fb.time.lower);  // they need no exact work any more
-  EXPECT_LT(Rational(fa.time.lower), Rational(2, 5));
-  EXPECT_GT(Rational(fa.time.upper), Rational(2, 5));
-  EXPECT_LT(Rational(fb.time.lower), Rational(3, 7));
-  EXPECT_GT(Rational(fb.time.upper), Rational(3, 7));
+  EXPECT_LT(Rational(fa.time.lower), fraction(2, 5));
+  EXPECT_GT(Rational(fa.time.upper), fraction(2, 5));
+  EXPECT_LT(Rational(fb.time.lower), fraction(3, 7));
+  EXPECT_GT(Rational(fb.time.upper), fraction(3, 7));
   const auto exact_before = order.counts().exact;
   EXPECT_TRUE(order.before(fa, fb));
   EXPECT_FALSE(order.before(fb, fa));

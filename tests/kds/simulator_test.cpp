@@ -243,7 +243,7 @@ TEST_F(SimulatorTest, TheTimeDoesNotMoveBeforeAllIsSettled) {
   a.on_batch_end = [&] {
     EXPECT_LT(simulator.now().lower(), 1.0 / 3);
     const Dyadic soon = next_on_grid(simulator.now().exact(), 8);
-    EXPECT_EQ(soon.rational(), Rational(86, 256));
+    EXPECT_EQ(soon.rational(), fraction(86, 256));
     EXPECT_EQ(a.retired, 0);
   };
   run();

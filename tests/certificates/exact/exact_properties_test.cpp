@@ -227,7 +227,7 @@ struct OnAMotion {
 
   /// False where the number is too large.
   [[nodiscard]] bool set(BeadId bead, int k, const Integer& x) {
-    const double control = static_cast<double>(x);
+    const double control = x.get_d();
     if (!std::isfinite(control)) return false;
     as_it_was &= Integer(control) == x;
     motion.set_coordinate(bead, k, 0, control);
@@ -238,7 +238,7 @@ struct OnAMotion {
 template <Motion M>
 std::optional<OnAMotion<M, Precedes>> as_way_of_a_bead(const Scaled& scaled, M motion) {
   const auto degree = static_cast<int>(scaled.size()) - 1;
-  const long long common = degree == 3 ? 3 : degree == 6 ? 60 : 45045;  // multiple of all binomials
+  const std::int64_t common = degree == 3 ? 3 : degree == 6 ? 60 : 45045;  // multiple of all binomials
   OnAMotion<M, Precedes> result{std::move(motion), Precedes({0, 1})};
   for (int k = 0; k <= degree; ++k) {
     if (!result.set(1, k, scaled[static_cast<std::size_t>(k)] * (common / binomial(degree, k))))
@@ -261,7 +261,7 @@ std::optional<OnAMotion<BezierMotion<2, 3>, AnyCurve<Degree>>> as_any_curve(cons
     const std::size_t first = Degree == 6 ? 3 * part : 4 * part;
     for (std::size_t k = Degree == 6 && part > 0 ? 1 : 0; k <= 3; ++k) {
       // Products with bead 2 are thrice what they are to be.
-      const long long times = (k == 0 || k == 3 ? 3 : 1) * (part == 0 || part + 1 == pieces ? 3 : 1);
+      const std::int64_t times = (k == 0 || k == 3 ? 3 : 1) * (part == 0 || part + 1 == pieces ? 3 : 1);
       if (!result.set(static_cast<BeadId>(3 + part), static_cast<int>(k), scaled[first + k] * times))
         return std::nullopt;
     }

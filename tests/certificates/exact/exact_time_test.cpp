@@ -62,7 +62,7 @@ std::vector<Time> some_times(test::Random& random, std::string& trace) {
   const Scaled p = test::random_polynomial(random);
   const Scaled q = random() % 2 ? test::relative_of(p, random) : test::random_polynomial(random);
   const Dyadic from = random() % 2 ? Dyadic(0.0) : test::random_dyadic(random);
-  trace += test::describe(p) + " and " + test::describe(q) + " from " + from.rational().str();
+  trace += test::describe(p) + " and " + test::describe(q) + " from " + from.rational().get_str();
   std::vector<Time> times = times_of(p, from);
   for (Time& time : times_of(q, Dyadic(0.0))) times.push_back(std::move(time));
   times.push_back(at(test::random_dyadic(random)));
@@ -187,7 +187,7 @@ TEST(FirstFailureAfter, IsTheFirstRootFromWhichItIsNegative) {
       for (Integer& x : power) x = -x;
     }
     SCOPED_TRACE("seed 204, case " + std::to_string(i) + ": " + test::describe(f) + " from " +
-                 now.judged.lower.str() + ".." + now.judged.upper.str() + " of " + test::describe(p));
+                 now.judged.lower.get_str() + ".." + now.judged.upper.get_str() + " of " + test::describe(p));
     std::optional<Time> expected;
     for (const Time& root : times_of(f, Dyadic(0.0))) {
       if (judge(root, now) <= 0) continue;

@@ -129,10 +129,12 @@ TEST(PolynomialGcd, DividesOutRepeatedFactors) {
         test::product(test::product(factor, factor), random_power(random, test::pick(random, 0, 5)));
     SCOPED_TRACE("seed 806, case " + std::to_string(i) + test::describe(p));
     const Scaled once = without_repeated_factors(p);
-    EXPECT_EQ(sturm::Polynomial(once.begin(), once.end()), sturm::square_free({p.begin(), p.end()}));
-    EXPECT_EQ(sturm::sign(once.back()), sturm::sign(p.back()));
+    sturm::Polynomial expected = sturm::square_free({p.begin(), p.end()});
+    if (sturm::sign(expected.back()) != sturm::sign(p.back()))
+      for (Integer& x : expected) x = -x;
+    EXPECT_EQ(sturm::Polynomial(once.begin(), once.end()), expected);
   }
-  EXPECT_EQ(without_repeated_factors({-4, 8, -4}), (Scaled{2, -2}));
+  EXPECT_EQ(without_repeated_factors({-4, 8, -4}), (Scaled{1, -1}));
 }
 
 // Each thread has memory of FLINT's, which it gives back.

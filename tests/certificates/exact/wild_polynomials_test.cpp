@@ -183,7 +183,7 @@ TEST(WildPolynomials, WhatTwoHaveInCommonIsKept) {
   const ExactPolynomial other =
       wide(test::product(test::linear(2 * scale + 5, 3 * scale), test::linear(1, 5)));
   EXPECT_EQ(sturm::sign_at(sturm::from_scaled(ExactPolynomial::gcd(a, other).scaled()),
-                           Rational(2 * scale + 5, 3 * scale)),
+                           fraction(2 * scale + 5, 3 * scale)),
             0);
 }
 
@@ -337,8 +337,8 @@ TEST(WildPolynomials, OrdinaryRootsOfAnotherScaleTakeFewSteps) {
   int steps = 0;
   for (; !has_digits({time.lower(), time.upper()}, 64) && steps < 1000; ++steps) time.refine();
   EXPECT_LT(steps, 500);
-  EXPECT_LT(time.lower().rational(), Rational(3, 7 * far));
-  EXPECT_LT(Rational(3, 7 * far), time.upper().rational());
+  EXPECT_LT(time.lower().rational(), fraction(3, 7 * far));
+  EXPECT_LT(fraction(3, 7 * far), time.upper().rational());
   ExactTime other(ExactPolynomial(test::linear(3, 7 * far + 1)), {Dyadic(0.0), Dyadic(1.0)});
   EXPECT_EQ(ExactTime::compare(time, other), 1);
 }
@@ -359,7 +359,7 @@ class Source final : public CoefficientSource {
   }
   [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
     std::vector<Residue> image;
-    for (const Integer& x : p_) image.push_back({mpz_fdiv_ui(x.data(), Residue::modulus(fold)), fold});
+    for (const Integer& x : p_) image.push_back({mpz_fdiv_ui(x.get_mpz_t(), Residue::modulus(fold)), fold});
     return image;
   }
   [[nodiscard]] std::vector<Integer> whole() const override {
@@ -400,7 +400,7 @@ TEST(WildPolynomials, TimesOfWideAndOrdinaryFunctionsAreToldApartByFewDigits) {
   ExactTime again = time_of(ExactPolynomial(test::product(test::linear(1, 3), outside)));
   const Dyadic between = dyadic_between(again, later);
   EXPECT_LT(Rational(1) / 3, between.rational());
-  EXPECT_LT(between.rational(), Rational(scale + 3, 3 * scale));
+  EXPECT_LT(between.rational(), fraction(scale + 3, 3 * scale));
 }
 
 // Cannot form its coefficients at first.

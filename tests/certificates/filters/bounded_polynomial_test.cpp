@@ -164,7 +164,7 @@ TEST_P(BoundedPolynomials, ValuesErrAsLittleAsClaimed) {
     const Rational error = abs(rational(p.value_at(u)) - exact_value);
     const Rational claimed = rational(value_rounding(degree()) * largest);
     EXPECT_LE(error, claimed);
-    share = std::max(share, static_cast<double>(Rational(error / claimed)));
+    share = std::max(share, Rational(error / claimed).get_d());
   }
   EXPECT_GT(share, 0.001);
 }

@@ -38,9 +38,9 @@ class ErrorBounds : public testing::Test {
     const Integer power = Integer(1) << static_cast<unsigned>(std::abs(shift));
     double share = 0;
     for (std::size_t k = 0; k < rounded.scaled.size(); ++k) {
-      const Rational value = shift > 0 ? Rational(exact.scaled[k], power) : Rational(exact.scaled[k] * power);
+      const Rational value = shift > 0 ? fraction(exact.scaled[k], power) : Rational(exact.scaled[k] * power);
       const Rational error = abs(Dyadic(rounded.scaled[k]).rational() - value);
-      share = std::max(share, static_cast<double>(error / Dyadic(bound.coefficient[k] * scale).rational()));
+      share = std::max(share, Rational(error / Dyadic(bound.coefficient[k] * scale).rational()).get_d());
       // and the plain coefficient, divided by its binomial
       const auto choose =
           static_cast<double>(binomial(static_cast<int>(rounded.scaled.size()) - 1, static_cast<int>(k)));

@@ -34,8 +34,9 @@ double share_used(const M& motion) {
     const Rational value = shift > 0 ? Rational(exact.scaled[k] / power) : Rational(exact.scaled[k] * power);
     const auto error = [&](double x) { return Rational(abs(Dyadic(x).rational() - value)); };
     if (!std::isnan(scale)) {
-      share = std::max(share, static_cast<double>(error(rounded.scaled[k]) /
-                                                  Dyadic(bound.coefficient[k] * scale).rational()));
+      share = std::max(
+          share,
+          Rational(error(rounded.scaled[k]) / Dyadic(bound.coefficient[k] * scale).rational()).get_d());
     }
     EXPECT_LE(abs(Dyadic(tracked.scaled[k].value).rational() - value * unit),
               Dyadic(tracked.scaled[k].error * TrackedDouble::inflation).rational());

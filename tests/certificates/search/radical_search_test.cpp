@@ -44,7 +44,7 @@ TEST(Radicals, HaveTheSignOfTheGreaterPart) {
 
 Dyadic dyadic_of(const Rational& x) {
   const Integer d = denominator(x);
-  return {Integer(numerator(x)), static_cast<unsigned>(mpz_sizeinbase(d.data(), 2)) - 1};
+  return {Integer(numerator(x)), static_cast<unsigned>(mpz_sizeinbase(d.get_mpz_t(), 2)) - 1};
 }
 
 /// The norm's roots in [0,1), and who is inside between them, by the definition.

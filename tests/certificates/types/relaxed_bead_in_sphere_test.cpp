@@ -37,7 +37,7 @@ TEST(Relaxation, IsAWholeNumberOfUnitsNoMoreThanAskedFor) {
     EXPECT_LE(relaxation.share(), share);
     EXPECT_GT(relaxation.share(), share - 0x1p-20);
     const Rational one_more = 1 + Rational(relaxation.share());
-    EXPECT_EQ(Rational(relaxation.square_units(), Relaxation::one_squared), one_more * one_more - 1);
+    EXPECT_EQ(fraction(relaxation.square_units(), Relaxation::one_squared), one_more * one_more - 1);
   }
 }
 

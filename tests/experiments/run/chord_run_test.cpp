@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "motions/numbers/rational.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <stdexcept>
 #include <type_traits>
@@ -21,7 +22,7 @@ namespace sturm = test::sturm;
 template <int Degree>
 Bernstein<Integer, Degree> random_polynomial(std::mt19937_64& random) {
   Bernstein<Integer, Degree> p;
-  for (Integer& x : p.scaled) x = static_cast<long long>(random() % 2001) - 1000;
+  for (Integer& x : p.scaled) x = static_cast<std::int64_t>(random() % 2001) - 1000;
   return p;
 }
 
@@ -30,7 +31,7 @@ Rational value(const Bernstein<Number, Degree>& p, const Rational& u) {
   return sturm::value(sturm::from_scaled(p.scaled), u);
 }
 
-const Rational points[] = {0, 1, Rational(1, 2), Rational(1, 3), Rational(-7, 5), 3, Rational(22, 7)};
+const Rational points[] = {0, 1, fraction(1, 2), fraction(1, 3), fraction(-7, 5), 3, fraction(22, 7)};
 
 template <int A, int B>
 void expect_ring_laws(std::mt19937_64& random) {
@@ -166,7 +167,7 @@ TEST(Bernstein, OfDegreesKnownAtRunTimeIsTheSame) {
   });
   expect_same_at_run_time<Residue>(
       [&] { return Residue::of(static_cast<long long>(random() >> 4U), residue_folds[3]); });
-  expect_same_at_run_time<Integer>([&] { return Integer(static_cast<long long>(random())); });
+  expect_same_at_run_time<Integer>([&] { return Integer(static_cast<std::int64_t>(random())); });
 }
 
 TEST(Bernstein, OfUnlikeDegreesAtRunTimeAreNotAdded) {

@@ -48,7 +48,7 @@ std::vector<double> interesting() {
 
 Rational power_of_two(int exponent) {
   return exponent >= 0 ? Rational(Integer(1) << static_cast<unsigned>(exponent))
-                       : Rational(1, Integer(1) << static_cast<unsigned>(-exponent));
+                       : fraction(1, Integer(1) << static_cast<unsigned>(-exponent));
 }
 
 TEST(Split, PutsTogetherAgain) {
@@ -146,7 +146,7 @@ TEST(Dyadic, RoundsAtTheEdges) {
 TEST(Dyadic, ComparesAndHalvesAsRationals) {
   std::mt19937_64 random(13);
   const auto draw = [&] {
-    const Integer numerator = static_cast<long long>(random() % 41) - 20;
+    const Integer numerator = static_cast<std::int64_t>(random() % 41) - 20;
     return Dyadic(numerator, static_cast<unsigned>(random() % 5));
   };
   for (int i = 0; i < 3000; ++i) {

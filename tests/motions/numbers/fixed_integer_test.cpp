@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <random>
 
 namespace kds::fixed_integer_test {
@@ -19,7 +20,7 @@ Both random_number(std::mt19937_64& random, unsigned bits) {
   Both both;
   while (bits > 0) {
     const unsigned some = std::min(bits, 60U);
-    const auto digits = static_cast<long long>(random() >> (64 - some));
+    const auto digits = static_cast<std::int64_t>(random() >> (64 - some));
     both.whole = (both.whole << some) + digits;
     both.fixed <<= some;
     both.fixed += FixedInteger(digits);
@@ -58,7 +59,7 @@ TEST(FixedInteger, WhatRunsOverOnTheWayDoesNotMatter) {
 
 TEST(FixedInteger, ShiftsByAnyNumberOfPlaces) {
   for (unsigned shift = 0; shift < 383; ++shift) {
-    for (const long long x : {1LL, -1LL}) {
+    for (const std::int64_t x : {1, -1}) {
       FixedInteger shifted(x);
       shifted <<= shift;
       EXPECT_EQ(shifted.whole_number(), Integer(x) * (Integer(1) << shift));

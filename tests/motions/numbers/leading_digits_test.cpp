@@ -14,7 +14,7 @@ using test::Random;
 
 Rational power_of_two(std::int64_t exponent) {
   const Integer power = Integer(1) << static_cast<unsigned>(std::abs(exponent));
-  return exponent < 0 ? Rational(1, power) : Rational(power);
+  return exponent < 0 ? fraction(1, power) : Rational(power);
 }
 
 Integer magnitude_of(const LeadingDigits& x) {
@@ -28,7 +28,7 @@ void expect_encloses(const LeadingDigits& x, const Rational& exact) {
   EXPECT_LE(off, Rational(Integer(x.error)));
   EXPECT_LT(magnitude_of(x), Integer(1) << LeadingDigits::most_bits);
   if (x.certain_sign() != 0) {
-    EXPECT_EQ(x.certain_sign(), exact.sign());
+    EXPECT_EQ(x.certain_sign(), sgn(exact));
   }
   if (x.is_zero()) {
     EXPECT_EQ(exact, 0);
@@ -42,7 +42,7 @@ void expect_encloses(const LongDigits& x, const Rational& exact) {
   const Rational off = abs(Rational(exact / power_of_two(x.exponent()) - x.number()));
   EXPECT_LE(off, Rational(Integer(x.error())));
   if (x.certain_sign() != 0) {
-    EXPECT_EQ(x.certain_sign(), exact.sign());
+    EXPECT_EQ(x.certain_sign(), sgn(exact));
   }
   if (x.is_zero()) {
     EXPECT_EQ(exact, 0);

@@ -68,8 +68,8 @@ TYPED_TEST(MagnitudesTest, BoundTheErrorOfADeterminant) {
     for (const auto& x : {a * d - b * c, (a + b) * (c - d), a * b * c + d * d * (a - c)}) {
       this->expect_bounded(x, size);
       const Rational off = abs(Rational(double{x.rounded}) - x.exact);
-      largest_share = std::max(
-          largest_share, static_cast<double>(off) / (x.magnitude.error * std::pow(size, x.magnitude.power)));
+      largest_share =
+          std::max(largest_share, off.get_d() / (x.magnitude.error * std::pow(size, x.magnitude.power)));
     }
   }
   EXPECT_GT(largest_share, 0.1);  // the bound is no exaggeration

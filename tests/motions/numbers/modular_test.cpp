@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "tests/support/inputs/random.h"
@@ -15,7 +16,7 @@ Integer modulus(std::size_t i) { return Residue::modulus(residue_folds[i]); }
 
 // In [0, modulus).
 std::uint64_t residue_of(const Integer& x, std::size_t i) {
-  return mpz_fdiv_ui(x.data(), Residue::modulus(residue_folds[i]));
+  return mpz_fdiv_ui(x.get_mpz_t(), Residue::modulus(residue_folds[i]));
 }
 
 Residue random_residue(Random& random, std::uint64_t fold) {
@@ -31,7 +32,7 @@ Residue random_residue(Random& random, std::uint64_t fold) {
 
 TEST(Residue, ModuliAreDifferentPrimes) {
   for (std::size_t i = 0; i < residue_folds.size(); ++i) {
-    EXPECT_NE(mpz_probab_prime_p(modulus(i).data(), 30), 0);
+    EXPECT_NE(mpz_probab_prime_p(modulus(i).get_mpz_t(), 30), 0);
     if (i > 0) {
       EXPECT_LT(residue_folds[i - 1], residue_folds[i]);
     }
@@ -52,7 +53,7 @@ TEST(Residue, CalculatesAsWholeNumbersDo) {
     EXPECT_EQ((a - b).value, residue_of(x - y, i));
     EXPECT_EQ((a * b).value, residue_of(x * y, i));
     EXPECT_EQ((-a).value, residue_of(-x, i));
-    const auto factor = static_cast<long long>(random() >> (random() % 40 + 4)) * (random() % 2 ? 1 : -1);
+    const auto factor = static_cast<std::int64_t>(random() >> (random() % 40 + 4)) * (random() % 2 ? 1 : -1);
     EXPECT_EQ(Residue::of(factor, fold).value, residue_of(factor, i));
     Residue c = a;
     c *= factor;

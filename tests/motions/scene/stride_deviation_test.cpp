@@ -95,7 +95,7 @@ void expect_bounds(bool planar, FrameMotion kind) {
         const std::size_t part = i / 16, place = step * stride + part;
         for (BeadId b = 0; b < 5; ++b) {
           const Rational at = deviation_at(scene, motion, b, Dyadic(static_cast<double>(i) / 64),
-                                           Rational(i % 16, 16), frames[place], frames[place + 1]);
+                                           fraction(i % 16, 16), frames[place], frames[place + 1]);
           ASSERT_LE(at, Rational(found.of_bead[b]) * Rational(found.of_bead[b]));
           largest[b] = std::max(largest[b], at);
         }
@@ -103,7 +103,7 @@ void expect_bounds(bool planar, FrameMotion kind) {
     }
     for (BeadId b = 0; b < 5; ++b) {
       EXPECT_LE(found.of_bead[b], found.largest);
-      const double reached = std::sqrt(static_cast<double>(largest[b]));
+      const double reached = std::sqrt(largest[b].get_d());
       EXPECT_GT(reached, found.of_bead[b] * (M::degree == 1 ? 1 - 1e-11 : 0.8));
     }
     EXPECT_EQ(found.of_bead[found.bead], found.largest);
@@ -114,7 +114,7 @@ void expect_bounds(bool planar, FrameMotion kind) {
       EXPECT_NE(u, 0);
       const Rational there =
           deviation_at(scene, motion, found.bead, Dyadic(u), 0, frames[found.frame], frames[found.frame]);
-      EXPECT_NEAR(std::sqrt(static_cast<double>(there)), found.largest, 1e-11);
+      EXPECT_NEAR(std::sqrt(there.get_d()), found.largest, 1e-11);
     }
   }
 }

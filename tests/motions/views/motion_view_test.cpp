@@ -351,10 +351,9 @@ TEST(LiftedMotion, LiftsAreLinear) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       expected -= 2 * Rational(motion.coordinate(1, 0, static_cast<int>(axis))) * (p[axis] - q[axis]);
     EXPECT_EQ(Rational(whole.scaled[k]), scale * scale * expected);
-    EXPECT_NEAR(rounded.scaled[k], static_cast<double>(expected), 1e-14);
-    EXPECT_LE(
-        std::abs(tracked.scaled[k].value - static_cast<double>(expected) * tracked_scale * tracked_scale),
-        tracked.scaled[k].error + 1e-16);
+    EXPECT_NEAR(rounded.scaled[k], expected.get_d(), 1e-14);
+    EXPECT_LE(std::abs(tracked.scaled[k].value - expected.get_d() * tracked_scale * tracked_scale),
+              tracked.scaled[k].error + 1e-16);
   }
 }
 

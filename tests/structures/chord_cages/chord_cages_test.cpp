@@ -36,7 +36,7 @@ Rational random_time(Random& random) {
     case 1:
       return 1 - Rational(0x1p-60);
     case 2:
-      return Rational(static_cast<long long>(random() % 10007)) / 10007;
+      return Rational(random() % 10007) / 10007;
     default:
       return Rational(uniform(random, 0, 1));
   }

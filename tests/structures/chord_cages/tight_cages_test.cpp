@@ -65,7 +65,7 @@ void expect_tight(const M& motion, double tightness, Random& random, int times, 
         const Rational of_step = part.from + within.rational() * Rational(part.to - part.from);
         ASSERT_EQ(sticks_out<d>(motion, range, part.cages, of_step, within.rational()), std::nullopt);
         const Dyadic time(Integer(numerator(of_step)),
-                          static_cast<unsigned>(msb(Integer(denominator(of_step)))));
+                          static_cast<unsigned>(bit_length(denominator(of_step)) - 1));
         const auto least = least_radius(motion, range, time);
         if (!least) continue;
         ++counts.compared;

@@ -46,12 +46,12 @@ void expect_enclosed(const M& motion) {
   const LeastDistance least = least_distance(Curves<M::dimension>(motion), 0, 1);
   ASSERT_TRUE(0 <= least.lower && least.lower <= least.upper && 0 <= least.at && least.at <= 1);
   const Rational lower = square_of(least.lower), upper = square_of(least.upper);
-  EXPECT_GE(upper.compare(square_of_distance(motion, Dyadic(least.at))), 0);
+  EXPECT_GE(cmp(upper, square_of_distance(motion, Dyadic(least.at))), 0);
   for (int i = 0; i <= 64; ++i)
-    EXPECT_LE(lower.compare(square_of_distance(motion, Dyadic(0x1p-6 * i))), 0) << "at " << i << "/64";
+    EXPECT_LE(cmp(lower, square_of_distance(motion, Dyadic(0x1p-6 * i))), 0) << "at " << i << "/64";
   for (const double near : {-0x1p-10, 0x1p-10, -0x1p-20, 0x1p-20}) {
     const double u = std::clamp(least.at + near, 0.0, 1.0);
-    EXPECT_LE(lower.compare(square_of_distance(motion, Dyadic(u))), 0) << "near its time";
+    EXPECT_LE(cmp(lower, square_of_distance(motion, Dyadic(u))), 0) << "near its time";
   }
 }
 
@@ -90,13 +90,12 @@ TEST(LeastDistance, HasTheLeastOneOfLinearMotion) {
       product += d * e;
       square += e * e;
     }
-    Rational least = at_start.compare(at_end) < 0 ? at_start : at_end;
+    Rational least = cmp(at_start, at_end) < 0 ? at_start : at_end;
     const Rational u = -product / square;
-    if (u.compare(Rational(0)) > 0 && u.compare(Rational(1)) < 0)
-      least = at_start - product * product / square;
+    if (cmp(u, Rational(0)) > 0 && cmp(u, Rational(1)) < 0) least = at_start - product * product / square;
     const LeastDistance found = least_distance(Curves<3>(motion), 0, 1);
-    EXPECT_LE(square_of(found.lower).compare(least), 0);
-    EXPECT_GE(square_of(found.upper).compare(least), 0);
+    EXPECT_LE(cmp(square_of(found.lower), least), 0);
+    EXPECT_GE(cmp(square_of(found.upper), least), 0);
     EXPECT_LE(found.upper - found.lower, 1e-10);
   }
 }

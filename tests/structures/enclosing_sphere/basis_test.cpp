@@ -23,7 +23,7 @@ struct AtStart {
   const Space& motion;
   template <class Certificate>
   int operator()(const Certificate& c) const {
-    return function_of(c, MomentView<Space>(motion, c.beads, Dyadic(0.0))).scaled[0].sign();
+    return sgn(function_of(c, MomentView<Space>(motion, c.beads, Dyadic(0.0))).scaled[0]);
   }
   template <int Dimension, int Size>
   int operator()(const BallInSphere<Dimension, Size>&) const {

@@ -32,7 +32,7 @@ using HullRig = Rig<ConvexHull, M>;
 std::vector<BeadId> corners_by_cgal(const ExactPoints& at) {
   using Geometry = CGAL::Simple_cartesian<CGAL::Gmpq>;
   std::vector<Geometry::Point_2> points, corners;
-  for (const auto& p : at) points.emplace_back(CGAL::Gmpq(p[0].data()), CGAL::Gmpq(p[1].data()));
+  for (const auto& p : at) points.emplace_back(CGAL::Gmpq(p[0].get_mpq_t()), CGAL::Gmpq(p[1].get_mpq_t()));
   CGAL::convex_hull_2(points.begin(), points.end(), std::back_inserter(corners));
   std::vector<BeadId> beads;
   for (const auto& corner : corners)

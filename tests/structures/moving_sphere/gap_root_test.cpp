@@ -253,7 +253,7 @@ TEST(SphereCrossing, SignsOfAFastBall) {
         const Rational left = room * room - x * x - y * y;
         return left > 0 ? 1 : left < 0 ? -1 : 0;
       };
-      const double half = std::sqrt(static_cast<double>(Rational(room * room - y * y)));
+      const double half = std::sqrt(Rational(room * room - y * y).get_d());
       const double root = (-half - from_x) / (to_x - from_x);
       const double from = root + (static_cast<double>(random() % 5) - 2) * 0x1p-54, to = from + 0x1p-37;
       SphereEnclosure<3> sphere;

@@ -35,7 +35,7 @@ std::map<std::pair<BeadId, BeadId>, Rational> crossings(const Line& motion) {
     for (BeadId b = a + 1; b < motion.bead_count(); ++b) {
       const Rational start = Rational(motion.coordinate(b, 0, 0)) - Rational(motion.coordinate(a, 0, 0));
       const Rational end = Rational(motion.coordinate(b, 1, 0)) - Rational(motion.coordinate(a, 1, 0));
-      if (start.sign() * end.sign() < 0) times[{a, b}] = start / (start - end);
+      if (sgn(start) * sgn(end) < 0) times[{a, b}] = start / (start - end);
     }
   }
   return times;

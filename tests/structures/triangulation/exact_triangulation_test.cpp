@@ -42,14 +42,14 @@ void expect_sign_of_determinant(std::mt19937_64& random, unsigned bits, int& zer
   std::array<std::array<Integer, Dimension + 1>, count> numbers;
   for (auto& point : numbers) {
     for (Integer& x : point) {
-      x = static_cast<long long>(random() % 3) - 1;  // on a lattice, as often as not on one sphere
-      if (bits > 0) x = (x << bits) + static_cast<long long>(random() % 3);
+      x = static_cast<std::int64_t>(random() % 3) - 1;  // on a lattice, as often as not on one sphere
+      if (bits > 0) x = (x << bits) + static_cast<std::int64_t>(random() % 3);
     }
   }
   std::array<WholePoint<Dimension>, count> points{};
   std::array<std::array<Integer, Dimension + 1>, Dimension + 1> rows;
   for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t k = 0; k <= Dimension; ++k) points[i][k] = numbers[i][k].data();
+    for (std::size_t k = 0; k <= Dimension; ++k) points[i][k] = numbers[i][k].get_mpz_t();
     if (i + 1 == count) break;
     rows[i][Dimension] = numbers.back()[Dimension] - numbers[i][Dimension];
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
@@ -58,7 +58,7 @@ void expect_sign_of_determinant(std::mt19937_64& random, unsigned bits, int& zer
     }
   }
   WholePowerTest<Dimension> test;
-  const int sign = determinant(rows).sign();
+  const int sign = sgn(determinant(rows));
   EXPECT_EQ(test.sign(points), sign);
   EXPECT_EQ(test.sign(points), sign);  // in room that was used before
   std::swap(points[0], points[1]);
@@ -82,7 +82,7 @@ TEST(WholePowerTest, IsTheDeterminant) {
 /// Points of a lattice, moved by up to so many times 2^-bits, turned so that all their coordinates are long.
 std::vector<ExactPoint> near_lattice(std::mt19937_64& random, int most, unsigned bits) {
   const auto moved = [&](int x) {
-    const auto by = static_cast<long long>(random() % static_cast<unsigned>(2 * most + 1)) - most;
+    const auto by = static_cast<std::int64_t>(random() % static_cast<unsigned>(2 * most + 1)) - most;
     return Dyadic((Integer(x) << bits) + by, bits).rational();
   };
   std::vector<ExactPoint> points;

@@ -101,7 +101,7 @@ inline std::optional<std::string> not_smallest_ball(const BallSet& set, std::siz
     if (sphere->holds(members[0], ball(b)) < 0) return text_of("ball ", b, " sticks out");
   const Rational exact = sphere->radius.lower + members[0].radius;
   if (abs(Rational(Rational(radius) - exact)) > exact * Rational(1e-12))
-    return text_of("radius ", radius, " should be ", static_cast<double>(exact));
+    return text_of("radius ", radius, " should be ", exact.get_d());
   return std::nullopt;
 }
 

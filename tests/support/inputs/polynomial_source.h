@@ -2,6 +2,7 @@
 // A holder of failures whose functions are polynomials made by hand: what the engine sees of a certificate.
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 #include "certificates/exact/exact_polynomial.h"
@@ -12,10 +13,10 @@
 namespace kds::test {
 
 /// p - q u: falls through zero at p/q.
-inline Scaled falling(long long p, long long q) { return {Integer(p), Integer(p - q)}; }
+inline Scaled falling(std::int64_t p, std::int64_t q) { return {Integer(p), Integer(p - q)}; }
 
 /// 1 - k u^2: falls through zero at sqrt(1/k).
-inline Scaled falling_at_root_of_one_over(long long k) { return {1, 2, Integer(1 - k)}; }
+inline Scaled falling_at_root_of_one_over(std::int64_t k) { return {1, 2, Integer(1 - k)}; }
 
 inline Identity named(BeadId bead, std::uint32_t type = 0) {
   return identity_of({type, {}}, std::array{bead});

@@ -65,14 +65,14 @@ inline Scaled random_quadratic(Random& random) {
   switch (pick(random, 0, 3)) {
     case 0: {  // (q u - p)^2 q' - 2^-shift : close irrational roots about p/q
       const Integer q = pick(random, 2, 50);
-      const Integer p = pick(random, 0, static_cast<int>(q));
+      const Integer p = pick(random, 0, static_cast<int>(q.get_si()));
       const unsigned shift = random() % 2 ? 60 : 120;
       const Integer s = Integer(1) << shift;
       return quadratic(q * q * s, -2 * p * q * s, p * p * s - pick(random, 1, 3));
     }
     case 1: {  // the same without a real root
       const Integer q = pick(random, 2, 50);
-      const Integer p = pick(random, 0, static_cast<int>(q));
+      const Integer p = pick(random, 0, static_cast<int>(q.get_si()));
       const Integer s = Integer(1) << static_cast<unsigned>(pick(random, 0, 100));
       return quadratic(q * q * s, -2 * p * q * s, p * p * s + pick(random, 1, 3));
     }
@@ -87,7 +87,7 @@ inline Scaled random_quadratic(Random& random) {
 inline Scaled close_pair(Random& random) {
   const Integer s = Integer(1) << 60;
   const Integer q = pick(random, 1, 12);
-  const Integer p = pick(random, 0, static_cast<int>(q));
+  const Integer p = pick(random, 0, static_cast<int>(q.get_si()));
   return product(linear(p, q), linear(p * s + pick(random, -1, 1), q * s));
 }
 
@@ -195,7 +195,7 @@ inline Scaled relative_of(const Scaled& p, Random& random) {
 inline std::pair<Scaled, Scaled> close_relatives(Random& random) {
   const Integer s = Integer(1) << 60;
   const Integer q = pick(random, 2, 50);
-  const Integer p = pick(random, 0, static_cast<int>(q));
+  const Integer p = pick(random, 0, static_cast<int>(q.get_si()));
   const int change = random() % 2 ? 1 : -1;
   const bool rational = random() % 2 == 0;
   const Scaled common = rational ? linear(p, q) : quadratic(2 * q * q, -4 * p * q, 2 * p * p - 1);
@@ -206,7 +206,7 @@ inline std::pair<Scaled, Scaled> close_relatives(Random& random) {
 
 inline std::string describe(std::span<const Integer> p) {
   std::string text = "{";
-  for (const Integer& x : p) text += (text.size() > 1 ? ", " : "") + x.str();
+  for (const Integer& x : p) text += (text.size() > 1 ? ", " : "") + x.get_str();
   return text + "}";
 }
 

@@ -81,7 +81,7 @@ std::optional<std::string> sticks_out(const M& motion, const BeadRange& range,
   for (BeadId b = range.first; b <= range.last; ++b)
     if (!holds(sphere, ball_of<D>(motion, b, u)))
       return "bead " + std::to_string(b) + " of " + std::to_string(range.first) + "-" +
-             std::to_string(range.last) + " at u = " + u.str();
+             std::to_string(range.last) + " at u = " + u.get_str();
   return std::nullopt;
 }
 

@@ -15,7 +15,7 @@ ExactSphere cgal_smallest_sphere(std::span<const ExactPoint> points, BeadId firs
   using Geometry = CGAL::Simple_cartesian<Number>;
   using Traits =
       CGAL::Min_sphere_of_spheres_d_traits_3<Geometry, Number, CGAL::Tag_false, CGAL::LP_algorithm>;
-  const auto number = [](const Rational& x) { return Number(x.data()); };
+  const auto number = [](const Rational& x) { return Number(x.get_mpq_t()); };
   const auto back = [](const Number& x) { return Rational(x.mpq()); };
   std::vector<Traits::Sphere> spheres;
   for (BeadId b = first; b <= last; ++b) {

@@ -19,7 +19,7 @@ CgalCells cgal_regular_cells(std::span<const ExactPoint> points) {
   using Cell = CGAL::Regular_triangulation_cell_base_3<Geometry>;
   using Triangulation =
       CGAL::Regular_triangulation_3<Geometry, CGAL::Triangulation_data_structure_3<Vertex, Cell>>;
-  const auto number = [](const Rational& x) { return CGAL::Gmpq(x.data()); };
+  const auto number = [](const Rational& x) { return CGAL::Gmpq(x.get_mpq_t()); };
   Triangulation triangulation;
   for (BeadId b = 0; b < points.size(); ++b) {
     const ExactPoint& p = points[b];

@@ -51,12 +51,12 @@ sturm::Polynomial contact_polynomial(const M& motion, const BeadPair& pair) {
       for (std::size_t b = 0; b < p.size(); ++b) sum[a + b] += sign * p[a] * p[b];
   };
   for (int axis = 0; axis < M::dimension; ++axis)
-    add_square(powers_of([&](int k) {
+    add_square(powers_of([&](int k) -> Rational {
                  return Rational(motion.coordinate(pair.second, k, axis)) -
                         Rational(motion.coordinate(pair.first, k, axis));
                }),
                1);
-  add_square(powers_of([&](int k) {
+  add_square(powers_of([&](int k) -> Rational {
                return Rational(motion.radius(pair.first, k)) + Rational(motion.radius(pair.second, k));
              }),
              -1);

@@ -42,8 +42,8 @@ inline Enclosed square_root(const Rational& x, unsigned bits) {
   const Integer square = (n * d) << (2 * bits);
   const Integer root = sqrt(square);
   const Integer whole = d << bits;
-  if (root * root == square) return Rational(root, whole);
-  return {Rational(root, whole), Rational(root + 1, whole)};
+  if (root * root == square) return fraction(root, whole);
+  return {fraction(root, whole), fraction(root + 1, whole)};
 }
 
 struct Ball {

@@ -85,16 +85,14 @@ inline std::optional<std::string> not_regular(std::span<const ExactPoint> points
     return "a cell stands twice";
   for (const auto& cell : cells) {
     const auto& [a, b, c, d] = cell;
-    const int orientation = detail::det3(detail::difference(p[b], p[a]), detail::difference(p[c], p[a]),
-                                         detail::difference(p[d], p[a]))
-                                .sign();
+    const int orientation = sgn(detail::det3(detail::difference(p[b], p[a]), detail::difference(p[c], p[a]),
+                                             detail::difference(p[d], p[a])));
     if (orientation == 0) return text_of("cell ", name(cell), " is flat");
     for (const BeadId v : cell) used[v] = 1;
     for (BeadId t = 0; t < p.size(); ++t) {
       if (std::find(cell.begin(), cell.end(), t) != cell.end()) continue;
-      const int side = detail::det4(detail::lifted(p[b], p[a]), detail::lifted(p[c], p[a]),
-                                    detail::lifted(p[d], p[a]), detail::lifted(p[t], p[a]))
-                           .sign();
+      const int side = sgn(detail::det4(detail::lifted(p[b], p[a]), detail::lifted(p[c], p[a]),
+                                        detail::lifted(p[d], p[a]), detail::lifted(p[t], p[a])));
       if (side * orientation < 0) return text_of("bead ", t, " is inside the sphere of ", name(cell));
     }
     for (std::size_t i = 0; i < 4; ++i) {
@@ -107,9 +105,8 @@ inline std::optional<std::string> not_regular(std::span<const ExactPoint> points
   }
   for (const auto& [facet, apices] : facets) {
     const auto side = [&, &f = facet](BeadId t) {
-      return detail::det3(detail::difference(p[f[1]], p[f[0]]), detail::difference(p[f[2]], p[f[0]]),
-                          detail::difference(p[t], p[f[0]]))
-          .sign();
+      return sgn(detail::det3(detail::difference(p[f[1]], p[f[0]]), detail::difference(p[f[2]], p[f[0]]),
+                              detail::difference(p[t], p[f[0]])));
     };
     if (apices.size() > 2) return text_of("facet ", name(facet), " has more than two cells");
     if (apices.size() == 2) {

@@ -23,7 +23,7 @@ inline void trim(Polynomial& p) {
   while (!p.empty() && p.back() == 0) p.pop_back();
 }
 
-inline int sign(const Integer& x) { return x.sign(); }
+inline int sign(const Integer& x) { return sgn(x); }
 
 /// sum_k scaled[k] u^k (1-u)^(n-k), multiplied out.
 inline Polynomial from_scaled(std::span<const Integer> scaled) {
