@@ -1,4 +1,4 @@
-# The target kds::gmp, GMP with its C++ classes, for the build and for users of the package: GMP brings no CMake package of its own.
+# Defines the target kds::gmp, GMP with its C++ classes, for the build and for users of the package, because GMP has no CMake package.
 include(FindPackageHandleStandardArgs)
 find_path(KDS_GMP_INCLUDE_DIR gmpxx.h)
 find_library(KDS_GMP_LIBRARY gmp)

@@ -96,7 +96,7 @@ inline void add_product(Integer& sum, const Integer& a, const Integer& b) {
 }
 inline void add_product(LeadingDigits& sum, const LeadingDigits& a, const LeadingDigits& b) { sum += a * b; }
 
-/// Of 64 bits, roughly.
+/// Returns the approximate length in 64-bit limbs.
 [[nodiscard]] inline std::size_t limbs_of(const Integer& x) { return mpz_size(x.get_mpz_t()) + 1; }
 [[nodiscard]] inline std::size_t limbs_of(const LeadingDigits&) { return 1; }
 

@@ -24,7 +24,7 @@ namespace kds {
 /// they are computed.
 inline constexpr int most_degree_of_function = 61;
 
-/// n over k, n at most that.
+/// Returns n over k, for n <= most_degree_of_function.
 [[nodiscard]] constexpr std::int64_t binomial(int n, int k) {
   std::int64_t result = 1;
   for (int i = 1; i <= k; ++i) result = result * (n - k + i) / i;

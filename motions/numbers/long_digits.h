@@ -52,7 +52,7 @@ class LongDigits {
   std::size_t most_bits_;
 };
 
-/// Of 64 bits, roughly.
+/// Returns the approximate length of x in 64-bit limbs.
 [[nodiscard]] inline std::size_t limbs_of(const LongDigits& x) {
   return mpz_size(x.number().get_mpz_t()) + 1;
 }

@@ -148,7 +148,8 @@ bool TouchingSphere<Dimension, Number>::holds(const Ball& ball) const {
   if (sign_of(-s) < 0 && radical_sign<Number>(c_ + twice * b_, -twice, discriminant_) < 0) return false;
   const Number f = dot(d, qae_) - g_ * e;
   const Number w = dot(d, qas_) - g_ * s;
-  // With e twice as large as in F + W rho >= 0 there, rho = c / (2 (sqrt(D) - b)).
+  // The condition is F + W rho >= 0 (ball_in_sphere.h). Here e is twice as large, so
+  // rho = c / (2 (sqrt(D) - b)).
   return radical_sign<Number>(w * c_ - f * b_, f, discriminant_) >= 0;
 }
 

@@ -86,7 +86,7 @@ struct Geometry : Rationals {
   }
 };
 
-// Twos in the denominator.
+// Returns the exponent of two in the denominator.
 mp_bitcnt_t binary_places(const Rational& x) { return mpz_scan1(mpq_denref(x.get_mpq_t()), 0); }
 
 // Returns the exponent of the power of two by which lengths are multiplied. Dyadic numbers then become

@@ -26,7 +26,7 @@ int WholePowerTest<Dimension>::sign(const std::array<WholePoint<Dimension>, rows
     for (std::size_t j = i + 1; j < rows; ++j)
       set_minor(of_pair_[i][j], row_[i][0], row_[j][1], row_[j][0], row_[i][1]);
   }
-  // By the last column, in space by the one before it, too.
+  // Laplace expansion along the last column and, in space, also along the column before it.
   mpz_set_ui(determinant_.get_mpz_t(), 0);
   for (std::size_t out = 0; out < rows; ++out) {
     std::array<std::size_t, rows - 1> left{};
