@@ -86,7 +86,7 @@ void KineticRun::make_session() {
   for (const auto& addition : additions_) addition(*session_);
   simulator().exact_work().set_limit(most_work_);
   if (work_watcher_) simulator().exact_work().set_watcher(work_watcher_, watch_every_);
-  built_ = within_ = finished_ = false;
+  built_ = loaded_ = within_ = finished_ = false;
   bends_.clear();
 }
 
@@ -116,15 +116,32 @@ bool KineticRun::can_enter() const {
   return !finished_ && (motion_ || session_->simulator().step() < scene_.known_steps());
 }
 
+/// Sets the motion to the next step. A motion that the user sets is checked each time, because the user may
+/// have changed it.
+void KineticRun::load() {
+  if (motion_) return check_radii();
+  if (!loaded_) session_->load(simulator().step());
+  loaded_ = true;
+}
+
+void KineticRun::build() {
+  if (built_) return;
+  if (!can_enter()) throw std::logic_error("a run is built, but its first step is not known");
+  load();
+  simulator().build();
+  built_ = true;
+}
+
+bool KineticRun::load_step() {
+  if (within_) return true;
+  if (!can_enter()) return false;
+  load();
+  return true;
+}
+
 void KineticRun::enter() {
-  const std::size_t step = simulator().step();
-  if (motion_) check_radii();
-  if (!built_) {
-    session_->load(0);
-    simulator().build();
-    built_ = true;
-  }
-  session_->load(step);
+  build();
+  load();
   check_bends();
   simulator().enter_step();
   bends_.clear();
@@ -133,7 +150,7 @@ void KineticRun::enter() {
 
 void KineticRun::leave() {
   simulator().leave_step();
-  within_ = false;
+  within_ = loaded_ = false;
 }
 
 /// Checks that the motion has the radii given at the start, on which spheres and contacts rely.

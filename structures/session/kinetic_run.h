@@ -91,6 +91,12 @@ class KineticRun {
   /// Adds the next frame like `push`, but leaves the step that becomes known to the calls below. A step left
   /// from before is run first.
   void take(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt);
+  /// Builds all structures at the first frame. The first step does this if `build` was not called. Throws
+  /// std::logic_error if the first step is not known.
+  void build();
+  /// Sets the motion to the next step, if it is not set yet. The functions below do this themselves; call it
+  /// to read a step's frames apart from running the step. Returns false if no step is known.
+  bool load_step();
   /// Runs to the end of the present step or, between two steps, runs the whole next step. Returns false if no
   /// step is known.
   bool run_step();
@@ -139,6 +145,7 @@ class KineticRun {
   void plan(std::function<void(Session&)> addition);
   void make_session();
   [[nodiscard]] bool can_enter() const;
+  void load();
   void enter();
   void leave();
   [[nodiscard]] std::uint64_t changes_made() const;
@@ -159,7 +166,7 @@ class KineticRun {
   std::uint64_t most_work_ = ExactWork::no_limit, watch_every_ = 0;
   std::function<void()> work_watcher_;
   std::unique_ptr<Session> session_;
-  bool built_ = false, within_ = false, finished_ = false;
+  bool built_ = false, loaded_ = false, within_ = false, finished_ = false;
   std::vector<Edit> edits_;
   std::vector<Bend> bends_;  // in this step or the previous one
 };
