@@ -43,13 +43,13 @@ std::vector<SampledContacts::Sampling> samplings_of(const MissedTask& task, cons
   options.structures = {"contacts"};
   options.motion = task.motion;
   options.apart = task.apart;
-  const auto session = open_session(options, scene, AuditMode::none);
+  const auto run = open_run(options, scene, AuditMode::none);
   SampledContacts sampled(strides);
-  session->simulator().listen(sampled);
-  run_steps(*session, scene, options, [&](std::size_t frame) {
+  run->listen(sampled);
+  run_steps(*run, options, [&](std::size_t frame) {
     if (frame == 0) {
       std::vector<BeadPair> at_start;
-      for (const Event& event : session->built(0)) at_start.push_back({event.ids()[0], event.ids()[1]});
+      for (const Event& event : run->session().built(0)) at_start.push_back({event.ids()[0], event.ids()[1]});
       sampled.add_built(at_start);
     }
     at_frame(frame);

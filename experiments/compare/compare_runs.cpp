@@ -49,7 +49,7 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const Wa
     const RunOptions run = run_of(options, input, motion);
     const Scene scene = load_scene(
         run, motion == options.motions.front() ? warn : [](const std::string&) {});
-    refuse_without_events(*open_session(run, scene, AuditMode::none));
+    refuse_without_events(open_run(run, scene, AuditMode::none)->session());
     if (motion != options.motions.front()) continue;
     const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
     found = {run.inputs.front().string(),
@@ -71,18 +71,18 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const Wa
 std::vector<CompareRow> run_once(const RunOptions& options, std::size_t stride,
                                  const std::function<void()>& step_done) {
   const Scene scene = load_scene(options, [](const std::string&) {});
-  const auto session = open_session(options, scene, AuditMode::none);
-  StepCounts counts(*session, scene);
-  EventPlaces places(*session, scene);
-  session->simulator().listen(places);
-  std::vector<NetChanges> net(session->structures().size());
-  run_steps(*session, scene, options, [&](std::size_t frame) {
-    for (std::size_t s = 0; s < net.size(); ++s) net[s].add(session->elements(s, frame));
+  const auto run = open_run(options, scene, AuditMode::none);
+  StepCounts counts(run->session(), scene);
+  EventPlaces places(run->session(), scene);
+  run->listen(places);
+  std::vector<NetChanges> net(run->structures().size());
+  run_steps(*run, options, [&](std::size_t frame) {
+    for (std::size_t s = 0; s < net.size(); ++s) net[s].add(run->session().elements(s, frame));
     if (frame == 0) return;
     counts.end_step(frame - 1, nullptr);
     step_done();
   });
-  const RunReport report = report_of(*session, scene, options, counts);
+  const RunReport report = report_of(run->session(), scene, options, counts);
   std::vector<CompareRow> rows;
   for (std::size_t s = 0; s < net.size(); ++s) {
     CompareRow& row = rows.emplace_back();

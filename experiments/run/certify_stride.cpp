@@ -37,12 +37,12 @@ std::shared_ptr<const MetContacts> contacts_met(const RunOptions& options, const
   contacts.kernel =
       options.kernel == Kernel::exact ? Kernel::exact : Kernel::filtered;  // none but these is sure
   contacts.apart = options.apart;
-  const auto session = open_session(contacts, scene, AuditMode::none);
+  const auto run = open_run(contacts, scene, AuditMode::none);
   auto met = std::make_shared<MetContacts>();
-  session->simulator().listen(*met);
-  run_steps(*session, scene, contacts, [&](std::size_t frame) {
+  run->listen(*met);
+  run_steps(*run, contacts, [&](std::size_t frame) {
     if (frame != 0) return;
-    for (const Event& event : session->built(0)) met->on_event(event);
+    for (const Event& event : run->session().built(0)) met->on_event(event);
   });
   return met;
 }

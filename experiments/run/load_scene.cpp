@@ -208,7 +208,7 @@ void refuse_nodes_behind_the_beads(const RunOptions& options, const Scene& scene
 
 }  // namespace
 
-std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& scene, AuditMode audits) {
+std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene, AuditMode audits) {
   SessionOptions session{options.structures, options.kernel, audits, {.nodes = options.nodes}};
   session.settings.apart = options.apart.value_or(session.settings.apart);
   session.settings.between = options.between.value_or(session.settings.between);
@@ -259,7 +259,7 @@ std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& sc
                     "expected filtered or exact",
                     scene.degree(), highest_fast_degree));
   try {
-    return std::make_unique<Session>(scene, session);
+    return std::make_unique<KineticRun>(scene, session);
   } catch (const StructureRefusal& refusal) {
     if (scene.is_lifted())
       throw InputError(fmt::format("--motion lifted: {}; expected --structures power", refusal.what()));

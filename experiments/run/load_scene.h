@@ -10,7 +10,7 @@
 #include "experiments/program/input_options.h"
 #include "experiments/run/run_options.h"
 #include "motions/scene/scene.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 
@@ -48,7 +48,7 @@ inline constexpr int highest_relaxed_degree = 7;
 inline constexpr int highest_fast_degree = 3;
 
 /// The run of structures that the options ask for, the input's default filled in. Throws InputError.
-[[nodiscard]] std::unique_ptr<Session> open_session(const RunOptions& options, const Scene& scene,
-                                                    AuditMode audits);
+[[nodiscard]] std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene,
+                                                   AuditMode audits);
 
 }  // namespace kds

@@ -14,7 +14,7 @@
 #include "experiments/run/parse_run_options.h"
 #include "experiments/run/report_of_session.h"
 #include "motions/base/input_error.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 
@@ -114,15 +114,15 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
                                  name, scene.bead_count(), scene.step_count(), log.header().beads,
                                  log.header().steps));
   }
-  const auto session = open_session(options, scene, options.audit);
-  LogComparison comparison(log, name, session->simulator());
-  session->simulator().listen(comparison);
+  const auto run = open_run(options, scene, options.audit);
+  LogComparison comparison(log, name, run->simulator());
+  run->listen(comparison);
   ProgressWithinSteps within(progress, scene.step_count());
-  if (options.audit == AuditMode::events) session->simulator().listen(within);
-  StepCounts counts(*session, scene);
-  if (results != nullptr) results->begin(scene, *session, options.certify);
-  run_steps(*session, scene, options, [&](std::size_t frame) {
-    if (results != nullptr) results->add_frame(frame, *session);
+  if (options.audit == AuditMode::events) run->listen(within);
+  StepCounts counts(run->session(), scene);
+  if (results != nullptr) results->begin(scene, run->session(), options.certify);
+  run_steps(*run, options, [&](std::size_t frame) {
+    if (results != nullptr) results->add_frame(frame, run->session());
     if (frame == 0) {
       counts.begin();
       return warnings.release(warn);
@@ -133,7 +133,7 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
 
   ReplayReport replay;
   replay.difference = comparison.finish();
-  replay.run = report_of(*session, scene, options, counts);
+  replay.run = report_of(run->session(), scene, options, counts);
   if (options.certify) {
     replay.run.stride = certify_stride(options, scene);
     if (results != nullptr) results->add_certificate(*replay.run.stride, scene);

@@ -6,7 +6,7 @@
 #include "experiments/run/radius_hint.h"
 #include "experiments/run/report_of_session.h"
 #include "experiments/run/watch_exact_work.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 
@@ -63,28 +63,28 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
                     const std::function<void(const std::string&)>& warn, RunResults& results) {
   HeldWarnings warnings;
   const Scene scene = load_scene(options, warnings.hold());
-  const auto session = open_session(options, scene, options.audit);
-  if (!options.quiet) watch_exact_work(session->simulator(), scene, warn);
+  const auto run = open_run(options, scene, options.audit);
+  if (!options.quiet) watch_exact_work(run->simulator(), scene, warn);
   ProgressWithinSteps within(progress, options.rounds * scene.step_count());
-  if (options.audit == AuditMode::events) session->simulator().listen(within);
-  StepCounts counts(*session, scene);
+  if (options.audit == AuditMode::events) run->listen(within);
+  StepCounts counts(run->session(), scene);
   std::optional<ClosestApproachOfRun> approach;
-  if (const auto closest = place_of_closest(*session); closest && options.kernel != Kernel::fast)
-    approach.emplace(*session, *closest);
-  results.begin(scene, *session, options.certify);
-  results.begin_dump_and_log(options, scene, *session);
+  if (const auto closest = place_of_closest(run->session()); closest && options.kernel != Kernel::fast)
+    approach.emplace(run->session(), *closest);
+  results.begin(scene, run->session(), options.certify);
+  results.begin_dump_and_log(options, scene, run->session());
 
-  run_steps(*session, scene, options, [&](std::size_t frame) {
+  run_steps(*run, options, [&](std::size_t frame) {
     if (frame == 0) warnings.release(warn);
     if (frame == 0) counts.begin();
-    results.add_frame(frame, *session);
+    results.add_frame(frame, run->session());
     if (approach) frame == 0 ? approach->begin() : approach->end_step(scene.frame_number(frame - 1));
     if (frame == 0) return;
     counts.end_step(frame - 1, &results);
     progress(frame, 0, options.rounds * scene.step_count());
   });
 
-  RunReport report = report_of(*session, scene, options, counts);
+  RunReport report = report_of(run->session(), scene, options, counts);
   if (const auto hint = hint_of(options, scene, report)) warn(*hint);
   if (options.certify) {
     report.stride = certify_stride(options, scene);
@@ -95,13 +95,13 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
     report.approach_in_all_frames = within_deviation(report.approach->distance, *deviation);
   Times times{std::vector<std::vector<double>>(report.structures.size()),
               std::vector<std::vector<double>>(report.structures.size())};
-  add_round(*session, scene, times);
+  add_round(run->session(), scene, times);
   for (std::size_t round = 1; round < options.rounds; ++round) {
-    const auto again = open_session(options, scene, AuditMode::none);
-    run_steps(*again, scene, options, [&](std::size_t frame) {
+    const auto again = open_run(options, scene, AuditMode::none);
+    run_steps(*again, options, [&](std::size_t frame) {
       progress(round * scene.step_count() + frame, 0, options.rounds * scene.step_count());
     });
-    add_round(*again, scene, times);
+    add_round(again->session(), scene, times);
   }
   report.rounds = options.rounds;
   add_times(times, report);

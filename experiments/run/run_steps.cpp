@@ -15,25 +15,25 @@ namespace {
 
 // Names what the last of the work that is allowed was spent on.
 template <class Work>
-void with_limit(Session& session, const RunOptions& options, Work work) {
+void with_limit(KineticRun& run, const RunOptions& options, Work work) {
   try {
     work();
   } catch (const WorkLimitReached& limit) {
     throw InputError(
         fmt::format("--work {}: exact arithmetic takes more limb operations than that, the last on {}",
-                    options.work.value_or(0), session.simulator().name_of_work(limit.subject())));
+                    options.work.value_or(0), run.simulator().name_of_work(limit.subject())));
   }
 }
 
 // Structures count steps from 0: messages say which frames of the file these are.
 template <class Work>
-void in_step(Session& session, const Scene& scene, std::size_t step, const RunOptions& options, Work work) {
+void in_step(KineticRun& run, std::size_t step, const RunOptions& options, Work work) {
   const auto named = [&](std::string_view message) {
     return fmt::format("{} (step {} leads from frame {} to frame {})", message, step,
-                       scene.frame_number(step), scene.frame_number(step + 1));
+                       run.scene().frame_number(step), run.scene().frame_number(step + 1));
   };
   try {
-    with_limit(session, options, work);
+    with_limit(run, options, work);
   } catch (const AuditError& error) {
     throw AuditError(fmt::format("{}\nto see it again: kds run {}", named(error.what()),
                                  shell_words(repeating_arguments(options))));
@@ -44,20 +44,17 @@ void in_step(Session& session, const Scene& scene, std::size_t step, const RunOp
 
 }  // namespace
 
-void run_steps(Session& session, const Scene& scene, const RunOptions& options,
+void run_steps(KineticRun& run, const RunOptions& options,
                const std::function<void(std::size_t frame)>& at_frame) {
-  if (options.work) session.simulator().exact_work().set_limit(*options.work);
-  session.load(0);
-  with_limit(session, options, [&] { session.simulator().build(); });
+  if (options.work) run.limit_work(*options.work);
+  with_limit(run, options, [&] { run.build(); });
   at_frame(0);
-  for (std::size_t step = 0; step < scene.step_count(); ++step) {
-    session.load(step);
-    in_step(session, scene, step, options, [&] { session.simulator().run_step(); });
+  for (std::size_t step = 0; run.load_step(); ++step) {
+    in_step(run, step, options, [&] { run.run_step(); });
     at_frame(step + 1);
   }
-  // What is only known when no step follows is about the last one.
-  if (scene.step_count() > 0)
-    in_step(session, scene, scene.step_count() - 1, options, [&] { session.simulator().finish(); });
+  // A refusal that is possible only when no step follows is about the last step.
+  in_step(run, run.scene().step_count() - 1, options, [&] { run.finish(); });
 }
 
 }  // namespace kds

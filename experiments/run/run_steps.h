@@ -1,5 +1,5 @@
 #pragma once
-// The loop over a scene's steps, as runs and replays have it.
+// All steps of a run over a scene, as the program's commands run them.
 
 #include <cstddef>
 #include <functional>
@@ -8,7 +8,7 @@
 #include "experiments/run/run_options.h"
 #include "kds/event_log.h"
 #include "motions/scene/scene.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 
@@ -26,9 +26,10 @@ class ProgressWithinSteps final : public EventListener {
   std::size_t total_;
 };
 
-/// Builds the structures, runs all steps and finishes; `at_frame` is called at each frame reached, the first
-/// too. What is thrown in a step names the frames of the file that it lies between.
-void run_steps(Session& session, const Scene& scene, const RunOptions& options,
+/// Builds the structures, runs all steps and finishes. Calls `at_frame` at each frame reached, including the
+/// first. The message of an exception thrown in a step names the frames of the file between which the step
+/// lies.
+void run_steps(KineticRun& run, const RunOptions& options,
                const std::function<void(std::size_t frame)>& at_frame);
 
 }  // namespace kds

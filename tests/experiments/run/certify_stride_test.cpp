@@ -42,12 +42,12 @@ struct Pairs final : EventListener {
 /// By a run of all frames.
 PairsMet pairs_in_truth(const RunOptions& options) {
   const Scene scene = load_scene(options, [](const std::string&) {});
-  const auto session = open_session(options, scene, AuditMode::none);
+  const auto run = open_run(options, scene, AuditMode::none);
   Pairs pairs;
-  session->simulator().listen(pairs);
-  run_steps(*session, scene, options, [&](std::size_t frame) {
+  run->listen(pairs);
+  run_steps(*run, options, [&](std::size_t frame) {
     if (frame != 0) return;
-    for (const Event& event : session->built(0)) pairs.on_event(event);
+    for (const Event& event : run->session().built(0)) pairs.on_event(event);
   });
   return pairs.met;
 }

@@ -86,12 +86,12 @@ TEST(ExactWorkOfRuns, IsToldOfWhereItIsExtraordinary) {
   const RunOptions options = parse_run_options({kWild, "--structures", "power"});
   const auto warnings_of = [&](std::uint64_t extraordinary) {
     const Scene scene = load_scene(options, [](const std::string&) {});
-    const auto session = open_session(options, scene, AuditMode::none);
+    const auto run = open_run(options, scene, AuditMode::none);
     std::vector<std::string> warnings;
     watch_exact_work(
-        session->simulator(), scene, [&](const std::string& warning) { warnings.push_back(warning); },
+        run->simulator(), scene, [&](const std::string& warning) { warnings.push_back(warning); },
         extraordinary);
-    run_steps(*session, scene, options, [](std::size_t) {});
+    run_steps(*run, options, [](std::size_t) {});
     return warnings;
   };
   const std::vector<std::string> warnings = warnings_of(10'000);
