@@ -10,6 +10,7 @@
 
 #include "kds/event_log.h"
 #include "motions/numbers/exact_number.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 
@@ -23,7 +24,9 @@ class Clock {
   [[nodiscard]] std::size_t frame(std::size_t of_setting) const { return of_setting * stride_; }
   /// In parts of a frame.
   [[nodiscard]] std::size_t start_of(std::size_t step) const { return frame(step) * parts_of_frame; }
-  /// Of such a time in its step, from 0 to 1: exact, as strides are powers of two.
+  /// Returns the step that leads to this time or past it. The time must be after the first frame.
+  [[nodiscard]] std::size_t step_to(std::size_t time) const { return (time - 1) / start_of(1); }
+  /// Returns the place of such a time in its step, from 0 to 1: exact, as strides are powers of two.
   [[nodiscard]] double place_in(std::size_t step, std::size_t time) const {
     return static_cast<double>(time - start_of(step)) / static_cast<double>(stride_ * parts_of_frame);
   }
@@ -286,17 +289,12 @@ std::vector<ContactTime> contacts_with(const FinestData& finest, const TradeSett
                                        std::vector<double> radii) {
   const Scene scene = finest.scene(setting, std::move(radii));
   const Clock clock(scene, setting.stride);
-  Session session(scene, {{"contacts"}, setting.kernel, AuditMode::none, setting.settings});
+  KineticRun run(scene, {{"contacts"}, setting.kernel, AuditMode::none, setting.settings});
   Recorder recorder(clock);
-  session.simulator().listen(recorder);
-  session.load(0);
-  session.simulator().build();
-  const std::vector<BeadPair> built = pairs_of(session.built(0));
-  for (std::size_t step = 0; step < clock.steps(); ++step) {
-    session.load(step);
-    session.simulator().run_step();
-  }
-  session.simulator().finish();
+  run.listen(recorder);
+  run.build();
+  const std::vector<BeadPair> built = pairs_of(run.session().built(0));
+  run.finish();
   return contact_times(built, recorder.events, 0, static_cast<double>(clock.frame(clock.steps())));
 }
 
@@ -319,34 +317,28 @@ FollowedRun follow_run(const FinestData& finest, const TradeSetting& setting, Tr
   const std::set<std::size_t> times = times_to_look(finest.frame_count(), sampling);
   std::optional<StrideDeviation> deviation;
   if (setting.certify) deviation = finest.deviation(setting, scene);
-  Session session(scene, {{setting.structure}, setting.kernel, AuditMode::none, setting.settings});
+  KineticRun run(scene, {{setting.structure}, setting.kernel, AuditMode::none, setting.settings});
   Recorder recorder(clock);
-  session.simulator().listen(recorder);
+  run.listen(recorder);
   Follower follower(finest, scene, setting, truth, cutoff, deviation ? &*deviation : nullptr);
-  session.load(0);
-  session.simulator().build();
-  const std::vector<BeadPair> built = pairs_of(session.built(0));
-  auto next = times.begin();
-  for (std::size_t step = 0; step < clock.steps(); ++step) {
-    session.load(step);
-    session.simulator().enter_step();
-    for (; next != times.end() && *next < clock.start_of(step + 1); ++next) {
-      const double u = clock.place_in(step, *next);
-      session.simulator().run_until(Dyadic(u));
-      follower.look(session, step, u, *next);
-    }
-    session.simulator().leave_step();
-    if (next != times.end() && *next == clock.start_of(step + 1)) follower.look(session, step, 1, *next++);
+  run.build();
+  const std::vector<BeadPair> built = pairs_of(run.session().built(0));
+  for (const std::size_t time : times) {
+    if (time > clock.start_of(clock.steps())) break;  // a stride may stop before the last frame
+    const std::size_t step = clock.step_to(time);
+    const double u = clock.place_in(step, time);
+    run.go_to(static_cast<double>(step) + u);
+    follower.look(run.session(), step, u, time);
   }
-  session.simulator().finish();
+  run.finish();
   follower.finish();
   const auto end = static_cast<double>(clock.frame(clock.steps()));
-  FollowedRun run{{end, std::move(recorder.events), {}, {}}, follower.errors, follower.tests};
+  FollowedRun followed{{end, std::move(recorder.events), {}, {}}, follower.errors, follower.tests};
   if (setting.structure == "contacts") {
-    run.history.contacts = contact_times(built, run.history.events, 0, end);
-    if (deviation) certify_contacts(finest, setting, scene, *deviation, run.history);
+    followed.history.contacts = contact_times(built, followed.history.events, 0, end);
+    if (deviation) certify_contacts(finest, setting, scene, *deviation, followed.history);
   }
-  return run;
+  return followed;
 }
 
 void compare_histories(const RunHistory& exact, FollowedRun& run, const FinestData& finest,

@@ -9,6 +9,7 @@
 #include "experiments/program/timing.h"
 #include "kds/seconds.h"
 #include "motions/base/input_error.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 
@@ -24,18 +25,14 @@ double seconds_of_one(const Scene& scene, const TradeSetting& setting, TradeCost
   const std::uint64_t before = bytes_in_use();
   std::vector<std::string> structures = setting.besides;
   structures.push_back(setting.structure);
-  Session session(scene, {std::move(structures), setting.kernel, AuditMode::none, setting.settings});
-  session.load(0);
-  session.simulator().build();
+  KineticRun run(scene, {std::move(structures), setting.kernel, AuditMode::none, setting.settings});
+  run.build();
   double seconds = 0;
-  for (std::size_t step = 0; step < scene.step_count(); ++step) {
-    session.load(step);
-    seconds += processor_seconds_of([&] { session.simulator().run_step(); });
-  }
-  session.simulator().finish();
+  while (run.load_step()) seconds += processor_seconds_of([&] { run.run_step(); });
+  run.finish();
   const std::uint64_t after = bytes_in_use();
   cost.memory = std::max(cost.memory, after > before ? after - before : 0);
-  for (const KineticStructure* const structure : session.structures()) {
+  for (const KineticStructure* const structure : run.structures()) {
     cost.certificates += structure->statistics.certificates.created;
     for (std::size_t kind = 0; kind < structure->kinds().size(); ++kind)
       if (structure->kinds()[kind].external) cost.events += structure->statistics.events_by_kind[kind];
