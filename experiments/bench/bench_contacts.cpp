@@ -6,7 +6,7 @@
 
 #include "experiments/program/timing.h"
 #include "structures/collision/cell_list.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 
@@ -22,28 +22,16 @@ Scene scene_of(const BenchChain& chain) {
   return {{&necklace, 1}, chain.radii, FrameMotion::linear};
 }
 
-std::unique_ptr<Session> session_of(const Scene& scene) {
-  SessionOptions options{{"contacts"}, Kernel::filtered, AuditMode::none, {}};
+SessionOptions options_of_run() {
+  SessionOptions options{.structures = {"contacts"}};
   options.settings.apart = along_chain;
-  return std::make_unique<Session>(scene, options);
-}
-
-void build(Session& session) {
-  session.load(0);
-  session.simulator().build();
-}
-
-void run_steps(Session& session, const Scene& scene) {
-  for (std::size_t step = 0; step < scene.step_count(); ++step) {
-    session.load(step);
-    session.simulator().run_step();
-  }
+  return options;
 }
 
 double seconds_of_steps(const Scene& scene) {
-  const auto session = session_of(scene);
-  build(*session);
-  return processor_seconds_of([&] { run_steps(*session, scene); });
+  KineticRun run(scene, options_of_run());
+  run.build();
+  return processor_seconds_of([&] { run.finish(); });
 }
 
 double seconds_of_cell_list(const BenchChain& chain) {
@@ -87,11 +75,8 @@ void bench_contacts_growth(std::string_view model, std::size_t beads, std::optio
     const Scene scene = scene_of(chain);
     std::vector<double> runs;
     for (std::size_t round = 0; round < rounds; ++round) {
-      const auto session = session_of(scene);
-      runs.push_back(processor_seconds_of([&] {
-        build(*session);
-        run_steps(*session, scene);
-      }));
+      KineticRun run(scene, options_of_run());
+      runs.push_back(processor_seconds_of([&] { run.finish(); }));
     }
     return runs;
   };

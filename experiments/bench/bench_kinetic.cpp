@@ -4,7 +4,7 @@
 
 #include "experiments/program/timing.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 #include "structures/triangulation/static_build.h"
 
 namespace kds {
@@ -17,23 +17,16 @@ Scene scene_of(const BenchChain& chain, FrameMotion motion) {
 }
 
 StepsRun run_all_steps(const Scene& scene, const std::string& structure, const StructureSettings& settings) {
-  const auto session = std::make_unique<Session>(
-      scene, SessionOptions{{structure}, Kernel::filtered, AuditMode::none, settings});
-  session->load(0);
-  session->simulator().build();
-  StepsRun run;
-  run.seconds = processor_seconds_of([&] {
-    for (std::size_t step = 0; step < scene.step_count(); ++step) {
-      session->load(step);
-      session->simulator().run_step();
-    }
-  });
-  run.own = run.seconds - processor_seconds_of([&] {
-              for (std::size_t step = 0; step < scene.step_count(); ++step) session->load(step);
-            });
-  const auto& per_step = session->structures().front()->statistics.events_per_step;
-  run.events = std::accumulate(per_step.begin(), per_step.end(), std::uint64_t{0});
-  return run;
+  KineticRun run(scene, {{structure}, Kernel::filtered, AuditMode::none, settings});
+  run.build();
+  StepsRun steps;
+  steps.seconds = processor_seconds_of([&] { run.finish(); });
+  steps.own = steps.seconds - processor_seconds_of([&] {
+                for (std::size_t step = 1; step < scene.step_count(); ++step) run.session().load(step);
+              });
+  const auto& per_step = run.structures().front()->statistics.events_per_step;
+  steps.events = std::accumulate(per_step.begin(), per_step.end(), std::uint64_t{0});
+  return steps;
 }
 
 namespace {

@@ -16,22 +16,22 @@
 
 namespace kds {
 
-/// Of all steps, by the processor.
+/// Processor seconds and events of all steps.
 struct StepsRun {
-  double seconds = 0;  ///< beads from frame to motion are part of them
-  double own = 0;  ///< less what it takes to load the same steps again: the engine and the structure alone
+  double seconds = 0;  ///< including the motions made of frames, except that of the first step
+  double own = 0;      ///< `seconds` without those to load the same steps again: engine and structure alone
   std::uint64_t events = 0;
 };
 
 [[nodiscard]] Scene scene_of(const BenchChain& chain, FrameMotion motion);
-/// All steps of a scene by one structure, without the first build.
+/// Runs all steps of a scene with one structure. The build at the first frame is not timed.
 [[nodiscard]] StepsRun run_all_steps(const Scene& scene, const std::string& structure,
                                      const StructureSettings& settings);
 
 inline constexpr std::string_view sphere_peer = "CGAL Min_sphere_of_spheres_d";
 
-/// Linear motion. `factor`: how many times as fast as the peer is asked for, if anything is. Beads from frame
-/// to motion are part of a step.
+/// Adds rows for linear motion. `factor`: how many times as fast as the peer a step should be, if there is
+/// such a goal. A step includes making its motion of the frames, except in the first step.
 void bench_kinetic_steps(const BenchChain& chain, std::size_t rounds, std::optional<double> factor,
                          std::vector<BenchRow>& rows);
 

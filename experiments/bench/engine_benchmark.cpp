@@ -11,7 +11,7 @@
 
 #include "experiments/bench/subject.h"
 #include "motions/readers/instance.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 #include "structures/triangulation/regular_triangulation.h"
 #include "structures/triangulation/static_build.h"
 
@@ -41,12 +41,9 @@ void run_instance(Turns& turns, const std::filesystem::path& file, Kernel kernel
   std::uint64_t events = 0;
   while (turns.another()) {
     runs.push_back(processor_seconds_of([&] {
-      const auto session =
-          std::make_unique<Session>(scene, SessionOptions{{structure}, kernel, AuditMode::none, {}});
-      session->load(0);
-      session->simulator().build();
-      session->simulator().run_step();
-      const auto& per_step = session->structures().front()->statistics.events_per_step;
+      KineticRun run(scene, {.structures = {structure}, .kernel = kernel});
+      run.finish();
+      const auto& per_step = run.structures().front()->statistics.events_per_step;
       events = std::accumulate(per_step.begin(), per_step.end(), std::uint64_t{0});
     }));
     turns.took(runs.back());
