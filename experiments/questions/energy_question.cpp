@@ -13,7 +13,7 @@
 #include "experiments/questions/moving_subjects.h"
 #include "motions/models/random.h"
 #include "motions/models/shape.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 
@@ -50,16 +50,10 @@ std::vector<Step> steps_of(std::vector<Eigen::Matrix3Xd> frames, const std::vect
   chain.file = "chain";
   chain.frames = std::move(frames);
   const Scene scene(std::span(&chain, 1), radii);
-  Session session(scene, SessionOptions{{"wrapped", "power"}, Kernel::filtered, AuditMode::none, {}});
-  session.load(0);
-  session.simulator().build();
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    session.load(k);
-    session.simulator().run_step();
-  }
-  session.simulator().finish();
+  KineticRun run(scene, {.structures = {"wrapped", "power"}});
+  run.finish();
   const auto events = [&](std::size_t structure, std::size_t k) {
-    return static_cast<double>(session.structures()[structure]->statistics.events_per_step[k]);
+    return static_cast<double>(run.structures()[structure]->statistics.events_per_step[k]);
   };
   for (std::size_t k = 0; k < steps.size(); ++k) {
     steps[k].bases = events(0, k);

@@ -9,7 +9,7 @@
 #include "experiments/stability/stability_subjects.h"
 #include "kds/event_log.h"
 #include "motions/base/input_error.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 namespace {
@@ -59,24 +59,19 @@ Outcome outcome_of(const Case& one, const Settled& what, Kernel kernel, AuditMod
   Outcome outcome;
   try {
     const Scene scene(one.instance, one.radii);
-    const auto session =
-        std::make_unique<Session>(scene, SessionOptions{{what.structure}, kernel, audits, what.settings});
+    KineticRun run(scene, {{what.structure}, kernel, audits, what.settings});
     Recorder recorder;
-    Simulator& simulator = session->simulator();
-    simulator.listen(recorder);
+    run.listen(recorder);
     try {
-      session->load(0);
-      simulator.build();
-      simulator.run_step();
-      simulator.finish();
+      run.finish();
     } catch (const AuditError& error) {
       outcome.failure = error.what();
       outcome.failed_audit = true;
     }
     outcome.events = std::move(recorder.events);
-    outcome.fingerprint = simulator.fingerprint();
-    outcome.statistics = session->structures().front()->statistics;
-    outcome.seconds = simulator.seconds_of(0) + simulator.seconds() + outcome.statistics.build_seconds;
+    outcome.fingerprint = run.simulator().fingerprint();
+    outcome.statistics = run.structures().front()->statistics;
+    outcome.seconds = simulator.seconds_of(0) + run.simulator().seconds() + outcome.statistics.build_seconds;
   } catch (const InputError& error) {
     outcome.refusal = error.what();
   } catch (const std::exception& error) {

@@ -19,7 +19,7 @@
 #include "motions/scene/scene.h"
 #include "motions/scene/straightened_frames.h"
 #include "motions/scene/stride_deviation.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 namespace {
@@ -181,17 +181,12 @@ using Pairs = std::set<std::pair<BeadId, BeadId>>;
 Pairs pairs_met(const Scene& scene) {
   StructureSettings settings;
   settings.apart = 1;
-  Session session(scene, {{"contacts"}, Kernel::filtered, AuditMode::none, settings});
+  KineticRun run(scene, {{"contacts"}, Kernel::filtered, AuditMode::none, settings});
   EventLog log;
-  session.simulator().listen(log);
-  session.load(0);
-  session.simulator().build();
-  for (const Event& event : session.built(0)) log.on_event(event);
-  for (std::size_t step = 0; step < scene.step_count(); ++step) {
-    session.load(step);
-    session.simulator().run_step();
-  }
-  session.simulator().finish();
+  run.listen(log);
+  run.build();
+  for (const Event& event : run.session().built(0)) log.on_event(event);
+  run.finish();
   Pairs pairs;
   for (const Event& event : log.events)
     if (!event.kind.counted_apart) pairs.emplace(event.ids()[0], event.ids()[1]);
