@@ -10,7 +10,7 @@
 #include "experiments/program/timing.h"
 #include "motions/base/input_error.h"
 #include "structures/power_diagram/diagram_update.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 #include "structures/triangulation/snapshot_faults.h"
 
 namespace kds {
@@ -130,43 +130,40 @@ class UpdateComparison {
   double run_hermite(UpdateRow& row, bool first) const {
     if (first && audit_) row.audits = audited_hermite(row);
     const Scene scene = scene_at_(row.task.stride, FrameMotion::hermite);
-    Session session(scene, {{"power"}, Kernel::filtered, AuditMode::none, {}});
+    KineticRun run(scene, {.structures = {"power"}});
     std::uint64_t events = 0;
-    const double seconds = run_steps_of(scene, session, events);
+    const double seconds = run_steps_of(run, events);
     if (!first) return seconds;
     row.events = events;
     row.activated = scene.bead_count() * scene.step_count();
-    row.rebuilds = session.structures().front()->statistics.rebuilds;
+    row.rebuilds = run.structures().front()->statistics.rebuilds;
     return seconds;
   }
   std::uint64_t audited_hermite(const UpdateRow& row) const {
     const Scene scene = scene_at_(row.task.stride, FrameMotion::hermite);
-    Session session(scene, {{"power"}, Kernel::filtered, AuditMode::frames, {}});
+    KineticRun run(scene, {.structures = {"power"}, .audits = AuditMode::frames});
     std::uint64_t events = 0;
     try {
-      run_steps_of(scene, session, events);
+      run_steps_of(run, events);
     } catch (const AuditError& error) {
       throw AuditError(fmt::format("hermite at stride {}: {}", row.task.stride, error.what()));
     }
     return scene.step_count();
   }
   /// Returns the seconds without those for reading frames.
-  static double run_steps_of(const Scene& scene, Session& session, std::uint64_t& events) {
-    std::vector<std::uint64_t>& of_steps = session.structures().front()->statistics.events_per_step;
-    session.load(0);
-    session.simulator().build();
+  static double run_steps_of(KineticRun& run, std::uint64_t& events) {
+    const Scene& scene = run.scene();
+    std::vector<std::uint64_t>& of_steps = run.structures().front()->statistics.events_per_step;
+    run.build();
     double seconds = 0;
     for (std::size_t k = 0; k < scene.step_count(); ++k) {
       static_cast<void>(
           scene.centers(std::min(k + 2, scene.frame_count() - 1)));  // read before the clock runs
-      seconds += processor_seconds_of([&] {
-        session.load(k);
-        session.simulator().run_step();
-      });
+      seconds += processor_seconds_of([&] { run.run_step(); });
       for (const std::uint64_t count : of_steps) events += count;
       of_steps.clear();
     }
-    return seconds + processor_seconds_of([&] { session.simulator().finish(); });
+    return seconds + processor_seconds_of([&] { run.finish(); });
   }
 
   Scene linear_;
