@@ -18,7 +18,7 @@ namespace kds {
 
 /// Processor seconds and events of all steps.
 struct StepsRun {
-  double seconds = 0;  ///< including the motions made of frames, except that of the first step
+  double seconds = 0;  ///< including the motions made of frames
   double own = 0;      ///< `seconds` without those to load the same steps again: engine and structure alone
   std::uint64_t events = 0;
 };
@@ -31,7 +31,7 @@ struct StepsRun {
 inline constexpr std::string_view sphere_peer = "CGAL Min_sphere_of_spheres_d";
 
 /// Adds rows for linear motion. `factor`: how many times as fast as the peer a step should be, if there is
-/// such a goal. A step includes making its motion of the frames, except in the first step.
+/// such a goal. A step includes making its motion of the frames.
 void bench_kinetic_steps(const BenchChain& chain, std::size_t rounds, std::optional<double> factor,
                          std::vector<BenchRow>& rows);
 
