@@ -133,6 +133,45 @@ INSTANTIATE_TEST_SUITE_P(, RunOver,
                                          std::pair(2, FrameMotion::hermite),
                                          std::pair(3, FrameMotion::hermite)));
 
+TEST_P(RunOver, BuildingAndLoadingBeforeAStepIsTheSameRun) {
+  const Scene scene = scene_of(dimension, frames, motion);
+  KineticRun at_once(scene, four), in_parts(scene, four);
+  EventLog expected, log;
+  at_once.listen(expected);
+  in_parts.listen(log);
+  at_once.finish();
+  in_parts.build();
+  in_parts.build();  // has no further effect
+  EXPECT_TRUE(log.events.empty());
+  std::size_t steps = 0;
+  for (; in_parts.load_step(); ++steps) {
+    EXPECT_TRUE(in_parts.load_step());
+    if (steps == 2) in_parts.go_to(2.5);
+    EXPECT_TRUE(in_parts.load_step());
+    EXPECT_TRUE(in_parts.run_step());
+    EXPECT_FALSE(in_parts.within_step());
+  }
+  EXPECT_EQ(steps, 5U);
+  in_parts.finish();
+  EXPECT_EQ(in_parts.simulator().fingerprint(), at_once.simulator().fingerprint());
+  EXPECT_EQ(lines_of(log), lines_of(expected));
+  in_parts.go_to(0);
+  EXPECT_TRUE(in_parts.load_step());
+  in_parts.finish();
+  EXPECT_EQ(in_parts.simulator().fingerprint(), at_once.simulator().fingerprint());
+}
+
+TEST(KineticRun, IsBuiltOnceItsFirstStepIsKnown) {
+  KineticRun run(beads_in(3), four);
+  const std::vector<Frame> frames = frames_of(3, 2);
+  EXPECT_FALSE(run.load_step());
+  run.take(frames[0]);
+  EXPECT_THROW(run.build(), std::logic_error);
+  run.take(frames[1]);
+  EXPECT_NO_THROW(run.build());
+  EXPECT_TRUE(run.run_step());
+}
+
 TEST(KineticRun, GoesBackByReplayWithItsEdits) {
   const Scene scene = scene_of(3, frames_of(3, 5));
   const SessionOptions options{{"sorted", "power", "contacts"}, Kernel::filtered, AuditMode::frames};
