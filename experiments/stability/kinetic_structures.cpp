@@ -71,7 +71,8 @@ Outcome outcome_of(const Case& one, const Settled& what, Kernel kernel, AuditMod
     outcome.events = std::move(recorder.events);
     outcome.fingerprint = run.simulator().fingerprint();
     outcome.statistics = run.structures().front()->statistics;
-    outcome.seconds = simulator.seconds_of(0) + run.simulator().seconds() + outcome.statistics.build_seconds;
+    outcome.seconds =
+        run.simulator().seconds_of(0) + run.simulator().seconds() + outcome.statistics.build_seconds;
   } catch (const InputError& error) {
     outcome.refusal = error.what();
   } catch (const std::exception& error) {
