@@ -4,6 +4,7 @@
 // the same for every kernel and every run.
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <unordered_map>
 
@@ -13,9 +14,16 @@
 
 namespace kds {
 
-/// An owner of certificates whose failures are in the queue.
-class ScheduledSource : public CertificateSource {
+/// The engine's side of a certificate table: an owner of certificates whose failures are in the queue.
+class FailureSource : public CertificateSource {
  public:
+  /// Handles the failure of the certificate in `slot`, which is the present event.
+  virtual void fail(std::uint32_t slot) = 0;
+  /// Called when the failure's time is past: the slot may be reused.
+  virtual void retire(std::uint32_t slot) = 0;
+  /// Called at the end of a step: discards all certificates.
+  virtual void clear() = 0;
+  [[nodiscard]] virtual std::size_t structure() const = 0;
   [[nodiscard]] virtual Identity identity(std::uint32_t slot) const = 0;
   /// Returns the sign of its identity's function that the certificate requires: true for positive.
   [[nodiscard]] virtual bool side(std::uint32_t) const { return true; }
@@ -32,7 +40,7 @@ struct ScheduledFailure {
   FailureTime time;
   std::uint32_t tie = 0;  ///< failures with the same non-zero number are known to be at the same time
   std::uint32_t slot = 0;
-  ScheduledSource* source = nullptr;
+  FailureSource* source = nullptr;
 
   [[nodiscard]] Identity identity() const { return source->identity(slot); }
 };

@@ -30,9 +30,9 @@ std::vector<BeadId> each_once(std::span<const BeadId> named) {
 
 /// Marks the run as running while structures change. If an exception escapes, the structures are in an
 /// unknown state, so the run stays marked as running.
-class Simulator::Running {
+class Simulator::MutationScope {
  public:
-  explicit Running(Simulator& simulator)
+  explicit MutationScope(Simulator& simulator)
       : running_(simulator.running_), before_(std::exchange(running_, true)) {}
   void end() { running_ = before_; }
 
@@ -79,7 +79,7 @@ void Simulator::require(Phase phase, const char* what) const {
 }
 
 void Simulator::build() {
-  const Entry entry(*this);
+  const ComputeScope scope(*this);
   if (phase_ == Phase::within_step) require(Phase::between_steps, "build()");
   phase_ = Phase::between_steps;
   for (std::size_t s = 0; s < structures_.size(); ++s) {
@@ -92,14 +92,14 @@ void Simulator::build() {
 }
 
 void Simulator::run_step() {
-  const Entry entry(*this);
+  const ComputeScope scope(*this);
   start_step();
   run_events<false>(nullptr);
   finish_step();
 }
 
 void Simulator::finish() {
-  const Entry entry(*this);
+  const ComputeScope scope(*this);
   require(Phase::between_steps, "finish()");
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     watch_.charge(lane_of(s));
@@ -114,7 +114,7 @@ void Simulator::set_frames(const FrameStamp& from, const FrameStamp& to) {
 }
 
 void Simulator::enter_step() {
-  const Entry entry(*this);
+  const ComputeScope scope(*this);
   start_step();
   watch_.charge(Stopwatch::stopped);
 }
@@ -122,17 +122,17 @@ void Simulator::enter_step() {
 void Simulator::start_step() {
   require(Phase::between_steps, "a step");
   begin_step();
-  Running running(*this);
+  MutationScope mutation(*this);
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     watch_.charge(lane_of(s));
     structures_[s]->start_step();
   }
-  after_batch();
-  running.end();
+  settle_batch();
+  mutation.end();
 }
 
 void Simulator::run_until(const Dyadic& time) {
-  const Entry entry(*this);
+  const ComputeScope scope(*this);
   require(Phase::within_step, "run_until()");
   ExactTime stop(time);
   if (ExactTime::compare(stop, now_.exact()) < 0 || !(time < Dyadic(1.0)))
@@ -145,7 +145,7 @@ void Simulator::run_until(const Dyadic& time) {
 }
 
 bool Simulator::run_next() {
-  const Entry entry(*this);
+  const ComputeScope scope(*this);
   require(Phase::within_step, "run_next()");
   const bool any = run_events<true>(nullptr);
   if (any) hold_now();
@@ -171,7 +171,7 @@ void Simulator::require_standing_still() const {
 }
 
 void Simulator::change_motion(std::span<const BeadId> beads, const std::function<void()>& set_curves) {
-  const Entry entry(*this);
+  const ComputeScope scope(*this);
   require_standing_still();
   const std::vector<BeadId> once = each_once(beads);
   beads = once;
@@ -183,7 +183,7 @@ void Simulator::change_motion(std::span<const BeadId> beads, const std::function
           "{}: its beads cannot change course within a step, only between two of them", structure->name()));
     followers.back()->require_release(beads);
   }
-  Running running(*this);
+  MutationScope mutation(*this);
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     watch_.charge(lane_of(s));
     followers[s]->release(beads);
@@ -199,20 +199,20 @@ void Simulator::change_motion(std::span<const BeadId> beads, const std::function
     watch_.charge(lane_of(s));
     followers[s]->take_up(beads);
   }
-  running.end();
+  mutation.end();
   watch_.charge(Stopwatch::stopped);
   if (refused) std::rethrow_exception(refused);
 }
 
 void Simulator::leave_step() {
-  const Entry entry(*this);
+  const ComputeScope scope(*this);
   require(Phase::within_step, "leave_step()");
   run_events<false>(nullptr);
   finish_step();
 }
 
 bool Simulator::try_step(std::uint64_t most) {
-  const Entry entry(*this);
+  const ComputeScope scope(*this);
   start_step();
   if (run_events<false>(nullptr, most)) {
     finish_step();
@@ -257,14 +257,14 @@ void Simulator::end_step() {
 }
 
 void Simulator::build_for_replay() {
-  const Entry entry(*this);
+  const ComputeScope scope(*this);
   recording_ = false;
   build();
   recording_ = true;
 }
 
 void Simulator::replay_step(std::span<const Replayed> events) {
-  const Entry entry(*this);
+  const ComputeScope scope(*this);
   require(Phase::between_steps, "a step");
   begin_step();
   for (const Replayed& event : events) {
@@ -283,34 +283,37 @@ void Simulator::replay_step(std::span<const Replayed> events) {
 
 template <bool one_moment>
 bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
-  Running running(*this);
+  MutationScope mutation(*this);
   [[maybe_unused]] bool any = false;
   const bool alone = structures_.size() == 1;  // then the engine's time is charged to the structure
   watch_.charge(alone ? lane_of(0) : nobody);
   while (true) {
-    advance(queue_.empty() ? nullptr : &queue_.top());
+    if ((audits_ == AuditMode::events || must_settle()) && is_batch_over()) {
+      settle_batch();
+      if (audits_ == AuditMode::events) static_cast<void>(audit_before(next_failure()));
+    }
     const bool tied =
         present_.source != nullptr && !queue_.empty() && order_.compare_times(present_, queue_.top()) == 0;
     if (!tied) ++moment_;
     if constexpr (one_moment) {
       if ((any && !tied) || queue_.empty()) {
-        running.end();
+        mutation.end();
         return any;
       }
       any = true;
     }
     retire_present();
     if (queue_.empty() || (until != nullptr && is_after(queue_.top(), *until))) {
-      running.end();
+      mutation.end();
       return true;
     }
     if (most-- == 0) {
-      running.end();
+      mutation.end();
       return false;
     }
     present_ = queue_.top();
     queue_.pop();
-    auto& source = static_cast<FailureSource&>(*present_.source);
+    FailureSource& source = *present_.source;
     now_ = Instant(present_.time, source, present_.slot);
     if (!alone) watch_.charge(lane_of(source.structure()));
     source.fail(present_.slot);
@@ -326,21 +329,13 @@ bool Simulator::is_after(const ScheduledFailure& failure, const Dyadic& time) {
   return ExactTime::compare(limit, failing) < 0;
 }
 
-// Called when nothing more happens at the present time: settles the structures, then audits them, if asked,
-// at a time before the next event.
-void Simulator::advance(ScheduledFailure* next) {
-  const bool waiting =
-      audits_ == AuditMode::events ||
-      std::any_of(structures_.begin(), structures_.end(), [](auto* s) { return s->needs_after_batch; });
-  if (!waiting) return;
-  const auto later = [&] {
-    return next == nullptr || present_.source == nullptr || order_.compare_times(present_, *next) < 0;
-  };
-  if (!later()) return;
-  after_batch();
-  next = queue_.empty() ? nullptr : &queue_.top();
-  if (audits_ != AuditMode::events) return;
-  static_cast<void>(audit_before(next));
+bool Simulator::must_settle() const {
+  return std::any_of(structures_.begin(), structures_.end(), [](auto* s) { return s->needs_after_batch; });
+}
+
+bool Simulator::is_batch_over() {
+  ScheduledFailure* const next = next_failure();
+  return next == nullptr || present_.source == nullptr || order_.compare_times(present_, *next) < 0;
 }
 
 /// Audits all structures at a time between now and the next failure, or between now and the end of the step.
@@ -354,17 +349,17 @@ bool Simulator::audit_before(ScheduledFailure* next) {
 }
 
 void Simulator::audit_now() {
-  const Entry entry(*this);
+  const ComputeScope scope(*this);
   require(phase_ == Phase::new_run ? Phase::between_steps : phase_, "audit_now()");
   if (phase_ == Phase::between_steps) return audit(Dyadic(step_ == 0 ? 0.0 : 1.0));
-  Running running(*this);
-  after_batch();
-  if (!audit_before(queue_.empty() ? nullptr : &queue_.top()))
+  MutationScope mutation(*this);
+  settle_batch();
+  if (!audit_before(next_failure()))
     throw std::logic_error("audit_now(): a failure is due at this very time: call run_next() first");
-  running.end();
+  mutation.end();
 }
 
-void Simulator::after_batch() {
+void Simulator::settle_batch() {
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     if (!structures_[s]->needs_after_batch) continue;
     const std::size_t before = watch_.charge(lane_of(s));
@@ -375,7 +370,7 @@ void Simulator::after_batch() {
 }
 
 void Simulator::retire_present() {
-  if (present_.source != nullptr) static_cast<FailureSource*>(present_.source)->retire(present_.slot);
+  if (present_.source != nullptr) present_.source->retire(present_.slot);
   present_ = {};
 }
 
@@ -414,15 +409,15 @@ void Simulator::record(std::size_t structure, const Change& change) {
   if (s.kinds()[change.kind].external) ++s.statistics.events_per_step.back();
   fingerprint_.add(static_cast<std::uint32_t>(step_), static_cast<std::uint32_t>(structure), change);
   if (!listeners_.empty()) [[unlikely]]
-    Running::tell(*this, structure, change);
+    MutationScope::tell(*this, structure, change);
 }
 
-void Simulator::Running::tell(Simulator& simulator, std::size_t structure, const Change& change) {
+void Simulator::MutationScope::tell(Simulator& simulator, std::size_t structure, const Change& change) {
   const std::size_t before = simulator.watch_.charge(listening);
   const KineticStructure& s = *simulator.structures_[structure];
   Event event{simulator.step_, simulator.now_.lower(), simulator.now_.upper(), structure,     change,
               s.name(),        s.kinds()[change.kind], simulator.from_,        simulator.to_, {}};
-  Running running(simulator);  // also if the change is an edit
+  MutationScope mutation(simulator);  // also if the change is an edit
   for (EventListener* listener : simulator.listeners_) {
     if (!event.rounded && listener->prints_time_of(event)) {
       const ExactWork::Open account(simulator.listeners_work_);  // not counted as the run's own work
@@ -430,7 +425,7 @@ void Simulator::Running::tell(Simulator& simulator, std::size_t structure, const
     }
     listener->on_event(event);
   }
-  running.end();
+  mutation.end();
   simulator.watch_.charge(before);
 }
 

@@ -25,18 +25,6 @@
 
 namespace kds {
 
-/// The engine's side of a certificate table.
-class FailureSource : public ScheduledSource {
- public:
-  /// Handles the failure of the certificate in `slot`, which is the present event.
-  virtual void fail(std::uint32_t slot) = 0;
-  /// Called when the failure's time is past: the slot may be reused.
-  virtual void retire(std::uint32_t slot) = 0;
-  /// Called at the end of a step: discards all certificates.
-  virtual void clear() = 0;
-  [[nodiscard]] virtual std::size_t structure() const = 0;
-};
-
 class Simulator {
  public:
   explicit Simulator(AuditMode audits = AuditMode::none, Kernel kernel = Kernel::filtered)
@@ -48,9 +36,9 @@ class Simulator {
 
   /// Scope under which all computations of a run take place: sets rounding to nearest and charges exact work
   /// to this run. A structure opens one in each function that is called from outside the simulator.
-  class Entry {
+  class ComputeScope {
    public:
-    explicit Entry(Simulator& simulator) : account_(simulator.work_) {}
+    explicit ComputeScope(Simulator& simulator) : account_(simulator.work_) {}
 
    private:
     FloatingPointGuard to_nearest_;
@@ -165,7 +153,7 @@ class Simulator {
   static constexpr std::size_t nobody = 0, listening = 1;
   [[nodiscard]] static constexpr std::size_t lane_of(std::size_t structure) { return structure + 2; }
 
-  class Running;
+  class MutationScope;
 
   void require(Phase phase, const char* what) const;
   void hold_now();
@@ -181,9 +169,13 @@ class Simulator {
   template <bool one_moment>
   bool run_events(const Dyadic* until, std::uint64_t most = no_limit);
   [[nodiscard]] static bool is_after(const ScheduledFailure& failure, const Dyadic& time);
-  void advance(ScheduledFailure* next);
+  /// Returns null if nothing more fails in this step.
+  [[nodiscard]] ScheduledFailure* next_failure() { return queue_.empty() ? nullptr : &queue_.top(); }
+  /// Returns whether a structure waits for the end of the batch, which is all failures at one time.
+  [[nodiscard]] bool must_settle() const;
+  [[nodiscard]] bool is_batch_over();
+  void settle_batch();
   void retire_present();
-  void after_batch();
   void audit(const Dyadic& time);
   [[nodiscard]] bool audit_before(ScheduledFailure* next);
 

@@ -189,7 +189,7 @@ void EnclosingBox<Dimension>::apply(const Change& change) {
 
 template <int Dimension>
 void EnclosingBox<Dimension>::edit(Kind kind, BeadId bead) {
-  const Simulator::Entry entry(simulator_);
+  const Simulator::ComputeScope scope(simulator_);
   present_.require(bead, kind == inserts);
   simulator_.require_standing_still();
   simulator_.record(index_, Change{kind, 1, {bead}});

@@ -109,7 +109,7 @@ void KineticClosestPair<Dimension>::apply(const Change& change) {
 
 template <int Dimension>
 void KineticClosestPair<Dimension>::edit(Kind kind, BeadId bead) {
-  const Simulator::Entry entry(simulator_);
+  const Simulator::ComputeScope scope(simulator_);
   present_.require(bead, kind == inserts);
   simulator_.require_standing_still();
   PresentBeads<Dimension> present = present_;

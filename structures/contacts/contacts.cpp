@@ -133,7 +133,7 @@ void Contacts<D>::settle_now() {
 
 template <int D>
 void Contacts<D>::insert(BeadId bead) {
-  const Simulator::Entry entry(simulator_);
+  const Simulator::ComputeScope scope(simulator_);
   present_.require(bead, true);
   simulator_.require_standing_still();
   present_.set_absent(bead, false);
@@ -143,7 +143,7 @@ void Contacts<D>::insert(BeadId bead) {
 
 template <int D>
 void Contacts<D>::erase(BeadId bead) {
-  const Simulator::Entry entry(simulator_);
+  const Simulator::ComputeScope scope(simulator_);
   present_.require(bead, false);
   simulator_.require_standing_still();
   drop_of({&bead, 1});

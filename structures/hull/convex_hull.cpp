@@ -171,7 +171,7 @@ void ConvexHull::apply(const Change& change) {
 // Edits: beads are inserted, erased, or change course.
 
 void ConvexHull::edit(Kind kind, BeadId bead) {
-  const Simulator::Entry entry(simulator_);
+  const Simulator::ComputeScope scope(simulator_);
   present_.require(bead, kind == inserts);
   simulator_.require_standing_still();
   simulator_.record(index_, Change{kind, 1, {bead}});

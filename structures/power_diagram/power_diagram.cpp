@@ -106,7 +106,7 @@ void PowerDiagram<Dimension>::finish() {
 
 template <int Dimension>
 void PowerDiagram<Dimension>::reach_frame() {
-  const Simulator::Entry entry(parts_->state.simulator);
+  const Simulator::ComputeScope scope(parts_->state.simulator);
   auto& [state, facets, hidden, flips, rebuilder, editor] = *parts_;
   const Curves<Dimension> curves = state.motion.curves();
   const auto build_anew = [&] {
@@ -125,7 +125,7 @@ void PowerDiagram<Dimension>::reach_frame() {
 
 template <int Dimension>
 void PowerDiagram<Dimension>::rebuild_if_flat() {
-  const Simulator::Entry entry(parts_->state.simulator);
+  const Simulator::ComputeScope scope(parts_->state.simulator);
   if (!parts_->state.flat) return;
   parts_->rebuilder.build_from_control_points(parts_->state.motion.degree());
   ++statistics.rebuilds;
@@ -133,7 +133,7 @@ void PowerDiagram<Dimension>::rebuild_if_flat() {
 
 template <int Dimension>
 void PowerDiagram<Dimension>::build_at_end() {
-  const Simulator::Entry entry(parts_->state.simulator);
+  const Simulator::ComputeScope scope(parts_->state.simulator);
   parts_->rebuilder.build_bare_at_end();
 }
 
@@ -155,7 +155,7 @@ std::optional<std::string> PowerDiagram<Dimension>::audit(const Dyadic& time) {
 
 template <int Dimension>
 std::vector<BeadId> PowerDiagram<Dimension>::neighbors(BeadId bead) const {
-  const Simulator::Entry entry(parts_->state.simulator);
+  const Simulator::ComputeScope scope(parts_->state.simulator);
   auto& state = parts_->state;
   state.present_beads.require(bead, false);
   if (!state.has_cells())
@@ -176,7 +176,7 @@ std::vector<BeadId> PowerDiagram<Dimension>::neighbors(BeadId bead) const {
 
 template <int Dimension>
 StaticTriangulation<Dimension> PowerDiagram<Dimension>::at_frame(bool first) const {
-  const Simulator::Entry entry(parts_->state.simulator);
+  const Simulator::ComputeScope scope(parts_->state.simulator);
   const auto& state = parts_->state;
   if (is_solid()) return {state.triangulation.finite_cells(), state.hidden.beads(), Dimension};
   return static_diagram_at_end(state, first ? 0 : state.motion.degree());
@@ -184,7 +184,7 @@ StaticTriangulation<Dimension> PowerDiagram<Dimension>::at_frame(bool first) con
 
 template <int Dimension>
 DiagramEdges PowerDiagram<Dimension>::edges_at_frame(bool first) const {
-  const Simulator::Entry entry(parts_->state.simulator);
+  const Simulator::ComputeScope scope(parts_->state.simulator);
   const auto& state = parts_->state;
   if (state.has_cells()) return edges_of(state.triangulation, state.bead_count(), state.hidden.beads());
   return static_edges_at_end(state, first ? 0 : state.motion.degree());
@@ -197,13 +197,13 @@ void PowerDiagram<Dimension>::leave_out(BeadId bead) {
 
 template <int Dimension>
 void PowerDiagram<Dimension>::insert(BeadId bead, BeadId near) {
-  const Simulator::Entry entry(parts_->state.simulator);
+  const Simulator::ComputeScope scope(parts_->state.simulator);
   parts_->editor.insert(bead, near);
 }
 
 template <int Dimension>
 void PowerDiagram<Dimension>::erase(BeadId bead) {
-  const Simulator::Entry entry(parts_->state.simulator);
+  const Simulator::ComputeScope scope(parts_->state.simulator);
   parts_->editor.erase(bead);
 }
 

@@ -103,7 +103,7 @@ std::size_t SortedList<D>::place_for(BeadId bead) {
 
 template <int D>
 void SortedList<D>::insert(BeadId bead) {
-  const Simulator::Entry entry(simulator_);
+  const Simulator::ComputeScope scope(simulator_);
   present_.require(bead, true);
   simulator_.require_standing_still();
   const std::size_t i = place_for(bead);
@@ -120,7 +120,7 @@ void SortedList<D>::insert(BeadId bead) {
 
 template <int D>
 void SortedList<D>::erase(BeadId bead) {
-  const Simulator::Entry entry(simulator_);
+  const Simulator::ComputeScope scope(simulator_);
   present_.require(bead, false);
   simulator_.require_standing_still();
   simulator_.record(index_, Change{erases, 1, {bead}});
