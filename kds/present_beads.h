@@ -12,27 +12,25 @@
 
 #include "kds/change.h"
 #include "motions/base/require_index.h"
-#include "motions/curves/motion_ref.h"
 
 namespace kds {
 
-template <int Dimension>
 class PresentBeads {
  public:
   /// `structure` is the structure's name for messages, in static storage.
-  PresentBeads(std::string_view structure, const MotionRef<Dimension>& motion)
-      : structure_(structure), motion_(motion) {}
+  PresentBeads(std::string_view structure, std::size_t bead_count)
+      : structure_(structure), bead_count_(bead_count) {}
 
   /// Throws std::invalid_argument if the bead does not exist.
   [[nodiscard]] bool is_absent(BeadId bead) const {
-    require_index("bead", bead, motion_.bead_count());
+    require_index("bead", bead, bead_count_);
     return bead < absent_.size() && absent_[bead] != 0;
   }
-  [[nodiscard]] std::size_t count() const { return motion_.bead_count() - absent_count_; }
+  [[nodiscard]] std::size_t count() const { return bead_count_ - absent_count_; }
   /// Returns the beads that are present, in ascending order.
   [[nodiscard]] std::vector<BeadId> all() const {
     std::vector<BeadId> beads;
-    for (BeadId bead = 0; bead < motion_.bead_count(); ++bead)
+    for (BeadId bead = 0; bead < bead_count_; ++bead)
       if (!is_absent(bead)) beads.push_back(bead);
     return beads;
   }
@@ -48,7 +46,7 @@ class PresentBeads {
   }
   void set_absent(BeadId bead, bool absent) {
     if (is_absent(bead) == absent) return;
-    absent_.resize(motion_.bead_count(), 0);
+    absent_.resize(bead_count_, 0);
     absent_[bead] = absent ? 1 : 0;
     absent_count_ += absent ? 1 : std::size_t(-1);
   }
@@ -75,7 +73,7 @@ class PresentBeads {
   }
 
   std::string_view structure_;
-  MotionRef<Dimension> motion_;
+  std::size_t bead_count_;
   std::vector<char> absent_;
   std::size_t absent_count_ = 0;
   bool built_ = false;

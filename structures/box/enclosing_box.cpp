@@ -32,6 +32,17 @@ bool is_nearer(const Curves<Dimension>& curves, int axis, bool high, BeadId a, B
   return a < b;
 }
 
+constexpr std::array<IdRole, 2> was_is{{{"was"}, {"is"}}};
+
+template <int Dimension>
+constexpr auto box_kinds = [] {
+  constexpr std::array<std::string_view, 6> ends{"min-x", "max-x", "min-y", "max-y", "min-z", "max-z"};
+  std::array<EventKind, 1 + 2 * Dimension> kinds;
+  kinds[0] = {"overtake", false, false, was_is};
+  for (std::size_t e = 0; e < 2 * Dimension; ++e) kinds[1 + e] = {ends[e], true, false, was_is};
+  return with_edits(kinds);
+}();
+
 }  // namespace
 
 /// Both ends of the box along one axis.
@@ -61,7 +72,7 @@ template <int Axis>
 class EnclosingBox<Dimension>::EndsAlong final : public Ends {
  public:
   explicit EndsAlong(EnclosingBox& box)
-      : table_(box.simulator_, box, box.index_, Axis, box.motion_),
+      : table_(box.simulator(), box, box.index(), Axis, box.motion_),
         low_(table_, {false}, 0, 2),
         high_(table_, {true}, 1, 2) {}
 
@@ -103,7 +114,7 @@ class EnclosingBox<Dimension>::EndsAlong final : public Ends {
 
 template <int Dimension>
 EnclosingBox<Dimension>::EnclosingBox(Simulator& simulator, const MotionRef<Dimension>& motion)
-    : simulator_(simulator), motion_(motion), index_(simulator.add(*this)), present_(name(), motion) {
+    : EditableBase(simulator, motion.bead_count(), "box", box_kinds<Dimension>), motion_(motion) {
   axes_.push_back(std::make_unique<EndsAlong<0>>(*this));
   if constexpr (Dimension > 1) axes_.push_back(std::make_unique<EndsAlong<1>>(*this));
   if constexpr (Dimension > 2) axes_.push_back(std::make_unique<EndsAlong<2>>(*this));
@@ -113,27 +124,10 @@ template <int Dimension>
 EnclosingBox<Dimension>::~EnclosingBox() = default;
 
 template <int Dimension>
-std::span<const EventKind> EnclosingBox<Dimension>::kinds() const {
-  static constexpr std::array<IdRole, 2> was_is{{{"was"}, {"is"}}};
-  static constexpr std::array<IdRole, 1> bead{{{"bead"}}};
-  static constexpr std::array<std::string_view, 6> ends{"min-x", "max-x", "min-y", "max-y", "min-z", "max-z"};
-  static constexpr auto kinds = [] {
-    std::array<EventKind, changes + 1> all;
-    all[overtake] = {"overtake", false, false, was_is};
-    for (std::size_t e = 0; e < 2 * Dimension; ++e) all[first_end + e] = {ends[e], true, false, was_is};
-    all[inserts] = {"insert", false, true, bead};
-    all[erases] = {"erase", false, true, bead};
-    all[changes] = {"change", false, true, bead};
-    return all;
-  }();
-  return kinds;
-}
-
-template <int Dimension>
 void EnclosingBox<Dimension>::build() {
   const Curves<Dimension> curves = motion_.curves();
-  present_.structure_is_built();
-  const std::vector<BeadId> beads = present_.all();
+  present().structure_is_built();
+  const std::vector<BeadId> beads = present().all();
   ends_.assign(curves.bead_count() == 0 ? 0 : 2 * Dimension, beads.empty() ? no_bead : beads[0]);
   for (std::size_t e = 0; e < ends_.size(); ++e) {
     for (const BeadId b : beads)
@@ -143,8 +137,8 @@ void EnclosingBox<Dimension>::build() {
 
 template <int Dimension>
 void EnclosingBox<Dimension>::start_step() {
-  std::vector<std::uint32_t> certificates_of(motion_.bead_count(), 0);
-  for (const auto& axis : axes_) axis->start(present_.absent(), certificates_of);
+  std::vector<std::uint32_t> certificates_of(bead_count(), 0);
+  for (const auto& axis : axes_) axis->start(present().absent(), certificates_of);
   auto& most = statistics.certificates.per_bead_max;
   for (const std::uint32_t count : certificates_of) most = std::max<std::uint64_t>(most, count);
   needs_after_batch = true;
@@ -157,7 +151,7 @@ void EnclosingBox<Dimension>::fail(unsigned table, std::uint32_t slot) {
   if (axes_[table]->at(at_high) != (at_high ? high : low)) {
     needs_after_batch = true;
   } else {
-    simulator_.record(index_, Change{overtake, 2, {behind, ahead}});
+    record(overtake, {behind, ahead});
   }
 }
 
@@ -166,35 +160,32 @@ void EnclosingBox<Dimension>::after_batch() {
   for (std::size_t e = 0; e < ends_.size(); ++e) {
     const BeadId now = axes_[e / 2]->at(e % 2 == 1);
     if (now == ends_[e]) continue;
-    simulator_.record(index_, Change{static_cast<std::uint8_t>(first_end + e), 2, {ends_[e], now}});
+    record(Change{static_cast<std::uint8_t>(first_end + e), 2, {ends_[e], now}});
     ends_[e] = now;
   }
 }
 
 template <int Dimension>
 void EnclosingBox<Dimension>::apply(const Change& change) {
-  if (change.kind >= inserts) return present_.apply(change, inserts);
+  if (apply_edit(change)) return;
   const auto [was, is] = std::array{change.ids[0], change.ids[1]};
   if (change.kind == overtake) {  // tournaments are not replayed; only check the beads
-    present_.require(was, false);
-    return present_.require(is, false);
+    present().require(was, false);
+    return present().require(is, false);
   }
   BeadId& end = ends_[change.kind - first_end];
   if (end != was) throw std::invalid_argument("the first bead is not at this end of the box");
-  if (is != no_bead || present_.count() > 0) present_.require(is, false);
+  if (is != no_bead || present().count() > 0) present().require(is, false);
   end = is;
 }
 
 // Edits: beads are inserted, erased, or change course.
 
 template <int Dimension>
-void EnclosingBox<Dimension>::edit(Kind kind, BeadId bead) {
-  const Simulator::ComputeScope scope(simulator_);
-  present_.require(bead, kind == inserts);
-  simulator_.require_standing_still();
-  simulator_.record(index_, Change{kind, 1, {bead}});
+void EnclosingBox<Dimension>::edit(std::uint8_t kind, BeadId bead) {
+  record(kind, {bead});
   release({&bead, 1});
-  present_.set_absent(bead, kind == erases);
+  present().set_absent(bead, kind == erases);
   for (const auto& axis : axes_) axis->set_present(bead, kind == inserts);
   hold_again();
 }
@@ -206,9 +197,7 @@ void EnclosingBox<Dimension>::release(std::span<const BeadId> beads) {
 }
 
 template <int Dimension>
-void EnclosingBox<Dimension>::take_up(std::span<const BeadId> beads) {
-  for (const BeadId bead : beads)
-    if (!is_absent(bead)) simulator_.record(index_, Change{changes, 1, {bead}});
+void EnclosingBox<Dimension>::follow(std::span<const BeadId>) {
   hold_again();
 }
 
@@ -221,9 +210,9 @@ void EnclosingBox<Dimension>::hold_again() {
 template <int Dimension>
 std::optional<std::string> EnclosingBox<Dimension>::audit(const Dyadic& time) {
   for (std::size_t e = 0; e < ends_.size(); ++e) {
-    if (ends_[e] == no_bead ? present_.count() > 0 : is_absent(ends_[e]))
+    if (ends_[e] == no_bead ? present().count() > 0 : is_absent(ends_[e]))
       return "no bead of the box is its " + std::string(kinds()[first_end + e].name);
-    for (const BeadId b : present_.all()) {
+    for (const BeadId b : present().all()) {
       if (axes_[e / 2]->is_beyond(e % 2 == 1, b, ends_[e], time))
         return "bead " + std::to_string(b) + " lies beyond bead " + std::to_string(ends_[e]) + ", " +
                std::string(kinds()[first_end + e].name) + " of the box";

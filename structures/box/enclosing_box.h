@@ -13,9 +13,7 @@
 #include <memory>
 #include <vector>
 
-#include "kds/bead_edits.h"
-#include "kds/kinetic_structure.h"
-#include "kds/present_beads.h"
+#include "kds/structure_base.h"
 #include "motions/curves/motion_ref.h"
 
 namespace kds {
@@ -23,7 +21,7 @@ namespace kds {
 class Simulator;
 
 template <int Dimension>
-class EnclosingBox final : public KineticStructure, public BeadEdits {
+class EnclosingBox final : public EditableBase {
  public:
   /// Ids of an overtaking inside a tournament: the bead that was ahead, then the bead that is ahead now.
   /// Ids of a change of an end: the previous bead and the new bead, no_bead if there is none; the kinds of
@@ -34,8 +32,6 @@ class EnclosingBox final : public KineticStructure, public BeadEdits {
   EnclosingBox(Simulator& simulator, const MotionRef<Dimension>& motion);
   ~EnclosingBox() override;
 
-  [[nodiscard]] std::string_view name() const override { return "box"; }
-  [[nodiscard]] std::span<const EventKind> kinds() const override;
   /// Returns the first and the last bead along the first axis, then along the next. All are no_bead if all
   /// beads are absent. Empty for a motion without beads.
   [[nodiscard]] const std::vector<BeadId>& ends() const { return ends_; }
@@ -47,25 +43,17 @@ class EnclosingBox final : public KineticStructure, public BeadEdits {
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
-  void leave_out(BeadId bead) override { present_.leave_out(bead); }
-  void insert(BeadId bead) override { edit(inserts, bead); }
-  void erase(BeadId bead) override { edit(erases, bead); }
-  [[nodiscard]] bool is_absent(BeadId bead) const override { return present_.is_absent(bead); }
-
  private:
   class Ends;
   template <int Axis>
   class EndsAlong;
 
   void release(std::span<const BeadId> beads) override;
-  void take_up(std::span<const BeadId> beads) override;
-  void edit(Kind kind, BeadId bead);
+  void follow(std::span<const BeadId> beads) override;
+  void edit(std::uint8_t kind, BeadId bead) override;
   void hold_again();
 
-  Simulator& simulator_;
   MotionRef<Dimension> motion_;
-  std::size_t index_;
-  PresentBeads<Dimension> present_;
   std::vector<std::unique_ptr<Ends>> axes_;
   std::vector<BeadId> ends_;
 };

@@ -15,35 +15,25 @@ namespace {
 
 constexpr std::array<BeadId, 2> no_pair{no_bead, no_bead};
 
+constexpr std::array<IdRole, 2> pair_was_is{{{"was", 2}, {"is", 2}}};
+constexpr auto pair_kinds = with_edits(std::array{EventKind{"overtake", false, false, pair_was_is},
+                                                  EventKind{"replace", true, false, pair_was_is}});
+
 }  // namespace
 
 template <int Dimension>
 KineticClosestPair<Dimension>::KineticClosestPair(Simulator& simulator, const MotionRef<Dimension>& motion)
-    : simulator_(simulator),
+    : EditableBase(simulator, motion.bead_count(), "closest", pair_kinds),
       motion_(motion),
-      index_(simulator.add(*this)),
-      table_(simulator, *this, index_, 0, motion),
-      present_(name(), motion),
+      table_(simulator, *this, index(), 0, motion),
       tournament_(table_, Ahead{&candidates_}) {}
 
 template <int Dimension>
-std::span<const EventKind> KineticClosestPair<Dimension>::kinds() const {
-  static constexpr std::array<IdRole, 2> was_is{{{"was", 2}, {"is", 2}}};
-  static constexpr std::array<IdRole, 1> bead{{{"bead"}}};
-  static constexpr std::array<EventKind, 5> kinds{{{"overtake", false, false, was_is},
-                                                   {"replace", true, false, was_is},
-                                                   {"insert", false, true, bead},
-                                                   {"erase", false, true, bead},
-                                                   {"change", false, true, bead}}};
-  return kinds;
-}
-
-template <int Dimension>
 void KineticClosestPair<Dimension>::build() {
-  present_.structure_is_built();
+  present().structure_is_built();
   pair_.reset();
-  for (const Pair& pair : candidate_pairs(motion_.curves(), present_.absent())) {
-    if (!pair_ || table_.search().sign_just_after(simulator_.kernel(), {pair, *pair_}, Instant(0),
+  for (const Pair& pair : candidate_pairs(motion_.curves(), present().absent())) {
+    if (!pair_ || table_.search().sign_just_after(simulator().kernel(), {pair, *pair_}, Instant(0),
                                                   statistics.stages) > 0)
       pair_ = pair;
   }
@@ -51,10 +41,10 @@ void KineticClosestPair<Dimension>::build() {
 
 template <int Dimension>
 void KineticClosestPair<Dimension>::start_step() {
-  candidates_ = candidate_pairs(motion_.curves(), present_.absent());
+  candidates_ = candidate_pairs(motion_.curves(), present().absent());
   tournament_.start(static_cast<std::uint32_t>(candidates_.size()));
   needs_after_batch = true;
-  std::vector<std::uint32_t> certificates_of(motion_.bead_count(), 0);
+  std::vector<std::uint32_t> certificates_of(bead_count(), 0);
   auto& most = statistics.certificates.per_bead_max;
   tournament_.each_contest([&](std::uint32_t a, std::uint32_t b) {
     for (const Pair& pair : {candidates_[a], candidates_[b]})
@@ -72,7 +62,7 @@ void KineticClosestPair<Dimension>::fail(unsigned, std::uint32_t slot) {
     needs_after_batch = true;
   } else {
     const Pair &behind = candidates_[contest.winner], &ahead = candidates_[contest.loser];
-    simulator_.record(index_, Change{overtake, 4, {behind[0], behind[1], ahead[0], ahead[1]}});
+    record(overtake, {behind[0], behind[1], ahead[0], ahead[1]});
   }
 }
 
@@ -84,23 +74,23 @@ void KineticClosestPair<Dimension>::after_batch() {
   if (pair_ == before) return;
   const auto [i, j] = before.value_or(no_pair);
   const auto [k, l] = pair_.value_or(no_pair);
-  simulator_.record(index_, Change{replace, 4, {i, j, k, l}});
+  record(replace, {i, j, k, l});
 }
 
 template <int Dimension>
 void KineticClosestPair<Dimension>::apply(const Change& change) {
-  if (change.kind >= inserts) return present_.apply(change, inserts);
+  if (apply_edit(change)) return;
   const Pair before{change.ids[0], change.ids[1]}, now{change.ids[2], change.ids[3]};
   const auto require_pair = [this](const Pair& pair) {
     if (pair[0] >= pair[1]) throw std::invalid_argument("there is no such pair of beads");
-    for (const BeadId bead : pair) present_.require(bead, false);
+    for (const BeadId bead : pair) present().require(bead, false);
   };
   if (change.kind == overtake) {  // the tournament is not replayed; only check the beads
     require_pair(before);
     return require_pair(now);
   }
   if (pair_.value_or(no_pair) != before) throw std::invalid_argument("the first pair is not the closest");
-  const bool none = now == no_pair && present_.count() < 2;
+  const bool none = now == no_pair && present().count() < 2;
   if (!none) require_pair(now);
   pair_ = none ? std::nullopt : std::optional(now);
 }
@@ -108,15 +98,12 @@ void KineticClosestPair<Dimension>::apply(const Change& change) {
 // Edits: beads are inserted, erased, or change course.
 
 template <int Dimension>
-void KineticClosestPair<Dimension>::edit(Kind kind, BeadId bead) {
-  const Simulator::ComputeScope scope(simulator_);
-  present_.require(bead, kind == inserts);
-  simulator_.require_standing_still();
-  PresentBeads<Dimension> present = present_;
+void KineticClosestPair<Dimension>::edit(std::uint8_t kind, BeadId bead) {
+  PresentBeads present = this->present();
   present.set_absent(bead, kind == erases);
   std::vector<Pair> candidates = candidate_pairs(motion_.curves(), present.absent());
-  present_ = std::move(present);
-  simulator_.record(index_, Change{kind, 1, {bead}});
+  this->present() = std::move(present);
+  record(kind, {bead});
   if (candidates == candidates_) return;
   tournament_.give_up_all();
   start_among(std::move(candidates));
@@ -128,10 +115,8 @@ void KineticClosestPair<Dimension>::release(std::span<const BeadId>) {
 }
 
 template <int Dimension>
-void KineticClosestPair<Dimension>::take_up(std::span<const BeadId> beads) {
-  for (const BeadId bead : beads)
-    if (!is_absent(bead)) simulator_.record(index_, Change{changes, 1, {bead}});
-  start_among(candidate_pairs(motion_.curves(), present_.absent()));
+void KineticClosestPair<Dimension>::follow(std::span<const BeadId>) {
+  start_among(candidate_pairs(motion_.curves(), present().absent()));
 }
 
 template <int Dimension>
@@ -143,12 +128,12 @@ void KineticClosestPair<Dimension>::start_among(std::vector<Pair> candidates) {
 
 template <int Dimension>
 std::optional<std::string> KineticClosestPair<Dimension>::audit(const Dyadic& time) {
-  if (!pair_ && present_.count() > 1) return "no pair is known as the closest";
+  if (!pair_ && present().count() > 1) return "no pair is known as the closest";
   if (!pair_) return std::nullopt;
   for (const BeadId bead : *pair_)
     if (is_absent(bead)) return "bead " + std::to_string(bead) + " of the closest pair is absent";
   std::vector<decltype(exact_position(motion_.curves(), 0, time))> at;
-  for (BeadId b = 0; b < motion_.bead_count(); ++b) at.push_back(exact_position(motion_.curves(), b, time));
+  for (BeadId b = 0; b < bead_count(); ++b) at.push_back(exact_position(motion_.curves(), b, time));
   const auto square = [&](BeadId a, BeadId b, std::size_t axes) {
     Rational sum = 0;
     for (std::size_t axis = 0; axis < axes; ++axis)
@@ -156,7 +141,7 @@ std::optional<std::string> KineticClosestPair<Dimension>::audit(const Dyadic& ti
     return sum;
   };
   const Rational least = square((*pair_)[0], (*pair_)[1], Dimension);
-  std::vector<BeadId> sorted = present_.all();
+  std::vector<BeadId> sorted = present().all();
   std::sort(sorted.begin(), sorted.end(), [&](BeadId a, BeadId b) { return at[a][0] < at[b][0]; });
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     for (std::size_t j = i + 1; j < sorted.size() && square(sorted[i], sorted[j], 1) < least; ++j) {

@@ -5,7 +5,9 @@
 // structure `contacts`.
 //
 // Inserting, erasing or redirecting a bead costs as much as the start of a step. If a bead in no candidate
-// pair is inserted or erased, it costs only a search for candidates.
+// pair is inserted or erased, it costs only a search for candidates. Edits throw InputError if more than 10^8
+// pairs might be the closest afterwards. In this case, insert and erase change nothing; after a change of
+// curves, the run is over.
 
 #include <array>
 #include <cstdint>
@@ -14,16 +16,14 @@
 #include <vector>
 
 #include "certificates/types/closer.h"
-#include "kds/bead_edits.h"
-#include "kds/kinetic_structure.h"
-#include "kds/present_beads.h"
+#include "kds/structure_base.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/tournament/tournament.h"
 
 namespace kds {
 
 template <int Dimension>
-class KineticClosestPair final : public KineticStructure, public BeadEdits {
+class KineticClosestPair final : public EditableBase {
  public:
   using Pair = std::array<BeadId, 2>;
 
@@ -34,8 +34,6 @@ class KineticClosestPair final : public KineticStructure, public BeadEdits {
 
   KineticClosestPair(Simulator& simulator, const MotionRef<Dimension>& motion);
 
-  [[nodiscard]] std::string_view name() const override { return "closest"; }
-  [[nodiscard]] std::span<const EventKind> kinds() const override;
   /// Returns the closest pair, ascending, or nothing if fewer than two beads are present.
   [[nodiscard]] const std::optional<Pair>& pair() const { return pair_; }
 
@@ -45,14 +43,6 @@ class KineticClosestPair final : public KineticStructure, public BeadEdits {
   void after_batch() override;
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
-
-  // Edits throw InputError if more than 10^8 pairs might be the closest afterwards. In this case, insert and
-  // erase change nothing; after a change of curves, the run is over.
-
-  void leave_out(BeadId bead) override { present_.leave_out(bead); }
-  void insert(BeadId bead) override { edit(inserts, bead); }
-  void erase(BeadId bead) override { edit(erases, bead); }
-  [[nodiscard]] bool is_absent(BeadId bead) const override { return present_.is_absent(bead); }
 
  private:
   /// Makes certificates between candidates, which are named by their places in the list.
@@ -64,16 +54,13 @@ class KineticClosestPair final : public KineticStructure, public BeadEdits {
   };
 
   void release(std::span<const BeadId> beads) override;
-  void take_up(std::span<const BeadId> beads) override;
-  void edit(Kind kind, BeadId bead);
+  void follow(std::span<const BeadId> beads) override;
+  void edit(std::uint8_t kind, BeadId bead) override;
   /// Starts the tournament anew among other candidates, at the present time.
   void start_among(std::vector<Pair> candidates);
 
-  Simulator& simulator_;
   MotionRef<Dimension> motion_;
-  std::size_t index_;
   CertificateTable<Closer> table_;
-  PresentBeads<Dimension> present_;
   std::vector<Pair> candidates_;
   Tournament<Ahead> tournament_;
   std::optional<Pair> pair_;

@@ -17,45 +17,35 @@ namespace {
 Contact disjoint(const BeadPair& pair) { return {{pair.first, pair.second}, 1}; }
 Contact overlapping(const BeadPair& pair) { return {{pair.first, pair.second}, -1}; }
 
+constexpr std::array<IdRole, 2> contact_pair{{{"first"}, {"second"}}};
+constexpr auto contact_kinds = with_edits(std::array{EventKind{"begin", true, false, contact_pair},
+                                                     EventKind{"end", true, false, contact_pair},
+                                                     EventKind{"touch", true, false, contact_pair}});
+
 }  // namespace
 
 template <int D>
 Contacts<D>::Contacts(Simulator& simulator, const MotionRef<D>& motion, PairsAsked asked)
-    : simulator_(simulator),
+    : EditableBase(simulator, motion.bead_count(), "contacts", contact_kinds),
       motion_(motion),
-      index_(simulator.add(*this)),
       family_(std::move(asked), motion.degree()),
-      disjoint_(simulator, *this, index_, 0, motion, TouchPolicy::reported),
-      overlapping_(simulator, *this, index_, 1, motion),
-      present_(name(), motion) {}
-
-template <int D>
-std::span<const EventKind> Contacts<D>::kinds() const {
-  static constexpr std::array<IdRole, 2> pair{{{"first"}, {"second"}}};
-  static constexpr std::array<IdRole, 1> bead{{{"bead"}}};
-  static constexpr std::array<EventKind, 6> kinds{{{"begin", true, false, pair},
-                                                   {"end", true, false, pair},
-                                                   {"touch", true, false, pair},
-                                                   {"insert", false, true, bead},
-                                                   {"erase", false, true, bead},
-                                                   {"change", false, true, bead}}};
-  return kinds;
-}
+      disjoint_(simulator, *this, index(), 0, motion, TouchPolicy::reported),
+      overlapping_(simulator, *this, index(), 1, motion) {}
 
 template <int D>
 void Contacts<D>::find_pairs(typename MovingFamily<D>::Resting resting, bool list_overlapping,
                              PairsOfBlocks& pairs) {
-  if (simulator_.kernel() != Kernel::exact) {
+  if (simulator().kernel() != Kernel::exact) {
     family_.find_pairs(motion_.curves(), resting, list_overlapping, pairs);
   } else {
     pairs.clear();
     const PairsAsked& asked = family_.asked();
-    const auto beads = static_cast<BeadId>(motion_.bead_count());
+    const auto beads = static_cast<BeadId>(bead_count());
     for (BeadId i = 0; i < beads; ++i)
       for (BeadId j = i + 1; j < beads; ++j)
         if (asked.asks({i, j})) pairs.unclear.push_back({i, j});
   }
-  const std::span<const char> absent = present_.absent();
+  const std::span<const char> absent = present().absent();
   if (absent.empty()) return;
   const auto names_absent = [absent](const BeadPair& p) {
     return absent[p.first] != 0 || absent[p.second] != 0;
@@ -66,7 +56,7 @@ void Contacts<D>::find_pairs(typename MovingFamily<D>::Resting resting, bool lis
 
 template <int D>
 void Contacts<D>::build() {
-  present_.structure_is_built();
+  present().structure_is_built();
   contacts_.clear();
   family_.forget_rest();
   find_pairs(MovingFamily<D>::Resting::looked_at, true, pairs_);
@@ -74,7 +64,7 @@ void Contacts<D>::build() {
   const Instant start(0.0);
   for (const BeadPair& pair : pairs_.unclear) {
     const int sign =
-        disjoint_.search().sign_just_after(simulator_.kernel(), disjoint(pair), start, statistics.stages);
+        disjoint_.search().sign_just_after(simulator().kernel(), disjoint(pair), start, statistics.stages);
     if (sign <= 0) contacts_.insert(pair);
   }
 }
@@ -132,30 +122,23 @@ void Contacts<D>::settle_now() {
 // Edits: beads are inserted, erased, or change course.
 
 template <int D>
-void Contacts<D>::insert(BeadId bead) {
-  const Simulator::ComputeScope scope(simulator_);
-  present_.require(bead, true);
-  simulator_.require_standing_still();
-  present_.set_absent(bead, false);
-  simulator_.record(index_, {inserts, 1, {bead}});
-  find_of({&bead, 1});
-}
-
-template <int D>
-void Contacts<D>::erase(BeadId bead) {
-  const Simulator::ComputeScope scope(simulator_);
-  present_.require(bead, false);
-  simulator_.require_standing_still();
-  drop_of({&bead, 1});
-  for (const BeadPair& pair : contacts_.pairs())
-    if (pair.first == bead || pair.second == bead) record(end, pair);
-  present_.set_absent(bead, true);
-  simulator_.record(index_, {erases, 1, {bead}});
+void Contacts<D>::edit(std::uint8_t kind, BeadId bead) {
+  if (kind == inserts) {
+    present().set_absent(bead, false);
+    EditableBase::record(inserts, {bead});
+    find_of({&bead, 1});
+  } else {
+    drop_of({&bead, 1});
+    for (const BeadPair& pair : contacts_.pairs())
+      if (pair.first == bead || pair.second == bead) record(end, pair);
+    present().set_absent(bead, true);
+    EditableBase::record(erases, {bead});
+  }
 }
 
 template <int D>
 std::vector<char> Contacts<D>::marked(std::span<const BeadId> beads) const {
-  std::vector<char> marks(motion_.bead_count(), 0);
+  std::vector<char> marks(bead_count(), 0);
   for (const BeadId bead : beads) marks[bead] = 1;
   return marks;
 }
@@ -171,13 +154,6 @@ void Contacts<D>::drop_of(std::span<const BeadId> beads) {
 template <int D>
 void Contacts<D>::release(std::span<const BeadId> beads) {
   drop_of(beads);
-}
-
-template <int D>
-void Contacts<D>::take_up(std::span<const BeadId> beads) {
-  for (const BeadId bead : beads)
-    if (!is_absent(bead)) simulator_.record(index_, {changes, 1, {bead}});
-  find_of(beads);
 }
 
 // Finds the pairs of these beads. The pairs' previous state is known, but the pairs have no certificates yet.
@@ -224,7 +200,7 @@ template <int D>
 void Contacts<D>::record(Kind kind, const BeadPair& pair) {
   if (kind == begin) contacts_.insert(pair);
   if (kind == end) contacts_.erase(pair);
-  simulator_.record(index_, {kind, 2, {pair.first, pair.second}});
+  EditableBase::record(kind, {pair.first, pair.second});
 }
 
 // Decides in double if that is certain: the sum has an error below 2^-48 of its terms unless these underflow.
@@ -237,16 +213,16 @@ bool Contacts<D>::is_zero_at_start(const Curves<D>& curves, const BeadPair& pair
     distance += d * d;
   }
   const double size = distance + reach * reach;
-  if (simulator_.kernel() != Kernel::exact && size > 0x1p-900 &&
+  if (simulator().kernel() != Kernel::exact && size > 0x1p-900 &&
       std::abs(distance - reach * reach) > 0x1p-48 * size)
     return false;
-  return disjoint_.search().sign_now(simulator_.kernel(), disjoint(pair), Instant(0.0), statistics.stages) ==
+  return disjoint_.search().sign_now(simulator().kernel(), disjoint(pair), Instant(0.0), statistics.stages) ==
          0;
 }
 
 template <int D>
 void Contacts<D>::count_per_bead() {
-  certificates_of_bead_.resize(motion_.bead_count());
+  certificates_of_bead_.resize(bead_count());
   std::uint64_t& most = statistics.certificates.per_bead_max;
   for (const BeadPair& pair : pairs_.unclear) {
     most = std::max<std::uint64_t>(most, ++certificates_of_bead_[pair.first]);
@@ -260,12 +236,9 @@ template <int D>
 void Contacts<D>::apply(const Change& change) {
   if (change.size != (change.kind < inserts ? 2 : 1))
     throw std::invalid_argument("a change of contacts has other numbers of beads");
-  if (change.kind >= inserts) {
-    present_.apply(change, inserts);
-    return;
-  }
+  if (apply_edit(change)) return;
   const BeadPair pair{change.ids[0], change.ids[1]};
-  if (!(pair.first < pair.second && pair.second < motion_.bead_count() && family_.asked().asks(pair)) ||
+  if (!(pair.first < pair.second && pair.second < bead_count() && family_.asked().asks(pair)) ||
       is_absent(pair.first) || is_absent(pair.second))
     throw std::invalid_argument(
         fmt::format("beads {} and {} are no pair that is asked about", pair.first, pair.second));
@@ -279,7 +252,7 @@ void Contacts<D>::apply(const Change& change) {
 
 template <int D>
 std::optional<std::string> Contacts<D>::audit(const Dyadic& time) {
-  return contact_fault<D>(motion_.curves(), disjoint_.search(), time, family_.asked(), present_.absent(),
+  return contact_fault<D>(motion_.curves(), disjoint_.search(), time, family_.asked(), present().absent(),
                           contacts_);
 }
 

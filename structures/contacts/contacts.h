@@ -20,24 +20,21 @@
 #include <vector>
 
 #include "certificates/types/contact.h"
-#include "kds/bead_edits.h"
 #include "kds/certificate_table.h"
-#include "kds/present_beads.h"
+#include "kds/structure_base.h"
 #include "structures/contacts/contact_set.h"
 #include "structures/contacts/moving_family.h"
 
 namespace kds {
 
 template <int Dimension>
-class Contacts final : public KineticStructure, public BeadEdits {
+class Contacts final : public EditableBase {
  public:
   /// Kinds of events. The ids are the two beads, ascending, or the edited bead.
   enum Kind : std::uint8_t { begin, end, touch, inserts, erases, changes };
 
   Contacts(Simulator& simulator, const MotionRef<Dimension>& motion, PairsAsked asked);
 
-  [[nodiscard]] std::string_view name() const override { return "contacts"; }
-  [[nodiscard]] std::span<const EventKind> kinds() const override;
   /// Returns the pairs in contact just after the present time, ascending.
   [[nodiscard]] std::vector<BeadPair> pairs() const { return contacts_.pairs(); }
 
@@ -46,11 +43,6 @@ class Contacts final : public KineticStructure, public BeadEdits {
   void fail(unsigned table, std::uint32_t slot) override;
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
-
-  void leave_out(BeadId bead) override { present_.leave_out(bead); }
-  void insert(BeadId bead) override;
-  void erase(BeadId bead) override;
-  [[nodiscard]] bool is_absent(BeadId bead) const override { return present_.is_absent(bead); }
 
  private:
   static constexpr std::uint32_t no_place = 0xffffffffU;  // no certificate is left
@@ -61,8 +53,9 @@ class Contacts final : public KineticStructure, public BeadEdits {
     friend bool operator<(const Happens& a, const Happens& b) { return a.pair < b.pair; }
   };
 
+  void edit(std::uint8_t kind, BeadId bead) override;
   void release(std::span<const BeadId> beads) override;
-  void take_up(std::span<const BeadId> beads) override;
+  void follow(std::span<const BeadId> beads) override { find_of(beads); }
   [[nodiscard]] std::vector<char> marked(std::span<const BeadId> beads) const;
   /// Drops all certificates that name one of these beads.
   void drop_of(std::span<const BeadId> beads);
@@ -78,12 +71,9 @@ class Contacts final : public KineticStructure, public BeadEdits {
   void settle_now();
   void count_per_bead();
 
-  Simulator& simulator_;
   MotionRef<Dimension> motion_;
-  std::size_t index_;
   MovingFamily<Dimension> family_;
   CertificateTable<Contact> disjoint_, overlapping_;
-  PresentBeads<Dimension> present_;
   ContactSet contacts_;
   PairsOfBlocks pairs_;  // of the step
   std::vector<Happens> at_once_;

@@ -15,6 +15,12 @@ namespace kds {
 
 namespace {
 
+constexpr std::array<IdRole, 3> corner_between{{{"corner"}, {"before"}, {"after"}}};
+constexpr std::array<IdRole, 2> beads_in_order{{{"first"}, {"second"}}};
+constexpr auto hull_kinds = with_edits(std::array{EventKind{"enter", true, false, corner_between},
+                                                  EventKind{"leave", true, false, corner_between},
+                                                  EventKind{"interchange", false, false, beads_in_order}});
+
 using Circle = std::vector<BeadId>;
 
 void begin_with_least(Circle& circle) {
@@ -51,37 +57,22 @@ BeadId further(const Circle& circle, std::size_t from, std::size_t steps) {
 }  // namespace
 
 ConvexHull::ConvexHull(Simulator& simulator, const MotionRef<2>& motion)
-    : simulator_(simulator),
+    : EditableBase(simulator, motion.bead_count(), "hull", hull_kinds),
       motion_(motion),
-      index_(simulator.add(*this)),
-      guards_(simulator, *this, index_, motion),
-      present_(name(), motion) {}
-
-std::span<const EventKind> ConvexHull::kinds() const {
-  static constexpr std::array<IdRole, 3> corner{{{"corner"}, {"before"}, {"after"}}};
-  static constexpr std::array<IdRole, 2> interchanged{{{"first"}, {"second"}}};
-  static constexpr std::array<IdRole, 1> bead{{{"bead"}}};
-  static constexpr std::array<EventKind, 6> kinds{{{"enter", true, false, corner},
-                                                   {"leave", true, false, corner},
-                                                   {"interchange", false, false, interchanged},
-                                                   {"insert", false, true, bead},
-                                                   {"erase", false, true, bead},
-                                                   {"change", false, true, bead}}};
-  return kinds;
-}
+      guards_(simulator, *this, index(), motion) {}
 
 void ConvexHull::build() {
-  present_.structure_is_built();
-  const std::size_t beads = motion_.bead_count();
-  const Kernel kernel = simulator_.kernel();
+  present().structure_is_built();
+  const std::size_t beads = bead_count();
+  const Kernel kernel = simulator().kernel();
   const StaticHull hull = static_hull(
-      present_.all(),
+      present().all(),
       [&](BeadId a, BeadId b) { return guards_.order_at_start(kernel, a, b, statistics.stages); },
       [&](BeadId a, BeadId b, BeadId c) {
         return guards_.turn_at_start(kernel, {a, b, c}, statistics.stages);
       });
-  lower_.assign(beads, present_.absent(), hull.lower);
-  upper_.assign(beads, present_.absent(), hull.upper);
+  lower_.assign(beads, present().absent(), hull.lower);
+  upper_.assign(beads, present().absent(), hull.upper);
   corners_ = hull.circle();
   begin_with_least(corners_);
 }
@@ -90,7 +81,7 @@ void ConvexHull::start_step() {
   lower_.start();
   upper_.start();
   needs_after_batch = true;
-  std::vector<std::uint32_t> certificates_of(motion_.bead_count(), 0);
+  std::vector<std::uint32_t> certificates_of(bead_count(), 0);
   for (const HalfHull* half : {&lower_, &upper_}) half->count_certificates(certificates_of);
   auto& most = statistics.certificates.per_bead_max;
   for (const std::uint32_t count : certificates_of) most = std::max<std::uint64_t>(most, count);
@@ -102,14 +93,13 @@ void ConvexHull::fail(unsigned table, std::uint32_t slot) {
   half.fail(table, failed.place);
   guards_.failure_is_over();
   if (half.take_changed()) needs_after_batch = true;
-  if (table != HullGuards::turns)
-    simulator_.record(index_, Change{interchange, 2, {failed.before, failed.after}});
+  if (table != HullGuards::turns) record(interchange, {failed.before, failed.after});
 }
 
 // Records the changes from the previous corners to the present corners of both halves.
 void ConvexHull::after_batch() {
   Circle now = StaticHull{lower_.chain(), upper_.chain()}.circle();
-  if (simulator_.kernel() == Kernel::fast) {  // the halves may contradict each other: keep each bead once
+  if (simulator().kernel() == Kernel::fast) {  // the halves may contradict each other: keep each bead once
     std::set<BeadId> seen;
     std::erase_if(now, [&](BeadId b) { return !seen.insert(b).second; });
   }
@@ -136,22 +126,22 @@ void ConvexHull::after_batch() {
 
 void ConvexHull::change_corners(const Change& change) {
   apply(change);
-  simulator_.record(index_, change);
+  record(change);
 }
 
 void ConvexHull::apply(const Change& change) {
-  if (change.kind >= inserts) return present_.apply(change, inserts);
+  if (apply_edit(change)) return;
   const auto [bead, before, after] = std::array{change.ids[0], change.ids[1], change.ids[2]};
   if (change.kind == interchange) {  // halves are not replayed; only check the beads
-    present_.require(bead, false);
-    return present_.require(before, false);
+    present().require(bead, false);
+    return present().require(before, false);
   }
   const std::size_t i = place_of(corners_, bead);
   const bool is_corner = i < corners_.size();
   if (is_corner != (change.kind == leave))
     throw std::invalid_argument(is_corner ? "the bead is a corner of the hull already"
                                           : "the bead is no corner of the hull");
-  if (change.kind == enter) present_.require(bead, false);
+  if (change.kind == enter) present().require(bead, false);
   if (change.kind == leave) {
     const std::size_t others = corners_.size() - 1;
     if (further(corners_, i, others) != before || further(corners_, i, 1) != after)
@@ -170,12 +160,9 @@ void ConvexHull::apply(const Change& change) {
 
 // Edits: beads are inserted, erased, or change course.
 
-void ConvexHull::edit(Kind kind, BeadId bead) {
-  const Simulator::ComputeScope scope(simulator_);
-  present_.require(bead, kind == inserts);
-  simulator_.require_standing_still();
-  simulator_.record(index_, Change{kind, 1, {bead}});
-  present_.set_absent(bead, kind == erases);
+void ConvexHull::edit(std::uint8_t kind, BeadId bead) {
+  record(kind, {bead});
+  present().set_absent(bead, kind == erases);
   for (HalfHull* half : {&lower_, &upper_}) kind == inserts ? half->insert(bead) : half->erase(bead);
   after_batch();
 }
@@ -186,16 +173,14 @@ void ConvexHull::release(std::span<const BeadId> beads) {
       if (!is_absent(bead)) half->give_up(bead);
 }
 
-void ConvexHull::take_up(std::span<const BeadId> beads) {
-  for (const BeadId bead : beads)
-    if (!is_absent(bead)) simulator_.record(index_, Change{changes, 1, {bead}});
+void ConvexHull::follow(std::span<const BeadId>) {
   for (HalfHull* half : {&lower_, &upper_}) half->hold_all();
   after_batch();
 }
 
 std::optional<std::string> ConvexHull::audit(const Dyadic& time) {
   std::vector<std::array<Rational, 3>> at;
-  for (BeadId b = 0; b < motion_.bead_count(); ++b) at.push_back(exact_position(motion_.curves(), b, time));
+  for (BeadId b = 0; b < bead_count(); ++b) at.push_back(exact_position(motion_.curves(), b, time));
   const auto order = [&](BeadId a, BeadId b) {
     const int in_x = cmp(at[a][0], at[b][0]);
     return in_x != 0 ? in_x : cmp(at[a][1], at[b][1]);
@@ -206,7 +191,7 @@ std::optional<std::string> ConvexHull::audit(const Dyadic& time) {
   };
   for (const BeadId corner : corners_)
     if (is_absent(corner)) return "corner " + std::to_string(corner) + " is absent";
-  for (const BeadId corner : static_hull(present_.all(), order, turn).circle()) {
+  for (const BeadId corner : static_hull(present().all(), order, turn).circle()) {
     if (std::none_of(corners_.begin(), corners_.end(), [&](BeadId b) { return order(b, corner) == 0; }))
       return "bead " + std::to_string(corner) + " is a corner, but is not known as one";
   }

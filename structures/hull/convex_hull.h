@@ -16,16 +16,14 @@
 #include <span>
 #include <vector>
 
-#include "kds/bead_edits.h"
-#include "kds/kinetic_structure.h"
-#include "kds/present_beads.h"
+#include "kds/structure_base.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/hull/half_hull.h"
 #include "structures/hull/hull_guards.h"
 
 namespace kds {
 
-class ConvexHull final : public KineticStructure, public BeadEdits {
+class ConvexHull final : public EditableBase {
  public:
   /// Ids of `enter` and `leave`: the corner, then the corners before and after it, counterclockwise; the
   /// corner itself in their place if it is alone. Ids of `interchange`, two beads of a half of the hull that
@@ -35,8 +33,6 @@ class ConvexHull final : public KineticStructure, public BeadEdits {
 
   ConvexHull(Simulator& simulator, const MotionRef<2>& motion);
 
-  [[nodiscard]] std::string_view name() const override { return "hull"; }
-  [[nodiscard]] std::span<const EventKind> kinds() const override;
   /// Returns the corners counterclockwise, starting with the least one.
   [[nodiscard]] const std::vector<BeadId>& corners() const { return corners_; }
 
@@ -47,23 +43,15 @@ class ConvexHull final : public KineticStructure, public BeadEdits {
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
-  void leave_out(BeadId bead) override { present_.leave_out(bead); }
-  void insert(BeadId bead) override { edit(inserts, bead); }
-  void erase(BeadId bead) override { edit(erases, bead); }
-  [[nodiscard]] bool is_absent(BeadId bead) const override { return present_.is_absent(bead); }
-
  private:
   void release(std::span<const BeadId> beads) override;
-  void take_up(std::span<const BeadId> beads) override;
-  void edit(Kind kind, BeadId bead);
+  void follow(std::span<const BeadId> beads) override;
+  void edit(std::uint8_t kind, BeadId bead) override;
   void change_corners(const Change& change);
 
-  Simulator& simulator_;
   MotionRef<2> motion_;
-  std::size_t index_;
   HullGuards guards_;
   HalfHull lower_{guards_, false}, upper_{guards_, true};
-  PresentBeads<2> present_;
   std::vector<BeadId> corners_;
 };
 

@@ -44,7 +44,7 @@ struct DiagramState {
         motion(of),
         owner(diagram),
         index(structure),
-        present_beads(diagram.name(), of),
+        present_beads(diagram.name(), of.bead_count()),
         searches_(search_over<PowerTest<Dimension>>(of), search_over<Orientation<Dimension>>(of),
                   same_turn_search(of), centroid_search(of)) {}
 
@@ -56,7 +56,7 @@ struct DiagramState {
   Curves<Dimension> curves;  ///< of the motion; loaded by build and at the start of each step
   RegularTriangulation<Dimension> triangulation;
   HiddenBeads hidden;
-  PresentBeads<Dimension> present_beads;
+  PresentBeads present_beads;
   int affine_dimension = Dimension;  ///< of the set of beads; there are no cells if it is below Dimension
   bool has_had_cells = false;
   bool flat = false;         ///< some cell is flat at the frame just reached

@@ -4,75 +4,59 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "certificates/search/define_certificate_search.h"
-#include "kds/certificate_table.h"
+#include "kds/guarded_structure.h"
 #include "structures/session/structure_spec.h"
 #include "tests/extension/farther.h"
 
 namespace extension {
 
-class Nearest final : public kds::KineticStructure {
+class Nearest final : public kds::GuardedStructure<Farther> {
  public:
   Nearest(kds::Simulator& simulator, const kds::MotionRef<3>& motion)
-      : simulator_(simulator),
-        motion_(motion),
-        index_(simulator.add(*this)),
-        table_(simulator, *this, index_, 0, motion) {}
-
-  [[nodiscard]] std::string_view name() const override { return "nearest"; }
-  [[nodiscard]] std::span<const kds::EventKind> kinds() const override {
-    static constexpr std::array<kds::EventKind, 1> kinds{{{"overtake"}}};  // ids: the nearest from now on
-    return kinds;
+      : GuardedStructure(simulator, motion, "nearest", overtakes) {
+    for (kds::BeadId b = 2; b < motion.bead_count(); ++b) others_.push_back(b);
   }
+
   [[nodiscard]] kds::BeadId nearest() const { return nearest_; }
 
   void build() override {
-    nearest_ = 1;
-    for (kds::BeadId b = 2; b < motion_.bead_count(); ++b)
-      if (is_violated(b)) nearest_ = b;
+    for (kds::BeadId& other : others_)
+      if (sign_just_after({{other, nearest_, 0}}) < 0) std::swap(other, nearest_);
   }
-  void start_step() override { watch_all(); }
-  void fail(unsigned, std::uint32_t slot) override {
-    const kds::BeadId overtaking = table_.place_in_structure(slot);
-    guards_[overtaking] = kds::CertificateHandle::violated;
-    become_nearest(overtaking);
+  void apply(const kds::Change& change) override {
+    const auto other = std::find(others_.begin(), others_.end(), change.ids[0]);
+    if (other == others_.end()) throw std::invalid_argument("nearest: no such change can be made");
+    std::swap(*other, nearest_);
   }
-  void apply(const kds::Change& change) override { nearest_ = change.ids[0]; }
   [[nodiscard]] std::optional<std::string> audit(const kds::Dyadic& time) override {
-    for (kds::BeadId b = 1; b < motion_.bead_count(); ++b)
-      if (b != nearest_ && table_.search().sign_at({{b, nearest_, 0}}, time) < 0)
-        return "bead " + std::to_string(b) + " is nearer";
+    for (const kds::BeadId other : others_)
+      if (table().search().sign_at({{other, nearest_, 0}}, time) < 0)
+        return "bead " + std::to_string(other) + " is nearer";
     return std::nullopt;
   }
 
  private:
-  [[nodiscard]] bool is_violated(kds::BeadId b) {
-    return table_.search().sign_just_after(simulator_.kernel(), {{b, nearest_, 0}}, simulator_.now(),
-                                           statistics.stages) < 0;
+  static constexpr std::array<kds::EventKind, 1> overtakes{{{"overtake"}}};  // ids: the nearest from now on
+
+  [[nodiscard]] std::size_t place_count() const override { return others_.size(); }
+  [[nodiscard]] Farther certificate(std::size_t place) const override {
+    return {{others_[place], nearest_, 0}};
   }
-  void become_nearest(kds::BeadId bead) {
-    for (const kds::CertificateHandle guard : guards_) table_.drop(guard);
-    nearest_ = bead;
-    simulator_.record(index_, {0, 1, {bead}});
-    watch_all();
-  }
-  void watch_all() {
-    guards_.assign(motion_.bead_count(), kds::CertificateHandle::violated);
-    for (kds::BeadId b = 1; b < motion_.bead_count(); ++b) {
-      if (b == nearest_) continue;
-      guards_[b] = table_.watch({{b, nearest_, 0}}, b);
-      if (guards_[b] == kds::CertificateHandle::violated) return become_nearest(b);
-    }
+  void repair(std::size_t place) override {
+    std::swap(others_[place], nearest_);
+    record(0, {nearest_});
+    for (std::size_t other = 0; other < others_.size(); ++other)
+      if (other != place) guard_anew(other);
   }
 
-  kds::Simulator& simulator_;
-  kds::MotionRef<3> motion_;
-  std::size_t index_;
-  kds::CertificateTable<Farther> table_;
   kds::BeadId nearest_ = 1;
-  std::vector<kds::CertificateHandle> guards_;
+  std::vector<kds::BeadId> others_;  // all beads but the nearest and bead 0
 };
 
 class NearestInRun final : public kds::RunningStructure {

@@ -1,0 +1,110 @@
+#pragma once
+// Bases that hold what structures repeat. A structure derives from StructureBase, from EditableBase if beads
+// can be inserted, erased and given other curves while time runs, or from GuardedStructure
+// (guarded_structure.h) if each of its places has one certificate.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string_view>
+
+#include "kds/bead_edits.h"
+#include "kds/kinetic_structure.h"
+#include "kds/present_beads.h"
+#include "kds/simulator.h"
+
+namespace kds {
+
+/// A structure with its place in a run: its name, its kinds of events and its number in the simulator.
+class StructureBase : public KineticStructure {
+ public:
+  StructureBase(const StructureBase&) = delete;
+  StructureBase& operator=(const StructureBase&) = delete;
+
+  [[nodiscard]] std::string_view name() const final { return name_; }
+  [[nodiscard]] std::span<const EventKind> kinds() const final { return kinds_; }
+
+ protected:
+  /// Adds the structure to the simulator. The name and the kinds are in static storage.
+  StructureBase(Simulator& simulator, std::size_t bead_count, std::string_view name,
+                std::span<const EventKind> kinds)
+      : simulator_(simulator),
+        bead_count_(bead_count),
+        name_(name),
+        kinds_(kinds),
+        index_(simulator.add(*this)) {}
+
+  [[nodiscard]] Simulator& simulator() const { return simulator_; }
+  /// Returns the structure's number in the simulator, which its certificate tables need.
+  [[nodiscard]] std::size_t index() const { return index_; }
+  [[nodiscard]] std::size_t bead_count() const { return bead_count_; }
+  /// Reports a change that the structure makes at the present time.
+  void record(const Change& change) const { simulator_.record(index_, change); }
+  void record(std::size_t kind, std::initializer_list<BeadId> ids) const;
+
+ private:
+  Simulator& simulator_;
+  std::size_t bead_count_;
+  std::string_view name_;
+  std::span<const EventKind> kinds_;
+  std::size_t index_;
+};
+
+/// Role of the ids of an edit: the bead.
+inline constexpr std::array<IdRole, 1> edited_bead{{{"bead"}}};
+
+/// Appends the kinds of edits, in this order: insert, erase, change. `inserted` are the roles of the ids of
+/// an insertion.
+template <std::size_t N>
+[[nodiscard]] constexpr std::array<EventKind, N + 3> with_edits(
+    const std::array<EventKind, N>& kinds, std::span<const IdRole> inserted = edited_bead) {
+  std::array<EventKind, N + 3> all;
+  for (std::size_t i = 0; i < N; ++i) all[i] = kinds[i];
+  all[N] = {"insert", false, true, inserted};
+  all[N + 1] = {"erase", false, true, edited_bead};
+  all[N + 2] = {"change", false, true, edited_bead};
+  return all;
+}
+
+/// A structure whose beads can be inserted, erased and given other curves. Its last kinds of events are those
+/// of `with_edits`. The base checks each edit and keeps the set of present beads.
+class EditableBase : public StructureBase, public BeadEdits {
+ public:
+  void leave_out(BeadId bead) final { present_.leave_out(bead); }
+  void insert(BeadId bead) final { edit_now(inserted(), bead); }
+  void erase(BeadId bead) final { edit_now(erased(), bead); }
+  [[nodiscard]] bool is_absent(BeadId bead) const final { return present_.is_absent(bead); }
+
+ protected:
+  EditableBase(Simulator& simulator, std::size_t bead_count, std::string_view name,
+               std::span<const EventKind> kinds)
+      : StructureBase(simulator, bead_count, name, kinds), present_(name, bead_count) {}
+
+  /// Inserts or erases the bead, as `kind` says, at the present time. The edit has been checked. Records the
+  /// edit and updates present(). If the function throws, nothing may have changed.
+  virtual void edit(std::uint8_t kind, BeadId bead) = 0;
+  /// Follows the new curves of these beads, some of which may be absent.
+  virtual void follow(std::span<const BeadId> beads) = 0;
+
+  [[nodiscard]] PresentBeads& present() { return present_; }
+  [[nodiscard]] const PresentBeads& present() const { return present_; }
+  // The numbers of the kinds of edits.
+  [[nodiscard]] std::uint8_t inserted() const { return static_cast<std::uint8_t>(kinds().size() - 3); }
+  [[nodiscard]] std::uint8_t erased() const { return static_cast<std::uint8_t>(kinds().size() - 2); }
+  /// Repeats a logged edit for the set of present beads. Returns false if the change is not an edit.
+  [[nodiscard]] bool apply_edit(const Change& change) {
+    if (change.kind < inserted()) return false;
+    present_.apply(change, inserted());
+    return true;
+  }
+
+ private:
+  void edit_now(std::uint8_t kind, BeadId bead);
+  void take_up(std::span<const BeadId> beads) final;
+
+  PresentBeads present_;
+};
+
+}  // namespace kds
