@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "certificates/searches/ball_in_sphere_search.h"
-#include "certificates/searches/relaxed_ball_in_sphere_search.h"
+#include "certificates/search/ball_in_sphere_search.h"
+#include "certificates/search/relaxed_ball_in_sphere_search.h"
 #include "certificates/types/relaxed_membership.h"
 #include "kds/certificate_tables.h"
 #include "structures/enclosing_sphere/basis.h"

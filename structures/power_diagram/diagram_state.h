@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "certificates/search/certificate_search.h"
-#include "certificates/searches/hull_search.h"
+#include "certificates/search/hull_search.h"
 #include "kds/certificate_table.h"
 #include "kds/present_beads.h"
 #include "kds/simulator.h"

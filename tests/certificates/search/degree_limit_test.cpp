@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "certificates/searches/ball_in_sphere_search.h"
+#include "certificates/search/ball_in_sphere_search.h"
 #include "certificates/types/contact.h"
 #include "certificates/types/power_test.h"
 #include "motions/curves/any_degree_motion.h"

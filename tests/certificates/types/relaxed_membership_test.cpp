@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "certificates/search/define_radical_search.h"
-#include "certificates/searches/relaxed_ball_in_sphere_search.h"
+#include "certificates/search/relaxed_ball_in_sphere_search.h"
 #include "certificates/types/orientation.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/enclosing_ball.h"

@@ -1,4 +1,4 @@
-#include "certificates/searches/relaxed_ball_in_sphere_search.h"
+#include "certificates/search/relaxed_ball_in_sphere_search.h"
 
 #include "certificates/search/define_radical_search.h"
 

@@ -1,4 +1,4 @@
-#include "certificates/searches/hull_search.h"
+#include "certificates/search/hull_search.h"
 
 #include "certificates/search/define_certificate_search.h"
 

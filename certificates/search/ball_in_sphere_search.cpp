@@ -1,4 +1,4 @@
-#include "certificates/searches/ball_in_sphere_search.h"
+#include "certificates/search/ball_in_sphere_search.h"
 
 #include "certificates/search/define_radical_search.h"
 
