@@ -8,7 +8,6 @@
 #include "structures/enclosing_sphere/basis_edit.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/moving_sphere/beads_beyond.h"
-#include "structures/moving_sphere/chord_filter.h"
 
 namespace kds {
 

@@ -17,7 +17,6 @@
 #include "structures/hierarchy/node_slack.h"
 #include "structures/hierarchy/relaxed_slack.h"
 #include "structures/moving_sphere/bead_paths.h"
-#include "structures/moving_sphere/chord_cache.h"
 #include "structures/moving_sphere/gap_root.h"
 #include "structures/moving_sphere/sphere_chord.h"
 #include "structures/necklace/necklace_tree.h"

@@ -1,32 +1,129 @@
 #include "structures/moving_sphere/beads_beyond.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
-#include "structures/moving_sphere/scan_beyond.h"
+#include "motions/numbers/long_lanes.h"
+#include "structures/moving_sphere/chord_lanes.h"
 
 namespace kds {
 
 namespace {
 
-using detail::below;
+// Scans for beads that a chord does not prove to stay inside, four at a time, at all control points.
+
+/// A word with one bit for each of 64 consecutive beads, in four runs of every fourth bead, the order in
+/// which lanes produce them.
+class BeadWord {
+ public:
+  static constexpr BeadId size = 64;
+
+  [[gnu::always_inline]] void add(const Lanes::Mask& four) {
+    bits_ |= four & next_;
+    next_ += next_;
+  }
+  [[nodiscard, gnu::always_inline]] std::uint64_t bits() const {
+    const Lanes::Mask in_runs = bits_ << Lanes::Mask{0, 16, 32, 48};
+    return static_cast<std::uint64_t>((in_runs[0] | in_runs[1]) | (in_runs[2] | in_runs[3]));
+  }
+  [[nodiscard]] static constexpr std::uint64_t bit_of(BeadId place) {
+    return 1ULL << (16 * (place % 4) + place / 4);
+  }
+  /// Returns the bits of the first `count` beads.
+  [[nodiscard]] static std::uint64_t first(BeadId count) {
+    static constexpr auto words = [] {
+      std::array<std::uint64_t, size + 1> word{};
+      for (BeadId place = 0; place < size; ++place) word[place + 1] = word[place] | bit_of(place);
+      return word;
+    }();
+    return words[count];
+  }
+
+ private:
+  Lanes::Mask bits_{}, next_{1, 1, 1, 1};
+};
+
+/// Allows for the rounding of the comparison with a limit.
+inline constexpr double below = 1 - 0x1p-40;
+
+/// Calls `visit` with the beads of a range, ascending and without basis beads, that are not proved to stay
+/// inside from then on.
+template <int D, int K, bool equal, class Visit>
+[[gnu::always_inline]] inline void scan_beyond(const BeadPaths<D>& paths, const BeadRange& range,
+                                               const Basis& basis,
+                                               const std::array<std::array<double, D>, 2>& ends,
+                                               const std::array<double, 2>& limits, double from,
+                                               const Visit& visit) {
+  constexpr int columns = D + (equal ? 0 : 1);
+  std::array<std::array<Lanes, D>, K + 1> center;
+  std::array<Lanes, K + 1> limit;
+  std::array<std::array<const double*, K + 1>, columns> column;
+  std::array<std::array<Lanes, K + 1>, columns> base;
+  for (std::size_t k = 0; k <= K; ++k) {
+    const double t = static_cast<double>(k) / K;
+    for (std::size_t axis = 0; axis < D; ++axis)
+      center[k][axis] = Lanes((1 - t) * ends[0][axis] + t * ends[1][axis]);
+    limit[k] = Lanes(((1 - t) * limits[0] + t * limits[1]) * below);
+    for (std::size_t axis = 0; axis < columns; ++axis) {
+      column[axis][k] = paths.column(static_cast<int>(k), static_cast<int>(axis));
+      base[axis][k] = Lanes(column[axis][k][basis.beads[0]]);
+    }
+  }
+  for (BeadId first = range.first; first <= range.last; first += BeadWord::size) {
+    const BeadId last = std::min(range.last, first + BeadWord::size - 1);
+    BeadWord outside;
+    for (BeadId b = first; b <= last; b += Lanes::width) {
+      std::array<Lanes, K + 1> square, room = limit;
+      for (std::size_t axis = 0; axis < columns; ++axis) {
+        std::array<Lanes, K + 1> control;
+        for (std::size_t k = 0; k <= K; ++k)
+          control[k] = Lanes(Lanes::load(column[axis][k] + b)) - base[axis][k];
+        if (from > 0) casteljau(control, Lanes(from));
+        for (std::size_t k = 0; k <= K; ++k) {
+          if (axis < D) {
+            const Lanes v = control[k] - center[k][axis];
+            square[k] = axis == 0 ? v * v : square[k] + v * v;
+          } else {
+            room[k] -= control[k];
+          }
+        }
+      }
+      outside.add(~are_within(square, room));
+    }
+    // Basis beads never lie inside. The scan removes their bits here, because a branch on them during the
+    // scan would be unpredictable.
+    std::uint64_t bits = outside.bits() & BeadWord::first(last - first + 1);
+    for (const BeadId member : basis) {
+      const BeadId place = member - first;  // wraps around if the member lies before
+      bits &= ~(place < BeadWord::size ? BeadWord::bit_of(place) : 0);
+    }
+    for (BeadId place = 0; bits != 0; ++place) {
+      const std::uint64_t bit = BeadWord::bit_of(place);
+      if ((bits & bit) != 0) visit(first + place);
+      bits &= ~bit;
+    }
+  }
+}
 
 template <int D, int K, bool equal>
 [[KDS_LANES_TARGETS]] void beyond_of(const BeadPaths<D>& paths, const BeadRange& range, const Basis& basis,
                                      const SphereChord<D>& chord, double from, std::vector<BeadId>& beyond) {
-  detail::scan_beyond<D, K, equal>(
+  scan_beyond<D, K, equal>(
       paths, range, basis, chord.center, chord.limit,
       from, [&](BeadId b) __attribute__((always_inline)) { beyond.push_back(b); });
 }
 
 /// Four chords and their periods, in lanes.
 template <int D>
-struct Parts {
+struct ChordsOfPeriods {
   std::array<std::array<Lanes, D>, 2> center;
   std::array<Lanes, 2> limit;
   PeriodLanes period;
 
-  Parts(std::span<const SphereChord<D>, 4> chords, std::span<const Period, 4> periods) : period(periods) {
+  ChordsOfPeriods(std::span<const SphereChord<D>, 4> chords, std::span<const Period, 4> periods)
+      : period(periods) {
     for (std::size_t part = 0; part < 4; ++part) {
       for (std::size_t e = 0; e < 2; ++e) {
         limit[e].v[part] = chords[part].limit[e];
@@ -38,7 +135,7 @@ struct Parts {
 
 template <int D, int K>
 [[KDS_LANES_TARGETS]] void keep_beyond_of(const BeadPaths<D>& paths, const Basis& basis,
-                                          const Parts<D>& parts, std::vector<BeadId>& beyond) {
+                                          const ChordsOfPeriods<D>& parts, std::vector<BeadId>& beyond) {
   std::size_t kept = 0;
   for (const BeadId b : beyond) {
     std::array<Lanes, K + 1> square, room;
@@ -130,7 +227,7 @@ template <int Dimension>
 void keep_beyond(const BeadPaths<Dimension>& paths, const Basis& basis,
                  std::span<const SphereChord<Dimension>, 4> chords, std::span<const Period, 4> periods,
                  std::vector<BeadId>& beyond) {
-  const Parts<Dimension> parts(chords, periods);
+  const ChordsOfPeriods<Dimension> parts(chords, periods);
   switch (paths.degree()) {
     case 1:
       return keep_beyond_of<Dimension, 1>(paths, basis, parts, beyond);
@@ -153,5 +250,76 @@ template void take_out_dipping(const BeadPaths<3>&, const Basis&, const SphereCh
                                BeadId, std::vector<BeadId>&);
 template void keep_beyond(const BeadPaths<3>&, const Basis&, std::span<const SphereChord<3>, 4>,
                           std::span<const Period, 4>, std::vector<BeadId>&);
+
+// The first filter over all nodes.
+
+namespace {
+
+template <int D, int K, bool equal>
+void look(const BeadPaths<D>& paths, std::span<const BeadRange> nodes, std::span<const Basis> bases,
+          double enlarged_by, std::span<const double> raised_by, ChordLanes<D>& chords,
+          std::array<bool, 4>& all_inside, std::array<std::size_t, 4>& ends, std::vector<BeadId>& beyond) {
+  chords.enlarge(enlarged_by);
+  for (std::size_t lane = 0; lane < raised_by.size(); ++lane)
+    for (Lanes& limit : chords.limit) limit.v[lane] += raised_by[lane];
+  for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
+    const std::size_t before = beyond.size();
+    if (chords.proved[lane] != 0) {
+      std::array<std::array<double, D>, 2> center;
+      std::array<double, 2> limit;
+      for (std::size_t e = 0; e < 2; ++e) {
+        limit[e] = chords.limit[e].v[lane];
+        for (std::size_t axis = 0; axis < D; ++axis) center[e][axis] = chords.center[e][axis].v[lane];
+      }
+      scan_beyond<D, K, equal>(
+          paths, nodes[lane], bases[lane], center, limit,
+          0, [&](BeadId b) __attribute__((always_inline)) { beyond.push_back(b); });
+    }
+    all_inside[lane] = beyond.size() == before;
+    ends[lane] = beyond.size();
+  }
+}
+
+template <int D, int K>
+void look_in_degree(const BeadPaths<D>& paths, std::span<const BeadRange> nodes, std::span<const Basis> bases,
+                    double enlarged_by, std::span<const double> raised_by, ChordFilterResult<D>& first,
+                    std::vector<BeadId>& beyond) {
+  constexpr Period step;
+  ChordLanes<D> chords;
+  find_chords(paths, bases, PeriodLanes({&step, 1}), chords);
+  if (paths.equal_radii()) {
+    in_long_lanes<&look<D, K, true>>(paths, nodes, bases, enlarged_by, raised_by, chords, first.steady,
+                                     first.ends, beyond);
+  } else {
+    in_long_lanes<&look<D, K, false>>(paths, nodes, bases, enlarged_by, raised_by, chords, first.steady,
+                                      first.ends, beyond);
+  }
+  const long all = (1L << bases.front().size) - 1;
+  for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
+    first.steady[lane] &= chords.proved[lane] != 0 && chords.stays[lane] == all;
+    if (!first.steady[lane]) chords.give(lane, first.chords[lane]);
+  }
+}
+
+}  // namespace
+
+template <int Dimension>
+void filter_nodes(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
+                  std::span<const Basis> bases, ChordFilterResult<Dimension>& look,
+                  std::vector<BeadId>& beyond, double enlarged_by, std::span<const double> raised_by) {
+  switch (paths.degree()) {
+    case 1:
+      return look_in_degree<Dimension, 1>(paths, nodes, bases, enlarged_by, raised_by, look, beyond);
+    case 2:
+      return look_in_degree<Dimension, 2>(paths, nodes, bases, enlarged_by, raised_by, look, beyond);
+    default:
+      return look_in_degree<Dimension, 3>(paths, nodes, bases, enlarged_by, raised_by, look, beyond);
+  }
+}
+
+template void filter_nodes(const BeadPaths<2>&, std::span<const BeadRange>, std::span<const Basis>,
+                           ChordFilterResult<2>&, std::vector<BeadId>&, double, std::span<const double>);
+template void filter_nodes(const BeadPaths<3>&, std::span<const BeadRange>, std::span<const Basis>,
+                           ChordFilterResult<3>&, std::vector<BeadId>&, double, std::span<const double>);
 
 }  // namespace kds

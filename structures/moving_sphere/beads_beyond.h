@@ -1,7 +1,11 @@
 #pragma once
 // Finds the beads that a sphere may lose during a step: those that its chord (sphere_chord.h) does not prove
-// to stay inside.
+// to stay inside. A first filter over all nodes, four at a time, settles most of them: a node is steady if
+// the chord of its sphere proves at once that it loses no bead and its basis does not change.
 
+#include <array>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "motions/base/bead_range.h"
@@ -28,5 +32,23 @@ template <int Dimension>
 void keep_beyond(const BeadPaths<Dimension>& paths, const Basis& basis,
                  std::span<const SphereChord<Dimension>, 4> chords, std::span<const Period, 4> periods,
                  std::vector<BeadId>& beyond);
+
+/// The filter's result for up to four nodes with bases of one size.
+template <int Dimension>
+struct ChordFilterResult {
+  std::array<bool, 4> steady;
+  // For nodes that are not steady: the chord and, if the chord is proved, the end in `beyond` of the node's
+  // beads that are not proved to stay inside (beads_beyond.h).
+  std::array<SphereChord<Dimension>, 4> chords;
+  std::array<std::size_t, 4> ends;
+};
+
+/// Appends to `beyond`. Chords are enlarged by `enlarged_by` (SphereChord::enlarge). If lengths are given,
+/// each node's limits are raised by its length.
+template <int Dimension>
+void filter_nodes(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
+                  std::span<const Basis> bases, ChordFilterResult<Dimension>& look,
+                  std::vector<BeadId>& beyond, double enlarged_by = 1,
+                  std::span<const double> raised_by = {});
 
 }  // namespace kds

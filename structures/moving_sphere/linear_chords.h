@@ -21,7 +21,6 @@
 #include <array>
 
 #include "structures/moving_sphere/chord_lanes.h"
-#include "structures/moving_sphere/tangent_lanes.h"
 
 namespace kds::detail {
 
@@ -40,7 +39,7 @@ struct Stray {
   [[gnu::always_inline]] Lanes most() const { return rounded + between; }
 };
 
-/// Quantities of the balls that all spheres of one size need, in the notation of tangent_lanes.h. `off_hull`
+/// Quantities of the balls that all spheres of one size need, in the notation of chord_lanes.h. `off_hull`
 /// refers to b.
 template <std::size_t M>
 struct LinearSimplex {

@@ -5,8 +5,8 @@
 
 #include "certificates/base/determinant.h"
 #include "motions/numbers/long_lanes.h"
+#include "structures/moving_sphere/chord_lanes.h"
 #include "structures/moving_sphere/linear_chords.h"
-#include "structures/moving_sphere/tangent_lanes.h"
 
 namespace kds {
 

@@ -19,7 +19,7 @@
 //
 // then these bounds hold. |z'| sags below its chord by at most |z'(1) - z'(0)|^2 / (8 min |z'|). L is 1 -
 // |q|. If balls of unequal radii are nearly flat and q is long, L is instead derived from the angle between q
-// and z' (least_lead in tangent_lanes.h).
+// and z' (least_lead in chord_lanes.h).
 //
 // A bead with |c_b - z'| + s_b <= rho' - E - |rho - rho'| at all control points is inside all the time. Basis
 // ball i stays in the basis while its barycentric coordinate is positive. Let w_i be linear between the
@@ -80,5 +80,38 @@ template <int Dimension>
   sphere_chords<Dimension>(paths, {&basis, 1}, {&period, 1}, {&chord, 1});
   return chord;
 }
+
+/// Caches the chord of the last basis, so that a repeated query finds it.
+template <int Dimension>
+class ChordCache {
+ public:
+  /// Stores `chord` as the chord of `basis` in a period that ends with the step.
+  void keep(const Basis& basis, const Period& period, const SphereChord<Dimension>& chord) {
+    basis_ = basis;
+    from_ = period.from;
+    sure_ = period.sure;
+    chord_ = chord;
+  }
+  void forget() { from_ = none; }
+
+  /// Returns the chord of `basis`. `relax(basis, chord)` is applied to a new chord; chords given to `keep`
+  /// must have undergone it already.
+  template <class Relax>
+  [[nodiscard]] const SphereChord<Dimension>& of(const BeadPaths<Dimension>& paths, const Basis& basis,
+                                                 const Period& period, Relax relax) {
+    if (!(from_ == period.from && sure_ == period.sure && basis_ == basis)) {
+      keep(basis, period, sphere_chord(paths, basis, period));
+      relax(basis, chord_);
+    }
+    return chord_;
+  }
+
+ private:
+  static constexpr double none = -1;  // no time
+
+  Basis basis_;
+  double from_ = none, sure_ = 0;
+  SphereChord<Dimension> chord_;
+};
 
 }  // namespace kds

@@ -3,8 +3,7 @@
 #include <cmath>
 
 #include "motions/numbers/long_lanes.h"
-#include "structures/moving_sphere/period_lanes.h"
-#include "structures/moving_sphere/tangent_lanes.h"
+#include "structures/moving_sphere/chord_lanes.h"
 
 namespace kds {
 

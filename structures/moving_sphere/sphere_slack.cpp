@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "structures/moving_sphere/tangent_lanes.h"
+#include "structures/moving_sphere/chord_lanes.h"
 
 namespace kds {
 

@@ -1,6 +1,6 @@
 // The first look at nodes, four at a time, against chord and scan of each alone.
 
-#include "structures/moving_sphere/chord_filter.h"
+#include "structures/moving_sphere/beads_beyond.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 
 #include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
-#include "structures/moving_sphere/beads_beyond.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 
