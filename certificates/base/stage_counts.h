@@ -43,7 +43,7 @@ inline constexpr std::array<Stage, 10> stage_table{{
     {"identically_zero", &StageCounts::identically_zero, Stage::Of::failure_time,
      "integers, identically zero"},
     {"shared", &StageCounts::shared, Stage::Of::failure_time, "with another of the same function"},
-    {"tolerance", &StageCounts::slack, Stage::Of::failure_time, "beads moved too little to matter"},
+    {"slack", &StageCounts::slack, Stage::Of::failure_time, "beads moved too little to matter"},
     {"signs_double", &StageCounts::signs_double, Stage::Of::sign, "double"},
     {"signs_exact", &StageCounts::signs_exact, Stage::Of::sign, "integers"},
     {"largest_bits", &StageCounts::largest_bits, Stage::Of::size, "bits of the longest integer"},
