@@ -153,7 +153,7 @@ class CertificateTable final : public FailureSource {
     --owner_.statistics.certificates.alive;
     if (!has_slot(guard)) return;
     ++owner_.statistics.certificates.cancelled;
-    simulator_.cancel(entries_[slot_of(guard)].handle);
+    simulator_.cancel(slots_[slot_of(guard)].handle);
     free_.push_back(slot_of(guard));
   }
 
@@ -161,15 +161,15 @@ class CertificateTable final : public FailureSource {
   /// not be called while an event is being handled.
   template <std::predicate<const Certificate&> Asked>
   void drop_if(Asked asked) {
-    std::vector<std::uint8_t> is_free(entries_.size(), 0);
+    std::vector<std::uint8_t> is_free(slots_.size(), 0);
     for (const std::uint32_t slot : free_) is_free[slot] = 1;
     for (std::uint32_t slot = 0; slot < is_free.size(); ++slot) {
-      if (is_free[slot] == 0 && asked(entries_[slot].certificate)) drop(static_cast<CertificateHandle>(slot));
+      if (is_free[slot] == 0 && asked(slots_[slot].certificate)) drop(static_cast<CertificateHandle>(slot));
     }
   }
   /// Sets the certificate's place in the structure from now on.
   void set_place(CertificateHandle guard, std::uint32_t place) {
-    if (has_slot(guard)) entries_[slot_of(guard)].place = place;
+    if (has_slot(guard)) slots_[slot_of(guard)].place = place;
   }
 
   /// Counts certificates that are known to hold for the rest of the step.
@@ -183,23 +183,21 @@ class CertificateTable final : public FailureSource {
 
   /// Prefetches the certificate, which will be needed soon.
   void fetch(CertificateHandle guard) const {
-    if (has_slot(guard)) __builtin_prefetch(&entries_[slot_of(guard)]);
+    if (has_slot(guard)) __builtin_prefetch(&slots_[slot_of(guard)]);
   }
   /// Prefetches the queue entry of a certificate that will be removed soon.
   void fetch_scheduled(CertificateHandle guard) const {
-    if (has_slot(guard)) simulator_.fetch(entries_[slot_of(guard)].handle);
+    if (has_slot(guard)) simulator_.fetch(slots_[slot_of(guard)].handle);
   }
   /// The failure time of a certificate in the queue.
   [[nodiscard]] const FailureTime& time(std::uint32_t slot) const {
-    return simulator_.scheduled(entries_[slot].handle);
+    return simulator_.scheduled(slots_[slot].handle);
   }
-  [[nodiscard]] const Certificate& certificate(std::uint32_t slot) const {
-    return entries_[slot].certificate;
-  }
+  [[nodiscard]] const Certificate& certificate(std::uint32_t slot) const { return slots_[slot].certificate; }
   /// Returns whether the certificate only touches zero at its time and does not fail. Always false unless the
   /// table reports touches.
-  [[nodiscard]] bool touches(std::uint32_t slot) const { return entries_[slot].touch; }
-  [[nodiscard]] std::uint32_t place_in_structure(std::uint32_t slot) const { return entries_[slot].place; }
+  [[nodiscard]] bool touches(std::uint32_t slot) const { return slots_[slot].touch; }
+  [[nodiscard]] std::uint32_t place_in_structure(std::uint32_t slot) const { return slots_[slot].place; }
 
   /// Returns the search, which also answers questions about certificates that are not in the table.
   [[nodiscard]] const CertificateSearch<Certificate>& search() const { return *search_; }
@@ -207,10 +205,10 @@ class CertificateTable final : public FailureSource {
   [[nodiscard]] unsigned number() const { return number_; }
 
   [[nodiscard]] ExactFunction exact_function(std::uint32_t slot) const override {
-    return search_->exact_function(entries_[slot].certificate);
+    return search_->exact_function(slots_[slot].certificate);
   }
   [[nodiscard]] Identity identity(std::uint32_t slot) const override {
-    return identity(entries_[slot].certificate);
+    return identity(slots_[slot].certificate);
   }
   /// Returns the identity of `certificate` in this table. It names the beads and, for a type with constants,
   /// the table, because other constants give another function of the same beads.
@@ -220,19 +218,19 @@ class CertificateTable final : public FailureSource {
     return identity;
   }
   [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override {
-    return among_tables_.of(entries_[slot].place);
+    return among_tables_.of(slots_[slot].place);
   }
   [[nodiscard]] std::size_t structure() const override { return structure_; }
 
  private:
   // Called by the engine only.
 
-  [[nodiscard]] bool side(std::uint32_t slot) const override { return entries_[slot].certificate.side(); }
+  [[nodiscard]] bool side(std::uint32_t slot) const override { return slots_[slot].certificate.side(); }
   void fetch(std::uint32_t slot, unsigned bins_ahead) const override {
     if (bins_ahead == 2) {
-      __builtin_prefetch(&entries_[slot]);
+      __builtin_prefetch(&slots_[slot]);
     } else {
-      owner_.fetch(number_, entries_[slot].place, bins_ahead == 0);
+      owner_.fetch(number_, slots_[slot].place, bins_ahead == 0);
     }
   }
   void fail(std::uint32_t slot) override {
@@ -242,14 +240,14 @@ class CertificateTable final : public FailureSource {
   }
   void retire(std::uint32_t slot) override { free_.push_back(slot); }
   void clear() override {
-    entries_.clear();
+    slots_.clear();
     free_.clear();
     created_in_step_ = 0;
     constants_in_use_ = {};
     owner_.statistics.certificates.alive = 0;
   }
 
-  struct Entry {
+  struct Slot {
     Certificate certificate;
     std::uint32_t place = 0;
     QueueHandle handle = 0;
@@ -332,17 +330,17 @@ class CertificateTable final : public FailureSource {
     }
     std::uint32_t slot = 0;
     if (free_.empty()) {
-      slot = static_cast<std::uint32_t>(entries_.size());
-      extend_little(entries_);
+      slot = static_cast<std::uint32_t>(slots_.size());
+      extend_little(slots_);
     } else {
       slot = free_.back();
       free_.pop_back();
     }
-    Entry& entry = entries_[slot];
-    entry.certificate = certificate;
-    entry.place = place;
-    entry.touch = failure.time.touch;
-    entry.handle = simulator_.schedule(failure.time, *this, slot);
+    Slot& held = slots_[slot];
+    held.certificate = certificate;
+    held.place = place;
+    held.touch = failure.time.touch;
+    held.handle = simulator_.schedule(failure.time, *this, slot);
     return static_cast<CertificateHandle>(slot);
   }
 
@@ -360,7 +358,7 @@ class CertificateTable final : public FailureSource {
   std::unique_ptr<CertificateSearch<Certificate>> search_;
   TouchPolicy touches_;
   std::uint64_t most_in_step_;  // limit of certificates in a step with `fast`
-  std::vector<Entry> entries_;
+  std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_;
   // The enqueued certificates with their places, births and failures. These arrays have room for more than
   // `waiting_count_` entries.

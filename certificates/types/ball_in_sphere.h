@@ -263,13 +263,13 @@ struct BallInSphere {
   }
 
   /// One polynomial of the radical.
-  struct Part {
+  struct RadicalPolynomial {
     static constexpr bool uses_radii = true;
     Beads beads{};
   };
 
   struct Radical {
-    struct Rational : Part {
+    struct Rational : RadicalPolynomial {
       template <MotionView View>
       [[nodiscard]] static auto formula(const View& view, const Beads& beads) {
         if constexpr (Size == 1) {
@@ -305,7 +305,7 @@ struct BallInSphere {
       }
     };
 
-    struct Root : Part {
+    struct Root : RadicalPolynomial {
       template <MotionView View>
       [[nodiscard]] static auto formula(const View& view, const Beads& beads) {
         if constexpr (Size == 1) {
@@ -321,7 +321,7 @@ struct BallInSphere {
       }
     };
 
-    struct Norm : Part {
+    struct Norm : RadicalPolynomial {
       template <MotionView View>
       [[nodiscard]] static auto formula(const View& view, const Beads& beads) {
         const detail::BallsFromBase<Size, View> balls(view, beads);
@@ -382,7 +382,7 @@ struct BallInSphere {
 
   /// The condition rho > s_j. For a basis of one, A and B imply it.
   struct RadiusCondition {
-    struct Rational : Part {
+    struct Rational : RadicalPolynomial {
       template <MotionView View>
       [[nodiscard]] static auto formula(const View& view, const Beads& beads) {
         const Sphere<View> balls(view, beads);
@@ -396,13 +396,13 @@ struct BallInSphere {
         }
       }
     };
-    struct Root : Part {
+    struct Root : RadicalPolynomial {
       template <MotionView View>
       [[nodiscard]] static auto formula(const View& view, const Beads& beads) {
         return view.radius_difference(beads[0], beads[Size]);
       }
     };
-    struct Norm : Part {
+    struct Norm : RadicalPolynomial {
       template <MotionView View>
       [[nodiscard]] static auto formula(const View& view, const Beads& beads) {
         const Sphere<View> balls(view, beads);

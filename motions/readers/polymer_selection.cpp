@@ -39,7 +39,7 @@ bool is_alternate_of(const StructureResidue& residue, const StructureResidue& be
 }
 
 // A chain, or a molecule of a chain, as --chain can name it.
-struct Part {
+struct PolymerPart {
   std::string label;
   std::string chain;
   std::optional<std::string> molecule;     // a molecule of the chain; none: all its molecules
@@ -51,9 +51,9 @@ struct Part {
 // Returns a label as messages show it.
 std::string shown(const std::string& label) { return label.empty() ? "' '" : label; }
 
-std::vector<std::string> labels_of(const std::vector<const Part*>& parts) {
+std::vector<std::string> labels_of(const std::vector<const PolymerPart*>& parts) {
   std::vector<std::string> labels;
-  for (const Part* part : parts) labels.push_back(shown(part->label));
+  for (const PolymerPart* part : parts) labels.push_back(shown(part->label));
   return labels;
 }
 
@@ -62,9 +62,9 @@ class Parts {
   explicit Parts(const StructureModel& model) : model_(model) {
     for (const StructureResidue& residue : model.residues) {
       if (find(chains_, residue.chain) == nullptr)
-        chains_.push_back(Part{residue.chain, residue.chain, {}, {}, {}});
+        chains_.push_back(PolymerPart{residue.chain, residue.chain, {}, {}, {}});
       const ResidueKind kind = kind_of(residue);
-      Part& chain = *find(chains_, residue.chain);
+      PolymerPart& chain = *find(chains_, residue.chain);
       if (kind == ResidueKind::none && is_tabulated_monomer(residue.name) && has_backbone(residue))
         chain.free_residues.push_back(name_of(residue));
       if (kind == ResidueKind::none) continue;
@@ -73,12 +73,12 @@ class Parts {
       add(molecule_of(residue), residue, kind);
     }
     // Caps and chain ends alone are not a polymer.
-    for (Part& chain : chains_)
+    for (PolymerPart& chain : chains_)
       if (!has_monomers(chain)) chain.polymer.clear();
-    std::erase_if(molecules_, [](const Part& molecule) { return !has_monomers(molecule); });
-    for (Part& molecule : molecules_) {
+    std::erase_if(molecules_, [](const PolymerPart& molecule) { return !has_monomers(molecule); });
+    for (PolymerPart& molecule : molecules_) {
       std::size_t number = 1;
-      for (const Part* before = molecules_.data(); before != &molecule; ++before)
+      for (const PolymerPart* before = molecules_.data(); before != &molecule; ++before)
         if (before->chain == molecule.chain) ++number;
       molecule.label =
           molecule.chain.empty() ? std::to_string(number) : fmt::format("{}.{}", molecule.chain, number);
@@ -86,41 +86,41 @@ class Parts {
   }
 
   // Returns the part with this name, or null.
-  const Part* named(const std::string& label) const {
-    const Part* const chain = find(chains_, label);
+  const PolymerPart* named(const std::string& label) const {
+    const PolymerPart* const chain = find(chains_, label);
     return chain != nullptr ? chain : find(molecules_, label);
   }
 
   // Whether --chain reads this part by its label; otherwise a chain has the label as its name.
-  bool can_be_named(const Part& part) const { return named(part.label) == &part; }
+  bool can_be_named(const PolymerPart& part) const { return named(part.label) == &part; }
 
-  std::vector<const Part*> molecules_of(const Part& chain) const {
-    std::vector<const Part*> parts;
-    for (const Part& molecule : molecules_)
+  std::vector<const PolymerPart*> molecules_of(const PolymerPart& chain) const {
+    std::vector<const PolymerPart*> parts;
+    for (const PolymerPart& molecule : molecules_)
       if (molecule.chain == chain.chain) parts.push_back(&molecule);
     return parts;
   }
 
   // Returns the named chains and the unnamed molecules that are polymers. Returns all chains if there are no
   // polymers.
-  std::vector<const Part*> default_parts() const {
-    std::vector<const Part*> parts;
-    for (const Part& chain : chains_) {
-      const std::vector<const Part*> molecules = molecules_of(chain);
+  std::vector<const PolymerPart*> default_parts() const {
+    std::vector<const PolymerPart*> parts;
+    for (const PolymerPart& chain : chains_) {
+      const std::vector<const PolymerPart*> molecules = molecules_of(chain);
       if (chain.label.empty() && molecules.size() > 1)
         parts.insert(parts.end(), molecules.begin(), molecules.end());
       else if (!chain.polymer.empty())
         parts.push_back(&chain);
     }
     if (parts.empty())
-      for (const Part& chain : chains_) parts.push_back(&chain);
+      for (const PolymerPart& chain : chains_) parts.push_back(&chain);
     return parts;
   }
 
   bool has_polymer() const { return !molecules_.empty(); }
 
   // Returns the residues to select from.
-  Residues candidates(const Part& part, Selection selection) const {
+  Residues candidates(const PolymerPart& part, Selection selection) const {
     if (!part.polymer.empty() || selection != Selection::all) return part.polymer;
     Residues residues;
     for (const StructureResidue& residue : model_.residues)
@@ -152,40 +152,40 @@ class Parts {
   static bool is_monomer(ResidueKind kind) {
     return kind == ResidueKind::protein || kind == ResidueKind::nucleic;
   }
-  static bool has_monomers(const Part& part) {
+  static bool has_monomers(const PolymerPart& part) {
     return std::any_of(part.polymer.begin(), part.polymer.end(),
                        [](const StructureResidue* residue) { return is_monomer(kind_of(*residue)); });
   }
 
-  static void add(Part& part, const StructureResidue& residue, ResidueKind kind) {
+  static void add(PolymerPart& part, const StructureResidue& residue, ResidueKind kind) {
     part.polymer.push_back(&residue);
     part.protein = part.protein || kind == ResidueKind::protein;
   }
 
-  static const Part* find(const std::vector<Part>& parts, const std::string& label) {
-    const auto found =
-        std::find_if(parts.begin(), parts.end(), [&](const Part& part) { return part.label == label; });
+  static const PolymerPart* find(const std::vector<PolymerPart>& parts, const std::string& label) {
+    const auto found = std::find_if(parts.begin(), parts.end(),
+                                    [&](const PolymerPart& part) { return part.label == label; });
     return found == parts.end() ? nullptr : &*found;
   }
-  static Part* find(std::vector<Part>& parts, const std::string& label) {
-    return const_cast<Part*>(find(std::as_const(parts), label));
+  static PolymerPart* find(std::vector<PolymerPart>& parts, const std::string& label) {
+    return const_cast<PolymerPart*>(find(std::as_const(parts), label));
   }
 
-  Part& molecule_of(const StructureResidue& residue) {
+  PolymerPart& molecule_of(const StructureResidue& residue) {
     for (auto part = molecules_.rbegin(); part != molecules_.rend(); ++part)
       if (part->chain == residue.chain && part->molecule == residue.molecule) return *part;
-    return molecules_.emplace_back(Part{{}, residue.chain, residue.molecule, {}, {}});
+    return molecules_.emplace_back(PolymerPart{{}, residue.chain, residue.molecule, {}, {}});
   }
 
   const StructureModel& model_;
-  std::vector<Part> chains_, molecules_;
+  std::vector<PolymerPart> chains_, molecules_;
 };
 
 // Returns the first part with amino acids, otherwise the first with nucleotides, otherwise the first part.
-const Part& default_part(const std::vector<const Part*>& parts) {
-  for (const Part* part : parts)
+const PolymerPart& default_part(const std::vector<const PolymerPart*>& parts) {
+  for (const PolymerPart* part : parts)
     if (part->protein) return *part;
-  for (const Part* part : parts)
+  for (const PolymerPart* part : parts)
     if (!part->polymer.empty()) return *part;
   return *parts.front();
 }
@@ -245,7 +245,7 @@ struct PartRead {
   Selection selection = Selection::automatic;
 };
 
-PartRead read_part(const Parts& parts, const Part& part, Selection selection) {
+PartRead read_part(const Parts& parts, const PolymerPart& part, Selection selection) {
   PartRead read;
   read.chain.name = part.label;
   read.selection = selection;
@@ -274,13 +274,14 @@ PartRead read_part(const Parts& parts, const Part& part, Selection selection) {
 const char* atoms_of(Selection selection) { return selection == Selection::ca ? "CA" : "N, CA and C"; }
 
 // For a molecule whose label is the name of a chain.
-std::string advice_to_rename(const Part& molecule) {
+std::string advice_to_rename(const PolymerPart& molecule) {
   return fmt::format("molecule {0} cannot be named by --chain, because a chain has the name {0}: rename it",
                      molecule.label);
 }
 
 // Adds notes about residues of a part that are left out or doubtful.
-void add_notes(const Parts& parts, const Part& part, const PartRead& read, std::vector<std::string>& notes) {
+void add_notes(const Parts& parts, const PolymerPart& part, const PartRead& read,
+               std::vector<std::string>& notes) {
   constexpr std::size_t most = 5;
   const std::string label = shown(part.label);
   if (!read.lacking.empty())
@@ -297,12 +298,12 @@ void add_notes(const Parts& parts, const Part& part, const PartRead& read, std::
     notes.push_back(fmt::format("chain {}: {} taken for free ones (HETATM) and not read: {}", label,
                                 counted(part.free_residues.size(), "amino acid"),
                                 joined(part.free_residues, most)));
-  const std::vector<const Part*> molecules = parts.molecules_of(part);
+  const std::vector<const PolymerPart*> molecules = parts.molecules_of(part);
   if (!part.molecule && molecules.size() > 1) {
     std::string line =
         fmt::format("chain {} has {} molecules and is read as one necklace", label, molecules.size());
     std::vector<std::string> labels, hidden;
-    for (const Part* molecule : molecules) {
+    for (const PolymerPart* molecule : molecules) {
       if (parts.can_be_named(*molecule)) {
         labels.push_back(molecule->label);
       } else {
@@ -316,13 +317,13 @@ void add_notes(const Parts& parts, const Part& part, const PartRead& read, std::
 }
 
 // Returns a note about the parts that are not read by default.
-std::optional<std::string> describe_unread(const Parts& parts, const Part& read, const PartRead& beads,
+std::optional<std::string> describe_unread(const Parts& parts, const PolymerPart& read, const PartRead& beads,
                                            Selection selection) {
   constexpr std::size_t most = 10;
-  std::vector<const Part*> unread, readable, hidden;
+  std::vector<const PolymerPart*> unread, readable, hidden;
   bool chains = !read.molecule;
   std::size_t residues = beads.chain.residues;
-  for (const Part* part : parts.default_parts()) {
+  for (const PolymerPart* part : parts.default_parts()) {
     if (part == &read) continue;
     unread.push_back(part);
     chains = chains || !part->molecule;
@@ -343,7 +344,7 @@ std::optional<std::string> describe_unread(const Parts& parts, const Part& read,
     line +=
         fmt::format("; --chain {}{} reads {}", label, both, readable.size() == 1 ? "it" : "them likewise");
   }
-  for (const Part* part : hidden) line += fmt::format("; {}", advice_to_rename(*part));
+  for (const PolymerPart* part : hidden) line += fmt::format("; {}", advice_to_rename(*part));
   return line;
 }
 
@@ -354,23 +355,23 @@ InputError no_polymer_in(const std::string& file, const Parts& parts) {
                   file, parts.contents()));
 }
 
-std::vector<const Part*> parts_asked_for(const std::string& file, const Parts& parts, Selection selection,
-                                         const std::optional<std::string>& list) {
+std::vector<const PolymerPart*> parts_asked_for(const std::string& file, const Parts& parts,
+                                                Selection selection, const std::optional<std::string>& list) {
   if (!parts.has_polymer() && selection != Selection::all && !list) throw no_polymer_in(file, parts);
   if (!list) return {&default_part(parts.default_parts())};
-  std::vector<const Part*> wanted;
+  std::vector<const PolymerPart*> wanted;
   for (std::string_view rest = *list;;) {
     const std::size_t comma = rest.find(',');
     const std::string name(trimmed(rest.substr(0, comma)));
-    const Part* const part = parts.named(name);
+    const PolymerPart* const part = parts.named(name);
     if (part == nullptr) {
       if (!parts.has_polymer() && selection != Selection::all) throw no_polymer_in(file, parts);
       std::vector<std::string> expected;
-      for (const Part* one : parts.default_parts()) {
+      for (const PolymerPart* one : parts.default_parts()) {
         if (parts.can_be_named(*one)) expected.push_back(shown(one->label));
-        const std::vector<const Part*> molecules = parts.molecules_of(*one);
+        const std::vector<const PolymerPart*> molecules = parts.molecules_of(*one);
         if (!one->molecule && molecules.size() > 1)
-          for (const Part* molecule : molecules)
+          for (const PolymerPart* molecule : molecules)
             if (parts.can_be_named(*molecule)) expected.push_back(molecule->label);
       }
       throw InputError(fmt::format("--chain: {} has no chain {}; expected {}", file, in_quotes(name),
@@ -378,7 +379,7 @@ std::vector<const Part*> parts_asked_for(const std::string& file, const Parts& p
     }
     if (std::find(wanted.begin(), wanted.end(), part) != wanted.end())
       throw InputError(fmt::format("--chain: {} is listed twice for {}", in_quotes(name), file));
-    for (const Part* other : wanted)
+    for (const PolymerPart* other : wanted)
       if (other->chain == part->chain && (!other->molecule || !part->molecule))
         throw InputError(fmt::format("--chain: molecule {} of {} is part of chain {}, which is listed too",
                                      part->molecule ? part->label : other->label, file,
@@ -396,7 +397,7 @@ SelectedChains select_chains(const std::string& file, const StructureModel& mode
   if (model.residues.empty()) throw InputError(fmt::format("{}: no atoms", file));
   const Parts parts(model);
   SelectedChains selected;
-  for (const Part* part : parts_asked_for(file, parts, selection, list)) {
+  for (const PolymerPart* part : parts_asked_for(file, parts, selection, list)) {
     PartRead read = read_part(parts, *part, selection);
     if (read.atoms.empty())
       throw InputError(

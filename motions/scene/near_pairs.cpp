@@ -24,7 +24,7 @@ struct GridCell {
   friend auto operator<=>(const GridCell&, const GridCell&) = default;
 };
 
-struct Entry {
+struct BeadInCell {
   GridCell cell;
   BeadId bead = 0;
 };
@@ -44,24 +44,25 @@ std::optional<GridCell> cell_of(const Eigen::Matrix3Xd& centers, BeadId bead, in
   return GridCell{place[0], place[1], place[2]};
 }
 
-std::optional<std::vector<Entry>> sorted_entries(const Eigen::Matrix3Xd& centers,
-                                                 const std::vector<BeadId>& beads, int power) {
-  std::vector<Entry> entries;
+std::optional<std::vector<BeadInCell>> sorted_entries(const Eigen::Matrix3Xd& centers,
+                                                      const std::vector<BeadId>& beads, int power) {
+  std::vector<BeadInCell> entries;
   entries.reserve(beads.size());
   for (const BeadId bead : beads) {
     const auto cell = cell_of(centers, bead, power);
     if (!cell) return std::nullopt;
     entries.push_back({*cell, bead});
   }
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.cell < b.cell; });
+  std::sort(entries.begin(), entries.end(),
+            [](const BeadInCell& a, const BeadInCell& b) { return a.cell < b.cell; });
   return entries;
 }
 
 // Visits the pairs of entries in neighbouring cells. Both lists are sorted, and so are the starts of the nine
 // rows of three cells that a query examines: nine positions in `others` advance together. `once`: both lists
 // are the same, so each pair occurs twice and is visited once.
-void visit_neighbours(const std::vector<Entry>& queries, const std::vector<Entry>& others, bool once,
-                      const Visit& visit) {
+void visit_neighbours(const std::vector<BeadInCell>& queries, const std::vector<BeadInCell>& others,
+                      bool once, const Visit& visit) {
   std::array<std::size_t, 9> starts{};
   for (std::size_t q = 0; q < queries.size(); ++q) {
     const GridCell& cell = queries[q].cell;

@@ -22,14 +22,14 @@ double length(const Vector<Dimension>& v) {
 
 /// The difference of two centres on a part of the step, in Bernstein form.
 template <int Dimension>
-struct Part {
+struct CurvePart {
   std::vector<Vector<Dimension>> points;
   double from = 0;
   int halvings = 0;
 
   /// Splits the part by de Casteljau's algorithm. Keeps the later half and returns the earlier one.
-  [[nodiscard]] Part split_off_first_half() {
-    Part first{points, from, ++halvings};
+  [[nodiscard]] CurvePart split_off_first_half() {
+    CurvePart first{points, from, ++halvings};
     from += std::ldexp(1.0, -halvings);
     for (std::size_t round = 1; round < points.size(); ++round) {
       for (std::size_t k = 0; k + round < points.size(); ++k)
@@ -54,8 +54,8 @@ struct Part {
 };
 
 template <int Dimension>
-Part<Dimension> difference(const Curves<Dimension>& curves, BeadId a, BeadId b) {
-  Part<Dimension> whole;
+CurvePart<Dimension> difference(const Curves<Dimension>& curves, BeadId a, BeadId b) {
+  CurvePart<Dimension> whole;
   for (int k = 0; k <= curves.own_degree(); ++k) {
     Vector<Dimension>& point = whole.points.emplace_back();
     for (int axis = 0; axis < Dimension; ++axis)
@@ -68,7 +68,7 @@ Part<Dimension> difference(const Curves<Dimension>& curves, BeadId a, BeadId b) 
 
 template <int Dimension>
 LeastDistance least_distance(const Curves<Dimension>& curves, BeadId a, BeadId b) {
-  std::vector<Part<Dimension>> parts{difference(curves, a, b)};
+  std::vector<CurvePart<Dimension>> parts{difference(curves, a, b)};
   double extent = 0;
   for (const Vector<Dimension>& point : parts.front().points) {
     double way = 0;
@@ -87,9 +87,9 @@ LeastDistance least_distance(const Curves<Dimension>& curves, BeadId a, BeadId b
   look_at(parts.front().points.front(), 0);
   look_at(parts.front().points.back(), 1);
   while (!parts.empty()) {
-    Part<Dimension> later = std::move(parts.back());
+    CurvePart<Dimension> later = std::move(parts.back());
     parts.pop_back();
-    Part<Dimension> first = later.split_off_first_half();
+    CurvePart<Dimension> first = later.split_off_first_half();
     const Vector<Dimension>& middle = later.points.front();
     look_at(middle, later.from);
     const double lower =

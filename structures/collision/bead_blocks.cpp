@@ -15,8 +15,8 @@ constexpr std::size_t gathered_blocks = 64;  // maximum number of blocks copied 
 }  // namespace
 
 template <int Dimension>
-BeadBlocks<Dimension>::BeadBlocks(PairsAsked asked, const BlockKernels<Dimension>& kernels, BlockOrder order)
-    : asked_(std::move(asked)), kernels_(kernels) {
+BeadBlocks<Dimension>::BeadBlocks(PairsAsked asked, const BlockLoops<Dimension>& loops, BlockOrder order)
+    : asked_(std::move(asked)), loops_(loops) {
   for (const BeadRange& range : asked_.necklaces) {
     if (range.first != beads_ || range.last < range.first)
       throw std::invalid_argument("expected a scene's necklaces one after the other");
@@ -166,11 +166,11 @@ void BeadBlocks<Dimension>::clear_lanes_behind(std::size_t block) {
 template <int Dimension>
 BlockExtent BeadBlocks<Dimension>::fill_in_frame(const Balls<Dimension>& balls, double gap) {
   BlockExtent extent;
-  const auto kernel = equal_ ? kernels_.fill_equal : kernels_.fill_unequal;
+  const auto loop = equal_ ? loops_.fill_equal : loops_.fill_unequal;
   const BlockSource<Dimension> source = source_of(gap, balls.radius(0));
   limit_ = (source.radius + source.radius) * (source.radius + source.radius);
   with_sources(balls, source, [&](const BlockSource<Dimension>& some, std::size_t first, std::size_t last) {
-    const BlockExtent e = kernel(some, first, last, view(), levels_[0].data());
+    const BlockExtent e = loop(some, first, last, view(), levels_[0].data());
     extent.coordinate = std::max(extent.coordinate, e.coordinate);
     extent.radius = std::max(extent.radius, e.radius);
     clear_lanes_behind(last - 1);
@@ -181,13 +181,13 @@ BlockExtent BeadBlocks<Dimension>::fill_in_frame(const Balls<Dimension>& balls, 
 // Returns false if the frame cannot hold the beads.
 template <int Dimension>
 bool BeadBlocks<Dimension>::fill_again(const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks) {
-  const auto kernel = equal_ ? kernels_.fill_equal : kernels_.fill_unequal;
+  const auto loop = equal_ ? loops_.fill_equal : loops_.fill_unequal;
   const BlockSource<Dimension> source = source_of(gap_, balls.radius(0));
   bool fits = true;
   for (const std::uint32_t block : blocks) {
     const BlockSource<Dimension> its =
         gather(balls, source, beads_of(block), [&](std::size_t k) { return bead_at(block, k); });
-    const BlockExtent extent = kernel(its, block, block + 1, view(), levels_[0].data());
+    const BlockExtent extent = loop(its, block, block + 1, view(), levels_[0].data());
     clear_lanes_behind(block);
     fits = fits && extent.coordinate <= frame_.bound;
   }
@@ -216,13 +216,13 @@ void BeadBlocks<Dimension>::fill(const Balls<Dimension>& balls, double gap) {
     if (!fits(extent)) throw std::logic_error("a frame of floats does not hold its own scene");
   }
   gap_ = gap;
-  // A step that the kernel accepts is shorter than computed by at most 2^-20 M, the loss of differences and
+  // A step that the loop accepts is shorter than computed by at most 2^-20 M, the loss of differences and
   // products (below 15 u M). Even so, `apart` such steps are longer than any distance that floats call near.
   least_ahead_ =
       static_cast<float>(2.0 * extent.radius * (1 + 0x1p-16) / asked_.apart + 0x1p-18 * frame_.bound);
   find_stretched(0, boxes_.size());
   for (std::size_t level = 0; level + 1 < levels_.size(); ++level)
-    kernels_.unite(levels_[level].data(), 0, levels_[level].size(), levels_[level + 1].data());
+    loops_.unite(levels_[level].data(), 0, levels_[level].size(), levels_[level + 1].data());
 }
 
 // Marks blocks that, alone and with the next block, contain no near pair that is asked about: each bead lies
@@ -230,7 +230,7 @@ void BeadBlocks<Dimension>::fill(const Balls<Dimension>& balls, double gap) {
 template <int Dimension>
 void BeadBlocks<Dimension>::find_stretched(std::size_t first, std::size_t last) {
   if (!goes_along()) return;
-  kernels_.stretch(view(), first, std::min(last, boxes_.size() - 1), least_ahead_, stretched_.data());
+  loops_.stretch(view(), first, std::min(last, boxes_.size() - 1), least_ahead_, stretched_.data());
   for (std::size_t block = first; block < last; ++block)
     if (block + 1 == boxes_.size() || necklace_of_block_[block] != necklace_of_block_[block + 1])
       stretched_[block / children_of_node] &= static_cast<std::uint16_t>(~(1U << block % children_of_node));
@@ -250,7 +250,7 @@ std::span<const double> BeadBlocks<Dimension>::strayed_by_block(const Balls<Dime
   strays_.resize(boxes_.size());
   with_sources(balls, source_of(0, 0), [&](BlockSource<Dimension> some, std::size_t first, std::size_t last) {
     for (std::size_t block = first; block < last; ++block) {
-      strays_[block] = frame_.farthest(kernels_.stray(some, block, block + 1, view()));
+      strays_[block] = frame_.farthest(loops_.stray(some, block, block + 1, view()));
       for (const double*& axis : some.centers) axis += beads_in_block;
     }
   });
@@ -264,7 +264,7 @@ double BeadBlocks<Dimension>::strayed(const Balls<Dimension>& balls) {
   float farthest = 0;
   with_sources(balls, source_of(0, 0),
                [&](const BlockSource<Dimension>& some, std::size_t first, std::size_t last) {
-                 farthest = std::max(farthest, kernels_.stray(some, first, last, view()));
+                 farthest = std::max(farthest, loops_.stray(some, first, last, view()));
                });
   return frame_.farthest(farthest);
 }

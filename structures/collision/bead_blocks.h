@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "structures/blocks/block_kernels.h"
+#include "structures/blocks/block_loops.h"
 #include "structures/blocks/float_frame.h"
 #include "structures/collision/morton_order.h"
 #include "structures/collision/pairs_asked.h"
@@ -26,7 +26,7 @@ template <int Dimension>
 class BeadBlocks {
  public:
   /// Throws std::invalid_argument unless `asked` names a scene's necklaces one after the other.
-  BeadBlocks(PairsAsked asked, const BlockKernels<Dimension>& kernels, BlockOrder order);
+  BeadBlocks(PairsAsked asked, const BlockLoops<Dimension>& loops, BlockOrder order);
 
   [[nodiscard]] const PairsAsked& asked() const { return asked_; }
   [[nodiscard]] std::size_t bead_count() const { return beads_; }
@@ -47,14 +47,14 @@ class BeadBlocks {
   [[nodiscard]] bool fill_again(const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks);
   /// Writes the box of a node of levels()[level] into its parent.
   void unite(std::size_t level, std::size_t node) {
-    kernels_.unite(levels_[level].data(), node, node + 1, levels_[level + 1].data());
+    loops_.unite(levels_[level].data(), node, node + 1, levels_[level + 1].data());
   }
   /// Return upper bounds of the distance of a bead from where it was filled in, over all beads and per block.
   [[nodiscard]] double strayed(const Balls<Dimension>& balls);
   [[nodiscard]] std::span<const double> strayed_by_block(const Balls<Dimension>& balls);
 
   [[nodiscard]] std::size_t size() const { return boxes_.size(); }
-  /// Returns the blocks in the form that kernels take.
+  /// Returns the blocks in the form that loops take.
   [[nodiscard]] Blocks<Dimension> view();
   /// Levels of nodes, from the nodes above blocks up to a single root.
   [[nodiscard]] const std::vector<std::vector<BlockNode<Dimension>>>& levels() const { return levels_; }
@@ -93,7 +93,7 @@ class BeadBlocks {
   void with_sources(const Balls<Dimension>& balls, BlockSource<Dimension> source, const Visit& visit);
 
   PairsAsked asked_;
-  const BlockKernels<Dimension>& kernels_;
+  const BlockLoops<Dimension>& loops_;
   std::size_t beads_ = 0;
   BlockOrder order_ = BlockOrder::sequence;
 

@@ -41,9 +41,9 @@ void fetch(const BlockNode<Dimension>& node) {
 template <int Dimension>
 BlockTree<Dimension>::BlockTree(PairsAsked asked, std::optional<BlockOrder> order, VectorTarget target)
     : wanted_(order),
-      kernels_(block_kernels<Dimension>(target)),
-      blocks_(std::move(asked), kernels_, order.value_or(BlockOrder::sequence)) {
-  groups_.resize(16 * block_pairs_at_once + kernel_padding);
+      loops_(block_loops<Dimension>(target)),
+      blocks_(std::move(asked), loops_, order.value_or(BlockOrder::sequence)) {
+  groups_.resize(16 * block_pairs_at_once + loop_padding);
   near_groups_.resize(groups_.size());
   near_beads_.resize(groups_.size());
 }
@@ -89,7 +89,7 @@ void BlockTree<Dimension>::expand_levels() {
       if (!asks(a, b, level)) continue;
       more_nodes_.reserve(children_of_node * children_of_node);
       const std::size_t before = more_nodes_.count;
-      more_nodes_.count += kernels_.expand(blocks_.levels()[level].data(), a, b, 0, more_nodes_.end());
+      more_nodes_.count += loops_.expand(blocks_.levels()[level].data(), a, b, 0, more_nodes_.end());
       if (only_marked_) keep_marked(more_nodes_, before, level);
       ++counts_.node_pairs;
     }
@@ -110,7 +110,7 @@ auto BlockTree<Dimension>::search(const Balls<Dimension>& balls, bool may_give_u
     block_pairs_.reserve(children_of_node * children_of_node);
     const std::size_t before = block_pairs_.count;
     block_pairs_.count +=
-        kernels_.expand(blocks_.levels()[0].data(), a, b, blocks_.stretched()[a], block_pairs_.end());
+        loops_.expand(blocks_.levels()[0].data(), a, b, blocks_.stretched()[a], block_pairs_.end());
     if (only_marked_) keep_marked(block_pairs_, before, 0);
     ++counts_.node_pairs;
     if (block_pairs_.count >= block_pairs_at_once) compare_blocks();
@@ -161,12 +161,12 @@ void BlockTree<Dimension>::compare_along() {
 
 template <int Dimension>
 void BlockTree<Dimension>::compare_along(std::size_t first, std::size_t last) {
-  const auto kernel = blocks_.equal_radii() ? kernels_.along_equal : kernels_.along_unequal;
+  const auto loop = blocks_.equal_radii() ? loops_.along_equal : loops_.along_unequal;
   constexpr std::size_t at_once = 2 * block_pairs_at_once;  // a block gives at most eight results
   for (; first < last; first += at_once) {
     const std::size_t near =
-        kernel(blocks_.view(), first, std::min(first + at_once, last), blocks_.stretched().data(),
-               asked().apart, blocks_.limit(), {near_groups_.data(), near_beads_.data()});
+        loop(blocks_.view(), first, std::min(first + at_once, last), blocks_.stretched().data(),
+             asked().apart, blocks_.limit(), {near_groups_.data(), near_beads_.data()});
     reserve_candidates(near);
     for (std::size_t k = 0; k < near; ++k) {
       const std::uint32_t block = near_groups_[k] / 8, along = near_groups_[k] % 8;
@@ -183,7 +183,7 @@ void BlockTree<Dimension>::compare_along(std::size_t first, std::size_t last) {
 
 template <int Dimension>
 void BlockTree<Dimension>::compare_blocks() {
-  const auto kernel = blocks_.equal_radii() ? kernels_.compare_equal : kernels_.compare_unequal;
+  const auto loop = blocks_.equal_radii() ? loops_.compare_equal : loops_.compare_unequal;
   const bool sequence = blocks_.order() == BlockOrder::sequence;
   const bool one_necklace = asked().necklaces.size() == 1;
   const LanesAsked lanes{blocks_.necklaces().data(), sequence ? asked().apart : 1,
@@ -192,8 +192,8 @@ void BlockTree<Dimension>::compare_blocks() {
   for (std::size_t from = 0; from < block_pairs_.count; from += block_pairs_at_once) {
     const std::size_t count = std::min(block_pairs_at_once, block_pairs_.count - from);
     const NodePairs some{block_pairs_.first.data() + from, block_pairs_.second.data() + from};
-    const std::size_t near = kernel(blocks_.view(), some, count, lanes, blocks_.limit(), groups_.data(),
-                                    {near_groups_.data(), near_beads_.data()}, counts_.group_pairs);
+    const std::size_t near = loop(blocks_.view(), some, count, lanes, blocks_.limit(), groups_.data(),
+                                  {near_groups_.data(), near_beads_.data()}, counts_.group_pairs);
     reserve_candidates(near);
     for (std::size_t k = 0; k < near; ++k) {
       const std::uint32_t group = near_groups_[k];

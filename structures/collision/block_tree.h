@@ -26,7 +26,7 @@
 #include <span>
 #include <vector>
 
-#include "structures/blocks/block_kernels.h"
+#include "structures/blocks/block_loops.h"
 #include "structures/collision/balls_meet.h"
 #include "structures/collision/bead_blocks.h"
 #include "structures/collision/pairs_asked.h"
@@ -99,9 +99,9 @@ class BlockTree {
   struct PairList {
     std::vector<std::uint32_t> first, second;
     std::size_t count = 0;
-    /// Makes room for `more` elements and for the padding that kernels may write.
+    /// Makes room for `more` elements and for the padding that loops may write.
     void reserve(std::size_t more) {
-      const std::size_t needed = count + more + kernel_padding;
+      const std::size_t needed = count + more + loop_padding;
       if (first.size() >= needed) return;
       first.resize(2 * needed);
       second.resize(2 * needed);
@@ -126,7 +126,7 @@ class BlockTree {
   void reserve_candidates(std::size_t groups);
 
   std::optional<BlockOrder> wanted_;
-  const BlockKernels<Dimension>& kernels_;
+  const BlockLoops<Dimension>& loops_;
   BeadBlocks<Dimension> blocks_;
   bool may_turn_ = true;                      // bonds have not been tested for axes yet
   std::optional<Axes<Dimension>> bond_axes_;  // axes for a frame that is to be turned

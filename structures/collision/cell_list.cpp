@@ -47,8 +47,8 @@ auto CellList<Dimension>::lay_grid(const Balls<Dimension>& balls, double gap) co
 
 template <int Dimension>
 auto CellList<Dimension>::entry_of(const Balls<Dimension>& balls, const Grid& grid, BeadId bead) const
-    -> Entry {
-  Entry entry;
+    -> BeadInCell {
+  BeadInCell entry;
   for (std::size_t axis = 0; axis < dimension; ++axis)
     entry.center[axis] = balls.coordinates(axis)[bead] * grid.frame.scale - grid.frame.shift[axis];
   entry.bead = bead;
@@ -124,9 +124,9 @@ void CellList<Dimension>::compare_cell(const Balls<Dimension>& balls, std::uint3
   const double reach_of_equal = 2 * balls.radius(0) * grid.frame.scale + grid.gap;
   double limit = reach_of_equal * reach_of_equal * (1 + 0x1p-40) + 0x1p-1000;
   for (std::uint32_t e = begin; e < end; ++e) {
-    const Entry& entry = entries_[e];
+    const BeadInCell& entry = entries_[e];
     for (std::size_t k = e - begin + 1; k < listed_; ++k) {
-      const Entry& other = entries_[around_[k]];
+      const BeadInCell& other = entries_[around_[k]];
       double square = 0;
       for (std::size_t axis = 0; axis < dimension; ++axis) {
         const double d = entry.center[axis] - other.center[axis];

@@ -42,7 +42,7 @@ class CellList {
  private:
   static constexpr auto dimension = static_cast<std::size_t>(Dimension);
   /// A bead in its cell, with scaled coordinates.
-  struct Entry {
+  struct BeadInCell {
     std::array<double, dimension> center;
     BeadId bead;
   };
@@ -64,7 +64,7 @@ class CellList {
   void list_more(std::uint32_t first, std::uint32_t last);
   template <bool Equal>
   void compare_cell(const Balls<Dimension>& balls, std::uint32_t begin, std::uint32_t end, const Grid& grid);
-  [[nodiscard]] Entry entry_of(const Balls<Dimension>& balls, const Grid& grid, BeadId bead) const;
+  [[nodiscard]] BeadInCell entry_of(const Balls<Dimension>& balls, const Grid& grid, BeadId bead) const;
 
   PairsAsked asked_;
   bool one_necklace_;
@@ -72,7 +72,7 @@ class CellList {
   std::vector<std::uint64_t> keys_of_beads_, keys_;  // keys_: of entries, then a sentinel
   std::vector<std::uint32_t> starts_;                // of cells
   std::vector<std::array<std::uint64_t, 2>> keyed_, more_keyed_;
-  std::vector<Entry> entries_;
+  std::vector<BeadInCell> entries_;
   std::vector<std::uint32_t> around_;  // entries to compare with a cell's; its own come first
   std::size_t listed_ = 0;
   std::vector<BeadPair> candidates_, pairs_;

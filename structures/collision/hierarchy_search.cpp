@@ -19,15 +19,15 @@ struct NodePair {
 // A stack in a fixed array, without heap memory. A tree over 2^32 beads has 32 levels. Splitting a node
 // against itself leaves two more entries per level; splitting two nodes leaves one entry per level of either
 // tree.
-template <class Entry>
+template <class Item>
 class Stack {
  public:
   [[nodiscard]] bool empty() const { return size_ == 0; }
-  void push(const Entry& entry) { entries_[size_++] = entry; }
-  Entry pop() { return entries_[--size_]; }
+  void push(const Item& entry) { entries_[size_++] = entry; }
+  Item pop() { return entries_[--size_]; }
 
  private:
-  std::array<Entry, 160> entries_;
+  std::array<Item, 160> entries_;
   std::size_t size_ = 0;
 };
 

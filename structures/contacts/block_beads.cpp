@@ -153,10 +153,10 @@ struct Scan {
   }
 };
 
-/// Results for some pairs of blocks. Groups of four beads are numbered as in the block kernels. Bit 4 i + j
+/// Results for some pairs of blocks. Groups of four beads are numbered as in the block loops. Bit 4 i + j
 /// stands for bead i of the first group and bead j of the second.
 struct Look {
-  static constexpr std::size_t most_groups = 16 * block_pairs_at_once + kernel_padding;
+  static constexpr std::size_t most_groups = 16 * block_pairs_at_once + loop_padding;
 
   std::array<std::uint32_t, block_pairs_at_once> firsts, seconds;  // numbers of blocks
   std::array<std::uint32_t, most_groups> scratch, groups;
@@ -359,9 +359,9 @@ BlockBeads<Dimension>::BlockBeads(std::span<const BeadBlock> blocks, int degree)
       controls_(static_cast<std::size_t>(degree) + 1),
       stride_(Layout<Dimension>::size(controls_)),
       floats_(stride_ * blocks.size()),
-      reaches_(row * blocks.size() + kernel_padding),
+      reaches_(row * blocks.size() + loop_padding),
       boxes_(blocks.size()) {
-  for (std::vector<float>& of_axis : centers_) of_axis.resize(row * blocks.size() + kernel_padding);
+  for (std::vector<float>& of_axis : centers_) of_axis.resize(row * blocks.size() + loop_padding);
   for (const BeadBlock& block : blocks) necklaces_.push_back(block.necklace);
 }
 
@@ -460,7 +460,7 @@ void BlockBeads<Dimension>::look_at(std::span<const BlockPair> blocks, BeadId ap
       look.seconds[p] = some[p].second;
     }
     std::uint64_t groups = 0;
-    look.count = block_kernels<Dimension>(target_).compare_unequal(
+    look.count = block_loops<Dimension>(target_).compare_unequal(
         swept(), {look.firsts.data(), look.seconds.data()}, some.size(), asked, 0, look.scratch.data(),
         {look.groups.data(), look.unclear.data()}, groups);
     pairs.proved_apart += groups;

@@ -37,7 +37,7 @@
 #include <vector>
 
 #include "motions/curves/curves.h"
-#include "structures/blocks/block_kernels.h"
+#include "structures/blocks/block_loops.h"
 #include "structures/blocks/vector_target.h"
 #include "structures/collision/pairs_asked.h"
 #include "structures/contacts/bead_blocks.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "motions/base/floating_point_guard.h"
-#include "structures/hierarchy/hierarchy_kernels.h"
+#include "structures/hierarchy/hierarchy_passes.h"
 #include "structures/hierarchy/parallel_passes.h"
 
 namespace kds {

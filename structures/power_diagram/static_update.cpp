@@ -59,11 +59,11 @@ std::vector<BeadId> most_failed_first(const std::vector<Suspects>& failed, std::
   }
   std::vector<std::size_t> left(bead_count);
   // Among beads with equal counts, take the lowest id. Counts only decrease: an outdated entry is put back.
-  using Entry = std::pair<std::size_t, BeadId>;
-  const auto after = [](const Entry& a, const Entry& b) {
+  using CountedBead = std::pair<std::size_t, BeadId>;
+  const auto after = [](const CountedBead& a, const CountedBead& b) {
     return a.first != b.first ? a.first < b.first : a.second > b.second;
   };
-  std::priority_queue<Entry, std::vector<Entry>, decltype(after)> queue(after);
+  std::priority_queue<CountedBead, std::vector<CountedBead>, decltype(after)> queue(after);
   for (BeadId b = 0; b < bead_count; ++b) {
     left[b] = of_bead[b].size();
     if (left[b] > 0) queue.emplace(left[b], b);

@@ -18,8 +18,8 @@ inline constexpr std::size_t children_of_node = 16;
 /// Maximum number of block pairs compared in one call. With this limit the scratch memory stays in the
 /// first-level cache.
 inline constexpr std::size_t block_pairs_at_once = 256;
-/// Number of elements that must be allocated beyond the last number a kernel writes.
-inline constexpr std::size_t kernel_padding = 16;
+/// Number of elements that must be allocated beyond the last number a loop writes.
+inline constexpr std::size_t loop_padding = 16;
 
 /// Boxes of four groups, each a group of four consecutive beads.
 template <int Dimension>
@@ -58,7 +58,7 @@ struct BlockSource {
   float radius;                        ///< the common radius, if all radii are equal
 };
 
-/// The largest coordinate (in absolute value) and the largest radius that a kernel wrote.
+/// The largest coordinate (in absolute value) and the largest radius that a loop wrote.
 struct BlockExtent {
   float coordinate = 0, radius = 0;
 };
@@ -87,7 +87,7 @@ struct NearGroups {
 };
 
 template <int Dimension>
-struct BlockKernels {
+struct BlockLoops {
   /// Fills blocks first .. last - 1 from 16 beads each and writes their boxes into the parent nodes. The
   /// source starts at the first bead of block `first`.
   using Fill = BlockExtent (*)(const BlockSource<Dimension>& source, std::size_t first, std::size_t last,
@@ -130,20 +130,20 @@ struct BlockKernels {
   CompareAlong along_equal, along_unequal;
 };
 
-/// Returns the kernels of `target`, which must be available.
+/// Returns the loops of `target`, which must be available.
 template <int Dimension>
-[[nodiscard]] const BlockKernels<Dimension>& block_kernels(VectorTarget target);
+[[nodiscard]] const BlockLoops<Dimension>& block_loops(VectorTarget target);
 
 namespace detail {
 
-/// Returns the kernels of one target, each defined in a file of its own. Null if the build lacks these
+/// Returns the loops of one target, each defined in a file of its own. Null if the build lacks these
 /// instructions.
 template <int Dimension>
-[[nodiscard]] const BlockKernels<Dimension>* plain_block_kernels();
+[[nodiscard]] const BlockLoops<Dimension>* plain_block_loops();
 template <int Dimension>
-[[nodiscard]] const BlockKernels<Dimension>* avx2_block_kernels();
+[[nodiscard]] const BlockLoops<Dimension>* avx2_block_loops();
 template <int Dimension>
-[[nodiscard]] const BlockKernels<Dimension>* avx512_block_kernels();
+[[nodiscard]] const BlockLoops<Dimension>* avx512_block_loops();
 
 }  // namespace detail
 

@@ -1,5 +1,5 @@
 #pragma once
-// Defines the loops of block_kernels.h. Each file that instantiates them, one per vector target, includes
+// Defines the loops of block_loops.h. Each file that instantiates them, one per vector target, includes
 // this header. Before the include, the file defines KDS_BLOCK_TARGET, the attribute of all these functions.
 // The file itself also defines:
 //
@@ -24,7 +24,7 @@
 #include <cstdint>
 
 #include "motions/base/floating_point.h"
-#include "structures/blocks/block_kernels.h"
+#include "structures/blocks/block_loops.h"
 
 #define KDS_BLOCK_INLINE [[gnu::always_inline, KDS_BLOCK_TARGET]] inline
 
@@ -388,16 +388,16 @@ template <int Dimension, bool Equal>
 }
 
 template <int Dimension>
-inline constexpr BlockKernels<Dimension> kernels_here{fill<Dimension, true>,
-                                                      fill<Dimension, false>,
-                                                      stray<Dimension>,
-                                                      unite<Dimension>,
-                                                      stretch<Dimension>,
-                                                      expand<Dimension>,
-                                                      compare<Dimension, true>,
-                                                      compare<Dimension, false>,
-                                                      compare_along<Dimension, true>,
-                                                      compare_along<Dimension, false>};
+inline constexpr BlockLoops<Dimension> loops_here{fill<Dimension, true>,
+                                                  fill<Dimension, false>,
+                                                  stray<Dimension>,
+                                                  unite<Dimension>,
+                                                  stretch<Dimension>,
+                                                  expand<Dimension>,
+                                                  compare<Dimension, true>,
+                                                  compare<Dimension, false>,
+                                                  compare_along<Dimension, true>,
+                                                  compare_along<Dimension, false>};
 
 }  // namespace
 

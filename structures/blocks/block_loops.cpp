@@ -1,4 +1,4 @@
-#include "structures/blocks/block_kernels.h"
+#include "structures/blocks/block_loops.h"
 
 #include <stdexcept>
 
@@ -24,20 +24,20 @@ VectorTarget widest_vector_target() {
 }
 
 template <int Dimension>
-const BlockKernels<Dimension>& block_kernels(VectorTarget target) {
+const BlockLoops<Dimension>& block_loops(VectorTarget target) {
   if (!is_available(target)) throw std::invalid_argument("this processor has no such vectors");
   switch (target) {
     case VectorTarget::plain:
       break;
     case VectorTarget::avx2:
-      return *detail::avx2_block_kernels<Dimension>();
+      return *detail::avx2_block_loops<Dimension>();
     case VectorTarget::avx512:
-      return *detail::avx512_block_kernels<Dimension>();
+      return *detail::avx512_block_loops<Dimension>();
   }
-  return *detail::plain_block_kernels<Dimension>();
+  return *detail::plain_block_loops<Dimension>();
 }
 
-template const BlockKernels<2>& block_kernels<2>(VectorTarget);
-template const BlockKernels<3>& block_kernels<3>(VectorTarget);
+template const BlockLoops<2>& block_loops<2>(VectorTarget);
+template const BlockLoops<3>& block_loops<3>(VectorTarget);
 
 }  // namespace kds

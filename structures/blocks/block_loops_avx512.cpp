@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "structures/blocks/block_kernels.h"
+#include "structures/blocks/block_loops.h"
 
 #if defined(__x86_64__)
 
@@ -120,21 +120,21 @@ KDS_AVX512 std::size_t append_bits(std::uint32_t* out, std::uint32_t base, unsig
 
 }  // namespace kds
 
-#include "structures/blocks/define_block_kernels.h"
+#include "structures/blocks/define_block_loops.h"
 
 #endif
 
 namespace kds::detail {
 
 template <int Dimension>
-const BlockKernels<Dimension>* avx512_block_kernels() {
+const BlockLoops<Dimension>* avx512_block_loops() {
 #if defined(__x86_64__)
-  return &kernels_here<Dimension>;
+  return &loops_here<Dimension>;
 #else
   return nullptr;
 #endif
 }
-template const BlockKernels<2>* avx512_block_kernels<2>();
-template const BlockKernels<3>* avx512_block_kernels<3>();
+template const BlockLoops<2>* avx512_block_loops<2>();
+template const BlockLoops<3>* avx512_block_loops<3>();
 
 }  // namespace kds::detail

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "structures/blocks/block_kernels.h"
+#include "structures/blocks/block_loops.h"
 
 #define KDS_BLOCK_TARGET gnu::hot  // a placeholder: no special instructions
 
@@ -120,15 +120,15 @@ inline std::size_t append_bits(std::uint32_t* out, std::uint32_t base, unsigned 
 
 }  // namespace kds
 
-#include "structures/blocks/define_block_kernels.h"
+#include "structures/blocks/define_block_loops.h"
 
 namespace kds::detail {
 
 template <int Dimension>
-const BlockKernels<Dimension>* plain_block_kernels() {
-  return &kernels_here<Dimension>;
+const BlockLoops<Dimension>* plain_block_loops() {
+  return &loops_here<Dimension>;
 }
-template const BlockKernels<2>* plain_block_kernels<2>();
-template const BlockKernels<3>* plain_block_kernels<3>();
+template const BlockLoops<2>* plain_block_loops<2>();
+template const BlockLoops<3>* plain_block_loops<3>();
 
 }  // namespace kds::detail
