@@ -22,14 +22,14 @@ NodeProofs<Dimension>::NodeProofs(const Simulator& simulator, const NecklaceTree
       any_(simulator.kernel() != Kernel::exact && degree >= 1 && degree <= BeadPaths<Dimension>::most_degree),
       proves_crossings_(any_ && simulator.kernel() == Kernel::filtered && degree == 1),
       enlarged_by_(radii == Radii::equal ? 1 + relaxation.share() : 1),
-      slack_of_relaxed_(radii == Radii::any ? relaxation : Relaxation{}),
+      relaxed_allowance_(radii == Radii::any ? relaxation : Relaxation{}),
       slack_(tree) {}
 
 template <int Dimension>
 void NodeProofs<Dimension>::take_curves() {
   if (!any_) return;
   paths_.set(curves_, radii_ == Radii::equal);
-  slack_of_relaxed_.start_step(curves_);
+  relaxed_allowance_.start_step(curves_);
   gap_roots_.forget();
   chord_cache_.forget();
 }
@@ -90,7 +90,7 @@ void NodeProofs<Dimension>::find_candidates(std::span<const NodeId> nodes, std::
   const auto look_at = [&](Waiting& w) {
     filter_nodes<Dimension>(paths_, std::span(w.ranges).first(w.count), std::span(w.bases).first(w.count),
                             look, beyond_, enlarged_by_,
-                            std::span(w.raised_by).first(slack_of_relaxed_.any() ? w.count : 0));
+                            std::span(w.raised_by).first(relaxed_allowance_.any() ? w.count : 0));
     for (std::size_t i = 0; i < w.count; ++i)
       if (!look.steady[i]) candidates_.push_back({w.nodes[i], look.chords[i], look.ends[i]});
     w.count = 0;
@@ -100,7 +100,7 @@ void NodeProofs<Dimension>::find_candidates(std::span<const NodeId> nodes, std::
     w.nodes[w.count] = id;
     w.ranges[w.count] = tree_.range(id);
     w.bases[w.count] = bases[id];
-    if (slack_of_relaxed_.any()) w.raised_by[w.count] = slack_of_relaxed_.of(curves_, bases[id]);
+    if (relaxed_allowance_.any()) w.raised_by[w.count] = relaxed_allowance_.of(curves_, bases[id]);
     if (++w.count == Lanes::width) look_at(w);
   }
   for (Waiting& w : of_size)

@@ -15,7 +15,7 @@
 #include "motions/curves/curves.h"
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/hierarchy/node_slack.h"
-#include "structures/hierarchy/relaxed_slack.h"
+#include "structures/hierarchy/relaxed_allowance.h"
 #include "structures/moving_sphere/bead_paths.h"
 #include "structures/moving_sphere/gap_root.h"
 #include "structures/moving_sphere/sphere_chord.h"
@@ -121,8 +121,8 @@ class NodeProofs {
 
   void relax(const Basis& basis, SphereChord<Dimension>& chord) const {
     chord.enlarge(enlarged_by_);
-    if (!slack_of_relaxed_.any()) return;
-    const double raised_by = slack_of_relaxed_.of(curves_, basis);
+    if (!relaxed_allowance_.any()) return;
+    const double raised_by = relaxed_allowance_.of(curves_, basis);
     for (double& limit : chord.limit) limit += raised_by;
   }
 
@@ -131,8 +131,8 @@ class NodeProofs {
   const Curves<Dimension>& curves_;
   Radii radii_;
   bool any_, proves_crossings_;
-  double enlarged_by_;             // factor of chords, for equal radii
-  RelaxedSlack slack_of_relaxed_;  // raises limits, for unequal radii
+  double enlarged_by_;                  // factor of chords, for equal radii
+  RelaxedAllowance relaxed_allowance_;  // raises limits, for unequal radii
   BeadPaths<Dimension> paths_;
   NodeSlack<Dimension> slack_;
   ChordCache<Dimension> chord_cache_;

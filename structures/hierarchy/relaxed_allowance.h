@@ -23,10 +23,10 @@
 
 namespace kds {
 
-class RelaxedSlack {
+class RelaxedAllowance {
  public:
-  /// Without a relaxation there is no slack.
-  explicit RelaxedSlack(const Relaxation& relaxation) : share_(relaxation.share()) {}
+  /// Without a relaxation nothing is allowed.
+  explicit RelaxedAllowance(const Relaxation& relaxation) : share_(relaxation.share()) {}
 
   [[nodiscard]] bool any() const { return share_ > 0; }
   template <int Dimension>
@@ -57,8 +57,8 @@ class RelaxedSlack {
     if (!(least >= largest_ && sum >= largest_)) return 0;
     const double room = least * least + sum * (sum - 2 * largest_);
     const double radius = 0.6124 * std::sqrt(square) + largest_;
-    const double slack = 0.5 * share_ * room / ((2 + share_) * radius) * (1 - 0x1p-30);
-    return slack > 0 && slack < HUGE_VAL ? slack : 0;
+    const double allowed = 0.5 * share_ * room / ((2 + share_) * radius) * (1 - 0x1p-30);
+    return allowed > 0 && allowed < HUGE_VAL ? allowed : 0;
   }
 
  private:
