@@ -13,25 +13,12 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/bench/bench_command.h"
-#include "experiments/collide/collide_command.h"
-#include "experiments/collide/missed_command.h"
-#include "experiments/compare/compare_command.h"
+#include "experiments/commands.h"
 #include "experiments/output/destinations.h"
 #include "experiments/output/provenance.h"
 #include "experiments/output/text.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/suggestion.h"
-#include "experiments/questions/questions_command.h"
-#include "experiments/reproduce/reproduce_command.h"
-#include "experiments/run/replay_command.h"
-#include "experiments/run/run_command.h"
-#include "experiments/scenes/generate_command.h"
-#include "experiments/scenes/info_command.h"
-#include "experiments/stability/stability_command.h"
-#include "experiments/theorems/theorems_command.h"
-#include "experiments/trade/trade_command.h"
-#include "experiments/update/update_command.h"
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
 #include "motions/numbers/processor.h"
@@ -47,18 +34,19 @@ struct Command {
 
 constexpr std::array kCommands{
     Command{"run", "run kinetic structures over trajectories and report their events", run_command},
-    Command{"info", "describe trajectories and the conditions of a necklace they violate", info_command},
+    Command{"info", "describe trajectories and the conditions of a necklace that they violate", info_command},
     Command{"generate", "write a model necklace", generate_command},
-    Command{"replay", "run a logged run again and compare", replay_command},
-    Command{"update", "compare techniques that bring the power diagram from frame to frame", update_command},
+    Command{"replay", "repeat a logged run and compare its events", replay_command},
+    Command{"update", "compare techniques that update the power diagram from frame to frame", update_command},
     Command{"compare", "compare how often structures change, by stride, motion and input", compare_command},
-    Command{"collide", "which beads collide in each frame, by several methods", collide_command},
-    Command{"missed", "which share of contacts is missed by looking at frames only", missed_command},
-    Command{"reproduce", "measure the paper's tables again, beside the paper's values", reproduce_command},
+    Command{"collide", "find the beads that collide in each frame, by several methods", collide_command},
+    Command{"missed", "measure which contacts are missed if only frames are examined", missed_command},
+    Command{"reproduce", "measure the paper's tables again and compare them with the paper's",
+            reproduce_command},
     Command{"theorems", "measure what the paper's theorems bound, over sizes", theorems_command},
     Command{"questions", "measure what the paper leaves open", questions_command},
-    Command{"trade", "what speed can be had for what accuracy, measured on your trajectory", trade_command},
-    Command{"bench", "measure ours beside what users would pick today", bench_command},
+    Command{"trade", "measure the gain in speed and loss of accuracy of each lever", trade_command},
+    Command{"bench", "compare the speed of kds with that of other libraries", bench_command},
     Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},
 };
 
@@ -69,10 +57,10 @@ std::string program_help() {
   for (const Command& command : kCommands)
     text += fmt::format("  {:<10} {}\n", command.name, command.summary);
   return text +
-         "\n  help       print this, or the options of a command: kds help run\n"
-         "  --help     the same: kds --help, kds run --help\n"
+         "\n  help       print this text, or the options of a command: kds help run\n"
+         "  --help     print the same: kds --help, kds run --help\n"
          "  --version  print the version\n\n"
-         "exit codes: 0 done, 1 failed inside (a failed audit too), 2 wrong usage or input\n";
+         "exit codes: 0 success, 1 internal failure or failed audit, 2 wrong usage or input\n";
 }
 
 // For a word that is no command but the name of a structure.

@@ -1,14 +1,12 @@
-#include "experiments/bench/bench_command.h"
+#include "experiments/commands.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <filesystem>
-#include <functional>
 #include <limits>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -18,49 +16,33 @@
 #include "experiments/bench/bench_subjects.h"
 #include "experiments/bench/bench_trade.h"
 #include "experiments/bench/collision_peers.h"
-#include "experiments/output/output_files.h"
-#include "experiments/output/page/result_page.h"
 #include "experiments/output/text.h"
 #include "experiments/program/data_folder.h"
-#include "experiments/program/progress_bar.h"
+#include "experiments/program/option.h"
+#include "experiments/program/option_values.h"
 #include "experiments/program/suggestion.h"
-#include "experiments/program/table_results.h"
-#include "experiments/program/warnings.h"
+#include "experiments/program/table_command.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
 
 namespace {
 
-constexpr std::array kBenchOptions{
-    OptionSpec{
-        "--sizes", "LIST",
-        "hierarchies, power, collision: beads of generated chains (default: 640,10240,102400; power: 10240, "
-        "regular scenes 1000,8000; collision: 1000,10240,102400)"},
-    OptionSpec{"--data", "DIR",
-               "the folder that holds trajectories and kinetic (default: data beside the sources)"},
-    OptionSpec{"--trajectories", "LIST",
-               "hierarchies, power, collision, trade: trajectory files (default: DIR/trajectories/*.dcd)"},
-    OptionSpec{"--instances", "DIR",
-               "certificates, engine: the folder of moving-point files (default: kinetic in that of --data)"},
-    OptionSpec{"--rounds", "N", "interleaved runs of ours and the peer, at least 5 (default: 5)"},
-    OptionSpec{"--out", "DIR", "write bench.json, bench.csv and report.html there (default: none)"},
-    OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
-    OptionSpec{"--quiet", "", "no table, no progress bar"},
-};
-
 constexpr CommandSpec kBenchCommand{
     "kds bench",
-    "Measures ours beside a peer in the same process: medians of interleaved runs, processor time.",
+    "Compares the speed of kds with that of a peer in the same process. Runs of both alternate, and the "
+    "median of "
+    "their processor time counts.\n\n"
+    "  certificates  from beads to failure times, compared with CGAL's predicates and algebraic numbers\n"
+    "  engine        whole runs of moving points, compared with CGAL's static build\n"
+    "  hierarchies   wrapped and layered hierarchies, compared with CGAL at every node\n"
+    "  power         the power diagram from frame to frame, compared with CGAL's static build\n"
+    "  collision     the pairs of beads that meet, compared with a cell list, a Verlet list, FCL and Bullet, "
+    "and\n"
+    "                the times at which contacts begin and end, compared with a cell list\n"
+    "  trade         levers that trade accuracy for speed, compared with exact runs",
     "SUBJECT",
-    "certificates: from beads to failure times, beside CGAL's predicates and algebraic numbers; engine: "
-    "whole "
-    "runs of moving points, beside CGAL's static build; hierarchies: wrapped and layered hierarchies, beside "
-    "CGAL at every node; power: the power diagram from frame to frame, beside CGAL's static build; "
-    "collision: the pairs of beads that meet, beside a cell list, a Verlet list, FCL and Bullet, and all "
-    "times at which they begin and end to, beside the cell list; trade: levers of speed against accuracy, "
-    "beside exact runs",
-    kBenchOptions,
+    "certificates, engine, hierarchies, power, collision or trade",
     "kds bench certificates\n"
     "kds bench hierarchies\n"
     "kds bench collision --sizes 10240\n"
@@ -68,14 +50,16 @@ constexpr CommandSpec kBenchCommand{
 };
 
 /// What the command line says.
-struct BenchInputs {
-  std::optional<std::vector<std::size_t>> sizes;
+struct BenchInputs : Destinations {
+  std::vector<std::size_t> sizes;  ///< none: the subject's own
+  std::filesystem::path data = source_data_folder();
   std::vector<std::filesystem::path> trajectories;
   std::filesystem::path instances;
   std::size_t rounds = 5;
+  std::size_t fewest_beads = 0;  ///< the subject's, of a generated chain
 };
 
-using Progress = std::function<void(std::size_t, std::size_t)>;
+using Progress = TableCommand::Progress;
 using Rows = std::vector<BenchRow>;
 
 template <auto bench>
@@ -87,9 +71,9 @@ template <class Options, auto bench>
 Rows on_chains(const BenchInputs& inputs, const Progress& progress) {
   Options options;
   if constexpr (requires { options.sizes; })
-    if (inputs.sizes) options.sizes = *inputs.sizes;
+    if (!inputs.sizes.empty()) options.sizes = inputs.sizes;
   if constexpr (requires { options.regular; })
-    if (inputs.sizes) options.regular = *inputs.sizes;
+    if (!inputs.sizes.empty()) options.regular = inputs.sizes;
   options.trajectories = inputs.trajectories;
   options.rounds = inputs.rounds;
   return bench(options, progress);
@@ -125,23 +109,56 @@ const Subject& subject_of(const std::vector<std::string>& operands) {
                                operands.size() == 1 ? suggestion(operands[0], names) : ""));
 }
 
-std::size_t parse_count(std::string_view option, const std::string& text, std::size_t least) {
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  constexpr std::size_t most = 10'000'000;
-  if (error == std::errc() && end == text.data() + text.size() && number >= least && number <= most)
-    return number;
-  throw InputError(fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, least, most));
+constexpr std::size_t most_count = 10'000'000;
+
+Option<BenchInputs> sizes_option() {
+  using O = BenchInputs;
+  Option<O> option = list_option({"--sizes", "LIST",
+                                  "beads of generated chains, for hierarchies (default: 640,10240,102400), "
+                                  "collision (default: 1000,10240,102400) and power (default: 10240, and "
+                                  "1000,8000 in regular scenes)"},
+                                 &O::sizes, [](const std::string&) { return std::vector<std::size_t>(); });
+  option.read = [](O& o, const std::string& list) {
+    for (const std::string& text : split(list, ','))
+      o.sizes.push_back(parse_whole_number("--sizes", text, o.fewest_beads, most_count));
+  };
+  option.json = [](const O& o) { return o.sizes.empty() ? Json(nullptr) : Json(o.sizes); };
+  return option;
 }
 
-// A folder of the data that inputs are taken from unless they are named one by one.
-std::filesystem::path folder_of_data(const ParsedArguments& parsed, const char* name, const char* instead) {
-  const std::filesystem::path data = data_folder(parsed);
-  std::error_code none;
-  if (std::filesystem::is_directory(data / name, none)) return data / name;
-  throw InputError(
-      fmt::format("--data: there is no folder {}; expected the folder data of the sources, or inputs with {}",
-                  (data / name).string(), instead));
+Option<BenchInputs> trajectories_option() {
+  using O = BenchInputs;
+  const auto names = [](const O& o) {
+    std::vector<std::string> names;
+    for (const std::filesystem::path& file : o.trajectories) names.push_back(file.string());
+    return names;
+  };
+  return {{"--trajectories", "LIST",
+           "trajectory files, for hierarchies, power, collision and trade (default: all .dcd files in the "
+           "folder trajectories of the data)"},
+          [](O& o, const std::string& list) {
+            for (const std::string& path : split(list, ',')) o.trajectories.emplace_back(path);
+          },
+          [=](const O& o) { return fmt::format("{}", fmt::join(names(o), ",")); },
+          nullptr,
+          [=](const O& o) { return Json(names(o)); }};
+}
+
+const OptionList<BenchInputs>& bench_options() {
+  using O = BenchInputs;
+  static const auto list =
+      OptionList<O>()
+          .with(
+              {sizes_option(), data_option(&O::data), trajectories_option(),
+               path_option({"--instances", "DIR",
+                            "folder of moving-point files, for certificates and engine (default: the folder "
+                            "kinetic of the data)"},
+                           &O::instances),
+               whole_option(
+                   {"--rounds", "N", "alternating runs of kds and the peer, at least 5 (default: 5)"},
+                   &O::rounds, 5, most_count)})
+          .with(destination_options("write bench.json, bench.csv and report.html to DIR (default: none)"));
+  return list;
 }
 
 std::vector<std::filesystem::path> trajectories_in(const std::filesystem::path& folder) {
@@ -153,73 +170,47 @@ std::vector<std::filesystem::path> trajectories_in(const std::filesystem::path& 
   return found;
 }
 
-Json settings_json(std::string_view subject, const BenchInputs& inputs) {
-  Json trajectories = Json::array();
-  for (const std::filesystem::path& file : inputs.trajectories) trajectories.push_back(file.string());
-  return {{"subject", subject},
-          {"sizes", inputs.sizes ? Json(*inputs.sizes) : Json(nullptr)},
-          {"trajectories", trajectories},
-          {"instances", inputs.instances.string()},
-          {"rounds", inputs.rounds}};
+void refuse_needless_options(const ParsedArguments& parsed, const Subject& subject) {
+  const auto refuse = [&](const char* option) {
+    if (parsed.has(option)) throw InputError(fmt::format("{}: {} takes none", option, subject.name));
+  };
+  const bool has_chains = subject.fewest_beads > 0;
+  if (!has_chains || subject.fewest_beads == only_trajectories) refuse("--sizes");
+  if (!has_chains) refuse("--trajectories");
+  if (has_chains) refuse("--instances");
+}
+
+BenchInputs read_inputs(const ParsedArguments& parsed, const Subject& subject) {
+  refuse_needless_options(parsed, subject);
+  BenchInputs inputs;
+  inputs.fewest_beads = subject.fewest_beads;
+  bench_options().read(parsed, inputs);
+  const bool has_chains = subject.fewest_beads > 0;
+  if (has_chains && inputs.trajectories.empty())
+    inputs.trajectories = trajectories_in(folder_in_data(inputs.data, "trajectories", "--trajectories"));
+  if (!has_chains && inputs.instances.empty())
+    inputs.instances = folder_in_data(inputs.data, "kinetic", "--instances");
+  return inputs;
 }
 
 }  // namespace
 
 int bench_command(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kBenchCommand, arguments);
+  const ParsedArguments parsed = parse_arguments(kBenchCommand, bench_options().specs(), arguments);
   const Subject& subject = subject_of(parsed.operands());
-  const bool chains = subject.fewest_beads > 0;
-  for (const char* option : {"--sizes", "--trajectories"})
-    if (!chains && parsed.has(option))
-      throw InputError(fmt::format("{}: {} takes none", option, subject.name));
-  if (subject.fewest_beads == only_trajectories && parsed.has("--sizes"))
-    throw InputError(fmt::format("--sizes: {} takes none", subject.name));
-  if (chains && parsed.has("--instances"))
-    throw InputError(fmt::format("--instances: {} takes none", subject.name));
-  BenchInputs inputs;
-  if (const auto list = parsed.value("--sizes")) {
-    inputs.sizes.emplace();
-    for (const std::string& text : split(*list, ','))
-      inputs.sizes->push_back(parse_count("--sizes", text, subject.fewest_beads));
-  }
-  if (const auto list = parsed.value("--trajectories")) {
-    for (const std::string& path : split(*list, ',')) inputs.trajectories.emplace_back(path);
-  } else if (chains) {
-    inputs.trajectories = trajectories_in(folder_of_data(parsed, "trajectories", "--trajectories"));
-  }
-  if (const auto folder = parsed.value("--instances")) {
-    inputs.instances = *folder;
-  } else if (!chains) {
-    inputs.instances = folder_of_data(parsed, "kinetic", "--instances");
-  }
-  if (const auto text = parsed.value("--rounds")) inputs.rounds = parse_count("--rounds", *text, 5);
-  Destinations destinations;
-  if (const auto text = parsed.value("--out")) {
-    if (*text == "-") throw InputError("--out needs a path; - is for --json only");
-    destinations.out = *text;
-  }
-  destinations.json = parsed.value("--json");
-  destinations.quiet = parsed.has("--quiet");
-  TakenPaths taken;
-  if (destinations.out) taken.write_into("--out", *destinations.out, {"report.html"});
-  check_table_destinations(destinations, "bench", taken);
-  if (destinations.out) {
-    check_page(*destinations.out, "bench");
-  }
+  const BenchInputs inputs = read_inputs(parsed, subject);
+  TableCommand command("bench", arguments, inputs, "measurement");
+  command.check_destinations();
 
-  ProgressBar bar(!destinations.quiet, "measurement");
-  if (subject.what_is_missing != nullptr && !destinations.quiet && !subject.what_is_missing().empty())
-    print_warning(bar, std::string(subject.what_is_missing()));
-  const Rows rows =
-      subject.bench(inputs, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
-  bar.erase();
-  const std::string command_line = "kds bench " + shell_words(arguments);
-  const Json settings = settings_json(subject.name, inputs);
-  deliver_table(destinations, "bench",
-                {bench_json(command_line, settings, rows), bench_csv(rows), bench_table(rows), [&] {
-                   return bench_page(std::string(subject.name), rows,
-                                     made_by("bench", command_line, settings));
-                 }});
+  if (subject.what_is_missing != nullptr && !inputs.quiet && !subject.what_is_missing().empty())
+    print_warning(command.bar(), std::string(subject.what_is_missing()));
+  const Rows rows = subject.bench(inputs, command.progress());
+  command.bar().erase();
+  const Json settings = bench_options().settings_json(inputs, {{"subject", subject.name}});
+  command.deliver_text(bench_json(command.command_line(), settings, rows), settings,
+                       {{"bench.csv", bench_csv(rows)}}, bench_table(rows), [&](Page page) {
+                         return bench_page(std::string(subject.name), rows, std::move(page));
+                       });
   return 0;
 }
 

@@ -3,29 +3,15 @@
 #include <array>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/result_page.h"
 #include "experiments/output/staged.h"
-#include "experiments/program/table_results.h"
 
 namespace kds {
 
 namespace {
 
 constexpr std::string_view kCommand = "collide";
-constexpr std::array<std::string_view, 3> kFurtherFiles{"pairs.csv", "frames.csv", "report.html"};
 
 }  // namespace
-
-void check_collide_destinations(const Destinations& destinations, TakenPaths taken) {
-  if (destinations.out) {
-    taken.write_into("--out", *destinations.out, {kFurtherFiles[0], kFurtherFiles[1], kFurtherFiles[2]});
-  }
-  check_table_destinations(destinations, "collide", taken);
-  if (!destinations.out) return;
-  check_directory(*destinations.out, kCommand, "--out",
-                  {kFurtherFiles[0], kFurtherFiles[1], kFurtherFiles[2]});
-  check_page(*destinations.out, kCommand);
-}
 
 void CollideResults::begin(const CollideFrames& scene) {
   if (destinations_.out || destinations_.json) frames_.emplace();

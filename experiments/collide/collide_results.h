@@ -12,13 +12,8 @@
 #include "experiments/collide/pairs_csv.h"
 #include "experiments/output/destinations.h"
 #include "experiments/output/staged_files.h"
-#include "experiments/program/taken_paths.h"
 
 namespace kds {
-
-/// Throws InputError where something could not be written later, or would replace another result or one of
-/// the files that are taken.
-void check_collide_destinations(const Destinations& destinations, TakenPaths taken);
 
 class CollideResults {
  public:

@@ -14,16 +14,17 @@ namespace {
 
 constexpr CommandSpec kCompareCommand{
     "kds compare",
-    "Compares how often structures change, by stride, motion and input: each is a run of all structures.\n\n"
-    "  net changes     what is not the same at one frame and the next: nodes with another basis (wrapped),\n"
-    "                  cells of one diagram and not of the other (power), pairs (contacts), ranks (sorted),\n"
+    "Compares how often structures change, by stride, motion and input. Each row belongs to a run of all "
+    "structures.\n\n"
+    "  net changes     differences between two consecutive frames: nodes with another basis (wrapped),\n"
+    "                  cells of only one of the two diagrams (power), pairs (contacts), ranks (sorted),\n"
     "                  ends (box), corners (hull), the pair (closest)\n"
-    "  efficiency      events a net change\n"
-    "  compactness     the most certificates at once; locality: the most on one bead\n"
-    "  responsiveness  the seconds an event takes",
+    "  efficiency      events per net change\n"
+    "  compactness     largest number of certificates at once\n"
+    "  locality        largest number of certificates on one bead\n"
+    "  responsiveness  seconds per event",
     kInputOperand,
-    "necklaces, each for itself: .pdb .ent .cif .mmcif .dcd .xyz .extxyz (also .gz)",
-    {},
+    "necklaces, each a run of its own: .pdb .ent .cif .mmcif .dcd .xyz .extxyz (also .gz)",
     "kds compare villin.dcd --topology villin.pdb --strides 1,2,4,8,16,32 --out report\n"
     "kds compare 300K.dcd 400K.dcd --topology villin.pdb --structures wrapped,contacts --motions "
     "linear,hermite",
@@ -42,8 +43,9 @@ std::vector<FrameMotion> parse_motions(const std::string& list) {
 
 /// JSON has the distance as text, empty if it is not given.
 Option<CompareOptions> compare_apart_option() {
-  auto option = apart_option("contacts: of beads of one chain, those at least K apart along it (default: 2)",
-                             &CompareOptions::apart);
+  auto option =
+      apart_option("contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",
+                   &CompareOptions::apart);
   option.json = nullptr;
   return option;
 }
@@ -55,24 +57,24 @@ const OptionList<CompareOptions>& compare_options() {
   static const auto list =
       OptionList<O>()
           .with(input_options())
+          .with({list_option({"--structures", "LIST",
+                              "comma list of sorted, box, hull, closest, wrapped, power, contacts (default: "
+                              "wrapped,power)"},
+                             &O::structures, parse_structures),
+                 list_option({"--strides", "LIST",
+                              "run over every frame, every second, every fourth: 1,2,4 (default: 1)"},
+                             &O::strides, parse_strides),
+                 list_option({"--motions", "LIST",
+                              "motion of beads between frames: comma list of linear, hermite, lifted "
+                              "(default: linear)"},
+                             &O::motions, parse_motions),
+                 compare_apart_option(),
+                 whole_option({"--rounds", "N",
+                               "repeat each run N times and report the median time, with the least and most "
+                               "(default: 3)"},
+                              &O::rounds, 1, 1000)})
           .with(
-              {list_option({"--structures", "LIST",
-                            "comma list of sorted, box, hull, closest, wrapped, power, contacts (default: "
-                            "wrapped,power)"},
-                           &O::structures, parse_structures),
-               list_option(
-                   {"--strides", "LIST", "run over every frame, every second, ...: 1,2,4 (default: 1)"},
-                   &O::strides, parse_strides),
-               list_option({"--motions", "LIST",
-                            "how beads move between frames: comma list of linear, hermite, lifted (default: "
-                            "linear)"},
-                           &O::motions, parse_motions),
-               compare_apart_option(),
-               whole_option({"--rounds", "N",
-                             "repeat each run N times and report the median time, with the least and most "
-                             "(default: 3)"},
-                            &O::rounds, 1, 1000)})
-          .with(destination_options("write compare.json, compare.csv and report.html there (default: none)"));
+              destination_options("write compare.json, compare.csv and report.html to DIR (default: none)"));
   return list;
 }
 

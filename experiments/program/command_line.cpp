@@ -21,17 +21,17 @@ std::string left_column(const OptionSpec& option) {
 }
 
 // CLI11's own words name its types and counts; say instead what to do.
-std::string explain(const CLI::ParseError& error, const CLI::App& parser, const CommandSpec& command,
-                    const Arguments& arguments) {
+std::string explain(const CLI::ParseError& error, const CLI::App& parser,
+                    const std::vector<OptionSpec>& options, const Arguments& arguments) {
   if (const std::vector<std::string> extras = parser.remaining(); !extras.empty()) {
     const std::string& extra = extras.front();
     if (!extra.starts_with('-')) return fmt::format("unexpected argument '{}'", extra);
     std::vector<std::string_view> names{kHelp.name};
-    for (const OptionSpec& option : command.options) names.push_back(option.name);
+    for (const OptionSpec& option : options) names.push_back(option.name);
     return fmt::format("unknown option '{}'{}", extra,
                        suggestion(std::string_view(extra).substr(0, extra.find('=')), names));
   }
-  for (const OptionSpec& option : command.options)
+  for (const OptionSpec& option : options)
     for (const std::string& argument : arguments)
       if (option.value.empty() && argument.starts_with(std::string(option.name) + "="))
         return fmt::format("{} takes no value", option.name);
@@ -48,12 +48,13 @@ std::optional<std::string> ParsedArguments::value(std::string_view option) const
   return found->second;
 }
 
-ParsedArguments parse_arguments(const CommandSpec& command, const Arguments& arguments) {
+ParsedArguments parse_arguments(const CommandSpec& command, const std::vector<OptionSpec>& options,
+                                const Arguments& arguments) {
   CLI::App parser;
   parser.set_help_flag(std::string(kHelp.name) + ",-h");
 
   std::map<std::string_view, std::vector<std::string>> unused;  // CLI11 reads some values as empty lists: {}
-  for (const OptionSpec& option : command.options) {
+  for (const OptionSpec& option : options) {
     const std::string name(option.name);
     if (option.value.empty()) {
       parser.add_flag(name)->disable_flag_override();
@@ -67,14 +68,14 @@ ParsedArguments parse_arguments(const CommandSpec& command, const Arguments& arg
   try {
     parser.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
   } catch (const CLI::CallForHelp&) {
-    throw HelpRequest{help_text(command)};
+    throw HelpRequest{help_text(command, options)};
   } catch (const CLI::ParseError& error) {
-    throw InputError(explain(error, parser, command, arguments) + usage_hint(command));
+    throw InputError(explain(error, parser, options, arguments) + usage_hint(command));
   }
 
   ParsedArguments parsed;
   if (!command.operand.empty()) parsed.operands_ = parser.get_option(std::string(command.operand))->results();
-  for (const OptionSpec& option : command.options) {
+  for (const OptionSpec& option : options) {
     const std::vector<std::string>& values = parser.get_option(std::string(option.name))->results();
     const std::size_t times = values.size();
     if (times == 0) continue;
@@ -89,8 +90,8 @@ ParsedArguments parse_arguments(const CommandSpec& command, const Arguments& arg
   return parsed;
 }
 
-std::string help_text(const CommandSpec& command) {
-  std::vector<OptionSpec> lines(command.options.begin(), command.options.end());
+std::string help_text(const CommandSpec& command, const std::vector<OptionSpec>& options) {
+  std::vector<OptionSpec> lines = options;
   lines.push_back(kHelp);
   std::size_t width = command.operand.size();
   for (const OptionSpec& line : lines) width = std::max(width, left_column(line).size());

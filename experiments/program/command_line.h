@@ -1,11 +1,8 @@
 #pragma once
-// The options of one command: a table that both the parser and the help are made from.
+// The command line of one command. The parser and the help are made from the same description.
 
-#include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,21 +17,11 @@ struct OptionSpec {
   std::string_view help;   ///< one line, the default included
 };
 
-/// Options that several commands share, with a command's own.
-template <std::size_t n, std::size_t m>
-[[nodiscard]] constexpr std::array<OptionSpec, n + m> joined(const std::array<OptionSpec, n>& first,
-                                                             const std::array<OptionSpec, m>& second) {
-  std::array<OptionSpec, n + m> all{};
-  std::copy(second.begin(), second.end(), std::copy(first.begin(), first.end(), all.begin()));
-  return all;
-}
-
 struct CommandSpec {
   std::string_view name;     ///< kds run
   std::string_view summary;  ///< one sentence; definitions may follow on lines of their own
-  std::string_view operand;  ///< how help names what is not an option; empty: none is taken
+  std::string_view operand;  ///< how help names the arguments that are no options; empty: there are none
   std::string_view operand_help;
-  std::span<const OptionSpec> options;
   std::string_view examples;  ///< one a line
 };
 
@@ -50,14 +37,17 @@ class ParsedArguments {
   [[nodiscard]] std::optional<std::string> value(std::string_view option) const;
 
  private:
-  friend ParsedArguments parse_arguments(const CommandSpec&, const Arguments&);
+  friend ParsedArguments parse_arguments(const CommandSpec&, const std::vector<OptionSpec>&,
+                                         const Arguments&);
   std::vector<std::string> operands_;
   std::map<std::string, std::string, std::less<>> values_;  ///< flags have an empty value
 };
 
 /// Throws InputError for an unknown option, one given twice, one without its value; HelpRequest for --help.
-[[nodiscard]] ParsedArguments parse_arguments(const CommandSpec& command, const Arguments& arguments);
+[[nodiscard]] ParsedArguments parse_arguments(const CommandSpec& command,
+                                              const std::vector<OptionSpec>& options,
+                                              const Arguments& arguments);
 
-[[nodiscard]] std::string help_text(const CommandSpec& command);
+[[nodiscard]] std::string help_text(const CommandSpec& command, const std::vector<OptionSpec>& options);
 
 }  // namespace kds

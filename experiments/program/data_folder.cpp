@@ -6,19 +6,14 @@
 
 namespace kds {
 
-std::filesystem::path data_folder(const ParsedArguments& parsed) {
-  return parsed.value("--data").value_or(KDS_SOURCE_DATA_DIR);
-}
+std::filesystem::path source_data_folder() { return KDS_SOURCE_DATA_DIR; }
 
-std::filesystem::path data_folder(const ParsedArguments& parsed,
-                                  std::initializer_list<const char*> needed_folders) {
-  const std::filesystem::path data = data_folder(parsed);
+std::filesystem::path folder_in_data(const std::filesystem::path& data, const char* name,
+                                     std::string_view instead) {
   std::error_code none;
-  for (const char* folder : needed_folders)
-    if (!std::filesystem::is_directory(data / folder, none))
-      throw InputError(fmt::format("--data: there is no folder {}; expected the folder data of the sources",
-                                   (data / folder).string()));
-  return data;
+  if (std::filesystem::is_directory(data / name, none)) return data / name;
+  throw InputError(fmt::format("--data: there is no folder {}; expected the folder data of the sources{}{}",
+                               (data / name).string(), instead.empty() ? "" : ", or inputs with ", instead));
 }
 
 }  // namespace kds

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "experiments/output/text.h"
-#include "experiments/program/option_names.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/suggestion.h"
 #include "motions/base/input_file.h"
@@ -75,13 +74,15 @@ void check_exists(const std::filesystem::path& path) {
 const OptionList<InputOptions>& input_options() {
   static const OptionList<InputOptions> list{{
       {{"--topology", "FILE",
-        "PDB or mmCIF that names the atoms of a DCD (default: its atoms are the beads)"},
+        "PDB or mmCIF file that names the atoms of a DCD file (default: every atom of the DCD file is a "
+        "bead)"},
        [](InputOptions& o, const std::string& text) { o.reading.topology = parse_path("--topology", text); },
        [](const InputOptions& o) { return o.reading.topology ? o.reading.topology->string() : ""; },
        [](const InputOptions& o) {
          return o.reading.topology ? std::filesystem::absolute(*o.reading.topology).string() : "";
        }},
-      {{"--select", "NAME", "backbone (N, CA, C), ca or all (default: backbone where residues are known)"},
+      {{"--select", "NAME",
+        "atoms that become beads: backbone (N, CA, C), ca or all (default: backbone if residues are known)"},
        [](InputOptions& o, const std::string& text) { o.reading.selection = parse_selection(text); },
        [](const InputOptions& o) { return std::string(name_of(o.reading.selection)); },
        [](const InputOptions& o) {
@@ -89,15 +90,17 @@ const OptionList<InputOptions>& input_options() {
          return std::string(is_asked_for ? name_of(o.reading.selection) : "");
        }},
       {{"--chain", "IDS",
-        "the chain to read, or several, a necklace each: A,B; for each INPUT its own: A,B/C; a "
-        "molecule by its number: A.2 of chain A, 2 of those without a chain "
-        "(default: the first polymer chain)"},
+        "chains to read, each of them a necklace, as in A,B; A,B/C gives each INPUT its own chains; A.2 is "
+        "molecule 2 of chain A, and 2 is molecule 2 of those without a chain (default: the first polymer "
+        "chain)"},
        [](InputOptions& o, const std::string& text) { o.reading.chain = text; },
        [](const InputOptions& o) { return o.reading.chain.value_or(""); }},
-      {{"--frames", "RANGE", "FIRST:LAST:STRIDE, from 0, LAST excluded (default: all)"},
+      {{"--frames", "RANGE",
+        "frames to read: FIRST:LAST:STRIDE, counted from 0, without LAST (default: all)"},
        [](InputOptions& o, const std::string& text) { o.reading.frames = parse_frame_range(text); },
        [](const InputOptions& o) { return name_of(o.reading.frames); }},
-      {{"--radius", "RULE", "auto, a number, element, element:fit or file:PATH (default: auto)"},
+      {{"--radius", "RULE",
+        "radii of the beads: auto, a number, element, element:fit or file:PATH (default: auto)"},
        [](InputOptions& o, const std::string& text) { o.radius = parse_radius(text); },
        [](const InputOptions& o) { return o.radius; },
        [](const InputOptions& o) {
@@ -109,11 +112,11 @@ const OptionList<InputOptions>& input_options() {
 }
 
 const Option<InputOptions>& obstacle_option() {
-  static const Option<InputOptions> option = path_option(
-      {"--obstacle", "FILE",
-       "a necklace of one frame, which rests while the others move; its chain behind a / of --chain: A,B/C "
-       "(default: none)"},
-      &InputOptions::obstacle);
+  static const Option<InputOptions> option =
+      path_option({"--obstacle", "FILE",
+                   "file of a necklace with one frame, which rests while the others move; its chain follows "
+                   "the last / of --chain, as in A,B/C (default: none)"},
+                  &InputOptions::obstacle);
   return option;
 }
 
@@ -140,6 +143,40 @@ ReadOptions reading_of(const InputOptions& options, std::size_t input) {
                                                                      : "";
   reading.chain = own.empty() ? std::nullopt : std::optional(own);
   return reading;
+}
+
+std::string name_of(const FrameRange& frames) {
+  return fmt::format("{}:{}:{}", frames.first, frames.last ? std::to_string(*frames.last) : "",
+                     frames.stride);
+}
+
+std::string file_names(const InputOptions& options) {
+  std::vector<std::string> names;
+  for (const auto& input : options.inputs) names.push_back(input.filename().string());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+Json files_json(const InputOptions& options) {
+  Json files = Json::array();
+  for (const auto& input : options.inputs) files.push_back(input.string());
+  if (options.obstacle) files.push_back(options.obstacle->string());
+  return files;
+}
+
+Json input_json(const InputOptions& options, const InputSize& size, double radius_min, double radius_max) {
+  Json json{{"files", files_json(options)}, {"beads", size.beads}};
+  if (size.necklaces) json["necklaces"] = *size.necklaces;
+  json["frames"] = size.frames;
+  json["dimension"] = size.dimension;
+  json["radius_min"] = radius_min;
+  json["radius_max"] = radius_max;
+  return json;
+}
+
+Json input_json(const InputOptions& options, InputSize size, std::span<const double> radii) {
+  const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
+  size.beads = radii.size();
+  return input_json(options, size, *least, *most);
 }
 
 void check_inputs_exist(const InputOptions& options) {

@@ -107,8 +107,8 @@ class OptionList {
     }
     return settings;
   }
-  [[nodiscard]] Json settings_json(const Options& options) const {
-    Json settings = Json::object();
+  /// Adds the settings to those of `settings`, such as the operands.
+  [[nodiscard]] Json settings_json(const Options& options, Json settings = Json::object()) const {
     for (const auto& option : options_) {
       if (option.text)
         settings[option.setting] = option.json ? option.json(options) : Json(option.text(options));
@@ -153,14 +153,12 @@ class OptionList {
   std::vector<Option<Options>> options_;
 };
 
-/// Reads the arguments of a command into `options`; `command` need not list them. Throws InputError and
-/// HelpRequest as parse_arguments does.
+/// Reads the arguments of a command into `options`. Throws InputError and HelpRequest as parse_arguments
+/// does.
 template <class Options>
-ParsedArguments read_arguments(CommandSpec command, const OptionList<Options>& list,
+ParsedArguments read_arguments(const CommandSpec& command, const OptionList<Options>& list,
                                const Arguments& arguments, Options& options) {
-  const std::vector<OptionSpec> specs = list.specs();
-  command.options = specs;
-  ParsedArguments parsed = parse_arguments(command, arguments);
+  ParsedArguments parsed = parse_arguments(command, list.specs(), arguments);
   list.read(parsed, options);
   return parsed;
 }
@@ -273,16 +271,16 @@ template <class Options, class Member>
       [](const std::string& text) { return text; });
 }
 
-/// A file or directory; - is refused.
-template <class Options>
-[[nodiscard]] Option<Options> path_option(OptionSpec spec,
-                                          std::optional<std::filesystem::path> Options::*member) {
+/// A file or directory; - is refused. The member is a path, optional or not.
+template <class Options, class Member>
+[[nodiscard]] Option<Options> path_option(OptionSpec spec, Member Options::*member) {
   using Path = std::filesystem::path;
   auto option = value_option(
       spec, member, [=](const std::string& text) { return parse_path(spec.name, text); },
       [](const Path& path) { return path.string(); });
   option.text_anywhere = [=](const Options& options) {
-    return options.*member ? std::filesystem::absolute(*(options.*member)).string() : std::string();
+    const Path* path = detail::MemberValue<Member>::of(options.*member);
+    return path != nullptr && !path->empty() ? std::filesystem::absolute(*path).string() : std::string();
   };
   return option;
 }
@@ -303,8 +301,8 @@ template <class Options>
 /// --out, --json and --quiet, with their help.
 [[nodiscard]] inline OptionList<Destinations> destination_options(
     std::string_view out,
-    std::string_view json = "write the rows there; - is standard output (default: none)",
-    std::string_view quiet = "no table, no progress bar") {
+    std::string_view json = "write the rows to FILE; - is standard output (default: none)",
+    std::string_view quiet = "print no table and no progress bar") {
   return {{of_output(path_option({"--out", "DIR", out}, &Destinations::out)),
            of_output(text_option({"--json", "FILE", json}, &Destinations::json)),
            of_output(flag_option("--quiet", quiet, &Destinations::quiet))}};
@@ -313,9 +311,8 @@ template <class Options>
 template <class Options>
 [[nodiscard]] Option<Options> events_option(std::optional<std::filesystem::path> Options::*events) {
   return of_output(path_option({"--events", "FILE",
-                                "write every event there, with its beads and residues: as CSV, or as JSON "
-                                "lines where its name ends in "
-                                ".jsonl (default: none)"},
+                                "write every event with its beads and residues to FILE: as JSON lines if its "
+                                "name ends in .jsonl, else as CSV (default: none)"},
                                events));
 }
 /// --apart: the least distance along a chain of two of its beads that a pair may consist of.

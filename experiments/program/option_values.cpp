@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 
 #include "experiments/program/suggestion.h"
 
@@ -38,20 +39,11 @@ std::filesystem::path parse_path(std::string_view option, const std::string& tex
   return text;
 }
 
-std::optional<std::filesystem::path> path_of(const ParsedArguments& parsed, std::string_view option) {
-  const std::optional<std::string> text = parsed.value(option);
-  return text ? std::optional(parse_path(option, *text)) : std::nullopt;
-}
-
 std::uint64_t parse_whole_number(std::string_view option, std::string_view text, std::uint64_t least,
                                  std::uint64_t most) {
   const auto number = number_in<std::uint64_t>(text);
   if (number && *number >= least && *number <= most) return *number;
   throw InputError(fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, least, most));
-}
-
-BeadId parse_apart(std::string_view text) {
-  return static_cast<BeadId>(parse_whole_number("--apart", text, 1, 1'000'000'000));
 }
 
 std::pair<std::uint64_t, std::uint64_t> parse_range(std::string_view option, std::string_view text,

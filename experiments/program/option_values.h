@@ -1,21 +1,18 @@
 #pragma once
-// What the values of options are made of, for the parsers of all commands: each throws InputError that names
-// the option, what was found and what is expected.
+// Parses the values of options. Each function throws an InputError that names the option, the text found and
+// what is expected.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "experiments/program/command_line.h"
-#include "motions/base/bead.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -35,26 +32,13 @@ template <class Enum>
                              std::span<const std::string_view> names, Enum first = Enum{}) {
   return static_cast<Enum>(static_cast<std::size_t>(first) + place_among(option, word, names));
 }
-/// The same; none where the option is not given.
-template <class Enum>
-[[nodiscard]] std::optional<Enum> chosen(const ParsedArguments& parsed, std::string_view option,
-                                         std::span<const std::string_view> names, Enum first = Enum{}) {
-  const std::optional<std::string> word = parsed.value(option);
-  return word ? std::optional(choice_of(option, *word, names, first)) : std::nullopt;
-}
 
 /// The path of a file or directory; - is refused.
 [[nodiscard]] std::filesystem::path parse_path(std::string_view option, const std::string& text);
-/// The path of a file or directory; none where the option is not given, - is refused.
-[[nodiscard]] std::optional<std::filesystem::path> path_of(const ParsedArguments& parsed,
-                                                           std::string_view option);
 
 /// From `least` to `most`.
 [[nodiscard]] std::uint64_t parse_whole_number(std::string_view option, std::string_view text,
                                                std::uint64_t least, std::uint64_t most);
-
-/// What --apart says, in all commands that take it.
-[[nodiscard]] BeadId parse_apart(std::string_view text);
 
 /// FIRST:LAST, LAST excluded, at most `most`; either may be left out. At least one number is in it.
 [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> parse_range(std::string_view option,

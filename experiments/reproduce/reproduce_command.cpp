@@ -1,21 +1,13 @@
-#include "experiments/reproduce/reproduce_command.h"
+#include "experiments/commands.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <optional>
 
-#include "experiments/output/destinations.h"
-#include "experiments/output/output_files.h"
-#include "experiments/output/page/result_page.h"
-#include "experiments/output/staged.h"
-#include "experiments/output/text.h"
 #include "experiments/program/data_folder.h"
 #include "experiments/program/option_values.h"
-#include "experiments/program/progress_bar.h"
-#include "experiments/program/taken_paths.h"
+#include "experiments/program/table_command.h"
 #include "experiments/reproduce/paper_tables.h"
 #include "experiments/reproduce/reproduce_report.h"
 #include "motions/base/input_error.h"
@@ -24,27 +16,33 @@ namespace kds {
 
 namespace {
 
-constexpr std::string_view kCommand = "reproduce";
-constexpr const char* kResult = "reproduce.json";
-
-constexpr std::array kReproduceOptions{
-    OptionSpec{"--data", "DIR", "the folder data of the sources, for proteins (default: where it was built)"},
-    OptionSpec{"--rounds", "N",
-               "of each measurement of time of at most a second, of which the median counts (default: 5)"},
-    OptionSpec{"--out", "DIR",
-               "write table1.csv ... of these tables, reproduce.json and report.html there (default: none)"},
-    OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
-    OptionSpec{"--quiet", "", "no table, no progress bar"},
-};
-
 constexpr CommandSpec kReproduceCommand{
     "kds reproduce",
-    "Measures the tables of Agarwal et al. (2004) again, each row beside the paper's, times as ratios.",
+    "Measures the tables of Agarwal et al. (2004) again. Shows each row beside the paper's, and times as "
+    "ratios.",
     "TABLE...",
-    "table1 ... table7, or all",
-    kReproduceOptions,
+    "table1, table2 ... table7, or all",
     "kds reproduce all --out report\nkds reproduce table1 table6 --json -",
 };
+
+struct ReproduceOptions : Destinations {
+  std::filesystem::path data = source_data_folder();
+  std::size_t rounds = 5;
+};
+
+const OptionList<ReproduceOptions>& reproduce_options() {
+  using O = ReproduceOptions;
+  static const auto list =
+      OptionList<O>()
+          .with({data_option(&O::data),
+                 whole_option({"--rounds", "N",
+                               "repeat each measurement of time N times, unless it takes more than a second, "
+                               "and report the median (default: 5)"},
+                              &O::rounds, 1, 1000)})
+          .with(destination_options("write reproduce.json, report.html and table1.csv ..., a file for each "
+                                    "table, to DIR (default: none)"));
+  return list;
+}
 
 std::string file_of(int table) { return fmt::format("table{}.csv", table); }
 
@@ -73,89 +71,55 @@ std::vector<int> tables_asked_for(const ParsedArguments& parsed) {
   return tables;
 }
 
-void check_destinations(const Destinations& destinations, const std::vector<int>& tables,
-                        const std::filesystem::path& data) {
-  TakenPaths taken;
-  taken.read_folder("--data", data);
-  if (destinations.out) {
-    check_directory(*destinations.out, kCommand, "--out", {kResult});
-    taken.write_into("--out", *destinations.out, {kResult, "report.html"});
-    for (const int table : tables) {
-      taken.write("--out", *destinations.out / file_of(table));
-      check_directory(*destinations.out, kCommand, "--out", {file_of(table)});
-    }
-    check_page(*destinations.out, kCommand);
-  }
-  if (!destinations.json) return;
-  taken.write_json(*destinations.json);
-  if (*destinations.json != "-") ensure_writable_file(*destinations.json, "--json");
+std::vector<std::string> files_of(const std::vector<int>& tables) {
+  std::vector<std::string> files{"reproduce.json", "report.html"};
+  for (const int table : tables) files.push_back(file_of(table));
+  return files;
 }
 
-std::vector<PaperTable> measure(const std::vector<int>& numbers, const std::filesystem::path& data,
-                                std::size_t rounds, ProgressBar& bar) {
+std::vector<PaperTable> measure(const std::vector<int>& numbers, const ReproduceOptions& options,
+                                const TableCommand::Progress& progress) {
   std::vector<PaperTablePlan> plans;
   std::size_t done = 0, total = 0;
   for (const int number : numbers) {
-    plans.push_back(plan_paper_table(number, data, rounds));
+    plans.push_back(plan_paper_table(number, options.data, options.rounds));
     total += plans.back().rows.size();
   }
   std::vector<PaperTable> tables;
   for (PaperTablePlan& plan : plans) {
     for (const auto& row : plan.rows) {
       plan.table.rows.push_back(row());
-      bar.update(++done, total);
+      progress(++done, total);
     }
     tables.push_back(std::move(plan.table));
   }
-  bar.erase();
   return tables;
-}
-
-void deliver(const Destinations& destinations, const std::vector<PaperTable>& tables, const std::string& json,
-             Page page) {
-  std::optional<StagedFiles> files;
-  std::optional<AtomicFile> json_file;
-  if (destinations.out) {
-    files.emplace(*destinations.out, kCommand, "--out");
-    for (const PaperTable& table : tables) files->write(file_of(table.number), paper_csv(table));
-    files->write(kResult, json);
-    page.data = {kResult};
-    for (const PaperTable& table : tables) page.data.push_back(file_of(table.number));
-    files->write("report.html", paper_page(tables, page));
-  }
-  const bool json_on_stdout = destinations.json == "-";
-  if (destinations.json && !json_on_stdout) json_file.emplace(*destinations.json, json);
-  commit_together(std::array<Staged*, 2>{files ? &*files : nullptr, json_file ? &*json_file : nullptr});
-  if (json_on_stdout) print_to_stdout(json);
-  if (!destinations.quiet && !json_on_stdout) print_to_stdout(paper_text(tables));
 }
 
 }  // namespace
 
 int reproduce_command(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kReproduceCommand, arguments);
+  ReproduceOptions options;
+  const ParsedArguments parsed = read_arguments(kReproduceCommand, reproduce_options(), arguments, options);
   const std::vector<int> numbers = tables_asked_for(parsed);
-  std::size_t rounds = 5;
-  if (const auto text = parsed.value("--rounds")) rounds = parse_whole_number("--rounds", *text, 1, 1000);
-  const Destinations destinations{path_of(parsed, "--out"), parsed.value("--json"), parsed.has("--quiet")};
-  const std::filesystem::path data = data_folder(parsed, {"paper"});
-  check_destinations(destinations, numbers, data);
+  folder_in_data(options.data, "paper");
+  TableCommand command("reproduce", arguments, options, "row");
+  TakenPaths taken;
+  taken.read_folder("--data", options.data);
+  command.check_destinations(std::move(taken), files_of(numbers));
 
-  ProgressBar bar(!destinations.quiet, "row");
-  const std::vector<PaperTable> tables = measure(numbers, data, rounds, bar);
+  const std::vector<PaperTable> tables = measure(numbers, options, command.progress());
+  command.bar().erase();
   std::vector<std::string> names;
   for (const int number : numbers) names.push_back(fmt::format("table{}", number));
-  const std::string command_line = "kds reproduce " + shell_words(arguments);
   Json json;
-  const Json settings{{"tables", names}, {"rounds", rounds}};
-  json["settings"] = settings;
+  json["settings"] = reproduce_options().settings_json(options, {{"tables", names}});
   json["rows"] = paper_rows_json(tables);
   json["tables"] = paper_findings_json(tables);
-  add_provenance(json, command_line);
-  Page page;
-  page.command_line = command_line;
-  page.settings = settings;
-  deliver(destinations, tables, text_of(json), std::move(page));
+  TableCommand::Csvs csvs;
+  for (const PaperTable& table : tables) csvs.emplace_back(file_of(table.number), paper_csv(table));
+  command.deliver(json, csvs, paper_text(tables),
+                  [&](Page page) { return paper_page(tables, std::move(page)); });
   return 0;
 }
 

@@ -21,7 +21,6 @@ constexpr CommandSpec kRunCommand{
     "Runs kinetic structures over moving beads and reports every event, exactly and in order.",
     kInputOperand,
     kInputHelp,
-    {},
     "kds run villin.dcd --topology villin.pdb --frames 0:200 --structures wrapped,power --out report\n"
     "kds run models.pdb --kernel exact --audit events --json -",
 };
@@ -34,36 +33,36 @@ std::string range_text(std::uint64_t first, std::uint64_t last) {
 constexpr std::uint64_t most_ids = std::uint64_t{1} << 32U;
 
 Option<RunOptions> levels_option() {
-  return {{"--levels", "RANGE",
-           "levels of wrapped and layered to keep, FIRST:LAST, roots 0, LAST excluded (default: all)"},
+  return {
+      {"--levels", "RANGE",
+       "levels of wrapped and layered to keep: FIRST:LAST, without LAST; roots are level 0 (default: all)"},
 
-          [](RunOptions& o, const std::string& text) {
-            const auto [first, end] = parse_range("--levels", text, most_ids);
-            o.nodes.first_level = static_cast<std::uint32_t>(first);
-            o.nodes.last_level = static_cast<std::uint32_t>(end - 1);
-          },
+      [](RunOptions& o, const std::string& text) {
+        const auto [first, end] = parse_range("--levels", text, most_ids);
+        o.nodes.first_level = static_cast<std::uint32_t>(first);
+        o.nodes.last_level = static_cast<std::uint32_t>(end - 1);
+      },
 
-          [](const RunOptions& o) {
-            NodeSelection levels = o.nodes;
-            levels.beads.reset();
-            return levels.restricts() ? range_text(o.nodes.first_level, o.nodes.last_level) : "";
-          }};
+      [](const RunOptions& o) {
+        NodeSelection levels = o.nodes;
+        levels.beads.reset();
+        return levels.restricts() ? range_text(o.nodes.first_level, o.nodes.last_level) : "";
+      }};
 }
 
 Option<RunOptions> nodes_option() {
-  return {{"--nodes", "RANGE",
-           "nodes of wrapped and layered to keep, those over beads FIRST:LAST, LAST excluded (default: "
-           "all)"},
+  return {
+      {"--nodes", "RANGE",
+       "nodes of wrapped and layered to keep: those over the beads FIRST:LAST, without LAST (default: all)"},
 
-          [](RunOptions& o, const std::string& text) {
-            const auto [first, end] =
-                parse_range("--nodes", text, text.ends_with(':') ? most_ids : most_ids - 1);
-            o.nodes.beads = BeadRange{static_cast<BeadId>(first), static_cast<BeadId>(end - 1)};
-          },
+      [](RunOptions& o, const std::string& text) {
+        const auto [first, end] = parse_range("--nodes", text, text.ends_with(':') ? most_ids : most_ids - 1);
+        o.nodes.beads = BeadRange{static_cast<BeadId>(first), static_cast<BeadId>(end - 1)};
+      },
 
-          [](const RunOptions& o) {
-            return o.nodes.beads ? range_text(o.nodes.beads->first, o.nodes.beads->last) : "";
-          }};
+      [](const RunOptions& o) {
+        return o.nodes.beads ? range_text(o.nodes.beads->first, o.nodes.beads->last) : "";
+      }};
 }
 
 MotionTolerance parse_tolerance(const std::string& text, FrameMotion motion) {
@@ -87,8 +86,8 @@ MotionTolerance parse_tolerance(const std::string& text, FrameMotion motion) {
 
 Option<RunOptions> tolerance_option() {
   return {{"--tolerance", "DELTA",
-           "beads go straight on while that stays within DELTA of the frames, a length or, as in 0.2r, a "
-           "multiple of the smallest radius (default: none)"},
+           "beads move straight on while they stay within DELTA of their positions in the frames; DELTA is a "
+           "length or, as in 0.2r, a multiple of the smallest radius (default: none)"},
           [](RunOptions& o, const std::string& text) { o.tolerance = parse_tolerance(text, o.motion); },
           [](const RunOptions& o) { return o.tolerance ? o.tolerance->text() : ""; }};
 }
@@ -96,7 +95,7 @@ Option<RunOptions> tolerance_option() {
 Option<RunOptions> structures_option() {
   return {{"--structures", "LIST",
            "comma list of sorted, box, hull, closest, wrapped, layered, power, contacts (default: "
-           "wrapped,power; instances: sorted in 1D, else power)"},
+           "wrapped,power; for instance files sorted in 1D, else power)"},
           [](RunOptions& o, const std::string& text) { o.structures = parse_structures(text); },
           [](const RunOptions& o) { return fmt::format("{}", fmt::join(o.structures, ",")); }};
 }
@@ -115,8 +114,8 @@ Option<RunOptions> rounds_option() {
 
 OptionList<Destinations> run_destination_options() {
   return destination_options(
-      "write summary.json, events.csv, report.html and, of contacts, contacts.csv there (default: none)",
-      "write the summary there; - is standard output (default: none)");
+      "write summary.json, events.csv, report.html and, for contacts, contacts.csv to DIR (default: none)",
+      "write the summary to FILE; - is standard output (default: none)");
 }
 
 const OptionList<RunOptions>& run_options() {
@@ -127,52 +126,49 @@ const OptionList<RunOptions>& run_options() {
           .with({
               structures_option(),
               choice_option({"--motion", "NAME",
-                             "how beads move between frames: linear, hermite, lifted (default: linear)"},
+                             "motion of beads between frames: linear, hermite or lifted (default: linear)"},
                             &O::motion, frame_motion_names),
-              choice_option({"--kernel", "NAME", "fast, filtered or exact arithmetic (default: filtered)"},
+              choice_option({"--kernel", "NAME", "arithmetic: fast, filtered or exact (default: filtered)"},
                             &O::kernel, kernel_names),
               levels_option(),
               nodes_option(),
               choice_option(
                   {"--between", "NAME",
-                   "wrapped between frames: events, the smallest spheres at all times, or chord, chords of "
-                   "those at the frames, without events (default: events)"},
+                   "spheres of wrapped between frames: events keeps the smallest spheres at all times; chord "
+                   "interpolates those of the frames and has no events (default: events)"},
                   &O::between, between_names),
-              real_option(
-                  {"--tightness", "EPS",
-                   "with --between chord: radii proved to be within 1 + EPS of the smallest at all times, "
-                   "steps of nodes being halved for it (default: none)"},
-                  &O::tightness, {1e-6, 1}),
-              apart_option("contacts: of beads of one chain, those at least K apart along it (default: 2)",
-                           &O::apart),
-              real_option(
-                  {"--relax", "EPS",
-                   "wrapped: a bead leaves a sphere when it is out by EPS of the radius, from 2^-20 to 1 "
-                   "(default: none)"},
-                  &O::relax, {Relaxation::least_share, 1}),
+              real_option({"--tightness", "EPS",
+                           "with --between chord: prove that radii stay within 1 + EPS times the smallest at "
+                           "all times, and halve the steps of nodes if this needs it (default: none)"},
+                          &O::tightness, {1e-6, 1}),
+              apart_option(
+                  "contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",
+                  &O::apart),
+              real_option({"--relax", "EPS",
+                           "wrapped: a bead leaves a sphere only when it is outside by EPS times the radius; "
+                           "EPS is from 2^-20 to 1 (default: none)"},
+                          &O::relax, {Relaxation::least_share, 1}),
               tolerance_option(),
-              flag_option(
-                  "--certify",
-                  "with a stride in --frames or --tolerance: read all frames, and bound what may have been "
-                  "missed",
-                  &O::certify),
-              choice_option(
-                  {"--audit", "WHEN",
-                   "compare with static builds: none, frames or events, which takes 10 to 200 times as "
-                   "long as the run (default: none)"},
-                  &O::audit, audit_mode_names),
+              flag_option("--certify",
+                          "with a stride in --frames, or with --tolerance: read all frames and bound what "
+                          "the run may have missed",
+                          &O::certify),
+              choice_option({"--audit", "WHEN",
+                             "when to compare with static builds: none, frames or events; events takes 10 to "
+                             "200 times as long as the run (default: none)"},
+                            &O::audit, audit_mode_names),
               rounds_option(),
               of_output(whole_option({"--work", "LIMIT",
-                                      "end the run where exact arithmetic takes more limb operations than "
-                                      "this (default: no limit)"},
+                                      "stop the run if exact arithmetic takes more than LIMIT limb "
+                                      "operations (default: no limit)"},
                                      &O::work, 0, ExactWork::no_limit - 1)),
-              of_output(path_option({"--dump", "DIR",
-                                     "write the structures at every frame there, in place of an earlier dump "
-                                     "(default: none)"},
-                                    &O::dump)),
+              of_output(path_option(
+                  {"--dump", "DIR",
+                   "write the structures at every frame to DIR, in place of an earlier dump (default: none)"},
+                  &O::dump)),
               events_option(&O::events),
               of_output(path_option(
-                  {"--log", "FILE", "write the event log there, for kds replay (default: none)"}, &O::log)),
+                  {"--log", "FILE", "write the event log to FILE, for kds replay (default: none)"}, &O::log)),
           })
           .with(run_destination_options());
   return list;

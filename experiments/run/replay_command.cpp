@@ -1,4 +1,4 @@
-#include "experiments/run/replay_command.h"
+#include "experiments/commands.h"
 
 #include <fmt/format.h>
 
@@ -34,9 +34,11 @@ const OptionList<ReplayOptions>& replay_options() {
 }
 
 constexpr CommandSpec kReplayCommand{
-    "kds replay", "Runs a logged run again and tells whether the same happens (exit code 0) or not (1).",
-    "LOG",        "an event log, as written by kds run --log",
-    {},           "kds run models.pdb --log models.kdslog\nkds replay models.kdslog",
+    "kds replay",
+    "Repeats a logged run and reports whether the same happens (exit code 0) or not (1).",
+    "LOG",
+    "an event log, as written by kds run --log",
+    "kds run models.pdb --log models.kdslog\nkds replay models.kdslog",
 };
 
 std::string verdict(const ReplayReport& replay) {

@@ -1,4 +1,4 @@
-#include "experiments/run/run_command.h"
+#include "experiments/commands.h"
 
 #include <fmt/format.h>
 

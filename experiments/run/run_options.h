@@ -1,5 +1,5 @@
 #pragma once
-// What `kds run` was asked to do. run_option_list.cpp declares the options.
+// What `kds run` was asked to do. parse_run_options.cpp declares the options.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/scenes/generate_command.h"
+#include "experiments/commands.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,7 @@
 #include <utility>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/text.h"
-#include "experiments/program/progress_bar.h"
-#include "experiments/program/table_results.h"
-#include "experiments/program/taken_paths.h"
+#include "experiments/program/table_command.h"
 #include "experiments/scenes/generate_options.h"
 #include "experiments/scenes/info_report.h"
 #include "motions/base/input_error.h"
@@ -22,8 +19,6 @@ namespace kds {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::string_view kGenerateName = "generate";
 
 // One a necklace: of two, a.xyz becomes a-1.xyz and a-2.xyz.
 std::vector<fs::path> files_of(const GenerateOptions& options) {
@@ -84,7 +79,7 @@ std::vector<Trajectory> necklaces_for(const GenerateOptions& options, const std:
   return necklaces;
 }
 
-TableResults results_of(const GenerateOptions& options, const SceneInfo& info, std::string command) {
+void deliver(const GenerateOptions& options, const SceneInfo& info, const TableCommand& command) {
   Json json;
   json["model"] = options.model->name;
   add_scene(json, info);
@@ -94,15 +89,14 @@ TableResults results_of(const GenerateOptions& options, const SceneInfo& info, s
     json["settings"][name] = value;
     table += fmt::format(", {} {}", name, value);
   }
-  add_provenance(json, std::move(command));
-  return {text_of(json), conditions_csv(info), table + "\n" + scene_table(info)};
+  command.deliver(json, conditions_csv(info), table + "\n" + scene_table(info));
 }
 
 }  // namespace
 
 int generate_command(const Arguments& arguments) {
   const GenerateOptions options = parse_generate_options(arguments);
-  const Destinations destinations{options.out, options.json, options.quiet};
+  TableCommand command("generate", arguments, options, "frame");
   const std::vector<fs::path> files = files_of(options);
   TakenPaths taken;
   for (const fs::path& file : files) {
@@ -110,20 +104,16 @@ int generate_command(const Arguments& arguments) {
     refuse_unnamed(options, file);
     taken.add("-o", file);
   }
-  check_table_destinations(destinations, std::string(kGenerateName), taken);
+  command.check_destinations(taken, {"generate.json", "generate.csv"});
 
-  ProgressBar bar(!options.quiet, "frame");
   const std::vector<Trajectory> necklaces = necklaces_for(options, files);
   std::size_t beads = 0;
   for (const Trajectory& necklace : necklaces) beads += necklace.bead_count();
   const std::vector<double> radii(beads, models::radius);
-  const SceneInfo info =
-      describe_scene(necklaces, radii, {.most_listed = 5},
-                     [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
-  bar.erase();
+  const SceneInfo info = describe_scene(necklaces, radii, {.most_listed = 5}, command.progress());
+  command.bar().erase();
   write_files(options, necklaces);
-  deliver_table(destinations, std::string(kGenerateName),
-                results_of(options, info, "kds generate " + shell_words(arguments)));
+  deliver(options, info, command);
   return 0;
 }
 

@@ -1,8 +1,9 @@
 #include "experiments/scenes/generate_options.h"
 
-#include <algorithm>
+#include <optional>
 
 #include "experiments/output/text.h"
+#include "experiments/program/option.h"
 #include "experiments/program/option_values.h"
 #include "motions/base/file_ending.h"
 #include "motions/base/text_input.h"
@@ -17,14 +18,6 @@ using models::ShapeMotion;
 
 constexpr std::uint64_t kMostBeads = 10'000'000, kMostFrames = 1'000'000, kMostPositions = 100'000'000;
 
-// An option of some models: what help says, and how the value goes into the settings and out again.
-struct ModelOption {
-  Setting setting;
-  OptionSpec spec;
-  void (*read)(std::string_view option, const std::string& text, Settings&);
-  std::string (*write)(const Settings&);
-};
-
 models::Span parse_span(std::string_view option, const std::string& text, const RealRange& range) {
   const std::vector<std::string> ends = split(text, ':');
   if (ends.size() > 2) throw InputError(fmt::format("{}: '{}' is not a number or FROM:TO", option, text));
@@ -36,71 +29,100 @@ std::string text_of(const models::Span& span) {
                                  : fmt::format("{}:{}", span.first, span.last);
 }
 
-void read_motion(std::string_view option, const std::string& text, Settings& s) {
-  s.motion = choice_of<ShapeMotion>(option, text, models::shape_motion_names);
+Option<Settings> span_option(OptionSpec spec, std::optional<models::Span> Settings::*member,
+                             const RealRange& range) {
+  return value_option(
+      spec, member, [=](const std::string& text) { return parse_span(spec.name, text, range); }, text_of);
 }
 
-std::string motion_name(const Settings& s) { return std::string(name_of(*s.motion)); }
-
-template <std::optional<double> Settings::*member>
-std::string write_real(const Settings& s) {
-  return fmt::format("{}", *(s.*member));
+/// An option of the models that have this setting.
+Option<GenerateOptions> of_models(Setting setting, const Option<Settings>& of_settings) {
+  using O = GenerateOptions;
+  Option<O> option = OptionList<O>().with(&O::settings, OptionList<Settings>{{of_settings}}).all().front();
+  option.read = [setting, name = option.spec.name, read = option.read](O& o, const std::string& text) {
+    if (!o.model->takes(setting))
+      throw InputError(fmt::format("{}: has no meaning for the model {}", name, o.model->name));
+    read(o, text);
+  };
+  option.text = [setting, show = option.text](const O& o) {
+    return o.model->takes(setting) ? show(o) : std::string();
+  };
+  return option;
 }
 
-// clang-format off
-constexpr std::array kModelOptions{
-    ModelOption{Setting::motion, {"--motion", "NAME", "of a shape: rest, rotate (rigidly) or wander (bead by bead, kept apart)"
-                                  " (default: rotate; random-chain: wander)"},
-                read_motion, motion_name},
-    ModelOption{Setting::step, {"--step", "X", "how far beads move in a frame, in radii (default: 0.1)"},
-                [](auto o, auto& t, Settings& s) { s.step = parse_real(o, t, {0, 1000}); }, write_real<&Settings::step>},
-    ModelOption{Setting::bond, {"--bond", "X", "distance of consecutive beads, in diameters (default: 0.999)"},
-                [](auto o, auto& t, Settings& s) { s.bond = parse_real(o, t, {0.5, 1, true}); }, write_real<&Settings::bond>},
-    ModelOption{Setting::turns, {"--turns", "X", "turns of a helix or spiral (default: helix 10, spirals 18, fewer where the beads leave no room)"},
-                [](auto o, auto& t, Settings& s) { s.turns = parse_real(o, t, {0, 1e6}); }, write_real<&Settings::turns>},
-    ModelOption{Setting::pitch, {"--pitch", "X", "distance of the turns of a scaling-helix, in bonds (default: 2)"},
-                [](auto o, auto& t, Settings& s) { s.pitch = parse_real(o, t, {0, 1e6, true}); }, write_real<&Settings::pitch>},
-    ModelOption{Setting::gap, {"--gap", "X", "between the rows of a grid, in diameters (default: 0.05)"},
-                [](auto o, auto& t, Settings& s) { s.gap = parse_real(o, t, {0, 0.9}); }, write_real<&Settings::gap>},
-    ModelOption{Setting::dimension, {"--dimension", "D", "of a grid and its motion, 2 or 3 (default: 3)"},
-                [](auto o, auto& t, Settings& s) { s.dimension = static_cast<int>(parse_whole_number(o, t, 2, 3)); },
-                [](const Settings& s) { return fmt::format("{}", *s.dimension); }},
-    ModelOption{Setting::jitter, {"--jitter", "X", "how far the beads of a grid are moved at random, in radii (default: 0)"},
-                [](auto o, auto& t, Settings& s) { s.jitter = parse_real(o, t, {0, 1000}); }, write_real<&Settings::jitter>},
-    ModelOption{Setting::fill, {"--fill", "X", "share of its cube that a random-chain fills (default: 0.2)"},
-                [](auto o, auto& t, Settings& s) { s.fill = parse_real(o, t, {1e-6, 0.5}); }, write_real<&Settings::fill>},
-    ModelOption{Setting::rolled, {"--rolled", "FROM:TO", "how far spirals are rolled up in the first and last frame (default: 0:1)"},
-                [](auto o, auto& t, Settings& s) { s.rolled = parse_span(o, t, {0, 1}); },
-                [](const Settings& s) { return text_of(*s.rolled); }},
-    ModelOption{Setting::distance, {"--distance", "FROM:TO", "of two spirals, in chain lengths (default: 1.5)"},
-                [](auto o, auto& t, Settings& s) { s.distance = parse_span(o, t, {0, 1e6}); },
-                [](const Settings& s) { return text_of(*s.distance); }},
-};
-// clang-format on
-
-constexpr std::array kFirstOptions{
-    OptionSpec{"-o", "FILE",
-               "where to write: .xyz (exact) or .pdb, .ent (three decimals); two-spirals: FILE-1 and FILE-2"},
-    OptionSpec{"--beads", "N",
-               "how many, from 2 (must be given); beads of a grill of 3 to 43 meet, except of 40, and those "
-               "of a spline of 7"},
-    OptionSpec{"--frames", "F", "how many (default: 50)"},
-    OptionSpec{"--seed", "S", "which random numbers (default: 1)"},
-};
-
-constexpr std::array kLastOptions{
-    OptionSpec{"--out", "DIR", "write generate.json and generate.csv there (default: none)"},
-    OptionSpec{"--json", "FILE", "write a summary there; - is standard output (default: none)"},
-    OptionSpec{"--quiet", "", "no table, no progress bar"},
-};
-
-constexpr std::array<OptionSpec, kModelOptions.size()> model_specs() {
-  std::array<OptionSpec, kModelOptions.size()> specs{};
-  for (std::size_t i = 0; i < specs.size(); ++i) specs[i] = kModelOptions[i].spec;
-  return specs;
+/// Text in the JSON, even of numbers, as on the command line.
+const OptionList<GenerateOptions>& generate_options() {
+  using O = GenerateOptions;
+  using S = Settings;
+  static const OptionList<O> list =
+      OptionList<O>()
+          .with({of_output(path_option({"-o", "FILE",
+                                        "file to write: .xyz (exact) or .pdb, .ent (three decimals); "
+                                        "two-spirals writes FILE-1 and FILE-2"},
+                                       &O::file))})
+          .with(
+              &O::settings,
+              {{whole_option({"--beads", "N",
+                              "number of beads, at least 2 (required); beads of a grill overlap if there "
+                              "are 3 to 43, except 40, and those of a spline if there are 7"},
+                             &S::beads, 2, kMostBeads),
+                whole_option({"--frames", "F", "number of frames (default: 50)"}, &S::frames, 1, kMostFrames),
+                whole_option({"--seed", "S", "seed of the random numbers (default: 1)"}, &S::seed, 0,
+                             ~std::uint64_t{0})}})
+          .with({
+              of_models(Setting::motion,
+                        choice_option({"--motion", "NAME",
+                                       "how a shape moves: rest, rotate (rigidly) or wander (bead by bead, "
+                                       "without collisions) (default: rotate; random-chain: wander)"},
+                                      &S::motion, models::shape_motion_names)),
+              of_models(Setting::step, real_option({"--step", "X",
+                                                    "distance that a bead moves in a frame, in radii "
+                                                    "(default: 0.1)"},
+                                                   &S::step, {0, 1000})),
+              of_models(Setting::bond,
+                        real_option({"--bond", "X",
+                                     "distance between consecutive beads, in diameters (default: 0.999)"},
+                                    &S::bond, {0.5, 1, true})),
+              of_models(Setting::turns,
+                        real_option({"--turns", "X",
+                                     "turns of a helix or spiral (default: 10 for a helix, 18 for spirals, "
+                                     "fewer if the beads have no room for them)"},
+                                    &S::turns, {0, 1e6})),
+              of_models(Setting::pitch,
+                        real_option({"--pitch", "X",
+                                     "distance between the turns of a scaling-helix, in bonds (default: 2)"},
+                                    &S::pitch, {0, 1e6, true})),
+              of_models(
+                  Setting::gap,
+                  real_option({"--gap", "X", "gap between the rows of a grid, in diameters (default: 0.05)"},
+                              &S::gap, {0, 0.9})),
+              of_models(Setting::dimension,
+                        whole_option(
+                            {"--dimension", "D", "dimension of a grid and its motion, 2 or 3 (default: 3)"},
+                            &S::dimension, 2, 3)),
+              of_models(Setting::jitter,
+                        real_option({"--jitter", "X",
+                                     "random displacement of the beads of a grid, in radii (default: 0)"},
+                                    &S::jitter, {0, 1000})),
+              of_models(
+                  Setting::fill,
+                  real_option({"--fill", "X", "share of its cube that a random-chain fills (default: 0.2)"},
+                              &S::fill, {1e-6, 0.5})),
+              of_models(Setting::rolled,
+                        span_option({"--rolled", "FROM:TO",
+                                     "how far spirals are rolled up in the first and in the last frame: 0 is "
+                                     "straight, 1 rolled up (default: 0:1)"},
+                                    &S::rolled, {0, 1})),
+              of_models(Setting::distance,
+                        span_option({"--distance", "FROM:TO",
+                                     "distance between two spirals in the first and in the last frame, in "
+                                     "chain lengths (default: 1.5)"},
+                                    &S::distance, {0, 1e6})),
+          })
+          .with(destination_options("write generate.json and generate.csv to DIR (default: none)",
+                                    "write a summary to FILE; - is standard output (default: none)"));
+  return list;
 }
-
-constexpr auto kGenerateOptions = joined(kFirstOptions, joined(model_specs(), kLastOptions));
 
 std::vector<std::string_view> model_names() {
   std::vector<std::string_view> names;
@@ -112,10 +134,8 @@ const CommandSpec& command() {
   static const std::string operands = fmt::format("one of {}", fmt::join(model_names(), ", "));
   static const CommandSpec spec{
       "kds generate",
-      "Writes a moving model necklace with beads of radius 1, and tells whether it is a proper one.",
-      "MODEL",
-      operands,
-      kGenerateOptions,
+      "Writes a moving model necklace with beads of radius 1, and reports whether it is a proper necklace.",
+      "MODEL", operands,
       "kds generate random-chain --beads 10240 --frames 20 --step 0.01 -o chain.xyz\n"
       "kds generate two-spirals --beads 1000 --frames 50 --turns 9 -o spirals.xyz"};
   return spec;
@@ -129,15 +149,14 @@ const models::Model& model_of(const ParsedArguments& parsed) {
   return *model;
 }
 
-std::filesystem::path file_of(const ParsedArguments& parsed) {
-  const auto path = path_of(parsed, "-o");
-  if (!path) throw InputError("-o: give the FILE to write, with the ending .xyz, .pdb or .ent");
-  const std::string ending = file_ending(*path);
-  if (ending == ".xyz" || ending == ".pdb" || ending == ".ent") return *path;
+void check_file(const std::filesystem::path& file) {
+  if (file.empty()) throw InputError("-o: give the FILE to write, with the ending .xyz, .pdb or .ent");
+  const std::string ending = file_ending(file);
+  if (ending == ".xyz" || ending == ".pdb" || ending == ".ent") return;
   throw InputError(
       fmt::format("-o {}: the ending {} tells no format that is written; expected .xyz, .pdb or "
                   ".ent",
-                  path->string(), in_quotes(ending)));
+                  file.string(), in_quotes(ending)));
 }
 
 void check_wandering(const Settings& settings) {
@@ -153,44 +172,25 @@ void check_wandering(const Settings& settings) {
 bool GenerateOptions::is_pdb() const { return file_ending(file) != ".xyz"; }
 
 GenerateOptions parse_generate_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(command(), arguments);
+  const ParsedArguments parsed = parse_arguments(command(), generate_options().specs(), arguments);
   GenerateOptions options;
   options.model = &model_of(parsed);
-  Settings settings;
-  const auto beads = parsed.value("--beads");
-  if (!beads) throw InputError("--beads: give the number of beads");
-  settings.beads = parse_whole_number("--beads", *beads, 2, kMostBeads);
-  settings.frames = parse_whole_number("--frames", parsed.value("--frames").value_or("50"), 1, kMostFrames);
-  settings.seed = parse_whole_number("--seed", parsed.value("--seed").value_or("1"), 0, ~std::uint64_t{0});
+  if (!parsed.has("--beads")) throw InputError("--beads: give the number of beads");
+  generate_options().read(parsed, options);
+  const Settings& settings = options.settings;
   if (settings.beads * settings.frames > kMostPositions)
     throw InputError(fmt::format("--frames: {} beads in {} frames are more than {} positions; give less",
                                  settings.beads, settings.frames, kMostPositions));
-  for (const ModelOption& option : kModelOptions) {
-    const auto text = parsed.value(option.spec.name);
-    if (!text) continue;
-    if (!options.model->takes(option.setting))
-      throw InputError(
-          fmt::format("{}: has no meaning for the model {}", option.spec.name, options.model->name));
-    option.read(option.spec.name, *text, settings);
-  }
   options.settings = completed(*options.model, settings);
   check_wandering(options.settings);
-  options.file = file_of(parsed);
-  options.out = path_of(parsed, "--out");
-  options.json = parsed.value("--json");
-  options.quiet = parsed.has("--quiet");
+  check_file(options.file);
   return options;
 }
 
 std::vector<std::pair<std::string, std::string>> model_settings(const GenerateOptions& options) {
-  const Settings& s = options.settings;
-  std::vector<std::pair<std::string, std::string>> result{{"beads", fmt::format("{}", s.beads)},
-                                                          {"frames", fmt::format("{}", s.frames)},
-                                                          {"seed", fmt::format("{}", s.seed)}};
-  for (const ModelOption& option : kModelOptions)
-    if (options.model->takes(option.setting))
-      result.emplace_back(option.spec.name.substr(2), option.write(s));
-  return result;
+  auto settings = generate_options().settings(options);
+  std::erase_if(settings, [](const auto& setting) { return setting.second.empty(); });
+  return settings;
 }
 
 }  // namespace kds

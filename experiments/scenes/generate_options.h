@@ -2,21 +2,20 @@
 // `kds generate`: what it was asked to do, and how that is parsed.
 
 #include <filesystem>
-#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "experiments/output/destinations.h"
 #include "experiments/program/command_line.h"
 #include "motions/models/model.h"
 
 namespace kds {
 
-struct GenerateOptions {
+struct GenerateOptions : Destinations {  // generate.json, generate.csv
   const models::Model* model = nullptr;
-  models::Settings settings;                 ///< complete
-  std::filesystem::path file;                ///< .xyz, .pdb or .ent
-  std::optional<std::filesystem::path> out;  ///< directory for generate.json, generate.csv
-  std::optional<std::string> json;           ///< file, or - for standard output
-  bool quiet = false;
+  models::Settings settings{.frames = 50};  ///< complete
+  std::filesystem::path file;               ///< .xyz, .pdb or .ent
 
   [[nodiscard]] bool is_pdb() const;
 };

@@ -1,16 +1,12 @@
-#include "experiments/scenes/info_command.h"
+#include "experiments/commands.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <optional>
 #include <vector>
 
 #include "experiments/output/text.h"
-#include "experiments/program/option_names.h"
-#include "experiments/program/progress_bar.h"
-#include "experiments/program/table_results.h"
-#include "experiments/program/warnings.h"
+#include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/scenes/bead_rows.h"
 #include "experiments/scenes/info_options.h"
@@ -22,10 +18,8 @@ namespace kds {
 
 namespace {
 
-constexpr std::string_view kInfoName = "info";
-
 // Points with weights, not balls in a chain: there is nothing to judge.
-TableResults describe(const Instance& instance, bool beads, const std::string& command_line) {
+void describe(const Instance& instance, bool beads, const TableCommand& command) {
   if (beads)
     throw InputError(fmt::format("--beads: has no meaning for an instance file ({})", instance.file));
   Json json;
@@ -38,74 +32,60 @@ TableResults describe(const Instance& instance, bool beads, const std::string& c
   json["settings"] = Json::object();  // none of them has a meaning here
   json["rows"] = Json::array();
   json["warnings"] = Json::array();
-  add_provenance(json, command_line);
   const std::string row = fmt::format("{},{},{},{}", instance.point_count(), instance.dimension(),
                                       instance.degree, instance.weighted());
-  return {text_of(json), "beads,dimension,degree,weighted\n" + row + "\n",
-          fmt::format("input     {}\ninstance  {} moving points, dimension {}, degree {}, {}\n",
-                      one_line(instance.file), with_thousands(instance.point_count()), instance.dimension(),
-                      instance.degree, instance.weighted() ? "weighted" : "without weights")};
+  command.deliver(
+      json, "beads,dimension,degree,weighted\n" + row + "\n",
+      fmt::format("input     {}\ninstance  {} moving points, dimension {}, degree {}, {}\n",
+                  one_line(instance.file), with_thousands(instance.point_count()), instance.dimension(),
+                  instance.degree, instance.weighted() ? "weighted" : "without weights"));
 }
 
-TableResults describe_beads(const InfoOptions& options, const std::string& command_line, ProgressBar& bar) {
-  HeldWarnings held;
-  const SceneSurvey survey = open_frames(options, held.hold()).survey(options.radius == "auto", held.hold());
+void describe_beads(const InfoOptions& options, TableCommand& command) {
+  const SceneSurvey survey =
+      open_frames(options, command.warn()).survey(options.radius == "auto", command.warn());
   const std::vector<BeadRow> rows =
       bead_rows(survey.necklaces, bead_radii(options.radius, survey.necklaces, survey.bonds));
-  Json json, files = Json::array(), warnings = Json::array();
-  for (const auto& input : options.inputs) files.push_back(input.string());
-  held.release([&](const std::string& warning) {
-    warnings.push_back(warning);
-    print_warning(bar, warning);
-  });
-  json["input"] = {{"files", files}, {"beads", rows.size()}};
+  Json json;
+  json["input"] = {{"files", files_json(options)}, {"beads", rows.size()}};
   json["settings"] = info_options().settings_json(options);
   json["rows"] = bead_rows_json(rows);
-  json["warnings"] = warnings;
-  add_provenance(json, command_line);
-  return {text_of(json), bead_rows_csv(rows), bead_rows_table(rows)};
+  json["warnings"] = command.warnings();
+  command.deliver(json, bead_rows_csv(rows), bead_rows_table(rows));
 }
 
-TableResults describe(const InfoOptions& options, const std::string& command_line, ProgressBar& bar) {
-  if (options.beads) return describe_beads(options, command_line, bar);
-  Json warnings = Json::array();
-  HeldWarnings held;
-  SceneStream frames = open_frames(options, held.hold());
-  const SceneSurvey survey = frames.survey(options.radius == "auto", held.hold());
+void describe(const InfoOptions& options, TableCommand& command) {
+  SceneStream frames = open_frames(options, command.warn());
+  const SceneSurvey survey = frames.survey(options.radius == "auto", command.warn());
   const std::vector<double> radii = bead_radii(options.radius, survey.necklaces, survey.bonds);
   const SceneInfo info = describe_frames(
       survey.necklaces, survey.frames_of_necklaces,
       [&frames](FrameRead& frame) { return frames.next(frame); }, radii, options.validate,
-      [&bar](std::size_t done, std::size_t total) { bar.update(done, total); });
-  bar.erase();
-  held.release([&](const std::string& warning) {
-    warnings.push_back(warning);
-    print_warning(bar, warning);
-  });
+      command.progress());
   Json json;
   add_scene(json, info);
   json["settings"] = info_options().settings_json(options);
-  json["warnings"] = warnings;
-  add_provenance(json, command_line);
-  return {text_of(json), conditions_csv(info), scene_table(info)};
+  json["warnings"] = command.warnings();
+  command.deliver(json, conditions_csv(info), scene_table(info));
 }
 
 }  // namespace
 
 int info_command(const Arguments& arguments) {
   const InfoOptions options = parse_info_options(arguments);
-  const Destinations& destinations = options;
+  TableCommand command("info", arguments, options, "frame");
   check_inputs_exist(options);
   TakenPaths taken;
   taken.read(options);
-  check_table_destinations(destinations, std::string(kInfoName), taken);
+  command.check_destinations(taken, {"info.json", "info.csv"});
 
-  const std::string command_line = "kds info " + shell_words(arguments);
-  ProgressBar bar(!options.quiet, "frame");
-  const std::optional<Instance> instance = read_lone_instance(options);
-  deliver_table(
-      destinations, std::string(kInfoName),
-      instance ? describe(*instance, options.beads, command_line) : describe(options, command_line, bar));
+  if (const std::optional<Instance> instance = read_lone_instance(options)) {
+    describe(*instance, options.beads, command);
+  } else if (options.beads) {
+    describe_beads(options, command);
+  } else {
+    describe(options, command);
+  }
   return 0;
 }
 

@@ -10,10 +10,9 @@ namespace {
 
 constexpr CommandSpec kInfoCommand{
     "kds info",
-    "Describes trajectories, and tells which conditions of a proper necklace they violate, exactly.",
+    "Describes trajectories, and decides exactly which conditions of a proper necklace they violate.",
     kInputOperand,
     kInputHelp,
-    {},
     "kds info villin.dcd --topology villin.pdb --frames ::10\n"
     "kds info 1a4y.pdb --radius element:fit --rho 2 --json -\n"
     "kds info 1a4y.pdb --beads",
@@ -29,15 +28,16 @@ const OptionList<InfoOptions>& info_options() {
           .with(&O::validate,
                 {{real_option(
                       {"--rho", "NUMBER",
-                       "the largest ratio of two radii, and of two bonds, that is uniform (default: any)"},
+                       "largest ratio of two radii, or of two bonds, that counts as uniform (default: any)"},
                       &ValidateOptions::rho, {1, std::numeric_limits<double>::max()}),
-                  of_output(
-                      whole_option({"--list", "N", "how many violations of a condition to list (default: 5)"},
-                                   &ValidateOptions::most_listed, 0, 1'000'000))}})
+                  of_output(whole_option(
+                      {"--list", "N", "number of violations to list for each condition (default: 5)"},
+                      &ValidateOptions::most_listed, 0, 1'000'000))}})
           .with({of_output(flag_option(
-              "--beads", "a row a bead instead: its necklace, chain, residue, atom and radius", &O::beads))})
-          .with(destination_options("write info.json and info.csv there (default: none)",
-                                    "write all of it there; - is standard output (default: none)"));
+              "--beads", "list the beads instead, one in a row: necklace, chain, residue, atom and radius",
+              &O::beads))})
+          .with(destination_options("write info.json and info.csv to DIR (default: none)",
+                                    "write all of it to FILE; - is standard output (default: none)"));
   return list;
 }
 

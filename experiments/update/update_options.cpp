@@ -14,10 +14,9 @@ namespace {
 
 constexpr CommandSpec kUpdateCommand{
     "kds update",
-    "Compares techniques that bring the power diagram from frame to frame: what they do, and how long.",
+    "Compares techniques that update the power diagram from frame to frame: their work and their time.",
     kInputOperand,
     kTrajectoryHelp,
-    {},
     "kds update villin.dcd --topology villin.pdb --frames 0:200 --strides 1,2,4,8 --out report\n"
     "kds update 1l2y.pdb --select all --radius element --techniques kinetic,lifted --audit frames --json -",
 };
@@ -45,20 +44,21 @@ const OptionList<UpdateOptions>& update_options() {
   static const auto list =
       OptionList<O>()
           .with(input_options())
-          .with({list_option({"--techniques", "LIST",
-                              "comma list of rebuild, reinsert, greedy, kinetic, hermite, lifted, activate, "
-                              "auto; rebuild is always run (default: all)"},
-                             &O::techniques, parse_techniques),
-                 list_option(
-                     {"--strides", "LIST", "every how many frames the diagram is asked for (default: 1)"},
-                     &O::strides, parse_strides),
-                 whole_option({"--rounds", "N",
-                               "runs of each technique in turn, of which the median counts (default: 3)"},
-                              &O::rounds, 1, 1000),
-                 choice_option(
-                     {"--audit", "WHEN", "compare with the static diagram: none or frames (default: none)"},
-                     &O::audit, std::span(audit_mode_names).first(2))})
-          .with(destination_options("write update.json, update.csv and report.html there (default: none)"));
+          .with(
+              {list_option({"--techniques", "LIST",
+                            "comma list of rebuild, reinsert, greedy, kinetic, hermite, lifted, activate, "
+                            "auto; rebuild always runs (default: all)"},
+                           &O::techniques, parse_techniques),
+               list_option({"--strides", "LIST",
+                            "update the diagram at every frame, every second, ...: 1,2 (default: 1)"},
+                           &O::strides, parse_strides),
+               whole_option({"--rounds", "N",
+                             "run each technique N times, by turns, and report the median time (default: 3)"},
+                            &O::rounds, 1, 1000),
+               choice_option({"--audit", "WHEN",
+                              "when to compare with the static diagram: none or frames (default: none)"},
+                             &O::audit, std::span(audit_mode_names).first(2))})
+          .with(destination_options("write update.json, update.csv and report.html to DIR (default: none)"));
   return list;
 }
 

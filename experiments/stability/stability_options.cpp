@@ -1,10 +1,9 @@
-#include "experiments/stability/parse_stability_options.h"
+#include "experiments/stability/stability_options.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 
 #include "experiments/output/text.h"
 #include "experiments/program/option_values.h"
@@ -13,24 +12,12 @@
 namespace kds {
 namespace {
 
-constexpr std::array kStabilityOptions{
-    OptionSpec{"--subjects", "LIST", "comma list of certificate types and structures (default: all)"},
-    OptionSpec{"--extremes", "LIST", "comma list of extremes, or of their families (default: all)"},
-    OptionSpec{"--cases", "N",
-               "random cases of each extreme, fewer for degrees above 6 and for radicals, one run of a"
-               " structure for 50, cubic 100 (default: 200)"},
-    OptionSpec{"--seed", "N", "which random cases (default: 1)"},
-    OptionSpec{"--out", "DIR", "write stability.json, stability.csv and report.html there (default: none)"},
-    OptionSpec{"--json", "FILE", "write the rows there; - is standard output (default: none)"},
-    OptionSpec{"--quiet", "", "no table, no progress bar"},
-};
-
 constexpr CommandSpec kStabilityCommand{
     "kds stability",
-    "Compares the three kernels where arithmetic is hardest: filtered must agree with exact everywhere.",
+    "Compares the three kernels where arithmetic is hardest. The kernels filtered and exact must agree "
+    "everywhere.",
     "",
     "",
-    kStabilityOptions,
     "kds stability --out stability\n"
     "kds stability --subjects power_test,power --extremes scale,offset:2^50 --cases 1000",
 };
@@ -70,7 +57,39 @@ std::vector<std::string> extreme_names() {
   return names;
 }
 
+/// Some of all names, which are meant where none is given.
+Option<StabilityOptions> names_option(OptionSpec spec, std::vector<std::string> StabilityOptions::*member,
+                                      std::vector<std::string> (*known)()) {
+  return value_option(
+      spec, member, [=](const std::string& list) { return parse_names(spec.name, list, known()); },
+      [](const std::vector<std::string>& names) {
+        return names.empty() ? "all" : fmt::format("{}", fmt::join(names, ","));
+      });
+}
+
 }  // namespace
+
+const OptionList<StabilityOptions>& stability_options() {
+  using O = StabilityOptions;
+  static const auto list =
+      OptionList<O>()
+          .with({names_option(
+                     {"--subjects", "LIST", "comma list of certificate types and structures (default: all)"},
+                     &O::subjects, subject_names),
+                 names_option({"--extremes", "LIST",
+                               "comma list of extremes or of families of extremes (default: all)"},
+                              &O::extremes, extreme_names)})
+          .with(&O::cases,
+                {{whole_option({"--cases", "N",
+                                "random cases for each extreme; degrees above 6 and radicals get fewer, a "
+                                "structure one run for 50 cases, of cubic motion one for 100 (default: 200)"},
+                               &StabilityCases::cases, 1, 1'000'000),
+                  whole_option({"--seed", "N", "seed of the random cases (default: 1)"},
+                               &StabilityCases::seed, 0, ~std::uint64_t{0})}})
+          .with(destination_options(
+              "write stability.json, stability.csv and report.html to DIR (default: none)"));
+  return list;
+}
 
 bool StabilityOptions::wants(const StabilitySubject& subject) const {
   return subjects.empty() || among(subjects, subject.name);
@@ -81,19 +100,8 @@ bool StabilityOptions::wants(const Extreme& extreme) const {
 }
 
 StabilityOptions parse_stability_options(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kStabilityCommand, arguments);
   StabilityOptions options;
-  if (const auto list = parsed.value("--subjects"))
-    options.subjects = parse_names("--subjects", *list, subject_names());
-  if (const auto list = parsed.value("--extremes"))
-    options.extremes = parse_names("--extremes", *list, extreme_names());
-  if (const auto text = parsed.value("--cases"))
-    options.cases.cases = parse_whole_number("--cases", *text, 1, 1'000'000);
-  if (const auto text = parsed.value("--seed"))
-    options.cases.seed = parse_whole_number("--seed", *text, 0, ~std::uint64_t{0});
-  options.out = path_of(parsed, "--out");
-  options.json = parsed.value("--json");
-  options.quiet = parsed.has("--quiet");
+  read_arguments(kStabilityCommand, stability_options(), arguments, options);
   return options;
 }
 

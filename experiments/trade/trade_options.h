@@ -1,9 +1,10 @@
 #pragma once
-// `kds trade`: what speed can be had for what accuracy, on the user's own trajectory.
+// The options of `kds trade`.
 
 #include "experiments/output/destinations.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/input_options.h"
+#include "experiments/program/option.h"
 #include "experiments/trade/measure_trade.h"
 
 namespace kds {
@@ -13,10 +14,9 @@ struct TradeOptions : InputOptions, Destinations {
   TradeTask task;
 };
 
+[[nodiscard]] const OptionList<TradeOptions>& trade_options();
+
 /// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
 [[nodiscard]] TradeOptions parse_trade_options(const Arguments& arguments);
-
-/// Throws InputError for what the arguments or inputs are at fault for; returns the exit code.
-int trade_command(const Arguments& arguments);
 
 }  // namespace kds

@@ -1,9 +1,10 @@
 #pragma once
-// `kds missed`: which share of the contacts of a run is missed by looking at frames only.
+// The options of `kds missed`.
 
 #include "experiments/collide/missed_contacts.h"
 #include "experiments/output/destinations.h"
 #include "experiments/program/command_line.h"
+#include "experiments/program/option.h"
 
 namespace kds {
 
@@ -12,10 +13,10 @@ struct MissedOptions {
   Destinations destinations;
 };
 
+/// The options that are settings of the JSON.
+[[nodiscard]] const OptionList<MissedTask>& missed_task_options();
+
 /// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
 [[nodiscard]] MissedOptions parse_missed_options(const Arguments& arguments);
-
-/// Throws InputError for what the arguments or inputs are at fault for; returns the exit code.
-int missed_command(const Arguments& arguments);
 
 }  // namespace kds

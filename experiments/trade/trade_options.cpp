@@ -1,0 +1,115 @@
+#include "experiments/trade/trade_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "experiments/output/text.h"
+#include "experiments/program/option_values.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+namespace {
+
+constexpr CommandSpec kTradeCommand{
+    "kds trade",
+    "Measures what each lever on this trajectory gains in speed and loses in accuracy, compared with the "
+    "exact run.",
+    kInputOperand,
+    kTrajectoryHelp,
+    "kds trade villin.dcd --topology villin.pdb --frames 0:200 --out report\n"
+    "kds trade villin.dcd --topology villin.pdb --want contacts --radius 2 --apart 5\n"
+    "kds trade models.pdb --chain A,B --want scenes",
+};
+
+std::vector<Want> parse_wants(const std::string& list) {
+  std::vector<Want> wants;
+  for (const std::string& word : split(list, ',')) {
+    wants.push_back(choice_of<Want>("--want", word, want_names));
+    if (std::count(wants.begin(), wants.end(), wants.back()) > 1)
+      throw InputError(fmt::format("--want: {} is listed twice", word));
+  }
+  std::sort(wants.begin(), wants.end());
+  return wants;
+}
+
+Option<TradeTask> without_exact_option() {
+  Option<TradeTask> option(
+      {"--without-exact", "",
+       "leave out the exact kernel, which has the same events at a hundred to thousands of times the cost"},
+      [](TradeTask& task, const std::string&) { task.exact_kernel = false; },
+      [](const TradeTask& task) { return task.exact_kernel ? "" : "yes"; }, nullptr,
+      [](const TradeTask& task) { return Json(task.exact_kernel); });
+  option.setting = "exact_kernel";
+  return option;
+}
+
+/// What is measured. --cutoff is no setting of the JSON.
+const OptionList<TradeTask>& task_options() {
+  using O = TradeTask;
+  static const auto list =
+      OptionList<O>()
+          .with({list_option({"--want", "LIST",
+                              "comma list of contacts, cages, diagram, events and scenes; scenes measures "
+                              "the cost of each part of the scene (default: contacts,cages,diagram)"},
+                             &O::wants, parse_wants),
+                 apart_option(
+                     "contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",
+                     &O::apart),
+                 of_output(real_option({"--cutoff", "LENGTH",
+                                        "diagram: count missed edges that are shorter than LENGTH (default: "
+                                        "4 times the largest radius)"},
+                                       &O::cutoff, {0, 1e300, true})),
+                 without_exact_option(),
+                 whole_option({"--rounds", "N",
+                               "run each setting N times, by turns, and report the median time (default: 5)"},
+                              &O::rounds, 1, 1000)})
+          .with(&O::sampling,
+                {{whole_option(
+                      {"--times", "N",
+                       "number of random times, and of frames, at which errors are measured (default: 200)"},
+                      &SamplingOfTimes::times, 1, 1'000'000),
+                  whole_option({"--seed", "N", "seed of the random times (default: 1)"},
+                               &SamplingOfTimes::seed, 0, ~std::uint64_t{0})}});
+  return list;
+}
+
+/// What --apart and --cutoff are about must be among what is wanted.
+void refuse_needless_options(const ParsedArguments& parsed, const std::vector<Want>& wants) {
+  const auto wanted = [&](std::initializer_list<Want> some) {
+    return std::find_first_of(wants.begin(), wants.end(), some.begin(), some.end()) != wants.end();
+  };
+  if (parsed.value("--apart") && !wanted({Want::contacts, Want::events, Want::scenes}))
+    throw InputError("--apart: it chooses pairs of contacts; expected contacts, events or scenes in --want");
+  if (parsed.has("--without-exact") && wants == std::vector{Want::scenes})
+    throw InputError("--without-exact: scenes are run with one kernel; expected another word in --want");
+  if (parsed.value("--cutoff") && !wanted({Want::diagram, Want::events}))
+    throw InputError(
+        "--cutoff: it is about edges of the power diagram; expected diagram or events in --want");
+}
+
+}  // namespace
+
+const OptionList<TradeOptions>& trade_options() {
+  using O = TradeOptions;
+  static const auto list =
+      OptionList<O>()
+          .with(input_options())
+          .with(&O::task, task_options())
+          .with(destination_options("write trade.json, trade.csv and report.html to DIR (default: none)",
+                                    "write the rows to FILE; - is standard output (default: none)",
+                                    "print no table and no progress bar; the bar counts runs: one of each "
+                                    "setting for its errors, then the rounds"));
+  return list;
+}
+
+TradeOptions parse_trade_options(const Arguments& arguments) {
+  TradeOptions options;
+  const ParsedArguments parsed = read_arguments(kTradeCommand, trade_options(), arguments, options);
+  take_inputs(parsed, kTradeCommand.name, options);
+  refuse_needless_options(parsed, options.task.wants);
+  return options;
+}
+
+}  // namespace kds
