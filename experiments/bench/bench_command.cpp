@@ -129,9 +129,9 @@ Option<BenchInputs> sizes_option() {
 Option<BenchInputs> trajectories_option() {
   using O = BenchInputs;
   const auto names = [](const O& o) {
-    std::vector<std::string> names;
-    for (const std::filesystem::path& file : o.trajectories) names.push_back(file.string());
-    return names;
+    std::vector<std::string> files;
+    for (const std::filesystem::path& file : o.trajectories) files.push_back(file.string());
+    return files;
   };
   return {{"--trajectories", "LIST",
            "trajectory files, for hierarchies, power, collision and trade (default: all .dcd files in the "

@@ -52,7 +52,7 @@ void take_inputs(const ParsedArguments& parsed, std::string_view command, InputO
 /// The size of an input, as results tell it.
 struct InputSize {
   std::size_t beads = 0;
-  std::optional<std::size_t> necklaces;  ///< none: not told
+  std::optional<std::size_t> necklaces = {};  ///< none: not told
   std::size_t frames = 0;
   int dimension = 3;
 };

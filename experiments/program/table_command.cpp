@@ -1,4 +1,4 @@
-#include "experiments/commands.h"
+#include "experiments/program/table_command.h"
 
 #include <algorithm>
 #include <array>
