@@ -65,12 +65,9 @@ FieldFormat with_figures(int digits) {
 
 std::string in_percent(const Field& field) { return fmt::format("{:.3g}%", 100 * field.number()); }
 
-std::string TableOfFields::shown(std::size_t row, std::size_t column) const {
-  const Field& field = rows_[row][column];
-  return field.is_empty() ? "-" : columns_[column].format(field);
-}
+Field text_or_nothing(const std::string& text) { return text.empty() ? Field() : Field(text); }
 
-std::vector<std::size_t> TableOfFields::columns_for(Shown reader) const {
+std::vector<std::size_t> TableOfCells::columns_for(Shown reader) const {
   std::vector<std::size_t> places;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const Shown shown = columns_[c].shown;
@@ -79,74 +76,84 @@ std::vector<std::size_t> TableOfFields::columns_for(Shown reader) const {
   return places;
 }
 
-Json TableOfFields::json() const {
+std::string TableOfCells::shown(const TableCell& cell, std::size_t column) const {
+  if (cell.field.is_empty()) return "-";
+  return cell.words.empty() ? columns_[column].format(cell.field) : cell.words;
+}
+
+Json TableOfCells::json() const {
   Json rows = Json::array();
-  for (const std::vector<Field>& fields : rows_) {
+  for (const std::vector<TableCell>& cells : rows_) {
     Json row = Json::object();
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       const std::string& key = columns_[c].key;
-      if (key.empty()) continue;
+      if (key.empty() || (columns_[c].optional && cells[c].is_empty())) continue;
+      const Json value = cells[c].json ? *cells[c].json : cells[c].field.json();
       const std::size_t dot = key.find('.');
       if (dot == std::string::npos) {
-        row[key] = fields[c].json();
+        row[key] = value;
         continue;
       }
       const std::string_view object = std::string_view(key).substr(0, dot + 1);
       const bool has_values = std::ranges::any_of(columns_, [&](const ColumnNames& other) {
         const auto place = static_cast<std::size_t>(&other - columns_.data());
-        return other.key.starts_with(object) && !fields[place].is_empty();
+        return other.key.starts_with(object) && !cells[place].is_empty();
       });
       Json& member = row[object.substr(0, dot)];
-      if (has_values) member[last_name(key)] = fields[c].json();
+      if (has_values) member[last_name(key)] = value;
     }
     rows.push_back(std::move(row));
   }
   return rows;
 }
 
-std::string TableOfFields::csv() const {
-  std::string text;
+std::string TableOfCells::csv_header() const {
+  std::string line;
   for (const ColumnNames& column : columns_) {
-    if (!column.key.empty()) text += fmt::format("{}{}", text.empty() ? "" : ",", last_name(column.key));
+    if (!column.key.empty() && column.in_csv) line += csv_field(last_name(column.key)) + ',';
   }
-  text += '\n';
-  for (const std::vector<Field>& fields : rows_) {
-    std::string line;
+  if (!line.empty()) line.pop_back();
+  return line + '\n';
+}
+
+std::string TableOfCells::csv_lines() const {
+  std::string text;
+  for (const std::vector<TableCell>& cells : rows_) {
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      if (!columns_[c].key.empty()) line += fields[c].csv() + ',';
+      if (!columns_[c].key.empty() && columns_[c].in_csv) text += cells[c].field.csv() + ',';
     }
-    if (!line.empty()) line.back() = '\n';
-    text += line;
+    if (!text.empty()) text.back() = '\n';
   }
   return text;
 }
 
-std::string TableOfFields::text(std::string_view indent) const {
+std::vector<std::string> TableOfCells::lines() const {
   const std::vector<std::size_t> columns = columns_for(Shown::in_text);
   std::string alignment;
   std::vector<std::vector<std::string>> lines(1);
   for (const std::size_t c : columns) {
     lines[0].push_back(columns_[c].heading);
-    const bool is_text = std::ranges::any_of(rows_, [&](const auto& fields) { return fields[c].is_text(); });
+    const bool is_text =
+        std::ranges::any_of(rows_, [&](const auto& cells) { return cells[c].field.is_text(); });
     alignment += is_text ? '<' : '>';
   }
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
+  for (const std::vector<TableCell>& cells : rows_) {
     std::vector<std::string>& line = lines.emplace_back();
-    for (const std::size_t c : columns) line.push_back(shown(row, c));
+    for (const std::size_t c : columns) line.push_back(one_line(shown(cells[c], c)));
   }
-  std::string text;
-  for (const std::string& line : in_columns(lines, alignment)) text += fmt::format("{}{}\n", indent, line);
-  return text;
+  return in_columns(lines, alignment);
 }
 
-std::string TableOfFields::html() const {
+std::string TableOfCells::html(std::span<const std::string> groups) const {
   const std::vector<std::size_t> columns = columns_for(Shown::on_pages);
   std::vector<std::string> headings;
   for (const std::size_t c : columns) headings.push_back(columns_[c].heading);
   std::vector<HtmlRow> lines;
   for (std::size_t row = 0; row < rows_.size(); ++row) {
-    HtmlRow& line = lines.emplace_back();
-    for (const std::size_t c : columns) line.cells.push_back(shown(row, c));
+    const std::string& group = groups[row];
+    if (!group.empty() && (row == 0 || group != groups[row - 1])) lines.push_back({{group}});
+    HtmlRow& line = lines.emplace_back(HtmlRow{{}, !group.empty()});
+    for (const std::size_t c : columns) line.cells.push_back(shown(rows_[row][c], c));
   }
   return html_table(headings, lines);
 }

@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -27,8 +28,8 @@ class Field {
  public:
   Field() = default;
   Field(bool value) : value_(value) {}
-  template <std::unsigned_integral Value>
-  Field(Value value) : value_(std::uint64_t{value}) {}
+  template <std::integral Value>
+  Field(Value count) : value_(static_cast<std::uint64_t>(count)) {}  // at least 0
   Field(double value) : value_(value) {}
   Field(const char* text) : value_(std::string(text)) {}
   Field(std::string_view text) : value_(std::string(text)) {}
@@ -39,7 +40,10 @@ class Field {
   }
 
   [[nodiscard]] bool is_empty() const { return std::holds_alternative<std::monostate>(value_); }
-  [[nodiscard]] bool is_text() const { return std::holds_alternative<std::string>(value_); }
+  /// Text, or true or false: written at the left of its column, numbers at the right.
+  [[nodiscard]] bool is_text() const {
+    return std::holds_alternative<std::string>(value_) || std::holds_alternative<bool>(value_);
+  }
   /// The value as a double; NaN unless the field holds a number.
   [[nodiscard]] double number() const;
   [[nodiscard]] Json json() const;        ///< null if empty or not finite
@@ -49,6 +53,9 @@ class Field {
   friend std::string plainly(const Field& field);
   std::variant<std::monostate, bool, std::uint64_t, double, std::string> value_;
 };
+
+/// The text, or no value if it is empty.
+[[nodiscard]] Field text_or_nothing(const std::string& text);
 
 /// How people read a field that holds a value.
 using FieldFormat = std::function<std::string(const Field&)>;
@@ -68,66 +75,134 @@ using FieldFormat = std::function<std::string(const Field&)>;
 enum class Shown : std::uint8_t { everywhere, in_text, on_pages };
 
 struct ColumnNames {
-  /// Name in JSON and CSV; empty: the column is in neither. "cost.seconds" is the member `seconds` of the
-  /// object `cost` in JSON, which is null if none of its members has a value, and `seconds` in CSV.
-  std::string key = {};
-  std::string heading = {};  ///< for people, with its unit; empty: they do not see the column
+  std::string key = {}, heading = {};
   FieldFormat format = plainly;
   Shown shown = Shown::everywhere;
+  bool in_csv = true, optional = false;
 };
 
-/// Names of columns and rows of fields: what a Table is made of without its type of row.
-class TableOfFields {
+/// A row in one column.
+struct TableCell {
+  Field field;
+  std::optional<Json> json;  ///< replaces the field in JSON
+  std::string words;         ///< replaces the format, unless empty
+  [[nodiscard]] bool is_empty() const { return json ? json->is_null() : field.is_empty(); }
+};
+
+/// A Table whose rows are turned into cells, without their type.
+class TableOfCells {
  public:
   void add_column(ColumnNames column) { columns_.push_back(std::move(column)); }
-  void add_row(std::vector<Field> fields) { rows_.push_back(std::move(fields)); }
+  void add_row(std::vector<TableCell> cells) { rows_.push_back(std::move(cells)); }
 
-  [[nodiscard]] Json json() const;        ///< an array with an object for each row
-  [[nodiscard]] std::string csv() const;  ///< a header and a line for each row
-  /// A header and a line for each row; text at the left of its column, numbers at the right.
-  [[nodiscard]] std::string text(std::string_view indent) const;
-  [[nodiscard]] std::string html() const;
+  [[nodiscard]] Json json() const;
+  [[nodiscard]] std::string csv_header() const;
+  [[nodiscard]] std::string csv_lines() const;
+  [[nodiscard]] std::vector<std::string> lines() const;
+  [[nodiscard]] std::string html(std::span<const std::string> groups) const;
 
  private:
-  [[nodiscard]] std::string shown(std::size_t row, std::size_t column) const;
   [[nodiscard]] std::vector<std::size_t> columns_for(Shown reader) const;
+  [[nodiscard]] std::string shown(const TableCell& cell, std::size_t column) const;
 
   std::vector<ColumnNames> columns_;
-  std::vector<std::vector<Field>> rows_;
+  std::vector<std::vector<TableCell>> rows_;
+};
+
+/// A function of a row, or none. Unlike std::function, it may have a default in the aggregate template
+/// Column: GCC 12 fails there.
+template <class Result, class Row>
+class OfRow {
+ public:
+  OfRow() noexcept {}
+  OfRow(const OfRow& o) : function_(o.function_) {}
+  OfRow(OfRow&& o) noexcept : function_(std::move(o.function_)) {}
+  OfRow& operator=(const OfRow& o) {
+    function_ = o.function_;
+    return *this;
+  }
+  OfRow& operator=(OfRow&& o) noexcept {
+    function_ = std::move(o.function_);
+    return *this;
+  }
+  ~OfRow() noexcept {}
+  template <class Function>
+  requires std::is_invocable_r_v<Result, const Function&, const Row&> OfRow(Function function)
+      : function_(std::move(function)) {}
+  explicit operator bool() const { return static_cast<bool>(function_); }
+  Result operator()(const Row& row) const { return function_(row); }
+
+ private:
+  std::function<Result(const Row&)> function_;
 };
 
 template <class Row>
 struct Column {
+  /// Name in JSON and CSV; empty: the column is in neither. "cost.seconds" is the member `seconds` of the
+  /// object `cost` in JSON, which is null if none of its members has a value, and `seconds` in CSV.
   std::string key = {};
-  std::string heading = {};
-  std::function<Field(const Row&)> value;
+  std::string heading = {};      ///< for people, with its unit; empty: they do not see the column
+  OfRow<Field, Row> value = {};  ///< none: the column is in JSON only
   FieldFormat format = plainly;
   Shown shown = Shown::everywhere;
+  OfRow<std::string, Row> words = {};  ///< replaces the format if people see more than the field
+  OfRow<Json, Row> json = {};          ///< replaces the value in JSON, for arrays and objects
+  bool optional = false;               ///< JSON leaves the member out if it has no value
 };
 
 /// Columns that take their fields from rows of one type.
 template <class Row>
 class Table {
  public:
-  Table(std::vector<Column<Row>> columns) : columns_(std::move(columns)) {}
+  using Rows = std::span<const Row>;
 
-  [[nodiscard]] Json json(std::span<const Row> rows) const { return filled(rows).json(); }
-  [[nodiscard]] std::string csv(std::span<const Row> rows) const { return filled(rows).csv(); }
-  [[nodiscard]] std::string text(std::span<const Row> rows, std::string_view indent = "") const {
-    return filled(rows).text(indent);
+  Table(std::vector<Column<Row>> columns) : columns_(std::move(columns)) {}
+  /// Adds columns at the right.
+  Table& add(std::vector<Column<Row>> columns) {
+    for (auto& column : columns) columns_.push_back(std::move(column));
+    return *this;
   }
-  [[nodiscard]] std::string html(std::span<const Row> rows) const { return filled(rows).html(); }
+
+  /// An array with an object for each row.
+  [[nodiscard]] Json json(Rows rows) const { return filled(rows).json(); }
+  [[nodiscard]] Json json(const Row& row) const { return filled({&row, 1}).json().items()->front(); }
+  /// A header and a line for each row.
+  [[nodiscard]] std::string csv(Rows rows) const { return csv_header() + filled(rows).csv_lines(); }
+  [[nodiscard]] std::string csv_header() const { return filled({}).csv_header(); }
+  [[nodiscard]] std::string csv_line(const Row& row) const { return filled({&row, 1}).csv_lines(); }
+  /// The header and a line for each row, aligned, without newlines.
+  [[nodiscard]] std::vector<std::string> lines(Rows rows) const { return filled(rows).lines(); }
+  [[nodiscard]] std::string text(Rows rows, std::string_view indent = "") const {
+    std::string text;
+    for (const std::string& line : lines(rows)) text.append(indent).append(line).append("\n");
+    return text;
+  }
+  /// With `group`, a line with the name of each group stands above its rows.
+  [[nodiscard]] std::string html(Rows rows, const std::function<std::string(const Row&)>& group = {}) const {
+    std::vector<std::string> groups;
+    for (const Row& row : rows) groups.push_back(group ? group(row) : "");
+    return filled(rows).html(groups);
+  }
 
  private:
-  [[nodiscard]] TableOfFields filled(std::span<const Row> rows) const {
-    TableOfFields table;
-    for (const auto& c : columns_) table.add_column({c.key, c.heading, c.format, c.shown});
+  [[nodiscard]] TableOfCells filled(Rows rows) const {
+    TableOfCells table;
+    for (const auto& c : columns_)
+      table.add_column({c.key, c.heading, c.format, c.shown, static_cast<bool>(c.value), c.optional});
     for (const Row& row : rows) {
-      std::vector<Field> fields;
-      for (const auto& c : columns_) fields.push_back(c.value(row));
-      table.add_row(std::move(fields));
+      std::vector<TableCell> cells;
+      for (const auto& column : columns_) cells.push_back(cell_of(column, row));
+      table.add_row(std::move(cells));
     }
     return table;
+  }
+
+  [[nodiscard]] static TableCell cell_of(const Column<Row>& column, const Row& row) {
+    TableCell cell;
+    if (column.value) cell.field = column.value(row);
+    if (column.json) cell.json = column.json(row);
+    if (column.words && !cell.field.is_empty()) cell.words = column.words(row);
+    return cell;
   }
 
   std::vector<Column<Row>> columns_;

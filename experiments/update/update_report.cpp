@@ -93,7 +93,7 @@ std::string tables(std::span<const UpdateRow> rows) {
   return html;
 }
 
-// Which technique is the fastest, stride by stride.
+// Names the fastest technique for each stride.
 std::string findings(std::span<const UpdateRow> rows) {
   std::string html;
   for (const auto& group : by_stride(rows)) {
@@ -160,11 +160,11 @@ std::string update_page(std::span<const UpdateRow> rows, const std::string& inpu
   page.found = findings(rows);
   page.words =
       "Each <em>technique</em> brings the power diagram from one frame to the next and ends in the same "
-      "diagram. <em>Activated</em>: beads that moved on a path in time; <em>removed</em>: beads taken out "
+      "diagram. <em>Activated</em>: beads that moved along a path in time; <em>removed</em>: beads taken out "
       "and put in again; <em>events</em>: flips, and beads that vanish from the diagram or come back; <em>a "
-      "change</em>: events divided by the cells that are in one frame's diagram and not in the other's; "
-      "<em>ratio</em>: time as a multiple of building the diagram anew with CGAL; <em>least</em> and "
-      "<em>most</em>: of the rounds, of which the median counts.";
+      "change</em>: events divided by the number of cells that are in only one of the two frames' diagrams; "
+      "<em>ratio</em>: time as a multiple of building the diagram anew with CGAL; <em>us a step</em>: the "
+      "median of the rounds, with the <em>least</em> and the <em>most</em>.";
   page.body = html_section("Plots", plots(rows)) + html_section("Figures", tables(rows));
   return html_page(page);
 }

@@ -65,5 +65,44 @@ TEST(Table, WithoutRowsHasAHeaderOnly) {
   EXPECT_EQ(text_of(table.json({})), "[]\n");
 }
 
+const Table<Row> extended =
+    Table<Row>{
+        {
+            {.key = "name", .heading = "name", .value = [](const Row& r) { return text_or_nothing(r.name); }},
+            {.key = "list",
+             .json =
+                 [](const Row& r) {
+                   return Json(std::vector{r.count, r.count});
+                 }},
+        }}
+        .add({
+            {.key = "time", .value = [](const Row& r) { return Field(r.time); }, .optional = true},
+            {.key = "many",
+             .heading = "many",
+             .value = [](const Row& r) { return Field(r.count > 10); },
+             .words = [](const Row& r) { return r.name + "!\n"; }},
+        });
+
+TEST(Table, JsonHasListsAndLeavesOutOptionalMembers) {
+  EXPECT_EQ(nlohmann::json::parse(text_of(extended.json(rows[1]))),
+            nlohmann::json::parse(R"({"name": "c", "list": [7, 7], "many": false})"));
+  EXPECT_EQ(extended.csv_header() + extended.csv_line(rows[1]) + extended.csv_line({}),
+            "name,time,many\nc,,false\n,,false\n");
+}
+
+TEST(Table, WordsReplaceTheFormatAndStayOneLine) {
+  EXPECT_EQ(extended.lines(rows),
+            (std::vector<std::string>{"name  many", "a,b   a,b!", "c     c!", "d     d!"}));
+}
+
+TEST(Table, PagesHaveALineForEachGroup) {
+  const std::string html = extended.html(rows, [](const Row& r) { return r.count > 0 ? "some" : "none"; });
+  const auto some = html.find(">some<"), first = html.find(">a,b<"), none = html.find(">none<");
+  EXPECT_LT(some, first);
+  EXPECT_LT(html.find(">c<"), none);
+  EXPECT_LT(none, html.find(">d<"));
+  EXPECT_EQ(html.find(">some<", some + 1), std::string::npos);
+}
+
 }  // namespace
 }  // namespace kds::table_test

@@ -1,0 +1,32 @@
+#pragma once
+// Columns for what several rounds gave.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/output/table.h"
+#include "experiments/program/timing.h"
+
+namespace kds {
+
+/// KEY, KEY_least and KEY_most in JSON and CSV. People read "median (least to most)" in one column.
+template <class Row>
+std::vector<Column<Row>> spread_columns(const std::string& key, const std::string& heading,
+                                        const std::function<std::optional<Spread>(const Row&)>& spread) {
+  const auto part = [&](double Spread::*which) {
+    return [spread, which](const Row& row) {
+      const std::optional<Spread> found = spread(row);
+      return found ? Field((*found).*which) : Field();
+    };
+  };
+  return {{.key = key,
+           .heading = heading,
+           .value = part(&Spread::median),
+           .words = [spread](const Row& row) { return spread_text(*spread(row)); }},
+          {.key = key + "_least", .value = part(&Spread::least)},
+          {.key = key + "_most", .value = part(&Spread::most)}};
+}
+
+}  // namespace kds
