@@ -59,7 +59,7 @@ int collide_command(const Arguments& arguments) {
                               .dimension = frames.dimension()},
                              frames.radii());
   json["settings"] = collide_options().settings_json(options);
-  json["rows"] = collide_rows_json(report);
+  json["rows"] = collide_columns().json(report.rows);
   json["frames"] = Json::array();  // filled in by the results
   json["warnings"] = command.warnings();
   add_provenance(json, command.command_line());

@@ -7,29 +7,11 @@
 #include "experiments/events/event_bins.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
+#include "experiments/program/spread_columns.h"
 
 namespace kds {
 
 namespace {
-
-Json count_or_null(const std::optional<std::uint64_t>& count) { return count ? Json(*count) : Json(nullptr); }
-std::string count_or_empty(const std::optional<std::uint64_t>& count) {
-  return count ? fmt::format("{}", *count) : "";
-}
-std::string count_or_dash(const std::optional<std::uint64_t>& count) {
-  return count ? with_thousands(*count) : "-";
-}
-
-Json pair_json(const ClosestPair& pair) {
-  return {{"i", pair.first}, {"j", pair.second}, {"distance", pair.distance}};
-}
-std::string pair_csv(const std::optional<ClosestPair>& pair) {
-  return pair ? fmt::format("{},{},{}", pair->first, pair->second, pair->distance) : ",,";
-}
-
-std::string spread_csv(const std::optional<Spread>& spread) {
-  return spread ? fmt::format("{},{},{}", spread->median, spread->least, spread->most) : ",,";
-}
 
 std::string closest_line(const CollideReport& report) {
   for (const CollideRow& row : report.rows) {
@@ -39,7 +21,7 @@ std::string closest_line(const CollideReport& report) {
     return fmt::format("closest   beads {} and {} in frame {}, distance {} ({})\n", pair.first, pair.second,
                        row.closest->frame.number, pair.distance, what);
   }
-  return "closest   -\n";  // by these methods, or no pair is asked for
+  return "closest   -\n";  // no method tells it, or no pair is asked for
 }
 
 std::string findings(const CollideReport& report) {
@@ -49,7 +31,7 @@ std::string findings(const CollideReport& report) {
   const auto telling =
       std::ranges::find_if(report.rows, [](const auto& row) { return row.pairs.has_value(); });
   if (telling != report.rows.end())
-    html += fmt::format(": {} pairs in all of them together", with_thousands(*telling->pairs));
+    html += fmt::format(": {} pairs, summed over all frames", with_thousands(*telling->pairs));
   html += ".";
   const auto closest =
       std::ranges::find_if(report.rows, [](const auto& row) { return row.closest.has_value(); });
@@ -65,79 +47,59 @@ std::string findings(const CollideReport& report) {
   if (report.rows.size() > 1) {
     const auto& quickest =
         *std::ranges::min_element(report.rows, {}, [](const CollideRow& row) { return row.seconds.median; });
-    html += fmt::format("<p><strong>{}</strong> was the fastest of the methods: {} s for all frames.</p>\n",
+    html += fmt::format("<p><strong>{}</strong> was the fastest method: {} s for all frames.</p>\n",
                         html_escaped(quickest.method), spread_text(quickest.seconds));
   }
   return html;
 }
 
-std::vector<std::string> cells_of(const CollideRow& row) {
-  return {std::string(row.method),
-          count_or_dash(row.pairs),
-          with_thousands(row.colliding_frames),
-          count_or_dash(row.family),
-          spread_text(row.seconds),
-          row.closest_seconds ? spread_text(*row.closest_seconds) : "-"};
-}
-
-std::string table(const CollideReport& report) {
-  std::vector<HtmlRow> rows;
-  for (const CollideRow& row : report.rows) rows.push_back({cells_of(row)});
-  return html_table({"method", "pairs", "colliding frames", "family", "seconds", "and for closest"}, rows);
+/// Columns of the closest pair: members of the object `closest` in JSON.
+template <class Row, class PairOf>
+std::vector<Column<Row>> pair_columns(PairOf pair_of) {
+  const auto part = [&](const char* key, auto ClosestPair::*which) {
+    return Column<Row>{.key = key, .value = [=](const Row& row) {
+                         const std::optional<ClosestPair> pair = pair_of(row);
+                         return pair ? Field((*pair).*which) : Field();
+                       }};
+  };
+  return {part("closest.i", &ClosestPair::first), part("closest.j", &ClosestPair::second),
+          part("closest.distance", &ClosestPair::distance)};
 }
 
 }  // namespace
 
-Json collide_rows_json(const CollideReport& report) {
-  Json json = Json::array();
-  for (const CollideRow& row : report.rows) {
-    Json closest(nullptr);
-    if (row.closest) {
-      closest = pair_json(row.closest->pair);
-      closest["frame"] = row.closest->frame.number;
-    }
-    Json one{{"method", row.method},
-             {"pairs", count_or_null(row.pairs)},
-             {"closest", closest},
-             {"family", count_or_null(row.family)},
-             {"colliding_frames", row.colliding_frames},
-             {"seconds", row.seconds.median},
-             {"seconds_least", row.seconds.least},
-             {"seconds_most", row.seconds.most}};
-    const auto& of_closest = row.closest_seconds;
-    one["closest_seconds"] = of_closest ? Json(of_closest->median) : Json(nullptr);
-    one["closest_seconds_least"] = of_closest ? Json(of_closest->least) : Json(nullptr);
-    one["closest_seconds_most"] = of_closest ? Json(of_closest->most) : Json(nullptr);
-    json.push_back(std::move(one));
-  }
-  return json;
+Table<CollideRow> collide_columns() {
+  using Row = CollideRow;
+  Table<Row> table{{
+      {"method", "method", [](const Row& r) { return Field(r.method); }},
+      {"pairs", "pairs", [](const Row& r) { return Field(r.pairs); }},
+      {.key = "closest.frame",
+       .value = [](const Row& r) { return r.closest ? Field(r.closest->frame.number) : Field(); }},
+  }};
+  table.add(pair_columns<Row>(
+      [](const Row& r) { return r.closest ? std::optional(r.closest->pair) : std::nullopt; }));
+  table.add(
+      {{"family", "family", [](const Row& r) { return Field(r.family); }},
+       {"colliding_frames", "colliding frames", [](const Row& r) { return Field(r.colliding_frames); }}});
+  table.add(spread_columns<Row>("seconds", "seconds", [](const Row& r) { return r.seconds; }));
+  table.add(spread_columns<Row>("closest_seconds", "and for closest",
+                                [](const Row& r) { return r.closest_seconds; }));
+  return table;
 }
 
-Json collide_frame_json(const FrameFound& frame) {
-  Json json{{"frame", frame.stamp.number},
-            {"collide", frame.collide},
-            {"pairs", count_or_null(frame.pairs)},
-            {"closest", frame.closest ? pair_json(*frame.closest) : Json(nullptr)}};
-  if (frame.stamp.picoseconds) json["picoseconds"] = *frame.stamp.picoseconds;
-  return json;
-}
-
-std::string collide_csv(const CollideReport& report) {
-  std::string text =
-      "method,pairs,frame,i,j,distance,family,colliding_frames,seconds,seconds_least,seconds_most,"
-      "closest_seconds,closest_seconds_least,closest_seconds_most\n";
-  for (const CollideRow& row : report.rows)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", row.method, count_or_empty(row.pairs),
-                        row.closest ? fmt::format("{}", row.closest->frame.number) : "",
-                        pair_csv(row.closest ? std::optional(row.closest->pair) : std::nullopt),
-                        count_or_empty(row.family), row.colliding_frames, row.seconds.median,
-                        row.seconds.least, row.seconds.most, spread_csv(row.closest_seconds));
-  return text;
-}
-
-std::string collide_frame_csv(const FrameFound& frame) {
-  return fmt::format("{},{},{},{}\n", frame.stamp.number, frame.collide, count_or_empty(frame.pairs),
-                     pair_csv(frame.closest));
+const Table<FrameFound>& collide_frame_columns() {
+  using Row = FrameFound;
+  static const Table<Row> columns = [] {
+    Table<Row> table{{{.key = "frame", .value = [](const Row& r) { return Field(r.stamp.number); }},
+                      {.key = "collide", .value = [](const Row& r) { return Field(r.collide); }},
+                      {.key = "pairs", .value = [](const Row& r) { return Field(r.pairs); }}}};
+    table.add(pair_columns<Row>([](const Row& r) { return r.closest; }));
+    table.add({{.key = "picoseconds",
+                .json = [](const Row& r) { return Json(r.stamp.picoseconds); },
+                .optional = true}});
+    return table;
+  }();
+  return columns;
 }
 
 ClosestCourse::ClosestCourse(std::size_t frames)
@@ -157,7 +119,7 @@ void ClosestCourse::add(const FrameFound& frame) {
 
 std::string ClosestCourse::figure() const {
   if (points_.size() < 2) return "";
-  constexpr std::size_t few = 60;  // frames, that a line would make look like more
+  constexpr std::size_t few = 60;  // frames: a line would make them look like more
   const LinePlot plot{"frame",
                       "closest distance",
                       frames_ > few ? Drawn::line : Drawn::points,
@@ -171,12 +133,8 @@ std::string ClosestCourse::figure() const {
 }
 
 std::string collide_table(const CollideReport& report) {
-  std::string text = fmt::format("frames    {}\n{}\n", with_thousands(report.frames), closest_line(report));
-  std::vector<std::vector<std::string>> lines{
-      {"method", "pairs", "colliding frames", "family", "seconds", "and for closest"}};
-  for (const CollideRow& row : report.rows) lines.push_back(cells_of(row));
-  for (const std::string& line : in_columns(lines, "<>")) text += line + "\n";
-  return text;
+  return fmt::format("frames    {}\n{}\n", with_thousands(report.frames), closest_line(report)) +
+         collide_columns().text(report.rows);
 }
 
 std::string collide_page(const CollideReport& report, const std::string& input, const std::string& map,
@@ -184,17 +142,19 @@ std::string collide_page(const CollideReport& report, const std::string& input, 
   page.title = "kds collide: " + input;
   page.found = findings(report);
   page.words =
-      "All methods decide exactly, and have found the same. <em>Pairs</em>: beads that have a point in "
-      "common, or whose surfaces are at most as far apart as <code>--within</code> says, of all frames "
-      "together; <em>family</em>: pairs of spheres of a hierarchy that prove all others disjoint, for the "
-      "power diagram its edges; <em>seconds</em>: to find the pairs in all frames, the median of the "
-      "rounds, and in brackets the least and the most. The distance of two beads is that of their "
-      "surfaces, below zero where they overlap.";
+      "All methods decide exactly and found the same. <em>Pairs</em>: pairs of beads that have a point in "
+      "common, or whose surfaces are at most <code>--within</code> apart, summed over all frames; "
+      "<em>family</em>: pairs of spheres of a hierarchy that prove all other pairs disjoint, or the edges of "
+      "the power diagram; <em>seconds</em>: the time to find the pairs in all frames, as the median of the "
+      "rounds with the least and the most in brackets; <em>and for closest</em>: the time to find the "
+      "closest "
+      "pairs as well. The distance of two beads is the distance of their surfaces, below zero if they "
+      "overlap.";
   std::string plots;
   if (!map.empty())
-    plots += html_figure(map, "Which beads collide: the stronger the colour, the more often.");
+    plots += html_figure(map, "The pairs of beads that collide: the stronger the colour, the more often.");
   plots += course.figure();
-  page.body = html_section("Plots", plots) + html_section("Figures", table(report));
+  page.body = html_section("Plots", plots) + html_section("Figures", collide_columns().html(report.rows));
   return html_page(page);
 }
 

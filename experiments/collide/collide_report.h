@@ -1,25 +1,20 @@
 #pragma once
-// What `kds collide` found, for programs and for people.
+// Reports the results of `kds collide`.
 
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "experiments/collide/compare_detectors.h"
 #include "experiments/output/page/html_page.h"
-#include "experiments/output/result_json.h"
+#include "experiments/output/table.h"
 
 namespace kds {
 
-[[nodiscard]] Json collide_rows_json(const CollideReport& report);
-/// Returns the findings of one frame that all methods agree on.
-[[nodiscard]] Json collide_frame_json(const FrameFound& frame);
-/// A header and one line a row.
-[[nodiscard]] std::string collide_csv(const CollideReport& report);
-/// The header of frames.csv, and a line of it.
-inline constexpr std::string_view collide_frames_header = "frame,collide,pairs,i,j,distance\n";
-[[nodiscard]] std::string collide_frame_csv(const FrameFound& frame);
+/// The columns of collide.csv, of the rows of collide.json, of the terminal and of the page.
+[[nodiscard]] Table<CollideRow> collide_columns();
+/// The columns of frames.csv and of the frames of collide.json.
+[[nodiscard]] const Table<FrameFound>& collide_frame_columns();
 [[nodiscard]] std::string collide_table(const CollideReport& report);
 
 /// The closest distance in the course of the frames. Consecutive frames share a bin if there are many, and
@@ -37,7 +32,7 @@ class ClosestCourse {
   std::size_t bin_of_last_ = 0;
 };
 
-/// `map`: of contacts, empty where there are none; `page` says how it was made.
+/// `map`: the plot of the contacts, or empty; `page`: begun by made_by.
 [[nodiscard]] std::string collide_page(const CollideReport& report, const std::string& input,
                                        const std::string& map, const ClosestCourse& course, Page page);
 

@@ -19,16 +19,16 @@ void CollideResults::begin(const CollideFrames& scene) {
   files_.emplace(*destinations_.out, kCommand, "--out");
   pairs_.emplace(files_->open("pairs.csv"), scene);
   frames_csv_ = &files_->open("frames.csv");
-  *frames_csv_ << collide_frames_header;
+  *frames_csv_ << collide_frame_columns().csv_header();
   course_.emplace(scene.frame_count());
   contacts_.emplace(scene.radii().size());
 }
 
 void CollideResults::add_frame(const FrameRead& frame, const FrameFound& found,
                                std::optional<std::span<const BeadPair>> pairs) {
-  if (frames_) frames_->add(collide_frame_json(found));
+  if (frames_) frames_->add(collide_frame_columns().json(found));
   if (!files_) return;
-  *frames_csv_ << collide_frame_csv(found);
+  *frames_csv_ << collide_frame_columns().csv_line(found);
   course_->add(found);
   if (pairs) pairs_->add(frame, *pairs);
   if (pairs) contacts_->add_frame(*pairs);
@@ -44,7 +44,7 @@ void CollideResults::deliver(const CollideReport& report, const Json& json, cons
   const bool table_on_stdout = !destinations_.quiet && !json_on_stdout;
   if (files_) {
     write_to(files_->open("collide.json"));
-    files_->write("collide.csv", collide_csv(report));
+    files_->write("collide.csv", collide_columns().csv(report.rows));
     page.data = {"collide.json", "collide.csv", "pairs.csv", "frames.csv"};
     files_->write("report.html",
                   collide_page(report, input, contacts_->empty() ? "" : contacts_->plot(), *course_, page));

@@ -23,9 +23,9 @@ int missed_command(const Arguments& arguments) {
   json["input"] = input_json(task, {input.beads, input.necklaces, input.frames, input.dimension},
                              input.radius_min, input.radius_max);
   json["settings"] = missed_task_options().settings_json(task);
-  json["rows"] = missed_rows_json(report.rows);
+  json["rows"] = missed_columns().json(report.rows);
   json["warnings"] = command.warnings();
-  command.deliver(json, missed_csv(report.rows), missed_table(report.rows),
+  command.deliver(json, missed_columns().csv(report.rows), missed_columns().text(report.rows),
                   [&](Page page) { return missed_page(report.rows, file_names(task), std::move(page)); });
   return 0;
 }

@@ -11,7 +11,7 @@ namespace kds {
 
 namespace {
 
-/// None of no contacts.
+/// No value if there are no contacts.
 std::optional<double> missed_fraction(const MissedRow& row) {
   if (row.contacts == 0) return std::nullopt;
   return static_cast<double>(row.missed()) / static_cast<double>(row.contacts);
@@ -40,7 +40,7 @@ std::string frames_at(std::size_t stride) {
   return stride == 1 ? "every frame" : fmt::format("one frame in {}", stride);
 }
 
-// Of each factor, at the least stride and at the largest.
+// A sentence for each factor: its smallest stride and its largest.
 std::string findings(std::span<const MissedRow> rows) {
   std::string html;
   for (std::size_t first = 0; first < rows.size();) {
@@ -53,80 +53,50 @@ std::string findings(std::span<const MissedRow> rows) {
       continue;
     }
     html += fmt::format(
-        "<p>With radii times {}, of {} contacts <strong>{}</strong> are missed by looking at {}",
+        "<p>With radii times {0}, <strong>{2}</strong> of {1} contacts are missed if only {3} is examined",
         least.factor, with_thousands(least.contacts), percent_text(least), frames_at(least.stride));
     if (end - first > 1)
-      html +=
-          fmt::format(", <strong>{}</strong> by looking at {}", percent_text(most), frames_at(most.stride));
+      html += fmt::format(", <strong>{}</strong> if only {} is", percent_text(most), frames_at(most.stride));
     html += ".</p>\n";
     first = end;
   }
   return html;
 }
 
-std::string table(std::span<const MissedRow> rows) {
-  std::vector<HtmlRow> lines;
-  for (const MissedRow& row : rows)
-    lines.push_back({{fmt::format("{}", row.factor), with_thousands(row.stride), with_thousands(row.frames),
-                      with_thousands(row.contacts), with_thousands(row.found), with_thousands(row.missed()),
-                      percent_text(row)}});
-  return html_table({"radii times", "stride", "frames", "contacts", "found", "missed", "missed %"}, lines);
-}
-
 }  // namespace
 
-Json missed_rows_json(std::span<const MissedRow> rows) {
-  Json json = Json::array();
-  for (const MissedRow& row : rows) {
-    const auto fraction = missed_fraction(row);
-    json.push_back({{"factor", row.factor},
-                    {"stride", row.stride},
-                    {"frames", row.frames},
-                    {"contacts", row.contacts},
-                    {"found", row.found},
-                    {"missed", row.missed()},
-                    {"missed_fraction", fraction ? Json(*fraction) : Json(nullptr)}});
-  }
-  return json;
-}
-
-std::string missed_csv(std::span<const MissedRow> rows) {
-  std::string text = "factor,stride,frames,contacts,found,missed,missed_fraction\n";
-  for (const MissedRow& row : rows) {
-    const auto fraction = missed_fraction(row);
-    text += fmt::format("{},{},{},{},{},{},{}\n", row.factor, row.stride, row.frames, row.contacts, row.found,
-                        row.missed(), fraction ? fmt::format("{}", *fraction) : "");
-  }
-  return text;
-}
-
-std::string missed_table(std::span<const MissedRow> rows) {
-  std::string text = fmt::format("{:>12}{:>8}{:>8}{:>12}{:>12}{:>12}{:>10}\n", "radii times", "stride",
-                                 "frames", "contacts", "found", "missed", "missed %");
-  for (const MissedRow& row : rows) {
-    const auto fraction = missed_fraction(row);
-    text +=
-        fmt::format("{:>12}{:>8}{:>8}{:>12}{:>12}{:>12}{:>10}\n", row.factor, row.stride,
-                    with_thousands(row.frames), with_thousands(row.contacts), with_thousands(row.found),
-                    with_thousands(row.missed()), fraction ? fmt::format("{:.1f}", 100 * *fraction) : "-");
-  }
-  return text;
+const Table<MissedRow>& missed_columns() {
+  using Row = MissedRow;
+  static const Table<Row> table{{
+      {"factor", "radii times", [](const Row& r) { return Field(r.factor); }},
+      {"stride", "stride", [](const Row& r) { return Field(r.stride); }},
+      {"frames", "frames", [](const Row& r) { return Field(r.frames); }},
+      {"contacts", "contacts", [](const Row& r) { return Field(r.contacts); }},
+      {"found", "found", [](const Row& r) { return Field(r.found); }},
+      {"missed", "missed", [](const Row& r) { return Field(r.missed()); }},
+      {.key = "missed_fraction",
+       .heading = "missed %",
+       .value = [](const Row& r) { return Field(missed_fraction(r)); },
+       .words = percent_text},
+  }};
+  return table;
 }
 
 std::string missed_page(std::span<const MissedRow> rows, const std::string& input, Page page) {
   page.title = "kds missed: " + input;
   page.found = findings(rows);
   page.words =
-      "A <em>contact</em> of two beads goes from the moment at which their closed balls begin to meet to "
-      "that at which they part, or is a touch; those that last at the first or the last frame count too. "
-      "Their times are exact for beads that move between frames as told. One frame in <em>stride</em> is "
-      "looked at, the first among them, <em>frames</em> in all: a contact is <em>found</em> if one of them "
-      "lies in it, its ends included, and <em>missed</em> otherwise.";
+      "A <em>contact</em> of two beads lasts from the moment at which their closed balls begin to meet to "
+      "the moment at which they part. A touch is a contact too, and so is a contact that lasts at the first "
+      "or the last frame. The times are exact for the motion between frames that the run was asked for. One "
+      "frame in <em>stride</em> is examined, beginning with the first; <em>frames</em> is their number. A "
+      "contact is <em>found</em> if an examined frame lies in it, its ends included, and <em>missed</em> "
+      "otherwise.";
   if (const std::string plot = plot_of(rows); !plot.empty())
     page.body = html_section(
         "By stride",
-        html_figure(plot, "Contacts that are missed by looking at one frame in <em>stride</em>."));
-  page.body += html_section("Figures", table(rows));
+        html_figure(plot, "Contacts that are missed if one frame in <em>stride</em> is examined."));
+  page.body += html_section("Figures", missed_columns().html(rows));
   return html_page(page);
 }
 

@@ -1,19 +1,17 @@
 #pragma once
-// What `kds missed` found, for programs and for people.
+// Reports the results of `kds missed`.
 
 #include <span>
 #include <string>
 
 #include "experiments/collide/missed_contacts.h"
 #include "experiments/output/page/html_page.h"
-#include "experiments/output/result_json.h"
+#include "experiments/output/table.h"
 
 namespace kds {
 
-[[nodiscard]] Json missed_rows_json(std::span<const MissedRow> rows);
-/// A header and one line a row.
-[[nodiscard]] std::string missed_csv(std::span<const MissedRow> rows);
-[[nodiscard]] std::string missed_table(std::span<const MissedRow> rows);
+/// The columns of missed.json and missed.csv, of the terminal and of the page.
+[[nodiscard]] const Table<MissedRow>& missed_columns();
 /// `page` says how it was made.
 [[nodiscard]] std::string missed_page(std::span<const MissedRow> rows, const std::string& input, Page page);
 
