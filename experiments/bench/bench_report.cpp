@@ -8,16 +8,12 @@
 
 #include "experiments/output/page/html_text.h"
 #include "experiments/output/page/svg_plot.h"
+#include "experiments/output/table.h"
 #include "experiments/output/text.h"
-#include "motions/base/csv_field.h"
 
 namespace kds {
 
 namespace {
-
-Json number_or_null(const std::optional<double>& x) { return x ? Json(*x) : Json(nullptr); }
-std::string number_or_empty(const std::optional<double>& x) { return x ? fmt::format("{}", *x) : ""; }
-std::string figure(const std::optional<double>& x) { return x ? fmt::format("{:.4g}", *x) : "-"; }
 
 std::optional<double> least_of(const BenchRow& row) {
   return row.spread ? std::optional(row.spread->least) : std::nullopt;
@@ -48,10 +44,33 @@ std::string findings(const std::string& subject, std::span<const BenchRow> rows)
   return html + "</p>\n";
 }
 
-std::string shown(const std::optional<double>& x) { return x ? short_decimal(*x) : "-"; }
-
-std::string value_text(const BenchRow& row) {
-  return row.spread ? spread_text(*row.spread) : shown(row.value);
+Table<BenchRow> bench_columns() {
+  using Row = BenchRow;
+  const auto decimal = [](std::string key, std::string heading, auto value) {
+    return Column<Row>{.key = std::move(key),
+                       .heading = std::move(heading),
+                       .value = [value](const Row& r) { return Field(value(r)); },
+                       .format = shortly};
+  };
+  return {{
+      {"name", "name", [](const Row& r) { return Field(r.name); }},
+      {"input", "input", [](const Row& r) { return Field(r.input); }},
+      {"n", "n", [](const Row& r) { return Field(r.n); }},
+      {"value", "value", [](const Row& r) { return Field(r.value); }, with_figures(4), Shown::in_text},
+      {.heading = "value",
+       .value = [](const Row& r) { return Field(r.value); },
+       .shown = Shown::on_pages,
+       .words = [](const Row& r) { return r.spread ? spread_text(*r.spread) : short_decimal(r.value); }},
+      {"unit", "unit", [](const Row& r) { return Field(r.unit); }},
+      {.key = "peer", .value = [](const Row& r) { return text_or_nothing(r.peer); }},
+      decimal("peer_value", "peer's value", [](const Row& r) { return r.peer_value; }),
+      decimal("ratio", "ratio", [](const Row& r) { return r.ratio(); }),
+      decimal("goal", "goal", [](const Row& r) { return r.goal; }),
+      {"holds", "holds", [](const Row& r) { return Field(r.holds()); }},
+      {.heading = "peer", .value = [](const Row& r) { return text_or_nothing(r.peer); }},
+      {.key = "value_least", .value = [](const Row& r) { return Field(least_of(r)); }},
+      {.key = "value_most", .value = [](const Row& r) { return Field(most_of(r)); }},
+  }};
 }
 
 std::string ratios(std::span<const BenchRow> rows) {
@@ -67,7 +86,7 @@ std::string ratios(std::span<const BenchRow> rows) {
   return plot.points.empty()
              ? ""
              : html_figure(svg_plot(plot),
-                           "Ours as a multiple of the peer, by the number of beads or points; both axes are "
+                           "Ours as a multiple of the peer, by the number of beads or points. Both axes are "
                            "logarithmic.");
 }
 
@@ -82,74 +101,26 @@ BenchRow with_spread(BenchRow row, const std::vector<double>& seconds, double un
 std::string bench_json(std::string command, Json settings, std::span<const BenchRow> rows) {
   Json json;
   json["settings"] = std::move(settings);
-  json["rows"] = Json::array();
-  for (const BenchRow& row : rows) {
-    const auto holds = row.holds();
-    json["rows"].push_back({{"name", row.name},
-                            {"input", row.input},
-                            {"n", row.n},
-                            {"value", row.value},
-                            {"unit", row.unit},
-                            {"peer", row.peer.empty() ? Json(nullptr) : Json(row.peer)},
-                            {"peer_value", number_or_null(row.peer_value)},
-                            {"ratio", number_or_null(row.ratio())},
-                            {"goal", number_or_null(row.goal)},
-                            {"holds", holds ? Json(*holds) : Json(nullptr)},
-                            {"value_least", number_or_null(least_of(row))},
-                            {"value_most", number_or_null(most_of(row))}});
-  }
+  json["rows"] = bench_columns().json(rows);
   add_provenance(json, std::move(command));
   return text_of(json);
 }
 
-std::string bench_csv(std::span<const BenchRow> rows) {
-  std::string text = "name,input,n,value,unit,peer,peer_value,ratio,goal,holds,value_least,value_most\n";
-  for (const BenchRow& row : rows) {
-    const auto holds = row.holds();
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(row.name), csv_field(row.input),
-                        row.n, row.value, row.unit, csv_field(row.peer), number_or_empty(row.peer_value),
-                        number_or_empty(row.ratio()), number_or_empty(row.goal),
-                        holds ? (*holds ? "true" : "false") : "", number_or_empty(least_of(row)),
-                        number_or_empty(most_of(row)));
-  }
-  return text;
-}
+std::string bench_csv(std::span<const BenchRow> rows) { return bench_columns().csv(rows); }
 
-std::string bench_table(std::span<const BenchRow> rows) {
-  std::vector<std::vector<std::string>> lines{
-      {"name", "input", "n", "value", "unit", "peer", "ratio", "goal", "holds", "peer is"}};
-  for (const BenchRow& row : rows) {
-    const auto holds = row.holds();
-    lines.push_back({row.name, row.input, fmt::format("{}", row.n), figure(row.value), row.unit,
-                     figure(row.peer_value), figure(row.ratio()), figure(row.goal),
-                     holds ? (*holds ? "yes" : "no") : "-", row.peer});
-  }
-  std::string text;
-  for (const std::string& line : in_columns(lines, "<<>><>>><<")) text += line + "\n";
-  return text;
-}
+std::string bench_table(std::span<const BenchRow> rows) { return bench_columns().text(rows); }
 
 std::string bench_page(const std::string& subject, std::span<const BenchRow> rows, Page page) {
   page.title = "kds bench " + subject;
   page.found = findings(subject, rows);
   page.words =
       "Ours and the peer take turns in one process. <em>n</em>: beads or points; <em>value</em>: the median "
-      "of the rounds, of times in "
-      "brackets "
-      "the least and the most, by processor time but where threads share the work; <em>ratio</em>: ours by "
-      "the "
-      "peer's; <em>goal</em>: the most that the ratio, or else the value, was asked to be.";
-  std::vector<HtmlRow> lines;
-  for (const BenchRow& row : rows) {
-    const auto holds = row.holds();
-    lines.push_back({{row.name, row.input, with_thousands(row.n), value_text(row), row.unit,
-                      shown(row.ratio()), shown(row.goal), holds ? (*holds ? "yes" : "no") : "-",
-                      shown(row.peer_value), row.peer.empty() ? "-" : row.peer}});
-  }
-  page.body = html_section("Beside the peer", ratios(rows)) +
-              html_section("Figures", html_table({"name", "input", "n", "value", "unit", "ratio", "goal",
-                                                  "holds", "peer's value", "peer"},
-                                                 lines));
+      "of the rounds, and for times the least and the most in brackets; times are processor times unless "
+      "threads share the work; <em>ratio</em>: ours divided by the peer's; <em>goal</em>: the upper limit "
+      "asked "
+      "of the ratio, or else of the value.";
+  page.body =
+      html_section("Beside the peer", ratios(rows)) + html_section("Figures", bench_columns().html(rows));
   return html_page(page);
 }
 

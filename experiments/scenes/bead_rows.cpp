@@ -1,10 +1,5 @@
 #include "experiments/scenes/bead_rows.h"
 
-#include <fmt/format.h>
-
-#include "experiments/output/text.h"
-#include "motions/base/csv_field.h"
-
 namespace kds {
 
 std::vector<BeadRow> bead_rows(std::span<const Trajectory> necklaces, std::span<const double> radii) {
@@ -20,38 +15,22 @@ std::vector<BeadRow> bead_rows(std::span<const Trajectory> necklaces, std::span<
   return rows;
 }
 
-Json bead_rows_json(std::span<const BeadRow> rows) {
-  const auto text_or_null = [](const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); };
-  Json json = Json::array();
-  for (const BeadRow& row : rows)
-    json.push_back({{"bead", row.bead},
-                    {"necklace", row.necklace},
-                    {"chain", text_or_null(row.name.chain)},
-                    {"residue", text_or_null(row.name.residue)},
-                    {"number", text_or_null(row.name.number)},
-                    {"atom", text_or_null(row.name.atom)},
-                    {"radius", row.radius}});
-  return json;
-}
-
-std::string bead_rows_csv(std::span<const BeadRow> rows) {
-  std::string text = "bead,necklace,chain,residue,number,atom,radius\n";
-  for (const BeadRow& row : rows)
-    text += fmt::format("{},{},{},{},{},{},{}\n", row.bead, row.necklace, csv_field(row.name.chain),
-                        csv_field(row.name.residue), csv_field(row.name.number), csv_field(row.name.atom),
-                        row.radius);
-  return text;
-}
-
-std::string bead_rows_table(std::span<const BeadRow> rows) {
-  const auto shown = [](const std::string& text) { return text.empty() ? "-" : one_line(text); };
-  std::string text = fmt::format("{:>9}{:>10}{:>8}{:>9}{:>8}{:>7}{:>12}\n", "bead", "necklace", "chain",
-                                 "residue", "number", "atom", "radius");
-  for (const BeadRow& row : rows)
-    text += fmt::format("{:>9}{:>10}{:>8}{:>9}{:>8}{:>7}{:>12.6g}\n", row.bead, row.necklace,
-                        shown(row.name.chain), shown(row.name.residue), shown(row.name.number),
-                        shown(row.name.atom), row.radius);
-  return text;
+const Table<BeadRow>& bead_columns() {
+  using Row = BeadRow;
+  const auto digits = [](const Field& number) { return number.csv(); };
+  const auto part = [](const char* key, std::string BeadName::*name) {
+    return Column<Row>{key, key, [name](const Row& r) { return text_or_nothing(r.name.*name); }};
+  };
+  static const Table<Row> table{{
+      {"bead", "bead", [](const Row& r) { return Field(r.bead); }, digits},
+      {"necklace", "necklace", [](const Row& r) { return Field(r.necklace); }, digits},
+      part("chain", &BeadName::chain),
+      part("residue", &BeadName::residue),
+      part("number", &BeadName::number),
+      part("atom", &BeadName::atom),
+      {"radius", "radius", [](const Row& r) { return Field(r.radius); }, with_figures(6)},
+  }};
+  return table;
 }
 
 }  // namespace kds

@@ -49,9 +49,9 @@ void describe_beads(const InfoOptions& options, TableCommand& command) {
   Json json;
   json["input"] = {{"files", files_json(options)}, {"beads", rows.size()}};
   json["settings"] = info_options().settings_json(options);
-  json["rows"] = bead_rows_json(rows);
+  json["rows"] = bead_columns().json(rows);
   json["warnings"] = command.warnings();
-  command.deliver(json, bead_rows_csv(rows), bead_rows_table(rows));
+  command.deliver(json, bead_columns().csv(rows), bead_columns().text(rows));
 }
 
 void describe(const InfoOptions& options, TableCommand& command) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "experiments/output/table.h"
 #include "experiments/output/text.h"
 
 namespace kds {
@@ -13,21 +14,8 @@ namespace {
 
 constexpr std::size_t kNecklacesShown = 10;
 
-// Infinity is no number of JSON.
+// JSON has no infinity.
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json row_json(const ConditionInfo& info) {
-  Json row{{"condition", name_of(info.condition)},
-           {"violations", info.violations},
-           {"frames", info.frames},
-           {"first_frame", info.holds() ? Json(nullptr) : Json(info.first_frame)},
-           {"first", Json::array()},
-           {"holds", info.holds()}};
-  for (std::size_t i = 0; i < info.first.size(); ++i)
-    row["first"].push_back({{"beads", std::vector{info.first[i].first, info.first[i].second}},
-                            {"by", number_or_null(info.by[i])}});
-  return row;
-}
 
 std::string extent(const Necklace::Extent& extent) {
   if (extent.least == extent.most) return fmt::format("{:.6g}", extent.most);
@@ -59,6 +47,32 @@ std::string first_violations(const ConditionInfo& info) {
   return text;
 }
 
+Json first_json(const ConditionInfo& info) {
+  Json first = Json::array();
+  for (std::size_t i = 0; i < info.first.size(); ++i)
+    first.push_back({{"beads", std::vector{info.first[i].first, info.first[i].second}},
+                     {"by", number_or_null(info.by[i])}});
+  return first;
+}
+
+const Table<ConditionInfo>& condition_columns() {
+  using Row = ConditionInfo;
+  static const Table<Row> table{{
+      {.key = "condition",
+       .heading = "a proper necklace",
+       .value = [](const Row& r) { return Field(name_of(r.condition)); },
+       .words = [](const Row& r) { return "  " + std::string(about(r.condition)); }},
+      {"violations", "violations", [](const Row& r) { return Field(r.violations); }},
+      {"frames", "in frames", [](const Row& r) { return Field(r.frames); }},
+      {"first_frame", "first frame", [](const Row& r) { return r.holds() ? Field() : Field(r.first_frame); }},
+      {.key = "first", .json = first_json},
+      {.key = "holds", .value = [](const Row& r) { return Field(r.holds()); }},
+      {.heading = "first beads (by how much)",
+       .value = [](const Row& r) { return Field(first_violations(r)); }},
+  }};
+  return table;
+}
+
 }  // namespace
 
 void add_scene(Json& json, const SceneInfo& info) {
@@ -87,18 +101,11 @@ void add_scene(Json& json, const SceneInfo& info) {
   json["input"] = {{"files", files}, {"beads", info.beads},           {"frames", info.frames},
                    {"dimension", 3}, {"radius_min", info.radius_min}, {"radius_max", info.radius_max}};
   json["necklaces"] = necklaces;
-  json["rows"] = Json::array();
-  for (const ConditionInfo& condition : info.conditions) json["rows"].push_back(row_json(condition));
+  json["rows"] = condition_columns().json(info.conditions);
   json["proper"] = info.proper();
 }
 
-std::string conditions_csv(const SceneInfo& info) {
-  std::string text = "condition,violations,frames,first_frame,holds\n";
-  for (const ConditionInfo& c : info.conditions)
-    text += fmt::format("{},{},{},{},{}\n", name_of(c.condition), c.violations, c.frames,
-                        c.holds() ? "" : std::to_string(c.first_frame), c.holds());
-  return text;
-}
+std::string conditions_csv(const SceneInfo& info) { return condition_columns().csv(info.conditions); }
 
 std::string scene_table(const SceneInfo& info) {
   std::string text = fmt::format("scene     {} beads, {} frame{}\n", with_thousands(info.beads),
@@ -108,15 +115,7 @@ std::string scene_table(const SceneInfo& info) {
         fmt::format("necklace  {}: {}\n", one_line(info.necklaces[n].file), necklace_line(info.necklaces[n]));
   if (info.necklaces.size() > kNecklacesShown)
     text += fmt::format("          and {} more\n", info.necklaces.size() - kNecklacesShown);
-  text += fmt::format("\n{:<25}{:>12}{:>11}{:>13}  {}\n", "a proper necklace", "violations", "in frames",
-                      "first frame", "first beads (by how much)");
-  for (const ConditionInfo& c : info.conditions) {
-    std::string line = fmt::format("  {:<23}{:>12}{:>11}{:>13}  {}", about(c.condition),
-                                   with_thousands(c.violations), with_thousands(c.frames),
-                                   c.holds() ? "-" : with_thousands(c.first_frame), first_violations(c));
-    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
-  return text;
+  return text + "\n" + condition_columns().text(info.conditions);
 }
 
 }  // namespace kds
