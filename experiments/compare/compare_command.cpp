@@ -18,9 +18,9 @@ int compare_command(const Arguments& arguments) {
   Json json;
   json["inputs"] = compared_inputs_json(comparison);
   json["settings"] = compare_options().settings_json(options);
-  json["rows"] = compare_rows_json(comparison);
+  json["rows"] = compare_columns(comparison).json(comparison.rows);
   json["warnings"] = command.warnings();
-  command.deliver(json, compare_csv(comparison), compare_table(comparison),
+  command.deliver(json, compare_columns(comparison).csv(comparison.rows), compare_table(comparison),
                   [&](Page page) { return compare_page(comparison, std::move(page)); });
   return 0;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 
 #include "experiments/compare/compare_plots.h"
 #include "experiments/compare/compare_report.h"
@@ -16,38 +17,41 @@ namespace kds {
 namespace {
 
 constexpr std::string_view kWords =
-    "A row is one structure in the run of one input, at one stride, on one motion. What is shown by kind, by "
-    "level and along the chain is of the smallest stride.";
+    "A row is one structure in the run of one input, at one stride, on one motion. The plots by kind, by "
+    "level "
+    "and along the chain show the smallest stride.";
 
 std::vector<std::pair<std::string, std::string>> terms() {
   return {
-      {"event", "the structure itself changes, at an exact time between two frames (an external event)"},
+      {"event", "a change of the structure itself, at an exact time between two frames (an external event)"},
       {"internal", "events of the structure's bookkeeping, which are not counted among the events"},
-      {"a step, a ps", "events from one frame to the next, and for a picosecond where the file has times"},
+      {"a step, a ps", "events from one frame to the next, and for a picosecond if the file has times"},
       {"net change",
-       "what is not the same at one frame and the next, whatever happened in between: nodes of the wrapped "
-       "hierarchy with another basis, cells of one power diagram alone, pairs that meet in one frame alone, "
-       "ranks of the sorted list with another bead"},
+       "a difference between one frame and the next, whatever happened in between: a node of the wrapped "
+       "hierarchy with another basis, a cell in the power diagram of one frame only, a pair that meets in "
+       "one "
+       "frame only, a rank of the sorted list with another bead"},
       {"efficiency",
-       "events a net change. Where all that changes changes once it is 1 for nodes and pairs, 0.5 for "
-       "interchanges, and for flips 0.2 in space, 0.25 in the plane, as they exchange five or four cells; "
-       "what "
-       "is above was undone before the next frame"},
+       "events divided by net changes. If every change happens once, the efficiency is 1 for nodes and "
+       "pairs, "
+       "0.5 for interchanges, and for flips 0.2 in space and 0.25 in the plane, because a flip exchanges "
+       "five "
+       "or four cells. A larger efficiency means that changes were undone before the next frame"},
       {"compactness", "the most certificates at once"},
       {"locality", "the most certificates on one bead, at the start of a step"},
-      {"responsiveness (µs an event)",
-       "the time an event takes, internal ones and certificates that never fail included"},
+      {"us an event (responsiveness)",
+       "microseconds divided by events; the time includes internal events and certificates that never fail"},
       {"seconds",
-       "spent on this structure: the median of the rounds, and in brackets the least and the most"},
+       "time spent on this structure: the median of the rounds, with the least and the most in brackets"},
       {"share of a bead",
-       "of the events those that name it, of the wrapped hierarchy those whose new basis has it; an event "
-       "names "
-       "several beads, so that shares add up to more than 100%"}};
+       "the share of the events that name the bead; for the wrapped hierarchy, of the events whose new basis "
+       "has it. An event names several beads, so the shares add up to more than 100%"}};
 }
 
 using Figure = std::function<std::optional<double>(const CompareRow&)>;
 
-// Of one structure at one stride, over inputs and motions: "8.333", or "9.202 to 12.49"; empty if unknown.
+// The figure of a structure at a stride over inputs and motions: "8.333" or "9.202 to 12.49"; empty if
+// unknown.
 std::string figure_text(const Comparison& comparison, const std::string& structure, std::size_t stride,
                         const Figure& figure) {
   std::vector<double> values;
@@ -63,7 +67,7 @@ std::string figure_text(const Comparison& comparison, const std::string& structu
 std::optional<double> a_step(const CompareRow& row) { return row.events_per_step(); }
 std::optional<double> efficiency(const CompareRow& row) { return row.efficiency(); }
 
-// Beside the same structure, input and motion at the smallest stride.
+// Events a step divided by those at the smallest stride, for one structure, input and motion.
 std::optional<double> growth(const Comparison& comparison, const CompareRow& row) {
   const auto first = std::ranges::find_if(comparison.rows, [&](const CompareRow& other) {
     return other.stride == comparison.rows.front().stride && other.structure.name == row.structure.name &&
@@ -81,7 +85,7 @@ std::string file_name(const ComparedInput& input) {
   return std::filesystem::path(input.file).filename().string();
 }
 
-// From which frames to which, and of what.
+// The frames and inputs of the first findings.
 std::string scope(const Comparison& comparison) {
   const CompareRow& first = comparison.rows.front();
   const std::string steps =
@@ -95,7 +99,7 @@ std::string scope(const Comparison& comparison) {
                      count_text(cases / inputs, "motion"));
 }
 
-// Those that change most first.
+// Structures that change most come first.
 std::vector<std::string> structures_of(const Comparison& comparison) {
   std::vector<std::pair<double, std::string>> found;
   for (const CompareRow& row : comparison.rows) {
@@ -141,30 +145,22 @@ std::string findings(const Comparison& comparison) {
   return html + ".</p>\n" + (list.empty() ? "" : "<ul>\n" + list + "</ul>\n");
 }
 
-// The strides of a structure one below the other, for each input and motion.
+// The strides of a structure stand together, for each input and motion.
 std::string figures(const Comparison& comparison) {
-  const std::vector<std::string> cases = cases_of(comparison);
-  std::vector<std::pair<std::string, HtmlRow>> lines;
-  for (const std::string& of_case : cases) {
-    if (cases.size() > 1) lines.emplace_back("", HtmlRow{{of_case}});
-    const std::size_t heading = lines.size();
-    for (const CompareRow& row : comparison.rows) {
-      if (distinction(comparison, row) != of_case) continue;
-      HtmlRow line{compare_cells(row), cases.size() > 1};
-      line.cells.erase(line.cells.begin() + 1);  // the stride, which stands in the first column
-      line.cells.front() = fmt::format("{}, stride {}", row.structure.name, with_thousands(row.stride));
-      const auto behind = std::find_if(lines.rbegin(), lines.rend() - static_cast<std::ptrdiff_t>(heading),
-                                       [&](const auto& other) { return other.first == row.structure.name; })
-                              .base();
-      const bool known = behind != lines.begin() + static_cast<std::ptrdiff_t>(heading);
-      lines.insert(known ? behind : lines.end(), {row.structure.name, std::move(line)});
-    }
+  std::vector<std::string> names;
+  for (const CompareRow& row : comparison.rows) names.push_back(row.structure.name);
+  std::vector<CompareRow> rows;
+  for (const std::string& of_case : cases_of(comparison)) {
+    const auto in_case = [&](const CompareRow& row) { return distinction(comparison, row) == of_case; };
+    const auto first = static_cast<std::ptrdiff_t>(rows.size());
+    std::ranges::copy_if(comparison.rows, std::back_inserter(rows), in_case);
+    std::stable_sort(rows.begin() + first, rows.end(), [&](const CompareRow& a, const CompareRow& b) {
+      return std::ranges::find(names, a.structure.name) < std::ranges::find(names, b.structure.name);
+    });
   }
-  std::vector<HtmlRow> rows;
-  for (auto& [name, row] : lines) rows.push_back(std::move(row));
-  return html_table({"structure", "steps", "events", "a step", "a ps", "net changes", "internal",
-                     "efficiency", "compactness", "locality", "µs an event", "seconds", "by kind"},
-                    rows);
+  return compare_columns(comparison).html(rows, [&](const CompareRow& row) {
+    return distinction(comparison, row);
+  });
 }
 
 std::string title(const Comparison& comparison) {

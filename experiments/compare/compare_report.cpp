@@ -6,17 +6,13 @@
 #include <filesystem>
 
 #include "experiments/output/text.h"
-#include "motions/base/csv_field.h"
+#include "experiments/program/spread_columns.h"
 
 namespace kds {
 
 namespace {
 
-std::string decimal_or_dash(const std::optional<double>& value) {
-  return value ? short_decimal(*value) : "-";
-}
-
-// Of all structures, in the order in which rows have them.
+// The kinds of all structures, in the order of the rows.
 std::vector<std::string> kinds_of(const Comparison& comparison) {
   std::vector<std::string> kinds;
   for (const CompareRow& row : comparison.rows)
@@ -34,21 +30,10 @@ std::string kinds_text(const CompareRow& row) {
   return text.empty() ? "-" : text;
 }
 
-std::string csv_line(const CompareRow& row, const std::vector<std::string>& kinds) {
-  std::string line = fmt::format("{},{},{},{},{},{}", row.structure.name, csv_field(row.input), row.stride,
-                                 name_of(row.motion), row.steps, row.events());
+Field count_of(const CompareRow& row, const std::string& kind) {
   const NamedCounts& counts = row.structure.events_by_kind;
-  for (const std::string& kind : kinds) {
-    const auto count =
-        std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == kind; });
-    line += count == counts.end() ? "," : fmt::format(",{}", count->second);
-  }
-  return line + fmt::format(",{},{},{},{},{},{},{},{},{},{},{}\n", row.internal(),
-                            value_or_empty(row.net_changes), value_or_empty(row.efficiency()),
-                            row.events_per_step(), value_or_empty(row.events_per_picosecond()),
-                            row.structure.peak, row.structure.per_bead_max,
-                            value_or_empty(row.seconds_per_event()), row.seconds.median, row.seconds.least,
-                            row.seconds.most);
+  const auto count = std::ranges::find(counts, kind, &NamedCounts::value_type::first);
+  return count == counts.end() ? Field() : Field(count->second);
 }
 
 }  // namespace
@@ -65,58 +50,48 @@ Json compared_inputs_json(const Comparison& comparison) {
   return json;
 }
 
-Json compare_rows_json(const Comparison& comparison) {
-  Json json = Json::array();
-  for (const CompareRow& row : comparison.rows) {
-    Json of_row{{"structure", row.structure.name}, {"input", row.input}, {"stride", row.stride},
-                {"motion", name_of(row.motion)},   {"steps", row.steps}, {"events", row.events()}};
-    for (const auto& [kind, count] : row.structure.events_by_kind) of_row[kind] = count;
-    of_row["internal"] = row.internal();
-    of_row["net_changes"] = row.net_changes;
-    of_row["efficiency"] = row.efficiency();
-    of_row["events_per_step"] = row.events_per_step();
-    of_row["events_per_ps"] = row.events_per_picosecond();
-    of_row["compactness"] = row.structure.peak;
-    of_row["locality"] = row.structure.per_bead_max;
-    of_row["responsiveness"] = row.seconds_per_event();
-    of_row["seconds"] = row.seconds.median;
-    of_row["seconds_least"] = row.seconds.least;
-    of_row["seconds_most"] = row.seconds.most;
-    of_row["by_level"] =
-        row.structure.places.by_level.empty() ? Json(nullptr) : Json(row.structure.places.by_level);
-    of_row["by_bead"] = row.structure.places.by_bead;
-    json.push_back(of_row);
-  }
-  return json;
-}
-
-std::string compare_csv(const Comparison& comparison) {
-  const std::vector<std::string> kinds = kinds_of(comparison);
-  std::string text = "structure,input,stride,motion,steps,events";
-  for (const std::string& kind : kinds) text += "," + csv_field(kind);
-  text +=
-      ",internal,net_changes,efficiency,events_per_step,events_per_ps,compactness,locality,responsiveness,"
-      "seconds,seconds_least,seconds_most\n";
-  for (const CompareRow& row : comparison.rows) text += csv_line(row, kinds);
-  return text;
-}
-
-std::vector<std::string> compare_cells(const CompareRow& row) {
-  const auto seconds = row.seconds_per_event();
-  return {row.structure.name,
-          with_thousands(row.stride),
-          with_thousands(row.steps),
-          with_thousands(row.events()),
-          short_decimal(row.events_per_step()),
-          decimal_or_dash(row.events_per_picosecond()),
-          row.net_changes ? with_thousands(*row.net_changes) : "-",
-          with_thousands(row.internal()),
-          decimal_or_dash(row.efficiency()),
-          with_thousands(row.structure.peak),
-          with_thousands(row.structure.per_bead_max),
-          seconds ? short_decimal(1e6 * *seconds) : "-",
-          spread_text(row.seconds),
-          kinds_text(row)};
+Table<CompareRow> compare_columns(const Comparison& comparison) {
+  using Row = CompareRow;
+  Table<Row> table{{
+      {.key = "structure",
+       .heading = "structure",
+       .value = [](const Row& r) { return Field(r.structure.name); },
+       .shown = Shown::in_text},
+      {.heading = "structure",
+       .value =
+           [](const Row& r) {
+             return Field(fmt::format("{}, stride {}", r.structure.name, with_thousands(r.stride)));
+           },
+       .shown = Shown::on_pages},
+      {.key = "input", .value = [](const Row& r) { return Field(r.input); }},
+      {"stride", "stride", [](const Row& r) { return Field(r.stride); }, plainly, Shown::in_text},
+      {.key = "motion", .value = [](const Row& r) { return Field(name_of(r.motion)); }},
+      {"steps", "steps", [](const Row& r) { return Field(r.steps); }},
+      {"events", "events", [](const Row& r) { return Field(r.events()); }},
+  }};
+  for (const std::string& kind : kinds_of(comparison))
+    table.add({{.key = kind, .value = [kind](const Row& r) { return count_of(r, kind); }, .optional = true}});
+  table.add({
+      {"internal", "internal", [](const Row& r) { return Field(r.internal()); }},
+      {"net_changes", "net changes", [](const Row& r) { return Field(r.net_changes); }},
+      {"efficiency", "efficiency", [](const Row& r) { return Field(r.efficiency()); }, shortly},
+      {"events_per_step", "a step", [](const Row& r) { return Field(r.events_per_step()); }, shortly},
+      {"events_per_ps", "a ps", [](const Row& r) { return Field(r.events_per_picosecond()); }, shortly},
+      {"compactness", "compactness", [](const Row& r) { return Field(r.structure.peak); }},
+      {"locality", "locality", [](const Row& r) { return Field(r.structure.per_bead_max); }},
+      {"responsiveness", "us an event", [](const Row& r) { return Field(r.seconds_per_event()); },
+       [](const Field& seconds) { return short_decimal(1e6 * seconds.number()); }},
+  });
+  table.add(spread_columns<Row>("seconds", "seconds", [](const Row& r) { return r.seconds; }));
+  table.add({{.key = "by_level",
+              .json =
+                  [](const Row& r) {
+                    const auto& levels = r.structure.places.by_level;
+                    return levels.empty() ? Json() : Json(levels);
+                  }},
+             {.key = "by_bead", .json = [](const Row& r) { return Json(r.structure.places.by_bead); }},
+             {.heading = "by kind", .value = [](const Row& r) { return Field(kinds_text(r)); }}});
+  return table;
 }
 
 std::string distinction(const Comparison& comparison, const CompareRow& row) {
@@ -130,12 +105,7 @@ std::string distinction(const Comparison& comparison, const CompareRow& row) {
 }
 
 std::string compare_table(const Comparison& comparison) {
-  std::vector<std::vector<std::string>> lines{{"structure", "stride", "steps", "events", "a step", "a ps",
-                                               "net changes", "internal", "a net change", "peak", "on bead",
-                                               "us an event", "seconds", "by kind"}};
-  for (const CompareRow& row : comparison.rows) lines.push_back(compare_cells(row));
-  const std::string numbers(lines.front().size() - 2, '>');
-  const std::vector<std::string> aligned = in_columns(lines, "<" + numbers + "<");
+  const std::vector<std::string> lines = compare_columns(comparison).lines(comparison.rows);
   std::string text, input, motion;
   for (std::size_t r = 0; r < comparison.rows.size(); ++r) {
     const CompareRow& row = comparison.rows[r];
@@ -143,9 +113,9 @@ std::string compare_table(const Comparison& comparison) {
       input = row.input;
       motion = name_of(row.motion);
       text += fmt::format("{}{}, {} motion\n  {}\n", text.empty() ? "" : "\n", one_line(input), motion,
-                          aligned.front());
+                          lines.front());
     }
-    text += "  " + aligned[r + 1] + "\n";
+    text += "  " + lines[r + 1] + "\n";
   }
   return text;
 }
