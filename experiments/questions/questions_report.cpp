@@ -6,24 +6,50 @@
 #include <cmath>
 
 #include "experiments/output/page/svg_plot.h"
+#include "experiments/output/table.h"
 #include "experiments/output/text.h"
-#include "motions/base/csv_field.h"
 
 namespace kds {
 
 namespace {
 
-std::string shown(const std::optional<double>& value) {
+std::string shown(const Field& field) {
   constexpr double rounding = 1e-15;
-  if (!value) return "-";
-  if (std::abs(*value) < rounding) return "0";
-  const bool whole = *value == std::floor(*value);
-  if ((whole || *value >= 1000) && *value >= 0 && *value < 1e15)
-    return with_thousands(static_cast<std::uint64_t>(std::llround(*value)));
-  return fmt::format("{:.4g}", *value);
+  const double value = field.number();
+  if (std::abs(value) < rounding) return "0";
+  const bool whole = value == std::floor(value);
+  if ((whole || value >= 1000) && value >= 0 && value < 1e15)
+    return with_thousands(static_cast<std::uint64_t>(std::llround(value)));
+  return fmt::format("{:.4g}", value);
 }
 
-// One of the curves that belong together.
+struct PlacedRow {
+  const Question* question;
+  const QuestionRow* row;
+};
+std::vector<PlacedRow> rows_of(std::span<const Question> questions) {
+  std::vector<PlacedRow> rows;
+  for (const Question& question : questions)
+    for (const QuestionRow& row : question.rows) rows.push_back({&question, &row});
+  return rows;
+}
+
+// The columns of all these questions, side by side.
+Table<PlacedRow> columns_of(std::span<const Question> questions) {
+  using Row = PlacedRow;
+  Table<Row> table{{{.key = "question", .value = [](const Row& r) { return Field(r.question->name); }},
+                    {"subject", "subject", [](const Row& r) { return Field(r.row->subject); }}}};
+  for (const Question& question : questions)
+    for (std::size_t c = 0; c < question.columns.size(); ++c) {
+      const auto value = [&question, c](const Row& r) {
+        return r.question == &question ? Field(r.row->values[c]) : Field();
+      };
+      table.add({{question.columns[c].name, question.columns[c].title, value, shown}});
+    }
+  return table;
+}
+
+// The plot of the curves that have this name for their plot.
 PointPlot plot_of(const Question& question, const std::string& name) {
   PointPlot plot{question.x_label, question.y_label, {}, {}};
   for (const QuestionCurve& curve : question.curves) {
@@ -48,28 +74,15 @@ std::string plots_of(const Question& question) {
   return html;
 }
 
-std::string table_of(const Question& question) {
-  std::vector<std::string> columns{""};
-  for (const QuestionColumn& column : question.columns) columns.push_back(column.title);
-  std::vector<HtmlRow> rows;
-  for (const QuestionRow& row : question.rows) {
-    HtmlRow& line = rows.emplace_back(HtmlRow{{row.subject}});
-    for (const auto& value : row.values) line.cells.push_back(shown(value));
-  }
-  return html_table(columns, rows);
-}
-
 }  // namespace
 
 Json question_rows_json(std::span<const Question> questions) {
   Json json = Json::array();
-  for (const Question& question : questions)
-    for (const QuestionRow& row : question.rows) {
-      Json of_row{{"question", question.name}, {"subject", row.subject}};
-      for (std::size_t c = 0; c < question.columns.size(); ++c)
-        of_row[question.columns[c].name] = row.values[c] ? Json(*row.values[c]) : Json(nullptr);
-      json.push_back(of_row);
-    }
+  for (const Question& question : questions) {
+    const std::span<const Question> one(&question, 1);
+    const Table<PlacedRow> columns = columns_of(one);
+    for (const PlacedRow& row : rows_of(one)) json.push_back(columns.json(row));
+  }
   return json;
 }
 
@@ -96,36 +109,14 @@ Json questions_json(std::span<const Question> questions) {
 }
 
 std::string questions_csv(std::span<const Question> questions) {
-  std::string text = "question,subject";
-  std::size_t width = 0;  // columns of all questions, those of each side by side
-  for (const Question& question : questions) {
-    for (const QuestionColumn& column : question.columns) text += "," + column.name;
-    width += question.columns.size();
-  }
-  text += "\n";
-  std::size_t first = 0;
-  for (const Question& question : questions) {
-    for (const QuestionRow& row : question.rows) {
-      text += fmt::format("{},{}{:,>{}}", question.name, csv_field(row.subject), "", first);
-      for (const auto& value : row.values) text += value ? fmt::format(",{}", *value) : ",";
-      text += fmt::format("{:,>{}}\n", "", width - first - row.values.size());
-    }
-    first += question.columns.size();
-  }
-  return text;
+  return columns_of(questions).csv(rows_of(questions));
 }
 
 std::string questions_text(std::span<const Question> questions) {
   std::string text;
   for (const Question& question : questions) {
     text += fmt::format("{}{}: {}\n", text.empty() ? "" : "\n", question.name, question.title);
-    std::vector<std::vector<std::string>> lines(1, {""});
-    for (const QuestionColumn& column : question.columns) lines[0].push_back(column.title);
-    for (const QuestionRow& row : question.rows) {
-      std::vector<std::string>& line = lines.emplace_back(1, row.subject);
-      for (const auto& value : row.values) line.push_back(shown(value));
-    }
-    for (const std::string& line : in_columns(lines, "<>")) text += "  " + line + "\n";
+    text += columns_of({&question, 1}).text(rows_of({&question, 1}), "  ");
     text += "  " + question.answer + "\n";
     for (const std::string& finding : question.findings) text += "  " + finding + "\n";
   }
@@ -137,13 +128,13 @@ std::string questions_page(std::span<const Question> questions, Page page) {
   for (const Question& question : questions)
     page.found += fmt::format("<p>{}</p>\n", html_escaped(question.answer));
   page.found +=
-      "<p><strong>No theorem is claimed</strong>: exponents are of these chains, with intervals of 95% "
+      "<p><strong>No theorem is claimed</strong>: the exponents hold for these chains, with intervals of 95% "
       "confidence.</p>\n";
   for (const Question& question : questions) {
     std::string section = fmt::format("<p>{}</p>\n<ul>\n", html_escaped(question.words));
     for (const std::string& finding : question.findings)
       section += fmt::format("<li>{}</li>\n", html_escaped(finding));
-    section += "</ul>\n" + plots_of(question) + table_of(question);
+    section += "</ul>\n" + plots_of(question) + columns_of({&question, 1}).html(rows_of({&question, 1}));
     page.body += html_section(question.title, section);
   }
   return html_page(page);

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "experiments/output/page/svg_plot.h"
+#include "experiments/output/table.h"
 #include "experiments/output/text.h"
 #include "experiments/reproduce/findings.h"
-#include "motions/base/csv_field.h"
 
 namespace kds {
 
@@ -21,7 +21,6 @@ std::string shown(double value) {
   const bool is_count = value == std::floor(value) && value >= 2;
   return is_count ? with_thousands(static_cast<std::uint64_t>(value)) : short_decimal(value);
 }
-std::string shown(const Value& value) { return value ? shown(*value) : "-"; }
 std::string shown(const PaperValue& ours) {
   return ours.rounds ? spread_text(*ours.rounds) : shown(ours.value);
 }
@@ -31,21 +30,36 @@ std::string name_of(const PaperRow& row) {
                      row.at);
 }
 
+Table<PaperRow> columns_of(const PaperTable& table) {
+  using Row = PaperRow;
+  Table<Row> columns{{
+      {.key = "table", .json = [number = table.number](const Row&) { return Json(number); }},
+      {.heading = "model", .value = [](const Row& r) { return Field(name_of(r)); }},
+      {.key = "name", .value = [](const Row& r) { return Field(r.name); }},
+      {.key = "beads", .value = [](const Row& r) { return Field(r.beads); }},
+      {.key = "at", .value = [](const Row& r) { return Field(r.at); }},
+  }};
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const PaperColumn& column = table.columns[c];
+    const std::string name(column.name);
+    const auto bound = [c](double Spread::*which) {
+      return [=](const Row& r) { return r.ours[c].rounds ? Field((*r.ours[c].rounds).*which) : Field(); };
+    };
+    columns.add({{.key = name,
+                  .heading = std::string(column.title),
+                  .value = [c](const Row& r) { return Field(r.ours[c].value); },
+                  .words = [c](const Row& r) { return shown(r.ours[c]); }}});
+    if (column.timed)
+      columns.add({{.key = name + "_least", .value = bound(&Spread::least), .optional = true},
+                   {.key = name + "_most", .value = bound(&Spread::most), .optional = true}});
+    columns.add({{name + "_paper", "paper", [c](const Row& r) { return Field(r.paper[c]); },
+                  [](const Field& value) { return shown(value.number()); }}});
+  }
+  return columns.add({{"note", "note", [](const Row& r) { return Field(r.note); }, plainly, Shown::in_text}});
+}
+
 std::string table_with_notes(const PaperTable& table) {
-  std::vector<std::string> columns{""};
-  for (const PaperColumn& column : table.columns) {
-    columns.emplace_back(column.title);
-    columns.emplace_back("paper");
-  }
-  std::vector<HtmlRow> rows;
-  for (const PaperRow& row : table.rows) {
-    HtmlRow& line = rows.emplace_back(HtmlRow{{name_of(row)}});
-    for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      line.cells.push_back(shown(row.ours[c]));
-      line.cells.push_back(shown(row.paper[c]));
-    }
-  }
-  std::string html = html_table(columns, rows);
+  std::string html = columns_of(table).html(table.rows);
   std::vector<std::string> notes;
   for (const PaperRow& row : table.rows) {
     if (row.note.empty()) continue;
@@ -56,7 +70,7 @@ std::string table_with_notes(const PaperTable& table) {
   return html;
 }
 
-// Table 6 is a course over frames.
+// Plots table 6, whose rows differ in the number of frames.
 std::string stability_plot(const PaperTable& table) {
   LinePlot plot{"frames", "changes", Drawn::points, {}};
   for (std::size_t c = 0; c < 2; ++c)
@@ -75,21 +89,10 @@ std::string stability_plot(const PaperTable& table) {
 
 Json paper_rows_json(std::span<const PaperTable> tables) {
   Json json = Json::array();
-  for (const PaperTable& table : tables)
-    for (const PaperRow& row : table.rows) {
-      Json of_row{{"table", table.number}, {"name", row.name}, {"beads", row.beads}, {"at", row.at}};
-      for (std::size_t c = 0; c < table.columns.size(); ++c) {
-        const std::string name(table.columns[c].name);
-        of_row[name] = row.ours[c].value;
-        if (const auto& rounds = row.ours[c].rounds) {
-          of_row[name + "_least"] = rounds->least;
-          of_row[name + "_most"] = rounds->most;
-        }
-        of_row[name + "_paper"] = row.paper[c];
-      }
-      of_row["note"] = row.note;
-      json.push_back(of_row);
-    }
+  for (const PaperTable& table : tables) {
+    const Table<PaperRow> columns = columns_of(table);
+    for (const PaperRow& row : table.rows) json.push_back(columns.json(row));
+  }
   return json;
 }
 
@@ -104,40 +107,13 @@ Json paper_findings_json(std::span<const PaperTable> tables) {
   return json;
 }
 
-std::string paper_csv(const PaperTable& table) {
-  std::string text = "name,beads,at";
-  for (const PaperColumn& column : table.columns)
-    text += column.timed ? fmt::format(",{0},{0}_least,{0}_most,{0}_paper", column.name)
-                         : fmt::format(",{0},{0}_paper", column.name);
-  text += ",note\n";
-  for (const PaperRow& row : table.rows) {
-    text += fmt::format("{},{},{}", csv_field(row.name), row.beads, csv_field(row.at));
-    for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      text += fmt::format(",{}", row.ours[c].value);
-      if (const auto& rounds = row.ours[c].rounds) text += fmt::format(",{},{}", rounds->least, rounds->most);
-      text += fmt::format(",{}", value_or_empty(row.paper[c]));
-    }
-    text += fmt::format(",{}\n", csv_field(row.note));
-  }
-  return text;
-}
+std::string paper_csv(const PaperTable& table) { return columns_of(table).csv(table.rows); }
 
 std::string paper_text(std::span<const PaperTable> tables) {
   std::string text;
   for (const PaperTable& table : tables) {
-    std::vector<std::vector<std::string>> lines{{""}};
-    for (const PaperColumn& column : table.columns)
-      lines[0].insert(lines[0].end(), {std::string(column.title), "paper"});
-    lines[0].emplace_back();  // notes
-    for (const PaperRow& row : table.rows) {
-      std::vector<std::string>& line = lines.emplace_back(std::vector{name_of(row)});
-      for (std::size_t c = 0; c < table.columns.size(); ++c)
-        line.insert(line.end(), {shown(row.ours[c]), shown(row.paper[c])});
-      line.push_back(row.note);
-    }
-    text += fmt::format("{}table {}: {}\n", text.empty() ? "" : "\n", table.number, table.title);
-    for (const std::string& line : in_columns(lines, "<" + std::string(2 * table.columns.size(), '>') + "<"))
-      text += "  " + line + "\n";
+    text += fmt::format("{}table {}: {}\n{}", text.empty() ? "" : "\n", table.number, table.title,
+                        columns_of(table).text(table.rows, "  "));
     for (const Finding& finding : findings_of(table)) text += "  " + sentence_of(finding) + "\n";
   }
   return text;
@@ -151,16 +127,17 @@ std::string paper_page(std::span<const PaperTable> tables, Page page) {
       list += fmt::format("<li>Table {}: {}</li>\n", table.number, html_escaped(sentence_of(finding)));
   page.title = "kds reproduce";
   page.found = fmt::format(
-      "<p>Of {} claims of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for deforming "
-      "necklaces</em> (2004), that these tables can tell of, <strong>{}</strong> hold here, in every table "
-      "that "
-      "tells of them.</p>\n{}</ul>\n",
+      "<p><strong>{1}</strong> of {0} claims hold here, in every table that tells of them. The claims are "
+      "those "
+      "of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for deforming necklaces</em> "
+      "(2004), that these tables can judge.</p>\n{2}</ul>\n",
       claims.all, claims.hold, list);
   page.words =
-      "The paper's values stand beside ours. Times are ratios within a row, for the paper's machine is of "
-      "2004: of works that are done in turn, round by round, the median of the rounds and in brackets the "
-      "least and the most. Work of more than a second is done once, whatever the rounds, and stands beside "
-      "all rounds of the other.";
+      "The paper's values stand beside ours. Times are ratios within a row, because the paper's machine is "
+      "of "
+      "2004. Works that are compared take turns, round by round; the ratio is the median of the rounds, with "
+      "the least and the most in brackets. Work of more than a second is done once, whatever the number of "
+      "rounds, and is compared with all rounds of the other work.";
   for (const PaperTable& table : tables)
     page.body +=
         html_section(fmt::format("Table {}: {}", table.number, table.title),

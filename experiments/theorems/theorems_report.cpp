@@ -7,7 +7,7 @@
 
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
-#include "motions/base/csv_field.h"
+#include "experiments/program/spread_columns.h"
 
 namespace kds {
 
@@ -18,21 +18,86 @@ std::optional<double> ratio_to_bound(const TheoremPoint& point) {
   return point.value / *point.bound;
 }
 
-std::string decimal_or_dash(const std::optional<double>& value) {
-  return value ? short_decimal(*value) : "-";
-}
-
-// Counts in full.
+// Counts are written in full.
 std::string value_text(Theorem theorem, double value) {
   const bool is_count = theorem == Theorem::family || theorem == Theorem::closest_pair;
   return is_count ? with_thousands(static_cast<std::uint64_t>(value)) : short_decimal(value);
 }
-std::string seconds_text(const TheoremPoint& point) {
-  return point.seconds ? spread_text(*point.seconds) : "-";
+
+/// A necklace: a row of all forms of the report.
+struct PlacedPoint {
+  const TheoremSeries* series;
+  const TheoremPoint* point;
+};
+std::vector<PlacedPoint> points_of(std::span<const TheoremSeries> group) {
+  std::vector<PlacedPoint> points;
+  for (const TheoremSeries& series : group)
+    for (const TheoremPoint& point : series.points) points.push_back({&series, &point});
+  return points;
 }
-std::string holds_text(const TheoremPoint& point) {
-  if (!point.holds) return "-";
-  return *point.holds ? "yes" : "NO";
+
+/// The columns that say which series it is; `series_of` gives the series of a row.
+template <class Row, class SeriesOf>
+std::vector<Column<Row>> series_columns(SeriesOf series_of) {
+  return {
+      {.key = "theorem", .value = [=](const Row& r) { return Field(name_of(series_of(r).theorem)); }},
+      {.key = "model", .value = [=](const Row& r) { return Field(series_of(r).model); }},
+      {.key = "dimension", .value = [=](const Row& r) { return Field(series_of(r).dimension); }},
+      {.key = "hierarchy", .value = [=](const Row& r) { return text_or_nothing(series_of(r).hierarchy); }},
+  };
+}
+
+Table<PlacedPoint> point_columns(std::string_view value_heading = "value") {
+  using Row = PlacedPoint;
+  Table<Row> table(series_columns<Row>([](const Row& r) -> const TheoremSeries& { return *r.series; }));
+  table.add({
+      {.heading = "necklaces", .value = [](const Row& r) { return Field(name_of(*r.series)); }},
+      {"n", "n", [](const Row& r) { return Field(r.point->beads); }},
+      {.key = "quantity", .json = [](const Row& r) { return Json(quantity_of(r.series->theorem)); }},
+      {.key = "value",
+       .heading = std::string(value_heading),
+       .value = [](const Row& r) { return Field(r.point->value); },
+       .words = [](const Row& r) { return value_text(r.series->theorem, r.point->value); }},
+      {"bound", "bound", [](const Row& r) { return Field(r.point->bound); }, shortly},
+      {"ratio", "ratio", [](const Row& r) { return Field(ratio_to_bound(*r.point)); }, shortly},
+  });
+  table.add(spread_columns<Row>("seconds", "seconds", [](const Row& r) { return r.point->seconds; }));
+  return table.add({{.key = "holds",
+                     .heading = "holds",
+                     .value = [](const Row& r) { return Field(r.point->holds); },
+                     .words = [](const Row& r) { return *r.point->holds ? "yes" : "NO"; }}});
+}
+
+struct FittedSeries {
+  const TheoremSeries* series;
+  PowerFit fit;
+};
+std::vector<FittedSeries> fits_of(std::span<const TheoremSeries> series) {
+  std::vector<FittedSeries> fits;
+  for (const TheoremSeries& one : series)
+    if (const auto fit = one.fit()) fits.push_back({&one, *fit});
+  return fits;
+}
+
+Table<FittedSeries> fit_columns() {
+  using Row = FittedSeries;
+  Table<Row> table(series_columns<Row>([](const Row& r) -> const TheoremSeries& { return *r.series; }));
+  return table.add({
+      {.heading = "necklaces",
+       .value =
+           [](const Row& r) {
+             return Field(fmt::format("{}, {}", name_of(r.series->theorem), name_of(*r.series)));
+           }},
+      {.key = "sizes", .value = [](const Row& r) { return Field(r.fit.points); }},
+      {"exponent", "exponent", [](const Row& r) { return Field(r.fit.exponent); }, with_decimals(3)},
+      {.key = "lower",
+       .heading = "95%",
+       .value = [](const Row& r) { return Field(r.fit.lower); },
+       .words = [](const Row& r) { return fmt::format("{:.3f} to {:.3f}", r.fit.lower, r.fit.upper); }},
+      {.key = "upper", .value = [](const Row& r) { return Field(r.fit.upper); }},
+      {.key = "factor", .value = [](const Row& r) { return Field(r.fit.factor); }},
+      {"expected", "theorem", [](const Row& r) { return Field(r.series->expected); }, with_decimals(3)},
+  });
 }
 
 /// Series of one theorem stand together.
@@ -79,7 +144,7 @@ std::string_view theorem_says(Theorem theorem) {
   return "";
 }
 
-// Necklaces that can tell whether a theorem holds.
+// Counts the necklaces that can tell whether a theorem holds.
 struct Judged {
   std::size_t all = 0, held = 0;
 };
@@ -130,104 +195,38 @@ PointPlot plot_of(std::span<const TheoremSeries> group) {
   return plot;
 }
 
-std::string table_of(std::span<const TheoremSeries> group) {
-  std::vector<HtmlRow> rows;
-  for (const TheoremSeries& series : group)
-    for (const TheoremPoint& point : series.points)
-      rows.push_back({{name_of(series), with_thousands(point.beads), value_text(series.theorem, point.value),
-                       decimal_or_dash(point.bound), decimal_or_dash(ratio_to_bound(point)),
-                       seconds_text(point), holds_text(point)}});
-  return html_table({"", "n", "value", "bound", "ratio", "seconds", "holds"}, rows);
-}
-
 std::string findings_html(std::span<const TheoremSeries> series) {
   const Judged judged = judged_of(series);
   std::string html = "<p>";
   if (judged.all > 0)
     html +=
-        fmt::format("What theorems 2.3 and 3.5 say of single necklaces held in <strong>{} of {}</strong>. ",
+        fmt::format("Theorems 2.3 and 3.5, which judge single necklaces, held in <strong>{} of {}</strong>. ",
                     judged.held, judged.all);
-  html += "What the theorems bound grows with these exponents:</p>\n";
-  std::vector<HtmlRow> rows;
-  for (const TheoremSeries& one : series)
-    if (const auto fit = one.fit(); fit && one.expected)
-      rows.push_back(
-          {{fmt::format("{}, {}", name_of(one.theorem), name_of(one)), fmt::format("{:.3f}", fit->exponent),
-            fmt::format("{:.3f} to {:.3f}", fit->lower, fit->upper), fmt::format("{:.3f}", *one.expected)}});
-  return html + html_table({"", "exponent", "95%", "theorem"}, rows);
+  html += "The quantities that the theorems bound grow with these exponents:</p>\n";
+  std::vector<FittedSeries> fits = fits_of(series);
+  std::erase_if(fits, [](const FittedSeries& fitted) { return !fitted.series->expected; });
+  return html + fit_columns().html(fits);
 }
 
 }  // namespace
 
 Json theorem_rows_json(std::span<const TheoremSeries> series) {
-  Json json = Json::array();
-  for (const TheoremSeries& one : series)
-    for (const TheoremPoint& point : one.points)
-      json.push_back({{"theorem", name_of(one.theorem)},
-                      {"model", one.model},
-                      {"dimension", one.dimension},
-                      {"hierarchy", one.hierarchy.empty() ? Json(nullptr) : Json(one.hierarchy)},
-                      {"n", point.beads},
-                      {"quantity", quantity_of(one.theorem)},
-                      {"value", point.value},
-                      {"bound", point.bound},
-                      {"ratio", ratio_to_bound(point)},
-                      {"seconds", point.seconds ? Json(point.seconds->median) : Json(nullptr)},
-                      {"seconds_least", point.seconds ? Json(point.seconds->least) : Json(nullptr)},
-                      {"seconds_most", point.seconds ? Json(point.seconds->most) : Json(nullptr)},
-                      {"holds", point.holds ? Json(*point.holds) : Json(nullptr)}});
-  return json;
+  return point_columns().json(points_of(series));
 }
 
-Json theorem_fits_json(std::span<const TheoremSeries> series) {
-  Json json = Json::array();
-  for (const TheoremSeries& one : series) {
-    const auto fit = one.fit();
-    if (!fit) continue;
-    json.push_back({{"theorem", name_of(one.theorem)},
-                    {"model", one.model},
-                    {"dimension", one.dimension},
-                    {"hierarchy", one.hierarchy.empty() ? Json(nullptr) : Json(one.hierarchy)},
-                    {"sizes", fit->points},
-                    {"exponent", fit->exponent},
-                    {"lower", fit->lower},
-                    {"upper", fit->upper},
-                    {"factor", fit->factor},
-                    {"expected", one.expected}});
-  }
-  return json;
-}
+Json theorem_fits_json(std::span<const TheoremSeries> series) { return fit_columns().json(fits_of(series)); }
 
 std::string theorems_csv(std::span<const TheoremSeries> series) {
-  std::string text =
-      "theorem,model,dimension,hierarchy,n,value,bound,ratio,seconds,seconds_least,seconds_most,holds\n";
-  for (const TheoremSeries& one : series)
-    for (const TheoremPoint& point : one.points) {
-      const auto seconds = [&](double Spread::*which) {
-        return point.seconds ? fmt::format("{}", (*point.seconds).*which) : "";
-      };
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", name_of(one.theorem), csv_field(one.model),
-                          one.dimension, one.hierarchy, point.beads, point.value, value_or_empty(point.bound),
-                          value_or_empty(ratio_to_bound(point)), seconds(&Spread::median),
-                          seconds(&Spread::least), seconds(&Spread::most),
-                          point.holds ? fmt::format("{}", *point.holds) : "");
-    }
-  return text;
+  return point_columns().csv(points_of(series));
 }
 
 std::string theorems_table(std::span<const TheoremSeries> series) {
   std::string text;
   for (const auto& group : by_theorem(series)) {
     const Theorem theorem = group.front().theorem;
-    text += fmt::format("{}theorem {}: {}\n  {:<40}{:>11}{:>38}{:>14}{:>8}{:>34}{:>7}\n",
-                        text.empty() ? "" : "\n", name_of(theorem), theorem_says(theorem), "", "n",
-                        quantity_of(theorem), "bound", "ratio", "seconds", "holds");
-    for (const TheoremSeries& one : group)
-      for (const TheoremPoint& point : one.points)
-        text += fmt::format("  {:<40}{:>11}{:>38}{:>14}{:>8}{:>34}{:>7}\n", name_of(one),
-                            with_thousands(point.beads), value_text(theorem, point.value),
-                            decimal_or_dash(point.bound), decimal_or_dash(ratio_to_bound(point)),
-                            seconds_text(point), holds_text(point));
+    text +=
+        fmt::format("{}theorem {}: {}\n{}", text.empty() ? "" : "\n", name_of(theorem), theorem_says(theorem),
+                    point_columns(quantity_of(theorem)).text(points_of(group), "  "));
     for (const std::string& finding : findings_of(group)) text += "  " + finding + "\n";
   }
   return text;
@@ -245,14 +244,15 @@ std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
                html_figure(svg_plot(plot_of(group)),
                            fmt::format("Theorem {}: {} by the number of beads, both axes logarithmic.",
                                        name_of(theorem), quantity_of(theorem))) +
-               table_of(group);
+               point_columns().html(points_of(group));
     page.body += html_section(fmt::format("Theorem {}", name_of(theorem)), section);
   }
   page.words =
-      "Theorems are those of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for "
-      "deforming necklaces</em> (2004). Powers are fitted by least squares of logarithms, with intervals of "
-      "95% confidence as if errors were normal: a measurement proves no theorem. Seconds are of the "
-      "processor, the median of the rounds, and in brackets the least and the most.";
+      "The theorems are those of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for "
+      "deforming necklaces</em> (2004). Powers are fitted by least squares of logarithms. Their intervals of "
+      "95% confidence assume normal errors: a measurement proves no theorem. Seconds are processor times: "
+      "the "
+      "median of the rounds, with the least and the most in brackets.";
   return html_page(page);
 }
 
