@@ -101,9 +101,9 @@ std::string stability_csv(std::span<const StabilityRow> rows) {
       for (const auto& field : fields) parts.push_back(field.*part);
       return fmt::format("{}\n", fmt::join(parts, ","));
     };
-    using Field = std::pair<std::string, std::string>;
-    if (text.empty()) text = line(&Field::first);
-    text += line(&Field::second);
+    using NamedValue = std::pair<std::string, std::string>;
+    if (text.empty()) text = line(&NamedValue::first);
+    text += line(&NamedValue::second);
   }
   return text;
 }

@@ -11,7 +11,7 @@
 namespace kds {
 namespace {
 
-struct Column {
+struct TextColumn {
   std::string_view heading;
   int width;
   std::string (*cell)(const StabilityRow&);
@@ -24,32 +24,35 @@ std::string microseconds(double seconds) {
 }
 std::string error(double value) { return value == 0 ? "0" : fmt::format("{:.0e}", value); }
 
-constexpr Column kCases{"cases", 6, [](const StabilityRow& row) { return count(row.cases); }};
-constexpr Column kEvents{"events", 7, [](const StabilityRow& row) { return count(row.events); }};
-constexpr Column kDiffer{"differ", 7,
-                         [](const StabilityRow& row) { return count(row.disagreements + row.failed); }};
-constexpr Column kSigns{"signs", 6, [](const StabilityRow& row) { return count(row.wrong_signs); }};
-constexpr Column kMissed{"missed", 7, [](const StabilityRow& row) { return count(row.fast.missed); }};
-constexpr Column kExtra{"extra", 6, [](const StabilityRow& row) { return count(row.fast.extra); }};
-constexpr Column kError{"error", 6, [](const StabilityRow& row) { return error(row.fast.worst_time_error); }};
-constexpr Column kDouble{"double", 7, [](const StabilityRow& row) {
-                           return count(row.stages.coefficients + row.stages.isolation);
-                         }};
-constexpr Column kTracked{"tracked", 8, [](const StabilityRow& row) { return count(row.stages.refined); }};
-constexpr Column kIntegers{"integer", 8, [](const StabilityRow& row) {
-                             return count(row.stages.exact + row.stages.identically_zero);
-                           }};
-constexpr Column kBits{"bits", 5, [](const StabilityRow& row) { return count(row.stages.largest_bits); }};
-constexpr Column kFastTime{"fast", 6, [](const StabilityRow& row) { return microseconds(row.seconds.fast); }};
-constexpr Column kFilteredTime{"filtered", 9,
-                               [](const StabilityRow& row) { return microseconds(row.seconds.filtered); }};
-constexpr Column kExactTime{"exact", 8,
-                            [](const StabilityRow& row) { return microseconds(row.seconds.exact); }};
-constexpr Column kAudits{"audits", 7, [](const StabilityRow& row) { return count(row.audits_run); }};
+constexpr TextColumn kCases{"cases", 6, [](const StabilityRow& row) { return count(row.cases); }};
+constexpr TextColumn kEvents{"events", 7, [](const StabilityRow& row) { return count(row.events); }};
+constexpr TextColumn kDiffer{"differ", 7,
+                             [](const StabilityRow& row) { return count(row.disagreements + row.failed); }};
+constexpr TextColumn kSigns{"signs", 6, [](const StabilityRow& row) { return count(row.wrong_signs); }};
+constexpr TextColumn kMissed{"missed", 7, [](const StabilityRow& row) { return count(row.fast.missed); }};
+constexpr TextColumn kExtra{"extra", 6, [](const StabilityRow& row) { return count(row.fast.extra); }};
+constexpr TextColumn kError{"error", 6,
+                            [](const StabilityRow& row) { return error(row.fast.worst_time_error); }};
+constexpr TextColumn kDouble{"double", 7, [](const StabilityRow& row) {
+                               return count(row.stages.coefficients + row.stages.isolation);
+                             }};
+constexpr TextColumn kTracked{"tracked", 8,
+                              [](const StabilityRow& row) { return count(row.stages.refined); }};
+constexpr TextColumn kIntegers{"integer", 8, [](const StabilityRow& row) {
+                                 return count(row.stages.exact + row.stages.identically_zero);
+                               }};
+constexpr TextColumn kBits{"bits", 5, [](const StabilityRow& row) { return count(row.stages.largest_bits); }};
+constexpr TextColumn kFastTime{"fast", 6,
+                               [](const StabilityRow& row) { return microseconds(row.seconds.fast); }};
+constexpr TextColumn kFilteredTime{
+    "filtered", 9, [](const StabilityRow& row) { return microseconds(row.seconds.filtered); }};
+constexpr TextColumn kExactTime{"exact", 8,
+                                [](const StabilityRow& row) { return microseconds(row.seconds.exact); }};
+constexpr TextColumn kAudits{"audits", 7, [](const StabilityRow& row) { return count(row.audits_run); }};
 
 struct Group {
   std::string_view heading;
-  std::vector<Column> columns;
+  std::vector<TextColumn> columns;
 };
 
 const std::vector<Group>& groups(bool structure) {
@@ -73,7 +76,7 @@ std::string heading_of(const StabilityRow& row) {
   std::string upper(kNameWidth, ' '), lower(kNameWidth, ' ');
   for (const Group& group : groups(row.structure)) {
     int width = 0;
-    for (const Column& column : group.columns) {
+    for (const TextColumn& column : group.columns) {
       lower += fmt::format("{:>{}}", column.heading, column.width);
       width += column.width;
     }
@@ -90,7 +93,8 @@ std::string line_of(const StabilityRow& row) {
            fmt::format("{:>6} refused: {}", row.cases, one_line(row.reason)).substr(0, kWidth - kNameWidth) +
            "\n";
   for (const Group& group : groups(row.structure))
-    for (const Column& column : group.columns) text += fmt::format("{:>{}}", column.cell(row), column.width);
+    for (const TextColumn& column : group.columns)
+      text += fmt::format("{:>{}}", column.cell(row), column.width);
   if (row.refused > 0) text += fmt::format("\n{:{}} {} of these refused", "", kNameWidth, row.refused);
   if (row.fast_gave_up > 0)
     text += fmt::format("\n{:{}} fast gave up in {}", "", kNameWidth, row.fast_gave_up);

@@ -5,15 +5,15 @@
 #include <cmath>
 
 #include "experiments/output/page/svg_plot.h"
+#include "experiments/output/table.h"
 #include "experiments/output/text.h"
 #include "experiments/trade/recommend.h"
-#include "motions/base/csv_field.h"
 
 namespace kds {
 
 namespace {
 
-/// The groups, each of which begins with an exact run.
+/// Splits rows into groups. Each group begins with an exact run.
 std::vector<std::span<const TradeRow>> groups_of(std::span<const TradeRow> rows) {
   std::vector<std::span<const TradeRow>> groups;
   for (std::size_t first = 0; first < rows.size();) {
@@ -71,33 +71,58 @@ std::vector<ErrorColumn> columns_for(Want want) {
   return {};
 }
 
-std::string shown(const std::optional<double>& value, bool share) {
-  if (!value) return "-";
-  if (*value == 0) return "0";
-  if (std::isinf(*value)) return "all";
-  return share ? fmt::format("{:.3g}%", 100 * *value) : fmt::format("{:.3g}", *value);
+std::string error_text(const Field& error) {
+  const double value = error.number();
+  return value == 0 ? "0" : std::isinf(value) ? "all" : fmt::format("{:.3g}", value);
+}
+std::string share_text(const Field& share) {
+  const double value = share.number();
+  return value == 0 || std::isinf(value) ? error_text(share) : in_percent(share);
 }
 
-Json number_or_null(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+Json setting_json(const TradeRow& row) {
+  Json setting = Json::object();
+  for (const auto& [name, value] : options_of(row.setting)) setting[name] = value;
+  if (row.setting.projected) setting["projected"] = "xy";
+  return setting;
 }
 
-std::string table_of(std::span<const TradeRow> group) {
-  const std::vector<ErrorColumn> columns = columns_for(group.front().want);
-  std::string text = fmt::format("{:<46}{:>11}{:>10}{:>14}{:>10}{:>11}{:>8}", title_of(group), "seconds",
-                                 "ratio", "certificates", "events", "tests", "MB");
-  for (const ErrorColumn& column : columns) text += fmt::format("{:>11}", column.title);
-  text += "\n";
-  for (const TradeRow& row : group) {
-    text += fmt::format("{} {:<44}{:>11}{:>10.3f}{:>14}{:>10}{:>11}{:>8.2f}", row.on_front ? '*' : ' ',
-                        words_of(row.setting), short_decimal(row.cost.seconds), row.cost.ratio,
-                        with_thousands(row.cost.certificates), with_thousands(row.cost.events),
-                        shown(row.cost.tests, false), 1e-6 * static_cast<double>(row.cost.memory));
-    for (const ErrorColumn& column : columns)
-      text += fmt::format("{:>11}", shown(row.errors.*column.value, column.share));
-    text += "\n";
-  }
-  return text;
+/// JSON and CSV have all errors. People see the errors of what is wanted; their first column has this title.
+Table<TradeRow> trade_columns(const std::string& title, Want want) {
+  using Row = TradeRow;
+  Table<Row> table{{
+      {.key = "want", .value = [](const Row& r) { return Field(name_of(r.want)); }},
+      {.key = "setting",
+       .heading = title,
+       .value = [](const Row& r) { return Field(words_of(r.setting)); },
+       .words = [](const Row& r) { return (r.on_front ? "* " : "  ") + words_of(r.setting); },
+       .json = setting_json},
+      {"cost.seconds", "seconds", [](const Row& r) { return Field(r.cost.seconds); }, shortly},
+      {"cost.seconds_least", "least", [](const Row& r) { return Field(r.cost.quickest); }, shortly,
+       Shown::on_pages},
+      {"cost.seconds_most", "most", [](const Row& r) { return Field(r.cost.slowest); }, shortly,
+       Shown::on_pages},
+      {"cost.ratio", "ratio", [](const Row& r) { return Field(r.cost.ratio); }, with_decimals(3)},
+      {"cost.events", "events", [](const Row& r) { return Field(r.cost.events); }},
+      {"cost.certificates", "certificates", [](const Row& r) { return Field(r.cost.certificates); }},
+      {"cost.tests", "tests", [](const Row& r) { return Field(r.cost.tests); }, error_text},
+      {"cost.memory", "MB", [](const Row& r) { return Field(r.cost.memory); },
+       [](const Field& bytes) { return fmt::format("{:.2f}", 1e-6 * bytes.number()); }},
+  }};
+  const auto names = by_name({});
+  for (std::size_t e = 0; e < names.size(); ++e)
+    table.add({{.key = "error." + names[e].first,
+                .value = [e](const Row& r) { return Field(by_name(r.errors)[e].second); }}});
+  for (const ErrorColumn& column : columns_for(want))
+    table.add({{.heading = column.title,
+                .value = [value = column.value](const Row& r) { return Field(r.errors.*value); },
+                .format = column.share ? share_text : error_text}});
+  return table.add({{.key = "pareto",
+                     .value = [](const Row& r) { return Field(r.on_front ? 1U : 0U); },
+                     .json = [](const Row& r) { return Json(r.on_front); }}});
+}
+Table<TradeRow> trade_columns(std::span<const TradeRow> group) {
+  return trade_columns(title_of(group), group.front().want);
 }
 
 std::string plots_of(std::span<const TradeRow> group) {
@@ -123,13 +148,13 @@ std::string plots_of(std::span<const TradeRow> group) {
     if (!errs) continue;
     if (!of_series(1)) plot.series.pop_back();
     html += html_figure(svg_plot(plot),
-                        fmt::format("Cost against error of {}: {}. No error stands at the bottom.",
+                        fmt::format("Cost against error of {}: {}. Settings without error are at the bottom.",
                                     title_of(group), column.title));
   }
   return html;
 }
 
-// What stands between backticks is code.
+// Marks text between backticks as code.
 std::string with_code(const std::string& html) {
   std::string text;
   bool inside = false;
@@ -144,86 +169,33 @@ std::string with_code(const std::string& html) {
   return text;
 }
 
-std::string html_table_of(std::span<const TradeRow> group) {
-  const std::vector<ErrorColumn> errors = columns_for(group.front().want);
-  std::vector<std::string> columns{title_of(group), "ratio",  "seconds", "least", "most",
-                                   "certificates",  "events", "tests",   "MB"};
-  for (const ErrorColumn& column : errors) columns.emplace_back(column.title);
-  std::vector<HtmlRow> rows;
-  for (const TradeRow& row : group) {
-    HtmlRow& line = rows.emplace_back(HtmlRow{
-        {(row.on_front ? "* " : "") + words_of(row.setting), fmt::format("{:.3f}", row.cost.ratio),
-         short_decimal(row.cost.seconds), short_decimal(row.cost.quickest), short_decimal(row.cost.slowest),
-         with_thousands(row.cost.certificates), with_thousands(row.cost.events), shown(row.cost.tests, false),
-         fmt::format("{:.2f}", 1e-6 * static_cast<double>(row.cost.memory))}});
-    for (const ErrorColumn& column : errors)
-      line.cells.push_back(shown(row.errors.*column.value, column.share));
-  }
-  return html_table(columns, rows);
-}
-
 constexpr const char* words_of_columns =
-    "Each row is a setting of `kds run`; a stride is the third part of --frames. Seconds: of the processor, "
-    "median of the rounds, without reading and the first build, those of --certify with its runs; their "
-    "ratio "
-    "to the exact run is for as many frames. Tests: of two spheres, by a search for contacts in the "
-    "hierarchy, "
-    "on average. Errors are against beads on straight lines between all frames, at frames and at random "
-    "times "
-    "between: radius, of spheres from the smallest, on average and at most, and at most at frames; outside, "
-    "beads outside their spheres, mean of the times (with --certify spheres are larger by what is "
-    "certified); "
-    "wrong, cells that are not in the true diagram; edges, short ones missed; "
-    "missed and invented or spurious, events or contacts beside the exact run (with --certify all possible "
-    "contacts count as found, and unsure are those that it calls no more; of --select ca, which is another "
-    "model, contacts of residues count that are at least its --apart apart); time, in frames; closest, of "
-    "the closest "
-    "distance; moved, a bead from its place. *: no other row of the group is as quick and as right.";
+    "Each row is a setting of `kds run`; a stride is the third part of --frames. Seconds: processor time, as "
+    "the median of the rounds, without reading and the first build; for --certify, the time of its runs. "
+    "Ratio: seconds divided by those of the exact run for as many frames. Tests: tests of two spheres by a "
+    "search for contacts in the hierarchy, on average. Errors are measured against beads on straight lines "
+    "between all frames, at frames and at random times between them. Radius: how much larger a sphere is "
+    "than "
+    "the smallest one, on average, at most, and at most at frames. Outside: beads outside their spheres, as "
+    "the mean over times; with --certify spheres are larger by the certified deviation. Wrong: cells that "
+    "are "
+    "not in the true diagram. Edges: short edges that are missed. Missed, and invented or spurious: events "
+    "or "
+    "contacts compared with the exact run. With --certify all possible contacts count as found, and unsure "
+    "are the contacts that are possible but not certain. --select ca is another model: contacts of residues "
+    "count that are at least its --apart apart. Time: error of times, in frames. Closest: error of the "
+    "closest distance. Moved: distance of a bead from its true place. *: no other row of the group is as "
+    "quick and as right.";
 
 }  // namespace
 
-Json trade_rows_json(std::span<const TradeRow> rows) {
-  Json json = Json::array();
-  for (const TradeRow& row : rows) {
-    Json setting = Json::object(), errors = Json::object();
-    for (const auto& [name, value] : options_of(row.setting)) setting[name] = value;
-    if (row.setting.projected) setting["projected"] = "xy";
-    for (const auto& [name, value] : by_name(row.errors)) errors[name] = number_or_null(value);
-    json.push_back({{"want", name_of(row.want)},
-                    {"setting", setting},
-                    {"cost",
-                     {{"seconds", row.cost.seconds},
-                      {"seconds_least", row.cost.quickest},
-                      {"seconds_most", row.cost.slowest},
-                      {"ratio", row.cost.ratio},
-                      {"events", row.cost.events},
-                      {"certificates", row.cost.certificates},
-                      {"tests", number_or_null(row.cost.tests)},
-                      {"memory", row.cost.memory}}},
-                    {"error", errors},
-                    {"pareto", row.on_front}});
-  }
-  return json;
-}
+Json trade_rows_json(std::span<const TradeRow> rows) { return trade_columns("", Want::scenes).json(rows); }
 
-std::string trade_csv(std::span<const TradeRow> rows) {
-  std::string text = "want,setting,seconds,seconds_least,seconds_most,ratio,events,certificates,tests,memory";
-  for (const auto& [name, value] : by_name({})) text += "," + name;
-  text += ",pareto\n";
-  for (const TradeRow& row : rows) {
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{}", name_of(row.want), csv_field(words_of(row.setting)),
-                        row.cost.seconds, row.cost.quickest, row.cost.slowest, row.cost.ratio,
-                        row.cost.events, row.cost.certificates,
-                        row.cost.tests ? fmt::format("{}", *row.cost.tests) : "", row.cost.memory);
-    for (const auto& [name, value] : by_name(row.errors)) text += value ? fmt::format(",{}", *value) : ",";
-    text += fmt::format(",{}\n", row.on_front ? 1 : 0);
-  }
-  return text;
-}
+std::string trade_csv(std::span<const TradeRow> rows) { return trade_columns("", Want::scenes).csv(rows); }
 
 std::string trade_table(std::span<const TradeRow> rows) {
   std::string text;
-  for (const auto& group : groups_of(rows)) text += table_of(group) + "\n";
+  for (const auto& group : groups_of(rows)) text += trade_columns(group).text(group) + "\n";
   return text + recommendation(rows) + "\n";
 }
 
@@ -232,7 +204,7 @@ std::string trade_page(std::span<const TradeRow> rows, const std::string& input,
   page.found = fmt::format("<p>{}</p>\n", with_code(html_escaped(recommendation(rows))));
   page.words = with_code(words_of_columns);
   for (const auto& group : groups_of(rows))
-    page.body += html_section(title_of(group), html_table_of(group) + plots_of(group));
+    page.body += html_section(title_of(group), trade_columns(group).html(group) + plots_of(group));
   return html_page(page);
 }
 

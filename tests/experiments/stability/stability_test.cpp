@@ -411,10 +411,10 @@ TEST(StabilityPage, SaysFirstHowManyAuditsFailed) {
   row.structure = true;
   row.cases = 7;
   row.audits_run = 1234;
-  EXPECT_THAT(stability_page(std::vector{row}, {}), HasSubstr("Of 1,234 audits <strong>0 failed</strong>"));
+  EXPECT_THAT(stability_page(std::vector{row}, {}), HasSubstr("<strong>0 of 1,234 audits failed</strong>"));
   row.audits_failed = 5;
   EXPECT_THAT(stability_page(std::vector{row, row}, {}),
-              HasSubstr("Of 2,468 audits <strong>10 failed</strong>"));
+              HasSubstr("<strong>10 of 2,468 audits failed</strong>"));
 }
 
 TEST(StabilityPage, TimesOfKernelsBesideEachOther) {
