@@ -13,11 +13,11 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/commands.h"
 #include "experiments/output/destinations.h"
 #include "experiments/output/provenance.h"
 #include "experiments/output/text.h"
 #include "experiments/program/command_line.h"
+#include "experiments/program/commands.h"
 #include "experiments/program/suggestion.h"
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"

@@ -1,4 +1,4 @@
-#include "experiments/commands.h"
+#include "experiments/program/commands.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -8,7 +8,7 @@
 
 #include "experiments/output/page/html_text.h"
 #include "experiments/output/page/svg_plot.h"
-#include "experiments/output/table.h"
+#include "experiments/output/page/table.h"
 #include "experiments/output/text.h"
 
 namespace kds {

@@ -7,7 +7,7 @@
 
 #include "experiments/collide/compare_detectors.h"
 #include "experiments/output/page/html_page.h"
-#include "experiments/output/table.h"
+#include "experiments/output/page/table.h"
 
 namespace kds {
 

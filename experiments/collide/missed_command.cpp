@@ -1,4 +1,4 @@
-#include "experiments/commands.h"
+#include "experiments/program/commands.h"
 
 #include "experiments/collide/missed_options.h"
 #include "experiments/collide/missed_report.h"

@@ -6,7 +6,7 @@
 
 #include "experiments/collide/missed_contacts.h"
 #include "experiments/output/page/html_page.h"
-#include "experiments/output/table.h"
+#include "experiments/output/page/table.h"
 
 namespace kds {
 

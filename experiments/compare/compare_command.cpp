@@ -1,4 +1,4 @@
-#include "experiments/commands.h"
+#include "experiments/program/commands.h"
 
 #include "experiments/compare/compare_options.h"
 #include "experiments/compare/compare_page.h"

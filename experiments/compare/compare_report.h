@@ -4,8 +4,8 @@
 #include <string>
 
 #include "experiments/compare/compare_runs.h"
+#include "experiments/output/page/table.h"
 #include "experiments/output/result_json.h"
-#include "experiments/output/table.h"
 
 namespace kds {
 

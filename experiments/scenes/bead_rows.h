@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/output/table.h"
+#include "experiments/output/page/table.h"
 #include "motions/base/bead.h"
 #include "motions/frames/trajectory.h"
 #include "motions/readers/bead_name.h"

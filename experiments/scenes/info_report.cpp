@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "experiments/output/table.h"
+#include "experiments/output/page/table.h"
 #include "experiments/output/text.h"
 
 namespace kds {

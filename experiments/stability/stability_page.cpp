@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/output/page/svg_plot.h"
-#include "experiments/output/table.h"
+#include "experiments/output/page/table.h"
 #include "experiments/output/text.h"
 #include "experiments/stability/stability_report.h"
 

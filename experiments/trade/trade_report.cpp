@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "experiments/output/page/svg_plot.h"
-#include "experiments/output/table.h"
+#include "experiments/output/page/table.h"
 #include "experiments/output/text.h"
 #include "experiments/trade/recommend.h"
 

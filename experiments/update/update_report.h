@@ -5,7 +5,7 @@
 #include <string>
 
 #include "experiments/output/page/html_page.h"
-#include "experiments/output/table.h"
+#include "experiments/output/page/table.h"
 #include "experiments/update/compare_updates.h"
 
 namespace kds {

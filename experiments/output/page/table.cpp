@@ -1,4 +1,4 @@
-#include "experiments/output/table.h"
+#include "experiments/output/page/table.h"
 
 #include <fmt/format.h>
 

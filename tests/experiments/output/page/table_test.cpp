@@ -1,6 +1,6 @@
 // One declaration of columns gives JSON, CSV, text and HTML.
 
-#include "experiments/output/table.h"
+#include "experiments/output/page/table.h"
 
 #include <gmock/gmock.h>
 
