@@ -1,6 +1,6 @@
 #pragma once
-// All beads of a run on one clock. Sampled frames are turned into motion steps (the discrete-step adapter),
-// or an instance file gives a single step. Beads are numbered necklace after necklace.
+// All beads of a run on one clock, and the discrete-step adapter: Scene::load turns sampled frames into the
+// motion of a step. An instance file gives a single step. Beads are numbered necklace after necklace.
 
 #include <Eigen/Core>
 #include <array>
