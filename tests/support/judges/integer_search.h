@@ -1,8 +1,8 @@
 #pragma once
 // Failures and signs of single certificates by integers alone, for tests of what claims to know them.
 
-#include "certificates/search/certificate_search.h"
 #include "certificates/search/ball_in_sphere_search.h"
+#include "certificates/search/certificate_search.h"
 
 namespace kds::test {
 
