@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "motions/numbers/integer.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
