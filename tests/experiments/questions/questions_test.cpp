@@ -240,7 +240,7 @@ TEST(Questions, RefusesWhatIsNoQuestion) {
     EXPECT_THAT(error_of({question, "--data", "nowhere"}), HasSubstr("--data: there is no folder nowhere"));
   EXPECT_THAT(error_of({"bounds", "bounds"}), HasSubstr("QUESTION: bounds is listed twice"));
   EXPECT_THAT(error_of({"bounds", "energy", "--rounds", "3"}),
-              HasSubstr("--rounds: no question asked measures time; trust does"));
+              HasSubstr("--rounds applies only to the question trust, which measures time"));
 }
 
 // A result must not replace what is measured.

@@ -329,7 +329,7 @@ TEST(Program, RunsTheChainsOfAComplexOnOneClock) {
         for (const auto& [name, place] : {std::pair("N", 0), {"CA", 1}, {"C", 2}})
           complex += fmt::format("ATOM      1  {:<3} ALA {}{:4}    {:8.3f}{:8.3f}{:8.3f}\n", name, chain,
                                  residue, 4.5 * residue + 1.5 * place, 9.0 * (chain - 'A'),
-                                 0.5 * model * residue * (residue % 2));
+                                 0.25 * model * residue * (residue % 2));
     complex += "ENDMDL\n";
   }
   const std::string file = directory.file("complex.pdb", complex);

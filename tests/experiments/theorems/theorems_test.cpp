@@ -204,7 +204,7 @@ TEST(Theorems, RefusesWhatIsNoTheorem) {
   EXPECT_THAT(error_of({"2.3", "--beads", "63"}), HasSubstr("--beads: '63' is not a whole number from 64"));
   EXPECT_THAT(error_of({"3.1", "2.3", "3.1"}), HasSubstr("THEOREM: 3.1 is listed twice"));
   EXPECT_THAT(error_of({"2.3", "3.1", "--rounds", "2"}),
-              HasSubstr("--rounds: no theorem asked for measures time; 3.2 and 3.5 do"));
+              HasSubstr("--rounds applies only to theorems 3.2 and 3.5, which measure time"));
 }
 
 }  // namespace

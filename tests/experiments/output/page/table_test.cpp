@@ -62,7 +62,7 @@ TEST(Table, PagesEscapeAndLeaveOutColumnsOfTheTerminal) {
 TEST(Table, WithoutRowsHasAHeaderOnly) {
   EXPECT_EQ(table.csv({}), "name,count,time,long\n");
   EXPECT_EQ(table.text({}), "name  count  time\n");
-  EXPECT_EQ(text_of(table.json({})), "[]\n");
+  EXPECT_EQ(text_of(table.json(std::span<const Row>())), "[]\n");
 }
 
 const Table<Row> extended =
