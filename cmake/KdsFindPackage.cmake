@@ -1,7 +1,11 @@
 # kds_find_package(<package> [<version>]) finds a required package. kds_found_all() then prints one line for each missing
 # package, with its names on several systems from scripts/packages.
 set(KDS_MISSING "")
-set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)  # CGAL finds Boost by Boost's CMake package
+# Boost is found by its own CMake package, here and by CGAL.
+set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)
+if(POLICY CMP0167)
+  cmake_policy(SET CMP0167 NEW)
+endif()
 
 macro(kds_find_package package)
   find_package(${package} ${ARGN} QUIET)

@@ -61,8 +61,13 @@ class FlintPolynomial {
     fmpz_poly_init(value_);
   }
   explicit FlintPolynomial(const Integers& p) : FlintPolynomial() {
-    for (std::size_t k = p.size(); k-- > 0;)
-      fmpz_poly_set_coeff_mpz(value_, static_cast<slong>(k), p[k].get_mpz_t());
+    fmpz_t coefficient;
+    fmpz_init(coefficient);
+    for (std::size_t k = p.size(); k-- > 0;) {
+      fmpz_set_mpz(coefficient, p[k].get_mpz_t());
+      fmpz_poly_set_coeff_fmpz(value_, static_cast<slong>(k), coefficient);
+    }
+    fmpz_clear(coefficient);
   }
   FlintPolynomial(const FlintPolynomial&) = delete;
   FlintPolynomial& operator=(const FlintPolynomial&) = delete;
@@ -73,7 +78,7 @@ class FlintPolynomial {
   [[nodiscard]] Integers coefficients() const {
     Integers result(size());
     for (std::size_t k = 0; k < result.size(); ++k)
-      fmpz_poly_get_coeff_mpz(result[k].get_mpz_t(), value_, static_cast<slong>(k));
+      fmpz_get_mpz(result[k].get_mpz_t(), fmpz_poly_get_coeff_ptr(value_, static_cast<slong>(k)));
     return result;
   }
   /// Sets this to the primitive gcd of two others.
