@@ -1,6 +1,7 @@
 #include "certificates/exact/polynomial_gcd.h"
 
 #include <flint/flint.h>
+#include <flint/fmpz.h>
 #include <flint/fmpz_poly.h>
 
 #include <algorithm>
