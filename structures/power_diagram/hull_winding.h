@@ -25,7 +25,8 @@
 // A cell that becomes flat inside the hull needs no check of its own: it has neighbours on both sides of its
 // plane, so the power test of one of its facets is zero or negative at that time.
 //
-// Exact: all signs are those just after the present time.
+// Exact: all signs are those just after the present time. The kernel `fast` is not told of touches, so it
+// looks at the hull once a step, where the step ends, and in doubles.
 
 #include <span>
 
@@ -39,5 +40,10 @@ namespace kds {
 /// touched infinite cell.
 [[nodiscard]] bool hull_winds_once(DiagramState<2>& state, std::span<const CellId> touched);
 [[nodiscard]] bool hull_winds_once(DiagramState<3>& state, std::span<const CellId> touched);
+
+/// Whether the hull seems to wind once at the end of a step, in doubles. All cells must be positive there.
+/// Cost: linear in the number of cells.
+[[nodiscard]] bool hull_seems_to_wind_once(const DiagramState<2>& state, const Snapshot<2>& end);
+[[nodiscard]] bool hull_seems_to_wind_once(const DiagramState<3>& state, const Snapshot<3>& end);
 
 }  // namespace kds

@@ -9,6 +9,7 @@
 #include "structures/power_diagram/diagram_editor.h"
 #include "structures/power_diagram/diagram_flips.h"
 #include "structures/power_diagram/diagram_rebuilder.h"
+#include "structures/power_diagram/hull_winding.h"
 #include "structures/power_diagram/static_diagrams.h"
 #include "structures/triangulation/snapshot_faults.h"
 
@@ -117,10 +118,10 @@ void PowerDiagram<Dimension>::reach_frame() {
   const Snapshot<Dimension>& end = state.triangulation.set_points(curves, curves.own_degree());
   const int least = least_orientation(state.triangulation, end, facets.known_positive_at_end());
   facets.forget_ends();
-  if (least < 0 && state.simulator.kernel() != Kernel::fast)
-    throw std::logic_error("a cell of the power diagram is inverted");
+  const bool is_fast = state.simulator.kernel() == Kernel::fast;
+  if (least < 0 && !is_fast) throw std::logic_error("a cell of the power diagram is inverted");
   state.flat = least == 0;
-  if (least < 0) build_anew();
+  if (least < 0 || (is_fast && least > 0 && !hull_seems_to_wind_once(state, end))) build_anew();
 }
 
 template <int Dimension>
