@@ -20,7 +20,7 @@ std::string left_column(const OptionSpec& option) {
   return option.value.empty() ? std::string(option.name) : fmt::format("{} {}", option.name, option.value);
 }
 
-// CLI11's own words name its types and counts; say instead what to do.
+// Rewrites a CLI11 error, which names C++ types and counts, into a message that says what to do.
 std::string explain(const CLI::ParseError& error, const CLI::App& parser,
                     const std::vector<OptionSpec>& options, const Arguments& arguments) {
   if (const std::vector<std::string> extras = parser.remaining(); !extras.empty()) {
@@ -53,20 +53,22 @@ ParsedArguments parse_arguments(const CommandSpec& command, const std::vector<Op
   CLI::App parser;
   parser.set_help_flag(std::string(kHelp.name) + ",-h");
 
-  std::map<std::string_view, std::vector<std::string>> unused;  // CLI11 reads some values as empty lists: {}
+  std::map<std::string_view, std::vector<std::string>>
+      unused;  // CLI11 reads some values, such as {}, as empty lists
   for (const OptionSpec& option : options) {
     const std::string name(option.name);
     if (option.value.empty()) {
       parser.add_flag(name)->disable_flag_override();
     } else {
       parser.add_option(name, unused[option.name])
-          ->allow_extra_args(false);  // one value each time it is given
+          ->allow_extra_args(false);  // each occurrence takes one value
     }
   }
   if (!command.operand.empty()) parser.add_option(std::string(command.operand), unused[command.operand]);
 
   try {
-    parser.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes them last first
+    parser.parse(
+        Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes the arguments in reverse order
   } catch (const CLI::CallForHelp&) {
     throw HelpRequest{help_text(command, options)};
   } catch (const CLI::ParseError& error) {
@@ -81,7 +83,8 @@ ParsedArguments parse_arguments(const CommandSpec& command, const std::vector<Op
     if (times == 0) continue;
     if (times > 1) throw InputError(fmt::format("{} is given {} times; give it once", option.name, times));
     std::string value = option.value.empty() ? "" : values.front();
-    if (value.starts_with("--"))  // a forgotten value swallows the next option
+    if (value.starts_with(
+            "--"))  // the option's value was forgotten, so the next option was read as the value
       throw InputError(fmt::format("{} needs a value, but '{}' follows", option.name, value));
     if (value.empty() && !option.value.empty())
       throw InputError(fmt::format("{} needs a value", option.name));

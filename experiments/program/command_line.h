@@ -1,5 +1,6 @@
 #pragma once
-// The command line of one command. The parser and the help are made from the same description.
+// Declares and parses the command line of one command. The parser and the help text are made from the same
+// declarations.
 
 #include <map>
 #include <optional>
@@ -9,23 +10,24 @@
 
 namespace kds {
 
-using Arguments = std::vector<std::string>;  ///< without the program's and the command's name
+using Arguments = std::vector<std::string>;  ///< without the names of the program and the command
 
 struct OptionSpec {
   std::string_view name;   ///< with its dashes
-  std::string_view value;  ///< how help names its value; empty: a flag
-  std::string_view help;   ///< one line, the default included
+  std::string_view value;  ///< placeholder of the value in the help text; empty for a flag
+  std::string_view help;   ///< one line, with the default value
 };
 
 struct CommandSpec {
-  std::string_view name;     ///< kds run
-  std::string_view summary;  ///< one sentence; definitions may follow on lines of their own
-  std::string_view operand;  ///< how help names the arguments that are no options; empty: there are none
+  std::string_view name;     ///< such as kds run
+  std::string_view summary;  ///< one sentence; definitions may follow on separate lines
+  std::string_view
+      operand;  ///< placeholder of the positional arguments in the help text; empty if the command takes none
   std::string_view operand_help;
-  std::string_view examples;  ///< one a line
+  std::string_view examples;  ///< one example per line
 };
 
-/// Thrown where --help was given: main prints the text and exits with 0.
+/// Thrown if --help is given. main prints the text and exits with 0.
 struct HelpRequest {
   std::string text;
 };
@@ -40,10 +42,11 @@ class ParsedArguments {
   friend ParsedArguments parse_arguments(const CommandSpec&, const std::vector<OptionSpec>&,
                                          const Arguments&);
   std::vector<std::string> operands_;
-  std::map<std::string, std::string, std::less<>> values_;  ///< flags have an empty value
+  std::map<std::string, std::string, std::less<>> values_;  ///< a flag has an empty value
 };
 
-/// Throws InputError for an unknown option, one given twice, one without its value; HelpRequest for --help.
+/// Parses the arguments of a command. Throws InputError for an unknown option, a repeated option or an option
+/// without its value. Throws HelpRequest for --help.
 [[nodiscard]] ParsedArguments parse_arguments(const CommandSpec& command,
                                               const std::vector<OptionSpec>& options,
                                               const Arguments& arguments);

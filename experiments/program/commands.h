@@ -1,40 +1,40 @@
 #pragma once
-// The commands of the program. Each takes the arguments behind its name and returns the exit code. Each
+// The commands of the program. Each takes the arguments that follow its name and returns the exit code. Each
 // throws InputError if the arguments or the input are at fault, and HelpRequest for --help. kds_main.cpp
-// lists them by name.
+// lists the commands by name.
 
 #include "experiments/program/command_line.h"
 
 namespace kds {
 
-/// `kds bench`. A missed goal is no error.
+/// `kds bench`: runs the benchmarks. A missed goal is not an error.
 int bench_command(const Arguments& arguments);
-/// `kds collide`: which beads collide in every frame of a trajectory, by each method.
+/// `kds collide`: reports which beads collide in every frame of a trajectory, by each method.
 int collide_command(const Arguments& arguments);
-/// `kds compare`: how often structures change, by stride, motion and input.
+/// `kds compare`: reports how often structures change, by stride, motion and input.
 int compare_command(const Arguments& arguments);
 /// `kds generate`: writes a model necklace.
 int generate_command(const Arguments& arguments);
-/// `kds info`: describes trajectories. Violated conditions are no error.
+/// `kds info`: describes trajectories. A violated condition is not an error.
 int info_command(const Arguments& arguments);
-/// `kds missed`: which share of the contacts is missed if only frames are examined.
+/// `kds missed`: reports the share of the contacts that is missed if only the frames are examined.
 int missed_command(const Arguments& arguments);
-/// `kds questions`: measurements of what the paper leaves open.
+/// `kds questions`: measures quantities that the paper leaves open.
 int questions_command(const Arguments& arguments);
-/// `kds replay`: returns 0 if the run gives the log's fingerprint again, else 1.
+/// `kds replay`: runs a logged run again. Returns 0 if the run reproduces the log's fingerprint, else 1.
 int replay_command(const Arguments& arguments);
-/// `kds reproduce`: the paper's tables, measured again.
+/// `kds reproduce`: measures the paper's tables again.
 int reproduce_command(const Arguments& arguments);
 /// `kds run`: runs kinetic structures and reports their events.
 int run_command(const Arguments& arguments);
-/// `kds stability`: compares the kernels where arithmetic is hardest. Throws std::runtime_error if a row does
-/// not hold.
+/// `kds stability`: compares the kernels on inputs for which the arithmetic is hardest. Throws
+/// std::runtime_error if a row does not hold.
 int stability_command(const Arguments& arguments);
-/// `kds theorems`: what the paper's theorems bound, measured over sizes.
+/// `kds theorems`: measures the quantities that the paper's theorems bound, over a range of sizes.
 int theorems_command(const Arguments& arguments);
-/// `kds trade`: the speed and the errors of each lever on the user's own trajectory.
+/// `kds trade`: measures the speed and the errors of each lever on the user's own trajectory.
 int trade_command(const Arguments& arguments);
-/// `kds update`: compares techniques that bring the power diagram from frame to frame.
+/// `kds update`: compares techniques that update the power diagram from frame to frame.
 int update_command(const Arguments& arguments);
 
 }  // namespace kds

@@ -25,7 +25,7 @@ std::string parse_radius(const std::string& rule) {
   if (error == std::errc() && end == rule.data() + rule.size() && std::isfinite(number) && number > 0)
     return rule;
   constexpr std::array<std::string_view, 4> names{"auto", "element", "element:fit", "file:"};
-  // Other programs' words for van der Waals radii.
+  // Words that other programs use for van der Waals radii.
   constexpr std::array<std::string_view, 7> van_der_waals{"vdw",   "vdwaals",  "van-der-waals", "vanderwaals",
                                                           "bondi", "elements", "atomic"};
   throw InputError(
@@ -33,7 +33,7 @@ std::string parse_radius(const std::string& rule) {
                   suggestion(nearest_name(rule, van_der_waals) ? "element" : rule, names)));
 }
 
-// Names of atoms are written in capitals, so CA is ca. `automatic` cannot be asked for.
+// Accepts capitals, since atom names such as CA are written in capitals. The user cannot ask for `automatic`.
 Selection parse_selection(const std::string& word) {
   std::string lower = word;
   for (char& c : lower)
@@ -43,14 +43,14 @@ Selection parse_selection(const std::string& word) {
   return choice_of("--select", known ? lower : word, names, Selection::backbone);
 }
 
-// Chains are for all inputs, or for each its own, and perhaps for the obstacle.
+// --chain has one list for all inputs, or one list per input and optionally one more for the obstacle.
 void check_chains(const std::string& chains, std::size_t inputs, bool obstacle) {
   const std::vector<std::string> lists = split(chains, '/');
   if (lists.size() > 1 && lists.size() != inputs && !(obstacle && lists.size() == inputs + 1))
     throw InputError(fmt::format("--chain: '{}' is for {} INPUTs, given {} {}", chains, lists.size(), inputs,
                                  inputs == 1 ? "is" : "are"));
   for (const std::string& list : lists) {
-    if (list.empty() && lists.size() > 1) continue;  // the default chain of that input
+    if (list.empty() && lists.size() > 1) continue;  // this input keeps its default chain
     const std::vector<std::string> names = split(list, ',');
     for (const std::string& name : names) {
       if (name.empty())
@@ -135,8 +135,8 @@ ReadOptions reading_of(const InputOptions& options, std::size_t input) {
   ReadOptions reading = options.reading;
   if (!reading.chain) return reading;
   const std::vector<std::string> lists = split(*reading.chain, '/');
-  // One list is for all inputs. The obstacle comes after them and has the default chain unless a list is its
-  // own.
+  // A single list holds for all inputs. The obstacle comes after the inputs and has the default chain unless
+  // it has a list of its own.
   const bool has_own = lists.size() > 1 || input >= options.inputs.size();
   const std::string own = !has_own                                   ? lists.front()
                           : input < lists.size() && lists.size() > 1 ? lists[input]

@@ -1,5 +1,5 @@
 #pragma once
-// The options of all commands that read trajectories: which files, which of their beads and frames, which
+// The options that all trajectory-reading commands share: input files, selected beads, selected frames and
 // radii.
 
 #include <filesystem>
@@ -18,54 +18,57 @@ namespace kds {
 
 struct InputOptions {
   std::vector<std::filesystem::path> inputs;
-  ReadOptions reading;  ///< --topology, --select, --chain (as given, of all inputs), --frames
+  ReadOptions reading;  ///< --topology, --select, --chain (as given, for all inputs), --frames
   std::string radius = "auto";
-  std::optional<std::filesystem::path> obstacle = {};  ///< --obstacle, of commands that have it
+  std::optional<std::filesystem::path> obstacle = {};  ///< --obstacle, for the commands that have it
 };
 
-/// --topology, --select, --chain, --frames, --radius.
+/// Returns the options --topology, --select, --chain, --frames and --radius.
 [[nodiscard]] const OptionList<InputOptions>& input_options();
-/// --obstacle, of commands that put all inputs on one clock.
+/// Returns the option --obstacle, for commands that put all inputs on one clock.
 [[nodiscard]] const Option<InputOptions>& obstacle_option();
 inline constexpr std::string_view kInputOperand = "INPUT...";
-/// The formats of trajectories, in the help of commands.
+/// The trajectory formats as the help texts list them.
 inline constexpr std::string_view kTrajectoryHelp =
     "a necklace: .pdb .ent .cif .mmcif .dcd .xyz .extxyz (also .gz)";
 inline constexpr std::string_view kInputHelp =
     "a necklace: .pdb .ent .cif .mmcif .dcd .xyz .extxyz (also .gz), or an instance file";
 
-/// Takes the inputs from the operands of `command`, such as kds run, when its options are read. Throws
-/// InputError if there are none, and if --chain does not fit their number. Opens no file.
+/// Takes the inputs from the operands of `command` (such as `kds run`) after its options have been read.
+/// Throws InputError if there are no inputs, or if the number of --chain lists does not fit the number of
+/// inputs. Opens no file.
 void take_inputs(const ParsedArguments& parsed, std::string_view command, InputOptions& options);
 
-/// How the input of this number is to be read: with its own chains. The obstacle comes after the inputs.
+/// Returns the reading options of input number `input`, with the chains of that input. The obstacle has the
+/// number after the last input.
 [[nodiscard]] ReadOptions reading_of(const InputOptions& options, std::size_t input);
 
-/// FIRST:LAST:STRIDE, as --frames takes it.
+/// Returns FIRST:LAST:STRIDE, as --frames takes it.
 [[nodiscard]] std::string name_of(const FrameRange& frames);
 
-/// The inputs' names without their folders, between commas.
+/// Returns the file names of the inputs without their folders, separated by commas.
 [[nodiscard]] std::string file_names(const InputOptions& options);
-/// The inputs' paths, and that of the obstacle.
+/// Returns the paths of the inputs and of the obstacle.
 [[nodiscard]] Json files_json(const InputOptions& options);
 
-/// The size of an input, as results tell it.
+/// The size of an input as results show it.
 struct InputSize {
   std::size_t beads = 0;
-  std::optional<std::size_t> necklaces = {};  ///< none: not told
+  std::optional<std::size_t> necklaces = {};  ///< empty if the result does not show it
   std::size_t frames = 0;
   int dimension = 3;
 };
-/// Files, size and the least and largest radius of an input.
+/// Returns the files, the size, and the least and largest radius of an input.
 [[nodiscard]] Json input_json(const InputOptions& options, const InputSize& size, double radius_min,
                               double radius_max);
-/// The same for `radii`, of which there is one a bead.
+/// Overload that takes the least and largest radius from `radii`, which has one entry per bead.
 [[nodiscard]] Json input_json(const InputOptions& options, InputSize size, std::span<const double> radii);
 
-/// Throws InputError where there is no regular file: pipes and devices need not end.
+/// Throws InputError unless `path` is a regular file. Pipes and devices are refused because they may never
+/// end.
 void check_exists(const std::filesystem::path& path);
 
-/// Throws likewise for the inputs, the topology and the obstacle.
+/// Throws InputError unless the inputs, the topology and the obstacle are regular files.
 void check_inputs_exist(const InputOptions& options);
 
 }  // namespace kds

@@ -1,7 +1,7 @@
 #pragma once
-// An option of a command, declared once: its name, its help, how its value is read, and the value as text. A
-// command's list of them yields its parser and its help, the settings that reports and JSON show, and the
-// command line that repeats a run.
+// An option of a command, declared once: its name, its help, a function that reads its value, and functions
+// that write the value as text and JSON. The option list of a command yields its parser, its help, the
+// settings shown in reports and JSON, and the command line that repeats a run.
 //
 //   const OptionList<UpdateOptions>& update_options() {
 //     using O = UpdateOptions;
@@ -37,19 +37,19 @@ struct Option {
   using ShowJson = std::function<Json(const Options&)>;
 
   OptionSpec spec;
-  /// Reads the value as it is given. Throws InputError that names the option.
+  /// Reads the value from the command line's text. Throws an InputError that names the option.
   Read read;
-  /// Returns the value as the option takes it, empty if there is none. No function: the option says only
-  /// where results go or how they are printed, so it is no setting.
+  /// Returns the value as the option takes it, or an empty text if there is no value. The function is null if
+  /// the option only says where results go or how they are printed: such an option is not a setting.
   Show text;
-  /// Returns the value with paths made absolute. No function: as `text`.
+  /// Returns the value with absolute paths. Null if `text` is null.
   Show text_anywhere;
-  /// Returns the value in JSON. No function: as `text`.
+  /// Returns the value in JSON. Null if `text` is null.
   ShowJson json;
-  /// The setting's name; unless changed the option's without its dashes.
+  /// The name of the setting. By default, the option's name without its dashes.
   std::string setting;
 
-  // A constructor, since g++ 12 fails on default member initializers here.
+  // g++ 12 fails on default member initializers here, hence this constructor.
   Option(OptionSpec its_spec = {}, Read its_read = {}, Show its_text = {}, Show its_text_anywhere = {},
          ShowJson its_json = {})
       : spec(its_spec),
@@ -60,14 +60,14 @@ struct Option {
         setting(spec.name.empty() ? "" : spec.name.substr(2)) {}
 };
 
-/// Options in the order of the help and of reading.
+/// A list of options, in the order in which the help shows them and the parser reads them.
 template <class Options>
 class OptionList {
  public:
   OptionList() = default;
   OptionList(std::vector<Option<Options>> options) : options_(std::move(options)) {}
 
-  /// Appends options. Those of a base class, or of a member, read into that part of the options.
+  /// Appends options. Options of a base class or of a member are read into that part of the options.
   [[nodiscard]] OptionList with(const std::vector<Option<Options>>& others) const {
     OptionList all = *this;
     all.options_.insert(all.options_.end(), others.begin(), others.end());
@@ -99,7 +99,8 @@ class OptionList {
     }
   }
 
-  /// Each setting by its name without dashes, empty where there is no value.
+  /// Returns the name (without dashes) and the text of each setting. The text is empty if the setting has no
+  /// value.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> settings(const Options& options) const {
     std::vector<std::pair<std::string, std::string>> settings;
     for (const auto& option : options_) {
@@ -107,7 +108,7 @@ class OptionList {
     }
     return settings;
   }
-  /// Adds the settings to those of `settings`, such as the operands.
+  /// Adds the settings to the members of `settings`, which may already hold others such as the operands.
   [[nodiscard]] Json settings_json(const Options& options, Json settings = Json::object()) const {
     for (const auto& option : options_) {
       if (option.text)
@@ -116,7 +117,7 @@ class OptionList {
     return settings;
   }
 
-  /// The arguments that ask for the same settings from any directory.
+  /// Returns the arguments that ask for the same settings from any directory.
   [[nodiscard]] Arguments arguments(const Options& options) const {
     Arguments arguments;
     for (const auto& option : options_) {
@@ -163,7 +164,8 @@ ParsedArguments read_arguments(const CommandSpec& command, const OptionList<Opti
   return parsed;
 }
 
-/// Makes an option one of where results go, which no report shows and no repetition needs.
+/// Marks an option as an output option: reports do not show it, and the command line that repeats a run omits
+/// it.
 template <class Options>
 [[nodiscard]] Option<Options> of_output(Option<Options> option) {
   option.text = nullptr;
@@ -172,8 +174,8 @@ template <class Options>
   return option;
 }
 
-// Options for a member `Value Options::*` or `std::optional<Value> Options::*`. A member that is no optional
-// has its default value where the option is not given.
+// Options for a member `Value Options::*` or `std::optional<Value> Options::*`. A member that is not optional
+// keeps its default value if the option is not given.
 
 namespace detail {
 
@@ -190,7 +192,8 @@ struct MemberValue<std::optional<Value>> {
 
 }  // namespace detail
 
-/// `read(text)` gives the member's value, `show(value)` its text.
+/// Returns an option for `member`: `read(text)` returns the member's value, and `show(value)` returns its
+/// text.
 template <class Options, class Member, class Read, class Show>
 [[nodiscard]] Option<Options> value_option(OptionSpec spec, Member Options::*member, Read read, Show show) {
   return {spec, [=](Options& options, const std::string& text) { options.*member = read(text); },
@@ -224,7 +227,7 @@ template <class Options, class Member>
   return option;
 }
 
-/// One of `names`, which are those of the enumerators from `first` on.
+/// Returns an option that takes one of `names`, which are the names of the enumerators from `first` on.
 template <class Options, class Member>
 [[nodiscard]] Option<Options> choice_option(OptionSpec spec, Member Options::*member,
                                             std::span<const std::string_view> names,
@@ -235,7 +238,8 @@ template <class Options, class Member>
       [](Value value) { return name_of(value); });
 }
 
-/// Words between commas, or enumerators or numbers by their text. `parse` reads the whole list.
+/// Returns an option that takes a comma-separated list of words, numbers or enumerators. `parse` reads the
+/// whole list.
 template <class Options, class Item, class Parse>
 [[nodiscard]] Option<Options> list_option(OptionSpec spec, std::vector<Item> Options::*member, Parse parse) {
   const auto text_of = [](const Item& item) {
@@ -271,7 +275,8 @@ template <class Options, class Member>
       [](const std::string& text) { return text; });
 }
 
-/// A file or directory; - is refused. The member is a path, optional or not.
+/// Returns an option that takes a file or directory. The path - is refused. The member is a path or an
+/// optional path.
 template <class Options, class Member>
 [[nodiscard]] Option<Options> path_option(OptionSpec spec, Member Options::*member) {
   using Path = std::filesystem::path;
@@ -285,7 +290,7 @@ template <class Options, class Member>
   return option;
 }
 
-/// A flag that sets a member to true.
+/// Returns a flag that sets a member to true.
 template <class Options>
 [[nodiscard]] Option<Options> flag_option(std::string_view name, std::string_view help,
                                           bool Options::*member) {
@@ -296,9 +301,9 @@ template <class Options>
           [=](const Options& options) { return Json(options.*member); }};
 }
 
-// Options that several commands have.
+// The options that several commands share.
 
-/// --out, --json and --quiet, with their help.
+/// Returns the options --out, --json and --quiet with their help.
 [[nodiscard]] inline OptionList<Destinations> destination_options(
     std::string_view out,
     std::string_view json = "write the rows to FILE; - is standard output (default: none)",
@@ -315,7 +320,7 @@ template <class Options>
                                 "name ends in .jsonl, else as CSV (default: none)"},
                                events));
 }
-/// --apart: the least distance along a chain of two of its beads that a pair may consist of.
+/// Returns the option --apart: the least distance along the chain between the two beads of a pair.
 template <class Options, class Member>
 [[nodiscard]] Option<Options> apart_option(std::string_view help, Member Options::*apart) {
   return whole_option({"--apart", "K", help}, apart, 1, 1'000'000'000);

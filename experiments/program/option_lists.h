@@ -1,5 +1,5 @@
 #pragma once
-// Options that are lists between commas.
+// Parses options whose values are comma-separated lists.
 
 #include <cstddef>
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace kds {
 
-/// Structures by name, in the order of the registry whatever the order given, so that the same set gives the
-/// same run. Throws InputError.
+/// Returns the names of structures in the order of the registry, whatever the order in `list`. A set of
+/// structures therefore always gives the same run. Throws InputError.
 [[nodiscard]] std::vector<std::string> parse_structures(const std::string& list);
 
-/// Strides, ascending. Throws InputError.
+/// Returns the strides in ascending order. Throws InputError.
 [[nodiscard]] std::vector<std::size_t> parse_strides(const std::string& list);
 
 }  // namespace kds

@@ -62,7 +62,7 @@ std::pair<std::uint64_t, std::uint64_t> parse_range(std::string_view option, std
 double parse_real(std::string_view option, std::string_view text, const RealRange& range) {
   const auto number = number_in<double>(text);
   const bool enough = number && (range.least_excluded ? *number > range.least : *number >= range.least);
-  if (enough && *number <= range.most) return *number == 0 ? 0 : *number;  // -0 too
+  if (enough && *number <= range.most) return *number == 0 ? 0 : *number;  // also turns -0 into 0
   throw InputError(fmt::format("{}: '{}' is not a number {} {}, at most {}", option, text,
                                range.least_excluded ? "above" : "from", range.least, range.most));
 }

@@ -9,7 +9,8 @@ namespace kds {
 
 namespace {
 
-// Student's t: an interval this many standard errors to either side holds 95 percent, by degrees of freedom.
+// Returns the 97.5% quantile of Student's t distribution: the interval of this many standard errors to either
+// side has 95% confidence. `freedom` is the number of degrees of freedom.
 double student_95(std::size_t freedom) {
   return quantile(boost::math::students_t(static_cast<double>(freedom)), 0.975);
 }

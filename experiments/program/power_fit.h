@@ -1,5 +1,5 @@
 #pragma once
-// A power law fitted to measurements: by which exponent one quantity grows with another.
+// Fits a power law to measurements: the exponent says how one quantity grows with another.
 
 #include <cstddef>
 #include <optional>
@@ -10,26 +10,28 @@
 
 namespace kds {
 
-/// y = factor x^exponent.
+/// The law y = factor * x^exponent.
 struct PowerFit {
   std::size_t points = 0;
-  std::size_t left_out = 0;                   ///< points that have no logarithm
-  double exponent = 0, lower = 0, upper = 0;  ///< at 95 percent, errors of log y taken to be normal
+  std::size_t left_out = 0;  ///< points without a logarithm
+  double exponent = 0, lower = 0,
+         upper = 0;  ///< 95% confidence interval, for normally distributed errors of log y
   double factor = 0;
 };
 
-/// By least squares of logarithms, of the points both of whose coordinates are above 0. None where these are
-/// fewer than three, or have one x only.
+/// Fits the law by least squares of the logarithms. Uses the points whose coordinates are both positive.
+/// Returns nothing if fewer than three such points exist or if they share one x.
 [[nodiscard]] std::optional<PowerFit> fit_power(std::span<const std::pair<double, double>> points);
 
-/// The same line, its interval by jackknife: from the exponents of the points as they are without one of
-/// several equal shares of the measurements. It tells how the exponent wanders when these are repeated, also
-/// where points are no lines or not equally sure. None where one of the lines is none.
+/// Fits the same law and computes the interval by the jackknife. Each element of `without_a_share` has the
+/// points as they are when one of several equal shares of the measurements is left out; the interval comes
+/// from the exponents of these fits. It says how much the exponent varies when the measurements are repeated,
+/// even if the points do not lie on a line or have unequal errors. Returns nothing if one of the fits fails.
 [[nodiscard]] std::optional<PowerFit> fit_power(
     std::span<const std::pair<double, double>> points,
     std::span<const std::vector<std::pair<double, double>>> without_a_share);
 
-/// "1.334 (95%: 1.331 to 1.337)", and how many points were left out if any.
+/// Returns "1.334 (95%: 1.331 to 1.337)", followed by the number of points left out if there are any.
 [[nodiscard]] std::string exponent_text(const PowerFit& fit);
 
 }  // namespace kds

@@ -26,7 +26,7 @@ std::string progress_line(std::string_view counted, std::size_t done, double wit
                           double seconds) {
   const double part = std::clamp((static_cast<double>(done) + within) / static_cast<double>(total), 0.0, 1.0);
   const auto filled = static_cast<std::size_t>(part * kWidth);
-  constexpr double soonest = 2;  // an earlier guess would jump
+  constexpr double soonest = 2;  // an earlier estimate would be unstable
   std::string left;
   if (seconds >= soonest && part > 0 && part < 1)
     left = fmt::format(", about {} left", duration(seconds * (1 - part) / part));

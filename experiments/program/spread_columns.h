@@ -1,5 +1,5 @@
 #pragma once
-// Columns for what several rounds gave.
+// Table columns for a quantity that was measured in several rounds.
 
 #include <functional>
 #include <optional>
@@ -11,7 +11,8 @@
 
 namespace kds {
 
-/// KEY, KEY_least and KEY_most in JSON and CSV. People read "median (least to most)" in one column.
+/// Returns the columns KEY, KEY_least and KEY_most for JSON and CSV. Tables for people show "median (least to
+/// most)" in one column.
 template <class Row>
 std::vector<Column<Row>> spread_columns(const std::string& key, const std::string& heading,
                                         const std::function<std::optional<Spread>(const Row&)>& spread) {
