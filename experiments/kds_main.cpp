@@ -63,7 +63,7 @@ std::string program_help() {
          "exit codes: 0 success, 1 internal failure or failed audit, 2 wrong usage or input\n";
 }
 
-// For a word that is no command but the name of a structure.
+// Returns a suggestion if a word is not a command but the name of a structure.
 std::string suggested_run(const std::string& name) {
   std::vector<std::string_view> structures;
   for (const StructureSpec& structure : structure_registry().all()) structures.push_back(structure.name);
@@ -85,7 +85,7 @@ const Command& command_of(const std::string& name) {
       fmt::format("unknown {} '{}'{} (see kds --help)", is_option ? "option" : "command", name, advice));
 }
 
-// kds help, kds help COMMAND
+// Handles `kds help` and `kds help COMMAND`.
 int help(const Arguments& of) {
   if (of.empty()) throw HelpRequest{program_help()};
   if (of.size() > 1)
@@ -102,7 +102,7 @@ int run_program(const Arguments& arguments) {
   return name == "help" ? help(rest) : command_of(name).run(rest);
 }
 
-// Without a throw: standard error may be closed.
+// Does not throw, since standard error may be closed.
 void complain(const std::string& message) { std::fputs(fmt::format("kds: {}\n", message).c_str(), stderr); }
 
 int guarded(int argc, char** argv) {
@@ -117,8 +117,9 @@ int guarded(int argc, char** argv) {
   }
 }
 
-// A standard stream that is closed would lend its number to the next file, and messages end up in there: let
-// it fail instead. A file that grows beyond a limit is an error, not the end.
+// Opens /dev/null for each closed standard stream. Otherwise the next file opened would get the stream's
+// descriptor, and messages would be written into that file. Writing to /dev/null opened for reading fails
+// instead. A file that exceeds the size limit then causes an error instead of ending the program.
 void prepare_process() {
   for (const int stream : {0, 1, 2})
     if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) static_cast<void>(::open("/dev/null", O_RDONLY));
@@ -136,7 +137,8 @@ int kds_main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     complain("out of memory");
   } catch (const std::exception& error) {
-    complain(error.what());  // a failed audit tells in several lines how to repeat it
+    complain(
+        error.what());  // the message of a failed audit has several lines, which say how to repeat the run
   } catch (...) {
     complain("unknown failure");
   }

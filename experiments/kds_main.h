@@ -1,9 +1,9 @@
 #pragma once
-// The program as a function, for programs that add structures, readers or certificates of their own to it.
+// The program as a function, for programs that add their own structures, readers or certificates.
 
 namespace kds {
 
-/// Finds the command, and turns what goes wrong into one line and an exit code.
+/// Runs the command that `argv` names. Turns each error into a one-line message and an exit code.
 [[nodiscard]] int kds_main(int argc, char** argv);
 
 }  // namespace kds

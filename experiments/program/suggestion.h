@@ -1,5 +1,5 @@
 #pragma once
-// Suggests the name that a mistyped word was probably meant to be.
+// Suggests the name that a mistyped word probably stands for.
 
 #include <optional>
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace kds {
 
-/// Returns the nearest of the names by edit distance: insertions, deletions, substitutions and exchanges of
-/// neighbours, without regard to case. Otherwise returns a name that begins or ends with the word, or
-/// nothing.
+/// Returns the nearest of the names by edit distance, without regard to case. The distance counts insertions,
+/// deletions, substitutions and exchanges of neighbours. If no name is near, returns a name that begins or
+/// ends with the word, or nothing.
 [[nodiscard]] std::optional<std::string_view> nearest_name(std::string_view word,
                                                            std::span<const std::string_view> names);
 

@@ -1,9 +1,9 @@
 #pragma once
-// The frame of a command whose result is a table: destinations, progress bar, warnings, and results as
-// NAME.json, NAME.csv and report.html in --out, as --json and on standard output.
+// The common part of every command whose result is a table: destinations, progress bar, warnings and output.
+// It writes results as NAME.json, NAME.csv and report.html in --out, to --json and to standard output.
 //
 //   TableCommand command("update", arguments, options, "round");
-//   command.check_destinations(taken);          // before anything is read
+//   command.check_destinations(taken);          // before any input is read
 //   const auto rows = measure(command.warn(), command.progress());
 //   Json json{{"settings", ...}, {"rows", ...}, {"warnings", command.warnings()}};
 //   command.deliver(json, csv, table, [&](Page page) { return update_page(rows, page); });
@@ -30,42 +30,43 @@ class TableCommand {
   using Warn = HeldWarnings::Warn;
   using PageOf = std::function<std::string(Page)>;
 
-  /// `counted` names what the progress bar counts.
+  /// `counted` names the unit that the progress bar counts.
   TableCommand(std::string name, const Arguments& arguments, Destinations destinations,
                std::string_view counted);
 
-  /// Throws InputError if a result could not be written later, or would replace another result or a file that
-  /// is taken. --out gets NAME.json, NAME.csv and report.html.
+  /// Throws InputError if a result could not be written later, or would replace another result or a file in
+  /// `taken`. The files in --out are NAME.json, NAME.csv and report.html.
   void check_destinations(TakenPaths taken = {}) const;
-  /// The same for a command that reads these inputs. Throws InputError also if one does not exist.
+  /// Checks the destinations of a command that reads these inputs. Throws InputError also if an input does
+  /// not exist.
   void check_inputs_and_destinations(const InputOptions& inputs) const;
-  /// The same as check_destinations for a command that writes `files` into --out. Checks that report.html, if
-  /// it is among them, can be made.
+  /// Checks the destinations of a command that writes `files` into --out. If report.html is among the files,
+  /// also checks that the page can be made.
   void check_destinations(TakenPaths taken, const std::vector<std::string>& files) const;
 
   [[nodiscard]] ProgressBar& bar() { return bar_; }
   [[nodiscard]] Progress progress() {
     return [this](std::size_t done, std::size_t total) { bar_.update(done, total); };
   }
-  /// Takes a warning and keeps it, since the input may yet be refused.
+  /// Returns a function that keeps warnings back, because the input may still be refused.
   [[nodiscard]] Warn warn() { return held_.hold(); }
-  /// Prints the warnings that were kept, and returns them.
+  /// Prints the warnings that were kept back, and returns them.
   [[nodiscard]] std::vector<std::string> warnings();
 
   /// The command with its arguments, quoted for a shell.
   [[nodiscard]] const std::string& command_line() const { return command_line_; }
-  /// A page that is yet to be filled: how it was made, and which data files lie beside it.
+  /// Returns a page without content that says how it was made and which data files lie beside it.
   [[nodiscard]] Page page(Json settings, std::vector<std::string> data = {}) const;
 
-  /// Adds command, version and machine to `json`, whose member `settings` the page shows too, and writes all
-  /// results. The files of --out appear together. The table is printed unless --quiet is given or the JSON
-  /// goes to standard output.
+  /// Adds command, version and machine to `json` and writes all results. The page also shows the member
+  /// `settings` of `json`. The files in --out appear together. The table is printed unless --quiet is given
+  /// or the JSON goes to standard output.
   void deliver(Json json, const std::string& csv, const std::string& table, const PageOf& page_of = {}) const;
 
-  /// The same for several CSV files, each by its name.
+  /// Delivers several CSV files, given as pairs of name and content.
   using Csvs = std::vector<std::pair<std::string, std::string>>;
   void deliver(Json json, const Csvs& csvs, const std::string& table, const PageOf& page_of = {}) const;
-  /// The same where the JSON is text already.
+  /// Delivers a result whose JSON is already text.
   void deliver_text(const std::string& json, const Json& settings, const Csvs& csvs, const std::string& table,
                     const PageOf& page_of) const;
 

@@ -12,16 +12,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Also of what does not exist yet; where a path cannot be followed, opening it will tell.
+// Returns the absolute path with symbolic links followed, even if the path does not exist yet. If a path
+// cannot be resolved, the later attempt to open it reports the error.
 fs::path place_of(const fs::path& path) {
   std::error_code lost;
   fs::path whole = fs::absolute(path, lost);
   constexpr int most_links = 40;
-  for (int links = 0; links < most_links && fs::is_symlink(whole, lost); ++links)  // to what is not there yet
+  for (int links = 0; links < most_links && fs::is_symlink(whole, lost); ++links)  // links to missing files
     whole = whole.parent_path() / fs::read_symlink(whole, lost);
   const fs::path found = fs::weakly_canonical(whole, lost);
   const fs::path place = (lost ? whole : found).lexically_normal();
-  return place.has_filename() ? place : place.parent_path();  // a/ is a
+  return place.has_filename() ? place : place.parent_path();  // a/ becomes a
 }
 
 bool same_file(const fs::path& a, const fs::path& b) {
@@ -29,7 +30,7 @@ bool same_file(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, error) || place_of(a) == place_of(b);
 }
 
-// Whether one path is the other, or that of a directory above it.
+// Returns whether `path` is `directory` or a directory above it.
 bool leads_to(const fs::path& path, const fs::path& directory) {
   const fs::path start = place_of(path), whole = place_of(directory);
   return std::mismatch(start.begin(), start.end(), whole.begin(), whole.end()).first == start.end();

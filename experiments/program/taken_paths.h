@@ -1,5 +1,5 @@
 #pragma once
-// A result must not replace what it was computed from, nor another result.
+// Refuses outputs that would replace an input or another output of the same command.
 
 #include <filesystem>
 #include <initializer_list>
@@ -15,24 +15,25 @@ namespace kds {
 
 class TakenPaths {
  public:
-  /// A file that is read, or written by someone else; `owner` names it in messages.
+  /// Registers a file that is read, or that another part of the program writes. `owner` names it in messages.
   void add(std::string owner, const std::filesystem::path& path) {
     taken_.emplace_back(std::move(owner), path);
   }
-  /// The files that are read.
+  /// Registers the files that are read.
   void read(const InputOptions& options);
-  /// All files in a folder, of which some are read.
+  /// Registers all files in a folder from which some are read.
   void read_folder(const std::string& owner, const std::filesystem::path& folder);
-  /// What --json says: a file as `write` has it, or - for standard output, which may be a file too.
+  /// Registers the destination of --json: a file, as `write` does, or - for standard output, which may itself
+  /// be redirected to a file.
   void write_json(const std::string& destination);
-  /// A file to be written. Throws InputError where it is another's, or is to be a directory; devices are for
-  /// all.
+  /// Registers a file that will be written. Throws InputError if the file is already registered or is
+  /// registered as a directory. Devices may be shared.
   void write(const std::string& option, const std::filesystem::path& path);
-  /// A directory, and files of these names to be written there. Throws InputError likewise, and where the
-  /// directory, or one that it is to be made in, is to be a file.
+  /// Registers a directory and files with these names that will be written in it. Throws InputError as
+  /// `write` does, and also if the directory or one of its parents is registered as a file.
   void write_into(const std::string& option, const std::filesystem::path& directory,
                   std::initializer_list<std::string_view> names = {});
-  /// The files that `deliver` writes.
+  /// Registers the files that `deliver` writes.
   void write(const Destinations& destinations);
 
  private:

@@ -16,7 +16,7 @@ class RepeatedWork {
     constexpr double least = 1e-3;
     double once = work_();
     const bool is_short = once < least;
-    if (is_short) once = work_();  // caches are warm
+    if (is_short) once = work_();  // fills the caches
     calls_ = static_cast<std::size_t>(std::max(1.0, least / std::max(once, 1e-9)));
     if (!is_short) seconds_.push_back(once);
     only_once_ = once > enough;
@@ -32,7 +32,7 @@ class RepeatedWork {
 
  private:
   std::function<double()> work_;
-  std::size_t calls_ = 1;  // in a round
+  std::size_t calls_ = 1;  // per round
   bool only_once_ = false;
   std::vector<double> seconds_;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// Times of ours and of a peer in turn: machines drift, so a claim is a ratio of medians beside each other. Of
-// the processor, but for work that threads share.
+// Measures our code and a peer in turn. Because the speed of a machine drifts, a claim is a ratio of medians
+// measured side by side. The time is processor time, except for work that several threads share.
 
 #include <algorithm>
 #include <cstddef>
@@ -23,7 +23,7 @@ inline double median_of(std::vector<double> values) {
   return *middle;
 }
 
-/// What several rounds gave.
+/// Median, least and largest of several rounds.
 struct Spread {
   double median = 0, least = 0, most = 0;
 };
@@ -32,20 +32,20 @@ inline Spread spread_of(const std::vector<double>& values) {
   return {median_of(values), *least, *most};
 }
 
-/// "0.210 (0.204 to 0.233)"; of one round, which has no spread, "0.210".
+/// Returns "0.210 (0.204 to 0.233)", or "0.210" for a single round, which has no spread.
 [[nodiscard]] std::string spread_text(const Spread& spread);
 
-/// Seconds of a call, as `work` reports them. Short work is called often enough in a round to be measured,
-/// and once before, for caches; of longer work the first call is the first round. Work that takes more than
-/// `enough` seconds is called once in all.
+/// Returns the seconds per call, as `work` reports them. Short work is repeated within a round until the
+/// round is long enough to measure, after one call that fills the caches. For longer work the first call is
+/// the first round. Work that takes more than `enough` seconds is called only once.
 [[nodiscard]] Spread repeated_seconds(std::size_t rounds, std::function<double()> work, double enough = 1);
 
-/// The same of each work in turn, for machines drift: its seconds by round.
+/// Runs the works in turn, since the speed of a machine drifts. Returns the seconds of each work by round.
 [[nodiscard]] std::vector<std::vector<double>> seconds_in_turn(std::size_t rounds,
                                                                std::vector<std::function<double()>> works);
 
-/// How many times as long as the others a work took, round by round. What was called once stands beside every
-/// round of the other.
+/// Returns the ratio of `seconds` to `others`, round by round. A work that was called only once is compared
+/// with every round of the other.
 [[nodiscard]] Spread ratios_by_round(const std::vector<double>& seconds, const std::vector<double>& others);
 
 }  // namespace kds

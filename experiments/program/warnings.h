@@ -1,5 +1,6 @@
 #pragma once
-// Warnings share standard error with the progress bar, and wait until no error can come from the input.
+// Prints warnings, which share standard error with the progress bar. Warnings about the input are held back
+// until the input can no longer be refused.
 
 #include <functional>
 #include <string>
@@ -9,19 +10,20 @@
 
 namespace kds {
 
-/// One line; the bar makes room for it.
+/// Prints one line. The progress bar is erased first.
 void print_warning(ProgressBar& bar, const std::string& warning);
 
-/// Warnings about an input that may yet be refused: an error comes alone.
+/// Holds warnings about an input that may still be refused. If the input is refused, only the error is
+/// printed.
 class HeldWarnings {
  public:
   using Warn = std::function<void(const std::string&)>;
 
-  /// Takes a warning and keeps it; to be used while this lives.
+  /// Returns a function that holds a warning. It must not be called after this object is destroyed.
   [[nodiscard]] Warn hold() {
     return [this](const std::string& warning) { held_.push_back(warning); };
   }
-  /// Passes on all that were held, in order.
+  /// Passes on all held warnings in order.
   void release(const Warn& warn) {
     for (const std::string& warning : held_) warn(warning);
     held_.clear();
