@@ -25,7 +25,7 @@ std::unique_ptr<SceneStream> frames_of(const RunOptions& options, std::size_t st
   return std::make_unique<SceneStream>(open_frames(input, [](const std::string&) {}));
 }
 
-/// All contacts of the run, with these radii.
+/// Returns all contacts of the run with these radii.
 std::shared_ptr<const MetContacts> contacts_met(const RunOptions& options, const SceneSurvey& survey,
                                                 std::vector<double> radii,
                                                 const std::optional<double>& tolerance) {
@@ -35,7 +35,7 @@ std::shared_ptr<const MetContacts> contacts_met(const RunOptions& options, const
   RunOptions contacts;
   contacts.structures = {"contacts"};
   contacts.kernel =
-      options.kernel == Kernel::exact ? Kernel::exact : Kernel::filtered;  // none but these is sure
+      options.kernel == Kernel::exact ? Kernel::exact : Kernel::filtered;  // only these kernels are certain
   contacts.apart = options.apart;
   const auto run = open_run(contacts, scene, AuditMode::none);
   auto met = std::make_shared<MetContacts>();
@@ -94,7 +94,7 @@ StrideCertificate certify_stride(const RunOptions& options, const Scene& scene) 
   StrideCertificate certificate;
   certificate.deviation =
       deviation_of_stride(scene, *frames_of(options, 1), stride,
-                          stride == 1 ? tolerance : std::nullopt);  // proved of all frames
+                          stride == 1 ? tolerance : std::nullopt);  // proved for all frames
   const auto& names = options.structures;
   if (std::find(names.begin(), names.end(), "contacts") != names.end())
     bound_contacts(options, scene, tolerance, certificate);

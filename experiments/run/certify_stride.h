@@ -1,14 +1,14 @@
 #pragma once
-// What a run of every so-manieth frame may have missed: the frames it left out are read for the deviation
-// alone (motions/scene/stride_deviation.h), and contacts are looked for again with balls made larger and
-// smaller by each bead's own.
+// Bounds the contacts that a run with a stride may have missed or invented. The frames left out are read only
+// for the deviation of each bead (motions/scene/stride_deviation.h). Contacts are then computed again with
+// each ball enlarged, and again with each ball shrunk, by its bead's deviation.
 //
-// Taken for the truth are the beads of all frames up to the run's last one, in linear motion between them. At
-// any time a bead is within its deviation of where the run has it, so that the distance of two changes by at
-// most the sum of theirs. A pair that comes within the sum of its radii there is in contact in the run with
-// balls so much larger: it is *possible*. A pair in contact in the run with balls so much smaller is in
-// contact there, at that time: it is *sure*. So it is with each contact of a pair by itself (met_contacts.h).
-// Deviations are rounded up, radii outward.
+// The truth is the linear motion between all frames up to the run's last one. At any time the true position
+// of a bead lies within its deviation of its position in the run, so the distance of two beads changes by at
+// most the sum of their deviations. A pair that truly comes within the sum of its radii is therefore in
+// contact in the run with enlarged balls: the pair is *possible*. A pair in contact in the run with shrunk
+// balls is truly in contact at that time: the pair is *sure*. The argument holds for each single contact of a
+// pair too (met_contacts.h). Deviations are rounded up and radii outward.
 
 #include <cstdint>
 #include <memory>
@@ -24,21 +24,21 @@
 
 namespace kds {
 
-/// Pairs of beads that are in contact at some time, the lower one first.
+/// Pairs of beads that are in contact at some time. The lower bead comes first.
 using PairsMet = std::set<std::pair<BeadId, BeadId>>;
 
 struct ContactBounds {
-  PairsMet found;     ///< by the run; all sure ones are among them, and they among the possible
-  PairsMet sure;      ///< in contact in truth
-  PairsMet possible;  ///< no other pair is in contact in truth, up to the run's last frame
+  PairsMet found;     ///< found by the run; contains `sure`, lies within `possible`
+  PairsMet sure;      ///< truly in contact
+  PairsMet possible;  ///< contains every pair truly in contact up to the run's last frame
 };
 
-/// Contacts of a run, with a flag for each.
+/// The contacts of a run, with a flag for each.
 struct ContactList {
   std::shared_ptr<const MetContacts> met;
-  std::vector<std::uint8_t> flags;  ///< of the contacts
+  std::vector<std::uint8_t> flags;  ///< one per contact
 
-  /// Calls `visit(event, flag)` for begin, end and touch of the contacts, in order.
+  /// Calls `visit(event, flag)` for the begin, end and touch events of the contacts, in order.
   template <class Visit>
   void for_each_event(const Visit& visit) const {
     if (met)
@@ -47,23 +47,24 @@ struct ContactList {
   }
 };
 struct ContactLists {
-  /// By the run, or with the kernel fast by one that is exact; whether it is sure: in truth its beads meet
-  /// during this contact.
+  /// The contacts that the run found. If the run uses the kernel `fast`, an exact run finds them instead. The
+  /// flag says whether the contact is sure: its beads truly meet during this contact.
   ContactList found;
-  /// Any contact there is in truth lies within one of these; whether the run has certainly found one in it.
+  /// Contacts such that each true contact lies within one of them. The flag says whether the run certainly
+  /// found a contact within this one.
   ContactList possible;
 };
 
 struct StrideCertificate {
   StrideDeviation deviation;
-  std::optional<ContactBounds> contacts;  ///< where the run has them
-  ContactLists listed;                    ///< likewise, else empty
+  std::optional<ContactBounds> contacts;  ///< only if the run has contacts
+  ContactLists listed;                    ///< empty if the run has no contacts
 };
 
-/// Throws InputError where the run leaves out no frame, or its input has none. `scene` is the run's.
+/// Certifies a run over `scene`. Throws InputError if the run leaves out no frame or its input has no frames.
 [[nodiscard]] StrideCertificate certify_stride(const RunOptions& options, const Scene& scene);
 
-/// Throws InputError where --certify has nothing to certify.
+/// Throws InputError if --certify has nothing to certify.
 void refuse_needless_certificate(const RunOptions& options);
 
 }  // namespace kds

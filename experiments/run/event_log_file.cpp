@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view first_line = "kds event log 2", first_line_before = "kds event log 1";
 
-// Reads a line's fields one by one; a field that does not fit is an InputError.
+// Reads the fields of a line one by one. Throws InputError if a field does not fit.
 class Fields {
  public:
   Fields(std::string_view line, const LineReader& lines) : rest_(line), lines_(lines) {}
@@ -54,7 +54,7 @@ class Fields {
   const LineReader& lines_;
 };
 
-// The second line: what the run was asked to do, and what it ran on.
+// Reads the second line of the log, which says what the run was asked to do and on which input.
 bool read_header(const Json& json, EventLogHeader& header) {
   const Json* version = json.find("version");
   const Json* arguments = json.find("arguments");
@@ -147,7 +147,7 @@ std::string EventLogReader::where() const { return fmt::format("{}:{}", lines_.n
 const EventLogReader::Entry* EventLogReader::next() {
   if (ended_) return nullptr;
   for (std::string_view line; lines_.next(line);) {
-    if (lines_.cut()) break;  // the last line has its end, too
+    if (lines_.cut()) break;  // even the last line must be complete
     if (line.starts_with("end ")) {
       read_end(line);
       return nullptr;

@@ -1,15 +1,16 @@
 #pragma once
-// The event log as a file: text, one event a line, written whole or not at all, and read line by line.
+// The event log as a text file with one event per line. The file is written whole or not at all, and read
+// line by line.
 //
 //   kds event log 2
 //   {"version": ..., "arguments": [...], "beads": ..., "steps": ...}
 //   STEP STRUCTURE KIND LOWER UPPER ID...
-//   step STEP EVENTS HASH                          (behind the events of each step that has some)
+//   step STEP EVENTS HASH                          (after the events of each step that has events)
 //   end EVENTS FINGERPRINT
 //
-// The time of an event lies strictly between LOWER and UPPER, or equals both. HASH is of the step's lines, so
-// that a line that the run did not write is noticed. The arguments are those of kds run. Version 1 had no
-// hashes: nothing told its times from others, and it is refused.
+// The time of an event lies strictly between LOWER and UPPER, or equals both. HASH is a hash of the step's
+// lines, so that a line which the run did not write is detected. The arguments are the arguments of kds run.
+// Version 1 had no hashes to detect changed times, so the reader refuses it.
 
 #include <cstdint>
 #include <filesystem>
@@ -29,7 +30,7 @@ class EventLogWriter final : public EventListener {
  public:
   EventLogWriter(const std::filesystem::path& path, const RunOptions& options, const Scene& scene);
   void on_event(const Event& event) override;
-  /// Ends the log.
+  /// Writes the last line of the log.
   void end(std::uint64_t fingerprint);
   [[nodiscard]] Staged& staged() { return file_; }
 
@@ -38,26 +39,26 @@ class EventLogWriter final : public EventListener {
 
   AtomicFile file_;
   std::uint64_t events_ = 0;
-  std::size_t step_ = 0;           ///< of the events below
-  std::uint64_t step_events_ = 0;  ///< none yet: 0
+  std::size_t step_ = 0;           ///< step of the events counted in step_events_
+  std::uint64_t step_events_ = 0;  ///< 0 before the step's first event
   Fingerprint step_hash_;
 };
 
-/// What a log says of its run before any event.
+/// The header of a log: what it says about its run before the first event.
 struct EventLogHeader {
-  std::string version;  ///< of the program that wrote it; empty: unknown
+  std::string version;  ///< of the program that wrote the log; empty if unknown
   std::vector<std::string> arguments;
   std::size_t beads = 0;
   std::size_t steps = 0;
 };
 
-/// Reads a log event by event. Throws InputError naming the file and line.
+/// Reads a log event by event. Throws an InputError that names the file and line.
 class EventLogReader {
  public:
   explicit EventLogReader(const std::filesystem::path& path);
 
   struct Entry {
-    std::size_t line = 0;  ///< from 1
+    std::size_t line = 0;  ///< counted from 1
     std::size_t step = 0;
     std::string structure, kind;
     double lower = 0, upper = 0;
@@ -65,11 +66,11 @@ class EventLogReader {
   };
 
   [[nodiscard]] const EventLogHeader& header() const { return header_; }
-  /// The next event; null behind the last one. It lasts until the next call.
+  /// Returns the next event, or null after the last event. The pointer is valid until the next call.
   [[nodiscard]] const Entry* next();
-  /// At the end: what the last line says.
+  /// The fingerprint in the last line. Valid at the end of the log.
   [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_; }
-  /// Read so far.
+  /// Number of events read so far.
   [[nodiscard]] std::uint64_t events() const { return events_; }
 
  private:
@@ -82,7 +83,7 @@ class EventLogReader {
   EventLogHeader header_;
   Entry entry_;
   std::uint64_t events_ = 0, step_events_ = 0;
-  std::size_t first_free_step_ = 0;  ///< whose events have not ended
+  std::size_t first_free_step_ = 0;  ///< the first step whose events have not ended
   Fingerprint step_hash_;
   bool ended_ = false;
   std::uint64_t fingerprint_ = 0;

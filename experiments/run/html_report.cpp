@@ -79,7 +79,7 @@ std::string table(const RunReport& report) {
   return html_table(columns, rows);
 }
 
-// The frame at which a bin ends.
+// Returns the frame at which a bin ends.
 double end_of(const RunReport& report, const std::vector<EventBin>& bins, std::size_t b) {
   if (b + 1 < bins.size()) return static_cast<double>(bins[b + 1].first_frame);
   return static_cast<double>(report.last_frame ? report.last_frame->number

@@ -1,5 +1,5 @@
 #pragma once
-// report.html: one page with the table and the plots, complete in itself.
+// Writes report.html: one self-contained page with the table and the plots.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace kds {
 
-/// `data`: names of the files beside it.
+/// `data` has the names of the files that lie beside the page.
 [[nodiscard]] std::string html_report(const RunReport& report, const std::vector<std::string>& data = {});
 
 }  // namespace kds

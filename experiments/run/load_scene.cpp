@@ -36,10 +36,10 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
 
 namespace {
 
-/// The atoms of an input, for telling whether two inputs have the same ones.
+/// The atoms of an input, used to decide whether two inputs have the same atoms.
 struct InputAtoms {
   std::filesystem::path file;
-  std::vector<std::string> names;  // of beads; empty where the file names none
+  std::vector<std::string> names;  // bead names; empty if the file has none
   std::size_t beads = 0;
   bool one_frame = false;
 };
@@ -59,8 +59,8 @@ bool takes_topology(const std::filesystem::path& file) {
   return reader != nullptr && reader->takes_topology;
 }
 
-// Returns whether a file of one frame has the atoms of another: the same bead names or, if the other has no
-// names, as many beads or atoms.
+// Returns whether a file with one frame has the atoms of `other`: their bead names agree or, if `other` has
+// no names, their numbers of beads or atoms agree.
 bool has_atoms_of(const InputAtoms& one, const InputAtoms& other, const ReadOptions& reading) {
   if (one.names.empty()) return false;
   if (!other.names.empty()) return one.names == other.names;
@@ -68,8 +68,8 @@ bool has_atoms_of(const InputAtoms& one, const InputAtoms& other, const ReadOpti
          read_topology(one.file, reading.selection, reading.chain).atom_count == other.beads;
 }
 
-// A structure file of several models beside a trajectory of its atoms that has no names: the file is more
-// likely meant to name them than to be a second necklace.
+// Throws InputError if a structure file with several models accompanies a trajectory of its atoms that has no
+// names. The file is more likely meant to name the atoms than to be a second necklace.
 void check_models_are_no_topology(const std::vector<InputAtoms>& inputs, const InputOptions& options) {
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     for (const InputAtoms& other : inputs) {
@@ -181,7 +181,7 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
 
 namespace {
 
-// Between frames there is nothing to log or to audit.
+// Throws InputError if --log, --events or --audit events is given for chord cages, which have no events.
 void refuse_events_of_chords(const RunOptions& options, const SessionOptions& session) {
   const char* const asked = options.log                           ? "--log"
                             : options.events                      ? "--events"
@@ -196,7 +196,9 @@ void refuse_events_of_chords(const RunOptions& options, const SessionOptions& se
   }
 }
 
-// The end that --nodes FIRST: leaves open is the largest number. Where no bead is left, no node is.
+// Throws InputError if the range of --nodes ends beyond the last bead. The open end of --nodes FIRST: is
+// stored as the largest number and is accepted. A range that starts beyond the last bead selects no node and
+// is refused later.
 void refuse_nodes_behind_the_beads(const RunOptions& options, const Scene& scene) {
   if (!options.nodes.beads) return;
   const auto [first, last] = *options.nodes.beads;

@@ -1,5 +1,5 @@
 #pragma once
-// From the inputs of a run to its scene.
+// Builds the scene of a run from its inputs.
 
 #include <functional>
 #include <memory>
@@ -14,40 +14,42 @@
 
 namespace kds {
 
-/// The only input if it is an instance file, read. Throws InputError where there are more, and where an
-/// option has no meaning for it.
+/// Reads the only input if it is an instance file, else returns nothing. Throws InputError if an instance
+/// file comes with other inputs, or with an option that has no meaning for it.
 [[nodiscard]] std::optional<Instance> read_lone_instance(const InputOptions& options);
 
-/// Opens all inputs, then the obstacle, to be read frame by frame: every `stride`-th of the frames that the
-/// options ask for. No input may be an instance file.
+/// Opens all inputs and then the obstacle, to be read frame by frame. Reads every `stride`-th frame of the
+/// frames that the options ask for. No input may be an instance file.
 ///
-/// Throws InputError if an input of one frame has the atoms of an input with more frames: an option must
-/// say whether that input names atoms or is an obstacle. Any other input of one frame rests, and a line to
-/// `warn` says so.
+/// Throws InputError if an input with one frame has the atoms of an input with more frames: an option must
+/// say whether that input names atoms or is an obstacle. Any other input with one frame is at rest, and a
+/// line to `warn` says so.
 [[nodiscard]] SceneStream open_frames(const InputOptions& options,
                                       const std::function<void(const std::string&)>& warn,
                                       std::size_t stride = 1);
 
-/// Reads all inputs, none of them an instance file; warnings, one line each, go to `warn`. Throws InputError
-/// for inputs of one frame likewise.
+/// Reads all inputs, none of which is an instance file. Each warning goes to `warn` as one line. Throws
+/// InputError for inputs with one frame, as open_frames does.
 [[nodiscard]] std::vector<Trajectory> read_necklaces(const InputOptions& options,
                                                      const std::function<void(const std::string&)>& warn);
 
-/// Reads all inputs once, and opens them for the run: frames are read as it goes on. Warnings, one line each,
-/// go to `warn`. Throws InputError for whatever is wrong with an input.
+/// Reads all inputs once, then opens them for the run, which reads frames as it proceeds. Each warning goes
+/// to `warn` as one line. Throws InputError for any fault of an input.
 [[nodiscard]] Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
                                    const std::function<void(const std::string&)>& warn,
                                    const std::optional<MotionTolerance>& tolerance = {});
-/// The same as `kds run` has it, of an instance file too.
+/// Loads the scene of a `kds run`, whose input may also be an instance file.
 [[nodiscard]] Scene load_scene(const RunOptions& options,
                                const std::function<void(const std::string&)>& warn);
 
-/// Above this degree functions of relaxed spheres have too high a degree.
+/// Relaxed spheres are refused above this degree of the motion, because the degree of their functions would
+/// be too high.
 inline constexpr int highest_relaxed_degree = 7;
-/// Above this degree nothing is compiled for lanes.
+/// The SIMD lanes are compiled only up to this degree of the motion.
 inline constexpr int highest_fast_degree = 3;
 
-/// The run of structures that the options ask for, the input's default filled in. Throws InputError.
+/// Opens the run with the structures that the options ask for. If the options name none, the input's default
+/// structures are used. Throws InputError.
 [[nodiscard]] std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene,
                                                    AuditMode audits);
 

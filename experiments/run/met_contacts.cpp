@@ -6,7 +6,7 @@ namespace kds {
 
 namespace {
 
-// The end of a step is the start of the next.
+// The end of a step equals the start of the next step.
 MetContacts::Moment moment_of(const Event& event, double u) {
   return u < 1 ? MetContacts::Moment{event.step, u} : MetContacts::Moment{event.step + 1, 0};
 }

@@ -1,10 +1,11 @@
 #pragma once
-// The contacts of a run, each a stretch of time from its begin to its end, and which of them last while
-// another run of the same motion, with smaller balls, has one of the same beads.
+// Records the contacts of a run. Each contact is an interval of time from its begin to its end. `holding`
+// then tells which contacts contain a contact of the same beads in another run of the same motion with
+// smaller balls.
 //
-// Balls that are smaller meet only while the larger ones do, so that a contact of the smaller lies within one
-// of the larger, and within one alone. Times are known by brackets: where those leave several to choose from,
-// none is said to hold it.
+// Smaller balls meet only while the larger balls meet, so a contact of the smaller balls lies within exactly
+// one contact of the larger balls. Times are known only as brackets. If the brackets leave several
+// candidates, no candidate is reported as the container.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,19 +24,20 @@ namespace kds {
 class MetContacts final : public EventListener {
  public:
   using Pair = std::pair<BeadId, BeadId>;
-  /// A step, and a time in it before its end.
+  /// A step, and a time within the step before its end.
   using Moment = std::pair<std::size_t, double>;
   struct Contact {
     Pair pair;
-    Moment earliest;                                            ///< it begins then or later
-    Moment latest{std::numeric_limits<std::size_t>::max(), 0};  ///< and ends by then, or with the run
+    Moment earliest;  ///< lower bound of the begin
+    Moment latest{std::numeric_limits<std::size_t>::max(),
+                  0};  ///< upper bound of the end; the default means the end of the run
   };
 
   void on_event(const Event& event) override;
-  /// Its events are printed after the run.
+  /// Returns true because the events are printed after the run.
   [[nodiscard]] bool prints_time_of(const Event&) const override { return true; }
 
-  /// Calls `visit(event, contact)` for the events in order, `contact` the place of the event's contact.
+  /// Calls `visit(event, contact)` for the events in order. `contact` is the index of the event's contact.
   template <class Visit>
   void for_each_event(const Visit& visit) const {
     events_.for_each([&](const OfContact& record) { visit(record.event, record.contact); });
@@ -47,12 +49,12 @@ class MetContacts final : public EventListener {
     Event event;
     std::size_t contact;
   };
-  SpooledRecords<OfContact> events_;  // on disk, as there are many
-  std::vector<Contact> contacts_;     // in the order of their begins
-  std::map<Pair, std::size_t> open_;  // those without an end
+  SpooledRecords<OfContact> events_;  // on disk, since there are many events
+  std::vector<Contact> contacts_;     // ordered by their begins
+  std::map<Pair, std::size_t> open_;  // contacts that have not ended
 };
 
-/// Whether each contact certainly holds one of those that are `within`.
+/// Returns for each element of `contacts` whether it certainly contains an element of `within`.
 [[nodiscard]] std::vector<std::uint8_t> holding(std::span<const MetContacts::Contact> contacts,
                                                 std::span<const MetContacts::Contact> within);
 

@@ -25,7 +25,7 @@ constexpr CommandSpec kRunCommand{
     "kds run models.pdb --kernel exact --audit events --json -",
 };
 
-/// A range of levels or of beads; empty for all.
+/// Returns the text FIRST:LAST, with LAST excluded, for the levels or beads from `first` to `last`.
 std::string range_text(std::uint64_t first, std::uint64_t last) {
   return fmt::format("{}:{}", first, last + 1);
 }
@@ -100,7 +100,7 @@ Option<RunOptions> structures_option() {
           [](const RunOptions& o) { return fmt::format("{}", fmt::join(o.structures, ",")); }};
 }
 
-/// The default is no setting.
+/// Returns the option --rounds. Its default value does not appear as a setting.
 Option<RunOptions> rounds_option() {
   auto option = whole_option(
       {"--rounds", "N",

@@ -14,8 +14,8 @@ namespace kds {
 
 namespace {
 
-// Half the distance from each bead to the nearest one asked about, ascending; infinite where none is in
-// reach.
+// Returns half the distance from each bead to its nearest partner in `pairs`, in ascending order. The entry
+// is infinite for a bead without a partner.
 std::vector<double> half_distances(const Eigen::Matrix3Xd& centers, std::span<const BeadPair> pairs) {
   std::vector<double> half(static_cast<std::size_t>(centers.cols()), HUGE_VAL);
   for (const auto& [a, b] : pairs) {
@@ -27,13 +27,14 @@ std::vector<double> half_distances(const Eigen::Matrix3Xd& centers, std::span<co
   return half;
 }
 
-// Rounded up to three digits, so that the balls still meet.
+// Rounds up to three digits, so that the balls still meet.
 double to_three_digits(double x) {
   const double unit = std::pow(10, std::floor(std::log10(x)) - 2);
   return std::ceil(x / unit) * unit;
 }
 
-// Half distances of the beads, ascending, at least half of them known; empty where that cannot be.
+// Returns the half distances of the beads in ascending order. At least half of them are finite; if that
+// cannot be achieved, returns an empty list.
 template <int Dimension>
 std::vector<double> half_distances_known(const Scene& scene, const Balls<Dimension>& balls, BeadId apart) {
   DistanceQueries<Dimension> queries({scene.necklaces(), true, apart, true});
@@ -48,7 +49,7 @@ std::vector<double> half_distances_known(const Scene& scene, const Balls<Dimensi
   return {};
 }
 
-/// The radius worth trying, with the option that leaves out near beads.
+/// The radius to try, with the option that excludes beads which are near along the chain.
 struct Advice {
   double radius = 0;
   std::string apart;
@@ -56,7 +57,7 @@ struct Advice {
 
 template <int Dimension>
 std::optional<Advice> advice_in(const Scene& scene, BeadId apart) {
-  constexpr BeadId few = 5;  // beads nearer along the chain are near because of its bonds
+  constexpr BeadId few = 5;  // beads closer than this along the chain are near because of its bonds
   const Balls<Dimension> balls(scene.centers(0), scene.radii());
   const BeadId farther = std::max(apart, few);
   std::vector<double> half = half_distances_known(scene, balls, farther);

@@ -1,5 +1,5 @@
 #pragma once
-// The option to try where a run has no contacts, since with --radius auto the beads of a chain just touch.
+// Suggests a radius if a run has no contacts. With --radius auto the beads of a chain just touch.
 
 #include <optional>
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace kds {
 
-/// Returns one line that names a radius at which half of the beads touch another bead in the first frame.
-/// Two beads of one chain count if they are at least `apart` apart, and at least 5 if the chain is long
-/// enough. Returns nothing if beads meet in that frame, radii differ or no pair counts.
+/// Returns one line that names a radius at which half of the beads touch another bead in the first frame. Two
+/// beads of one chain count if they are at least `apart` apart, and at least 5 if the chain is long enough.
+/// Returns nothing if beads meet in that frame, radii differ or no pair counts.
 [[nodiscard]] std::optional<std::string> radius_hint(const Scene& scene, BeadId apart);
 
-/// Likewise names a factor of --factors, where the radii of the scene are `factor` times those of --radius
-/// auto.
+/// Returns a similar line that names a value of --factors instead. The radii of the scene are `factor` times
+/// the radii of --radius auto.
 [[nodiscard]] std::optional<std::string> factor_hint(const Scene& scene, double factor, BeadId apart);
 
 }  // namespace kds

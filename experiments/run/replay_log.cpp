@@ -31,7 +31,7 @@ RunOptions options_of(const EventLogHeader& header, const std::filesystem::path&
   }
 }
 
-// Hears the events of the run and reads those of the log beside them.
+// Listens to the events of the run and compares each with the next event of the log.
 class LogComparison final : public EventListener {
  public:
   LogComparison(EventLogReader& log, const std::string& name, const Simulator& simulator)
@@ -56,7 +56,7 @@ class LogComparison final : public EventListener {
     }
   }
 
-  // Nothing more happens: nor may anything in the log.
+  // Called after the last event of the run: the log must have no further event either.
   std::optional<std::string> finish() {
     if (!difference_)
       if (const EventLogReader::Entry* const entry = log_.next())
@@ -82,7 +82,7 @@ class LogComparison final : public EventListener {
     return entry.lower == entry.upper ? after_lower == 0 : after_lower < 0 && before_upper < 0;
   }
 
-  // The rest of the log is still to be one that a run wrote: else it is refused.
+  // Records the first difference. Reads the rest of the log, which is refused if a run did not write it.
   void part(std::string difference) {
     difference_ = std::move(difference);
     while (log_.next() != nullptr) {
