@@ -1,5 +1,6 @@
 #pragma once
-// Runs a logged run again and compares what happens, event by event, with the log. Neither is kept.
+// Runs a logged run again and compares its events one by one with the log. Keeps neither list of events in
+// memory.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,23 +16,25 @@
 namespace kds {
 
 struct ReplayReport {
-  RunReport run;                         ///< what happened this time
-  std::uint64_t logged_fingerprint = 0;  ///< at the end of the log
-  std::uint64_t events = 0;              ///< in the log
-  /// Where log and run part, as a sentence; none: every event is in both, at the same time.
+  RunReport run;                         ///< the result of the new run
+  std::uint64_t logged_fingerprint = 0;  ///< from the last line of the log
+  std::uint64_t events = 0;              ///< number of events in the log
+  /// A sentence that describes the first difference between log and run. Empty if every event is in both at
+  /// the same time.
   std::optional<std::string> difference = {};
 
   [[nodiscard]] bool same() const { return !difference && run.fingerprint == logged_fingerprint; }
 };
 
-/// What the logged run was asked for. Throws InputError naming the log where it is none.
+/// Returns the options of the logged run. Throws an InputError that names the file if it is not a log.
 [[nodiscard]] RunOptions logged_run(const std::filesystem::path& log);
 
-/// Throws InputError naming the log, or the inputs it names, where they cannot be used, and where a line is
-/// not one that the run wrote.
+/// Replays the log. Throws an InputError that names the log or its inputs if they cannot be used, or if a
+/// line of the log was not written by the run.
 ///
-/// An event is the same if structure, kind and beads are, and its time: the bracket in the log is that of the
-/// run, or, where another version of the program wrote the log, holds the exact failure time.
+/// Two events are the same if their structure, kind, beads and time agree. The times agree if the log's
+/// bracket equals the run's bracket. If another version of the program wrote the log, the times agree if the
+/// log's bracket holds the exact failure time.
 [[nodiscard]] ReplayReport replay_log(const std::filesystem::path& log, const Progress& progress,
                                       const std::function<void(const std::string&)>& warn,
                                       RunResults* results = nullptr);

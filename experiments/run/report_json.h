@@ -1,5 +1,5 @@
 #pragma once
-// A run as JSON: summary.json and --json.
+// Writes a run as JSON, for summary.json and --json.
 
 #include <filesystem>
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace kds {
 
-/// Ends with a newline.
+/// Returns JSON text that ends with a newline.
 [[nodiscard]] std::string report_json(const RunReport& report);
 
-/// The same with an object `replay`: log, events, logged_fingerprint, same, difference (null where there is
-/// none).
+/// Returns the JSON of report_json with an additional object `replay`. Its members are log, events,
+/// logged_fingerprint, same and difference (null if there is no difference).
 [[nodiscard]] std::string replay_json(const ReplayReport& replay, const std::filesystem::path& log);
 
 }  // namespace kds

@@ -1,5 +1,5 @@
 #pragma once
-// Collects what the structures of a session counted.
+// Collects the counts of a session's structures.
 
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"

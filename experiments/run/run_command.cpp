@@ -24,7 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a dump leaves in its folder is its own; it replaces frames and contacts.csv of an earlier one.
+/// Throws InputError if a result would be a file of --dump. A dump owns its files in the folder: it replaces
+/// the frames and contacts.csv of an earlier dump.
 void refuse_file_in(const std::filesystem::path& dump, const RunOptions& options) {
   const auto refuse = [&](const char* option, const std::filesystem::path& file) {
     const std::string name = file.filename().string();
@@ -48,7 +49,7 @@ void check_apart(const RunOptions& options, const Destinations& destinations) {
   if (options.log) paths.write("--log", *options.log);
   if (!options.dump) return;
   paths.write_into("--dump", *options.dump);
-  if (std::ranges::count(options.structures, "contacts") > 0)  // of which --out has a file of that name, too
+  if (std::ranges::count(options.structures, "contacts") > 0)  // --out has a contacts.csv too
     paths.write("--dump", *options.dump / contacts_file);
   refuse_file_in(*options.dump, options);
 }

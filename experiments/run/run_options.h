@@ -1,5 +1,5 @@
 #pragma once
-// What `kds run` was asked to do. parse_run_options.cpp declares the options.
+// The options of `kds run`. parse_run_options.cpp declares them.
 
 #include <fmt/format.h>
 
@@ -20,12 +20,13 @@
 
 namespace kds {
 
-/// How far from where the frames have them beads may be: a length, or a multiple of the smallest radius.
+/// The largest distance that beads may have from their positions in the frames: a length, or a multiple of
+/// the smallest radius.
 struct MotionTolerance {
   double amount = 0;
   bool of_radius = false;
 
-  /// Returns it as --tolerance takes it.
+  /// Returns the text that --tolerance takes.
   [[nodiscard]] std::string text() const { return fmt::format("{}{}", amount, of_radius ? "r" : ""); }
   [[nodiscard]] double length(std::span<const double> radii) const {
     return of_radius ? amount * *std::min_element(radii.begin(), radii.end()) : amount;
@@ -33,22 +34,22 @@ struct MotionTolerance {
 };
 
 struct RunOptions : InputOptions, Destinations {
-  std::vector<std::string> structures;  ///< by name, in their order; empty: the input's default
+  std::vector<std::string> structures;  ///< names in the order of the registry; empty for the input's default
   FrameMotion motion = FrameMotion::linear;
   Kernel kernel = Kernel::filtered;
   AuditMode audit = AuditMode::none;
   NodeSelection nodes;                          ///< --levels, --nodes
-  std::optional<BeadId> apart;                  ///< --apart; none: not given
-  std::optional<Between> between;               ///< --between; none: not given
-  std::optional<double> tightness;              ///< --tightness; none: not given
-  std::optional<double> relax;                  ///< --relax; none: not given
-  std::optional<MotionTolerance> tolerance;     ///< --tolerance; none: not given
+  std::optional<BeadId> apart;                  ///< --apart; empty if not given
+  std::optional<Between> between;               ///< --between; empty if not given
+  std::optional<double> tightness;              ///< --tightness; empty if not given
+  std::optional<double> relax;                  ///< --relax; empty if not given
+  std::optional<MotionTolerance> tolerance;     ///< --tolerance; empty if not given
   bool certify = false;                         ///< --certify
   std::optional<std::filesystem::path> dump;    ///< directory for the structures at every frame
-  std::optional<std::filesystem::path> events;  ///< file for every event
+  std::optional<std::filesystem::path> events;  ///< file that gets every event
   std::optional<std::filesystem::path> log;     ///< event log, for `kds replay`
-  std::size_t rounds = 1;                       ///< the run so often, for its times
-  std::optional<std::uint64_t> work;            ///< most limb operations of exact arithmetic
+  std::size_t rounds = 1;                       ///< number of rounds that are timed
+  std::optional<std::uint64_t> work;            ///< limit on the limb operations of exact arithmetic
 };
 
 }  // namespace kds

@@ -1,5 +1,5 @@
 #pragma once
-// What one run found out: the numbers behind the table, summary.json, events.csv and the plots.
+// The findings of one run: the numbers behind the table, summary.json, events.csv and the plots.
 
 #include <cstdint>
 #include <optional>
@@ -17,53 +17,56 @@
 
 namespace kds {
 
-using NamedCounts = std::vector<std::pair<std::string, std::uint64_t>>;  ///< in the order to print
+using NamedCounts =
+    std::vector<std::pair<std::string, std::uint64_t>>;  ///< in the order in which they are printed
 
 struct StructureReport {
-  std::string name;                ///< sorted, wrapped, power
-  std::uint64_t events_total = 0;  ///< external events
-  NamedCounts events_by_kind;      ///< external kinds first, then internal ones, which the total leaves out
-  std::optional<std::uint64_t> contacts_at_start, contacts_at_end;  ///< pairs of beads
-  std::vector<std::string> internal_kinds;                          ///< which of these are internal
+  std::string name;                ///< such as sorted, wrapped or power
+  std::uint64_t events_total = 0;  ///< number of external events
+  NamedCounts events_by_kind;      ///< external kinds first, then internal kinds, which the total excludes
+  std::optional<std::uint64_t> contacts_at_start, contacts_at_end;  ///< numbers of pairs of beads
+  std::vector<std::string> internal_kinds;                          ///< the kinds above that are internal
   EventCourse course;                                               ///< external events, step by step
   std::uint64_t created = 0, never_failing = 0, cancelled = 0, failed = 0, touched = 0, peak = 0,
                 per_bead_max = 0;
-  NamedCounts stages;  ///< how many certificates each stage of the cascade settled
-  double seconds = 0;  ///< on this structure and its certificates after the first build
+  NamedCounts stages;  ///< number of certificates that each stage of the cascade settled
+  double seconds = 0;  ///< time for this structure and its certificates after the first build
   double build_seconds = 0;
-  double static_seconds = 0;             ///< building the same structure statically at every frame (CGAL)
-  Spread of_seconds, of_static_seconds;  ///< both of the rounds, of which they are the medians
-  Spread of_ratio;                       ///< the first by the second, round by round; 0 where that is 0
+  double static_seconds = 0;  ///< time to build the same structure statically at every frame (CGAL)
+  Spread of_seconds, of_static_seconds;  ///< of all rounds; `seconds` and `static_seconds` are their medians
+  Spread of_ratio;  ///< `seconds` divided by `static_seconds`, round by round; 0 if `static_seconds` is 0
   std::uint64_t rebuilds = 0;
   std::uint64_t audits_run = 0, audits_failed = 0;
-  PlacesOfEvents places;  ///< where these are looked at, else empty
+  PlacesOfEvents places;  ///< empty if the run does not record places
 
-  /// "overtake (internal)"; of other kinds their names.
+  /// Returns the name of the kind, with " (internal)" appended for an internal kind, as in "overtake
+  /// (internal)".
   [[nodiscard]] std::string label_of(const std::string& kind) const;
 };
 
 struct RunReport {
   std::vector<std::string> files;
   std::uint64_t beads = 0, frames = 0;
-  std::optional<FrameStamp> first_frame, last_frame;  ///< where they are in the file, and times
+  std::optional<FrameStamp> first_frame, last_frame;  ///< their numbers in the file, and their times
   int dimension = 3;
   double radius_min = 0, radius_max = 0;
   std::vector<std::pair<std::string, std::string>>
       settings;  ///< motion, kernel, audit, select, chain, frames, radius, ...
   std::vector<StructureReport> structures;
-  std::size_t rounds = 1;                   ///< that times are of
-  double engine_seconds = 0;                ///< queue and clock
-  double listeners_seconds = 0;             ///< writing and counting events
-  NamedCounts comparisons;                  ///< of failure times whose brackets overlap, by what settled them
+  std::size_t rounds = 1;        ///< number of rounds behind the times
+  double engine_seconds = 0;     ///< time of the event queue and the clock
+  double listeners_seconds = 0;  ///< time for writing and counting events
+  NamedCounts
+      comparisons;  ///< comparisons of failure times whose brackets overlap, by the method that settled them
   std::uint64_t exact_work = 0;             ///< limb operations of exact arithmetic
   std::uint64_t fingerprint = 0;            ///< printed as 16 hex digits
-  std::optional<StrideCertificate> stride;  ///< of --certify
-  std::optional<ClosestApproach> approach;  ///< where the run has the closest pair, not with `fast`
-  /// The least distance there: with --certify, or with --tolerance where no frame is left out.
+  std::optional<StrideCertificate> stride;  ///< from --certify
+  std::optional<ClosestApproach> approach;  ///< only if the run has the closest pair and does not use `fast`
+  /// The least distance over all frames. Known with --certify, or with --tolerance if no frame is left out.
   std::optional<DistanceRange> approach_in_all_frames;
-  std::string command_line;             ///< that asks for the same run, without outputs
-  Displacements displacement;           ///< where it is looked at, else empty
-  std::vector<std::string> bead_names;  ///< where they are looked at, else empty; empty ones where unknown
+  std::string command_line;             ///< asks for the same run, without outputs
+  Displacements displacement;           ///< empty if not recorded
+  std::vector<std::string> bead_names;  ///< empty if not recorded; an unknown name is an empty text
 };
 
 }  // namespace kds

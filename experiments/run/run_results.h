@@ -1,6 +1,6 @@
 #pragma once
-// The results of a run: summary.json, events.csv, contacts.csv and report.html in --out, --json, --dump,
-// --events, --log, standard output.
+// Writes the results of a run: summary.json, events.csv, contacts.csv and report.html in --out, and the
+// destinations --json, --dump, --events, --log and standard output.
 
 #include <filesystem>
 #include <memory>
@@ -25,33 +25,34 @@
 
 namespace kds {
 
-/// Throws InputError where something could not be written later: before a run, not after it. `command` is
-/// run or replay.
+/// Throws InputError if a result could not be written later. Call it before the run, so that no finished run
+/// is lost. `command` is run or replay.
 void check_destinations(const Destinations& destinations, std::string_view command,
                         const RunOptions& options);
 
 class RunResults {
  public:
-  /// `command` is run or replay; `events`: a file for every event, if there is to be one.
+  /// `command` is run or replay. `events` is the file that gets every event, if any.
   explicit RunResults(std::string command, Destinations destinations,
                       std::optional<std::filesystem::path> events = std::nullopt)
       : command_(std::move(command)),
         destinations_(std::move(destinations)),
         events_path_(std::move(events)) {}
 
-  /// The input is accepted: from now on there are files in the making. They listen to the session, which must
-  /// not go on when this object has gone. `certified`: contacts are told with `add_certificate`.
+  /// Starts the output files once the input is accepted. The files listen to the session, which must not run
+  /// after this object is destroyed. If `certified`, contacts are reported with `add_certificate`.
   void begin(const Scene& scene, Session& session, bool certified);
-  /// --dump and --log of a run with these options, likewise.
+  /// Starts the files of --dump and --log for a run with these options. The lifetime rule of `begin` holds.
   void begin_dump_and_log(const RunOptions& options, const Scene& scene, Session& session);
-  /// A frame that has just been reached; the first when the structures have been built.
+  /// Adds a frame that the run has just reached. The first frame is added when the structures have been
+  /// built.
   void add_frame(std::size_t frame, const Session& session);
-  /// Events of a structure in the step from that frame on.
+  /// Adds the number of events of a structure in the step that starts at this frame.
   void add_step(const FrameStamp& frame, std::string_view structure, std::uint64_t events);
-  /// contacts.csv and possible_contacts.csv, where there are contacts.
+  /// Writes contacts.csv and possible_contacts.csv if the run has contacts.
   void add_certificate(const StrideCertificate& certificate, const Scene& scene);
-  /// `json` is the summary; `table` is printed unless quiet, or where standard output is the JSON's. All
-  /// files appear together, in place of those of an earlier run.
+  /// Delivers all results. `json` is the summary. `table` is printed unless --quiet is given or standard
+  /// output carries the JSON. All files appear together and replace the files of an earlier run.
   void deliver(RunReport report, const std::string& json, const std::string& table);
 
  private:

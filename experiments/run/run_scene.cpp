@@ -12,8 +12,8 @@ namespace kds {
 
 namespace {
 
-/// How far beads may be from where all frames have them; none where the run has them there, or where frames
-/// are left out that nobody has looked at.
+/// Returns a bound on the distance of beads from their positions in all frames. Returns nothing if the run
+/// passes through all frames exactly, or if frames were left out and never examined.
 std::optional<double> deviation_of_run(const RunOptions& options, const Scene& scene,
                                        const RunReport& report) {
   if (report.stride) return report.stride->deviation.largest;
@@ -31,7 +31,7 @@ std::optional<std::string> hint_of(const RunOptions& options, const Scene& scene
   return std::nullopt;
 }
 
-// Seconds of each structure, by round: kept, and built at every frame.
+// Seconds of each structure by round: kinetic (`kept`), and built statically at every frame (`built`).
 struct Times {
   std::vector<std::vector<double>> kept, built;
 };

@@ -10,9 +10,9 @@
 
 namespace kds {
 
-/// Warnings about the input go to `warn`, one line each; what is written to `results`, which is delivered by
-/// the caller. Throws InputError for what a user can mend, and AuditError (kds/audit.h) where a structure
-/// disagrees with its static rebuild.
+/// Runs the structures. Each warning about the input goes to `warn` as one line. The output goes to
+/// `results`, which the caller delivers. Throws InputError for errors that the user can fix. Throws
+/// AuditError (kds/audit.h) if a structure disagrees with its static rebuild.
 [[nodiscard]] RunReport run_scene(const RunOptions& options, const Progress& progress,
                                   const std::function<void(const std::string&)>& warn, RunResults& results);
 

@@ -13,7 +13,8 @@ namespace kds {
 
 namespace {
 
-// Names what the last of the work that is allowed was spent on.
+// Runs `work`. Turns WorkLimitReached into an InputError that names the computation which used the last of
+// the allowed work.
 template <class Work>
 void with_limit(KineticRun& run, const RunOptions& options, Work work) {
   try {
@@ -25,7 +26,8 @@ void with_limit(KineticRun& run, const RunOptions& options, Work work) {
   }
 }
 
-// Structures count steps from 0: messages say which frames of the file these are.
+// Runs `work`, which belongs to a step. Structures count steps from 0, so the message of an exception is
+// extended by the step's frame numbers in the file.
 template <class Work>
 void in_step(KineticRun& run, std::size_t step, const RunOptions& options, Work work) {
   const auto named = [&](std::string_view message) {
@@ -53,7 +55,7 @@ void run_steps(KineticRun& run, const RunOptions& options,
     in_step(run, step, options, [&] { run.run_step(); });
     at_frame(step + 1);
   }
-  // A refusal that is possible only when no step follows is about the last step.
+  // An error that can occur only after all steps is reported for the last step.
   in_step(run, run.scene().step_count() - 1, options, [&] { run.finish(); });
 }
 

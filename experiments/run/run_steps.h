@@ -1,5 +1,5 @@
 #pragma once
-// All steps of a run over a scene, as the program's commands run them.
+// Runs all steps over a scene, with the error messages of the program's commands.
 
 #include <cstddef>
 #include <functional>
@@ -12,10 +12,11 @@
 
 namespace kds {
 
-/// Called with the motion steps done, the share of the present one that is done, and the steps in all.
+/// Called with the number of motion steps done, the completed share of the current step, and the total number
+/// of steps.
 using Progress = std::function<void(std::size_t done, double within, std::size_t total)>;
 
-/// Reports the progress within steps, which audits between all events make long.
+/// Reports the progress within a step. A step takes long if the structures are audited between all events.
 class ProgressWithinSteps final : public EventListener {
  public:
   ProgressWithinSteps(Progress progress, std::size_t total) : progress_(std::move(progress)), total_(total) {}
@@ -26,9 +27,9 @@ class ProgressWithinSteps final : public EventListener {
   std::size_t total_;
 };
 
-/// Builds the structures, runs all steps and finishes. Calls `at_frame` at each frame reached, including the
-/// first. The message of an exception thrown in a step names the frames of the file between which the step
-/// lies.
+/// Builds the structures, runs all steps and finishes the run. Calls `at_frame` at each frame reached,
+/// including the first. The message of an exception thrown in a step names the two frames of the file around
+/// the step.
 void run_steps(KineticRun& run, const RunOptions& options,
                const std::function<void(std::size_t frame)>& at_frame);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Takes the counts of each step away from the structures, so that nothing grows with the number of steps.
+// Moves the counts of each step out of the structures, so that memory does not grow with the number of steps.
 
 #include <cstdint>
 #include <optional>
@@ -14,16 +14,16 @@ namespace kds {
 
 class StepCounts {
  public:
-  /// Both must outlive it.
+  /// `session` and `scene` must outlive this object.
   StepCounts(Session& session, const Scene& scene);
 
   /// Counts the contacts at the first frame. Call it once the structures have been built.
   void begin();
-  /// The step has been run: folds its events, and has them written where a file is for them.
+  /// Folds the events of a finished step, and writes them to `results` if a file takes them.
   void end_step(std::size_t step, RunResults* results);
   /// In the order of the session's structures.
   [[nodiscard]] const std::vector<EventCourse>& courses() const { return courses_; }
-  /// Pairs in contact at the first frame; none where the session has no contacts.
+  /// Returns the number of pairs in contact at the first frame, or nothing if the session has no contacts.
   [[nodiscard]] std::optional<std::uint64_t> contacts_at_start() const { return contacts_at_start_; }
 
  private:

@@ -29,7 +29,8 @@ Figure time(double StructureReport::*member) {
   return [member](const StructureReport& structure) { return short_decimal(structure.*member); };
 }
 
-// A structure counts only its own kinds and stages: the rows are those of any, in order of appearance.
+// Returns the union of all structures' kinds or stages, in order of appearance. Each structure counts only
+// its own kinds and stages.
 std::vector<std::string> names_of_any(const RunReport& report, NamedCounts StructureReport::*member) {
   std::vector<std::string> names;
   for (const StructureReport& structure : report.structures)
@@ -66,7 +67,7 @@ void add_contacts(std::vector<SummaryRow>& rows, const RunReport& report) {
   add("contacts at the end", &StructureReport::contacts_at_end);
 }
 
-// The heading that a stage of the summary stands under; a size has none.
+// Returns the heading above a stage of the summary. A size has no heading.
 std::string_view heading_of(Stage::Of of) {
   switch (of) {
     case Stage::Of::failure_time:
@@ -99,7 +100,7 @@ std::string per_step(const StructureReport& structure) {
                     : short_decimal(static_cast<double>(structure.events_total) / static_cast<double>(steps));
 }
 
-// Of several rounds with their spread.
+// The time of several rounds is shown with its spread.
 Figure time(double StructureReport::*member, Spread StructureReport::*spread, std::size_t rounds) {
   if (rounds == 1) return time(member);
   return [spread](const StructureReport& structure) { return spread_text(structure.*spread); };
@@ -113,7 +114,7 @@ Figure ratio(std::size_t rounds) {
   };
 }
 
-// Where they are not simply the first of a file, or their times are known.
+// Describes the frames if they are not the first frames of a file, or if their times are known.
 std::string which_frames(const RunReport& report) {
   if (!report.first_frame || !report.last_frame) return "";
   const auto& [first, first_time] = *report.first_frame;

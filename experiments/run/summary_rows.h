@@ -1,5 +1,5 @@
 #pragma once
-// The comparison of a run's structures, row by row, for the terminal and for the page.
+// The rows that compare a run's structures, for the terminal and for the page.
 
 #include <string>
 #include <utility>
@@ -11,19 +11,20 @@ namespace kds {
 
 struct SummaryRow {
   std::string label;
-  bool detail = false;             ///< belongs to the row above that is none
-  std::vector<std::string> cells;  ///< one a structure; empty: a heading
+  bool detail = false;             ///< details the nearest row above that is not a detail
+  std::vector<std::string> cells;  ///< one per structure; empty for a heading
 };
 
 [[nodiscard]] std::vector<SummaryRow> summary_rows(const RunReport& report);
 
-/// A kind of event as it is shown: internal ones, which the total leaves out, say so.
+/// Returns the text that shows a kind of event. Internal kinds, which the total excludes, are marked as
+/// internal.
 [[nodiscard]] std::string kind_label(const RunReport& report, const std::string& kind);
 
-/// What was run on: label and value.
+/// Returns the lines that describe the input, as pairs of label and value.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> input_lines(const RunReport& report);
 
-/// The motion steps of the run, one less than its frames.
+/// Returns the number of motion steps, which is one less than the number of frames.
 [[nodiscard]] std::size_t step_count(const RunReport& report);
 
 }  // namespace kds

@@ -1,5 +1,5 @@
 #pragma once
-// What a run prints on a terminal.
+// The text that a run prints on a terminal.
 
 #include <string>
 
@@ -7,7 +7,8 @@
 
 namespace kds {
 
-/// One column a structure, one row a figure, the fingerprint last; ends with a newline.
+/// Returns a table with one column per structure and one row per figure. The fingerprint comes last. The text
+/// ends with a newline.
 [[nodiscard]] std::string comparison_table(const RunReport& report);
 
 }  // namespace kds
