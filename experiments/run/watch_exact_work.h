@@ -1,5 +1,5 @@
 #pragma once
-// A run that leaves the ordinary says so while it goes on.
+// Warns during a run if its exact arithmetic takes unusually long.
 
 #include <functional>
 #include <string>
@@ -9,10 +9,11 @@
 
 namespace kds {
 
-/// From so many limb operations at one time of the run on it is told of: seconds.
+/// Number of limb operations at one time of the run that triggers a warning. They take seconds.
 inline constexpr std::uint64_t extraordinary_work = 300'000'000;
 
-/// Tells `warn`, one line, where and on what a run works that long; again only when all its work has doubled.
+/// Passes one line to `warn` if the run spends `extraordinary` limb operations at one time: it says where and
+/// on what. Warns again only when the total work of the run has doubled.
 void watch_exact_work(Simulator& simulator, const Scene& scene,
                       const std::function<void(const std::string&)>& warn,
                       std::uint64_t extraordinary = extraordinary_work);
