@@ -137,8 +137,7 @@ int kds_main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     complain("out of memory");
   } catch (const std::exception& error) {
-    complain(
-        error.what());  // the message of a failed audit has several lines, which say how to repeat the run
+    complain(error.what());  // several lines for a failed audit: how to repeat the run
   } catch (...) {
     complain("unknown failure");
   }

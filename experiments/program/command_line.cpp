@@ -53,8 +53,7 @@ ParsedArguments parse_arguments(const CommandSpec& command, const std::vector<Op
   CLI::App parser;
   parser.set_help_flag(std::string(kHelp.name) + ",-h");
 
-  std::map<std::string_view, std::vector<std::string>>
-      unused;  // CLI11 reads some values, such as {}, as empty lists
+  std::map<std::string_view, std::vector<std::string>> unused;  // CLI11 reads some values as empty lists: {}
   for (const OptionSpec& option : options) {
     const std::string name(option.name);
     if (option.value.empty()) {
@@ -67,8 +66,7 @@ ParsedArguments parse_arguments(const CommandSpec& command, const std::vector<Op
   if (!command.operand.empty()) parser.add_option(std::string(command.operand), unused[command.operand]);
 
   try {
-    parser.parse(
-        Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes the arguments in reverse order
+    parser.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes the last argument first
   } catch (const CLI::CallForHelp&) {
     throw HelpRequest{help_text(command, options)};
   } catch (const CLI::ParseError& error) {
@@ -83,8 +81,7 @@ ParsedArguments parse_arguments(const CommandSpec& command, const std::vector<Op
     if (times == 0) continue;
     if (times > 1) throw InputError(fmt::format("{} is given {} times; give it once", option.name, times));
     std::string value = option.value.empty() ? "" : values.front();
-    if (value.starts_with(
-            "--"))  // the option's value was forgotten, so the next option was read as the value
+    if (value.starts_with("--"))  // a forgotten value: the next option was read as the value
       throw InputError(fmt::format("{} needs a value, but '{}' follows", option.name, value));
     if (value.empty() && !option.value.empty())
       throw InputError(fmt::format("{} needs a value", option.name));

@@ -21,8 +21,7 @@ struct OptionSpec {
 struct CommandSpec {
   std::string_view name;     ///< such as kds run
   std::string_view summary;  ///< one sentence; definitions may follow on separate lines
-  std::string_view
-      operand;  ///< placeholder of the positional arguments in the help text; empty if the command takes none
+  std::string_view operand;  ///< placeholder of positional arguments in the help text; empty if none
   std::string_view operand_help;
   std::string_view examples;  ///< one example per line
 };

@@ -17,8 +17,7 @@
 
 namespace kds {
 
-using NamedCounts =
-    std::vector<std::pair<std::string, std::uint64_t>>;  ///< in the order in which they are printed
+using NamedCounts = std::vector<std::pair<std::string, std::uint64_t>>;  ///< in the order of printing
 
 struct StructureReport {
   std::string name;                ///< such as sorted, wrapped or power
@@ -56,8 +55,7 @@ struct RunReport {
   std::size_t rounds = 1;        ///< number of rounds behind the times
   double engine_seconds = 0;     ///< time of the event queue and the clock
   double listeners_seconds = 0;  ///< time for writing and counting events
-  NamedCounts
-      comparisons;  ///< comparisons of failure times whose brackets overlap, by the method that settled them
+  NamedCounts comparisons;  ///< of failure times with overlapping brackets, by the method that settled them
   std::uint64_t exact_work = 0;             ///< limb operations of exact arithmetic
   std::uint64_t fingerprint = 0;            ///< printed as 16 hex digits
   std::optional<StrideCertificate> stride;  ///< from --certify
