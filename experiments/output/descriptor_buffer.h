@@ -1,5 +1,5 @@
 #pragma once
-// A stream's buffer over an open file that remembers why writing failed, which std::ofstream does not tell.
+// A stream buffer over an open file descriptor. Unlike std::ofstream, it remembers why a write failed.
 
 #include <cstddef>
 #include <streambuf>
@@ -9,10 +9,11 @@ namespace kds {
 
 class DescriptorBuffer final : public std::streambuf {
  public:
-  /// The descriptor stays the caller's.
+  /// The caller keeps ownership of the descriptor.
   explicit DescriptorBuffer(int descriptor);
 
-  /// errno of the first write that failed; 0: none did. Later ones are not tried.
+  /// Returns errno of the first write that failed, or 0 if none failed. After a failure no further writes are
+  /// attempted.
   [[nodiscard]] int error() const { return error_; }
 
  protected:

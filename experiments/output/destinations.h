@@ -1,5 +1,5 @@
 #pragma once
-// Where the results of a command go: files, standard output, the terminal's table.
+// The destinations of a command's results: files, standard output and the table on the terminal.
 
 #include <filesystem>
 #include <optional>
@@ -8,12 +8,12 @@
 namespace kds {
 
 struct Destinations {
-  std::optional<std::filesystem::path> out;  ///< directory for the files of a result
-  std::optional<std::string> json;           ///< file, or - for standard output
+  std::optional<std::filesystem::path> out;  ///< directory for the result files
+  std::optional<std::string> json;           ///< a file, or - for standard output
   bool quiet = false;
 };
 
-/// Throws OutputError where standard output is closed or full.
+/// Throws OutputError if standard output is closed or full.
 void print_to_stdout(const std::string& text);
 
 }  // namespace kds

@@ -23,7 +23,7 @@ MadeDirectories::MadeDirectories(const fs::path& path, std::string_view option) 
     if (::mkdir(current.c_str(), 0777) == 0) continue;
     const int error = errno;
     made_.pop_back();
-    if (error == EEXIST && fs::is_directory(current, ignored)) continue;  // another program was faster
+    if (error == EEXIST && fs::is_directory(current, ignored)) continue;  // another program made it first
     remove_empty();
     fail_to_write(fmt::format("{} {}: cannot make the directory", option, path.string()), error);
   }

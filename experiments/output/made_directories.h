@@ -1,6 +1,6 @@
 #pragma once
-// The directory of a result, made with its parents. Those made go again with the object if nothing was put
-// into them, so that a run that fails leaves no trace.
+// Makes the directory of a result together with its missing parents. The destructor removes the new
+// directories that are still empty, so a failed run leaves no trace.
 
 #include <deque>
 #include <filesystem>
@@ -12,7 +12,8 @@ namespace kds {
 
 class MadeDirectories {
  public:
-  /// Also clears what killed programs left there. Throws InputError or OutputError naming option and path.
+  /// Also removes the files that killed programs left in the directory. Throws an InputError or OutputError
+  /// that names the option and the path.
   MadeDirectories(const std::filesystem::path& path, std::string_view option);
   ~MadeDirectories();
   MadeDirectories(const MadeDirectories&) = delete;

@@ -1,6 +1,6 @@
 #pragma once
-// A result cannot be written although nothing is wrong with what was asked for: the disk or the pipe is full.
-// The program prints it and exits with code 1.
+// A result cannot be written although the request was valid, for instance because the disk or the pipe is
+// full. The program prints the message and exits with code 1.
 
 #include <stdexcept>
 #include <string>
@@ -12,8 +12,8 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws `subject`: the system's reason. A place where nothing can be written is wrong input (InputError),
-/// all else is an OutputError. `error` as in errno.
+/// Throws an error with the message "`subject`: reason", where the reason is the system's text for `error` (a
+/// value of errno). A place that cannot be written to is an InputError. Every other reason is an OutputError.
 [[noreturn]] void fail_to_write(const std::string& subject, int error);
 
 }  // namespace kds

@@ -23,7 +23,7 @@ fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// The deepest part of the path that exists.
+// Returns the deepest ancestor of the path that exists.
 fs::path existing_part(const fs::path& path, const std::string& subject) {
   fs::path part = path;
   for (;;) {
@@ -103,7 +103,8 @@ void AtomicFile::check() const {
 void AtomicFile::finish() {
   buffer_->pubsync();
   check();
-  // Some file systems tell only here that there is no room; the file itself stays open, and locked.
+  // Some file systems report a lack of room only on close. Closing a copy of the descriptor detects it, while
+  // the file itself stays open and locked.
   const int copy = ::dup(part_ ? part_->descriptor() : descriptor_);
   if (copy >= 0 && ::close(copy) != 0) fail_to_write(subject(), errno);
   if (part_) check_replaceable(path_);

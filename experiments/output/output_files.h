@@ -1,5 +1,6 @@
 #pragma once
-// Files that are there whole or not at all: written beside their place, then renamed into it.
+// Files that appear whole or not at all: each is written beside its place, then renamed into it (atomic
+// rename).
 
 #include <filesystem>
 #include <initializer_list>
@@ -14,17 +15,18 @@
 
 namespace kds {
 
-/// Checks, without a trace left behind, that the directory can be made, where it is none yet, and files of
-/// these names be written there as results of the command: so that a run is not lost at its end. Throws
-/// InputError naming the option and the path.
+/// Checks before a run that the results can be written after it: that the directory exists or can be made,
+/// and that the command can write files with these names in it. Leaves no trace. Throws an InputError that
+/// names the option and the path.
 void check_directory(const std::filesystem::path& path, std::string_view command, std::string_view option,
                      std::initializer_list<std::string_view> names = {});
 
-/// Checks, without a trace left behind, that `path` can be written later. Throws InputError likewise.
+/// Checks that `path` can be written later. Leaves no trace. Throws as check_directory does.
 void ensure_writable_file(const std::filesystem::path& path, std::string_view option);
 
-/// Its content comes at once or piece by piece. Without take_place() nothing is left, not even if the program
-/// is interrupted. Throws InputError or OutputError naming the path.
+/// A file that appears only as a whole. Its content is written at once or piece by piece. Unless take_place()
+/// is called, nothing remains, even if the program is interrupted. Throws an InputError or OutputError that
+/// names the path.
 class AtomicFile final : public Staged {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -34,7 +36,7 @@ class AtomicFile final : public Staged {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   [[nodiscard]] std::ostream& stream() { return stream_; }
-  /// Throws where something could not be written: soon, and not after a long run.
+  /// Throws if an earlier write failed, so that a long run can stop early.
   void check() const;
   void finish() override;
   void take_place() override;
@@ -43,7 +45,7 @@ class AtomicFile final : public Staged {
   [[nodiscard]] std::string subject() const { return path_.string() + ": cannot write"; }
 
   std::filesystem::path path_;
-  std::optional<Part> part_;  ///< none: an output that is written straight
+  std::optional<Part> part_;  ///< empty for an output that is written directly
   int descriptor_ = -1;
   std::optional<DescriptorBuffer> buffer_;
   std::ostream stream_;

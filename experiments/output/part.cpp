@@ -20,9 +20,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr mode_t kForAll = 0777;  // less what the user's mask takes away
+constexpr mode_t kForAll = 0777;  // the user's umask removes bits
 
-// A new one, open; -1 and errno where there can be none.
+// Makes a new file or folder and returns its open descriptor. Returns -1 and sets errno on failure.
 int make(const fs::path& path, Part::Kind kind) {
   if (kind == Part::Kind::file)
     return ::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, kForAll & ~0111U);
@@ -34,9 +34,10 @@ int make(const fs::path& path, Part::Kind kind) {
   return descriptor;
 }
 
-// Between making and locking another program may take it for a stale one.
+// Returns whether the lock was taken on a file that still exists. Between creation and locking, another
+// program may remove the file as stale.
 bool lock_unless_removed(int descriptor) {
-  ::flock(descriptor, LOCK_EX);  // where a file system knows no locks, nobody clears what is stale
+  ::flock(descriptor, LOCK_EX);  // without locks in the file system, stale files are never removed
   struct stat status {};
   return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
 }
@@ -52,7 +53,7 @@ Part::Part(const fs::path& directory, Kind kind, const std::string& subject) {
     constexpr int most_attempts = 1000;
     if (descriptor_ < 0) {
       const int error = errno;
-      unfinished_.reset();  // another's, if it is there
+      unfinished_.reset();  // an existing file with this name belongs to another program
       if (error != EEXIST || attempts == most_attempts) fail_to_write(subject, error);
     }
     if (descriptor_ < 0) continue;
@@ -67,7 +68,7 @@ fs::path Part::add_file() {
 }
 
 Part::~Part() {
-  if (unfinished_) {  // by names: to list a folder takes a descriptor, of which there may be none left
+  if (unfinished_) {  // remove files by name: listing a folder needs a descriptor, and none may be left
     for (std::uint64_t number = 0; number < files_; ++number) ::unlink(file(number).c_str());
     if (::unlink(path_.c_str()) != 0) ::rmdir(path_.c_str());
   }
@@ -82,7 +83,7 @@ void Part::become(const fs::path& place, const std::string& subject) {
 
 namespace {
 
-// Returns whether Part gives such names: .kds-PROCESS-NUMBER.part
+// Returns whether `name` has the form of Part's names: .kds-PROCESS-NUMBER.part
 bool is_part(std::string_view name) {
   for (const std::string_view part : {".kds-", "-", ".part"}) {
     if (!name.starts_with(part)) return false;

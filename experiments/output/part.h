@@ -1,7 +1,7 @@
 #pragma once
-// A hidden file or folder beside the place of a result in the making, .kds-PROCESS-NUMBER.part: gone with the
-// object, with the program if the user stops it, and, where the program was killed, with the next run that
-// writes there.
+// A hidden file or folder, .kds-PROCESS-NUMBER.part, that lies beside the place of an unfinished result. The
+// destructor removes it. It is also removed if the user stops the program. If the program is killed, the next
+// run that writes there removes it.
 
 #include <cstdint>
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace kds {
 class Part {
  public:
   enum class Kind { file, folder };
-  /// Throws as fail_to_write does; `subject` begins the message.
+  /// Throws as fail_to_write does. `subject` begins the message.
   Part(const std::filesystem::path& directory, Kind kind, const std::string& subject);
   ~Part();
   Part(const Part&) = delete;
@@ -23,18 +23,19 @@ class Part {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] int descriptor() const { return descriptor_; }
-  /// Where the next file of a folder is to be made, which goes with the folder: file(0), file(1), ...
+  /// Returns the path for the next file of a folder: file(0), file(1), ... These files are removed with the
+  /// folder.
   [[nodiscard]] std::filesystem::path add_file();
   [[nodiscard]] std::filesystem::path file(std::uint64_t number) const {
     return path_ / std::to_string(number);
   }
-  /// The file takes its place, as replace_file has it, while signals wait. Throws likewise.
+  /// Moves the file to `place` as replace_file does, with signals blocked. Throws as fail_to_write does.
   void become(const std::filesystem::path& place, const std::string& subject);
 
  private:
   std::filesystem::path path_;
   std::uint64_t files_ = 0;
-  int descriptor_ = -1;  ///< open and locked, so that others know that it is in use
+  int descriptor_ = -1;  ///< open and locked, so that other programs see that the part is in use
   std::optional<UnfinishedFile> unfinished_;
 };
 

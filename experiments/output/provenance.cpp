@@ -10,7 +10,7 @@
 namespace kds {
 namespace {
 
-// The value of the first line `key<separator>value`, quotes and blanks around it dropped.
+// Returns the value of the first line `key<separator>value`, without quotes and blanks around it.
 std::string look_up(const char* file, const std::string& key, char separator) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {

@@ -1,11 +1,11 @@
 #pragma once
-// Where a result comes from: every report carries the version and the machine.
+// Provenance of a result: each report states the version and the machine.
 
 #include <string>
 
 namespace kds {
 
-/// Release and commit, as in 0.1.0+1a2b3c4d5e6f.
+/// Returns release and commit, as in 0.1.0+1a2b3c4d5e6f.
 [[nodiscard]] std::string program_version();
 
 struct Machine {
@@ -15,7 +15,7 @@ struct Machine {
   std::string compiler;
 };
 
-/// What cannot be found out is "unknown".
+/// Returns the description of this machine. A property that cannot be determined is "unknown".
 [[nodiscard]] Machine this_machine();
 
 }  // namespace kds

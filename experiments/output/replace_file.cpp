@@ -33,7 +33,8 @@ class Descriptor {
   int number_;
 };
 
-// Room first: what is there must not be half gone where there is none.
+// Copies the finished file into `place`. Reserves the room first, so that the old content is not half
+// overwritten when the disk is full.
 void write_into(const fs::path& finished, const fs::path& place, const std::string& subject) {
   const Descriptor from(finished, O_RDONLY, subject), to(place, O_WRONLY | O_CREAT, subject);
   struct stat status {};
@@ -57,7 +58,8 @@ void write_into(const fs::path& finished, const fs::path& place, const std::stri
   ::unlink(finished.c_str());
 }
 
-// Whether the finished file has got them: the owner takes privileges that not everyone has.
+// Gives the finished file the owner and permissions in `old`. Returns false if that is not permitted:
+// changing the owner takes privileges.
 bool take_over(const fs::path& finished, const struct stat& old) {
   struct stat own {};
   if (::stat(finished.c_str(), &own) != 0) return false;
@@ -67,7 +69,8 @@ bool take_over(const fs::path& finished, const struct stat& old) {
   return ::chmod(finished.c_str(), old.st_mode & 07777U) == 0;
 }
 
-// Immutable, or only to be appended to: so even for those who may write.
+// Returns whether the file is immutable or append-only. Even users with write permission cannot replace such
+// a file.
 bool is_kept(const fs::path& file) {
   struct statx status {};
   return ::statx(AT_FDCWD, file.c_str(), 0, 0, &status) == 0 &&

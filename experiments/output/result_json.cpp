@@ -8,7 +8,7 @@
 
 namespace kds {
 
-/// To the library's values and back.
+/// Converts Json to the library's values and back.
 struct JsonTree {
   using Tree = nlohmann::ordered_json;
 
@@ -33,7 +33,7 @@ struct JsonTree {
         json.value_);
   }
 
-  // Values nested deeper than any of ours would use up the stack.
+  // The limit of 64 levels protects the stack. No JSON of kds is nested deeper.
   static Json json(const Tree& tree, int depth = 0) {
     if (depth > 64) return nullptr;
     switch (tree.type()) {
@@ -119,7 +119,7 @@ Json parse_json(std::string_view text) {
 void JsonItems::add(const Json& item) {
   const std::string text = text_of(item);
   std::string_view left(text);
-  left.remove_suffix(1);  // the newline
+  left.remove_suffix(1);  // removes the newline
   std::string lines = items_.empty() ? "" : ",\n";
   while (!left.empty()) {
     const std::size_t end = std::min(left.find('\n'), left.size());
@@ -135,7 +135,8 @@ void JsonItems::write_within(const Json& object, std::string_view name, const Te
   whole[name] = Json::array();
   const std::string text = text_of(whole);
   if (items_.empty()) return sink(text);
-  // No text of JSON contains a newline, and what is nested is indented further.
+  // No JSON string contains a newline, and nested members are indented further, so the first match is the
+  // member itself.
   const std::string empty = "\n  \"" + std::string(name) + "\": []";
   const std::size_t at = text.find(empty) + empty.size() - 1;
   sink(std::string_view(text).substr(0, at));

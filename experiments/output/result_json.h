@@ -1,5 +1,5 @@
 #pragma once
-// JSON of results and logs. Only the source file of this header knows the library behind it, which is long to
+// JSON for results and logs. Only this header's source file includes the JSON library, which takes long to
 // compile.
 
 #include <concepts>
@@ -16,15 +16,15 @@
 
 namespace kds {
 
-/// A value of JSON. Members of objects keep their order. {{"name", value}, ...} is an object, a vector an
-/// array.
+/// A JSON value. The members of an object keep their order. {{"name", value}, ...} is an object, a vector is
+/// an array.
 class Json {
  public:
   using Items = std::vector<Json>;
   using Members = std::vector<std::pair<std::string, Json>>;
 
   Json();  ///< null
-  // Not inlined: what becomes of nine kinds of values is long to compile.
+  // Not inline, because copying and moving nine kinds of values takes long to compile.
   Json(const Json& other);
   Json(Json&& other) noexcept;
   Json& operator=(const Json& other);
@@ -46,7 +46,7 @@ class Json {
     }
   }
   template <class Value>
-  Json(const std::optional<Value>& value) {  // null where there is none
+  Json(const std::optional<Value>& value) {  // null if there is no value
     if (value) *this = Json(*value);
   }
   template <class Value>
@@ -55,18 +55,19 @@ class Json {
   [[nodiscard]] static Json array() { return Json(Items()); }
   [[nodiscard]] static Json object() { return Json(Members()); }
 
-  /// Of an object, or of null, which becomes one. A member that is not there is added, as null.
+  /// Returns the member of an object. Adds a null member if it is missing. A null value first becomes an
+  /// object.
   Json& operator[](std::string_view name);
-  /// To an array.
+  /// Appends to an array.
   void push_back(Json item) { std::get<Items>(value_).push_back(std::move(item)); }
 
-  // What the value is; null where it is something else.
+  // Each function returns the content if the value has that type, else null.
   [[nodiscard]] const std::string* text() const { return std::get_if<std::string>(&value_); }
   [[nodiscard]] const Items* items() const { return std::get_if<Items>(&value_); }
   [[nodiscard]] const Members* members() const { return std::get_if<Members>(&value_); }
   [[nodiscard]] const std::uint64_t* whole_number() const { return std::get_if<std::uint64_t>(&value_); }
   [[nodiscard]] bool is_null() const { return std::holds_alternative<std::monostate>(value_); }
-  /// The member of an object; null where there is none, or no object.
+  /// Returns the member of an object, or null if the value is not an object or has no such member.
   [[nodiscard]] const Json* find(std::string_view name) const;
 
  private:
@@ -77,27 +78,29 @@ class Json {
   std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, std::string, Items, Members> value_;
 };
 
-/// To an object: first `command`, the command line, last `version` and `machine`, as every result has them.
+/// Adds provenance to an object, as every result has it: `command`, the command line, as the first member,
+/// and `version` and `machine` as the last members.
 void add_provenance(Json& json, std::string command);
 
-/// Indented, ends with a newline. File names need not be UTF-8, JSON must be: wrong bytes are replaced.
+/// Returns indented text that ends with a newline. File names need not be UTF-8 but JSON must be, so invalid
+/// bytes are replaced.
 [[nodiscard]] std::string text_of(const Json& json);
 
-/// A long array of an object, whose items wait on disk as text.
+/// A long array inside an object. Its items wait on disk as text.
 class JsonItems {
  public:
   void add(const Json& item);
-  /// Writes the text of `object` as text_of does, with this array as its member `name`.
+  /// Writes the text of `object`, as text_of does, with this array as its member `name`.
   void write_within(const Json& object, std::string_view name, const TextSink& sink) const;
 
  private:
   Spool items_;
 };
 
-/// Without blanks and newlines; none where a text is not UTF-8.
+/// Returns one line without blanks, or nothing if a string is not UTF-8.
 [[nodiscard]] std::optional<std::string> line_of(const Json& json);
 
-/// Null where the text is no JSON, and for what is nested deeper than 64 levels.
+/// Returns null if the text is not JSON or is nested deeper than 64 levels.
 [[nodiscard]] Json parse_json(std::string_view text);
 
 }  // namespace kds
