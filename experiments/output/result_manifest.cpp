@@ -99,7 +99,7 @@ std::string ResultManifest::author_of(const std::string& name) const {
     try {
       const ResultManifest other(directory_, key.substr(0, dash), "--" + key.substr(dash + 1));
       if (other.is_own(name)) return other.writer_;
-    } catch (const InputError&) {  // no manifest
+    } catch (const InputError&) {  // not a manifest
     }
   }
   return "";

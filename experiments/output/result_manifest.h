@@ -1,9 +1,10 @@
 #pragma once
-// The files that kds wrote into a directory of results, with their sizes and checksums. A later result of the
-// same command replaces or removes these files only: a file that somebody else made, or changed since, stays.
+// Records the files that kds wrote into a directory of results, with their sizes and checksums. A later
+// result of the same command replaces or removes only these files. Files that were made or changed by others
+// stay.
 //
-// The manifest is a hidden text file of the directory, .kds-COMMAND-OPTION.files: a heading, then a line for
-// each file with its checksum (16 hex digits), size and name.
+// The manifest is a hidden text file in the directory, .kds-COMMAND-OPTION.files. It has a heading and a line
+// for each file with checksum (16 hex digits), size and name.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,24 +17,24 @@ namespace kds {
 
 class ResultManifest {
  public:
-  /// The manifest of the results that `command` (run) writes for `option` (--dump). Reads it where there is
-  /// one. Throws InputError where a file of that name is no manifest.
+  /// Reads the manifest of the results that `command` (such as run) writes for `option` (such as --dump), if
+  /// it exists. Throws InputError if a file with the manifest's name is not a manifest.
   ResultManifest(std::filesystem::path directory, std::string_view command, std::string_view option);
 
-  /// Throws InputError where the directory has a file of this name that this command did not write, or that
+  /// Throws InputError if the directory has a file with this name that this command did not write, or that
   /// has changed since.
   void require_own(const std::string& name) const;
-  /// Returns whether the file of this name is there as this command wrote it.
+  /// Returns whether a file with this name exists unchanged since this command wrote it.
   [[nodiscard]] bool is_own(const std::string& name) const;
 
   [[nodiscard]] bool empty() const { return files_.empty(); }
-  /// A name is listed twice if a program was killed while it replaced the file.
+  /// The files in the manifest. A name appears twice if a program was killed while it replaced the file.
   [[nodiscard]] const auto& files() const { return files_; }
   [[nodiscard]] std::filesystem::path path() const { return directory_ / (".kds-" + key_ + ".files"); }
   [[nodiscard]] std::string heading() const;
-  /// The line of a file that lies at `path` and is to have this name.
+  /// Returns the manifest line for the file at `path`, which will get the name `name`.
   [[nodiscard]] static std::string line(const std::filesystem::path& path, std::string_view name);
-  /// The lines of all files listed.
+  /// Returns the lines of all files in the manifest.
   [[nodiscard]] std::string lines() const;
 
  private:
@@ -44,8 +45,8 @@ class ResultManifest {
   static Content content_of(const std::filesystem::path& path);
   static std::string line(const Content& content, std::string_view name);
   void read();
-  /// Returns the command and option whose manifest lists the file as it is, as in "kds run --out"; "" if
-  /// there is no such manifest.
+  /// Returns the command and option whose manifest lists the file in its present state, as in "kds run
+  /// --out". Returns "" if no manifest does.
   [[nodiscard]] std::string author_of(const std::string& name) const;
 
   std::filesystem::path directory_;

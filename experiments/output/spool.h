@@ -1,5 +1,5 @@
 #pragma once
-// Text that waits on disk, in a temporary file without a name, so that memory does not grow with it.
+// Text that waits on disk in an unnamed temporary file, so that memory does not grow with the text.
 
 #include <algorithm>
 #include <array>
@@ -13,18 +13,18 @@
 
 namespace kds {
 
-/// Takes a text piece by piece.
+/// Receives a text piece by piece.
 using TextSink = std::function<void(std::string_view)>;
 
 class Spool {
  public:
-  /// Throws OutputError where the system gives no temporary file.
+  /// Throws OutputError if the system provides no temporary file.
   Spool();
 
-  /// Throws OutputError where there is no room.
+  /// Throws OutputError if the disk is full.
   void add(std::string_view text);
   [[nodiscard]] bool empty() const { return empty_; }
-  /// Passes the whole text to `sink`, in order. More can be added afterwards.
+  /// Passes the whole text to `sink` in order. More text can be added afterwards.
   void read(const TextSink& sink) const;
 
  private:
@@ -35,14 +35,14 @@ class Spool {
   bool empty_ = true;
 };
 
-/// Records that wait on disk in the same way.
+/// Records that wait on disk in an unnamed temporary file.
 template <class Record>
 class SpooledRecords {
   static_assert(std::is_trivially_copyable_v<Record>);
 
  public:
   void add(const Record& record) { spool_.add({reinterpret_cast<const char*>(&record), sizeof record}); }
-  /// Calls `visit(record)` for all, in order.
+  /// Calls `visit(record)` for all records in order.
   template <class Visit>
   void for_each(const Visit& visit) const {
     std::array<char, sizeof(Record)> bytes{};

@@ -1,5 +1,5 @@
 #pragma once
-// Results that appear together or not at all. Each waits beside its place until all are whole.
+// Results that appear together or not at all. Each waits beside its place until all are complete.
 
 #include <span>
 
@@ -8,15 +8,15 @@ namespace kds {
 class Staged {
  public:
   virtual ~Staged() = default;
-  /// All of it is on disk, and nothing that can be known beforehand keeps it from its place. Throws
-  /// InputError or OutputError naming the path.
+  /// Completes the result on disk and checks every condition for its move that can be known beforehand.
+  /// Throws an InputError or OutputError that names the path.
   virtual void finish() = 0;
-  /// It takes its place. Throws likewise, but only where the system fails.
+  /// Moves the result to its place. Throws as finish() does, but only if the system fails.
   virtual void take_place() = 0;
 };
 
-/// All are finished before the first takes its place, and signals wait until the last has. Null ones are left
-/// out.
+/// Finishes all results before the first takes its place. Blocks signals until the last has taken its place.
+/// Skips null pointers.
 void commit_together(std::span<Staged* const> results);
 
 }  // namespace kds

@@ -46,7 +46,7 @@ void StagedFiles::check() const {
   for (const WrittenFile& file : open_) file.check();
 }
 
-// Calls visit(where a file waits, where its place is) for all.
+// Calls `visit(where a file waits, its final place)` for all files.
 template <class Visit>
 void StagedFiles::for_each(const Visit& visit) const {
   std::ifstream names(folder_.file(0), std::ios::binary);
@@ -84,7 +84,8 @@ void StagedFiles::finish() {
   manifest.close();
 }
 
-// A manifest lists every file of a result that is there at each moment: the program may be killed.
+// The program may be killed at any moment, so a manifest must list every present file of a result at each
+// moment.
 void StagedFiles::take_place() {
   const std::string subject = earlier_.path().string() + ": cannot write";
   replace_file(both_, earlier_.path(), subject);

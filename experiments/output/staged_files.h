@@ -1,6 +1,6 @@
 #pragma once
-// Files of a directory that appear together or not at all: they wait in a hidden folder of it, under numbers.
-// Their names are kept there too, so that memory does not grow with the number of files.
+// Files of a directory that appear together or not at all. They wait in a hidden folder of the directory
+// under numbers. Their names wait on disk too, so that memory does not grow with the number of files.
 
 #include <filesystem>
 #include <functional>
@@ -20,27 +20,28 @@ namespace kds {
 
 class StagedFiles final : public Staged {
  public:
-  /// Makes the directory if it is not there. Throws InputError or OutputError naming option and path.
-  /// `command` and `option` say whose results these are (result_manifest.h).
+  /// Makes the directory if it does not exist. Throws an InputError or OutputError that names the option and
+  /// the path. `command` and `option` identify the owner of these results (result_manifest.h).
   StagedFiles(std::filesystem::path directory, std::string_view command, std::string_view option);
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  /// Throws likewise. Throws InputError also if a file of that name is there that no earlier result of this
-  /// kind wrote.
+  /// Writes a file. Throws as the constructor does. Throws InputError also if a file with that name exists
+  /// that no earlier result of this kind wrote.
   void write(const std::string& name, std::string_view text);
-  /// A file that is written piece by piece until finish(). Throws likewise.
+  /// Opens a file that is written piece by piece until finish(). Throws as `write` does.
   [[nodiscard]] std::ostream& open(const std::string& name);
-  /// Throws where an open file could not be written.
+  /// Throws if a write to an open file failed.
   void check() const;
 
-  /// Throws InputError if a file of the directory `belongs` to results of this kind and no earlier one
-  /// wrote it.
+  /// Throws InputError if the directory has a file for which `belongs` is true but which no earlier result of
+  /// this kind wrote.
   void refuse_others(const std::function<bool(std::string_view name)>& belongs) const;
 
   void finish() override;
-  /// Removes the files that an earlier result of this kind wrote and this one does not have, unless they have
-  /// changed since. If this is never called, no file is left, and a directory made is removed.
+  /// Moves all files to their places. Removes the files of an earlier result of this kind that are not in
+  /// this one, unless they have changed since. If this is never called, no file remains, and a directory that
+  /// the constructor made is removed.
   void take_place() override;
 
  private:
@@ -53,9 +54,9 @@ class StagedFiles final : public Staged {
   MadeDirectories made_;
   Part folder_;
   ResultManifest earlier_;
-  std::optional<WrittenFile> names_;  ///< a line a file
+  std::optional<WrittenFile> names_;  ///< one name per line
   std::list<WrittenFile> open_;
-  std::filesystem::path both_, manifest_;  ///< manifests in the making: with the earlier files, and without
+  std::filesystem::path both_, manifest_;  ///< new manifests, with and without the earlier files
 };
 
 }  // namespace kds

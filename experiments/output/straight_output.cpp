@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Of this program, if a link on the way is one of those that the system shows its descriptors as. What such a
-// link says it leads to need not be a path: opened anew, a file would be written from its beginning, over
-// what standard output has got already.
+// Returns the descriptor of this program to which the path leads, if a link on the way lies in /proc/self/fd.
+// The text of such a link need not be a path. If a file behind it were opened again, it would be written from
+// its beginning, over the text that standard output has already written.
 std::optional<int> descriptor_behind(fs::path path) {
   std::error_code error;
   const fs::path descriptors = fs::canonical("/proc/self/fd", error);

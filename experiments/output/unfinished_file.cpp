@@ -13,10 +13,11 @@
 
 namespace kds {
 
-// Entries are never freed, so that the handler may walk the list at any moment; a null path is nobody's.
+// An entry in the list that the signal handler walks. Entries are never freed, so the handler may walk the
+// list at any moment. An entry with a null path is unused.
 struct UnfinishedFile::Entry {
   std::atomic<const char*> path{nullptr};
-  std::atomic<std::uint64_t> files{0};  ///< of a folder
+  std::atomic<std::uint64_t> files{0};  ///< number of files in a folder
   Entry* next = nullptr;
 };
 
@@ -27,7 +28,7 @@ using Entry = UnfinishedFile::Entry;
 std::atomic<Entry*> all_entries{nullptr};
 static_assert(std::atomic<Entry*>::is_always_lock_free && std::atomic<const char*>::is_always_lock_free);
 
-// The folder's file of that number, with nothing but what a signal handler may use.
+// Removes the file with this number in the folder. Calls only functions that are safe in a signal handler.
 void remove_numbered(const char* folder, std::uint64_t number) {
   constexpr std::size_t longest = 4096, digits = 20;
   const std::size_t length = std::strlen(folder);
@@ -49,29 +50,28 @@ void remove_numbered(const char* folder, std::uint64_t number) {
 std::atomic_flag is_clearing = ATOMIC_FLAG_INIT;
 
 extern "C" void remove_unfinished_and_end(int signal) {
-  while (is_clearing.test_and_set())
-    ::pause();  // another thread is, and ends the program once all is cleared
+  while (is_clearing.test_and_set()) ::pause();  // another thread is clearing and then ends the program
   for (const Entry* entry = all_entries.load(); entry != nullptr; entry = entry->next)
     if (const char* path = entry->path.load()) {
       for (std::uint64_t number = entry->files.load(); number-- > 0;) remove_numbered(path, number);
       ::unlink(path);
     }
-  for (bool removed = true; removed;) {  // a folder is empty once the folders in it are gone
+  for (bool removed = true; removed;) {  // a folder can be removed once its subfolders are gone
     removed = false;
     for (const Entry* entry = all_entries.load(); entry != nullptr; entry = entry->next) {
       const char* path = entry->path.load();
       if (path != nullptr && ::rmdir(path) == 0) removed = true;
     }
   }
-  // Its default action, once this has returned. Until all is cleared the handler is there: had the system
-  // taken it away before it (SA_RESETHAND), a second signal of that kind could end the program at once.
+  // The signal's default action follows when this handler returns. The handler stays installed until
+  // everything is removed: with SA_RESETHAND, a second signal of that kind could end the program too early.
   struct sigaction action {};
   action.sa_handler = SIG_DFL;
   ::sigaction(signal, &action, nullptr);
   ::raise(signal);
 }
 
-// Those that no handler is for, that stop the program, and that do nothing unless it asks.
+// Returns whether the signal cannot be caught, only stops or continues the program, or is ignored by default.
 bool spares_the_program(int signal) {
   constexpr std::array others{SIGKILL, SIGSTOP, SIGTSTP, SIGTTIN, SIGTTOU,
                               SIGCONT, SIGCHLD, SIGURG,  SIGWINCH};
@@ -79,7 +79,7 @@ bool spares_the_program(int signal) {
 }
 
 void handle_signals() {
-  // A stack that has no room left has none for a handler.
+  // The handler has its own stack, since the program's stack may be exhausted.
   static std::array<char, std::size_t{1} << 16U> stack;
   stack_t other{};
   other.ss_sp = stack.data();
@@ -88,10 +88,11 @@ void handle_signals() {
   for (int signal = 1; signal <= SIGRTMAX; ++signal) {
     if (spares_the_program(signal)) continue;
     struct sigaction action {};
-    if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;  // as of nohup
+    if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL)
+      continue;  // ignored, for instance under nohup
     action.sa_handler = remove_unfinished_and_end;
     action.sa_flags = SA_ONSTACK;
-    ::sigfillset(&action.sa_mask);  // another one waits until all is cleared
+    ::sigfillset(&action.sa_mask);  // other signals wait until everything is removed
     ::sigaction(signal, &action, nullptr);
   }
 }

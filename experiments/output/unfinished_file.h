@@ -1,5 +1,5 @@
 #pragma once
-// A file or folder in the making, which must not stay behind if the user stops the program.
+// Removes an unfinished file or folder if the user stops the program.
 
 #include <atomic>
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace kds {
 
-/// While it lives, every signal that would end the program and can be caught removes the file of that name
-/// first; a folder too, if it is empty then. It is to be there before the file is.
+/// During the lifetime of this object, every catchable signal that would end the program first removes the
+/// file, or the folder if it is empty by then. Construct it before the file is made.
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(std::string path);
@@ -16,10 +16,10 @@ class UnfinishedFile {
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
 
-  /// Of a folder: the files 0, 1, ... in it, so many, go as well.
+  /// For a folder: the files 0, 1, ..., count - 1 in it are removed too.
   void hold_files(std::uint64_t count);
 
-  struct Entry;  ///< of the list that the signal handler walks
+  struct Entry;  ///< element of the list that the signal handler walks
 
  private:
   std::string path_;

@@ -1,5 +1,5 @@
 #pragma once
-// A file that is written as a stream and tells, soon and with the system's reason, where that fails.
+// A file that is written as a stream and reports a failure early, with the system's reason.
 
 #include <filesystem>
 #include <ostream>
@@ -11,16 +11,16 @@ namespace kds {
 
 class WrittenFile {
  public:
-  /// A new file, or an old one emptied. Throws as fail_to_write does; `subject` begins the message.
+  /// Makes a new file or empties an existing one. Throws as fail_to_write does. `subject` begins the message.
   WrittenFile(const std::filesystem::path& path, std::string subject);
   ~WrittenFile();
   WrittenFile(const WrittenFile&) = delete;
   WrittenFile& operator=(const WrittenFile&) = delete;
 
   [[nodiscard]] std::ostream& stream() { return stream_; }
-  /// Throws likewise where something could not be written.
+  /// Throws as fail_to_write does if a write failed.
   void check() const;
-  /// All is written. Throws likewise.
+  /// Completes the file. Throws as fail_to_write does.
   void close();
 
  private:

@@ -15,7 +15,7 @@ bool is_wide(const DrawingSize& size) { return size.width > 500; }
 DrawingSize wide(double height) { return {860, height, 64, 32, 26, 48}; }
 DrawingSize narrow(double height) { return {360, height, 64, 32, 26, 48}; }
 
-// What stands between single quotes is taken as it is; a quote is doubled.
+// Returns the text in single quotes, which gnuplot takes literally. A quote within the text is doubled.
 std::string gnuplot_text(std::string_view text) {
   std::string result = "'";
   for (const char c : one_line(text)) result += c == '\'' ? std::string("''") : std::string(1, c);

@@ -1,6 +1,6 @@
 #pragma once
-// What plots share: a drawing is a script of gnuplot, made once for wide pages and once for narrow ones, with
-// axes that have round ticks.
+// Common parts of plots. A drawing is a gnuplot script with round ticks on its axes. Each plot is drawn once
+// for wide pages and once for narrow pages.
 
 #include <cmath>
 #include <cstddef>
@@ -16,33 +16,34 @@ struct Drawing {
   DrawingSize size;
   std::string script;
   TextsOf of = TextsOf::marks;
-  std::vector<std::string> texts;  ///< where the pointer rests
+  std::vector<std::string> texts;  ///< shown under the pointer
 };
 
-/// As wide as the page's column, and as wide as a telephone's.
+/// Drawings as wide as the page's column, and as wide as a telephone's screen.
 [[nodiscard]] bool is_wide(const DrawingSize& size);
 [[nodiscard]] DrawingSize wide(double height);
 [[nodiscard]] DrawingSize narrow(double height);
 
-/// The page's style shows one of the two.
+/// The two drawings of a plot. The page's style shows one of them.
 struct Plotted {
   Drawing wide, narrow;
 };
 
-/// The SVG of each, all drawn by one process; `labels` say what they show to those who do not see it.
+/// Returns the SVG of each plot, all drawn by one gnuplot process. `labels` describe the plots for readers
+/// who cannot see them.
 [[nodiscard]] std::vector<std::string> drawn(const std::vector<Plotted>& plots,
                                              const std::vector<std::string>& labels);
 
-/// Which colour is whose; empty where there is nothing to tell apart.
+/// Returns a key of names and colours, or an empty text if there is at most one name.
 [[nodiscard]] std::string html_key(const std::vector<std::string>& names);
 
-/// Between single quotes, as gnuplot takes it.
+/// Returns the text in single quotes for gnuplot.
 [[nodiscard]] std::string gnuplot_text(std::string_view text);
 [[nodiscard]] std::string colour(std::size_t series);
-/// No more than `most` bytes of it, with an ellipsis behind them, and no half characters.
+/// Returns at most `most` bytes of the text followed by an ellipsis. Never cuts a character in half.
 [[nodiscard]] std::string shortened(std::string text, std::size_t most);
 
-/// Margins, labels, style: what every script begins with.
+/// Returns the common beginning of all scripts: margins, labels and style.
 [[nodiscard]] std::string axes(const DrawingSize& size, std::string_view x_label, std::string_view y_label);
 
 struct Range {
@@ -50,24 +51,24 @@ struct Range {
 
   void add(double value);
   [[nodiscard]] bool empty() const { return least > most; }
-  /// Wider than what doubles tell apart.
+  /// Returns whether the width exceeds the resolution of doubles.
   [[nodiscard]] bool wide() const;
-  /// Wide, whatever it is.
+  /// Returns a range around this one that is wide in any case.
   [[nodiscard]] Range around() const;
-  /// Marks stand off the edges.
+  /// Returns the range with a margin, so that marks stay off the edges.
   [[nodiscard]] Range with_margin(bool logarithmic) const;
 };
 
-/// How many ticks an axis has room for.
+/// Returns how many ticks fit on an x axis.
 [[nodiscard]] int x_ticks(const DrawingSize& size);
 inline constexpr int y_ticks = 5;
 
-/// Between ticks, `most` of them: 1, 2 or 5 times a power of ten.
+/// Returns the distance between ticks for at most `most` ticks: 1, 2 or 5 times a power of ten.
 [[nodiscard]] double tick_step(const Range& range, int most);
 
-/// An axis ('x' or 'y') with its range and round ticks. Of logarithmic ones these are powers of ten, about
-/// `most` at the most; 1, 2 and 5 of each where there are less than two, and round values where there are
-/// still less.
+/// Returns the script for an axis ('x' or 'y') with its range and round ticks. A logarithmic axis has about
+/// `most` ticks at powers of ten. If fewer than two are in range, it has ticks at 1, 2 and 5 times powers of
+/// ten. If that still gives fewer than two, it has ticks at evenly spaced round values.
 [[nodiscard]] std::string linear(char axis, const Range& range, int most);
 [[nodiscard]] std::string logarithmic(char axis, const Range& range, int most);
 [[nodiscard]] std::string set_range(char axis, const Range& range);
