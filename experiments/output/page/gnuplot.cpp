@@ -25,7 +25,7 @@ struct Close {
 };
 using Stream = std::unique_ptr<std::FILE, Close>;
 
-// Files in memory instead of pipes: no deadlock, no SIGPIPE, and no disk that may be full.
+// Files in memory are used instead of pipes: they cannot deadlock, raise SIGPIPE or fill a disk.
 Stream nameless_file() {
   const int descriptor = ::memfd_create("kds", MFD_CLOEXEC);
   Stream file(descriptor < 0 ? nullptr : ::fdopen(descriptor, "w+"));
@@ -43,7 +43,7 @@ std::string content_of(std::FILE* file) {
 }
 
 struct Outcome {
-  int status = 0;  ///< as of waitpid
+  int status = 0;  ///< the status of waitpid
   std::string output, errors;
 };
 
@@ -59,7 +59,7 @@ Outcome spawn_gnuplot(const std::string& script) {
   posix_spawn_file_actions_adddup2(&actions, ::fileno(input.get()), 0);
   posix_spawn_file_actions_adddup2(&actions, ::fileno(output.get()), 1);
   posix_spawn_file_actions_adddup2(&actions, ::fileno(errors.get()), 2);
-  std::string name = "gnuplot", plain = "--default-settings";  // no start-up file of the user
+  std::string name = "gnuplot", plain = "--default-settings";  // ignores the user's start-up file
   const std::array<char*, 3> arguments{name.data(), plain.data(), nullptr};
   pid_t child = 0;
   const int failed = ::posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);

@@ -1,15 +1,16 @@
 #pragma once
-// gnuplot as a function: a script in, what it prints out.
+// Runs gnuplot as a function that takes a script and returns its output.
 
 #include <string>
 #include <string_view>
 
 namespace kds {
 
-/// Throws InputError saying that `option` needs gnuplot, where it cannot be started or draws no SVG.
+/// Throws an InputError which says that `option` needs gnuplot if gnuplot cannot be started or cannot draw
+/// SVG.
 void require_gnuplot(std::string_view option);
 
-/// Throws std::runtime_error with gnuplot's own words.
+/// Throws std::runtime_error with gnuplot's message.
 [[nodiscard]] std::string run_gnuplot(const std::string& script);
 
 }  // namespace kds

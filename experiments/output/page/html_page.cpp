@@ -13,7 +13,7 @@ namespace kds {
 
 namespace {
 
-// Colours of series are told apart by the colour-blind too.
+// The colours of the series can also be told apart by colour-blind readers.
 constexpr std::string_view kStyle = R"(
 :root { color-scheme: light dark;
   --page: #ffffff; --ink: #1f2933; --soft: #5b6570; --line: #dfe4ea; --tint: #f4f6f8; --shade: #1f29332e; --link: #1d5fa8;
@@ -97,7 +97,7 @@ std::string value_text(const Json& value) {
   return value.is_null() ? "" : line_of(value).value_or("");
 }
 
-// What was not asked for is left out.
+// Settings without a value are omitted.
 std::string settings_of(const Json& settings) {
   std::vector<std::pair<std::string, std::string>> terms;
   if (settings.members() != nullptr)
@@ -137,7 +137,7 @@ std::string html_section(const std::string& heading, const std::string& content)
 
 namespace {
 
-// What stands in brackets behind a value, such as its spread, goes below it.
+// Text in brackets after a value, such as its spread, goes on the line below.
 std::string cell_text(const std::string& cell) {
   const std::size_t bracket = cell.find(" (");
   if (bracket == std::string::npos || !cell.ends_with(')')) return html_escaped(cell);

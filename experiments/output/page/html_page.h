@@ -1,7 +1,7 @@
 #pragma once
-// The report of every command: one page in one style, complete in itself, without a script and without a
-// network. It begins with what was found, and ends with how it was made and where its data are. Light or dark
-// as the reader's system is, legible from the width of a telephone on.
+// The report page of every command: one style, self-contained, without scripts and without network access. It
+// begins with the findings and ends with how the page was made and where its data are. It is light or dark as
+// the reader's system, and legible down to the width of a telephone.
 
 #include <string>
 #include <utility>
@@ -14,32 +14,31 @@ namespace kds {
 
 struct Page {
   std::string title;
-  std::string found;  ///< HTML, paragraphs: what was found, in words and figures
-  std::string body;   ///< HTML: plots and tables, section by section
-  std::string words;  ///< HTML: what the words mean; may be empty
-  std::vector<std::pair<std::string, std::string>> terms;  ///< a word and what it means, text
+  std::string found;  ///< HTML paragraphs: the findings in words and figures
+  std::string body;   ///< HTML: plots and tables by section
+  std::string words;  ///< HTML: a glossary; may be empty
+  std::vector<std::pair<std::string, std::string>> terms;  ///< plain text: words and their meanings
   std::string command_line;
-  Json settings;                  ///< an object; null where there are none
-  std::vector<std::string> data;  ///< names of the files beside it
+  Json settings;                  ///< an object, or null if there are no settings
+  std::vector<std::string> data;  ///< names of the data files beside the page
 };
 
 [[nodiscard]] std::string html_page(const Page& page);
 
 [[nodiscard]] std::string html_figure(const std::string& svg, const std::string& caption);
 
-/// A section with its heading; nothing where its content is empty.
+/// Returns a section with its heading, or an empty text if the content is empty.
 [[nodiscard]] std::string html_section(const std::string& heading, const std::string& content);
 
 struct HtmlRow {
-  std::vector<std::string>
-      cells;            ///< text, the first the row's name; fewer than columns: the others are empty
-  bool detail = false;  ///< belongs to the row above that is none
+  std::vector<std::string> cells;  ///< plain text; the first is the row's name; missing cells are empty
+  bool detail = false;             ///< details the nearest row above that is not a detail
 };
-/// Scrolls sideways where the page is too narrow; its first column stays.
+/// Returns a table. It scrolls sideways if the page is too narrow, and its first column stays in place.
 [[nodiscard]] std::string html_table(const std::vector<std::string>& columns,
                                      const std::vector<HtmlRow>& rows);
 
-/// Terms and what they are here: label and value.
+/// Returns a list of terms with their values, given as pairs of label and value.
 [[nodiscard]] std::string html_terms(const std::vector<std::pair<std::string, std::string>>& terms);
 
 }  // namespace kds

@@ -1,14 +1,14 @@
 #pragma once
-// Text as it stands in HTML.
+// Escapes text for HTML.
 
 #include <string>
 #include <string_view>
 
 namespace kds {
 
-/// On one line.
+/// Returns the text on one line.
 [[nodiscard]] std::string html_escaped(std::string_view text);
-/// Lines stay lines.
+/// Returns the text with its line breaks.
 [[nodiscard]] std::string html_escaped_lines(std::string_view text);
 
 }  // namespace kds

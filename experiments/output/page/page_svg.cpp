@@ -17,7 +17,7 @@ namespace {
   throw std::runtime_error(fmt::format("gnuplot failed: {}", why));
 }
 
-// The number after `word`, spaces left out.
+// Returns the number after `word`, with spaces skipped.
 template <class Number>
 Number number_after(std::string_view line, std::string_view word) {
   std::size_t place = line.find(word);
@@ -31,7 +31,8 @@ Number number_after(std::string_view line, std::string_view word) {
 
 std::string title(const std::string& text) { return "<title>" + html_escaped_lines(text) + "</title>"; }
 
-// Colours are written rgb(0,0,K) or rgb(  0,   0,   K); others belong to nothing that is drawn.
+// Replaces gnuplot's colours by the colours of the page. gnuplot writes them as rgb(0,0,K) or rgb(  0,   0,
+// K). Other colours belong to nothing that is drawn.
 std::string in_page_colours(std::string_view line) {
   std::string result;
   for (std::size_t place = 0;;) {
@@ -51,7 +52,7 @@ class Rewriter {
 
   void add(std::string_view line) {
     line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-    if (line.empty() || line.starts_with("<rect")) return;  // the background is the page's
+    if (line.empty() || line.starts_with("<rect")) return;  // the page provides the background
     if (line.starts_with("<g onmousemove")) {
       text_ = number_after<std::size_t>(line, "showHypertext(evt,'");
       if (text_ >= texts_.size()) fail("expected fewer hypertexts");
@@ -63,12 +64,12 @@ class Rewriter {
            title(texts_[placed_++]) + "</polygon>" + std::string(line.substr(line.rfind("/>") + 2)));
     } else if (line.starts_with("<text>\x02")) {
       emit("<text>" + tick_label(number_after<double>(line, "\x02")) + "</text>");
-    } else if (line.starts_with("<g id=")) {  // a plot, with its title
+    } else if (line.starts_with("<g id=")) {  // a plot with its title
       emit("<g>");
     } else if (line.starts_with("<g fill=\"none\"")) {
       groups_.emplace_back(line);
     } else if (line == "</g>" && !groups_.empty()) {
-      groups_.pop_back();  // without content
+      groups_.pop_back();  // a group without content
     } else if (line.starts_with("<path") && number_of_colour(line) < series_colours) {
       emit("<path class=\"curve\"" + in_page_colours(line.substr(5)));
     } else {
@@ -104,7 +105,7 @@ class Rewriter {
     svg_ += '\n';
   }
 
-  // Marks are circles.
+  // Writes a mark, which is a circle.
   void mark(std::string_view line) {
     const auto x = number_after<double>(line, "translate("), scale = number_after<double>(line, "scale(");
     const std::string_view after = line.substr(line.find("translate("));
@@ -128,7 +129,7 @@ class Rewriter {
 
   TextsOf of_;
   const std::vector<std::string>& texts_;
-  std::vector<std::string> groups_;  ///< opened, and as yet without content
+  std::vector<std::string> groups_;  ///< opened groups that have no content yet
   std::size_t text_ = no_text, placed_ = 0;
   std::vector<std::pair<double, std::size_t>> strips_;
   std::string svg_;

@@ -12,9 +12,9 @@
 namespace kds {
 namespace {
 
-constexpr double kRow = 62;          // pixels: a name, and bars below it
-constexpr double kBars = 34 / kRow;  // of a row
-constexpr std::size_t kLetters = 7;  // pixels a letter takes, at most on average
+constexpr double kRow = 62;          // pixels for a name and the bars below it
+constexpr double kBars = 34 / kRow;  // share of a row
+constexpr std::size_t kLetters = 7;  // largest average width of a letter in pixels
 
 std::string heading(const RowsPlot::Row& row, const DrawingSize& size) {
   const auto room = static_cast<std::size_t>(size.width - size.left - size.right) / kLetters;
@@ -22,7 +22,7 @@ std::string heading(const RowsPlot::Row& row, const DrawingSize& size) {
   return with_note.size() <= room ? with_note : shortened(row.name, room);
 }
 
-// Columns from `first` on, `width` of them or those that are left.
+// A bin of `width` columns from `first` on. The last bin may have fewer columns.
 struct Bin {
   std::size_t first, width;
   [[nodiscard]] double left() const { return static_cast<double>(first) - 0.5; }
@@ -52,7 +52,7 @@ std::string column_text(const RowsPlot& plot, const Bin& bin) {
 
 Drawing draw(const RowsPlot& plot, DrawingSize size) {
   size.left = 10;
-  size.right = 24;  // for a tick's label
+  size.right = 24;  // leaves room for a tick label
   size.top = 0;
   size.height = kRow * static_cast<double>(plot.rows.size()) + size.bottom;
   const std::vector<Bin> bins = bins_of(plot.columns, is_wide(size) ? 400 : 160);

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kMarkSize = 0.8;  // about 4 pixels
 
-// The values of all curves where the pointer rests; of long ones not more than there are places for.
+// Returns the texts under the pointer: the values of all curves at each x. If there are more x than places,
+// not more than `most`.
 std::map<double, std::string> values_of(const LinePlot& plot, const std::vector<double>& xs,
                                         std::size_t most) {
   std::map<double, std::string> values;
@@ -30,7 +31,7 @@ std::map<double, std::string> values_of(const LinePlot& plot, const std::vector<
   return values;
 }
 
-// `names` has that of each curve, at the place of its colour.
+// `names` has the name of each curve at the index of its colour.
 Drawing draw(const LinePlot& plot, const DrawingSize& size, const std::vector<std::string>& names) {
   Drawing drawing{size, axes(size, plot.x_label, plot.y_label), TextsOf::strips, {}};
   std::string& script = drawing.script;
@@ -54,7 +55,7 @@ Drawing draw(const LinePlot& plot, const DrawingSize& size, const std::vector<st
   Range x = (xs.empty() ? Range{} : Range{xs.front(), xs.back()}).around();
   if (marks) x = x.with_margin(spread);
   script += spread ? logarithmic('x', x, x_ticks(size)) : linear('x', x, x_ticks(size));
-  // What is measured at some values of x only has its ticks there.
+  // If x takes only a few values, the ticks are at these values.
   if (marks && !xs.empty() && xs.size() <= 8) script += set_ticks('x', xs);
 
   const std::string style = marks                            ? fmt::format("points pt 7 ps {}", kMarkSize)
@@ -84,7 +85,7 @@ Drawing draw(const LinePlot& plot, const DrawingSize& size, const std::vector<st
   return drawing;
 }
 
-// Names beside points, where they stand on no other name or point; in pixels.
+// Places names beside points, in pixels, where they cover no other name or point.
 class Labels {
  public:
   Labels(double left, double right) : left_(left), right_(right) {}
@@ -221,7 +222,7 @@ Drawing draw(const MapPlot& plot, DrawingSize size) {
   for (const auto& [x, y, value] : plot.squares) {
     const double opacity = 0.25 + 0.75 * (most > 0 ? value / most : 1);
     drawing.script += fmt::format("{:.17g} {:.17g} {}\n", x, y,
-                                  std::lround(255 * (1 - opacity)) << 24);  // over the colour of series 0
+                                  std::lround(255 * (1 - opacity)) << 24);  // covers the colour of series 0
     drawing.texts.push_back(fmt::format("{} {}, {}\n{}: {}", plot.label, tick_label(x), tick_label(y),
                                         plot.value_label, tick_label(value)));
   }

@@ -1,7 +1,7 @@
 #pragma once
-// Curves, points, bars and maps for a page, without a script: drawn twice, for wide pages and for narrow
-// ones, of which the page's style shows one. Colours are those of the page, light or dark. A value is shown
-// where the pointer rests.
+// Curves, points, bars and maps for a page, without scripts. Each plot is drawn twice, for wide and for
+// narrow pages, and the page's style shows one of the two. Colours follow the page, light or dark. Values
+// appear under the pointer.
 
 #include <cstddef>
 #include <string>
@@ -12,25 +12,25 @@ namespace kds {
 
 struct Curve {
   std::string name;
-  std::vector<std::pair<double, double>> points;  ///< by ascending first coordinate, finite
+  std::vector<std::pair<double, double>> points;  ///< finite, ordered by the first coordinate
 };
 
-/// How a curve's points are drawn.
+/// How the points of a curve are drawn.
 enum class Drawn {
-  line,       ///< joined
-  staircase,  ///< a value holds until the next point
-  points      ///< marks alone: nothing is known in between
+  line,       ///< joined by a line
+  staircase,  ///< each value holds until the next point
+  points      ///< marks only, because nothing is known between them
 };
 
 struct LinePlot {
   std::string x_label, y_label;
   Drawn drawn = Drawn::line;
   std::vector<Curve> curves;
-  bool below_zero = false;  ///< values may be; else the axis begins at 0
+  bool below_zero = false;  ///< whether values may be negative; else the axis begins at 0
 };
 
-/// Small plots beside each other, below each other on narrow pages. A name has one colour in all of them;
-/// where there are more names than colours, each has a key of its own.
+/// Small plots side by side, or one below the other on narrow pages. A name has one colour in all plots. If
+/// there are more names than colours, each plot has its own key.
 struct PanelPlot {
   struct Panel {
     std::string title;
@@ -39,11 +39,11 @@ struct PanelPlot {
   std::vector<Panel> panels;
 };
 
-/// Points with their names beside them, those of one series in its colour; both axes logarithmic.
+/// Points with their names beside them. Both axes are logarithmic. The points of a series share its colour.
 struct PointPlot {
   struct Point {
-    std::string name;  ///< empty: none is shown
-    double x, y;       ///< x above 0; what is 0 or but a millionth of the largest stands at the bottom
+    std::string name;  ///< empty for a point without a shown name
+    double x, y;       ///< x above 0; y at most a millionth of the largest, or 0, is drawn at the bottom
     std::size_t series = 0;
   };
   std::string x_label, y_label;
@@ -51,7 +51,7 @@ struct PointPlot {
   std::vector<Point> points;
 };
 
-/// Bars from left to right, one below the other, each with its value, those of one series in its colour.
+/// Horizontal bars, one below the other, each with its value. The bars of a series share its colour.
 struct BarPlot {
   struct Bar {
     std::string name;
@@ -60,19 +60,19 @@ struct BarPlot {
   };
   std::string x_label;
   std::vector<Bar> bars;
-  std::vector<std::string> series = {};  ///< their names; none: nothing is to be told apart
+  std::vector<std::string> series = {};  ///< names of the series; empty if there is only one
 };
 
-/// Squares of equal size in a square, coloured by value; where there is none, nothing.
+/// Squares of equal size within a square map. Colours show the values; a place without a value stays empty.
 struct MapPlot {
   struct Square {
-    double x, y;  ///< its middle
+    double x, y;  ///< centre
     double value;
   };
   std::string label;        ///< of both axes
-  std::string value_label;  ///< of the colours
-  double from = 0, to = 1;  ///< both axes
-  double side = 1;          ///< of a square
+  std::string value_label;  ///< of the colour scale
+  double from = 0, to = 1;  ///< range of each axis
+  double side = 1;          ///< of one square
   std::vector<Square> squares;
 };
 

@@ -14,7 +14,7 @@ namespace kds {
 
 namespace {
 
-/// The name of a column in CSV.
+/// Returns the name of a column in CSV: the part of the key after the last dot.
 std::string_view last_name(std::string_view key) { return key.substr(key.rfind('.') + 1); }
 
 }  // namespace

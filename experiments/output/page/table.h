@@ -23,13 +23,14 @@
 
 namespace kds {
 
-/// A value of one row in one column, or no value: null in JSON, nothing in CSV, - for people.
+/// The value of one row in one column, or no value. No value is written as null in JSON, as nothing in CSV,
+/// and as - in tables for people.
 class Field {
  public:
   Field() = default;
   Field(bool value) : value_(value) {}
   template <std::integral Value>
-  Field(Value count) : value_(static_cast<std::uint64_t>(count)) {}  // at least 0
+  Field(Value count) : value_(static_cast<std::uint64_t>(count)) {}  // not negative
   Field(double value) : value_(value) {}
   Field(const char* text) : value_(std::string(text)) {}
   Field(std::string_view text) : value_(std::string(text)) {}
@@ -40,11 +41,12 @@ class Field {
   }
 
   [[nodiscard]] bool is_empty() const { return std::holds_alternative<std::monostate>(value_); }
-  /// Text, or true or false: written at the left of its column, numbers at the right.
+  /// Returns whether the field is text, true or false. Such a field is aligned left; numbers are aligned
+  /// right.
   [[nodiscard]] bool is_text() const {
     return std::holds_alternative<std::string>(value_) || std::holds_alternative<bool>(value_);
   }
-  /// The value as a double; NaN unless the field holds a number.
+  /// Returns the value as a double, or NaN unless the field holds a number.
   [[nodiscard]] double number() const;
   [[nodiscard]] Json json() const;        ///< null if empty or not finite
   [[nodiscard]] std::string csv() const;  ///< reads back as the same value
@@ -54,24 +56,25 @@ class Field {
   std::variant<std::monostate, bool, std::uint64_t, double, std::string> value_;
 };
 
-/// The text, or no value if it is empty.
+/// Returns a field with the text, or without a value if the text is empty.
 [[nodiscard]] Field text_or_nothing(const std::string& text);
 
-/// How people read a field that holds a value.
+/// Formats a field that holds a value for people.
 using FieldFormat = std::function<std::string(const Field&)>;
 
-/// Text as it is, yes or no, whole numbers with thousands, other numbers with all their digits.
+/// Formats text unchanged, booleans as yes or no, whole numbers with thousands separators, and other numbers
+/// with all digits.
 [[nodiscard]] std::string plainly(const Field& field);
-/// About four figures (short_decimal).
+/// Formats numbers with about four figures (short_decimal).
 [[nodiscard]] std::string shortly(const Field& field);
-/// Numbers with so many digits behind the point.
+/// Returns a format with this many digits after the decimal point.
 [[nodiscard]] FieldFormat with_decimals(int digits);
-/// Numbers with so many significant digits.
+/// Returns a format with this many significant digits.
 [[nodiscard]] FieldFormat with_figures(int digits);
-/// Shares as percentages with three figures.
+/// Formats a share as a percentage with three figures.
 [[nodiscard]] std::string in_percent(const Field& field);
 
-/// Where people see a column.
+/// The outputs for people in which a column appears.
 enum class Shown : std::uint8_t { everywhere, in_text, on_pages };
 
 struct ColumnNames {
@@ -81,15 +84,15 @@ struct ColumnNames {
   bool in_csv = true, optional = false;
 };
 
-/// A row in one column.
+/// The cell of one row in one column.
 struct TableCell {
   Field field;
   std::optional<Json> json;  ///< replaces the field in JSON
-  std::string words;         ///< replaces the format, unless empty
+  std::string words;         ///< replaces the formatted field for people, unless empty
   [[nodiscard]] bool is_empty() const { return json ? json->is_null() : field.is_empty(); }
 };
 
-/// A Table whose rows are turned into cells, without their type.
+/// A Table after its rows have been turned into cells. It is independent of the row type.
 class TableOfCells {
  public:
   void add_column(ColumnNames column) { columns_.push_back(std::move(column)); }
@@ -110,7 +113,7 @@ class TableOfCells {
 };
 
 /// A function of a row, or none. Unlike std::function, it may have a default in the aggregate template
-/// Column: GCC 12 fails there.
+/// Column, where GCC 12 fails with std::function.
 template <class Result, class Row>
 class OfRow {
  public:
@@ -138,16 +141,17 @@ class OfRow {
 
 template <class Row>
 struct Column {
-  /// Name in JSON and CSV; empty: the column is in neither. "cost.seconds" is the member `seconds` of the
-  /// object `cost` in JSON, which is null if none of its members has a value, and `seconds` in CSV.
+  /// Name in JSON and CSV. If it is empty, the column is in neither. "cost.seconds" is the member `seconds`
+  /// of the object `cost` in JSON and the column `seconds` in CSV. The object is null if none of its members
+  /// has a value.
   std::string key = {};
-  std::string heading = {};      ///< for people, with its unit; empty: they do not see the column
-  OfRow<Field, Row> value = {};  ///< none: the column is in JSON only
+  std::string heading = {};      ///< for people, with its unit; if empty, the column is not shown
+  OfRow<Field, Row> value = {};  ///< if null, the column is in JSON only
   FieldFormat format = plainly;
   Shown shown = Shown::everywhere;
   OfRow<std::string, Row> words = {};  ///< replaces the format if people see more than the field
   OfRow<Json, Row> json = {};          ///< replaces the value in JSON, for arrays and objects
-  bool optional = false;               ///< JSON leaves the member out if it has no value
+  bool optional = false;               ///< if true, JSON omits the member when it has no value
 };
 
 /// Columns that take their fields from rows of one type.
@@ -157,27 +161,28 @@ class Table {
   using Rows = std::span<const Row>;
 
   Table(std::vector<Column<Row>> columns) : columns_(std::move(columns)) {}
-  /// Adds columns at the right.
+  /// Appends columns at the right.
   Table& add(std::vector<Column<Row>> columns) {
     for (auto& column : columns) columns_.push_back(std::move(column));
     return *this;
   }
 
-  /// An array with an object for each row.
+  /// Returns an array with an object for each row.
   [[nodiscard]] Json json(Rows rows) const { return filled(rows).json(); }
   [[nodiscard]] Json json(const Row& row) const { return filled({&row, 1}).json().items()->front(); }
-  /// A header and a line for each row.
+  /// Returns a header line and a line for each row.
   [[nodiscard]] std::string csv(Rows rows) const { return csv_header() + filled(rows).csv_lines(); }
   [[nodiscard]] std::string csv_header() const { return filled({}).csv_header(); }
   [[nodiscard]] std::string csv_line(const Row& row) const { return filled({&row, 1}).csv_lines(); }
-  /// The header and a line for each row, aligned, without newlines.
+  /// Returns the header and a line for each row, aligned and without newlines.
   [[nodiscard]] std::vector<std::string> lines(Rows rows) const { return filled(rows).lines(); }
   [[nodiscard]] std::string text(Rows rows, std::string_view indent = "") const {
     std::string text;
     for (const std::string& line : lines(rows)) text.append(indent).append(line).append("\n");
     return text;
   }
-  /// With `group`, a line with the name of each group stands above its rows.
+  /// Returns an HTML table. If `group` is given, a line with the name of each group stands above the group's
+  /// rows.
   [[nodiscard]] std::string html(Rows rows, const std::function<std::string(const Row&)>& group = {}) const {
     std::vector<std::string> groups;
     for (const Row& row : rows) groups.push_back(group ? group(row) : "");
