@@ -13,9 +13,8 @@ namespace kds {
 /// The law y = factor * x^exponent.
 struct PowerFit {
   std::size_t points = 0;
-  std::size_t left_out = 0;  ///< points without a logarithm
-  double exponent = 0, lower = 0,
-         upper = 0;  ///< 95% interval, for normal errors of log y
+  std::size_t left_out = 0;                   ///< points without a logarithm
+  double exponent = 0, lower = 0, upper = 0;  ///< 95% interval, for normal errors of log y
   double factor = 0;
 };
 

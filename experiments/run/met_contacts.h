@@ -30,7 +30,7 @@ class MetContacts final : public EventListener {
     Pair pair;
     Moment earliest;  ///< lower bound of the begin
     Moment latest{std::numeric_limits<std::size_t>::max(),
-                  0};  ///< upper bound of the end; default: the end of the run
+                  0};  ///< upper bound of the end, or the end of the run
   };
 
   void on_event(const Event& event) override;
