@@ -40,8 +40,7 @@ std::string short_decimal(double value) {
   if (!std::isfinite(value)) return "-";
   const double size = std::abs(value);
   if (size == 0) return "0";
-  if (size >= 1e15)
-    return fmt::format("{:.3e}", value);  // not a real measurement, but a line keeps its width
+  if (size >= 1e15) return fmt::format("{:.3e}", value);  // unrealistic, but a line keeps its width
   if (size >= 1000) {
     const std::string digits = with_thousands(static_cast<std::uint64_t>(std::llround(size)));
     return fmt::format("{}{}", value < 0 ? "-" : "", digits);

@@ -28,9 +28,8 @@ class MetContacts final : public EventListener {
   using Moment = std::pair<std::size_t, double>;
   struct Contact {
     Pair pair;
-    Moment earliest;  ///< lower bound of the begin
-    Moment latest{std::numeric_limits<std::size_t>::max(),
-                  0};  ///< upper bound of the end, or the end of the run
+    Moment earliest;                                            ///< lower bound of the begin
+    Moment latest{std::numeric_limits<std::size_t>::max(), 0};  ///< upper bound of the end
   };
 
   void on_event(const Event& event) override;
