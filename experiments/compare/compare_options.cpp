@@ -41,7 +41,7 @@ std::vector<FrameMotion> parse_motions(const std::string& list) {
   return motions;
 }
 
-/// JSON has the distance as text, empty if it is not given.
+/// JSON has the distance as text, which is empty if the option is not given.
 Option<CompareOptions> compare_apart_option() {
   auto option =
       apart_option("contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",

@@ -1,5 +1,5 @@
 #pragma once
-// `kds compare`: what it was asked to do, and how that is parsed.
+// The options of `kds compare` and their parser.
 
 #include <cstddef>
 #include <optional>
@@ -13,18 +13,19 @@
 
 namespace kds {
 
-/// Each input is a run of its own. Results: compare.json, compare.csv, report.html.
+/// Each input is a separate run. The results are compare.json, compare.csv and report.html.
 struct CompareOptions : InputOptions, Destinations {
-  std::vector<std::string> structures;  ///< in their order; empty: the input's default
+  std::vector<std::string> structures;  ///< in the order of the registry; empty for the input's default
   std::vector<std::size_t> strides{1};  ///< ascending
   std::vector<FrameMotion> motions{FrameMotion::linear};
-  std::size_t rounds = 3;       ///< each run so often, for its time
+  std::size_t rounds = 3;       ///< timed repetitions of each run
   std::optional<BeadId> apart;  ///< --apart
 };
 
 [[nodiscard]] const OptionList<CompareOptions>& compare_options();
 
-/// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
+/// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
+/// --help. Opens no file.
 [[nodiscard]] CompareOptions parse_compare_options(const Arguments& arguments);
 
 }  // namespace kds

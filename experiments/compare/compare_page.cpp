@@ -50,8 +50,8 @@ std::vector<std::pair<std::string, std::string>> terms() {
 
 using Figure = std::function<std::optional<double>(const CompareRow&)>;
 
-// The figure of a structure at a stride over inputs and motions: "8.333" or "9.202 to 12.49"; empty if
-// unknown.
+// Returns the range of a figure of one structure at one stride over all inputs and motions, as in "8.333" or
+// "9.202 to 12.49". Returns an empty text if the figure is unknown.
 std::string figure_text(const Comparison& comparison, const std::string& structure, std::size_t stride,
                         const Figure& figure) {
   std::vector<double> values;
@@ -67,7 +67,8 @@ std::string figure_text(const Comparison& comparison, const std::string& structu
 std::optional<double> a_step(const CompareRow& row) { return row.events_per_step(); }
 std::optional<double> efficiency(const CompareRow& row) { return row.efficiency(); }
 
-// Events a step divided by those at the smallest stride, for one structure, input and motion.
+// Returns the events per step divided by the events per step at the smallest stride, for one structure, input
+// and motion.
 std::optional<double> growth(const Comparison& comparison, const CompareRow& row) {
   const auto first = std::ranges::find_if(comparison.rows, [&](const CompareRow& other) {
     return other.stride == comparison.rows.front().stride && other.structure.name == row.structure.name &&
@@ -85,7 +86,7 @@ std::string file_name(const ComparedInput& input) {
   return std::filesystem::path(input.file).filename().string();
 }
 
-// The frames and inputs of the first findings.
+// Returns the frames and inputs that the first findings are about.
 std::string scope(const Comparison& comparison) {
   const CompareRow& first = comparison.rows.front();
   const std::string steps =
@@ -99,7 +100,7 @@ std::string scope(const Comparison& comparison) {
                      count_text(cases / inputs, "motion"));
 }
 
-// Structures that change most come first.
+// Returns the structures in descending order of their changes.
 std::vector<std::string> structures_of(const Comparison& comparison) {
   std::vector<std::pair<double, std::string>> found;
   for (const CompareRow& row : comparison.rows) {
@@ -145,7 +146,7 @@ std::string findings(const Comparison& comparison) {
   return html + ".</p>\n" + (list.empty() ? "" : "<ul>\n" + list + "</ul>\n");
 }
 
-// The strides of a structure stand together, for each input and motion.
+// In this table the strides of a structure stand together, for each input and motion.
 std::string figures(const Comparison& comparison) {
   std::vector<std::string> names;
   for (const CompareRow& row : comparison.rows) names.push_back(row.structure.name);

@@ -1,5 +1,5 @@
 #pragma once
-// The page of `kds compare`: what was found, plots, and the figures.
+// Writes the page of `kds compare` with findings, plots and figures.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace kds {
 
-/// `page` says how it was made.
+/// `page` says how the results were made.
 [[nodiscard]] std::string compare_page(const Comparison& comparison, Page page);
 
 }  // namespace kds

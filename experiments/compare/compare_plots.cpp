@@ -25,7 +25,7 @@ bool at_smallest_stride(const Comparison& comparison, const CompareRow& row) {
   return row.stride == comparison.rows.front().stride;
 }
 
-// "wrapped", or "wrapped, hermite, 300K.dcd" where motions and inputs are several.
+// Returns "wrapped", or "wrapped, hermite, 300K.dcd" if there are several motions and inputs.
 std::string curve_name(const Comparison& comparison, const CompareRow& row) {
   const std::string more = distinction(comparison, row);
   return row.structure.name + (more.empty() ? "" : ", " + more);
@@ -36,13 +36,14 @@ Curve& curve_of(LinePlot& plot, const std::string& name) {
   return found != plot.curves.end() ? *found : plot.curves.emplace_back(Curve{name, {}});
 }
 
-// One plot of a few curves; of more, a small one a structure, for each eight inputs and motions.
+// Returns one plot if there are few curves. Otherwise returns a small plot for each structure and each group
+// of eight inputs and motions.
 std::string plot_of(const Comparison& comparison, const LinePlot& empty,
                     const std::function<Points(const CompareRow&)>& points_of) {
   constexpr std::size_t few = 4, most = 8;
   const std::vector<std::string> cases = cases_of(comparison);
   LinePlot together = empty;
-  std::vector<std::pair<std::string, LinePlot>> apart;  // by structure and eight
+  std::vector<std::pair<std::string, LinePlot>> apart;  // by structure and group of eight
   for (const CompareRow& row : comparison.rows) {
     const Points points = points_of(row);
     if (points.empty()) continue;
@@ -74,7 +75,8 @@ std::string over_strides(const Comparison& comparison, const char* label, const 
   return plot.empty() ? "" : html_figure(plot, caption);
 }
 
-// Some inputs are of the same chain, as trajectories at several temperatures are.
+// Groups the inputs by chain. Trajectories of one chain at several temperatures, for example, belong
+// together.
 std::vector<std::vector<const ComparedInput*>> inputs_by_chain(const Comparison& comparison) {
   std::vector<std::vector<const ComparedInput*>> chains;
   for (const ComparedInput& input : comparison.inputs) {
@@ -89,7 +91,7 @@ double share(const CompareRow& row, std::size_t bead) {
   return 100 * static_cast<double>(row.structure.places.by_bead[bead]) / static_cast<double>(row.events());
 }
 
-// The beads that most events name, those with the most first.
+// Returns the beads that most events name, in descending order of the number of events.
 std::vector<std::size_t> busiest(const CompareRow& row, std::size_t most) {
   const auto& counts = row.structure.places.by_bead;
   std::vector<std::size_t> beads(counts.size());
@@ -103,7 +105,7 @@ std::vector<std::size_t> busiest(const CompareRow& row, std::size_t most) {
   return beads;
 }
 
-// What structures do on all inputs and motions one below the other.
+// Orders the rows such that the inputs and motions of a structure follow each other.
 std::vector<std::reference_wrapper<const CompareRow>> by_structure(const Comparison& comparison) {
   std::vector<std::string> names;
   for (const CompareRow& row : comparison.rows)
@@ -194,7 +196,7 @@ std::string plots_by_kind(const Comparison& comparison) {
       if (bar.value > 0) with_any.push_back(bar.name);
     std::erase_if(plot.bars,
                   [&](const auto& bar) { return std::ranges::find(with_any, bar.name) == with_any.end(); });
-    // The same kind of all inputs and motions together, with its name once.
+    // The bars of a kind for all inputs and motions stand together, and only the first shows the kind's name.
     std::vector<std::string> kinds;
     for (const BarPlot::Bar& bar : plot.bars)
       if (std::ranges::find(kinds, bar.name) == kinds.end()) kinds.push_back(bar.name);

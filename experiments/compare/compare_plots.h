@@ -1,6 +1,6 @@
 #pragma once
-// The plots of `kds compare`. With more than a few curves each structure has a small plot of its own, in
-// which the curves are the inputs and motions.
+// The plots of `kds compare`. If there are more than a few curves, each structure has its own small plot,
+// whose curves are the inputs and motions.
 
 #include <string>
 #include <vector>
@@ -9,15 +9,17 @@
 
 namespace kds {
 
-/// Inputs with their motions, as rows are told apart by them; one without a name where all rows share them.
+/// Returns the cases (inputs with their motions) by which rows differ. If all rows have the same input and
+/// motion, returns one case with an empty name.
 [[nodiscard]] std::vector<std::string> cases_of(const Comparison& comparison);
 
-/// Each an HTML figure or several; empty where there is nothing to show.
+/// Each function returns one or several HTML figures, or an empty text if there is nothing to show.
 [[nodiscard]] std::string plots_over_strides(const Comparison& comparison);
-/// Of the smallest stride.
+/// Plots the events at the smallest stride by kind.
 [[nodiscard]] std::string plots_by_kind(const Comparison& comparison);
 [[nodiscard]] std::string plots_by_level(const Comparison& comparison);
-/// For inputs of the same chain together: bars along it, and the beads that most events name.
+/// Plots bars along the chain, and lists the beads that most events name. Inputs with the same chain share a
+/// plot.
 [[nodiscard]] std::string plots_along_chain(const Comparison& comparison);
 
 }  // namespace kds

@@ -12,7 +12,7 @@ namespace kds {
 
 namespace {
 
-// The kinds of all structures, in the order of the rows.
+// Returns the kinds of all structures in the order of the rows.
 std::vector<std::string> kinds_of(const Comparison& comparison) {
   std::vector<std::string> kinds;
   for (const CompareRow& row : comparison.rows)

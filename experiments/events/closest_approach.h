@@ -1,6 +1,7 @@
 #pragma once
-// How near any two beads of a run come to each other, by their centres: of each step the pairs that its
-// structure `closest` has had, each at its nearest. No other pair is nearer at any time.
+// Computes how close two beads of a run come to each other, measured between centres. In each step it takes
+// the least distance of every pair that the structure `closest` held during the step. No other pair is closer
+// at any time.
 
 #include <array>
 #include <cstddef>
@@ -19,35 +20,39 @@ struct DistanceRange {
 
 struct ClosestApproach {
   std::array<BeadId, 2> beads{};  ///< ascending
-  std::size_t frame = 0;          ///< by its number in the file: the step begins there
-  double u = 0;                   ///< in the step: these beads are no farther apart than `distance.upper`
-  DistanceRange distance;         ///< the least of the run, rounded outward
+  std::size_t frame = 0;          ///< number in the file of the frame at which the step begins
+  double u = 0;  ///< time in the step at which the distance of these beads is at most `distance.upper`
+  DistanceRange distance;  ///< least distance of the run, rounded outward
 };
 
-/// The same of beads each of which is always within `deviation` of where the run has it.
+/// Returns the range of the least distance if each bead may always deviate by up to `deviation` from its
+/// position in the run.
 [[nodiscard]] DistanceRange within_deviation(const DistanceRange& distance, double deviation);
 
 class ClosestApproachOfRun final : public EventListener {
  public:
-  /// Of the structure with this place in the session, which must outlive it. Listens from now on.
+  /// Follows the structure with this index in the session. The session must outlive this object. Listens from
+  /// now on.
   ClosestApproachOfRun(Session& session, std::size_t structure);
 
   void on_event(const Event& event) override;
-  /// The structures have been built.
+  /// Call it when the structures have been built.
   void begin();
-  /// The step that begins with this frame has been run, and its motion is still there.
+  /// Call it after each step while the motion of the step is still loaded. `frame` is the frame at which the
+  /// step begins.
   void end_step(std::size_t frame);
-  /// None before a step, of a single bead, and where doubles cannot hold the distance.
+  /// Returns the closest approach. Returns nothing before the first step, for a single bead, and if doubles
+  /// cannot hold the distance.
   [[nodiscard]] std::optional<ClosestApproach> least() const;
 
  private:
   Session& session_;
   std::size_t structure_;
-  std::vector<std::array<BeadId, 2>> pairs_;  // of the step, the last of them the present one
+  std::vector<std::array<BeadId, 2>> pairs_;  // of the step; the last one is the current pair
   std::optional<ClosestApproach> least_;
 };
 
-/// Its place among the session's structures, if it is there.
+/// Returns the index of the structure `closest` in the session, if the session has it.
 [[nodiscard]] std::optional<std::size_t> place_of_closest(const Session& session);
 
 }  // namespace kds

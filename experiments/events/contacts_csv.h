@@ -1,5 +1,5 @@
 #pragma once
-// contacts.csv: which beads began to meet, parted or touched, and when; written while the run goes on.
+// Writes contacts.csv during the run: which beads began to meet, parted or touched, and when.
 
 #include <cstdint>
 #include <optional>
@@ -13,21 +13,21 @@
 
 namespace kds {
 
-/// The name of the file, in --dump and in --out.
+/// The name of the file in --dump and in --out.
 inline constexpr std::string_view contacts_file = "contacts.csv";
-/// In --out: the contacts that there may be beside a certified run.
+/// The name of the file in --out that lists the possible contacts of a certified run.
 inline constexpr std::string_view possible_contacts_file = "possible_contacts.csv";
 
-/// Whether the session has the structure that the file is about.
+/// Returns whether the session has the structure `contacts`.
 [[nodiscard]] bool has_contacts(const Session& session);
 
 /// Returns the pairs in contact at the frame just reached, or nothing if the session has no contacts.
 [[nodiscard]] std::optional<std::uint64_t> contacts_at(const Session& session, std::size_t frame);
 
-/// Hears of all events, and writes a line for each contact.
+/// Listens to all events and writes a line for each event of a contact.
 class ContactsCsv : public EventListener {
  public:
-  /// Those that begin with the first frame: to be called once, when the structures have been built.
+  /// Adds the contacts that begin with the first frame. Call it once, when the structures have been built.
   void add_built(const Session& session);
   void on_event(const Event& event) override;
 
@@ -38,8 +38,8 @@ class ContactsCsv : public EventListener {
   virtual void add(const Event& event, std::string_view kind) = 0;
 };
 
-/// As in --dump: header `step,lower,upper,i,j,event`, then the bracket of the time in the step, the beads and
-/// begin, end or touch. Those in contact at the start: step 0, 0, 0, begin.
+/// The file in --dump. The header is `step,lower,upper,i,j,event`. Each line has the bracket of the time in
+/// the step, the beads, and begin, end or touch. A contact at the start has step 0, bracket 0, 0 and begin.
 class ContactsDump final : public ContactsCsv {
  public:
   /// Writes the header.
@@ -51,18 +51,18 @@ class ContactsDump final : public ContactsCsv {
   std::ostream& stream_;
 };
 
-/// As in --out: header `event,i,j,first,second,frame`, the beads with their names where the input names them.
-/// `frame` is the time by the numbers of frames in the file, between two frames with its fraction; where the
-/// file has times `picoseconds` follows.
+/// The file in --out. The header is `event,i,j,first,second,frame`. `first` and `second` are the bead names,
+/// if the input has names. `frame` is the time in frame numbers of the file; between two frames it has a
+/// fraction. If the file has times, the column `picoseconds` follows.
 class ContactsTable final : public ContactsCsv {
  public:
-  /// A column about each contact: one word where its flag is set, else another.
+  /// A column that says one word for a contact whose flag is set, and another word otherwise.
   struct Column {
     std::string_view name, yes, no;
   };
   /// Writes the header. The scene must outlive it.
   ContactsTable(std::ostream& stream, const Scene& scene) : ContactsTable(stream, scene, {"", "", ""}) {}
-  /// Writes a header that ends with such a column.
+  /// Writes a header that ends with this column.
   ContactsTable(std::ostream& stream, const Scene& scene, const Column& column);
   void add(const Event& event, bool flag);
   [[nodiscard]] bool prints_time_of(const Event& event) const override { return is_of_contact(event); }

@@ -11,7 +11,7 @@ namespace kds {
 
 namespace {
 
-// frame-NUMBER.WORD.csv
+// Returns whether the name has the form frame-NUMBER.WORD.csv.
 bool is_frame(std::string_view name) {
   constexpr std::string_view start = "frame-", end = ".csv";
   if (!name.starts_with(start) || !name.ends_with(end)) return false;
@@ -29,7 +29,7 @@ bool is_frame(std::string_view name) {
 }  // namespace
 
 DumpedFrames::DumpedFrames(std::filesystem::path directory) : files_(std::move(directory), "run", "--dump") {
-  files_.refuse_others(is_frame);  // two dumps would be taken for one
+  files_.refuse_others(is_frame);  // frames of two dumps would look like one dump
 }
 
 std::ostream& DumpedFrames::open_contacts() { return files_.open(std::string(contacts_file)); }

@@ -1,5 +1,6 @@
 #pragma once
-// The files of --dump: those of all frames of a run, or none, and no others of an earlier dump.
+// The files of --dump. Either the files of all frames of a run appear, or none. Files of an earlier dump are
+// removed.
 
 #include <cstddef>
 #include <filesystem>
@@ -13,17 +14,17 @@ namespace kds {
 
 class DumpedFrames {
  public:
-  /// Throws InputError or OutputError naming option and path, also where the directory has frames that no
-  /// earlier dump has written.
+  /// Throws an InputError or OutputError that names the option and the path. Throws also if the directory has
+  /// frames that no earlier dump wrote.
   explicit DumpedFrames(std::filesystem::path directory);
   DumpedFrames(const DumpedFrames&) = delete;
   DumpedFrames& operator=(const DumpedFrames&) = delete;
 
-  /// The file of contacts, that of the whole run.
+  /// Opens the file of contacts, which covers the whole run.
   [[nodiscard]] std::ostream& open_contacts();
-  /// In the order of the frames, from 0.
+  /// Writes the files of a frame. Call it in the order of the frames, from 0.
   void write(std::size_t frame, const std::vector<DumpFile>& files);
-  /// When these files take their places, those of an earlier dump that none of them replaces go.
+  /// Taking their places, the files replace an earlier dump: its remaining files are removed.
   [[nodiscard]] Staged& staged() { return files_; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// Long runs have more frames than a plot has pixels, and than a report should keep: neighbouring steps are
-// counted as one.
+// Counts events in bins of neighbouring steps. Long runs have more frames than a plot has pixels, and more
+// than a report should keep.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,24 +10,23 @@ namespace kds {
 
 struct EventBin {
   std::size_t first_step = 0, steps = 0;
-  std::size_t first_frame = 0;   ///< number in the file of the frame that it begins at
+  std::size_t first_frame = 0;   ///< number in the file of the bin's first frame
   std::uint64_t events = 0;      ///< in the bin
-  std::uint64_t cumulative = 0;  ///< up to its end
+  std::uint64_t cumulative = 0;  ///< up to the end of the bin
 };
 
-/// Steps a bin needs so that there are at most `most` bins.
+/// Returns the number of steps per bin such that there are at most `most` bins.
 [[nodiscard]] std::size_t bin_width(std::size_t steps, std::size_t most);
 
-/// The events of a structure in the course of a run.
+/// The number of events of a structure over the course of a run.
 class EventCourse {
  public:
-  static constexpr std::size_t most_bins =
-      600;  ///< more would only blur: a plot is about as many pixels wide
+  static constexpr std::size_t most_bins = 600;  ///< a plot is about this many pixels wide
 
-  /// So many steps make a bin.
+  /// `width` is the number of steps in a bin.
   explicit EventCourse(std::size_t width = 1) : width_(width) {}
 
-  /// The next step, from the frame of this number in the file on.
+  /// Adds the next step, which begins at the frame with this number in the file.
   void add(std::uint64_t events, std::size_t frame);
   [[nodiscard]] std::size_t steps() const { return steps_; }
   [[nodiscard]] std::size_t width() const { return width_; }

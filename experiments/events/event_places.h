@@ -1,5 +1,5 @@
 #pragma once
-// Where along the chain, and how deep in its tree, structures change.
+// Records where along the chain, and at which depth of its tree, a structure changes.
 
 #include <cstdint>
 #include <string>
@@ -12,15 +12,17 @@
 
 namespace kds {
 
-/// Where along the chain, and how deep in its tree, a structure changes: its external events.
+/// Where along the chain, and at which depth of its tree, the external events of a structure occur.
 struct PlacesOfEvents {
-  /// That name this bead: of nodes, in the basis that is new. An event counts at each of its beads.
+  /// Number of events that name each bead. A node's event names the beads of its new basis. An event counts
+  /// at each of its beads.
   std::vector<std::uint64_t> by_bead;
-  /// At nodes of this level of the tree, roots 0; empty where events are not at nodes.
+  /// Number of events at the nodes of each tree level, where roots have level 0. Empty if events do not occur
+  /// at nodes.
   std::vector<std::uint64_t> by_level;
 };
 
-/// Hears of all events of a session.
+/// Listens to all events of a session.
 class EventPlaces final : public EventListener {
  public:
   EventPlaces(const Session& session, const Scene& scene);
@@ -30,11 +32,11 @@ class EventPlaces final : public EventListener {
 
  private:
   NecklaceTree tree_;
-  std::vector<std::size_t> levels_;  ///< of its nodes
+  std::vector<std::size_t> levels_;  ///< levels of the tree's nodes
   std::vector<PlacesOfEvents> places_;
 };
 
-/// "bead 54, N of ALA 59 in chain A", or "bead 54" where `name` is empty.
+/// Returns "bead 54, N of ALA 59 in chain A", or "bead 54" if `name` is empty.
 [[nodiscard]] std::string bead_text(std::size_t bead, const std::string& name);
 
 }  // namespace kds

@@ -1,6 +1,5 @@
 #pragma once
-// How often each structure changed, frame by frame, for other programs to plot; written while the run goes
-// on.
+// Writes how often each structure changed, frame by frame, during the run. Other programs can plot the file.
 
 #include <cstdint>
 #include <map>
@@ -12,9 +11,9 @@
 
 namespace kds {
 
-/// Header `frame,structure,events,cumulative`, then one line per frame and structure. Frame k, by its number
-/// in the file, stands for the time from there to the next frame of the run; events are external ones. Where
-/// the file has times, `picoseconds` follows: of frame k.
+/// Writes the header `frame,structure,events,cumulative`, then one line per frame and structure. Only
+/// external events count. A line with frame k (its number in the file) covers the time from frame k to the
+/// next frame of the run. If the file has times, the column `picoseconds` follows with the time of frame k.
 class EventsCsv {
  public:
   /// Writes the header.
@@ -24,7 +23,7 @@ class EventsCsv {
  private:
   std::ostream& stream_;
   bool timed_;
-  std::map<std::string, std::uint64_t, std::less<>> cumulative_;  ///< of each structure
+  std::map<std::string, std::uint64_t, std::less<>> cumulative_;  ///< per structure
 };
 
 }  // namespace kds
