@@ -1,5 +1,5 @@
 #pragma once
-// Reports the results of `kds compare` to programs and on the terminal.
+// Reports the results of `kds compare` as JSON, as CSV and on the terminal.
 
 #include <string>
 
@@ -10,14 +10,14 @@
 namespace kds {
 
 [[nodiscard]] Json compared_inputs_json(const Comparison& comparison);
-/// The columns of compare.json and compare.csv, of the terminal and of the page. Each kind of event has a
-/// column; JSON leaves out the kinds that a structure does not have. Only JSON has the arrays `by_level` and
+/// Returns the columns of compare.json and compare.csv, of the terminal and of the page. Each kind of event
+/// has a column; JSON omits the kinds that a structure does not have. Only JSON has the arrays `by_level` and
 /// `by_bead`.
 [[nodiscard]] Table<CompareRow> compare_columns(const Comparison& comparison);
-/// A block for each input and motion, with a line for each stride and structure.
+/// Returns a block for each input and motion, with a line for each stride and structure.
 [[nodiscard]] std::string compare_table(const Comparison& comparison);
 
-/// The motion and input of a row, if rows differ in them; otherwise empty.
+/// Returns the motion and input of a row if rows differ in them, otherwise an empty text.
 [[nodiscard]] std::string distinction(const Comparison& comparison, const CompareRow& row);
 
 }  // namespace kds

@@ -19,7 +19,7 @@ using Warn = std::function<void(const std::string&)>;
 
 double ratio(std::uint64_t count, double of) { return static_cast<double>(count) / of; }
 
-// A run of one input as `kds run` has it.
+// Returns the options of the `kds run` that runs one input.
 RunOptions run_of(const CompareOptions& options, std::size_t input, FrameMotion motion) {
   RunOptions run;
   run.inputs = {options.inputs[input]};
@@ -31,7 +31,7 @@ RunOptions run_of(const CompareOptions& options, std::size_t input, FrameMotion 
   return run;
 }
 
-// Frames of each so many.
+// Returns the number of frames that remain at this stride.
 std::size_t strided(std::size_t frames, std::size_t stride) { return (frames + stride - 1) / stride; }
 
 void refuse_without_events(const Session& session) {
@@ -42,7 +42,7 @@ void refuse_without_events(const Session& session) {
   }
 }
 
-// Reads an input, and refuses it before anything has run.
+// Reads an input. Throws InputError for an unsuitable input before anything runs.
 ComparedInput look_at(const CompareOptions& options, std::size_t input, const Warn& warn) {
   ComparedInput found;
   for (const FrameMotion motion : options.motions) {

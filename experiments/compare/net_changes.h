@@ -1,5 +1,5 @@
 #pragma once
-// How much a structure differs from one frame to the next, whatever happened in between.
+// Counts how a structure differs from one frame to the next, whatever happened in between.
 
 #include <cstdint>
 #include <optional>
@@ -8,19 +8,23 @@
 
 namespace kds {
 
-/// Places (CombinatorialElements) that hold something else, or that only one of the two has: of a wrapped
-/// hierarchy the nodes with another basis, of a power diagram the cells of one frame that are not in the
-/// other, of contacts the pairs that meet in one frame only, of a sorted list the ranks with another bead,
-/// of a box the ends with another bead, of a hull the corners of one frame alone, and of closest pairs
-/// another pair.
+/// Returns the number of places (CombinatorialElements) whose content differs or that only one of the two
+/// frames has. The places depend on the structure:
+/// - wrapped hierarchy: nodes with another basis;
+/// - power diagram: cells of one frame that the other does not have;
+/// - contacts: pairs that meet in only one of the frames;
+/// - sorted list: ranks with another bead;
+/// - box: ends with another bead;
+/// - hull: corners of only one frame;
+/// - closest pair: another pair.
 [[nodiscard]] std::uint64_t net_changes(CombinatorialElements before, CombinatorialElements after);
 
-/// Adds them up over the frames of a run, of which it keeps the last.
+/// Sums the net changes over the frames of a run. Keeps only the last frame.
 class NetChanges {
  public:
-  /// The next frame; none: this structure is not compared.
+  /// Adds the next frame. No value means that this structure is not compared.
   void add(std::optional<CombinatorialElements> frame);
-  /// None where a frame could not be compared.
+  /// Returns the sum, or nothing if a frame could not be compared.
   [[nodiscard]] std::optional<std::uint64_t> count() const {
     return last_ ? std::optional(count_) : std::nullopt;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The residue and atom of each bead: the key to results that name beads by their numbers.
+// The residue and atom of each bead. They identify the beads that results name by number.
 
 #include <span>
 #include <string>
@@ -15,14 +15,14 @@ namespace kds {
 struct BeadRow {
   BeadId bead = 0;
   std::size_t necklace = 0;  ///< from 0, in the order of the scene
-  BeadName name;             ///< empty if the file does not tell
+  BeadName name;             ///< empty if the file has no names
   double radius = 0;
 };
 
-/// One radius a bead in scene order.
+/// Returns the rows. `radii` has one radius per bead in scene order.
 [[nodiscard]] std::vector<BeadRow> bead_rows(std::span<const Trajectory> necklaces,
                                              std::span<const double> radii);
-/// The columns of JSON, CSV and the terminal.
+/// Returns the columns of JSON, CSV and the terminal.
 [[nodiscard]] const Table<BeadRow>& bead_columns();
 
 }  // namespace kds

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// One a necklace: of two, a.xyz becomes a-1.xyz and a-2.xyz.
+// Returns one file per necklace. For two necklaces, a.xyz becomes a-1.xyz and a-2.xyz.
 std::vector<fs::path> files_of(const GenerateOptions& options) {
   if (options.model->name != "two-spirals") return {options.file};
   std::vector<fs::path> files;
@@ -52,7 +52,7 @@ void refuse_unnamed(const GenerateOptions& options, const fs::path& file) {
                     options.file.string(), file.string()));
 }
 
-// All files are whole before the first takes its place.
+// Completes all files before the first takes its place.
 void write_files(const GenerateOptions& options, const std::vector<Trajectory>& necklaces) {
   std::vector<std::unique_ptr<AtomicFile>> files;
   for (const Trajectory& necklace : necklaces) {
@@ -68,7 +68,7 @@ void write_files(const GenerateOptions& options, const std::vector<Trajectory>& 
   commit_together(staged);
 }
 
-// As they will be read.
+// Returns the necklaces as a reader of the files will get them.
 std::vector<Trajectory> necklaces_for(const GenerateOptions& options, const std::vector<fs::path>& files) {
   std::vector<Trajectory> necklaces = generate(*options.model, options.settings);
   for (std::size_t n = 0; n < necklaces.size(); ++n) {

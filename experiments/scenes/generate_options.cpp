@@ -35,7 +35,7 @@ Option<Settings> span_option(OptionSpec spec, std::optional<models::Span> Settin
       spec, member, [=](const std::string& text) { return parse_span(spec.name, text, range); }, text_of);
 }
 
-/// An option of the models that have this setting.
+/// Returns an option for the models that have this setting.
 Option<GenerateOptions> of_models(Setting setting, const Option<Settings>& of_settings) {
   using O = GenerateOptions;
   Option<O> option = OptionList<O>().with(&O::settings, OptionList<Settings>{{of_settings}}).all().front();
@@ -50,7 +50,7 @@ Option<GenerateOptions> of_models(Setting setting, const Option<Settings>& of_se
   return option;
 }
 
-/// Text in the JSON, even of numbers, as on the command line.
+/// In JSON all settings are text as on the command line, numbers included.
 const OptionList<GenerateOptions>& generate_options() {
   using O = GenerateOptions;
   using S = Settings;

@@ -1,5 +1,5 @@
 #pragma once
-// `kds generate`: what it was asked to do, and how that is parsed.
+// The options of `kds generate` and their parser.
 
 #include <filesystem>
 #include <string>
@@ -12,18 +12,19 @@
 
 namespace kds {
 
-struct GenerateOptions : Destinations {  // generate.json, generate.csv
+struct GenerateOptions : Destinations {  // results: generate.json, generate.csv
   const models::Model* model = nullptr;
-  models::Settings settings{.frames = 50};  ///< complete
+  models::Settings settings{.frames = 50};  ///< with all values filled in
   std::filesystem::path file;               ///< .xyz, .pdb or .ent
 
   [[nodiscard]] bool is_pdb() const;
 };
 
-/// Throws InputError naming the option and what it takes, HelpRequest for --help.
+/// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
+/// --help.
 [[nodiscard]] GenerateOptions parse_generate_options(const Arguments& arguments);
 
-/// What the model takes, by option without dashes, as the user would give it.
+/// Returns the settings of the model: the option without dashes, and the value as the user would give it.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> model_settings(const GenerateOptions& options);
 
 }  // namespace kds

@@ -18,7 +18,7 @@ namespace kds {
 
 namespace {
 
-// Points with weights, not balls in a chain: there is nothing to judge.
+// An instance file has weighted points rather than balls in a chain, so there are no conditions to check.
 void describe(const Instance& instance, bool beads, const TableCommand& command) {
   if (beads)
     throw InputError(fmt::format("--beads: has no meaning for an instance file ({})", instance.file));
@@ -29,7 +29,7 @@ void describe(const Instance& instance, bool beads, const TableCommand& command)
                    {"dimension", instance.dimension()},
                    {"degree", instance.degree},
                    {"weighted", instance.weighted()}};
-  json["settings"] = Json::object();  // none of them has a meaning here
+  json["settings"] = Json::object();  // no setting applies here
   json["rows"] = Json::array();
   json["warnings"] = Json::array();
   const std::string row = fmt::format("{},{},{},{}", instance.point_count(), instance.dimension(),

@@ -1,5 +1,5 @@
 #pragma once
-// `kds info`: what it was asked to do, and how that is parsed.
+// The options of `kds info` and their parser.
 
 #include "experiments/output/destinations.h"
 #include "experiments/program/input_options.h"
@@ -7,14 +7,15 @@
 
 namespace kds {
 
-struct InfoOptions : InputOptions, Destinations {  // info.json and info.csv
+struct InfoOptions : InputOptions, Destinations {  // results: info.json and info.csv
   ValidateOptions validate{.most_listed = 5};
-  bool beads = false;  ///< which residue each bead is, and nothing else
+  bool beads = false;  ///< report only which residue each bead is
 };
 
 [[nodiscard]] const OptionList<InfoOptions>& info_options();
 
-/// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
+/// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
+/// --help. Opens no file.
 [[nodiscard]] InfoOptions parse_info_options(const Arguments& arguments);
 
 }  // namespace kds

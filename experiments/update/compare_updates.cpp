@@ -17,8 +17,8 @@ namespace kds {
 
 namespace {
 
-/// Counts the work that all techniques have to do, from static diagrams of all frames. Two frames are in
-/// memory.
+/// Counts the work that every technique has to do, using static diagrams of all frames. Only two frames are
+/// in memory at a time.
 template <int Dimension>
 UpdateTask task_of(const Scene& scene, std::size_t stride) {
   UpdateTask task;
@@ -75,7 +75,7 @@ class UpdateComparison {
     seconds_.resize(rows_.size());
   }
 
-  /// All techniques once, one after the other.
+  /// Runs all techniques once, one after the other.
   void round() {
     for (std::size_t t = 0; t < rows_.size(); ++t) {
       const bool first = seconds_[t].empty();
@@ -92,7 +92,7 @@ class UpdateComparison {
   }
 
  private:
-  /// Counts and audits in the first round only: all are alike.
+  /// Counts and audits only in the first round, since all rounds do the same work.
   double run(UpdateRow& row, bool first) const {
     const UpdateTechnique technique = technique_of(row.technique);
     const auto update = make_diagram_update<Dimension>(technique);
@@ -150,15 +150,15 @@ class UpdateComparison {
     }
     return scene.step_count();
   }
-  /// Returns the seconds without those for reading frames.
+  /// Returns the seconds without the time for reading frames.
   static double run_steps_of(KineticRun& run, std::uint64_t& events) {
     const Scene& scene = run.scene();
     std::vector<std::uint64_t>& of_steps = run.structures().front()->statistics.events_per_step;
     run.build();
     double seconds = 0;
     for (std::size_t k = 0; k < scene.step_count(); ++k) {
-      static_cast<void>(
-          scene.centers(std::min(k + 2, scene.frame_count() - 1)));  // read before the clock runs
+      static_cast<void>(scene.centers(
+          std::min(k + 2, scene.frame_count() - 1)));  // loads the frame before the clock starts
       seconds += processor_seconds_of([&] { run.run_step(); });
       for (const std::uint64_t count : of_steps) events += count;
       of_steps.clear();
@@ -189,7 +189,7 @@ template void audit_update(const StaticTriangulation<3>&, const StaticTriangulat
 
 std::vector<UpdateRow> compare_updates(const SceneAtStride& scene_at, const UpdateOptions& options,
                                        const std::function<void(std::size_t, std::size_t)>& progress) {
-  // Before the first long run.
+  // Checked before the first long run.
   const Scene all = scene_at(1, FrameMotion::linear);
   all.require_weights();
   for (const std::size_t stride : options.strides)

@@ -1,5 +1,5 @@
 #pragma once
-// `kds update`: what it was asked to do, and how that is parsed.
+// The options of `kds update` and their parser.
 
 #include <array>
 #include <string>
@@ -13,9 +13,9 @@
 
 namespace kds {
 
-/// All techniques by name, in the order in which they are listed: those of
-/// structures/power_diagram/diagram_update.h, and the kinetic one under Hermite motion. The first is what all
-/// are compared with.
+/// The names of all techniques in the order of listing: the techniques of
+/// structures/power_diagram/diagram_update.h, and the kinetic technique under Hermite motion. All techniques
+/// are compared with the first.
 inline constexpr auto kTechniques = [] {
   std::array<std::string_view, update_technique_names.size() + 1> names;
   std::size_t count = 0;
@@ -26,8 +26,8 @@ inline constexpr auto kTechniques = [] {
   return names;
 }();
 
-struct UpdateOptions : InputOptions, Destinations {  // update.json, update.csv, report.html
-  std::vector<std::string> techniques{kTechniques.begin(), kTechniques.end()};  ///< rebuild among them
+struct UpdateOptions : InputOptions, Destinations {  // results: update.json, update.csv, report.html
+  std::vector<std::string> techniques{kTechniques.begin(), kTechniques.end()};  ///< always contains rebuild
   std::vector<std::size_t> strides{1};                                          ///< ascending
   std::size_t rounds = 3;
   AuditMode audit = AuditMode::none;  ///< none or frames
@@ -35,7 +35,8 @@ struct UpdateOptions : InputOptions, Destinations {  // update.json, update.csv,
 
 [[nodiscard]] const OptionList<UpdateOptions>& update_options();
 
-/// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
+/// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
+/// --help. Opens no file.
 [[nodiscard]] UpdateOptions parse_update_options(const Arguments& arguments);
 
 }  // namespace kds

@@ -28,7 +28,7 @@ std::string task_line(const UpdateTask& task) {
       static_cast<double>(task.hidden) / steps);
 }
 
-/// Marks over strides for each technique for which there is a value.
+/// Returns a plot with a mark at each stride for each technique that has a value.
 template <class Value>
 LinePlot over_strides(std::span<const UpdateRow> rows, const char* label, Value value) {
   LinePlot plot{"stride", label, Drawn::points, {}};
@@ -73,7 +73,7 @@ std::string plots(std::span<const UpdateRow> rows) {
                             "Certificates of a frame's diagram that fail at the next frame, by stride.");
 }
 
-/// Rows of one stride stand together.
+/// Groups the rows by stride. Rows of one stride are adjacent.
 std::vector<std::span<const UpdateRow>> by_stride(std::span<const UpdateRow> rows) {
   std::vector<std::span<const UpdateRow>> groups;
   while (!rows.empty()) {
@@ -148,7 +148,7 @@ std::string update_table(std::span<const UpdateRow> rows) {
   for (const auto& group : by_stride(rows))
     text += fmt::format("{}{}\n{}", text.empty() ? "" : "\n", task_line(group.front().task),
                         update_columns().text(group, "  "));
-  std::uint64_t audits = 0;  // one that fails ends the program
+  std::uint64_t audits = 0;  // a failed audit ends the program
   for (const UpdateRow& row : rows) audits += row.audits;
   if (audits > 0)
     text += fmt::format("\n{} audits against the static diagram, none failed\n", with_thousands(audits));

@@ -1,5 +1,5 @@
 #pragma once
-// What `kds update` found, for programs and for people.
+// Reports the results of `kds update` to programs and people.
 
 #include <span>
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace kds {
 
-/// The columns of update.json and update.csv, of the terminal and of the page.
+/// Returns the columns of update.json and update.csv, of the terminal and of the page.
 [[nodiscard]] const Table<UpdateRow>& update_columns();
-/// A line for each stride, then one for each technique.
+/// Returns a line for each stride, followed by a line for each technique.
 [[nodiscard]] std::string update_table(std::span<const UpdateRow> rows);
-/// Fills a page that made_by began.
+/// Completes a page that already says how the results were made.
 [[nodiscard]] std::string update_page(std::span<const UpdateRow> rows, const std::string& input, Page page);
 
 }  // namespace kds
