@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kNecklacesShown = 10;
 
-// JSON has no infinity.
+// Returns null for infinity, which JSON cannot express.
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string extent(const Necklace::Extent& extent) {

@@ -1,5 +1,5 @@
 #pragma once
-// A scene's description as text: parts that `kds info` and `kds generate` share.
+// Text describing a scene. `kds info` and `kds generate` share it.
 
 #include <string>
 
@@ -8,13 +8,13 @@
 
 namespace kds {
 
-/// `input`, `necklaces`, `rows` (one a condition) and `proper`.
+/// Adds `input`, `necklaces`, `rows` (one per condition) and `proper`.
 void add_scene(Json& json, const SceneInfo& info);
 
-/// One line a condition, with a header.
+/// Returns a header and one line per condition.
 [[nodiscard]] std::string conditions_csv(const SceneInfo& info);
 
-/// The scene, its necklaces, then a table of the conditions.
+/// Returns the scene, its necklaces, and a table of the conditions.
 [[nodiscard]] std::string scene_table(const SceneInfo& info);
 
 }  // namespace kds

@@ -11,7 +11,7 @@ namespace kds {
 
 namespace {
 
-// The necklace of a bead.
+// Returns the necklace of a bead.
 const Necklace& necklace_of(std::span<const Necklace> necklaces, BeadId bead) {
   return *std::find_if(necklaces.begin(), necklaces.end(),
                        [bead](const Necklace& necklace) { return bead <= necklace.beads().last; });
@@ -99,7 +99,7 @@ class Description {
 
  private:
   std::span<const double> radii_;
-  std::size_t begun_ = 0;  // frames
+  std::size_t begun_ = 0;  // number of frames begun
   SceneInfo info_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// What is known of a scene before anything runs over it: its necklaces, and which conditions of a proper
-// necklace they violate in which frames.
+// The properties of a scene that are known without a run: its necklaces, and the conditions of a proper
+// necklace that they violate, with the frames.
 
 #include <array>
 #include <functional>
@@ -17,10 +17,10 @@ namespace kds {
 
 struct NecklaceInfo {
   std::string file;
-  BeadRange beads;  ///< of the scene
+  BeadRange beads;  ///< in the numbering of the scene
   std::size_t frames = 0;
-  Necklace::Extent radii{}, bonds{};  ///< the bonds over all frames, rounded
-  std::vector<std::size_t> breaks;    ///< b: beads b and b+1 of the necklace are joined across a chain break
+  Necklace::Extent radii{}, bonds{};  ///< bonds over all frames, rounded
+  std::vector<std::size_t> breaks;    ///< b: the necklace joins the beads b and b+1 across a chain break
   LaterBreaks later_breaks{};         ///< as in Trajectory
   std::size_t residues = 0, residues_read = 0;  ///< as in Trajectory
 };
@@ -28,10 +28,11 @@ struct NecklaceInfo {
 struct ConditionInfo {
   Condition condition{};
   std::size_t violations = 0;    ///< over all frames
-  std::size_t frames = 0;        ///< in which it is violated
-  std::size_t first_frame = 0;   ///< of these, by its number in the file
-  std::vector<Violation> first;  ///< the first in that frame
-  /// How far each is from holding, rounded: a gap or a depth as a length, uniformity as a ratio.
+  std::size_t frames = 0;        ///< number of frames with a violation
+  std::size_t first_frame = 0;   ///< number in the file of the first frame with a violation
+  std::vector<Violation> first;  ///< the first violations in that frame
+  /// The amount by which each of `first` violates the condition, rounded: a length for a gap or a depth, a
+  /// ratio for uniformity.
   std::vector<double> by;
 
   [[nodiscard]] bool holds() const { return violations == 0; }
@@ -46,21 +47,21 @@ struct SceneInfo {
   [[nodiscard]] bool proper() const;
 };
 
-/// Judges the conditions at every frame, with one frame in memory. `necklaces` need only their first
-/// frames, and `next` reads the next frame of all beads. `radii` has one radius a bead in scene order.
-/// Throws InputError if a number is not finite.
+/// Checks the conditions at every frame, with one frame in memory. `necklaces` need only their first frames,
+/// and `next` reads the next frame of all beads. `radii` has one radius per bead in scene order. Throws
+/// InputError if a number is not finite.
 [[nodiscard]] SceneInfo describe_frames(std::span<const Trajectory> necklaces,
                                         std::span<const std::size_t> frames_of_necklaces,
                                         const std::function<bool(FrameRead&)>& next,
                                         std::span<const double> radii, const ValidateOptions& options,
                                         const std::function<void(std::size_t, std::size_t)>& progress);
-/// Judges frames in memory likewise. A necklace of one frame is at rest. Throws InputError if frame counts
-/// differ otherwise, or a number is not finite.
+/// Checks the conditions at every frame, with all frames in memory. A necklace with one frame is at rest.
+/// Otherwise throws InputError if frame counts differ. Throws InputError also if a number is not finite.
 [[nodiscard]] SceneInfo describe_scene(std::span<const Trajectory> necklaces, std::span<const double> radii,
                                        const ValidateOptions& options,
                                        const std::function<void(std::size_t, std::size_t)>& progress);
 
-/// A few words for tables: "beads that follow each other touch".
+/// Returns a short description for tables, such as "beads that follow each other touch".
 [[nodiscard]] std::string_view about(Condition condition);
 
 }  // namespace kds
