@@ -157,8 +157,8 @@ class UpdateComparison {
     run.build();
     double seconds = 0;
     for (std::size_t k = 0; k < scene.step_count(); ++k) {
-      static_cast<void>(scene.centers(
-          std::min(k + 2, scene.frame_count() - 1)));  // loads the frame before the clock starts
+      static_cast<void>(
+          scene.centers(std::min(k + 2, scene.frame_count() - 1)));  // read before the clock runs
       seconds += processor_seconds_of([&] { run.run_step(); });
       for (const std::uint64_t count : of_steps) events += count;
       of_steps.clear();
