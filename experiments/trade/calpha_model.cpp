@@ -19,7 +19,8 @@ struct Residue {
   BeadId calpha = no_bead;
 };
 
-/// In their order; none where a bead has no name, or a residue not one CA.
+/// Returns the residues in chain order. Returns nothing if a bead has no name, or if a residue does not have
+/// exactly one CA.
 std::optional<std::vector<Residue>> residues_of(const Trajectory& necklace) {
   std::vector<Residue> residues;
   std::optional<BeadName> before;
@@ -62,7 +63,7 @@ Trajectory calphas_of(const Trajectory& necklace, const std::vector<Residue>& re
   return some;
 }
 
-/// 0 where three decimals are no number that is safely one.
+/// Rounds up to three significant digits. Returns 0 if `x` is too small or too large to be rounded up safely.
 double rounded_up(double x) {
   if (!(x > 1e-290 && x < 1e290)) return 0;
   const double unit = std::pow(10, std::floor(std::log10(x)) - 2);
@@ -73,7 +74,8 @@ double rounded_up(double x) {
   }
 }
 
-/// On straight lines between frames a bead is nowhere farther from its CA than at a frame.
+/// Checking the frames suffices: on straight lines between frames, a bead is never farther from its CA than
+/// at one of the frames.
 double covering_radius(std::span<const Trajectory> necklaces, std::span<const double> radii,
                        const CalphaModel& model) {
   double largest = 0;
@@ -135,10 +137,10 @@ std::optional<CalphaModel> calpha_model(std::span<const Trajectory> necklaces, s
     model.ranges.push_back({begin, static_cast<BeadId>(model.bead.size()) - 1});
     first += static_cast<BeadId>(necklace.bead_count());
   }
-  constexpr std::size_t fewest = 4;  // for a diagram in space
+  constexpr std::size_t fewest = 4;  // needed for a diagram in space
   if (model.bead.size() == radii.size() || model.bead.size() < fewest) return std::nullopt;
   model.covering_radius = covering_radius(necklaces, radii, model);
-  if (radius == "auto" || radius == "element:fit") {  // which look at the beads there are
+  if (radius == "auto" || radius == "element:fit") {  // policies that depend on the beads present
     for (std::size_t n = 0; n < necklaces.size(); ++n) {
       const std::vector<double>& elements = necklaces[n].element_radii;
       const BeadRange& range = model.ranges[n];

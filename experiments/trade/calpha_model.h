@@ -1,5 +1,6 @@
 #pragma once
-// The same chains by one bead a residue, its CA: another model of them, as a run with --select ca has it.
+// A coarser model of the same chains with one bead per residue, its CA. A run with --select ca uses the same
+// beads.
 
 #include <optional>
 #include <span>
@@ -14,26 +15,28 @@ namespace kds {
 
 struct CalphaModel {
   std::vector<Trajectory> necklaces;
-  std::vector<BeadRange> ranges;  ///< of its beads, one a necklace
+  std::vector<BeadRange> ranges;  ///< the model's beads of each necklace
   std::vector<double> radii;
-  /// A ball of it around a CA holds the balls of its residue, at all times: in three decimals, rounded up. 0:
-  /// there is none, as numbers are too large or too small.
+  /// The radius at which a ball around a CA always contains all balls of its residue. It is rounded up to
+  /// three digits. 0 if no such radius exists because numbers are too large or too small.
   double covering_radius = 0;
-  // In the finest data, of each of its beads:
+  // For each bead of the model, in the numbering of the finest data:
   std::vector<BeadId> bead;
-  std::vector<BeadRange> residue;    ///< all that stands for
-  std::vector<BeadId> of_bead = {};  ///< the other way: whose residue each bead of the finest data is in
+  std::vector<BeadRange> residue;  ///< the beads of its residue
+  std::vector<BeadId> of_bead =
+      {};  ///< the inverse: for each bead of the finest data, the model's bead of its residue
 
-  /// Beads of the finest data in the residue that has most.
+  /// Returns the largest number of beads (of the finest data) in a residue.
   [[nodiscard]] BeadId largest_residue() const;
-  /// Contacts of beads as contacts of their residues: those of pairs that the model asks about, by pairs,
-  /// then in the order of time.
+  /// Turns contacts of beads into contacts of their residues. Keeps the pairs that the model asks about.
+  /// Sorts by pair, then by time.
   [[nodiscard]] std::vector<ContactTime> of_residues(const std::vector<ContactTime>& contacts,
                                                      BeadId apart) const;
 };
 
-/// None where some bead's residue is not known or has no CA, there are no other beads, or fewer than four
-/// residues. `radius` is the policy by which the beads of `necklaces` have got their `radii`.
+/// Returns the model. Returns nothing in these cases: the residue of a bead is unknown or has no CA, every
+/// bead is a CA, or there are fewer than four residues. `radius` is the policy that gave the beads of
+/// `necklaces` their `radii`.
 [[nodiscard]] std::optional<CalphaModel> calpha_model(std::span<const Trajectory> necklaces,
                                                       std::span<const double> radii,
                                                       const std::string& radius);

@@ -26,7 +26,7 @@ double length_of_tolerance(const TradeSetting& setting, const std::vector<double
   return setting.tolerance * *std::min_element(radii.begin(), radii.end());
 }
 
-/// All frames of necklaces, as a scene has them.
+/// Reads the frames of several necklaces together, as a scene has them.
 class SideBySide final : public FrameReader {
  public:
   SideBySide(const std::vector<Trajectory>& necklaces, std::size_t frames)
@@ -170,7 +170,7 @@ class TruthIn final : public Truth {
     std::size_t outside = 0;
     const auto& [center, radius] = node.sphere;
     for (BeadId b = node.range.first; b <= node.range.last; ++b) {
-      // Far from doubtful, whatever all the roundings.
+      // The ball is inside by more than all rounding errors, so no exact test is needed.
       const double reach = (positions_.col(b) - center).norm() + scene_.radii()[b];
       const double size = reach + positions_.col(b).norm() + center.norm();
       if (radius - reach > 0x1p-40 * size) continue;
@@ -204,7 +204,7 @@ class TruthIn final : public Truth {
       whole_ = integer_balls_at(std::get<MotionRef<Dimension>>(motion_->ref()).curves(), time_);
       exact_ = true;
     }
-    // The sphere in the same units, or both in its own finer ones.
+    // Expresses sphere and ball in a common unit, the finest of their units.
     int unit = whole_.unit;
     for (int axis = 0; axis < Dimension; ++axis) unit = std::min(unit, unit_of(sphere.center[axis]));
     unit = std::min(unit, unit_of(sphere.radius));

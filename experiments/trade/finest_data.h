@@ -1,5 +1,6 @@
 #pragma once
-// The frames that the errors of a trade are measured against, and the scenes that settings make of them.
+// The frames that serve as the reference for the errors of a trade, and the scenes that settings derive from
+// them.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -19,33 +20,33 @@
 
 namespace kds {
 
-/// Times are whole numbers of this part of the way from one of the finest frames to the next.
+/// Times are integers. The unit is the time between two of the finest frames divided by this number.
 inline constexpr std::size_t parts_of_frame = 64;
 
 class FinestData {
  public:
-  /// `radius`: the policy by which beads have got their radii.
+  /// `radius` is the policy that gave the beads their radii.
   FinestData(std::vector<Trajectory> necklaces, std::vector<double> radii, const std::string& radius);
 
-  /// So many of them alone, at least two.
+  /// Returns the data restricted to the first `frames` frames, at least two.
   [[nodiscard]] FinestData first_frames(std::size_t frames) const;
 
-  /// Of the first necklace, for messages.
+  /// The file of the first necklace, for messages.
   [[nodiscard]] const std::string& file() const { return necklaces_.front().file; }
   [[nodiscard]] std::size_t frame_count() const { return frames_; }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   [[nodiscard]] TradeInput input() const;
-  /// Null where there is none.
+  /// Returns null if there is no such model.
   [[nodiscard]] const CalphaModel* calpha() const { return calpha_ ? &*calpha_ : nullptr; }
-  /// All frames, linear motion between them.
+  /// Returns the scene of all frames with linear motion between them.
   [[nodiscard]] Scene scene() const { return {necklaces_, radii_, FrameMotion::linear}; }
-  /// As the setting has it, which leaves two frames. Throws InputError naming the stride where they lie in a
-  /// plane and others do not.
+  /// Returns the scene that the setting asks for. The setting must leave at least two frames. Throws an
+  /// InputError that names the stride if its frames lie in a plane and others do not.
   [[nodiscard]] Scene scene(const TradeSetting& setting) const;
-  /// The same with other radii.
+  /// Returns the setting's scene with other radii.
   [[nodiscard]] Scene scene(const TradeSetting& setting, std::vector<double> radii) const;
-  /// How far beads are from where the setting's scene has them, in the frames that it leaves out or
-  /// straightens.
+  /// Returns how far beads are from their positions in the setting's scene, in the frames that the setting
+  /// leaves out or straightens.
   [[nodiscard]] StrideDeviation deviation(const TradeSetting& setting, const Scene& scene) const;
 
  private:
@@ -58,30 +59,33 @@ class FinestData {
   int dimension_ = 3;
 };
 
-/// Where the beads truly are at a time, that is on straight lines between the finest frames, and what is
-/// right for them there.
+/// The true positions of the beads at a time, on straight lines between the finest frames, and the correct
+/// structures for these positions.
 class Truth {
  public:
   virtual ~Truth() = default;
-  /// Goes to a time, in parts of a frame.
+  /// Moves to a time, given in parts of a frame.
   virtual void move_to(std::size_t time) = 0;
 
-  /// Each coordinate rounded to a double a few times.
+  /// Returns the positions. Each coordinate has a few rounding errors.
   [[nodiscard]] virtual const Eigen::Matrix3Xd& positions() const = 0;
-  /// The radius of the smallest sphere around these balls of one necklace, right to 1e-12 of its size.
+  /// Returns the radius of the smallest sphere that encloses these balls of one necklace. The relative error
+  /// is at most 1e-12.
   [[nodiscard]] virtual double smallest_radius(const BeadRange& node) = 0;
-  /// How many of these balls are not in this sphere, as it stands. Exact.
+  /// Returns exactly how many of the node's balls are not inside its sphere.
   [[nodiscard]] virtual std::size_t balls_outside(const NodeSphere& node) = 0;
-  /// Cells of the power diagram of the positions, ids ascending, in order.
+  /// Returns the cells of the power diagram of the positions, in order. Each cell has ascending ids.
   [[nodiscard]] virtual const std::vector<std::vector<BeadId>>& cells() = 0;
-  /// Of all pairs asked about, with the beads here, how far the closest are apart; none where none are asked.
+  /// Returns the least distance of all pairs asked about, with the beads at `positions`. Returns nothing if
+  /// no pair is asked about.
   [[nodiscard]] virtual std::optional<double> closest_distance(const Eigen::Matrix3Xd& positions) = 0;
 };
 
-/// `finest` must outlive it and is its own.
+/// `finest` must outlive the result and be used for no other truth.
 [[nodiscard]] std::unique_ptr<Truth> make_truth(const Scene& finest, const PairsAsked& asked);
 
-/// Where a setting's beads are, each coordinate rounded a few times; `step` is its scene's.
+/// The positions of a setting's beads. Each coordinate has a few rounding errors. `step` is a step of the
+/// setting's scene.
 class FollowedMotion {
  public:
   explicit FollowedMotion(const Scene& scene) : motion_(make_scene_motion(scene)) {}

@@ -16,17 +16,18 @@ namespace kds {
 
 namespace {
 
-/// From a setting's steps to the times of the finest data.
+/// Converts steps of a setting to times of the finest data.
 class Clock {
  public:
   Clock(const Scene& scene, std::size_t stride) : steps_(scene.step_count()), stride_(stride) {}
 
   [[nodiscard]] std::size_t frame(std::size_t of_setting) const { return of_setting * stride_; }
-  /// In parts of a frame.
+  /// Returns the time in parts of a frame.
   [[nodiscard]] std::size_t start_of(std::size_t step) const { return frame(step) * parts_of_frame; }
   /// Returns the step that leads to this time or past it. The time must be after the first frame.
   [[nodiscard]] std::size_t step_to(std::size_t time) const { return (time - 1) / start_of(1); }
-  /// Returns the place of such a time in its step, from 0 to 1: exact, as strides are powers of two.
+  /// Returns the place of such a time in its step, from 0 to 1. The result is exact because strides are
+  /// powers of two.
   [[nodiscard]] double place_in(std::size_t step, std::size_t time) const {
     return static_cast<double>(time - start_of(step)) / static_cast<double>(stride_ * parts_of_frame);
   }
@@ -52,8 +53,8 @@ class Recorder final : public EventListener {
   const Clock& clock_;
 };
 
-/// How many pairs of spheres a search for contacts within a hierarchy looks at: two nodes whose spheres meet
-/// are opened, the one of more beads first; beads next to each other are not asked about.
+/// Counts the pairs of spheres that a search for contacts within one hierarchy tests. If the spheres of two
+/// nodes meet, the search descends into the node with more beads. Neighbouring beads are not tested.
 class SearchCost {
  public:
   explicit SearchCost(std::span<const NodeSphere> nodes) {
@@ -90,7 +91,7 @@ class SearchCost {
   }
   [[nodiscard]] bool meet(const BeadRange& a, const BeadRange& b) const {
     const auto of_a = spheres_.find({a.first, a.last}), of_b = spheres_.find({b.first, b.last});
-    if (of_a == spheres_.end() || of_b == spheres_.end()) return true;  // a bead
+    if (of_a == spheres_.end() || of_b == spheres_.end()) return true;  // a single bead
     return (of_a->second.center - of_b->second.center).norm() <= of_a->second.radius + of_b->second.radius;
   }
 
@@ -111,7 +112,7 @@ std::set<std::pair<BeadId, BeadId>> short_edges(const std::vector<std::vector<Be
   return edges;
 }
 
-/// Edges of beads as edges of their residues.
+/// Turns edges between beads into edges between their residues.
 std::set<std::pair<BeadId, BeadId>> of_residues(const std::set<std::pair<BeadId, BeadId>>& edges,
                                                 const CalphaModel& model) {
   std::set<std::pair<BeadId, BeadId>> all;
@@ -122,7 +123,7 @@ std::set<std::pair<BeadId, BeadId>> of_residues(const std::set<std::pair<BeadId,
 
 class Follower {
  public:
-  /// `deviation`: null where spheres are as the run has them, else they are made larger by it.
+  /// If `deviation` is not null, the spheres of the run are enlarged by it.
   Follower(const FinestData& finest, const Scene& scene, const TradeSetting& setting, Truth& truth,
            double cutoff, const StrideDeviation* deviation)
       : calpha_(setting.calpha ? finest.calpha() : nullptr),
@@ -133,7 +134,8 @@ class Follower {
         cutoff_(cutoff),
         deviation_(deviation) {}
 
-  /// At a time of a step, the truth's in parts of a frame.
+  /// Compares the run with the truth at a time. `u` is the time within the step, `time` is the same time in
+  /// parts of a frame.
   void look(const Session& session, std::size_t step, double u, std::size_t time) {
     truth_.move_to(time);
     const Eigen::Matrix3Xd here = motion_.positions(step, u);
@@ -171,7 +173,7 @@ class Follower {
     }
     return largest;
   }
-  /// A node with the beads that it is to hold in truth, and its sphere as a certificate has it.
+  /// Returns the node with the beads that it must truly contain. A certified run enlarges the node's sphere.
   [[nodiscard]] NodeSphere promised(NodeSphere node) const {
     if (deviation_ != nullptr) {
       const auto of_node =
@@ -226,7 +228,7 @@ class Follower {
     if (expected && found) raise(errors.closest_distance, std::abs(*found - *expected));
   }
 
-  const CalphaModel* calpha_;  // null: the beads are those of the finest data
+  const CalphaModel* calpha_;  // null if the beads are the beads of the finest data
   const Scene& scene_;
   const TradeSetting& setting_;
   Truth& truth_;
@@ -239,8 +241,8 @@ class Follower {
   std::uint64_t search_tests_ = 0, looks_at_spheres_ = 0;
 };
 
-/// The times that all settings are looked at, in parts of a frame: frames of the finest data, and random
-/// times between them.
+/// Returns the times at which all settings are examined, in parts of a frame: frames of the finest data, and
+/// random times between them.
 std::set<std::size_t> times_to_look(std::size_t frames, const SamplingOfTimes& sampling) {
   std::set<std::size_t> times;
   std::mt19937_64 random(sampling.seed);
@@ -284,7 +286,7 @@ std::vector<std::pair<std::string, std::optional<double>>> by_name(const TradeEr
 
 namespace {
 
-/// All contacts of the setting's motion, with these radii.
+/// Returns all contacts of the setting's motion with these radii.
 std::vector<ContactTime> contacts_with(const FinestData& finest, const TradeSetting& setting,
                                        std::vector<double> radii) {
   const Scene scene = finest.scene(setting, std::move(radii));
@@ -360,12 +362,12 @@ void compare_histories(const RunHistory& exact, FollowedRun& run, const FinestDa
   if (setting.structure == "contacts") {
     if (setting.calpha)
       expected.contacts = finest.calpha()->of_residues(expected.contacts, setting.settings.apart);
-    // What is certified is so at that very time, which is known to a bracket.
+    // A certified contact must agree at its exact time, which is known up to a bracket.
     constexpr double at_once = 1e-6;
     const ContactMatch match =
         match_contacts(expected.contacts, run.history.contacts, setting.certify ? at_once : setting.reach());
-    // Where no contact of beads is one of residues that the model asks about, it has not been put to the
-    // test.
+    // If no true contact of beads is a contact of residues that the model asks about, the model was not
+    // tested.
     if (!setting.calpha || match.expected > 0) {
       errors.contacts_missed = share(match.missed, match.expected);
       errors.contacts_spurious = share(match.spurious, match.expected);
@@ -378,7 +380,7 @@ void compare_histories(const RunHistory& exact, FollowedRun& run, const FinestDa
       errors.sure_wrong = static_cast<double>(sure.spurious);
     }
   }
-  if (setting.calpha) return;  // its events are of other beads
+  if (setting.calpha) return;  // the events concern other beads
   const EventMatch match = match_events(expected.events, run.history.events, setting.reach());
   errors.events_missed = share(match.missed, match.expected);
   errors.events_invented = share(match.invented, match.expected);

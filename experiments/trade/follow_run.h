@@ -1,5 +1,5 @@
 #pragma once
-// One run of a setting, beside the truth: what it got wrong, at frames and between them.
+// Runs a setting and compares it with the truth at frames and between them.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,50 +15,56 @@
 
 namespace kds {
 
-/// Errors of a run; none where one does not apply. Lengths are in the input's unit, times in finest frames.
+/// The errors of a run. An error that does not apply is empty. Lengths are in the input's unit, times in
+/// finest frames.
 struct TradeErrors {
-  std::optional<double> displacement;             ///< largest, of a bead from where it truly is
-  std::optional<double> radius_mean, radius_max;  ///< of a node from the smallest, as a share of it
-  std::optional<double> radius_frames_mean, radius_frames_max;  ///< the same at frames alone
-  std::optional<double> beads_outside;  ///< of their nodes' spheres, mean of the times looked at
-  std::optional<double> cells_wrong;    ///< share of cells that are not in the true diagram
+  std::optional<double> displacement;  ///< largest distance of a bead from its true position
+  std::optional<double> radius_mean,
+      radius_max;  ///< relative difference of a node's radius from the smallest radius
+  std::optional<double> radius_frames_mean, radius_frames_max;  ///< the same at frames only
+  std::optional<double> beads_outside;  ///< beads outside their nodes' spheres, mean over the times examined
+  std::optional<double> cells_wrong;    ///< share of cells that the true diagram does not have
   std::optional<double> edges_missed;   ///< share of the true edges shorter than the cutoff
   std::optional<double> events_missed, events_invented;  ///< shares of the exact run's events
   std::optional<double> event_time_mean, event_time_max;
-  /// Shares of the true contacts. Of one bead a residue none where there is no true contact of residues.
+  /// Shares of the true contacts. Empty for the model with one bead per residue if no residues are truly in
+  /// contact.
   std::optional<double> contacts_missed, contacts_spurious;
-  std::optional<double> contacts_unsure;  ///< share of the true contacts; of certified runs, as the next
-  std::optional<double> sure_wrong;       ///< contacts that are called sure and are none
-  std::optional<double> contact_time_mean, contact_time_max;  ///< of their ends
+  std::optional<double> contacts_unsure;  ///< share of the true contacts; only for certified runs
+  std::optional<double>
+      sure_wrong;  ///< number of contacts that are called sure but are not true; only for certified runs
+  std::optional<double> contact_time_mean,
+      contact_time_max;                    ///< error of the times at which contacts begin and end
   std::optional<double> closest_distance;  ///< largest error of the closest pair's distance
 };
-/// By name, in the order of the members.
+/// Returns the errors with their names, in the order of the members.
 [[nodiscard]] std::vector<std::pair<std::string, std::optional<double>>> by_name(const TradeErrors& errors);
 
-/// What a run gave out.
+/// The output of a run.
 struct RunHistory {
-  double end = 0;  ///< in frames of the finest data, where the run stops
+  double end = 0;  ///< time at which the run stops, in frames of the finest data
   std::vector<TimedEvent> events;
-  std::vector<ContactTime> contacts;  ///< of the structure contacts; certified: all that are possible
-  std::vector<ContactTime> sure;      ///< certified
+  std::vector<ContactTime> contacts;  ///< contacts of the run; for a certified run all possible contacts
+  std::vector<ContactTime> sure;      ///< only for a certified run
 };
 
 struct SamplingOfTimes {
-  std::size_t times = 200;  ///< random ones between frames, and as many frames at the most
+  std::size_t times = 200;  ///< number of random times between frames, and at most as many frames
   std::uint64_t seed = 1;
 };
 
 struct FollowedRun {
   RunHistory history;
-  TradeErrors errors;           ///< but those of events and contacts
-  std::optional<double> tests;  ///< of two spheres, in a search of each time's hierarchy for contacts; mean
+  TradeErrors errors;           ///< all errors except those of events and contacts
+  std::optional<double> tests;  ///< mean over the times examined of the number of sphere pairs that a contact
+                                ///< search in the hierarchy tests
 };
 
-/// `cutoff`: for edges_missed.
+/// `cutoff` is the length limit for edges_missed.
 [[nodiscard]] FollowedRun follow_run(const FinestData& finest, const TradeSetting& setting, Truth& truth,
                                      const SamplingOfTimes& sampling, double cutoff);
 
-/// Adds the errors of events and contacts, by the history of the exact run.
+/// Adds the errors of events and contacts, computed from the history of the exact run.
 void compare_histories(const RunHistory& exact, FollowedRun& run, const FinestData& finest,
                        const TradeSetting& setting);
 

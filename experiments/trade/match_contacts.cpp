@@ -11,7 +11,7 @@ namespace kds {
 
 std::vector<ContactTime> contact_times(std::span<const BeadPair> built, std::span<const TimedEvent> events,
                                        double first, double last) {
-  using Kind = Contacts<3>::Kind;  // the same in the plane
+  using Kind = Contacts<3>::Kind;  // Contacts<2> has the same kinds
   std::vector<ContactTime> times;
   std::map<BeadPair, double> since;
   for (const BeadPair& pair : built) since[pair] = first;

@@ -1,6 +1,6 @@
 #pragma once
-// The contacts of two runs, one beside the other: a contact is the time from the beginning of a pair's touch
-// to its end.
+// Compares the contacts of two runs. A contact is the interval from the time at which a pair begins to touch
+// to the time at which it parts.
 
 #include <cstdint>
 #include <span>
@@ -16,20 +16,22 @@ struct ContactTime {
   double from, to;  ///< in frames of the finest data
 };
 
-/// From the events of `contacts` in their order and the pairs in contact at the first frame, `first`; what
-/// goes on at the end lasts until `last`. By pairs, then in the order of time.
+/// Returns the contacts, sorted by pair and then by time. `built` has the pairs in contact at the first
+/// frame, which has the time `first`. `events` are the events of the structure `contacts` in their order.
+/// Contacts that last to the end get the end time `last`.
 [[nodiscard]] std::vector<ContactTime> contact_times(std::span<const BeadPair> built,
                                                      std::span<const TimedEvent> events, double first,
                                                      double last);
 
 struct ContactMatch {
   std::uint64_t expected = 0, missed = 0, spurious = 0;
-  std::uint64_t timed = 0;                        ///< pairs of contacts whose ends are compared
-  double time_error_sum = 0, time_error_max = 0;  ///< of both ends, in frames
+  std::uint64_t timed = 0;                        ///< number of contact pairs whose ends are compared
+  double time_error_sum = 0, time_error_max = 0;  ///< over both ends, in frames
 };
 
-/// A contact is missed if no contact found of the same pair shares any time with it, to within `slack`
-/// frames; one found is spurious likewise. Both as contact_times gives them.
+/// Matches contacts. An expected contact is missed if no found contact of the same pair overlaps it to within
+/// `slack` frames. A found contact is spurious if no expected contact overlaps it likewise. Both lists must
+/// be sorted as contact_times sorts them.
 [[nodiscard]] ContactMatch match_contacts(std::span<const ContactTime> expected,
                                           std::span<const ContactTime> found, double slack);
 

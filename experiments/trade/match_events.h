@@ -1,6 +1,6 @@
 #pragma once
-// The events of two runs of one structure, one beside the other: which the second has missed, which it has
-// invented, and how far apart in time those are that both have.
+// Compares the events of two runs of one structure: which events the second run missed, which it invented,
+// and how far apart in time the common events are.
 
 #include <cstdint>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace kds {
 
-/// An event and when it happened, in frames of the finest data.
+/// An event and its time in frames of the finest data.
 struct TimedEvent {
   double time;
   Change change;
@@ -17,11 +17,12 @@ struct TimedEvent {
 
 struct EventMatch {
   std::uint64_t expected = 0, missed = 0, invented = 0, matched = 0;
-  double time_error_sum = 0, time_error_max = 0;  ///< over those that are matched, in frames
+  double time_error_sum = 0, time_error_max = 0;  ///< over the matched events, in frames
 };
 
-/// Events match that are the same change and no more than `reach` frames apart: of the same change one after
-/// the other, the earliest that can be, in the order of time. Both are in that order.
+/// Matches events. Two events match if they are the same change at most `reach` frames apart. Equal changes
+/// are matched in the order of time, each with the earliest possible partner. Both lists must be sorted by
+/// time.
 [[nodiscard]] EventMatch match_events(std::span<const TimedEvent> expected, std::span<const TimedEvent> found,
                                       double reach);
 

@@ -20,7 +20,7 @@ std::uint64_t bytes_in_use() {
   return info.uordblks + info.hblkhd;
 }
 
-/// One run without a look at it. Counts are added to those of `cost`.
+/// Runs once without examining the run, and returns the seconds. Adds the counts to `cost`.
 double seconds_of_one(const Scene& scene, const TradeSetting& setting, TradeCost& cost) {
   const std::uint64_t before = bytes_in_use();
   std::vector<std::string> structures = setting.besides;
@@ -40,7 +40,7 @@ double seconds_of_one(const Scene& scene, const TradeSetting& setting, TradeCost
   return seconds;
 }
 
-/// All runs that the setting takes; counts are taken by `cost`.
+/// Performs all runs that the setting takes and returns their seconds. Stores the counts in `cost`.
 double seconds_to_run(const FinestData& finest, const TradeSetting& setting, TradeCost& cost) {
   const Scene scene = finest.scene(setting);
   cost.certificates = cost.events = 0;
@@ -53,11 +53,12 @@ double seconds_to_run(const FinestData& finest, const TradeSetting& setting, Tra
   RadiiWithin radii = radii_within(deviation, scene.radii());
   for (std::vector<double>* const some : {&radii.larger, &radii.smaller})
     seconds += seconds_of_one(finest.scene(setting, std::move(*some)), setting, cost);
-  cost.events = events;  // the others only bound it
+  cost.events = events;  // the other runs only bound the contacts
   return seconds;
 }
 
-/// Why the exact run of what is wanted cannot be had of the input, and the way out.
+/// Returns a message that says why the exact run of `want` is impossible for the input, and which options
+/// avoid the problem.
 std::string without(Want want, const FinestData& finest, const TradeSetting& exact, const TradeTask& task,
                     const std::string& reason) {
   std::vector<std::string_view> others;
@@ -70,13 +71,13 @@ std::string without(Want want, const FinestData& finest, const TradeSetting& exa
                          : fmt::format("; expected --want {}, which does without", fmt::join(others, ",")));
 }
 
-/// Scenes are other tasks, not other answers to the same.
+/// Scenes have no errors: they are different tasks rather than different answers to one task.
 bool has_errors(const TradeGroup& group) { return group.want != Want::scenes; }
 
 bool is_as_good(const TradeRow& a, const TradeRow& b) {
   const std::vector<double> of_a = main_errors(a), of_b = main_errors(b);
   if (of_a.empty()) return false;
-  constexpr double clearly = 0.97;  // times wander
+  constexpr double clearly = 0.97;  // allows for noise in the times
   bool better = a.cost.ratio < clearly * b.cost.ratio;
   if (a.cost.ratio > b.cost.ratio) return false;
   for (std::size_t k = 0; k < of_a.size(); ++k) {

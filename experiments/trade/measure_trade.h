@@ -1,5 +1,6 @@
 #pragma once
-// The experiment behind `kds trade`: every setting's cost, in runs by turns, and its error beside the truth.
+// The experiment behind `kds trade`. It measures the cost of every setting, running the settings in turn, and
+// the error of each against the truth.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,17 +20,18 @@ struct TradeTask {
   BeadId apart = 2;
   std::size_t rounds = 5;
   SamplingOfTimes sampling;
-  std::optional<double> cutoff;  ///< for short edges; none: four times the largest radius
-  bool exact_kernel = true;      ///< has rows: the same events, at a hundred to thousands of times the cost
+  std::optional<double> cutoff;  ///< limit for short edges; empty for four times the largest radius
+  bool exact_kernel =
+      true;  ///< adds rows for the exact kernel: the same events, 100 to thousands of times the cost
 };
 
 struct TradeCost {
-  double seconds = 0;                ///< of the processor, after the first build: median of the rounds
-  double quickest = 0, slowest = 0;  ///< of them
-  double ratio = 1;                  ///< to the exact run's, for as many frames
+  double seconds = 0;                ///< processor time after the first build: median of the rounds
+  double quickest = 0, slowest = 0;  ///< over the rounds
+  double ratio = 1;                  ///< to the exact run's time for the same number of frames
   std::uint64_t certificates = 0, events = 0;
   std::optional<double> tests;  ///< FollowedRun::tests
-  std::uint64_t memory = 0;     ///< bytes that the run holds at its end, or of several the largest
+  std::uint64_t memory = 0;     ///< bytes in use at the end of the run; the maximum if there are several runs
 };
 
 struct TradeRow {
@@ -37,16 +39,17 @@ struct TradeRow {
   TradeSetting setting;
   TradeCost cost;
   TradeErrors errors;
-  bool is_exact = false;  ///< the exact run of all frames, which begins its group
-  bool on_front = false;  ///< no other row of its group costs less and errs less
+  bool is_exact = false;  ///< true for the exact run of all frames, which begins its group
+  bool on_front = false;  ///< true if no other row of its group has lower cost and lower errors
 };
 
-/// The errors by which rows of a group are compared; empty where one of them is not known, and of scenes.
+/// Returns the errors that compare the rows of a group. Returns an empty list if one of them is unknown, and
+/// for scenes.
 [[nodiscard]] std::vector<double> main_errors(const TradeRow& row);
 
-/// In the order of the settings. A setting that does not fit the trajectory, as a stride whose frames lie in
-/// a plane where others do not, is left out, and `warn` gets a line that says so. Throws InputError where the
-/// exact run of what is wanted does not fit.
+/// Returns the rows in the order of the settings. A setting that does not fit the trajectory is left out and
+/// `warn` gets a line that says so; for example, the frames of a stride may lie in a plane when other frames
+/// do not. Throws InputError if the exact run of a want does not fit.
 [[nodiscard]] std::vector<TradeRow> measure_trade(
     const FinestData& finest, const TradeTask& task,
     const std::function<void(std::size_t, std::size_t)>& progress,

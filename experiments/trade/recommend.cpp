@@ -14,10 +14,10 @@ namespace kds {
 
 namespace {
 
-// What most people would call none: a hundredth, and no bead outside.
+// The limit of a small error: one percent, and no bead outside.
 constexpr double small_error = 0.01;
 
-/// Two figures, and whole numbers of more without an exponent.
+/// Returns two significant figures, or a whole number without an exponent for larger values.
 std::string few_figures(double value) {
   if (!(value >= 99 && value < 1e15)) return fmt::format("{:.2g}", value);
   return with_thousands(static_cast<std::uint64_t>(std::llround(value)));
@@ -81,7 +81,7 @@ std::string sentence_for(std::span<const TradeRow> group) {
   if (best != nullptr)
     return fmt::format("{}, `{}` is {}: {}.", subject, words_of(best->setting),
                        times_as_fast(best->cost.ratio), losses_of(*best));
-  // Nothing small pays: what does the least harm among what is quicker?
+  // No setting with small errors is quicker, so choose the quicker setting with the least errors.
   for (const TradeRow& row : group.subspan(1)) {
     const auto worst = [](const TradeRow& r) {
       const std::vector<double> errors = main_errors(r);

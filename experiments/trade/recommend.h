@@ -1,5 +1,5 @@
 #pragma once
-// What the measured rows say to do, in words.
+// Turns the measured rows into a recommendation in words.
 
 #include <span>
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace kds {
 
-/// For each group a sentence or two: the quickest setting whose main errors are small, what it loses and what
-/// it gains. Rows as measure_trade gives them.
+/// Returns one or two sentences per group: the quickest setting whose main errors are small, its errors and
+/// its gain. `rows` are in the order of measure_trade.
 [[nodiscard]] std::string recommendation(std::span<const TradeRow> rows);
 
-/// What is lost, in words: "radii 0.02% larger on average, 0.5% at most".
+/// Returns the errors in words: "radii 0.02% larger on average, 0.5% at most".
 [[nodiscard]] std::string losses_of(const TradeRow& row);
 
 }  // namespace kds

@@ -18,12 +18,12 @@ namespace kds {
 
 namespace {
 
-// By beads and frames alone, so that the rows are the same on every machine.
+// The decision depends only on the numbers of beads and frames, so that every machine has the same rows.
 bool leave_out_exact_kernel(const FinestData& finest, const TradeTask& task,
                             const std::function<void(const std::string&)>& warn) {
   constexpr std::size_t most_beads = 500, most = 50'000;
   const bool asked_for = task.exact_kernel;
-  if (task.wants == std::vector{Want::scenes}) return true;  // which have no kernels
+  if (task.wants == std::vector{Want::scenes}) return true;  // scenes have no kernel variants
   const std::size_t beads = finest.radii().size(), frames = finest.frame_count();
   if (beads <= most_beads && beads * frames <= most) return !asked_for;
   if (!asked_for) return true;
@@ -34,8 +34,8 @@ bool leave_out_exact_kernel(const FinestData& finest, const TradeTask& task,
   return true;
 }
 
-// All of it over the first frames tells how long all frames will take. Throws InputError where these alone do
-// not fit what is wanted.
+// Estimates the time for all frames from a full measurement of the first frames. Throws InputError if the
+// first frames alone do not fit what is wanted.
 double foretold_by_first_frames(const FinestData& finest, const TradeTask& task) {
   constexpr std::size_t few = 9;
   if (finest.frame_count() <= 2 * few) return 0;
@@ -43,7 +43,7 @@ double foretold_by_first_frames(const FinestData& finest, const TradeTask& task)
   pilot.rounds = 1;
   pilot.sampling.times = 4;
   const FinestData first = finest.first_frames(few);
-  // Twice: what a look costs is told apart from what a run costs.
+  // Two measurements separate the cost of examining a time from the cost of a run.
   const double with_few = seconds_of([&] {
                             static_cast<void>(measure_trade(
                                 first, pilot, [](auto, auto) {}, [](auto&) {}));
@@ -56,12 +56,14 @@ double foretold_by_first_frames(const FinestData& finest, const TradeTask& task)
   const double a_look = std::max(0.0, with_more - with_few) / 4;
   const double a_round = std::max(0.0, with_few - 4 * a_look) / 2;
   const double steps = static_cast<double>(finest.frame_count() - 1) / (few - 1);
-  const std::size_t times = task.sampling.times;  // of frames and random ones: the same number, if there are
+  const std::size_t times =
+      task.sampling
+          .times;  // number of random times; also the number of frames examined, if there are as many
   return a_look * 0.5 * static_cast<double>(times + std::min(times, finest.frame_count())) +
          a_round * steps * static_cast<double>(task.rounds + 1);
 }
 
-// None where it cannot be told.
+// Returns 0 if the time cannot be estimated.
 double foretold_seconds(const FinestData& finest, const TradeTask& task) {
   try {
     return foretold_by_first_frames(finest, task);

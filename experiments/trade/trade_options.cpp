@@ -45,7 +45,7 @@ Option<TradeTask> without_exact_option() {
   return option;
 }
 
-/// What is measured. --cutoff is no setting of the JSON.
+/// The options that say what is measured. --cutoff is not a setting in the JSON.
 const OptionList<TradeTask>& task_options() {
   using O = TradeTask;
   static const auto list =
@@ -75,7 +75,7 @@ const OptionList<TradeTask>& task_options() {
   return list;
 }
 
-/// What --apart and --cutoff are about must be among what is wanted.
+/// Throws InputError if --apart or --cutoff is given but none of the wants uses it.
 void refuse_needless_options(const ParsedArguments& parsed, const std::vector<Want>& wants) {
   const auto wanted = [&](std::initializer_list<Want> some) {
     return std::find_first_of(wants.begin(), wants.end(), some.begin(), some.end()) != wants.end();
