@@ -14,7 +14,7 @@ namespace kds {
 
 namespace {
 
-constexpr std::array<double, 4> kSkins{0.5, 1, 2, 4};  // radii
+constexpr std::array<double, 4> kSkins{0.5, 1, 2, 4};  // in radii
 constexpr std::array<std::size_t, 6> kFramesTrusted{1, 2, 4, 8, 16, 32};
 
 Eigen::VectorXd moves(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to, bool without_drift) {
@@ -28,7 +28,8 @@ double two_largest(Eigen::VectorXd moved) {
   return moved[0] + moved[1];
 }
 
-// The farthest that any bead ever moves from a frame to the next: what a model with a speed limit promises.
+// Returns the largest displacement of any bead between consecutive frames. A model with a speed limit
+// promises this bound.
 double speed_of(const Subject& subject) {
   double speed = 0;
   for (std::size_t k = 0; k + 1 < subject.frames.size(); ++k)
@@ -36,8 +37,9 @@ double speed_of(const Subject& subject) {
   return speed;
 }
 
-// Pairs are found at the first frame, which no bound saves, and again at each where two beads may have come
-// nearer by more than the skin since, as `nearer(found_at, now)` bounds it: how often again.
+// Returns how often near pairs must be found again after the first frame. They are found again at each frame
+// at which two beads may have approached by more than the skin since the last search. `nearer(found_at, now)`
+// bounds the approach.
 template <class Nearer>
 double times_repeated(const Subject& subject, double skin, const Nearer& nearer) {
   std::size_t repeated = 0, at = 0;
@@ -49,8 +51,8 @@ double times_repeated(const Subject& subject, double skin, const Nearer& nearer)
   return static_cast<double>(repeated);
 }
 
-// What a hierarchy whose bases are trusted knows of how far beads may stick out, mean of the nodes as a share
-// of their radii.
+// How far beads may stick out of a hierarchy whose bases are trusted: mean over the nodes, as a share of
+// their radii.
 struct Trusted {
   double by_speed = 0, by_displacement = 0, really = 0;
 };
@@ -79,7 +81,7 @@ Trusted looseness(const StaticWrappedHierarchy<3>& hierarchy, const Subject& sub
   return sum;
 }
 
-// Of the subjects whose search is repeated with either bound.
+// `gains` has one entry for each subject whose search is repeated under either bound.
 std::string bounds_answer(const std::vector<double>& gains) {
   if (gains.empty()) return "Measured displacements never repeat a search at a skin of one radius.";
   const Spread rarer = spread_of(gains);

@@ -62,8 +62,9 @@ Chain chain(std::size_t which, const std::filesystem::path& data, std::uint64_t 
   }
 }
 
-// The search of the paper's figure 6, of one necklace with itself, that leaves two blocks of beads whose
-// spheres meet to another method where they are farther apart along the chain than a block is long.
+// The search of the paper's figure 6 for contacts of a necklace with itself, with one change. Two blocks of
+// beads whose spheres meet are left to another method if they are farther apart along the chain than a block
+// is long.
 class Search {
  public:
   Search(std::span<const TreeSphere<3>> spheres, std::size_t block)
@@ -80,7 +81,7 @@ class Search {
   [[nodiscard]] const std::vector<bool>& left() const { return left_; }
 
  private:
-  // a before b.
+  // `a` comes before `b` along the chain.
   void visit(std::uint32_t a, std::uint32_t b) {
     const TreeSphere<3>&s = spheres_[a], &t = spheres_[b];
     if (t.last - s.first < 2) return;  // neighbours
@@ -112,9 +113,9 @@ class Search {
   std::vector<bool> left_;
 };
 
-// Pairs that decide whether some of these beads collide: edges of their diagram, and beads with a common
-// neighbour along the chain (closest_pair.h says why both are needed, and that no others are: where a pair is
-// named by a bead's centre, or found by a grid, it stands for these).
+// The numbers of pairs that decide whether some of these beads collide: edges of their diagram, and pairs of
+// beads with a common neighbour along the chain. closest_pair.h proves that these pairs are necessary and
+// sufficient. A pair that is named by a bead's centre, or found by a grid, stands for these pairs.
 struct Named {
   double edges = 0, others = 0;
   [[nodiscard]] double sum() const { return edges + others; }
@@ -131,7 +132,7 @@ Named pairs_named(const Chain& chain, const std::vector<bool>& some) {
     of_chain.push_back(static_cast<BeadId>(bead));
   }
   if (beads.size() < 2) return {};
-  // Beads that follow each other here are neighbours only if they do in the chain.
+  // Consecutive beads of this subset are neighbours only if they are neighbours in the chain.
   std::vector<BeadRange> pieces{{0, 0}};
   for (BeadId k = 1; k < of_chain.size(); ++k) {
     if (of_chain[k] == of_chain[k - 1] + 1)

@@ -1,7 +1,7 @@
 #pragma once
 // "How can we best integrate the power diagram and the sphere hierarchy so as to get the advantages of each?"
-// One way, measured: the hierarchy settles what it can down to blocks of beads, and a diagram of the beads
-// that are left settles the rest.
+// Measures one way: the hierarchy settles as much as it can down to blocks of beads, and a diagram of the
+// remaining beads settles the rest.
 
 #include <cstddef>
 #include <cstdint>

@@ -21,7 +21,7 @@ std::optional<double> bending_angle(const Eigen::Matrix3Xd& chain, Eigen::Index 
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// Of the bond from this bead to the next.
+// Returns the torsion angle of the bond from this bead to the next.
 std::optional<double> torsion_angle(const Eigen::Matrix3Xd& chain, Eigen::Index bead) {
   const Vector a = bond_of(chain, bead - 1), b = bond_of(chain, bead), c = bond_of(chain, bead + 1);
   const Vector n = a.cross(b), m = b.cross(c);

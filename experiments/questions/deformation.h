@@ -1,8 +1,8 @@
 #pragma once
-// How much energy it takes to deform a chain, in the simplest model of one: springs of stiffness 1 at its
-// angles. From one conformation to the next the energy is half the sum of the squared changes, in radians, of
-// all bending angles (at a bead, between its two bonds), and half that of all torsion angles (at a bond, of
-// the bonds before and after it). Lengths of bonds do not count, rigid motion takes none.
+// The energy of deforming a chain in the simplest model: springs of stiffness 1 at its angles. From one
+// conformation to the next, the energy is half the sum of the squared changes, in radians, of all bending and
+// torsion angles. A bending angle lies at a bead, between its two bonds. A torsion angle lies at a bond,
+// between the bonds before and after it. Bond lengths do not count, and rigid motions take no energy.
 
 #include <Eigen/Core>
 #include <span>
@@ -15,11 +15,11 @@ struct Deformation {
   [[nodiscard]] double energy() const { return bending + torsion; }
 };
 
-/// Two conformations of one chain. Angles that three beads in a row or a bond of no length leave open count
-/// as unchanged.
+/// Compares two conformations of one chain. An angle that is undefined, because three beads are collinear or
+/// a bond has zero length, counts as unchanged.
 [[nodiscard]] Deformation deformation(const Eigen::Matrix3Xd& before, const Eigen::Matrix3Xd& after);
 
-/// A chain by its angles: n beads, n - 2 bending angles (pi is straight), n - 3 torsion angles.
+/// A chain given by its angles: n beads, n - 2 bending angles (pi is straight), n - 3 torsion angles.
 struct ChainAngles {
   std::vector<double> bending, torsion;
 };

@@ -22,11 +22,11 @@ namespace {
 constexpr std::array<std::size_t, 6> kStrides{1, 2, 4, 8, 16, 32};
 constexpr int kAmplitudes = 9;  // 2^-10 ... 2^-2 radians
 constexpr std::size_t kChainBeads = 128;
-// Of the largest amplitude; each smaller one has twice as many, up to the most, for its steps have fewer
-// changes.
+// Number of conformations at the largest amplitude. Each smaller amplitude has twice as many, up to the
+// maximum, because its steps have fewer changes.
 constexpr std::size_t kLeastConformations = 32, kMostConformations = 256;
-constexpr std::size_t kShares = 16;  // of the conformations of an amplitude, which tell the interval
-// Bending angles stay this far from 0 and from pi: beyond these both torsions beside would jump by pi.
+constexpr std::size_t kShares = 16;  // shares of an amplitude's conformations, for the jackknife interval
+// Least distance of a bending angle from 0 and pi. At 0 or pi both adjacent torsion angles would jump by pi.
 constexpr double kLeastBending = 0.05 * std::numbers::pi;
 
 constexpr std::size_t kProteins = 2;  // the first of the moving subjects
@@ -37,10 +37,10 @@ enum class Angles { bending, torsion, both };
 constexpr std::array kAngles{Angles::bending, Angles::torsion, Angles::both};
 constexpr std::array<std::string_view, 3> kAngleNames{"bending", "torsion", "both"};
 
-// One step from frame to frame.
+// One step between frames.
 struct Step {
   Deformation deformation;
-  double bases = 0, flips = 0;  ///< events
+  double bases = 0, flips = 0;  ///< numbers of events
 };
 
 std::vector<Step> steps_of(std::vector<Eigen::Matrix3Xd> frames, const std::vector<double>& radii) {
@@ -74,7 +74,7 @@ Step mean_of(std::span<const Step> steps) {
   return mean;
 }
 
-// Normal, of variance 1.
+// Returns a sample of the standard normal distribution.
 double normal(models::Random& random) {
   const double u = 1 - random.uniform(), v = random.uniform();
   return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
@@ -89,7 +89,7 @@ ChainAngles random_angles(models::Random& random) {
   return angles;
 }
 
-// Drawn again where the chain would fold or straighten.
+// Draws again if the chain would fold or straighten.
 double changed_bending(double angle, double amplitude, models::Random& random) {
   for (;;) {
     const double changed = angle + amplitude * normal(random);
@@ -137,7 +137,7 @@ class Measurement {
   }
 
  private:
-  // Of chains all of whose angles change: the last two curves.
+  // Returns the answer for chains in which all angles change. They are the last two curves.
   [[nodiscard]] std::string answer() const {
     const std::size_t count = question_.curves.size();
     const auto bases = question_.curves[count - 2].fit(), flips = question_.curves[count - 1].fit();
@@ -183,7 +183,7 @@ class Measurement {
     in_groups(name, std::move(finest));
   }
 
-  // Does a step of more energy have more changes, at one time between frames?
+  // Groups the steps of one trajectory by energy, to see whether a step with more energy has more changes.
   void in_groups(const std::string& name, std::vector<Step> steps) {
     constexpr std::size_t groups = 8;
     std::ranges::sort(steps, {}, [](const Step& step) { return step.deformation.energy(); });
@@ -225,7 +225,7 @@ class Measurement {
         .front();
   }
 
-  // The point just added as it is without each of the shares.
+  // Adds to each curve, for each share, the point just added as it is without that share.
   static void add_shares(const std::vector<Step>& steps, QuestionCurve& bases, QuestionCurve& flips) {
     bases.without.resize(kShares);
     flips.without.resize(kShares);

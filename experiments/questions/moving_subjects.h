@@ -1,5 +1,5 @@
 #pragma once
-// The chains in motion that several questions are asked of.
+// The moving chains that several questions use.
 
 #include <cstdint>
 #include <filesystem>
@@ -16,7 +16,8 @@ struct NamedSubject {
 };
 
 inline constexpr std::size_t moving_subject_count = 3;
-/// Two trajectories, and a random chain that wanders slowly, 200 frames each.
+/// Returns one of three subjects with 200 frames each: two trajectories, and a random chain that moves
+/// slowly.
 [[nodiscard]] NamedSubject moving_subject(std::size_t which, const std::filesystem::path& data,
                                           std::uint64_t seed);
 

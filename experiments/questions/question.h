@@ -1,5 +1,5 @@
 #pragma once
-// An open question of the paper, measured: a table, what was fitted to it, and what it says.
+// An open question of the paper with the measured answer: a table, the fits to it, and the conclusions.
 
 #include <cstddef>
 #include <functional>
@@ -13,7 +13,7 @@
 namespace kds {
 
 struct QuestionColumn {
-  std::string name;  ///< in CSV and JSON
+  std::string name;  ///< name in CSV and JSON
   std::string title;
 };
 
@@ -22,12 +22,13 @@ struct QuestionRow {
   std::vector<std::optional<double>> values;  ///< in the order of the columns
 };
 
-/// A curve of a plot, both axes logarithmic, and the power fitted to it where there are enough points.
+/// A curve of a plot with two logarithmic axes. A power law is fitted to the curve if it has enough points.
 struct QuestionCurve {
-  std::string plot;  ///< curves of one plot stand together
+  std::string plot;  ///< name of the plot; curves with one name share a plot
   std::string name;
   std::vector<std::pair<double, double>> points;
-  /// The points without one of several equal shares of what was measured, where there are such.
+  /// Each element has the points as they are without one of several equal shares of the measurements. Empty
+  /// if there are no shares.
   std::vector<std::vector<std::pair<double, double>>> without;
   [[nodiscard]] std::optional<PowerFit> fit() const {
     return without.empty() ? fit_power(points) : fit_power(points, without);
@@ -35,13 +36,13 @@ struct QuestionCurve {
 };
 
 struct Question {
-  std::string name;    ///< of its file: energy
+  std::string name;    ///< name of its file, such as energy
   std::string title;   ///< the question itself
   std::string words;   ///< what is measured, and how
-  std::string answer;  ///< the gist of what was found, a sentence
+  std::string answer;  ///< the main result in a sentence
   std::vector<QuestionColumn> columns;
   std::vector<QuestionRow> rows;
-  std::string x_label, y_label;  ///< of the plots
+  std::string x_label, y_label;  ///< labels of the plots' axes
   std::vector<QuestionCurve> curves;
   std::vector<std::string> findings;  ///< sentences
 };

@@ -9,14 +9,15 @@
 
 namespace kds {
 
-/// Results: trade.json, trade.csv and report.html.
+/// The results are trade.json, trade.csv and report.html.
 struct TradeOptions : InputOptions, Destinations {
   TradeTask task;
 };
 
 [[nodiscard]] const OptionList<TradeOptions>& trade_options();
 
-/// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
+/// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
+/// --help. Opens no file.
 [[nodiscard]] TradeOptions parse_trade_options(const Arguments& arguments);
 
 }  // namespace kds

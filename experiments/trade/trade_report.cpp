@@ -87,7 +87,8 @@ Json setting_json(const TradeRow& row) {
   return setting;
 }
 
-/// JSON and CSV have all errors. People see the errors of what is wanted; their first column has this title.
+/// JSON and CSV have all errors. Tables for people have only the errors of `want`, and `title` heads their
+/// first column.
 Table<TradeRow> trade_columns(const std::string& title, Want want) {
   using Row = TradeRow;
   Table<Row> table{{

@@ -1,5 +1,5 @@
 #pragma once
-// What `kds trade` found, for programs and for people.
+// Reports the results of `kds trade` to programs and people.
 
 #include <span>
 #include <string>
@@ -11,11 +11,11 @@
 namespace kds {
 
 [[nodiscard]] Json trade_rows_json(std::span<const TradeRow> rows);
-/// A header and one line a row.
+/// Returns a header and one line per row.
 [[nodiscard]] std::string trade_csv(std::span<const TradeRow> rows);
-/// A block a group; what is on the front is marked.
+/// Returns a block per group. Rows on the Pareto front are marked.
 [[nodiscard]] std::string trade_table(std::span<const TradeRow> rows);
-/// `page` says how it was made.
+/// `page` says how the results were made.
 [[nodiscard]] std::string trade_page(std::span<const TradeRow> rows, const std::string& input, Page page);
 
 }  // namespace kds

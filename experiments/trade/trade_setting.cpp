@@ -59,9 +59,10 @@ std::string words_of(const TradeSetting& setting) {
 
 namespace {
 
-/// One bead a residue. Beads A apart along the chain, of residues of at most k beads, are of residues at
-/// least A / k apart, rounded down: so far apart are those asked about, that no such pair is dropped. But two
-/// at least: the CA of adjacent residues are bonded, and contacts of those residues are not asked about.
+/// Switches to one bead per residue. If a residue has at most k beads, then beads A apart along the chain lie
+/// in residues at least A / k apart, rounded down. This quotient becomes the new distance, so no pair is
+/// dropped. The distance is at least 2: the CAs of adjacent residues are bonded, and contacts between these
+/// residues are not asked about.
 void take_calpha(TradeSetting& setting, const TradeInput& input) {
   setting.calpha = true;
   const BeadId apart =
@@ -78,7 +79,7 @@ class Settings {
     all.push_back(exact_);
   }
 
-  /// The exact run, but for what `change` does to it.
+  /// Adds the exact run modified by `change`.
   template <class Change>
   void add(Change change) {
     TradeSetting setting = exact_;
@@ -102,7 +103,7 @@ class Settings {
     for (const double share : {0.01, 0.03, 0.1})
       add([=](TradeSetting& s) { s.settings.relax = Relaxation::of(share); });
   }
-  /// Where what is left out can be made up for.
+  /// Adds certified runs where the errors of the frames left out can be bounded.
   void add_certified() {
     for (const std::size_t stride : {2, 4}) {
       add([=](TradeSetting& s) {
@@ -118,7 +119,8 @@ class Settings {
   void add_calpha() {
     if (input_.residues == 0) return;
     add([&](TradeSetting& s) { take_calpha(s, input_); });
-    if (exact_.structure == "power" || input_.residue_radius == 0) return;  // a diagram covers nothing
+    if (exact_.structure == "power" || input_.residue_radius == 0)
+      return;  // spheres of a diagram cannot be enlarged to cover the error
     add([&](TradeSetting& s) {
       take_calpha(s, input_);
       s.calpha_radius = input_.residue_radius;
@@ -204,11 +206,12 @@ std::vector<TradeSetting> diagram(const TradeInput& input, BeadId apart) {
   return settings.all;
 }
 
-/// From the least that can be asked of a scene to all of it, then all of it otherwise, then parts alone.
+/// Returns the scenes: first from the smallest task to the full task, then variants of the full task, then
+/// parts of it.
 std::vector<TradeSetting> scenes(const TradeInput& input, BeadId apart) {
   const bool several = input.necklaces > 1;
   Settings settings("contacts", input,
-                    several ? input.beads : apart);  // so far apart is no pair of one chain
+                    several ? input.beads : apart);  // no pair of one chain is this far apart
   const auto more = [&](std::vector<std::string> besides, auto change) {
     settings.add([&](TradeSetting& s) {
       s.settings.apart = apart;

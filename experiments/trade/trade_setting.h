@@ -1,5 +1,6 @@
 #pragma once
-// One way to run a structure over a trajectory: the exact run of all frames, or one that gives up something.
+// One way to run a structure over a trajectory: the exact run of all frames, or a run that gives up some
+// accuracy.
 
 #include <array>
 #include <cstddef>
@@ -14,9 +15,9 @@
 
 namespace kds {
 
-/// What a user is after.
+/// The result that a user wants.
 enum class Want { contacts, cages, diagram, events, scenes };
-/// In the order of the enumerators.
+/// The names of the enumerators in order.
 inline constexpr std::array<std::string_view, 5> want_names{"contacts", "cages", "diagram", "events",
                                                             "scenes"};
 [[nodiscard]] constexpr std::string_view name_of(Want want) {
@@ -27,49 +28,53 @@ struct TradeSetting {
   std::string structure;
   std::size_t stride = 1;
   FrameMotion motion = FrameMotion::linear;
-  double tolerance = 0;  ///< of the motion, in smallest radii
+  double tolerance = 0;  ///< of the motion, in units of the smallest radius
   Kernel kernel = Kernel::filtered;
   StructureSettings settings{};
-  bool certify = false;  ///< what was left out is read, and spheres and balls are made larger by it
-  bool calpha = false;   ///< of the beads CA alone
-  std::optional<double> calpha_radius{};  ///< none: by the policy of the finest data
-  // Of scenes:
-  std::vector<std::string> besides{};  ///< structures in the same run
-  bool has_own_apart = false;          ///< settings.apart is not what was asked for
+  bool certify = false;  ///< read the frames left out, and enlarge spheres and balls by the deviation
+  bool calpha = false;   ///< use only the CA beads
+  std::optional<double> calpha_radius{};  ///< empty for the policy of the finest data
+  // Only for scenes:
+  std::vector<std::string> besides{};  ///< further structures in the same run
+  bool has_own_apart = false;          ///< settings.apart differs from the requested value
   bool element_radii = false;
-  bool projected = false;  ///< on the plane z = 0
+  bool projected = false;  ///< project onto the plane z = 0
 
-  /// Whether it tells when something changes.
+  /// Returns whether the structure reports events.
   [[nodiscard]] bool has_events() const;
-  /// Over how many frames a bead may go straight on: events are looked for so far from where they truly are.
+  /// Returns the largest number of frames over which a bead may move in a straight line. Events are matched
+  /// within this distance of their true time.
   [[nodiscard]] double reach() const;
 };
 
-/// Its options as `kds run` takes them, the structure first; those that are as in the exact run are left out.
+/// Returns the options as `kds run` takes them, the structure first. Omits options that equal the exact
+/// run's.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> options_of(const TradeSetting& setting);
-/// The same as words: "wrapped --between chord", and what no option says.
+/// Returns the options as words, as in "wrapped --between chord", followed by properties that no option
+/// expresses.
 [[nodiscard]] std::string words_of(const TradeSetting& setting);
 
 /// Settings that are compared with each other.
 struct TradeGroup {
   Want want;
-  std::vector<TradeSetting> settings;  ///< the exact run of all frames, every lever alone, some together
+  std::vector<TradeSetting>
+      settings;  ///< the exact run of all frames, each lever alone, and some combinations
 };
 
-/// What decides which settings there are.
+/// The properties of the input that determine the settings.
 struct TradeInput {
-  std::size_t frames = 0;  ///< strides are taken that leave two
+  std::size_t frames = 0;  ///< only strides that leave two frames are used
   BeadId beads = 0;
   std::size_t necklaces = 1;
   int dimension = 3;
-  BeadId residues = 0;             ///< whose beads are known, CA and others; 0: they are not
-  BeadId largest_residue = 0;      ///< beads of the one that has most
+  BeadId residues = 0;             ///< number of residues if CAs and other beads are known, else 0
+  BeadId largest_residue = 0;      ///< number of beads in the largest residue
   double residue_radius = 0;       ///< CalphaModel::covering_radius
-  bool has_element_radii = false;  ///< that are known
-  bool exact_kernel = false;       ///< is a lever too
+  bool has_element_radii = false;  ///< whether the radii of the elements are known
+  bool exact_kernel = false;       ///< whether the exact kernel is one of the levers
 };
 
-/// `apart` is of contacts.
+/// Returns the groups of settings. `apart` applies to contacts.
 [[nodiscard]] std::vector<TradeGroup> groups_for(Want want, const TradeInput& input, BeadId apart);
 
 }  // namespace kds
