@@ -57,7 +57,7 @@ const OptionList<QuestionsAsked>& questions_options() {
   return list;
 }
 
-// In the order of kQuestions.
+// Returns the questions in the order of kQuestions.
 std::vector<std::string> questions_of(const std::vector<std::string>& operands) {
   std::array<bool, kQuestions.size()> asked{};
   for (const std::string& name : operands) {

@@ -34,7 +34,7 @@ std::vector<PlacedRow> rows_of(std::span<const Question> questions) {
   return rows;
 }
 
-// The columns of all these questions, side by side.
+// Returns the columns of all these questions, side by side.
 Table<PlacedRow> columns_of(std::span<const Question> questions) {
   using Row = PlacedRow;
   Table<Row> table{{{.key = "question", .value = [](const Row& r) { return Field(r.question->name); }},
@@ -49,7 +49,7 @@ Table<PlacedRow> columns_of(std::span<const Question> questions) {
   return table;
 }
 
-// The plot of the curves that have this name for their plot.
+// Returns the plot of the curves with this plot name.
 PointPlot plot_of(const Question& question, const std::string& name) {
   PointPlot plot{question.x_label, question.y_label, {}, {}};
   for (const QuestionCurve& curve : question.curves) {

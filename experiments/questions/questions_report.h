@@ -1,5 +1,5 @@
 #pragma once
-// The results of `kds questions` as JSON, CSV, text and a page.
+// Reports the results of `kds questions` as JSON, CSV, text and a page.
 
 #include <span>
 #include <string>
@@ -11,12 +11,12 @@
 namespace kds {
 
 [[nodiscard]] Json question_rows_json(std::span<const Question> questions);
-/// Of each question its title, fits and findings.
+/// Returns the title, fits and findings of each question.
 [[nodiscard]] Json questions_json(std::span<const Question> questions);
-/// A header and a line a row; columns of other questions are empty.
+/// Returns a header and a line per row. Columns of other questions are empty.
 [[nodiscard]] std::string questions_csv(std::span<const Question> questions);
 [[nodiscard]] std::string questions_text(std::span<const Question> questions);
-/// `page` says how it was made.
+/// `page` says how the results were made.
 [[nodiscard]] std::string questions_page(std::span<const Question> questions, Page page);
 
 }  // namespace kds
