@@ -23,8 +23,8 @@ struct CalphaModel {
   // For each bead of the model, in the numbering of the finest data:
   std::vector<BeadId> bead;
   std::vector<BeadRange> residue;  ///< the beads of its residue
-  std::vector<BeadId> of_bead =
-      {};  ///< the inverse: for each bead of the finest data, the model's bead of its residue
+  /// The inverse: for each bead of the finest data, the model's bead of its residue.
+  std::vector<BeadId> of_bead = {};
 
   /// Returns the largest number of beads (of the finest data) in a residue.
   [[nodiscard]] BeadId largest_residue() const;

@@ -19,8 +19,8 @@ namespace kds {
 /// finest frames.
 struct TradeErrors {
   std::optional<double> displacement;  ///< largest distance of a bead from its true position
-  std::optional<double> radius_mean,
-      radius_max;  ///< relative difference of a node's radius from the smallest radius
+  /// Relative difference of a node's radius from the smallest radius.
+  std::optional<double> radius_mean, radius_max;
   std::optional<double> radius_frames_mean, radius_frames_max;  ///< the same at frames only
   std::optional<double> beads_outside;  ///< beads outside their nodes' spheres, mean over the times examined
   std::optional<double> cells_wrong;    ///< share of cells that the true diagram does not have
@@ -31,10 +31,10 @@ struct TradeErrors {
   /// contact.
   std::optional<double> contacts_missed, contacts_spurious;
   std::optional<double> contacts_unsure;  ///< share of the true contacts; only for certified runs
-  std::optional<double>
-      sure_wrong;  ///< number of contacts that are called sure but are not true; only for certified runs
-  std::optional<double> contact_time_mean,
-      contact_time_max;                    ///< error of the times at which contacts begin and end
+  /// Number of contacts that are called sure but are not true; only for certified runs.
+  std::optional<double> sure_wrong;
+  /// Error of the times at which contacts begin and end.
+  std::optional<double> contact_time_mean, contact_time_max;
   std::optional<double> closest_distance;  ///< largest error of the closest pair's distance
 };
 /// Returns the errors with their names, in the order of the members.

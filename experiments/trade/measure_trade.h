@@ -21,8 +21,8 @@ struct TradeTask {
   std::size_t rounds = 5;
   SamplingOfTimes sampling;
   std::optional<double> cutoff;  ///< limit for short edges; empty for four times the largest radius
-  bool exact_kernel =
-      true;  ///< adds rows for the exact kernel: the same events, 100 to thousands of times the cost
+  /// Adds rows for the exact kernel: the same events, 100 to thousands of times the cost.
+  bool exact_kernel = true;
 };
 
 struct TradeCost {

@@ -56,9 +56,8 @@ double foretold_by_first_frames(const FinestData& finest, const TradeTask& task)
   const double a_look = std::max(0.0, with_more - with_few) / 4;
   const double a_round = std::max(0.0, with_few - 4 * a_look) / 2;
   const double steps = static_cast<double>(finest.frame_count() - 1) / (few - 1);
-  const std::size_t times =
-      task.sampling
-          .times;  // number of random times; also the number of frames examined, if there are as many
+  // Number of random times; also the number of frames examined, if there are as many.
+  const std::size_t times = task.sampling.times;
   return a_look * 0.5 * static_cast<double>(times + std::min(times, finest.frame_count())) +
          a_round * steps * static_cast<double>(task.rounds + 1);
 }

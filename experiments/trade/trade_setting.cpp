@@ -119,8 +119,8 @@ class Settings {
   void add_calpha() {
     if (input_.residues == 0) return;
     add([&](TradeSetting& s) { take_calpha(s, input_); });
-    if (exact_.structure == "power" || input_.residue_radius == 0)
-      return;  // spheres of a diagram cannot be enlarged to cover the error
+    // Spheres of a diagram cannot be enlarged to cover the error.
+    if (exact_.structure == "power" || input_.residue_radius == 0) return;
     add([&](TradeSetting& s) {
       take_calpha(s, input_);
       s.calpha_radius = input_.residue_radius;

@@ -57,8 +57,8 @@ struct TradeSetting {
 /// Settings that are compared with each other.
 struct TradeGroup {
   Want want;
-  std::vector<TradeSetting>
-      settings;  ///< the exact run of all frames, each lever alone, and some combinations
+  /// The exact run of all frames, each lever alone, and some combinations.
+  std::vector<TradeSetting> settings;
 };
 
 /// The properties of the input that determine the settings.
