@@ -1,4 +1,4 @@
-// Certificate types of balls as subjects of `kds stability`: one line each.
+// Makes each certificate type of balls a subject of `kds stability`, with one line per type.
 
 #include "certificates/types/ball_in_sphere.h"
 #include "certificates/types/contact.h"

@@ -1,4 +1,4 @@
-// Certificate types of beads as subjects of `kds stability`: one line each.
+// Makes each certificate type of beads a subject of `kds stability`, with one line per type.
 
 #include "certificates/types/bead_in_sphere.h"
 #include "certificates/types/orientation.h"

@@ -1,5 +1,5 @@
 #pragma once
-// A few beads over one step, of any dimension and degree: what the scenes of `kds stability` are made of.
+// A few beads over one step, of any dimension and degree. The scenes of `kds stability` consist of them.
 
 #include <cstddef>
 #include <string>
@@ -22,7 +22,7 @@ class BeadCurves {
   [[nodiscard]] int degree() const { return degree_; }
   [[nodiscard]] std::size_t bead_count() const { return beads_; }
 
-  /// The k-th control point.
+  /// Returns a coordinate of the bead's k-th control point.
   [[nodiscard]] double& coordinate(std::size_t bead, int k, int axis) { return numbers_[at(bead, k, axis)]; }
   [[nodiscard]] double coordinate(std::size_t bead, int k, int axis) const {
     return numbers_[at(bead, k, axis)];
@@ -33,11 +33,11 @@ class BeadCurves {
   [[nodiscard]] double& radius(std::size_t bead, int k) { return numbers_[at(bead, k, dimension_ + 1)]; }
   [[nodiscard]] double radius(std::size_t bead, int k) const { return numbers_[at(bead, k, dimension_ + 1)]; }
 
-  /// Without radii. Weights are left out where they are all zero, and in the plane and on the line, where an
-  /// instance has none.
+  /// Returns an instance without radii. Weights are omitted if all are zero. They are also omitted in the
+  /// plane and on the line, where an instance has no weights.
   [[nodiscard]] Instance instance(std::string name) const;
 
-  /// `Dimension` is this one's.
+  /// Returns the motion. `Dimension` must equal the dimension of these curves.
   template <int Dimension>
   [[nodiscard]] AnyDegreeMotion<Dimension> motion() const {
     AnyDegreeMotion<Dimension> motion(beads_, degree_);
@@ -64,7 +64,7 @@ class BeadCurves {
   std::vector<double> numbers_;
 };
 
-/// An instance file's text; reads back exactly.
+/// Returns the text of an instance file that reads back exactly.
 [[nodiscard]] std::string instance_text(const Instance& instance);
 
 }  // namespace kds

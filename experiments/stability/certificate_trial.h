@@ -1,5 +1,5 @@
 #pragma once
-// One certificate type in one extreme: `filtered` and `fast` against `exact`.
+// Tests one certificate type on one extreme: compares the kernels `filtered` and `fast` with `exact`.
 
 #include <fmt/format.h>
 
@@ -23,7 +23,7 @@
 
 namespace kds {
 
-/// What a certificate type asks of beads, all of its polynomials together.
+/// The bead data (channels) that a certificate type needs, over all of its polynomials.
 template <class C>
 inline constexpr Channels channels_asked = [] {
   if constexpr (requires { typename C::Radical; }) {
@@ -36,7 +36,7 @@ inline constexpr Channels channels_asked = [] {
 template <class C>
 inline constexpr std::size_t beads_named = std::tuple_size_v<decltype(C{}.beads)>;
 
-/// Of the polynomial whose roots are failures.
+/// Returns the degree of the polynomial whose roots are the certificate's failures.
 template <class C, int Dimension>
 [[nodiscard]] int function_degree(int motion_degree) {
   AnyDegreeMotion<Dimension> motion(beads_named<C>, motion_degree);
@@ -47,7 +47,7 @@ template <class C, int Dimension>
   return static_cast<int>(search->exact_function(certificate)->scaled().size()) - 1;
 }
 
-/// How many times longer than usual the exact stage takes for a case; less than that is not counted.
+/// Returns by which factor the exact stage of a case is slower than usual, at least 1.
 template <class C>
 [[nodiscard]] double case_cost(int function_degree) {
   const double longer = std::max(1.0, function_degree / 6.0);
@@ -111,11 +111,11 @@ class CertificateTrial {
     C certificate;
     AnyDegreeMotion<Dimension> motion{0, 0};
     std::unique_ptr<CertificateSearch<C>> search;
-    std::array<double, 2> times{};  // at which signs are compared, besides 0 and the failures
+    std::array<double, 2> times{};  // times at which signs are compared, in addition to 0 and the failures
     Instance instance;
   };
 
-  /// Certificates of full bases are told how these turn, at the start.
+  /// A certificate of a full basis stores the orientation of the basis. Sets it from the start of the step.
   static void orient(Case& made) {
     if constexpr (requires { requires C::full; }) {
       Orientation<Dimension> basis;
@@ -170,7 +170,7 @@ class CertificateTrial {
     note_trouble(row, c.number, *trouble, instance_text(c.instance));
   }
 
-  /// What an instance file does not hold.
+  /// Returns the radii, which an instance file cannot hold.
   static std::string radii_text(const AnyDegreeMotion<Dimension>& motion) {
     std::string text = "; radii";
     for (BeadId b = 0; b < beads; ++b)
@@ -192,12 +192,12 @@ class CertificateTrial {
   }
 
   const Extreme& extreme_;
-  std::vector<std::unique_ptr<Case>> cases_;  // searches refer to motions
+  std::vector<std::unique_ptr<Case>> cases_;  // pointers, since searches refer to motions
   std::size_t refused_ = 0;
   std::string reason_;
 };
 
-/// A certificate type as a subject.
+/// Makes a certificate type a subject.
 template <class C, int Dimension>
 [[nodiscard]] StabilitySubject certificate_subject(std::string name, int motion_degree) {
   constexpr bool weighted = channels_asked<C>.weights || channels_asked<C>.radii;

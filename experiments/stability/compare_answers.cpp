@@ -24,7 +24,7 @@ std::string in_words(const Failure& failure) {
   return fmt::format("later, in [{}, {}]", failure.time.lower, failure.time.upper);
 }
 
-// What happens at the start of a step is no event.
+// An answer at the start of a step is not an event.
 bool is_event(std::span<const Answer> answers, std::size_t i) {
   const Failure::Kind kind = answers[i].failure.kind;
   return kind == Failure::Kind::later || (kind == Failure::Kind::at_birth && i > 0);

@@ -1,5 +1,5 @@
 #pragma once
-// Whether two kernels said the same of one certificate, and what the approximate one got wrong.
+// Compares the answers of two kernels for one certificate, and counts the errors of the approximate kernel.
 
 #include <functional>
 #include <optional>
@@ -13,18 +13,18 @@
 
 namespace kds {
 
-/// The exact function of the certificate (false) or its opposite (true).
+/// Returns the exact function of the certificate (false) or of its opposite (true).
 using FunctionOfSide = std::function<ExactPolynomial(bool opposite)>;
 
-/// In which answer two histories differ, in words, or nothing. Times are compared exactly.
+/// Describes the first answer in which two histories differ, or returns nothing. Times are compared exactly.
 [[nodiscard]] std::optional<std::string> disagreement(std::span<const Answer> filtered,
                                                       std::span<const Answer> exact,
                                                       const FunctionOfSide& function);
 
-/// The failures among the answers, their brackets as they are.
+/// Returns the failures among the answers with their brackets unchanged.
 [[nodiscard]] std::vector<TimedChange> failures_of(std::span<const Answer> answers);
 
-/// The same, each narrowed to 2^-60 or less.
+/// Returns the failures among the answers with each bracket narrowed to at most 2^-60.
 [[nodiscard]] std::vector<TimedChange> sharp_failures_of(std::span<const Answer> answers,
                                                          const FunctionOfSide& function);
 

@@ -17,12 +17,14 @@ double error(const TimedChange& exact, const TimedChange& other) {
   return std::max({0.0, exact.lower - time, time - exact.upper});
 }
 
-// The least possible worst error where each event of the shorter history has a partner, in order.
+// Matches each event of the shorter history, in order, with an event of the longer one. Returns the smallest
+// possible worst error.
 double least_worst_error(const Times& times) {
   const bool fewer_exact = times.exact.size() <= times.other.size();
   const std::size_t rows = std::min(times.exact.size(), times.other.size());
   const std::size_t columns = std::max(times.exact.size(), times.other.size());
-  std::vector<double> worst(columns + 1, 0);  // of the first i of the shorter and the first j of the longer
+  std::vector<double> worst(
+      columns + 1, 0);  // for the first i events of the shorter and the first j events of the longer history
   for (std::size_t i = 0; i < rows; ++i) {
     double diagonal = worst[0];
     worst[0] = std::numeric_limits<double>::infinity();

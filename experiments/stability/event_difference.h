@@ -1,5 +1,5 @@
 #pragma once
-// What an approximate history got wrong, against the exact one.
+// Counts the errors of an approximate history against the exact history.
 
 #include <cstdint>
 #include <span>
@@ -10,17 +10,17 @@ namespace kds {
 
 struct TimedChange {
   Change change;
-  double lower = 0, upper = 0;  ///< the time lies between, or equals both
+  double lower = 0, upper = 0;  ///< the time lies strictly between both, or equals both
 };
 
 struct EventDifference {
-  std::uint64_t missed = 0;     ///< in the exact history only
-  std::uint64_t extra = 0;      ///< in the other only
-  double worst_time_error = 0;  ///< among the others, beyond the exact bracket
+  std::uint64_t missed = 0;     ///< events only in the exact history
+  std::uint64_t extra = 0;      ///< events only in the other history
+  double worst_time_error = 0;  ///< largest error of the matched events outside the exact bracket
 };
 
-/// Events are matched with events of the same change, in order, so that as few as can be are left over, and
-/// then with the least errors. Both histories are in order of time.
+/// Matches each event with an event of the same change, in order. Leaves as few events as possible unmatched,
+/// then minimizes the errors. Both histories are in order of time.
 [[nodiscard]] EventDifference event_difference(std::span<const TimedChange> exact,
                                                std::span<const TimedChange> other);
 

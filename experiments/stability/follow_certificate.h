@@ -1,5 +1,6 @@
 #pragma once
-// One certificate over a whole step: at each failure its opposite takes over, as after a flip.
+// Follows one certificate over a whole step. At each failure the opposite certificate takes over, as after a
+// flip.
 
 #include <memory>
 #include <vector>
@@ -8,7 +9,7 @@
 
 namespace kds {
 
-/// Holds where the other does not.
+/// Returns the certificate that holds exactly when `certificate` does not.
 template <class C>
 [[nodiscard]] C opposite_of(C certificate) {
   if constexpr (requires { certificate.inside; }) {
@@ -19,7 +20,7 @@ template <class C>
   return certificate;
 }
 
-/// The functions behind an instant: of the certificate (slot 0) and its opposite (slot 1).
+/// The functions behind an instant: the function of the certificate (slot 0) and of its opposite (slot 1).
 template <class C>
 class BothSides final : public CertificateSource {
  public:
@@ -39,13 +40,13 @@ class BothSides final : public CertificateSource {
 /// One answer of a kernel.
 struct Answer {
   Failure failure;
-  bool opposite = false;  ///< of the opposite certificate
+  bool opposite = false;  ///< whether the opposite certificate gave the answer
 };
 
-/// More than any function here has roots.
+/// A bound that exceeds the number of roots of every function here.
 inline constexpr std::size_t most_answers = 64;
 
-/// All answers in turn, up to `never` or `zero`.
+/// Returns all answers in order, up to `never` or `zero`.
 template <class C>
 [[nodiscard]] std::vector<Answer> follow(Kernel kernel, const C& certificate,
                                          const CertificateSearch<C>& search, StageCounts& stages) {
@@ -62,7 +63,8 @@ template <class C>
     if (failure.kind == Failure::Kind::never || failure.kind == Failure::Kind::zero) break;
     if (failure.kind == Failure::Kind::later) {
       now = Instant(failure.time, source, slot);
-      known = answers.size() % 3 == 0 ? KnownAtStart::unknown : KnownAtStart::at_own_root;  // both must do
+      known = answers.size() % 3 == 0 ? KnownAtStart::unknown
+                                      : KnownAtStart::at_own_root;  // both values must work
     }
     slot = 1 - slot;
   }

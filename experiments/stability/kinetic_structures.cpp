@@ -1,4 +1,5 @@
-// Structures as subjects of `kds stability`: a few beads, one step, each kernel, audits between all events.
+// Makes structures subjects of `kds stability`: a few beads, one step, each kernel, with audits between all
+// events.
 
 #include <fmt/format.h>
 
@@ -14,7 +15,7 @@
 namespace kds {
 namespace {
 
-/// All events but rebuilds, which are counted apart.
+/// Records all events except rebuilds, which it counts separately.
 class Recorder final : public EventListener {
  public:
   void on_event(const Event& event) override {
@@ -24,7 +25,7 @@ class Recorder final : public EventListener {
   std::vector<TimedChange> events;
 };
 
-/// How a run went, or why it did not.
+/// The outcome of a run, or the reason why it failed.
 struct Outcome {
   std::string refusal, failure;
   bool failed_audit = false;
@@ -42,14 +43,14 @@ struct Outcome {
   }
 };
 
-/// Points, or balls where there are radii.
+/// A case made of points, or of balls if it has radii.
 struct Case {
   std::size_t number;
   Instance instance;
   std::vector<double> radii;
 };
 
-/// A structure as it is run.
+/// A structure with the settings of its run.
 struct Settled {
   std::string structure;
   StructureSettings settings;
@@ -92,7 +93,7 @@ std::optional<std::string> trouble_of(const Outcome& filtered, const Outcome& au
   return std::nullopt;
 }
 
-/// Of the runs that ended well.
+/// Times of the runs that succeeded.
 struct KernelTimes {
   std::vector<double> fast, filtered, exact;
 };
@@ -132,10 +133,10 @@ void add_case(StabilityRow& row, KernelTimes& times, const Settled& what, const 
 
 enum class Of { points, balls };
 
-// Weights are those of points in space (motions/readers/instance.h), and the sorted list asks for none.
+// Only points in space have weights (motions/readers/instance.h), and the sorted list does not use them.
 StabilitySubject structure_subject(const std::string& structure, Of of, int dimension, int degree,
                                    std::size_t beads, const StructureSettings& settings = {}) {
-  const std::size_t cases_a_run = degree == 1 ? 50 : 100;  // a run has many certificates
+  const std::size_t cases_a_run = degree == 1 ? 50 : 100;  // one run has many certificates
   const std::string name = structure + (of == Of::balls ? ":balls" : "") +
                            (settings.between == Between::chord ? ":chord" : "") +
                            (settings.relax.any() ? ":relax" : "");
@@ -178,7 +179,7 @@ std::vector<StabilitySubject> kinetic_structures() {
       subjects.push_back(structure_subject("wrapped", Of::points, dimension, degree, few));
       subjects.push_back(structure_subject("power", Of::points, dimension, degree, few));
       subjects.push_back(structure_subject("contacts", Of::balls, dimension, degree, few));
-      // Cages without events: audits in the middle of the step are what they are put to the test by.
+      // Chord cages have no events; the audits in the middle of the step test them.
       StructureSettings chord;
       chord.between = Between::chord;
       subjects.push_back(structure_subject("wrapped", Of::points, dimension, degree, few, chord));
@@ -186,7 +187,7 @@ std::vector<StabilitySubject> kinetic_structures() {
       subjects.push_back(structure_subject("layered", Of::balls, dimension, degree, few));
     }
   }
-  // In whole numbers curves take minutes: their functions have degree 36.
+  // Curves take minutes in integer arithmetic, because their functions have degree 36.
   StructureSettings relaxed;
   relaxed.relax = Relaxation::of(0.03);
   for (const int dimension : {2, 3}) {

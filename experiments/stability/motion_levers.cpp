@@ -1,7 +1,8 @@
-// What changes the motion itself as a subject of `kds stability`: a tolerance, which must never be exceeded
-// at a frame, the deviation of a stride, which must never be found too small, and the contacts that follow
-// from it (experiments/run/certify_stride.h): every sure one must be one in truth, and every true one among
-// the possible. All by exact numbers.
+// Makes changes of the motion itself subjects of `kds stability`. All checks use exact numbers:
+// - a frame never deviates by more than the tolerance;
+// - the computed deviation of a stride is never too small;
+// - of the contacts derived from the deviation (experiments/run/certify_stride.h), every sure contact is
+//   true, and every true contact is possible.
 
 #include <fmt/format.h>
 
@@ -28,7 +29,7 @@ constexpr std::size_t bead_count = 5;
 using Frames = std::vector<Eigen::Matrix3Xd>;
 using ExactPoint = std::array<Rational, 3>;
 
-/// Both ends of so many scenes of an extreme, one after the other.
+/// Returns the frames at both ends of `scenes` scenes of an extreme, one after the other.
 Frames frames_of(const Extreme& extreme, int dimension, std::size_t scenes, SceneRandom& random) {
   Frames frames;
   for (std::size_t scene = 0; scene < scenes; ++scene) {
@@ -82,7 +83,7 @@ bool is_within(const ExactPoint& a, const ExactPoint& b, double distance) {
   return square <= Rational(distance) * Rational(distance);
 }
 
-/// Counts what is looked at, and what is not as it was promised.
+/// Counts the checks, and the checks that failed.
 struct Looks {
   std::uint64_t all = 0, failed = 0;
   void look(bool holds) {
@@ -91,7 +92,7 @@ struct Looks {
   }
 };
 
-/// Any, from far below the last digits of coordinates to their size; none now and then.
+/// Returns a random tolerance between the last digits of the coordinates and their size. Sometimes returns 0.
 double any_tolerance(const Frames& frames, SceneRandom& random) {
   double size = 0;
   for (const Eigen::Matrix3Xd& frame : frames) size = std::max(size, frame.cwiseAbs().maxCoeff());
@@ -102,7 +103,7 @@ double any_tolerance(const Frames& frames, SceneRandom& random) {
 
 Looks look_at_tolerance(const Extreme& extreme, int dimension, SceneRandom& random) {
   const Frames frames = frames_of(extreme, dimension, 12, random);
-  static_cast<void>(scene_of(frames, 1, FrameMotion::linear));  // refuses what readers do
+  static_cast<void>(scene_of(frames, 1, FrameMotion::linear));  // throws for numbers that readers refuse
   const double tolerance = any_tolerance(frames, random);
   StraightenedFrames straight(tolerance);
   FramesInMemory every(frames);
@@ -116,13 +117,13 @@ Looks look_at_tolerance(const Extreme& extreme, int dimension, SceneRandom& rand
   return looks;
 }
 
-/// Where the scene has a bead at a time of a step it has loaded, in the input's coordinates.
+/// Returns the position of a bead at a time of the loaded step, in the input's coordinates.
 template <class M>
 ExactPoint exact_in_input(const Scene& scene, const M& motion, std::size_t bead, const Dyadic& time,
                           const Eigen::Matrix3Xd& frame) {
   const auto position = exact_position(motion, static_cast<BeadId>(bead), time);
   if constexpr (M::dimension == 3) return {position[0], position[1], position[2]};
-  // The axis that a plane is at right angles to is where both others change.
+  // The axis perpendicular to a plane is the axis along which the other two change.
   ExactPoint point = exact_point(frame, bead);
   std::size_t next = 0;
   const Eigen::Vector3d zero = scene.in_input({0, 0, 0}), one = scene.in_input({1, 1, 0});
@@ -136,7 +137,7 @@ ExactPoint exact_in_input(const Scene& scene, const M& motion, std::size_t bead,
 template <class M>
 void look_at_steps(const Scene& scene, const Frames& frames, std::size_t stride, const StrideDeviation& found,
                    Looks& looks) {
-  constexpr std::size_t times = 4;  // of a part of a step
+  constexpr std::size_t times = 4;  // per part of a step between two frames
   M motion(bead_count);
   for (std::size_t step = 0; step < scene.step_count(); ++step) {
     scene.load(step, motion);
@@ -177,7 +178,7 @@ Looks look_at_stride(const Extreme& extreme, int dimension, int degree, SceneRan
 
 using Pairs = std::set<std::pair<BeadId, BeadId>>;
 
-/// In contact at some time of a run.
+/// Returns the pairs that are in contact at some time of a run.
 Pairs pairs_met(const Scene& scene) {
   StructureSettings settings;
   settings.apart = 1;
@@ -193,7 +194,8 @@ Pairs pairs_met(const Scene& scene) {
   return pairs;
 }
 
-/// Whether two beads on straight lines between two frames come within a distance: where they are nearest.
+/// Returns whether two beads that move linearly between two frames come within `distance`. Evaluates the
+/// distance at the time of closest approach.
 bool comes_within(const ExactPoint& start, const ExactPoint& end, const Rational& distance) {
   Rational along = 0, speed = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -229,7 +231,7 @@ Pairs pairs_in_truth(const Frames& frames, const std::vector<double>& radii) {
   return pairs;
 }
 
-/// Some that let beads meet: shares of distances.
+/// Returns radii that let beads meet: shares of their distances.
 std::vector<double> any_radii(const Frames& frames, SceneRandom& random) {
   std::vector<double> radii;
   for (std::size_t b = 0; b < bead_count; ++b) {
@@ -242,7 +244,7 @@ std::vector<double> any_radii(const Frames& frames, SceneRandom& random) {
   return radii;
 }
 
-/// `straight`: of all frames within a tolerance, else of every fourth.
+/// If `straight`, uses all frames within a tolerance, else every fourth frame.
 Looks look_at_contacts(const Extreme& extreme, int dimension, bool straight, SceneRandom& random) {
   const std::size_t stride = straight ? 1 : 4;
   Frames frames = frames_of(extreme, dimension, 7, random);
@@ -258,7 +260,7 @@ Looks look_at_contacts(const Extreme& extreme, int dimension, bool straight, Sce
     moved.clear();
     for (FrameRead frame; straightened.next(frame, read);) moved.push_back(frame.positions);
   }
-  static_cast<void>(scene_of(frames, 1, FrameMotion::linear));  // refuses what readers do
+  static_cast<void>(scene_of(frames, 1, FrameMotion::linear));  // throws for numbers that readers refuse
   const Scene scene = scene_of(moved, stride, FrameMotion::linear, radii);
   FramesInMemory every(frames);
   const StrideDeviation found = deviation_of_stride(scene, every, stride, tolerance);

@@ -1,5 +1,5 @@
 #pragma once
-// All subjects in all extremes that were asked for.
+// Runs all requested subjects in all requested extremes.
 
 #include <cstddef>
 #include <functional>
@@ -9,7 +9,8 @@
 
 namespace kds {
 
-/// `progress`: rows done, rows in all. Throws InputError if no extreme applies to any subject.
+/// `progress` gets the number of rows done and of all rows. Throws InputError if no extreme applies to any
+/// subject.
 [[nodiscard]] std::vector<StabilityRow> run_stability(
     const StabilityOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
 

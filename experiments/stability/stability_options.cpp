@@ -57,7 +57,7 @@ std::vector<std::string> extreme_names() {
   return names;
 }
 
-/// Some of all names, which are meant where none is given.
+/// Returns an option that takes some of the names in `known`. The default is all names.
 Option<StabilityOptions> names_option(OptionSpec spec, std::vector<std::string> StabilityOptions::*member,
                                       std::vector<std::string> (*known)()) {
   return value_option(

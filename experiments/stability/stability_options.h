@@ -11,9 +11,9 @@
 
 namespace kds {
 
-struct StabilityOptions : Destinations {  // stability.json, stability.csv, report.html
-  std::vector<std::string> subjects;      ///< names; empty: all
-  std::vector<std::string> extremes;      ///< names or families; empty: all
+struct StabilityOptions : Destinations {  // results: stability.json, stability.csv, report.html
+  std::vector<std::string> subjects;      ///< names; empty for all
+  std::vector<std::string> extremes;      ///< names or families; empty for all
   StabilityCases cases{1, 200};
 
   [[nodiscard]] bool wants(const StabilitySubject& subject) const;
@@ -22,7 +22,8 @@ struct StabilityOptions : Destinations {  // stability.json, stability.csv, repo
 
 [[nodiscard]] const OptionList<StabilityOptions>& stability_options();
 
-/// Throws InputError naming the option and what it takes, HelpRequest for --help.
+/// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
+/// --help.
 [[nodiscard]] StabilityOptions parse_stability_options(const Arguments& arguments);
 
 }  // namespace kds

@@ -35,12 +35,12 @@ std::string findings(std::span<const StabilityRow> rows) {
       with_thousands(audits), with_thousands(failed_audits), with_thousands(missed), with_thousands(extra));
 }
 
-// Rows of one name: the sums of their cases, and their times.
+// Rows with one name: the sums of their cases, and their times.
 struct RowGroup {
   std::string name;
   std::size_t rows = 0, failing = 0;
   StabilityRow sum = {};
-  std::vector<KernelSeconds> seconds = {};  ///< without rows that are refused
+  std::vector<KernelSeconds> seconds = {};  ///< without refused rows
 
   void add(const StabilityRow& row) {
     ++rows;
@@ -53,7 +53,7 @@ struct RowGroup {
     if (!row.holds()) ++failing;
   }
 
-  /// The median over the rows; none if all are refused.
+  /// Returns the median over the rows, or nothing if all rows are refused.
   [[nodiscard]] std::optional<double> microseconds(double KernelSeconds::*kernel) const {
     std::vector<double> values;
     for (const KernelSeconds& one : seconds) values.push_back(1e6 * (one.*kernel));
@@ -61,7 +61,7 @@ struct RowGroup {
   }
 };
 
-// A group for each name, in the order of their first rows. Rows with an empty name are left out.
+// Returns a group for each name, in the order of first appearance. Omits rows with an empty name.
 template <class Name>
 std::vector<RowGroup> grouped(std::span<const StabilityRow> rows, const Name& name) {
   std::vector<RowGroup> groups;
