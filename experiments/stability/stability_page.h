@@ -1,5 +1,5 @@
 #pragma once
-// The page of `kds stability`: whether the kernels agree, and where arithmetic was hardest.
+// The page of `kds stability`. It says whether the kernels agree, and where the arithmetic was hardest.
 
 #include <span>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace kds {
 
-/// `page` says how it was made.
+/// `page` says how the results were made.
 [[nodiscard]] std::string stability_page(std::span<const StabilityRow> rows, Page page);
 
 }  // namespace kds

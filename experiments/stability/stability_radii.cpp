@@ -14,7 +14,7 @@ bool has_radii(const BeadCurves& beads) {
   return false;
 }
 
-// An eighth of how far apart beads are at the start, or less, a power of two.
+// Returns a power of two that is at most an eighth of the distance between beads at the start.
 double unit_of(const BeadCurves& beads) {
   double apart = 0;
   for (std::size_t b = 1; b < beads.bead_count(); ++b)

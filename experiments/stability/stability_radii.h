@@ -1,13 +1,13 @@
 #pragma once
-// Radii for scenes that leave them out.
+// Provides radii for scenes without radii.
 
 #include "experiments/stability/bead_curves.h"
 #include "experiments/stability/stability_scenes.h"
 
 namespace kds {
 
-/// Leaves radii alone if there are any. Else equal or unequal ones, constant or changing, no larger than
-/// beads are apart; mostly few different ones, so that balls touch and radii tie.
+/// Sets radii unless there are any. The radii are equal or unequal, constant or changing, and no larger than
+/// the distance between beads. Mostly they take few different values, so that balls touch and radii tie.
 void give_radii(BeadCurves& beads, SceneRandom& random);
 
 }  // namespace kds

@@ -45,7 +45,7 @@ std::string all_or(const std::vector<std::string>& names) {
   return names.empty() ? "all" : fmt::format("{}", fmt::join(names, ","));
 }
 
-// Of one row, flattened: path by underscores. Text last, in quotes.
+// Flattens one row: a field's name is its path joined by underscores. Text fields come last, in quotes.
 void add_fields(std::vector<std::pair<std::string, std::string>>& fields, const std::string& prefix,
                 const Json& json) {
   for (const auto& [name, value] : *json.members()) {

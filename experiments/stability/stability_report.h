@@ -1,5 +1,5 @@
 #pragma once
-// The rows of `kds stability` for programs: JSON and CSV. For people: stability_table.h.
+// Reports the rows of `kds stability` to programs as JSON and CSV. stability_table.h reports them to people.
 
 #include <optional>
 #include <span>
@@ -13,17 +13,18 @@ namespace kds {
 
 [[nodiscard]] Json stability_settings(const StabilityOptions& options);
 
-/// One object: command, settings, rows, holds, version, machine. Ends with a newline.
+/// Returns one object with the members command, settings, rows, holds, version and machine. The text ends
+/// with a newline.
 [[nodiscard]] std::string stability_json(std::string command, const StabilityOptions& options,
                                          std::span<const StabilityRow> rows);
 
-/// One line a row, under a header.
+/// Returns a header and one line per row.
 [[nodiscard]] std::string stability_csv(std::span<const StabilityRow> rows);
 
-/// What to say, and end with exit code 1, where some row does not hold.
+/// Returns the error message if some row does not hold. The program then exits with code 1.
 [[nodiscard]] std::optional<std::string> complaint_about(std::span<const StabilityRow> rows);
 
-/// As in "power_test 3D degree 1, scale:2^300".
+/// Returns a name such as "power_test 3D degree 1, scale:2^300".
 [[nodiscard]] std::string name_of(const StabilityRow& row);
 
 }  // namespace kds

@@ -10,7 +10,7 @@
 namespace kds {
 namespace {
 
-// Not the library's distributions, which differ from one to the next.
+// The distributions of the standard library differ between implementations, hence this function.
 double uniform(SceneRandom& random, double low = -1, double high = 1) {
   return low + (high - low) * (static_cast<double>(random() >> 11U) * 0x1p-53);
 }
@@ -28,14 +28,14 @@ void for_all(BeadCurves& beads, Change change) {
 
 BeadCurves empty(const SceneShape& shape) { return {shape.dimension, shape.degree, shape.beads}; }
 
-// Every control point anywhere in the unit box.
+// Places every control point at random in the unit box.
 BeadCurves generic(const SceneShape& shape, SceneRandom& random) {
   BeadCurves beads = empty(shape);
   for_all(beads, [&](double& x, auto...) { x = uniform(random); });
   return beads;
 }
 
-// Small whole coordinates: coplanar, cospherical, coincident beads, events at the same time.
+// Small integer coordinates, which give coplanar, cospherical and coincident beads and simultaneous events.
 BeadCurves grid(const SceneShape& shape, SceneRandom& random, int reach = 2) {
   BeadCurves beads = empty(shape);
   for_all(beads, [&](double& x, auto...) { x = pick(random, -reach, reach); });
@@ -53,7 +53,7 @@ BeadCurves scaled(const SceneShape& shape, SceneRandom& random) {
   return beads;
 }
 
-// Differences overflow already.
+// Even differences of coordinates overflow.
 BeadCurves largest(const SceneShape& shape, SceneRandom& random) {
   BeadCurves beads = generic(shape, random);
   for_all(beads, [](double& x, auto...) { x *= std::numeric_limits<double>::max(); });
@@ -67,7 +67,7 @@ BeadCurves far_away(const SceneShape& shape, SceneRandom& random) {
   return beads;
 }
 
-// Near zero, where a step of a subnormal number is one.
+// Near zero, where a step by a subnormal number has an effect.
 BeadCurves subnormal_steps(const SceneShape& shape, SceneRandom& random) {
   BeadCurves beads = empty(shape);
   const double unit = toss(random) ? 0x1p-1060 : 1;
@@ -92,7 +92,8 @@ BeadCurves out_and_back(const SceneShape& shape, SceneRandom& random) {
   return beads;
 }
 
-// A last place or so away; next to 0 as next to 1/2.
+// Returns a number at most `most` units in the last place from `x`. Next to 0 the unit is that of numbers
+// next to 1/2.
 double beside(SceneRandom& random, double x, int most) {
   if (x == 0) return pick(random, -most, most) * 0x1p-53;
   for (int i = pick(random, 0, most); i > 0; --i) x = std::nextafter(x, toss(random) ? 1e300 : -1e300);
@@ -146,8 +147,9 @@ BeadCurves coincident(const SceneShape& shape, SceneRandom& random) {
   return beads;
 }
 
-// Adds to every bead a motion that is zero at one moment: w (1-2u) at the middle of the step, w u at its
-// start, w (1-u) at its end. Whole multiples of 6, so that control points of degrees up to 3 are whole.
+// Adds a motion to every bead that is zero at one moment: w (1-2u) for the middle of the step, w u for its
+// start, w (1-u) for its end. w is a multiple of 6, so that the control points are integers for degrees up to
+// 3.
 enum class Moment { start, middle, end };
 double share(Moment moment, int k, int degree) {
   if (moment == Moment::middle) return 6.0 * (degree - 2 * k) / degree;
@@ -172,10 +174,10 @@ BeadCurves coincident_midstep(const SceneShape& shape, SceneRandom& random) {
   return beads;
 }
 
-// Whole multiples of one moving difference: exact.
+// Integer multiples of one moving difference, so that the beads are exactly collinear.
 BeadCurves collinear(const SceneShape& shape, SceneRandom& random) {
   BeadCurves beads = grid(shape, random, 9);
-  constexpr double places[] = {-1, 2, -2, 3, -3, 4, -4, 5};  // different ones for up to ten beads
+  constexpr double places[] = {-1, 2, -2, 3, -3, 4, -4, 5};  // distinct for up to ten beads
   const auto first = static_cast<std::size_t>(pick(random, 0, 7));
   for_all(beads, [&](double& x, std::size_t b, int k, int axis) {
     if (b < 2) return;
@@ -208,7 +210,7 @@ BeadCurves coplanar_midstep(const SceneShape& shape, SceneRandom& random) {
 
 using Point = std::array<double, 3>;
 
-// A point with whole coordinates on the circle or sphere of radius 5.
+// Returns a point with integer coordinates on the circle or sphere of radius 5.
 Point on_sphere(SceneRandom& random, int dimension) {
   constexpr double legs[3][2] = {{5, 0}, {3, 4}, {4, 3}};
   Point point{};
@@ -220,7 +222,7 @@ Point on_sphere(SceneRandom& random, int dimension) {
   return point;
 }
 
-// Different ones; there are 12 in the plane and 30 in space.
+// Returns distinct points. There are 12 in the plane and 30 in space.
 std::vector<Point> points_on_sphere(SceneRandom& random, const SceneShape& shape) {
   std::vector<Point> points;
   while (points.size() < shape.beads) {
@@ -231,7 +233,7 @@ std::vector<Point> points_on_sphere(SceneRandom& random, const SceneShape& shape
   return points;
 }
 
-// On a sphere that moves and grows.
+// Beads on a sphere that moves and grows.
 BeadCurves cospherical(const SceneShape& shape, SceneRandom& random) {
   BeadCurves beads = empty(shape);
   std::array<double, 4> size{};
@@ -259,7 +261,7 @@ BeadCurves cospherical_midstep(const SceneShape& shape, SceneRandom& random) {
   return beads;
 }
 
-// Perpendicular to a point.
+// Returns a vector perpendicular to a point.
 Point tangent_at(const Point& point, SceneRandom& random, int dimension) {
   const Point w{double(pick(random, -2, 2)), double(pick(random, -2, 2)), double(pick(random, 1, 2))};
   if (dimension == 2) return {-point[1] * w[2], point[0] * w[2], 0};
@@ -267,9 +269,9 @@ Point tangent_at(const Point& point, SceneRandom& random, int dimension) {
           point[0] * w[1] - point[1] * w[0]};
 }
 
-// All beads at rest on a sphere, the first one perhaps in its centre, but the last one: it comes along a
-// tangent and touches the sphere at u = 1/2. All have half the sphere's radius, so it touches the bead in the
-// centre too.
+// All beads except the last are at rest on a sphere; the first one may be at its centre. The last bead moves
+// along a tangent and touches the sphere at u = 1/2. All beads have half the sphere's radius, so the last
+// bead also touches the bead at the centre.
 BeadCurves tangent(const SceneShape& shape, SceneRandom& random) {
   BeadCurves beads = empty(shape);
   std::vector<Point> points = points_on_sphere(random, shape);
@@ -284,8 +286,8 @@ BeadCurves tangent(const SceneShape& shape, SceneRandom& random) {
   return beads;
 }
 
-// Balls at rest that touch one sphere from inside, the first one perhaps as large as that; the last one comes
-// along a tangent and touches it at u = 1/2.
+// Balls at rest that touch one sphere from inside; the first one may be as large as the sphere. The last ball
+// moves along a tangent and touches the sphere at u = 1/2.
 BeadCurves inner_contact(const SceneShape& shape, SceneRandom& random) {
   constexpr double sphere = 20;
   BeadCurves beads = empty(shape);
@@ -307,7 +309,7 @@ BeadCurves inner_contact(const SceneShape& shape, SceneRandom& random) {
   return beads;
 }
 
-// Many certificates are zero at one moment: beads on a small grid, or on a sphere, then.
+// Many certificates are zero at one moment, at which the beads lie on a small grid or on a sphere.
 template <Moment At>
 BeadCurves tied(const SceneShape& shape, SceneRandom& random) {
   const bool sphere = shape.dimension > 1 && toss(random);
@@ -318,8 +320,8 @@ BeadCurves tied(const SceneShape& shape, SceneRandom& random) {
   return beads;
 }
 
-// Balls that touch the first one from inside, but for a last place or two: a of the sphere's quadratic
-// vanishes.
+// Balls that touch the first ball from inside up to a few units in the last place. The leading coefficient a
+// of the sphere's quadratic vanishes.
 BeadCurves inner_tangent(const SceneShape& shape, SceneRandom& random) {
   BeadCurves beads = empty(shape);
   const double smallest = pick(random, 1, 3);
@@ -335,7 +337,7 @@ BeadCurves inner_tangent(const SceneShape& shape, SceneRandom& random) {
   return beads;
 }
 
-// Nearly in one plane, in the plane nearly on one line.
+// Beads nearly in one plane, or in the plane nearly on one line.
 BeadCurves nearly_flat(const SceneShape& shape, SceneRandom& random) {
   BeadCurves beads = generic_or_grid(shape, random);
   const double height = std::ldexp(1.0, -pick(random, 20, 50));
@@ -346,7 +348,7 @@ BeadCurves nearly_flat(const SceneShape& shape, SceneRandom& random) {
   return beads;
 }
 
-// Control points far apart in turn: functions of the highest degree with many roots.
+// Control points that alternate between far places: functions of the highest degree with many roots.
 BeadCurves winding(const SceneShape& shape, SceneRandom& random) {
   BeadCurves beads = generic(shape, random);
   for_all(beads, [&](double& x, std::size_t, int k, int) {
@@ -357,7 +359,8 @@ BeadCurves winding(const SceneShape& shape, SceneRandom& random) {
 
 BeadCurves with_wrong_number(const SceneShape& shape, SceneRandom& random, double wrong) {
   BeadCurves beads = generic(shape, random);
-  const std::size_t bead = random() % shape.beads;  // one draw a line: arguments have no order
+  const std::size_t bead =
+      random() % shape.beads;  // one draw per line, since the evaluation order of arguments is unspecified
   const int k = pick(random, 0, shape.degree);
   const int axis = pick(random, 0, shape.dimension - 1);
   beads.coordinate(bead, k, axis) = wrong;

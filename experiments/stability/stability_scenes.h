@@ -1,6 +1,6 @@
 #pragma once
-// The extremes that `kds stability` goes to: motions of a few beads, random within each extreme, the same for
-// the same seed on every machine.
+// The extremes of `kds stability`: motions of a few beads, random within each extreme. A seed gives the same
+// motions on every machine.
 
 #include <cstdint>
 #include <random>
@@ -13,7 +13,7 @@ namespace kds {
 
 using SceneRandom = std::mt19937_64;
 
-/// What a scene is asked for.
+/// The requirements for a scene.
 struct SceneShape {
   int dimension = 3;
   int degree = 1;  ///< of the motion
@@ -22,12 +22,12 @@ struct SceneShape {
 
 struct Extreme {
   std::string_view name;   ///< FAMILY or FAMILY:MEMBER
-  std::string_view about;  ///< a few words
+  std::string_view about;  ///< short description
   BeadCurves (*make)(const SceneShape&, SceneRandom&);
   int least_dimension = 1;
   int least_degree = 1;
   bool unequal_radii = false;
-  bool refused = false;  ///< its numbers have no exact value: every subject must refuse it
+  bool refused = false;  ///< its numbers have no exact value, so every subject must refuse it
 
   [[nodiscard]] bool applies(int dimension, int degree) const {
     return dimension >= least_dimension && degree >= least_degree;
@@ -36,7 +36,8 @@ struct Extreme {
 
 [[nodiscard]] std::span<const Extreme> all_extremes();
 
-/// For one case of an extreme; neither its place among the extremes nor other cases matter.
+/// Returns the random generator for one case of an extreme. The result depends neither on the other extremes
+/// nor on the other cases.
 [[nodiscard]] SceneRandom scene_random(std::uint64_t seed, std::string_view extreme, std::size_t number);
 
 }  // namespace kds

@@ -14,7 +14,7 @@ std::vector<StabilitySubject> all_subjects() {
   for (const int degree : {1, 3}) add(ball_certificates(degree));
   add(kinetic_structures());
   add(motion_levers());
-  // Those of one name together, in the order of first appearance; then by dimension and degree.
+  // Sorts subjects by name in the order of first appearance, then by dimension and degree.
   std::vector<std::string> names;
   for (const StabilitySubject& subject : subjects)
     if (std::ranges::find(names, subject.name) == names.end()) names.push_back(subject.name);

@@ -1,6 +1,6 @@
 #pragma once
-// What `kds stability` puts to the test: certificate types, structures and what changes their motion, each
-// for motions of one dimension and degree.
+// The subjects of `kds stability`: certificate types, structures, and changes of their motion. Each subject
+// has motions of one dimension and degree.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,10 +20,10 @@ struct StabilityCases {
 
 struct StabilitySubject {
   std::string name;
-  bool structure = false;         ///< or what changes the motion of one; else a certificate type
+  bool structure = false;         ///< a structure or a change of its motion rather than a certificate type
   int dimension = 0, degree = 0;  ///< of the motion
   int function_degree = 0;        ///< of a certificate
-  bool weighted = false;  ///< asks for weights or radii; others are spared the extremes of unequal ones
+  bool weighted = false;  ///< uses weights or radii; other subjects skip the extremes of unequal radii
   std::function<StabilityRow(const Extreme&, const StabilityCases&)> run;
 
   [[nodiscard]] bool meets(const Extreme& extreme) const {
@@ -31,11 +31,11 @@ struct StabilitySubject {
   }
 };
 
-/// Certificate types first, then structures; those of one name stand together.
+/// Returns certificate types, then structures. Subjects with one name are adjacent.
 [[nodiscard]] std::vector<StabilitySubject> all_subjects();
 
-/// Parts of it: certificate types of beads and of balls under motions of a degree, structures, tolerances and
-/// strides.
+/// The parts of all_subjects(): certificate types of beads and of balls under motions of a degree,
+/// structures, and tolerances and strides.
 [[nodiscard]] std::vector<StabilitySubject> bead_certificates(int degree);
 [[nodiscard]] std::vector<StabilitySubject> ball_certificates(int degree);
 [[nodiscard]] std::vector<StabilitySubject> kinetic_structures();

@@ -1,5 +1,5 @@
 #pragma once
-// The rows of `kds stability` on a terminal: a block a subject, a line an extreme.
+// Shows the rows of `kds stability` on a terminal: a block per subject, a line per extreme.
 
 #include <span>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace kds {
 
-/// At most 120 columns but for reasons; ends with a newline.
+/// Returns the table. Lines have at most 120 columns, reasons excepted. The text ends with a newline.
 [[nodiscard]] std::string stability_table(std::span<const StabilityRow> rows);
 
 }  // namespace kds

@@ -43,7 +43,7 @@ std::size_t beads_of_grid(int dimension, std::size_t side) {
 
 std::vector<std::size_t> sides_of_grids(int dimension, std::size_t most_beads) {
   constexpr std::size_t least_beads = 1000;
-  const double factor = dimension == 2 ? 1.34 : 1.22;  // n grows by about 1.8
+  const double factor = dimension == 2 ? 1.34 : 1.22;  // n grows by a factor of about 1.8
   std::vector<std::size_t> sides;
   std::size_t side = 3;
   while (beads_of_grid(dimension, side + 2) <= most_beads) side += 2;

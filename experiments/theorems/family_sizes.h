@@ -1,9 +1,9 @@
 #pragma once
-// Separating families of tightly packed grids: their sizes (Theorem 3.1) and the time it takes to find them
-// (Theorem 3.2), O(n log n) in the plane and O(n^(4/3)) in space.
+// Separating families of tightly packed grids: their sizes (Theorem 3.1) and the time to find them (Theorem
+// 3.2). The bounds are O(n log n) in the plane and O(n^(4/3)) in space.
 //
-// Grids have odd sides only: where a side is a power of two, nodes end where rows do, and mixed with others
-// such sizes oscillate.
+// All grids have odd sides. If a side is a power of two, tree nodes end where rows end, and results for a
+// mixture of such sizes oscillate.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -21,18 +21,20 @@ struct FamilySize {
   std::optional<Spread> seconds;  ///< of the search, without building the hierarchy
 };
 
-/// Of beads of radius 1, no two of which collide but neighbours along the chain. Of no rounds no time is
-/// told.
+/// Measures the family of beads with radius 1. No two beads may collide except neighbours along the chain. If
+/// `rounds` is 0, no time is measured.
 [[nodiscard]] FamilySize measure_family(const Eigen::Matrix3Xd& centers, int dimension, Hierarchy hierarchy,
                                         std::size_t rounds);
 
-/// Rows, and a bead beside each but the last that joins it to the next.
+/// Returns the number of beads in a grid: all rows, and a bead beside each row except the last that joins it
+/// to the next row.
 [[nodiscard]] std::size_t beads_of_grid(int dimension, std::size_t side);
 
-/// Odd sides, growing by about a factor, of grids of 1000 to `most_beads` beads; the last is the largest.
+/// Returns odd sides of grids with 1000 to `most_beads` beads. The number of beads grows by a roughly
+/// constant factor, and the last side is the largest possible.
 [[nodiscard]] std::vector<std::size_t> sides_of_grids(int dimension, std::size_t most_beads);
 
-/// n log2 n in the plane, n^(4/3) in space.
+/// Returns n log2 n in the plane, n^(4/3) in space.
 [[nodiscard]] double family_bound(int dimension, std::size_t beads);
 
 }  // namespace kds

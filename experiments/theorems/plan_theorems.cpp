@@ -17,7 +17,7 @@ namespace {
 
 using Centers = Eigen::Matrix3Xd;
 
-// The smallest sizes, of 2.3 and of random chains; each next is twice as large.
+// The smallest sizes for Theorem 2.3 and for random chains. Each further size is twice as large.
 constexpr std::size_t kLeastOfRoots = 16, kLeastOfChains = 1024;
 
 Centers random_chain(std::size_t beads, std::uint64_t seed) {
@@ -25,8 +25,8 @@ Centers random_chain(std::size_t beads, std::uint64_t seed) {
   return models::generate(*models::find_model("random-chain"), settings).front().frames.front();
 }
 
-// A little out of order, since in a regular grid all pairs beside each other are equally close. Consecutive
-// beads still meet, and no others.
+// Moves the beads slightly, since in a regular grid all adjacent pairs are equally close. Consecutive beads
+// still meet, and no others.
 Centers jittered_grid(std::size_t beads, int dimension, double gap, std::uint64_t seed) {
   const double overlap = 0.05 * (1 - gap);
   const models::Settings settings{.beads = beads,
@@ -62,7 +62,7 @@ class Planner {
     return plan_.series.size() - 1;
   }
 
-  // 2^from, 2^(from+1), ... up to the most beads.
+  // Returns the powers of two times `least`, up to `most` and the option's limit.
   [[nodiscard]] std::vector<std::size_t> powers_of_two(std::size_t least, std::size_t most) const {
     std::vector<std::size_t> sizes;
     for (std::size_t beads = least; beads <= std::min(most, options_.most_beads); beads *= 2)
@@ -95,7 +95,7 @@ class Planner {
         [seed = options_.seed](std::size_t beads) { return random_chain(beads, seed); });
   }
 
-  // One search tells of both theorems.
+  // One search serves both theorems.
   void plan_families() {
     const auto add = [&](std::string_view model, int dimension, Hierarchy hierarchy,
                          const std::vector<std::size_t>& sizes, const Made& made) {
@@ -114,7 +114,7 @@ class Planner {
                                                                        : size.seconds->median;
                 const auto bound = all[s].theorem == Theorem::family
                                        ? std::optional(family_bound(dimension, beads))
-                                       : std::nullopt;  // seconds know no constant
+                                       : std::nullopt;  // a time has no bound without the constant
                 all[s].points.push_back({beads, value, bound, size.seconds, std::nullopt});
               }
             });
@@ -130,7 +130,7 @@ class Planner {
   }
 
   void plan_closest_pairs() {
-    // A helix of constant turns has a power diagram of quadratic size.
+    // A helix with a constant number of turns has a power diagram of quadratic size.
     constexpr std::size_t most_of_helix = 4096;
     const auto add = [&](std::string_view model, int dimension, std::optional<double> expected,
                          const std::vector<std::size_t>& sizes, const Made& made) {
@@ -171,7 +171,7 @@ class Planner {
 
 TheoremPlan plan_theorems(const TheoremOptions& options) { return Planner(options).plan(); }
 
-// Grids of three sizes are smaller than the third random chain.
+// Grids of three sizes have fewer beads than the third random chain.
 std::size_t least_beads_for(const std::vector<Theorem>& theorems) {
   const bool roots_only =
       std::ranges::all_of(theorems, [](Theorem theorem) { return theorem == Theorem::tightness; });
