@@ -12,7 +12,7 @@ namespace kds {
 
 namespace {
 
-// Of a column, in order.
+// Returns the values of a column in order.
 std::vector<double> values_of(const PaperTable& table, std::string_view column) {
   const auto place = std::find_if(table.columns.begin(), table.columns.end(),
                                   [&](const PaperColumn& c) { return c.name == column; });

@@ -1,5 +1,5 @@
 #pragma once
-// The paper's claims, checked against a table that was measured.
+// Checks the paper's claims against a measured table.
 
 #include <cstddef>
 #include <span>
@@ -11,21 +11,21 @@
 namespace kds {
 
 struct Finding {
-  std::string id;     ///< of the claim; tables that tell of the same one share it
+  std::string id;     ///< of the claim; tables about one claim share it
   std::string claim;  ///< a sentence without its full stop
   bool holds = false;
   std::string figures;
 };
 
-/// The table has all its rows.
+/// Requires a table with all its rows.
 [[nodiscard]] std::vector<Finding> findings_of(const PaperTable& table);
-/// The claim, yes or no, and the figures.
+/// Returns the claim, whether it holds, and the figures.
 [[nodiscard]] std::string sentence_of(const Finding& finding);
 
 struct ClaimsJudged {
   std::size_t all = 0, hold = 0;
 };
-/// Claims that the tables tell of, each once; it holds if it does in all tables that tell of it.
+/// Counts each claim once. A claim holds if it holds in all tables about it.
 [[nodiscard]] ClaimsJudged judged(std::span<const PaperTable> tables);
 
 }  // namespace kds

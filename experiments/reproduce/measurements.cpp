@@ -54,7 +54,7 @@ SelfCollision self_collision(const Subject& subject, std::size_t frame, std::siz
   const auto search = [&asked](SphereTree<Dimension>& tree, std::uint64_t& pairs) {
     return [&] { return processor_seconds_of([&] { pairs = find_pairs(tree, asked).family; }); };
   };
-  std::size_t colliding = 0;  // used, so that nothing can be left out
+  std::size_t colliding = 0;  // used, so that the compiler keeps the work
   const auto seconds = seconds_in_turn(
       rounds, {search(wrapped, result.wrapped_pairs), search(layered, result.layered_pairs), [&] {
                  return processor_seconds_of([&] { colliding += pairs_by_force(balls, asked).size(); });
@@ -75,8 +75,8 @@ std::uint64_t cells_changed(const Subject& subject, std::size_t from, std::size_
   return added.size();
 }
 
-// To be called again and again: the hierarchy goes to and fro, so that each call has the same before it; the
-// way back is not timed.
+// Times an update repeatedly. After each timed update the hierarchy moves back without being timed, so every
+// call starts from the same state.
 template <int Dimension>
 class TimedUpdate {
  public:
@@ -91,7 +91,7 @@ class TimedUpdate {
     go_back();
   }
 
-  /// `arrived` is timed, too.
+  /// The time includes `arrived`.
   template <class Arrived>
   double seconds(const Arrived& arrived) {
     const double seconds = processor_seconds_of([&] {
@@ -143,8 +143,8 @@ Step step(const Subject& subject, std::size_t from, std::size_t to, std::size_t 
   return result;
 }
 
-// The paper's Figure 6 for two necklaces: of two nodes whose spheres meet the one with more beads is split.
-// Beads that meet would be a pair of their own.
+// The search of the paper's Figure 6 for two necklaces. If the spheres of two nodes meet, it splits the node
+// with more beads. Beads that meet would form a pair of their own.
 template <class H>
 class SearchBetween {
  public:
@@ -159,7 +159,7 @@ class SearchBetween {
 
  private:
   struct Part {
-    NodeId node;  ///< NecklaceTree::leaf: a bead
+    NodeId node;  ///< NecklaceTree::leaf for a bead
     BeadRange beads;
     Sphere sphere;
   };
@@ -206,7 +206,7 @@ CollisionBetween between(const Subject& subject, std::size_t from, std::size_t t
   const Balls<Dimension> after = balls_at<Dimension>(subject, to);
   LayeredHierarchy<Dimension> layered(subject.necklaces);
   TimedUpdate<Dimension> lazy(subject, from, to, Update::lazy), full(subject, from, to, Update::cascade);
-  std::uint64_t lazily_found = 0;  // used, so that the search cannot be left out
+  std::uint64_t lazily_found = 0;  // used, so that the compiler keeps the search
   const auto seconds =
       seconds_in_turn(rounds, {[&] {
                                  return processor_seconds_of([&] {

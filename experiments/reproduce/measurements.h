@@ -1,6 +1,6 @@
 #pragma once
-// What the paper's tables tell of one frame of a subject, or of the step between two. Times are ratios, of
-// works that are done in turn, round by round.
+// The figures of the paper's tables for one frame of a subject, or for the step between two frames. Times are
+// given as ratios of works that run in turn, round by round.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace kds {
 
-/// Table 1. Times of building each structure.
+/// Table 1: times to build each structure.
 struct Construction {
   Spread layered_per_wrapped, power_per_wrapped;
   Tightness tightness;
 };
 [[nodiscard]] Construction construction_of(const Subject& subject, std::size_t frame, std::size_t rounds);
 
-/// Tables 3 and 4: collisions within the necklace, of beads that are no neighbours along it. Times of the
-/// searches alone, hierarchies being built.
+/// Tables 3 and 4: collisions within the necklace between beads that are not neighbours along it. The times
+/// cover only the searches; the hierarchies are built beforehand.
 struct SelfCollision {
   Spread quadratic_per_wrapped, layered_per_wrapped;
   std::uint64_t wrapped_pairs = 0, layered_pairs = 0;  ///< of the separating sets
@@ -27,18 +27,19 @@ struct SelfCollision {
 };
 [[nodiscard]] SelfCollision self_collision_of(const Subject& subject, std::size_t frame, std::size_t rounds);
 
-/// Tables 2, 5 and 6: from one frame to another, or to itself. Times of bringing the wrapped hierarchy there.
+/// Tables 2, 5 and 6: the step from one frame to another, or to itself. The times are those of updating the
+/// wrapped hierarchy.
 struct Step {
   Spread lazy_per_naive, cascade_per_naive;
-  double cascade_tests = 0, naive_tests = 0;  ///< of beads and cages against spheres
+  double cascade_tests = 0, naive_tests = 0;  ///< tests of beads and cages against spheres
   double frontier = 0;                        ///< average over all nodes
   std::uint64_t bases_changed = 0;
-  std::uint64_t cells_changed = 0;  ///< of the later diagram, that are not in the earlier one
+  std::uint64_t cells_changed = 0;  ///< cells of the later diagram that the earlier one does not have
 };
 [[nodiscard]] Step step_of(const Subject& subject, std::size_t from, std::size_t to, std::size_t rounds);
 
-/// Table 7: collisions between two necklaces, from one frame to the next. Times of updating the hierarchy
-/// and searching it.
+/// Table 7: collisions between two necklaces from one frame to the next. The times cover updating and
+/// searching the hierarchy.
 struct CollisionBetween {
   Spread layered_per_full, lazy_per_full;
   std::uint64_t layered_pairs = 0, wrapped_pairs = 0;

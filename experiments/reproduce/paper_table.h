@@ -15,10 +15,10 @@ namespace kds {
 struct PaperColumn {
   std::string_view name;   ///< in CSV and JSON
   std::string_view title;  ///< in tables
-  bool timed = false;      ///< ratios of times: a spread stands beside them
+  bool timed = false;      ///< ratios of times, which are shown with their spread
 };
 
-/// A count, or a ratio of two times: the median of the rounds, with the least and the most.
+/// A count, or a ratio of two times: the median of the rounds with the least and the most.
 struct PaperValue {
   double value = 0;
   std::optional<Spread> rounds;  ///< of a ratio of times
@@ -28,12 +28,12 @@ struct PaperValue {
 };
 
 struct PaperRow {
-  std::string name;  ///< of the model, as the paper has it
+  std::string name;  ///< of the model, as in the paper
   std::size_t beads = 0;
-  std::string at;                            ///< which conformation or step; empty where there is one only
+  std::string at;                            ///< conformation or step; empty if there is only one
   std::vector<PaperValue> ours;              ///< in the order of the table's columns
-  std::vector<std::optional<double>> paper;  ///< likewise; none where the paper has none
-  std::string note;                          ///< why the two differ, where they do; may be empty
+  std::vector<std::optional<double>> paper;  ///< in the same order; empty where the paper has no value
+  std::string note;                          ///< why the two differ; may be empty
 };
 
 struct PaperTable {
@@ -41,7 +41,7 @@ struct PaperTable {
   std::string title;
   std::vector<PaperColumn> columns;
   std::vector<PaperRow> rows;
-  std::string words;  ///< what differs throughout, and what was found: a few sentences
+  std::string words;  ///< a few sentences: general differences, and the findings
 };
 
 }  // namespace kds

@@ -12,11 +12,11 @@ namespace kds {
 
 namespace {
 
-using Cells = std::vector<std::optional<double>>;  // the paper's
+using Cells = std::vector<std::optional<double>>;  // the paper's values
 using Measured = std::vector<PaperValue>;
 using Shared = std::shared_ptr<const Subject>;
 
-// A conformation of a model, as several tables have it.
+// Conformations of a model that several tables share.
 struct Subjects {
   std::string name;
   Shared subject;
@@ -63,7 +63,7 @@ class Planner {
     return std::make_shared<Subject>(
         protein(data_, "trajectories/random100_400K_first200.dcd", "trajectories/random100_400K.pdb"));
   }
-  /// Those of tables 1 and 4.
+  /// Returns the conformations of tables 1 and 4.
   [[nodiscard]] std::vector<Subjects> conformations() const {
     const Shared spiral = std::make_shared<Subject>(rolling_spiral(1000, 50));
     const Shared extended = std::make_shared<Subject>(protein(data_, "paper/villin_hp36_collapse.pdb"));
@@ -189,7 +189,7 @@ constexpr const char* kCollisionWords =
     "distance of two along the chain; which the paper's leave out it does not say (of its proteins they have "
     "twice the beads less one).";
 
-// The cells of tables 3 and 4, of the paper's microseconds and counts.
+// Returns the cells of tables 3 and 4 from the paper's microseconds and counts.
 Cells collision_cells(double quadratic, double wrapped, double wrapped_pairs, double layered,
                       double layered_pairs, double edges) {
   return {ratio(quadratic, wrapped), ratio(layered, wrapped), wrapped_pairs, layered_pairs, edges};

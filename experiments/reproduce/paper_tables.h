@@ -1,5 +1,5 @@
 #pragma once
-// The paper's seven tables: what it says, and how each row is measured here.
+// The paper's seven tables: the published values, and how each row is measured here.
 
 #include <filesystem>
 #include <functional>
@@ -13,11 +13,11 @@ inline constexpr int paper_table_count = 7;
 
 struct PaperTablePlan {
   PaperTable table;                             ///< without rows
-  std::vector<std::function<PaperRow()>> rows;  ///< each measures one
+  std::vector<std::function<PaperRow()>> rows;  ///< each measures one row
 };
 
-/// Table 1 to 7. Its inputs are made, or read from the folder `data`: throws InputError. Times are
-/// measured in so many rounds.
+/// Plans table `number`, from 1 to 7. Generates its inputs or reads them from the folder `data`. Throws
+/// InputError. Times are measured in `rounds` rounds.
 [[nodiscard]] PaperTablePlan plan_paper_table(int number, const std::filesystem::path& data,
                                               std::size_t rounds);
 

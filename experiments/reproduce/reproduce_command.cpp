@@ -46,7 +46,7 @@ const OptionList<ReproduceOptions>& reproduce_options() {
 
 std::string file_of(int table) { return fmt::format("table{}.csv", table); }
 
-// Ascending.
+// Returns the numbers in ascending order.
 std::vector<int> tables_asked_for(const ParsedArguments& parsed) {
   if (parsed.operands().empty())
     throw InputError(

@@ -16,7 +16,7 @@ namespace {
 
 using Value = std::optional<double>;
 
-// Counts in full, ratios with four figures.
+// Shows counts in full and ratios with four figures.
 std::string shown(double value) {
   const bool is_count = value == std::floor(value) && value >= 2;
   return is_count ? with_thousands(static_cast<std::uint64_t>(value)) : short_decimal(value);

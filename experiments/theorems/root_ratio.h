@@ -1,5 +1,5 @@
 #pragma once
-// How much larger the layered hierarchy's root is than the wrapped one's (Theorem 2.3).
+// Compares the radii of the layered and the wrapped hierarchy's roots (Theorem 2.3).
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -7,11 +7,12 @@
 
 namespace kds {
 
-/// Layered radius / wrapped radius of all balls of a necklace of two beads or more; 1 where both are 0.
+/// Returns layered radius / wrapped radius of the root over all balls of a necklace with at least two beads.
+/// Returns 1 if both radii are 0.
 [[nodiscard]] double root_ratio(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
                                 int dimension);
 
-/// Of the balanced tree over so many beads: how far its deepest leaf is from the root.
+/// Returns the height of the balanced tree over this many beads: the depth of its deepest leaf.
 [[nodiscard]] std::size_t tree_height(std::size_t beads);
 
 }  // namespace kds

@@ -79,7 +79,7 @@ std::vector<Theorem> theorems_of(const std::vector<std::string>& operands) {
 TheoremsAsked parse_theorems(const Arguments& arguments) {
   const ParsedArguments parsed = parse_arguments(kTheoremsCommand, theorems_options().specs(), arguments);
   TheoremsAsked asked;
-  asked.measured.theorems = theorems_of(parsed.operands());  // these bound --beads
+  asked.measured.theorems = theorems_of(parsed.operands());  // the theorems bound --beads
   theorems_options().read(parsed, asked);
   if (parsed.has("--rounds") && !measures_time(asked.measured.theorems))
     throw InputError("--rounds applies only to theorems 3.2 and 3.5, which measure time");

@@ -24,7 +24,7 @@ std::string value_text(Theorem theorem, double value) {
   return is_count ? with_thousands(static_cast<std::uint64_t>(value)) : short_decimal(value);
 }
 
-/// A necklace: a row of all forms of the report.
+/// One necklace, which is a row in all forms of the report.
 struct PlacedPoint {
   const TheoremSeries* series;
   const TheoremPoint* point;
@@ -36,7 +36,7 @@ std::vector<PlacedPoint> points_of(std::span<const TheoremSeries> group) {
   return points;
 }
 
-/// The columns that say which series it is; `series_of` gives the series of a row.
+/// Returns the columns that identify the series. `series_of` returns the series of a row.
 template <class Row, class SeriesOf>
 std::vector<Column<Row>> series_columns(SeriesOf series_of) {
   return {
@@ -100,7 +100,7 @@ Table<FittedSeries> fit_columns() {
   });
 }
 
-/// Series of one theorem stand together.
+/// Groups the series by theorem.
 std::vector<std::span<const TheoremSeries>> by_theorem(std::span<const TheoremSeries> series) {
   std::vector<std::span<const TheoremSeries>> groups;
   for (const Theorem theorem :
@@ -144,7 +144,7 @@ std::string_view theorem_says(Theorem theorem) {
   return "";
 }
 
-// Counts the necklaces that can tell whether a theorem holds.
+// Counts the necklaces that can decide whether a theorem holds.
 struct Judged {
   std::size_t all = 0, held = 0;
 };
@@ -158,7 +158,7 @@ Judged judged_of(std::span<const TheoremSeries> some) {
   return judged;
 }
 
-// Sentences.
+// Returns the findings as sentences.
 std::vector<std::string> findings_of(std::span<const TheoremSeries> group) {
   std::vector<std::string> findings;
   for (const TheoremSeries& series : group) {

@@ -1,5 +1,5 @@
 #pragma once
-// The results of `kds theorems` as JSON, CSV, text and a page.
+// Reports the results of `kds theorems` as JSON, CSV, text and a page.
 
 #include <span>
 #include <string>
@@ -14,7 +14,7 @@ namespace kds {
 [[nodiscard]] Json theorem_fits_json(std::span<const TheoremSeries> series);
 [[nodiscard]] std::string theorems_csv(std::span<const TheoremSeries> series);
 [[nodiscard]] std::string theorems_table(std::span<const TheoremSeries> series);
-/// `page` says how it was made.
+/// `page` says how the results were made.
 [[nodiscard]] std::string theorems_page(std::span<const TheoremSeries> series, Page page);
 
 }  // namespace kds
