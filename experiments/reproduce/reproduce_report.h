@@ -1,5 +1,5 @@
 #pragma once
-// Measured tables beside the paper's, for programs and for people.
+// Reports measured tables beside the paper's to programs and people.
 
 #include <span>
 #include <string>
@@ -10,16 +10,17 @@
 
 namespace kds {
 
-/// A row each: `table`, `name`, `beads`, `at`, each column by name and with `_paper` behind it, `note`.
+/// Returns an object per row: `table`, `name`, `beads`, `at`, each column under its name and under its name
+/// with `_paper` appended, and `note`.
 [[nodiscard]] Json paper_rows_json(std::span<const PaperTable> tables);
-/// Of each table `table`, `title`, and `findings`, each with the `claim`'s name, whether it `holds`, and
-/// `words`, a sentence.
+/// Returns an object per table: `table`, `title` and `findings`. Each finding has the name of the `claim`,
+/// whether it `holds`, and `words`, a sentence.
 [[nodiscard]] Json paper_findings_json(std::span<const PaperTable> tables);
-/// The same rows of one table.
+/// Returns the rows of one table.
 [[nodiscard]] std::string paper_csv(const PaperTable& table);
-/// For the terminal.
+/// Returns the text for the terminal.
 [[nodiscard]] std::string paper_text(std::span<const PaperTable> tables);
-/// `page` says how it was made.
+/// `page` says how the results were made.
 [[nodiscard]] std::string paper_page(std::span<const PaperTable> tables, Page page);
 
 }  // namespace kds

@@ -11,7 +11,7 @@ namespace kds {
 
 namespace {
 
-constexpr double turns = 9;  // 18 of 1000 beads would overlap
+constexpr double turns = 9;  // with 18 turns, 1000 beads would overlap
 
 Subject of_models(std::vector<Trajectory> necklaces, bool planar) {
   Subject subject;
