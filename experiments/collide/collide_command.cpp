@@ -60,7 +60,7 @@ int collide_command(const Arguments& arguments) {
                              frames.radii());
   json["settings"] = collide_options().settings_json(options);
   json["rows"] = collide_columns().json(report.rows);
-  json["frames"] = Json::array();  // filled in by the results
+  json["frames"] = Json::array();  // the results fill it in
   json["warnings"] = command.warnings();
   add_provenance(json, command.command_line());
   results.deliver(report, json, file_names(options), command.page(json["settings"]));

@@ -1,5 +1,5 @@
 #pragma once
-// The frames that `kds collide` looks at, read one after the other: in memory is one.
+// The frames that `kds collide` examines. They are read one after the other, with one frame in memory.
 
 #include <functional>
 #include <optional>
@@ -14,19 +14,20 @@ namespace kds {
 
 class CollideFrames {
  public:
-  /// Reads all frames once. Warnings, one line each, go to `warn`. Throws InputError for whatever is wrong
-  /// with an input.
+  /// Reads all frames once. Each warning goes to `warn` as one line. Throws InputError for any fault of an
+  /// input.
   CollideFrames(const InputOptions& options, const std::function<void(const std::string&)>& warn);
 
-  /// The next; false behind the last. Of a planar scene in the plane's coordinates, the third zero.
+  /// Reads the next frame. Returns false after the last frame. For a planar scene, the positions are in the
+  /// plane's coordinates and the third coordinate is zero.
   [[nodiscard]] bool next(FrameRead& frame);
 
-  /// 2 where all beads keep to one plane x, y or z = constant in all frames.
+  /// Returns 2 if all beads stay in one plane x, y or z = constant in all frames, else 3.
   [[nodiscard]] int dimension() const { return plane_ ? 2 : 3; }
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
   [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
-  /// As the files name it; empty where they do not.
+  /// Returns the bead's name in the file, or an empty text if the file has no names.
   [[nodiscard]] const std::string& bead_name(BeadId bead) const {
     static const std::string unnamed;
     return bead < bead_names_.size() ? bead_names_[bead] : unnamed;
@@ -38,7 +39,7 @@ class CollideFrames {
   std::size_t frame_count_ = 0;
   std::vector<BeadRange> necklaces_;
   std::vector<double> radii_;
-  std::vector<std::string> bead_names_;  // none, or of all beads
+  std::vector<std::string> bead_names_;  // empty, or a name for every bead
 };
 
 }  // namespace kds

@@ -1,5 +1,5 @@
 #pragma once
-// `kds collide`: what it was asked to do, and how that is parsed.
+// The options of `kds collide` and their parser.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace kds {
 
 enum class WhichPairs : std::uint8_t { all, within, between };
-/// In the order of the enumerators.
+/// The names of the enumerators in order.
 inline constexpr std::array<std::string_view, 3> which_pairs_names{"all", "within", "between"};
 [[nodiscard]] constexpr std::string_view name_of(WhichPairs pairs) {
   return which_pairs_names[static_cast<std::size_t>(pairs)];
@@ -22,17 +22,18 @@ inline constexpr std::array<std::string_view, 3> which_pairs_names{"all", "withi
 
 struct CollideOptions : InputOptions {
   std::vector<std::string> methods;  ///< in the order of all methods
-  bool all_methods = true;           ///< nobody has named them
+  bool all_methods = true;           ///< true unless the user named methods
   WhichPairs pairs = WhichPairs::all;
   BeadId apart = 2;
-  double within = 0;       ///< pairs at most so far apart are looked for
-  std::size_t rounds = 3;  ///< each method so often in each frame
+  double within = 0;       ///< pairs with at most this distance are reported
+  std::size_t rounds = 3;  ///< timed repetitions of each method in each frame
   Destinations destinations;
 };
 
 [[nodiscard]] const OptionList<CollideOptions>& collide_options();
 
-/// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
+/// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
+/// --help. Opens no file.
 [[nodiscard]] CollideOptions parse_collide_options(const Arguments& arguments);
 
 }  // namespace kds

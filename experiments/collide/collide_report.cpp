@@ -21,7 +21,7 @@ std::string closest_line(const CollideReport& report) {
     return fmt::format("closest   beads {} and {} in frame {}, distance {} ({})\n", pair.first, pair.second,
                        row.closest->frame.number, pair.distance, what);
   }
-  return "closest   -\n";  // no method tells it, or no pair is asked for
+  return "closest   -\n";  // no method reports it, or no pair is asked for
 }
 
 std::string findings(const CollideReport& report) {
@@ -53,7 +53,7 @@ std::string findings(const CollideReport& report) {
   return html;
 }
 
-/// Columns of the closest pair: members of the object `closest` in JSON.
+/// Returns the columns of the closest pair, which are members of the object `closest` in JSON.
 template <class Row, class PairOf>
 std::vector<Column<Row>> pair_columns(PairOf pair_of) {
   const auto part = [&](const char* key, auto ClosestPair::*which) {
@@ -119,7 +119,7 @@ void ClosestCourse::add(const FrameFound& frame) {
 
 std::string ClosestCourse::figure() const {
   if (points_.size() < 2) return "";
-  constexpr std::size_t few = 60;  // frames: a line would make them look like more
+  constexpr std::size_t few = 60;  // frames; a line would suggest more of them
   const LinePlot plot{"frame",
                       "closest distance",
                       frames_ > few ? Drawn::line : Drawn::points,

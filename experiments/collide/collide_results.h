@@ -1,6 +1,6 @@
 #pragma once
-// The results of `kds collide`: collide.json, collide.csv, pairs.csv, frames.csv and report.html in --out,
-// --json, standard output.
+// Writes the results of `kds collide`: collide.json, collide.csv, pairs.csv, frames.csv and report.html in
+// --out, and the destinations --json and standard output.
 
 #include <functional>
 #include <optional>
@@ -19,12 +19,12 @@ class CollideResults {
  public:
   explicit CollideResults(Destinations destinations) : destinations_(std::move(destinations)) {}
 
-  /// The input is accepted: from now on there are files in the making. `scene` must outlive this.
+  /// Starts the output files once the input is accepted. `scene` must outlive this object.
   void begin(const CollideFrames& scene);
   void add_frame(const FrameRead& frame, const FrameFound& found,
                  std::optional<std::span<const BeadPair>> pairs);
-  /// The files of --out appear together, in place of those of an earlier result.
-  /// `json` lacks the frames.
+  /// Delivers all results. The files in --out appear together and replace the files of an earlier result.
+  /// `json` does not contain the frames.
   void deliver(const CollideReport& report, const Json& json, const std::string& input, Page page);
 
  private:
@@ -32,7 +32,7 @@ class CollideResults {
   std::optional<StagedFiles> files_;
   std::optional<PairsCsv> pairs_;
   std::ostream* frames_csv_ = nullptr;
-  std::optional<JsonItems> frames_;  // none where no JSON is asked for
+  std::optional<JsonItems> frames_;  // empty if no JSON is requested
   std::optional<ClosestCourse> course_;
   std::optional<ContactMap> contacts_;
 };

@@ -12,7 +12,7 @@ namespace kds {
 
 namespace {
 
-/// What two methods tell differently, if anything.
+/// Describes the first difference between the results of two methods, or returns nothing.
 std::optional<std::string> difference(const Detection& a, const Detection& b) {
   if (a.collide != b.collide) return "whether beads collide";
   if (a.pairs && b.pairs && *a.pairs != *b.pairs)
@@ -125,7 +125,8 @@ class Comparison {
 
   CollideFrames& frames_;
   const CollideTask& task_;
-  // Each round has detectors of its own: what they keep from frame to frame is part of their cost.
+  // Each round has its own detectors, because the data that a detector keeps from frame to frame is part of
+  // its cost.
   struct Rounds {
     std::vector<std::unique_ptr<Detector<Dimension>>> detectors;
     std::vector<double> seconds, closest_seconds;

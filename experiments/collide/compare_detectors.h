@@ -1,5 +1,5 @@
 #pragma once
-// Every method over every frame: what they tell, that they agree, and how long they take.
+// Runs every method over every frame, checks that the methods agree, and measures their times.
 
 #include <Eigen/Core>
 #include <functional>
@@ -19,19 +19,20 @@ struct ClosestInFrame {
   ClosestPair pair;
 };
 
-/// One method over all frames: sums, and the closest pair of all.
+/// The results of one method over all frames: sums, and the closest pair of all.
 struct CollideRow {
   std::string_view method;
   std::size_t colliding_frames = 0;
-  std::optional<std::uint64_t> pairs = 0;  ///< none where a method does not tell them
-  std::optional<ClosestInFrame> closest;   ///< none where it does not tell of some frame
+  std::optional<std::uint64_t> pairs = 0;  ///< empty if the method does not count pairs
+  std::optional<ClosestInFrame> closest;   ///< empty if the method does not report it for some frame
   std::optional<std::uint64_t> family;
-  Spread seconds;  ///< of the rounds: to find collisions in all frames
-  /// And then the closest pairs, next to nothing where that is no other search; none where `closest` is none.
+  Spread seconds;  ///< time over all rounds to find the collisions in all frames
+  /// Additional time for the closest pairs. It is nearly zero if that needs no separate search, and empty if
+  /// `closest` is empty.
   std::optional<Spread> closest_seconds;
 };
 
-/// What was found in one frame, by all methods that tell.
+/// The findings in one frame, combined from all methods.
 struct FrameFound {
   FrameStamp stamp;
   bool collide = false;
@@ -51,11 +52,12 @@ using OnFrame =
 struct CollideTask {
   std::vector<const Method*> methods;
   CollisionQuery query;
-  std::size_t rounds = 1;           ///< each method so often in each frame, in turn
-  bool leave_out_refusing = false;  ///< a method that cannot answer goes, with a warning
+  std::size_t rounds = 1;           ///< repetitions of each method in each frame, in turn
+  bool leave_out_refusing = false;  ///< a method that refuses the input is left out, with a warning
 };
 
-/// Throws InputError with the refusal of a method, and std::runtime_error where two methods disagree.
+/// Compares the methods. Throws InputError if a method refuses the input, and std::runtime_error if two
+/// methods disagree.
 [[nodiscard]] CollideReport compare_detectors(CollideFrames& frames, const CollideTask& task,
                                               const OnFrame& on_frame,
                                               const std::function<void(const std::string&)>& warn,

@@ -1,6 +1,6 @@
 #pragma once
-// How often beads collide, pair by pair, or by groups of consecutive beads where there are many: what a
-// contact map shows. Memory does not grow with frames or pairs.
+// Counts how often each pair of beads collides, as a contact map shows it. If there are many beads, counts
+// pairs of groups of consecutive beads. Memory does not grow with frames or pairs.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ class ContactMap {
 
   void add_frame(std::span<const BeadPair> pairs);
   [[nodiscard]] bool empty() const { return pairs_ == 0; }
-  /// As an SVG element.
+  /// Returns the map as an SVG element.
   [[nodiscard]] std::string plot() const;
 
  private:
@@ -26,7 +26,7 @@ class ContactMap {
   std::size_t beads_, in_group_, groups_;
   std::size_t frames_ = 0;
   std::uint64_t pairs_ = 0;
-  std::vector<std::uint64_t> counts_;  // of groups i <= j, at i * groups_ + j
+  std::vector<std::uint64_t> counts_;  // of the groups i <= j, at index i * groups_ + j
 };
 
 }  // namespace kds

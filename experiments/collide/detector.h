@@ -1,5 +1,5 @@
 #pragma once
-// A method of collision detection behind one interface.
+// The common interface of the methods of collision detection.
 
 #include <cstdint>
 #include <optional>
@@ -14,28 +14,29 @@ namespace kds {
 
 struct CollisionQuery {
   PairsAsked asked;
-  double distance = 0;  ///< pairs at most so far apart collide, as it is called in what follows
+  double distance = 0;  ///< pairs with at most this distance count as colliding
 };
 
-/// What a method tells of one frame: all methods the same, where they tell it.
+/// The results of a method for one frame. All methods that report a result report the same one, except for
+/// `family`.
 struct Detection {
   bool collide = false;
-  std::optional<std::vector<BeadPair>> pairs;  ///< all that collide, ascending
+  std::optional<std::vector<BeadPair>> pairs;  ///< all colliding pairs, ascending
   std::optional<ClosestPair> closest;          ///< of all pairs asked for
-  std::optional<std::uint64_t> family;  ///< the pairs of what it groups beads in that prove the others apart
+  std::optional<std::uint64_t> family;  ///< number of pairs of bead groups that prove the other pairs apart
 };
 
 template <int Dimension>
 class Detector {
  public:
   virtual ~Detector() = default;
-  /// Why it cannot answer about these balls, in a sentence.
+  /// Returns a sentence that says why the method cannot handle these balls, or nothing if it can.
   [[nodiscard]] virtual std::optional<std::string> refusal(const Balls<Dimension>&) const {
     return std::nullopt;
   }
-  /// Collisions of the next frame; what is kept from one frame to the next is the method's own affair.
+  /// Finds the collisions of the next frame. The method may keep data from one frame to the next.
   virtual void detect(const Balls<Dimension>& balls, Detection& found) = 0;
-  /// The closest pair, where that is another search; `detect` has been called with these balls.
+  /// Finds the closest pair, if that needs a separate search. Call `detect` with these balls first.
   virtual void find_closest(const Balls<Dimension>&, Detection&) {}
 };
 

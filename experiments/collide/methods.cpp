@@ -19,7 +19,7 @@ class BruteForce final : public Detector<Dimension> {
  public:
   explicit BruteForce(const CollisionQuery& query) : query_(query) {}
   std::optional<std::string> refusal(const Balls<Dimension>& balls) const override {
-    constexpr std::size_t most_beads = 300'000;  // half a minute a frame
+    constexpr std::size_t most_beads = 300'000;  // takes half a minute per frame
     if (balls.size() <= most_beads) return std::nullopt;
     return fmt::format("looks at all pairs of {} beads; expected {} beads or fewer", balls.size(),
                        most_beads);

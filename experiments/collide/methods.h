@@ -11,7 +11,7 @@ namespace kds {
 
 struct Method {
   std::string_view name;
-  std::string_view about;  ///< a few words
+  std::string_view about;  ///< a short description
   std::unique_ptr<Detector<2>> (*in_plane)(const CollisionQuery&);
   std::unique_ptr<Detector<3>> (*in_space)(const CollisionQuery&);
 
@@ -25,7 +25,7 @@ struct Method {
   }
 };
 
-/// In the order in which they run and are listed.
+/// Returns the methods in the order in which they run and are listed.
 [[nodiscard]] std::span<const Method> collision_methods();
 
 }  // namespace kds

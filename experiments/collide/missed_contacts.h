@@ -1,7 +1,7 @@
 #pragma once
-// The experiment behind `kds missed`: all contacts of a run, with their exact times, and which of them are
-// seen by looking at frames only, every frame, every second, every fourth ... A contact that begins and ends
-// between two frames looked at is missed.
+// The experiment behind `kds missed`. It computes all contacts of a run with their exact times, and counts
+// the contacts that are seen if only frames are examined: every frame, every second frame, every fourth
+// frame, and so on. A contact that begins and ends between two examined frames is missed.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,22 +17,23 @@ namespace kds {
 
 struct MissedTask : InputOptions {
   FrameMotion motion = FrameMotion::linear;
-  std::vector<double> factors{1};    ///< of radii, a run each
-  std::vector<std::size_t> strides;  ///< ascending; none: 1, 2, 4 ... 64, as far as they look at two frames
+  std::vector<double> factors{1};  ///< factors of the radii; each is a run
+  std::vector<std::size_t>
+      strides;  ///< ascending; empty for those of 1, 2, 4 ... 64 that examine at least two frames
   BeadId apart = 2;
 };
 
-/// One stride of one run.
+/// The result of one stride of one run.
 struct MissedRow {
   double factor = 1;
   std::size_t stride = 1;
-  std::size_t frames = 0;  ///< looked at
+  std::size_t frames = 0;  ///< number of frames examined
   std::uint64_t contacts = 0, found = 0;
 
   [[nodiscard]] std::uint64_t missed() const { return contacts - found; }
 };
 
-/// What the input is, radii by their rule and not multiplied.
+/// Description of the input. Radii are those of the radius policy, without the factor.
 struct MissedInput {
   std::size_t beads = 0, necklaces = 0, frames = 0;
   int dimension = 3;
@@ -41,11 +42,11 @@ struct MissedInput {
 
 struct MissedReport {
   MissedInput input;
-  std::vector<MissedRow> rows;  ///< factor by factor, of each by stride
+  std::vector<MissedRow> rows;  ///< ordered by factor, then by stride
 };
 
-/// Warnings about the input go to `warn`, one line each. Throws InputError for whatever is wrong with it, and
-/// where a stride that is asked for looks at one frame only.
+/// Counts the missed contacts. Each warning about the input goes to `warn` as one line. Throws InputError for
+/// any fault of the input, and if a requested stride examines only one frame.
 [[nodiscard]] MissedReport count_missed(const MissedTask& task,
                                         const std::function<void(const std::string&)>& warn,
                                         const std::function<void(std::size_t, std::size_t)>& progress);

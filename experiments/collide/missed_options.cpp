@@ -48,7 +48,7 @@ const OptionList<MissedTask>& missed_task_options() {
                  apart_option("pairs of beads of one chain must be at least K apart along it; with factors "
                               "above 2 closer ones are always near, and 5 leaves those out (default: 2)",
                               &O::apart),
-                 // Lifted motion has no radii between frames.
+                 // Lifted motion is excluded because it has no radii between frames.
                  choice_option({"--motion", "NAME",
                                 "motion of beads between frames: linear or hermite (default: linear)"},
                                &O::motion, std::span(frame_motion_names).first(2))});

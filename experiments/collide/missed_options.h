@@ -13,10 +13,11 @@ struct MissedOptions {
   Destinations destinations;
 };
 
-/// The options that are settings of the JSON.
+/// Returns the options that appear as settings in the JSON.
 [[nodiscard]] const OptionList<MissedTask>& missed_task_options();
 
-/// Throws InputError naming the option and what it takes, HelpRequest for --help. Opens no file.
+/// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
+/// --help. Opens no file.
 [[nodiscard]] MissedOptions parse_missed_options(const Arguments& arguments);
 
 }  // namespace kds
