@@ -7,7 +7,7 @@
 
 namespace {
 
-std::uint64_t count = 0;  // one thread
+std::uint64_t count = 0;  // not atomic: benchmarks use one thread
 
 void* counted(std::size_t size) {
   ++count;

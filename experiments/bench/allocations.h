@@ -1,5 +1,5 @@
 #pragma once
-// Counts what this process allocates: every operator new, and what GMP asks for.
+// Counts the allocations of this process through every operator new and through GMP.
 
 #include <cstdint>
 

@@ -28,13 +28,13 @@ namespace {
 
 using Scenes = std::vector<Balls<3>>;
 
-// Of chains in order Bullet makes trees as deep as they are long: minutes for more.
+// For chains in order, the depth of Bullet's trees grows with their length: more beads take minutes.
 constexpr std::size_t most_beads_of_trees = 20000;
 
 struct CollisionInput {
   std::string name;
   Eigen::Matrix3Xd start;
-  double fastest_static = 1, fastest_frame = 1;  // ratios asked for
+  double fastest_static = 1, fastest_frame = 1;  // required ratios
 };
 
 CollisionInput generated(std::string_view name, std::size_t beads) {
@@ -43,7 +43,7 @@ CollisionInput generated(std::string_view name, std::size_t beads) {
   models::Settings settings{.beads = beads, .motion = models::ShapeMotion::rest};
   if (packed) {
     settings.jitter = 0.05;
-    settings.gap = 0.11;  // radii of 0.45 of the spacing
+    settings.gap = 0.11;  // gives radii of 0.45 of the spacing
   }
   CollisionInput input{std::string(name), models::generate(*model, settings).front().frames.front()};
   if (name == "rotated packed") {
@@ -68,7 +68,7 @@ class MeasuredCollisions {
         rows_(rows),
         asked_{{{0, static_cast<BeadId>(radii_.size() - 1)}}} {}
 
-  /// Scene by scene, each as if it were the first.
+  /// Times each scene separately, as if it were the first.
   void run_static(const Scenes& scenes) {
     CellList<3> cells(asked_);
     AutoDetector<3> widest(asked_), short_vectors(asked_, std::nullopt, usual_target());
@@ -96,7 +96,8 @@ class MeasuredCollisions {
       row("static auto, AVX2", "", ours_short, collision_peers()[k].name, others[k], 1.0, true);
   }
 
-  /// Frame after frame, the first few not timed: lists are made in them.
+  /// Times consecutive frames. The first few frames are not timed, because the detectors make their lists in
+  /// them.
   void run_frames(const Scenes& frames, std::string_view motion, double goal) {
     std::vector<double> ours, verlet, cell;
     const double skin = *std::max_element(radii_.begin(), radii_.end());
@@ -112,7 +113,7 @@ class MeasuredCollisions {
           },
           [&] { verlet.push_back(seconds_for(later, [&](const auto& balls) { (void)list.pairs(balls); })); },
           [&] { cell.push_back(seconds_for(later, [&](const auto& balls) { (void)cells.pairs(balls); })); }};
-      // Each comes first in turn: whoever does finds caches as the others left them.
+      // The order rotates, because each detector finds the caches as the previous one left them.
       for (std::size_t k = 0; k < runs.size(); ++k) runs[(round + k) % runs.size()]();
       expect_same(detector.pairs(later.back()), cells.pairs(later.back()));
     }
@@ -127,7 +128,7 @@ class MeasuredCollisions {
   static void expect_same(const std::vector<BeadPair>& ours, const std::vector<BeadPair>& theirs) {
     if (ours != theirs) throw std::logic_error("kds bench collision: two detectors found different pairs");
   }
-  /// Short runs are repeated.
+  /// Returns more rounds for short runs.
   [[nodiscard]] std::size_t rounds_for(std::span<const Balls<3>> scenes) const {
     return std::max(rounds_, std::min<std::size_t>(25, 400000 / (scenes.size() * radii_.size() + 1)));
   }
@@ -165,7 +166,8 @@ Scenes scenes_of(const std::vector<Eigen::Matrix3Xd>& frames, const std::vector<
   return scenes;
 }
 
-/// Every bead goes on in a direction of its own; `shaking` of them, the last, shake about where they were.
+/// Returns frames in which every bead moves steadily in its own direction. The last `shaking` beads instead
+/// shake about their first positions.
 Scenes moving_on(const Eigen::Matrix3Xd& start, double step, std::size_t frames,
                  const std::vector<double>& radii, Eigen::Index shaking = 0) {
   models::Random random(1);
@@ -194,7 +196,8 @@ void bench_generated(const CollisionInput& input, std::size_t rounds, std::vecto
                       "a sixteenth by 0.3 r", 1.0);
 }
 
-// Radii 1.6 times those of beads that meet along the chain: contacts that mean something begin there.
+// The radii are 1.6 times the radii at which neighbours along the chain meet. From this factor on, contacts
+// are physically meaningful.
 void bench_protein(const std::filesystem::path& path, std::size_t rounds, std::vector<BenchRow>& rows) {
   const BenchChain chain = read_bench_chain(path);
   std::vector<double> radii = chain.radii;
@@ -209,7 +212,7 @@ void bench_protein(const std::filesystem::path& path, std::size_t rounds, std::v
     bench_contacts(chain, factor, has_goal ? std::optional(0.7) : std::nullopt, rounds, rows);
 }
 
-/// Two necklaces far from each other, which both turn about themselves, asked only whether they meet.
+/// Two distant necklaces that both rotate. The query only asks whether they meet.
 void bench_far(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& rows) {
   const Eigen::Matrix3Xd helix = model_at_rest("helix", beads);
   const double apart = 3 * (helix.rowwise().maxCoeff() - helix.rowwise().minCoeff()).norm();
@@ -226,7 +229,7 @@ void bench_far(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& row
   const PairsAsked asked{{{0, n - 1}, {n, 2 * n - 1}}, false, 2, true};
   const double speed = angle * apart;
   std::vector<double> ours, told, reading;
-  double sum = 0;  // used, so that nothing can be left out
+  double sum = 0;  // used, so that the compiler keeps the work
   for (std::size_t round = 0; round < rounds; ++round) {
     AutoDetector<3> detector(asked), knows(asked, speed);
     for (const Balls<3>& balls : std::span(frames).first(4))
@@ -253,7 +256,7 @@ void bench_far(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& row
                   told, nanoseconds));
 }
 
-/// Time a bead of ten times the beads.
+/// Compares the time per bead with the time per bead for ten times as many beads.
 void bench_growth(std::string_view model, std::size_t beads, std::size_t rounds,
                   std::vector<BenchRow>& rows) {
   std::array<std::vector<double>, 2> seconds;
@@ -276,7 +279,7 @@ void bench_growth(std::string_view model, std::size_t beads, std::size_t rounds,
     }
   }
   const double nanoseconds = 1e9 / static_cast<double>(2 * beads);
-  // The goal is one of large scenes: small ones fit the caches.
+  // The goal applies to large scenes only, because small ones fit the caches.
   const std::optional<double> goal = beads >= 100000 ? std::optional(1.5) : std::nullopt;
   rows.push_back(
       with_spread({"static auto, ten times the beads", std::string(model), 10 * beads,

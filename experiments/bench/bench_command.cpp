@@ -49,14 +49,14 @@ constexpr CommandSpec kBenchCommand{
     "kds bench power --sizes 10240 --trajectories villin_hp36_300K.dcd --json -",
 };
 
-/// What the command line says.
+/// The options of the command line.
 struct BenchInputs : Destinations {
-  std::vector<std::size_t> sizes;  ///< none: the subject's own
+  std::vector<std::size_t> sizes;  ///< empty for the subject's default
   std::filesystem::path data = source_data_folder();
   std::vector<std::filesystem::path> trajectories;
   std::filesystem::path instances;
   std::size_t rounds = 5;
-  std::size_t fewest_beads = 0;  ///< the subject's, of a generated chain
+  std::size_t fewest_beads = 0;  ///< least number of beads that the subject needs in a generated chain
 };
 
 using Progress = TableCommand::Progress;
@@ -83,9 +83,9 @@ constexpr std::size_t only_trajectories = std::numeric_limits<std::size_t>::max(
 
 struct Subject {
   std::string_view name;
-  std::size_t fewest_beads;  // of a generated chain; 0: it runs on instances; or only_trajectories
+  std::size_t fewest_beads;  // of a generated chain; 0: runs on instances; or only_trajectories
   Rows (*bench)(const BenchInputs&, const Progress&);
-  std::string_view (*what_is_missing)() = nullptr;  // a line about rows that this build cannot have
+  std::string_view (*what_is_missing)() = nullptr;  // names the rows that this build lacks
 };
 
 constexpr std::array kSubjects{
@@ -93,7 +93,7 @@ constexpr std::array kSubjects{
     Subject{"engine", 0, on_instances<bench_engine>},
     Subject{"hierarchies", 2, on_chains<HierarchyBenchOptions, bench_hierarchies>},
     Subject{"collision", 2, on_chains<CollisionBenchOptions, bench_collision>, missing_collision_peers},
-    // In space, where all beads should not lie in one plane.
+    // in space, so the beads should not all lie in one plane
     Subject{"power", 20, on_chains<PowerBenchOptions, bench_power>},
     Subject{"trade", only_trajectories, on_chains<TradeBenchOptions, bench_trade>},
 };

@@ -12,7 +12,8 @@ namespace kds {
 
 namespace {
 
-constexpr BeadId along_chain = 5;                     // nearer beads of a protein meet all the time
+constexpr BeadId along_chain =
+    5;  // beads of a protein closer than this along the chain are always in contact
 constexpr std::size_t fewest_bead_steps = 1'000'000;  // shorter runs are repeated
 
 Scene scene_of(const BenchChain& chain) {

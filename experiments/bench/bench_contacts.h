@@ -1,6 +1,6 @@
 #pragma once
-// The rows of `kds bench collision` about contacts: all their begin and end times, beside a cell list that
-// looks at frames only.
+// The rows of `kds bench collision` about contacts. They compare the computation of all begin and end times
+// with a cell list that examines only frames.
 
 #include <cstddef>
 #include <optional>
@@ -12,12 +12,13 @@
 
 namespace kds {
 
-/// From frame to frame, both from the positions that were read; radii so many times the chain's, beads at
-/// least 5 apart along it.
+/// Measures consecutive frames; both methods start from the positions that were read. Radii are
+/// `radius_factor` times the chain's. Pairs are at least 5 beads apart along the chain.
 void bench_contacts(const BenchChain& chain, double radius_factor, std::optional<double> goal,
                     std::size_t rounds, std::vector<BenchRow>& rows);
 
-/// Time a bead of ten times the beads, of what is built at a frame and the steps to the next two.
+/// Compares the time per bead with the time per bead for ten times as many beads. The time covers the build
+/// at a frame and the steps to the next two frames.
 void bench_contacts_growth(std::string_view model, std::size_t beads, std::optional<double> goal,
                            std::size_t rounds, std::vector<BenchRow>& rows);
 

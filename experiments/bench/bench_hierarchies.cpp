@@ -21,12 +21,12 @@ namespace kds {
 namespace {
 
 struct HierarchyInput : BenchChain {
-  // Factors that are asked for.
+  // Required factors.
   double build = 6, update = 10, trust = 25;
   std::optional<double> kinetic = std::nullopt;
 };
 
-// Every third bead a fifth smaller, every seventh a tenth: half of each factor is asked for.
+// Every third bead is a fifth smaller, every seventh a tenth. Only half of each factor is required.
 HierarchyInput with_unequal_radii(HierarchyInput input) {
   for (std::size_t b = 0; b < input.radii.size(); ++b) {
     if (b % 3 == 0) input.radii[b] *= 0.8;
@@ -38,7 +38,8 @@ HierarchyInput with_unequal_radii(HierarchyInput input) {
   return input;
 }
 
-/// Of the kinetic step on a trajectory, by its name's start.
+/// Returns the required factor of the kinetic step on a trajectory. The start of the trajectory's name
+/// selects the factor.
 std::optional<double> kinetic_factor(std::string_view name) {
   if (name.starts_with("random100") || name.starts_with("villin")) return 4;
   if (name.starts_with("dhodh")) return 1.5;
@@ -54,7 +55,7 @@ class MeasuredHierarchies {
     for (const Eigen::Matrix3Xd& frame : input.frames) balls_.emplace_back(frame, input.radii);
   }
 
-  /// A round is once over all frames: with each hierarchy, then with the peer.
+  /// One round runs once over all frames with each hierarchy, then with the peer.
   void run(std::size_t rounds) {
     StaticWrappedHierarchy<Dimension> built(necklace_), updated(necklace_), naive(necklace_),
         cascade(necklace_), trusting(necklace_);
@@ -105,7 +106,8 @@ class MeasuredHierarchies {
   std::vector<Balls<Dimension>> balls_;
 };
 
-// Rigid, from frame to frame: whatever events there are linear motion makes, since it squeezes.
+// The frames show a rigid rotation. All events come from the linear motion between frames, which squeezes the
+// chain.
 BenchChain rotating_chain(std::size_t beads) {
   const models::Settings settings{.beads = beads, .frames = 20, .motion = models::ShapeMotion::rotate};
   return {"rotating random-chain",
@@ -113,14 +115,14 @@ BenchChain rotating_chain(std::size_t beads) {
           std::vector<double>(beads, 1.0)};
 }
 
-// On all threads beside one, by the clock.
+// Compares all threads with one thread by wall-clock time.
 void all_threads(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& rows) {
   const auto frames = jostled_frames(model_at_rest("random-chain", beads), 0.01, 2);
   const std::vector<double> radii(beads, 1.0);
   const std::array<Balls<3>, 2> balls{Balls<3>(frames[0], radii), Balls<3>(frames[1], radii)};
   const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(beads - 1)}};
   StaticWrappedHierarchy<3> hierarchy(necklace);
-  std::array<std::vector<double>, 2> build, update;  // on one, on all
+  std::array<std::vector<double>, 2> build, update;  // on one thread, on all threads
   for (std::size_t round = 0; round < rounds; ++round) {
     for (const Threads threads : {Threads::one, Threads::all}) {
       const std::size_t all = threads == Threads::all ? 1 : 0;
@@ -138,7 +140,7 @@ void all_threads(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& r
   row("wrapped update, all threads", update);
 }
 
-// Two distant necklaces, of which a query looks at the two roots: what a frame costs in all.
+// Two distant necklaces. A query examines only the two roots, so this is the total cost of a frame.
 void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& rows) {
   const Eigen::Matrix3Xd helix = model_at_rest("helix", beads);
   Eigen::Matrix3Xd both(3, 2 * helix.cols());
@@ -152,7 +154,7 @@ void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& ro
   hierarchy.build(balls);
   const NodeId second = *hierarchy.tree().find(necklaces[1]);
   std::vector<double> ours, peer;
-  double apart = 0;  // used, so that nothing can be left out
+  double apart = 0;  // used, so that the compiler keeps the work
   for (std::size_t round = 0; round < rounds; ++round) {
     constexpr int queries = 1000;
     ours.push_back(processor_seconds_of([&] {
@@ -210,7 +212,7 @@ std::vector<BenchRow> bench_hierarchies(const HierarchyBenchOptions& options,
     const HierarchyInput input = make();
     for (const bool equal : {true, false}) {
       const HierarchyInput one = equal ? input : with_unequal_radii(input);
-      // A small hierarchy is done many times.
+      // A small hierarchy is measured in many rounds.
       const std::size_t rounds = std::max(options.rounds, 50000 / (one.radii.size() * one.frames.size()));
       if (one.dimension == 2) {
         MeasuredHierarchies<2>(one, rows).run(rounds);

@@ -1,6 +1,7 @@
 #pragma once
-// `kds bench hierarchies`: wrapped and layered hierarchies, built and brought from frame to frame, in steps
-// and kinetically, beside CGAL's Min_sphere_of_spheres_d at every node; events beside what they come to.
+// `kds bench hierarchies`. Measures wrapped and layered hierarchies that are built, updated from frame to
+// frame, and updated kinetically. Their peer is CGAL's Min_sphere_of_spheres_d at every node. Also compares
+// the number of events with the net change.
 
 #include <cstddef>
 #include <filesystem>
@@ -12,9 +13,9 @@
 namespace kds {
 
 struct HierarchyBenchOptions {
-  std::vector<std::size_t> sizes{640, 10240, 102400};  ///< beads of generated chains
+  std::vector<std::size_t> sizes{640, 10240, 102400};  ///< numbers of beads of generated chains
   std::vector<std::filesystem::path> trajectories;     ///< inputs, each as `kds run` reads it
-  std::size_t rounds = 5;                              ///< at least; more where rounds are short
+  std::size_t rounds = 5;                              ///< at least; more if rounds are short
 };
 
 [[nodiscard]] std::vector<BenchRow> bench_hierarchies(

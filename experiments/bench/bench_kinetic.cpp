@@ -32,7 +32,7 @@ StepsRun run_all_steps(const Scene& scene, const std::string& structure, const S
 
 namespace {
 
-// From frame to frame, statically.
+// Counts the bases that differ from frame to frame in static hierarchies.
 template <int Dimension>
 std::uint64_t bases_that_change(const BenchChain& chain) {
   const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(chain.radii.size() - 1)}};

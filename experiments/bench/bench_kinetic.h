@@ -1,6 +1,7 @@
 #pragma once
-// Rows of `kds bench hierarchies` for the kinetic wrapped hierarchy: a step with exact event times beside
-// CGAL's Min_sphere_of_spheres_d at every node, and events beside the bases that differ from frame to frame.
+// The rows of `kds bench hierarchies` about the kinetic wrapped hierarchy. They compare a step with exact
+// event times with CGAL's Min_sphere_of_spheres_d at every node. They also compare the number of events with
+// the number of bases that differ from frame to frame.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,8 +19,8 @@ namespace kds {
 
 /// Processor seconds and events of all steps.
 struct StepsRun {
-  double seconds = 0;  ///< including the motions made of frames
-  double own = 0;      ///< `seconds` without those to load the same steps again: engine and structure alone
+  double seconds = 0;  ///< including the construction of motions from frames
+  double own = 0;      ///< `seconds` minus the time to load the same steps again: engine and structure alone
   std::uint64_t events = 0;
 };
 
@@ -30,12 +31,12 @@ struct StepsRun {
 
 inline constexpr std::string_view sphere_peer = "CGAL Min_sphere_of_spheres_d";
 
-/// Adds rows for linear motion. `factor`: how many times as fast as the peer a step should be, if there is
-/// such a goal. A step includes making its motion of the frames.
+/// Adds rows for linear motion. `factor`, if given, is the goal: how many times as fast as the peer a step
+/// should be. A step includes the construction of its motion from the frames.
 void bench_kinetic_steps(const BenchChain& chain, std::size_t rounds, std::optional<double> factor,
                          std::vector<BenchRow>& rows);
 
-/// Under linear and under Hermite motion.
+/// Adds rows for linear and for Hermite motion.
 void bench_kinetic_events(const BenchChain& chain, std::vector<BenchRow>& rows);
 
 }  // namespace kds

@@ -11,13 +11,13 @@ namespace kds {
 
 namespace {
 
-/// No value if there are no contacts.
+/// Returns no value if there are no contacts.
 std::optional<double> missed_fraction(const MissedRow& row) {
   if (row.contacts == 0) return std::nullopt;
   return static_cast<double>(row.missed()) / static_cast<double>(row.contacts);
 }
 
-/// A curve over strides for each factor that has contacts.
+/// Returns a plot with a curve over strides for each factor that has contacts.
 std::string plot_of(std::span<const MissedRow> rows) {
   LinePlot plot{"stride", "% of contacts missed", Drawn::points, {}};
   for (const MissedRow& row : rows) {
@@ -40,7 +40,7 @@ std::string frames_at(std::size_t stride) {
   return stride == 1 ? "every frame" : fmt::format("one frame in {}", stride);
 }
 
-// A sentence for each factor: its smallest stride and its largest.
+// Returns a sentence for each factor about its smallest and its largest stride.
 std::string findings(std::span<const MissedRow> rows) {
   std::string html;
   for (std::size_t first = 0; first < rows.size();) {

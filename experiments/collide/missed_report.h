@@ -10,9 +10,9 @@
 
 namespace kds {
 
-/// The columns of missed.json and missed.csv, of the terminal and of the page.
+/// Returns the columns of missed.json and missed.csv, of the terminal and of the page.
 [[nodiscard]] const Table<MissedRow>& missed_columns();
-/// `page` says how it was made.
+/// `page` says how the results were made.
 [[nodiscard]] std::string missed_page(std::span<const MissedRow> rows, const std::string& input, Page page);
 
 }  // namespace kds

@@ -1,5 +1,5 @@
 #pragma once
-// The colliding pairs of each frame, for other programs, written as frames go by.
+// Writes the colliding pairs of each frame for other programs, frame by frame during the run.
 
 #include <ostream>
 #include <span>
@@ -9,12 +9,13 @@
 
 namespace kds {
 
-/// Header `frame,i,j,distance,name_i,name_j`, then a line a pair: the frame by its number in the file, beads
-/// by their place in the scene and, in quotes, as the file names them (empty where it does not), the distance
-/// between their surfaces, rounded, so that it reads back exactly; below zero where they overlap.
+/// The header is `frame,i,j,distance,name_i,name_j`, followed by one line per pair. `frame` is the frame's
+/// number in the file. `i` and `j` are the beads' numbers in the scene. `name_i` and `name_j` are the names
+/// in the file, in quotes, or empty if it has none. `distance` is the rounded distance between the surfaces,
+/// printed so that it reads back exactly. It is negative if the balls overlap.
 class PairsCsv {
  public:
-  /// Writes the header. Both must outlive this.
+  /// Writes the header. Stream and scene must outlive this object.
   PairsCsv(std::ostream& stream, const CollideFrames& scene);
   void add(const FrameRead& frame, std::span<const BeadPair> pairs);
 
