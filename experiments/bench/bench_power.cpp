@@ -27,7 +27,7 @@ struct PowerInput {
   std::vector<Eigen::Matrix3Xd> frames;
   std::vector<double> weights;
   int dimension;
-  std::optional<double> goal;  ///< of the kinetic step: its time to the peer's, at most
+  std::optional<double> goal;  ///< largest ratio of the kinetic step's time to the peer's
 
   PowerInput(BenchChain chain, std::optional<double> time)
       : name(std::move(chain.name)),
@@ -39,7 +39,8 @@ struct PowerInput {
   }
 };
 
-/// All but rebuilding, which they are compared with; the automatic one last, which is compared with the best.
+/// All techniques except rebuilding, with which they are compared. The automatic technique comes last,
+/// because it is compared with the best of the others.
 constexpr std::array techniques{UpdateTechnique::reinsert, UpdateTechnique::greedy,
                                 UpdateTechnique::kinetic,  UpdateTechnique::lifted,
                                 UpdateTechnique::activate, UpdateTechnique::automatic};
@@ -58,7 +59,7 @@ double seconds_by(UpdateTechnique technique, const PowerInput& input) {
   return input.dimension == 2 ? seconds_in<2>(technique, input) : seconds_in<3>(technique, input);
 }
 
-// A round is once over all frames with each technique, the peer first.
+// One round runs once over all frames with each technique, the peer first.
 void measure(const PowerInput& input, std::size_t rounds, std::vector<BenchRow>& rows) {
   std::vector<double> peer;
   std::map<UpdateTechnique, std::vector<double>> ours;
@@ -117,7 +118,8 @@ void measure_regular(const PowerInput& input, std::size_t rounds, std::vector<Be
       ours, 1e6));
 }
 
-/// What the kinetic step is asked to be on a trajectory, by its name's start.
+/// Returns the goal for the kinetic step on a trajectory. The start of the trajectory's name selects the
+/// goal.
 std::optional<double> goal_of(std::string_view name) {
   if (name.starts_with("random100") || name.starts_with("villin")) return 1 / 2.5;
   if (name.starts_with("dhodh")) return 1.0;
@@ -157,7 +159,7 @@ std::vector<BenchRow> bench_power(const PowerBenchOptions& options,
     add_chain("random-chain", chain, 0.01, 4.5);
     add_chain("random-chain", chain, 0.1, 4);
     add_chain("grid jitter 0.5 r", grid(0.5), 0.1, 2.2);
-    add_chain("grid jitter 0.05 r", grid(0.05), 0.1, 2.2);  // nearly cubes: many balls on one sphere
+    add_chain("grid jitter 0.05 r", grid(0.05), 0.1, 2.2);  // nearly cubes: many balls lie on one sphere
     add(
         "planar grid jitter 0.5 r", [=] { return model_at_rest("grid", beads, 0.5, 2); }, 0.1, 2,
         std::nullopt);
@@ -186,7 +188,7 @@ std::vector<BenchRow> bench_power(const PowerBenchOptions& options,
   }
   for (const auto& make : inputs) {
     const PowerInput input = make();
-    // A stride may leave one frame: nothing to do. Short rounds are many.
+    // A stride may leave only one frame, and then there is nothing to measure. Short rounds are repeated.
     if (input.frames.size() > 1) {
       measure(input, std::max(options.rounds, 20000 / (input.weights.size() * input.frames.size())), rows);
     }

@@ -1,8 +1,8 @@
 #pragma once
-// `kds bench power`: the power diagram from frame to frame, in exact order of events and by the other
-// techniques of structures/power_diagram/diagram_update.h, beside CGAL's static build. Regular scenes, where
-// many balls lie on one sphere and much happens at once, in exact order of events alone, beside CGAL's static
-// builds of both frames.
+// `kds bench power`. Measures the power diagram from frame to frame, kinetically with an exact order of
+// events, and by the other techniques of structures/power_diagram/diagram_update.h. The peer is CGAL's static
+// build. Regular scenes, in which many balls lie on one sphere and many events coincide, are measured only
+// kinetically. Their peer is CGAL's static build of both frames.
 
 #include <cstddef>
 #include <filesystem>
@@ -14,10 +14,10 @@
 namespace kds {
 
 struct PowerBenchOptions {
-  std::vector<std::size_t> sizes{10240};            ///< beads of generated chains
-  std::vector<std::size_t> regular{1000, 8000};     ///< beads of regular scenes
+  std::vector<std::size_t> sizes{10240};            ///< numbers of beads of generated chains
+  std::vector<std::size_t> regular{1000, 8000};     ///< numbers of beads of regular scenes
   std::vector<std::filesystem::path> trajectories;  ///< inputs, each as `kds run` reads it
-  std::size_t rounds = 5;                           ///< at least; more where rounds are short
+  std::size_t rounds = 5;                           ///< at least; more if rounds are short
 };
 
 [[nodiscard]] std::vector<BenchRow> bench_power(

@@ -1,5 +1,6 @@
 #pragma once
-// Rows of `kds bench`: ours beside a peer in the same process. For programs and for people.
+// Rows of `kds bench`, which compare kds with a peer in the same process. Reports them to programs and
+// people.
 
 #include <optional>
 #include <span>
@@ -17,33 +18,34 @@ struct BenchRow {
   std::size_t n = 0;
   double value = 0;
   std::string unit;
-  std::string peer;                  ///< empty: none
+  std::string peer;                  ///< empty if none
   std::optional<double> peer_value;  ///< in the same unit
-  /// What the ratio ours / peer is to be at most, or the value where there is no peer or the goal is in its
-  /// unit; none where no figure is asked for.
+  /// The largest permitted ratio ours / peer. It is the largest permitted value instead if there is no peer
+  /// or if `goal_in_unit` is set. Empty if there is no goal.
   std::optional<double> goal;
   bool goal_in_unit = false;
-  std::optional<Spread> spread = {};  ///< of the value over the rounds, in its unit; none where it is a count
+  std::optional<Spread> spread = {};  ///< of the value over the rounds, in its unit; empty for a count
 
-  /// None beside nothing.
+  /// Returns nothing if there is no peer or its value is 0.
   [[nodiscard]] std::optional<double> ratio() const {
     return peer_value && *peer_value != 0 ? std::optional(value / *peer_value) : std::nullopt;
   }
-  /// None without a goal.
+  /// Returns nothing if there is no goal.
   [[nodiscard]] std::optional<bool> holds() const {
     return goal ? std::optional((goal_in_unit ? value : ratio().value_or(value)) <= *goal) : std::nullopt;
   }
 };
 
-/// The row with the spread of its value: that of ours by round, times what the value is in.
+/// Returns the row with the spread of its value. `seconds` has our time of each round, and `units` converts
+/// it to the value's unit.
 [[nodiscard]] BenchRow with_spread(BenchRow row, const std::vector<double>& seconds, double units);
 
-/// Ends with a newline.
+/// Returns text that ends with a newline.
 [[nodiscard]] std::string bench_json(std::string command, Json settings, std::span<const BenchRow> rows);
-/// A header and one line a row.
+/// Returns a header and one line per row.
 [[nodiscard]] std::string bench_csv(std::span<const BenchRow> rows);
 [[nodiscard]] std::string bench_table(std::span<const BenchRow> rows);
-/// `page` says how it was made.
+/// `page` says how the results were made.
 [[nodiscard]] std::string bench_page(const std::string& subject, std::span<const BenchRow> rows, Page page);
 
 }  // namespace kds

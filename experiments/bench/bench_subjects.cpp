@@ -28,7 +28,7 @@ class CountedTurns final : public bench::Turns {
   std::map<std::string, double> figures_;
 };
 
-// With the spread of its value, noted as NAME_least and NAME_most.
+// Returns the row with the spread of its value, which the figures NAME_least and NAME_most hold.
 BenchRow with_spread_of(BenchRow row, const CountedTurns& turns, const std::string& name) {
   row.spread = Spread{row.value, *turns.figure(name + "_least"), *turns.figure(name + "_most")};
   return row;

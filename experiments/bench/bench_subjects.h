@@ -1,5 +1,5 @@
 #pragma once
-// `kds bench certificates` and `kds bench engine`: the subjects of kds_benchmarks as rows.
+// `kds bench certificates` and `kds bench engine`. They report the subjects of kds_benchmarks as rows.
 
 #include <cstddef>
 #include <filesystem>
@@ -15,12 +15,13 @@ struct SubjectBenchOptions {
   std::size_t rounds = 5;
 };
 
-/// Certificates from beads to answers, in nanoseconds each. Throws InputError where an instance is missing.
+/// Measures certificates from beads to answers, in nanoseconds each. Throws InputError if an instance is
+/// missing.
 [[nodiscard]] std::vector<BenchRow> bench_certificates(
     const SubjectBenchOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
 
-/// Whole runs of all d1_*, d2_* and d3_* files: an event, and a run beside a static build. Throws InputError
-/// where there are none.
+/// Measures whole runs of all d1_*, d2_* and d3_* files: the time per event, and a run compared with a static
+/// build. Throws InputError if there are no such files.
 [[nodiscard]] std::vector<BenchRow> bench_engine(
     const SubjectBenchOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
 

@@ -19,11 +19,12 @@ namespace kds {
 
 namespace {
 
-/// How many times as fast as the exact run each lever is to be, by the start of a trajectory's name.
+/// The required speed of each lever as a multiple of the exact run's. The start of a trajectory's name
+/// selects the row.
 struct Factors {
   std::string_view name;
   std::optional<double> chord, tight, layered, relaxed, tolerant, more_tolerant;
-  double swept;  ///< static queries that a swept one may cost
+  double swept;  ///< largest cost of a swept query in static queries
 };
 constexpr std::array kFactors{Factors{"villin", 5, 3, 13, 2, 2, 2.8, 1.1},
                               Factors{"random100", 3.4, 2, 13, 2, 2, 2.8, 1.1},
@@ -43,7 +44,7 @@ struct Lever {
   double tolerance = 0;  ///< in radii of the smallest bead
 };
 
-/// Of each structure that levers are compared with first the exact run.
+/// Returns the levers of each structure. The first entry of each list is the exact run.
 std::vector<std::vector<Lever>> levers_by_structure() {
   StructureSettings chord, tight, relaxed;
   chord.between = tight.between = Between::chord;
@@ -59,11 +60,12 @@ std::vector<std::vector<Lever>> levers_by_structure() {
            {"power, within 0.3r", "power", &Factors::more_tolerant, {}, 0.3}}};
 }
 
-// In turn with the exact run: the steps alone, to which goals belong, then with beads from frame to motion.
+// Measures the levers in turn with the exact run. First come rows for the steps alone, which have goals, then
+// rows that include the construction of the motion from the frames.
 void add_levers(const BenchChain& chain, const std::vector<Lever>& levers, std::size_t rounds,
                 std::vector<BenchRow>& rows) {
   const Factors* const factors = factors_of(chain.name);
-  std::map<double, Scene> scenes;  // by tolerance: the same frames in the same memory
+  std::map<double, Scene> scenes;  // by tolerance; runs with one tolerance share the frames in memory
   for (const Lever& lever : levers) {
     BenchChain frames = chain;
     if (lever.tolerance > 0)
@@ -96,7 +98,8 @@ void add_levers(const BenchChain& chain, const std::vector<Lever>& levers, std::
   }
 }
 
-// Balls a quarter larger than those of `--radius auto`, so that some meet; no pairs within four beads.
+// The balls are a quarter larger than those of `--radius auto`, so that some meet. Pairs within four beads
+// along the chain are excluded.
 void add_swept_contacts(BenchChain chain, std::size_t rounds, std::vector<BenchRow>& rows) {
   for (double& radius : chain.radii) radius *= 1.25;
   const Scene scene = scene_of(chain, FrameMotion::linear);
@@ -112,7 +115,7 @@ void add_swept_contacts(BenchChain chain, std::size_t rounds, std::vector<BenchR
   MovingFamily<3> family(asked, 1);
   FoundPairs found;
   PairsOfBlocks pairs;
-  std::size_t kept = 0;  // used, so that nothing can be left out
+  std::size_t kept = 0;  // used, so that the compiler keeps the work
   const auto seconds_over_steps = [&](auto&& of_step) {
     return processor_seconds_of([&] {
       for (std::size_t k = 0; k < steps.size(); ++k) {

@@ -1,6 +1,7 @@
 #pragma once
-// `kds bench trade`: what levers of speed against accuracy cost, beside the exact run of the same structure
-// in the same process: the steps alone, as `kds trade` has them, and with beads from frame to motion.
+// `kds bench trade`. Measures levers that trade accuracy for speed beside the exact run of the same structure
+// in the same process: the steps alone, as in `kds trade`, and with the construction of the motion from the
+// frames.
 
 #include <cstddef>
 #include <filesystem>
@@ -13,7 +14,7 @@ namespace kds {
 
 struct TradeBenchOptions {
   std::vector<std::filesystem::path> trajectories;  ///< inputs, each as `kds run` reads it
-  std::size_t rounds = 5;                           ///< at least; more where rounds are short
+  std::size_t rounds = 5;                           ///< at least; more if rounds are short
 };
 
 [[nodiscard]] std::vector<BenchRow> bench_trade(

@@ -1,11 +1,13 @@
-// Certificates from beads to answers, and CGAL's nearest: a static predicate at one moment, or algebraic
-// numbers of the same polynomials (needs libmpfi-dev). Timed in turn; `ns` an item, `peer_ns`, `ratio` of
-// both, medians; `allocations` of ours an item.
+// Measures certificates from beads to answers beside the nearest operation of CGAL: a static predicate at one
+// moment, or algebraic numbers for the same polynomials (needs libmpfi-dev). Both are timed in turn. The
+// counters are medians: `ns` per item, `peer_ns` per item, `ratio` of both, and `allocations`, our
+// allocations per item.
 //
 //   kds_benchmarks --benchmark_filter=settle    beads to "never fails in this step"; peer: predicate
 //   kds_benchmarks --benchmark_filter=failure   beads to a bracket with one proved root; peer: isolation
-//   kds_benchmarks --benchmark_filter=exact     on integers alone; peer: isolation
-//   kds_benchmarks --benchmark_filter=compare   two failure times apart; peer: two algebraic numbers
+//   kds_benchmarks --benchmark_filter=exact     in integer arithmetic only; peer: isolation
+//   kds_benchmarks --benchmark_filter=compare   two failure times with disjoint brackets; peer: two algebraic
+//   numbers
 //   kds_benchmarks --benchmark_filter=sign      at or just after another's failure; peer: predicate
 
 #include <algorithm>
@@ -39,9 +41,9 @@ using Linear = BezierMotion<3, 1>;
 using Cubic = BezierMotion<3, 3>;
 using Facet = PowerTest<3>;
 
-constexpr std::size_t enough = 1000;  // for what takes microseconds each
+constexpr std::size_t enough = 1000;  // number of items that take microseconds each
 
-// A motion and certificates on it, with what becomes of them in the step.
+// A motion and certificates on it, with the outcome of each certificate in the step.
 template <class C, Motion M>
 struct Input final : CertificateSource {
   explicit Input(M m) : motion(std::make_shared<const M>(std::move(m))), search(search_over<C>(seen())) {}
@@ -53,7 +55,7 @@ struct Input final : CertificateSource {
                            std::vector<KnownAtStart>(certificates.size(), KnownAtStart::unknown), stages,
                            TouchPolicy::ignored, failures);
   }
-  // Leaves those with this outcome, at most so many.
+  // Keeps the certificates with this outcome, at most `most` of them.
   void keep(Failure::Kind kind, std::size_t most = std::numeric_limits<std::size_t>::max()) {
     settle();
     std::size_t kept = 0;
@@ -87,7 +89,7 @@ struct Input final : CertificateSource {
   }
 
   std::shared_ptr<const M> motion;
-  std::shared_ptr<const CertificateSearch<C>> search;  // over that motion
+  std::shared_ptr<const CertificateSearch<C>> search;  // searches over `motion`
   Instant start{0};
   std::vector<C> certificates;
   std::vector<KnownAtStart> births;
@@ -110,7 +112,7 @@ M instance(const std::filesystem::path& file) {
   return motion;
 }
 
-// All inner facets of the regular triangulation at the start.
+// Returns all inner facets of the regular triangulation at the start.
 template <Motion M>
 Input<Facet, M> facets(const M& motion) {
   Input<Facet, M> input(motion);
@@ -131,7 +133,8 @@ Input<Facet, M> facets(const M& motion) {
   return input;
 }
 
-// Beads against spheres through two, three or four others near along the chain, on the side where they are.
+// Returns tests of a bead against the sphere through two, three or four other beads near it along the chain.
+// The sign is chosen so that each certificate holds at the start.
 template <class C, Motion M>
 Input<C, M> spheres(const M& motion, std::size_t count, std::size_t within) {
   Input<C, M> input(motion);
@@ -159,7 +162,7 @@ Input<C, M> spheres(const M& motion, std::size_t count, std::size_t within) {
   return input;
 }
 
-// Handed over some at a time, as structures do; what comes of them stays in cache.
+// Passes the certificates in groups, as structures do, so that the results of a group stay in the cache.
 template <class I>
 void search(Kernel kernel, I& input) {
   constexpr std::size_t some = 64;
@@ -186,7 +189,8 @@ void settle(Turns& turns, I input) {
                                                         input.stages.identically_zero));
 }
 
-// All facets of a triangulation as they lie in its cells; those not found positive are left.
+// Tests all facets of a triangulation in the order of its cells. Facets that are not proved positive are
+// left.
 template <Motion M>
 void classify_in_cells(Turns& turns, const M& motion, bool on_any_processor) {
   RegularTriangulation<3> triangulation;
@@ -226,7 +230,7 @@ void failure(Turns& turns, Kernel kernel, I input) {
       input.certificates.size(), [&] { search(kernel, input); }, [&] { return peer.seconds_to_isolate(); });
 }
 
-// Beads to polynomials.
+// Measures the construction of polynomials from beads.
 template <class I>
 void exact_function(Turns& turns, I input) {
   input.keep(Failure::Kind::later, enough);
@@ -234,7 +238,7 @@ void exact_function(Turns& turns, I input) {
       input.certificates.size(), [&] { keep(input.functions().data()); }, [] { return no_peer; });
 }
 
-// The polynomials are given, the first failure wanted.
+// Measures the search for the first failure of given polynomials.
 template <class I>
 void exact_failure(Turns& turns, I input) {
   input.keep(Failure::Kind::later, enough);
@@ -252,7 +256,7 @@ void exact_failure(Turns& turns, I input) {
       [&] { return peer.seconds_to_isolate(); });
 }
 
-// The polynomials are given, all roots in [0,1] wanted.
+// Measures the isolation of all roots in [0,1] of given polynomials.
 template <class I>
 void exact_isolation(Turns& turns, I input) {
   input.keep(Failure::Kind::later, enough);
@@ -283,7 +287,7 @@ void compare(Turns& turns, I input) {
     if (a.upper < b.lower || b.upper < a.lower) pairs.push_back(pair);
   }
   FailureOrder order;
-  static_cast<void>(peer.seconds_to_compare(pairs));  // it narrows as it goes
+  static_cast<void>(peer.seconds_to_compare(pairs));  // the peer narrows its intervals as it compares
   turns.take(
       pairs.size(),
       [&] {
@@ -302,7 +306,7 @@ std::vector<Instant> instants_of(const I& input) {
   return instants;
 }
 
-// At the failure times of some, signs of others.
+// Measures the signs of certificates at the failure times of other certificates.
 template <class I>
 void sign(Turns& turns, I input) {
   input.keep(Failure::Kind::later, enough);
@@ -310,7 +314,8 @@ void sign(Turns& turns, I input) {
   auto others = input.certificates;
   Random random(4);
   std::shuffle(others.begin(), others.end(), random);
-  for (std::size_t i = 0; i < others.size(); ++i) {  // its own function is zero there, and known to be
+  for (std::size_t i = 0; i < others.size();
+       ++i) {  // at its own failure time a certificate is known to be zero
     while (others[i].beads == input.certificates[i].beads) others[i] = others[random() % others.size()];
   }
   std::vector<decltype(Facet{}.beads)> beads;
@@ -327,7 +332,7 @@ void sign(Turns& turns, I input) {
       [&] { return peer.seconds_for(beads); });
 }
 
-// At the failure times of some, whether four cells are positive, as they are.
+// Measures whether four cells are positive at the failure times of other certificates. They are positive.
 template <class I>
 void positive_cells(Turns& turns, I input) {
   input.keep(Failure::Kind::later, enough);

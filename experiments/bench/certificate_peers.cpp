@@ -74,10 +74,10 @@ struct AlgebraicKernel::Polynomials {
 
 namespace {
 
-// Multiplied out: sum_k scaled[k] u^k (1-u)^(n-k), Horner's way.
+// Expands sum_k scaled[k] u^k (1-u)^(n-k) into powers of u by Horner's scheme.
 Algebraic::Polynomial_1 power_form(const ExactPolynomial& p) {
   std::vector<Integer> sum{p.scaled().back()};
-  std::vector<Integer> power{1};  // of 1-u
+  std::vector<Integer> power{1};  // powers of 1-u
   for (std::size_t k = p.scaled().size() - 1; k-- > 0;) {
     power.push_back(0);
     for (std::size_t i = power.size() - 1; i > 0; --i) power[i] -= power[i - 1];

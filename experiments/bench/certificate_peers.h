@@ -1,5 +1,5 @@
 #pragma once
-// What CGAL offers for the questions that certificates answer: static predicates of doubles, and algebraic
+// CGAL's operations for the questions that certificates answer: static predicates of doubles, and algebraic
 // numbers.
 
 #include <Eigen/Core>
@@ -20,8 +20,8 @@ class StaticPredicates {
   StaticPredicates(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
   ~StaticPredicates();
 
-  /// Seconds for all: power tests of five beads; whether the last of three or four is in the smallest sphere
-  /// through the others.
+  /// Each returns the seconds for all tests: power tests of five beads, or whether the last of three or four
+  /// beads is in the smallest sphere through the others.
   [[nodiscard]] double seconds_for(std::span<const std::array<BeadId, 5>> beads) const;
   [[nodiscard]] double seconds_for(std::span<const std::array<BeadId, 4>> beads) const;
   [[nodiscard]] double seconds_for(std::span<const std::array<BeadId, 3>> beads) const;
@@ -31,15 +31,15 @@ class StaticPredicates {
   std::unique_ptr<Points> points_;
 };
 
-/// Algebraic_kernel_d_1<Gmpz>. Built without MPFI, all times are NaN.
+/// Algebraic_kernel_d_1<Gmpz>. If kds was built without MPFI, all times are NaN.
 class AlgebraicKernel {
  public:
   explicit AlgebraicKernel(std::span<const ExactPolynomial> polynomials);
   ~AlgebraicKernel();
 
-  /// Seconds to isolate all real roots of every polynomial, which are taken to be square-free.
+  /// Returns the seconds to isolate all real roots of every polynomial. The polynomials must be square-free.
   [[nodiscard]] double seconds_to_isolate() const;
-  /// Seconds to compare the first positive roots of pairs of polynomials.
+  /// Returns the seconds to compare the first positive roots of pairs of polynomials.
   [[nodiscard]] double seconds_to_compare(std::span<const std::pair<std::size_t, std::size_t>> pairs);
 
  private:

@@ -16,7 +16,7 @@ namespace kds {
 
 namespace {
 
-// Both find pairs of boxes; whether the balls meet is asked in the same way for both, in doubles.
+// Both libraries find pairs of boxes. The same test in doubles then decides for both whether the balls meet.
 [[maybe_unused]] bool are_counted(const Balls<3>& balls, std::size_t a, std::size_t b) {
   if ((a > b ? a - b : b - a) < 2) return false;
   double square = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Libraries for collision detection that `kds bench collision` measures beside ours, where this program was
-// built with them: FCL (libfcl-dev) and Bullet (libbullet-dev).
+// Collision detection libraries that `kds bench collision` measures beside kds, if this program was built
+// with them: FCL (libfcl-dev) and Bullet (libbullet-dev).
 
 #include <cstddef>
 #include <memory>
@@ -15,19 +15,19 @@ namespace kds {
 class PeerTree {
  public:
   virtual ~PeerTree() = default;
-  /// How many pairs of balls meet that are not neighbours along the chain.
+  /// Returns the number of meeting pairs of balls that are not neighbours along the chain.
   [[nodiscard]] virtual std::size_t pairs() = 0;
 };
 
 struct CollisionPeer {
   std::string_view name;
-  /// The balls must outlive the tree.
+  /// Builds a tree over the balls, which must outlive the tree.
   std::unique_ptr<PeerTree> (*build)(const Balls<3>& balls);
 };
 
 [[nodiscard]] std::span<const CollisionPeer> collision_peers();
 
-/// A line naming those that are missing; empty where none are.
+/// Returns a line that names the missing libraries, or an empty text if none is missing.
 [[nodiscard]] std::string_view missing_collision_peers();
 
 }  // namespace kds

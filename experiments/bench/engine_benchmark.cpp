@@ -1,6 +1,6 @@
-// Whole kinetic runs of moving-point instances against CGAL's static build of the same points, timed in turn
-// in one process: `ns` an event, `events_per_second`, `run_us`, `build_us`, and `static_builds`, how many
-// static builds one run costs.
+// Measures whole kinetic runs of moving-point instances beside CGAL's static build of the same points, in
+// turn in one process. The counters are `ns` per event, `events_per_second`, `run_us`, `build_us`, and
+// `static_builds`, the cost of one run in static builds.
 //
 //   kds_benchmarks --benchmark_filter='power|sorted'
 
@@ -102,7 +102,7 @@ std::vector<Subject> engine_subjects(const std::filesystem::path& instances) {
     };
     add("filtered", Kernel::filtered);
     add("fast", Kernel::fast);
-    constexpr std::size_t few = 50;  // integers alone take their time
+    constexpr std::size_t few = 50;  // larger instances take too long in integer arithmetic
     if (instance.point_count() <= few) add("exact", Kernel::exact);
   }
   return all;

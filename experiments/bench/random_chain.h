@@ -1,5 +1,5 @@
 #pragma once
-// Chains of touching beads of radius 1 that avoid themselves, and how they move.
+// Self-avoiding chains of touching beads with radius 1, and their motions.
 
 #include <array>
 #include <cmath>
@@ -32,8 +32,8 @@ inline std::vector<Point> random_chain(std::size_t beads) {
   return chain;
 }
 
-/// Every bead moves this far in a direction of its own; the velocities at both ends (Hermite) differ from
-/// that by as much.
+/// Moves every bead by `distance` in its own direction. The velocities at both ends (Hermite) differ from
+/// this displacement by the same length.
 template <Motion M>
 M jostled(const std::vector<Point>& beads, double distance, Random& random) {
   static_assert(M::degree == 1 || M::degree == 3);
