@@ -1,6 +1,7 @@
-// Slow motion: facets that the slack found at an earlier frame lets rest, against EPICK's power test of the
-// same facets at one moment. One step is looking at all beads and all facets; the slack is known already.
-// `ns` a facet of the step; `resting` is the share of facets that need no certificate.
+// Slow motion: facets that need no certificate thanks to the slack found at an earlier frame, compared with
+// EPICK's power test of the same facets at one moment. One step examines all beads and all facets; the slack
+// is known beforehand. `ns` is the time per facet of the step. `resting` is the share of facets that need no
+// certificate.
 //
 //   kds_benchmarks --benchmark_filter=tolerance
 
@@ -20,7 +21,7 @@ namespace kds::bench {
 
 namespace {
 
-// The beads move by `distance` times their radius in the step.
+// Moves the beads by `distance` times their radius in the step.
 template <Motion M>
 void rest(Turns& turns, double distance) {
   Random random(1);
@@ -51,7 +52,7 @@ void rest(Turns& turns, double distance) {
     others = 0;
     slack.for_the_others(triangulation, [&](CellId, unsigned left) { others += count_of<3>(left); });
   };
-  step();  // takes the reference
+  step();  // records the reference positions
   const StaticPredicates peer(control_points(motion, 0), control_weights(motion, 0));
   const double share = static_cast<double>(facets) / static_cast<double>(finite.size());
   turns.take(facets, step, [&] { return share * peer.seconds_for(finite); });

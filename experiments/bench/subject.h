@@ -1,5 +1,5 @@
 #pragma once
-// What is measured about certificates and whole runs, a subject each: by kds_benchmarks, and by `kds bench`.
+// The measurements of certificates and whole runs. Each is a subject of kds_benchmarks and of `kds bench`.
 
 #include <cstddef>
 #include <filesystem>
@@ -13,19 +13,19 @@
 namespace kds::bench {
 
 struct Subject {
-  std::string name;   ///< as in settle/facet/linear
-  std::string input;  ///< what it runs on
+  std::string name;   ///< such as settle/facet/linear
+  std::string input;  ///< the data it runs on
   std::size_t beads;
   std::string peer;
-  /// What the time of an item, in nanoseconds, or its ratio to the peer's is asked to be at most.
+  /// Goals: the largest permitted time of an item in nanoseconds, or its ratio to the peer's time.
   std::optional<double> most_ns, most_ratio;
   std::function<void(Turns&)> run;
 };
 
-/// `instances`: the folder of the moving-point files. Throws InputError where one is missing.
+/// `instances` is the folder of the moving-point files. Throws InputError if a file is missing.
 [[nodiscard]] std::vector<Subject> certificate_subjects(const std::filesystem::path& instances);
 [[nodiscard]] std::vector<Subject> slack_subjects();
-/// An item is an event; the peer builds once.
+/// An item is an event. The peer is one static build.
 [[nodiscard]] std::vector<Subject> engine_subjects(const std::filesystem::path& instances);
 
 }  // namespace kds::bench

@@ -1,6 +1,6 @@
 #pragma once
-// Ours and a peer timed in turn, whoever counts the turns: Google Benchmark in kds_benchmarks, or `kds
-// bench`. Machines drift: the ratio is what counts. Seconds are the processor's.
+// Times kds and a peer in turn. Google Benchmark in kds_benchmarks or `kds bench` determines the number of
+// turns. Because the speed of a machine drifts, only the ratio is reliable. Times are processor times.
 
 #include <cmath>
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace kds::bench {
 
-/// The compiler must have it.
+/// Forces the compiler to compute `value`.
 template <class T>
 void keep(const T& value) {
   asm volatile("" : : "r,m"(value) : "memory");
@@ -26,15 +26,16 @@ class Turns {
  public:
   virtual ~Turns() = default;
 
-  /// Whether to take another turn.
+  /// Returns whether to take another turn.
   [[nodiscard]] virtual bool another() = 0;
-  /// Ours took so long in this turn.
+  /// Records our time in this turn.
   virtual void took(double seconds) = 0;
   virtual void note(std::string_view figure, double value) = 0;
-  /// Of this process so far; none where nobody counts.
+  /// Returns the allocations of this process so far, or 0 if they are not counted.
   [[nodiscard]] virtual std::uint64_t allocations() const { return 0; }
 
-  /// NAME, the median, NAME_least and NAME_most, of values each times `units`.
+  /// Notes the median as NAME, and the extremes as NAME_least and NAME_most. All values are multiplied by
+  /// `units`.
   void note_spread(const std::string& name, const std::vector<double>& values, double units) {
     const Spread spread = spread_of(values);
     note(name, spread.median * units);
@@ -42,14 +43,14 @@ class Turns {
     note(name + "_most", spread.most * units);
   }
 
-  /// Of `items` each: `ours` does them all, `peer` says how many seconds it took for as many (or no_peer).
-  /// Notes medians: `ns`, with its spread, and `peer_ns` an item, `ratio` = ours / peer; `items`,
-  /// `allocations` of ours an item.
+  /// Measures `items` items per turn. `ours` processes all of them; `peer` returns the seconds that the peer
+  /// took for as many items (or no_peer). Notes medians: `ns` per item with its spread, `peer_ns` per item,
+  /// and `ratio` = ours / peer. Also notes `items` and our `allocations` per item.
   template <class Ours, class Peer>
   void take(std::size_t items, const Ours& ours, const Peer& peer) {
     std::vector<double> our_seconds, peer_seconds, ratios;
     std::uint64_t allocated = 0;
-    ours();  // warm
+    ours();  // warms up
     while (another()) {
       const std::uint64_t before = allocations();
       const double seconds = processor_seconds_of(ours);
