@@ -12,8 +12,8 @@ namespace kds {
 
 namespace {
 
-constexpr BeadId along_chain =
-    5;  // beads of a protein closer than this along the chain are always in contact
+// Beads of a protein closer than this along the chain are always in contact.
+constexpr BeadId along_chain = 5;
 constexpr std::size_t fewest_bead_steps = 1'000'000;  // shorter runs are repeated
 
 Scene scene_of(const BenchChain& chain) {

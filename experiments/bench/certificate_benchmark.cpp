@@ -314,8 +314,8 @@ void sign(Turns& turns, I input) {
   auto others = input.certificates;
   Random random(4);
   std::shuffle(others.begin(), others.end(), random);
-  for (std::size_t i = 0; i < others.size();
-       ++i) {  // at its own failure time a certificate is known to be zero
+  // A certificate is known to be zero at its own failure time, so another one is taken.
+  for (std::size_t i = 0; i < others.size(); ++i) {
     while (others[i].beads == input.certificates[i].beads) others[i] = others[random() % others.size()];
   }
   std::vector<decltype(Facet{}.beads)> beads;

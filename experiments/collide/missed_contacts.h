@@ -18,8 +18,8 @@ namespace kds {
 struct MissedTask : InputOptions {
   FrameMotion motion = FrameMotion::linear;
   std::vector<double> factors{1};  ///< factors of the radii; each is a run
-  std::vector<std::size_t>
-      strides;  ///< ascending; empty for those of 1, 2, 4 ... 64 that examine at least two frames
+  /// Ascending; empty for those of 1, 2, 4 ... 64 that examine at least two frames.
+  std::vector<std::size_t> strides;
   BeadId apart = 2;
 };
 

@@ -23,8 +23,8 @@ double least_worst_error(const Times& times) {
   const bool fewer_exact = times.exact.size() <= times.other.size();
   const std::size_t rows = std::min(times.exact.size(), times.other.size());
   const std::size_t columns = std::max(times.exact.size(), times.other.size());
-  std::vector<double> worst(
-      columns + 1, 0);  // for the first i events of the shorter and the first j events of the longer history
+  // For the first i events of the shorter and the first j events of the longer history.
+  std::vector<double> worst(columns + 1, 0);
   for (std::size_t i = 0; i < rows; ++i) {
     double diagonal = worst[0];
     worst[0] = std::numeric_limits<double>::infinity();

@@ -63,8 +63,8 @@ template <class C>
     if (failure.kind == Failure::Kind::never || failure.kind == Failure::Kind::zero) break;
     if (failure.kind == Failure::Kind::later) {
       now = Instant(failure.time, source, slot);
-      known = answers.size() % 3 == 0 ? KnownAtStart::unknown
-                                      : KnownAtStart::at_own_root;  // both values must work
+      // Both values must work.
+      known = answers.size() % 3 == 0 ? KnownAtStart::unknown : KnownAtStart::at_own_root;
     }
     slot = 1 - slot;
   }

@@ -359,8 +359,8 @@ BeadCurves winding(const SceneShape& shape, SceneRandom& random) {
 
 BeadCurves with_wrong_number(const SceneShape& shape, SceneRandom& random, double wrong) {
   BeadCurves beads = generic(shape, random);
-  const std::size_t bead =
-      random() % shape.beads;  // one draw per line, since the evaluation order of arguments is unspecified
+  // One draw per line, since the evaluation order of arguments is unspecified.
+  const std::size_t bead = random() % shape.beads;
   const int k = pick(random, 0, shape.degree);
   const int axis = pick(random, 0, shape.dimension - 1);
   beads.coordinate(bead, k, axis) = wrong;

@@ -119,7 +119,7 @@ class Settings {
   void add_calpha() {
     if (input_.residues == 0) return;
     add([&](TradeSetting& s) { take_calpha(s, input_); });
-    // Spheres of a diagram cannot be enlarged to cover the error.
+    // The covering radius has no meaning for a diagram.
     if (exact_.structure == "power" || input_.residue_radius == 0) return;
     add([&](TradeSetting& s) {
       take_calpha(s, input_);
