@@ -12,7 +12,7 @@
 
 namespace kds {
 
-/// Where along the chain, and at which depth of its tree, the external events of a structure occur.
+/// The places of a structure's external events: along the chain, and by depth in its tree.
 struct PlacesOfEvents {
   /// Number of events that name each bead. A node's event names the beads of its new basis. An event counts
   /// at each of its beads.

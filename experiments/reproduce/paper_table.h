@@ -33,7 +33,7 @@ struct PaperRow {
   std::string at;                            ///< conformation or step; empty if there is only one
   std::vector<PaperValue> ours;              ///< in the order of the table's columns
   std::vector<std::optional<double>> paper;  ///< in the same order; empty where the paper has no value
-  std::string note;                          ///< why the two differ; may be empty
+  std::string note;                          ///< why our values and the paper's differ; may be empty
 };
 
 struct PaperTable {

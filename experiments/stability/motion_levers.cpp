@@ -123,7 +123,8 @@ ExactPoint exact_in_input(const Scene& scene, const M& motion, std::size_t bead,
                           const Eigen::Matrix3Xd& frame) {
   const auto position = exact_position(motion, static_cast<BeadId>(bead), time);
   if constexpr (M::dimension == 3) return {position[0], position[1], position[2]};
-  // The axis perpendicular to a plane is the axis along which the other two change.
+  // For a planar scene, two axes of the input take the plane's coordinates. The perpendicular axis, along
+  // which in_input is constant, keeps the coordinate of the frame.
   ExactPoint point = exact_point(frame, bead);
   std::size_t next = 0;
   const Eigen::Vector3d zero = scene.in_input({0, 0, 0}), one = scene.in_input({1, 1, 0});

@@ -11,7 +11,7 @@
 namespace kds {
 
 struct ClosestByDiagram {
-  std::uint64_t looked_at = 0;  ///< pairs that the diagram and the chain name
+  std::uint64_t looked_at = 0;  ///< pairs that the diagram and the chain give
   Spread seconds;               ///< time, diagram included
   bool same = false;  ///< whether the hierarchy search, which considers all pairs, finds the same pair
 };

@@ -171,7 +171,7 @@ class Planner {
 
 TheoremPlan plan_theorems(const TheoremOptions& options) { return Planner(options).plan(); }
 
-// Grids of three sizes have fewer beads than the third random chain.
+// The third random chain sets the limit: grids of three sizes have fewer beads.
 std::size_t least_beads_for(const std::vector<Theorem>& theorems) {
   const bool roots_only =
       std::ranges::all_of(theorems, [](Theorem theorem) { return theorem == Theorem::tightness; });

@@ -19,7 +19,7 @@ enum class Theorem : std::uint8_t {
   tightness,    ///< 2.3: layered root at most sqrt(h + 1) times the wrapped root, almost tight
   family,       ///< 3.1: a separating family of O(n log n) pairs in the plane, O(n^(4/3)) in space
   search,       ///< 3.2: collisions decided within the time of 3.1
-  closest_pair  ///< 3.5: the power diagram and the chain name the closest pair
+  closest_pair  ///< 3.5: the closest pair is among the pairs that the power diagram and the chain give
 };
 /// The names of the enumerators in order.
 inline constexpr std::array<std::string_view, 4> theorem_names{"2.3", "3.1", "3.2", "3.5"};

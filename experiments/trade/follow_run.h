@@ -55,9 +55,9 @@ struct SamplingOfTimes {
 
 struct FollowedRun {
   RunHistory history;
-  TradeErrors errors;           ///< all errors except those of events and contacts
-  std::optional<double> tests;  ///< mean over the times examined of the number of sphere pairs that a contact
-                                ///< search in the hierarchy tests
+  TradeErrors errors;  ///< all errors except those of events and contacts
+  std::optional<double>
+      tests;  ///< sphere pairs tested by a contact search in the hierarchy, mean over the times examined
 };
 
 /// `cutoff` is the length limit for edges_missed.

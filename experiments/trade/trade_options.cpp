@@ -75,7 +75,7 @@ const OptionList<TradeTask>& task_options() {
   return list;
 }
 
-/// Throws InputError if --apart or --cutoff is given but none of the wants uses it.
+/// Throws InputError if --apart or --cutoff is given but no requested result uses it.
 void refuse_needless_options(const ParsedArguments& parsed, const std::vector<Want>& wants) {
   const auto wanted = [&](std::initializer_list<Want> some) {
     return std::find_first_of(wants.begin(), wants.end(), some.begin(), some.end()) != wants.end();

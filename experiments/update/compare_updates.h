@@ -22,7 +22,7 @@ struct UpdateTask {
   std::uint64_t cells = 0;          ///< finite cells of the diagrams at the ends of the steps
   std::uint64_t hidden = 0;         ///< hidden beads in these diagrams
   std::uint64_t cells_changed = 0;  ///< finite cells that only one of the step's two diagrams has
-  std::uint64_t certificates = 0;   ///< of the diagrams at the starts of the steps
+  std::uint64_t certificates = 0;   ///< certificates of the diagrams at the starts of the steps
   std::uint64_t failed = 0;         ///< certificates that fail at the positions at the step's end
 
   [[nodiscard]] double failed_share() const {
@@ -38,7 +38,7 @@ struct UpdateRow {
   std::uint64_t rebuilds = 0;
   std::uint64_t audits = 0;
   Spread seconds;    ///< processor time over all rounds
-  double ratio = 1;  ///< of the median time to that of the technique `rebuild`
+  double ratio = 1;  ///< median time divided by the median time of the technique `rebuild`
 
   /// Returns the events per changed cell. Returns nothing if no cell changed, or if the technique also
   /// changed cells without events.

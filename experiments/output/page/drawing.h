@@ -29,8 +29,8 @@ struct Plotted {
   Drawing wide, narrow;
 };
 
-/// Returns the SVG of each plot, all drawn by one gnuplot process. `labels` describe the plots for readers
-/// who cannot see them.
+/// Returns the SVG of each plot, all drawn by one gnuplot process. `labels` describe the plots for
+/// screen readers.
 [[nodiscard]] std::vector<std::string> drawn(const std::vector<Plotted>& plots,
                                              const std::vector<std::string>& labels);
 
