@@ -94,7 +94,7 @@ StrideCertificate certify_stride(const RunOptions& options, const Scene& scene) 
   StrideCertificate certificate;
   certificate.deviation =
       deviation_of_stride(scene, *frames_of(options, 1), stride,
-                          stride == 1 ? tolerance : std::nullopt);  // proved for all frames
+                          stride == 1 ? tolerance : std::nullopt);  // the tolerance is proved for all frames
   const auto& names = options.structures;
   if (std::find(names.begin(), names.end(), "contacts") != names.end())
     bound_contacts(options, scene, tolerance, certificate);

@@ -28,8 +28,9 @@ class MetContacts final : public EventListener {
   using Moment = std::pair<std::size_t, double>;
   struct Contact {
     Pair pair;
-    Moment earliest;                                            ///< lower bound of the begin
-    Moment latest{std::numeric_limits<std::size_t>::max(), 0};  ///< upper bound of the end
+    Moment earliest;  ///< lower bound of the begin
+    /// Upper bound of the end. The default means that the contact lasts to the end of the run.
+    Moment latest{std::numeric_limits<std::size_t>::max(), 0};
   };
 
   void on_event(const Event& event) override;

@@ -24,7 +24,7 @@ struct StructureReport {
   std::uint64_t events_total = 0;  ///< number of external events
   NamedCounts events_by_kind;      ///< external kinds first, then internal kinds, which the total excludes
   std::optional<std::uint64_t> contacts_at_start, contacts_at_end;  ///< numbers of pairs of beads
-  std::vector<std::string> internal_kinds;                          ///< the kinds above that are internal
+  std::vector<std::string> internal_kinds;                          ///< the internal kinds of events_by_kind
   EventCourse course;                                               ///< external events, step by step
   std::uint64_t created = 0, never_failing = 0, cancelled = 0, failed = 0, touched = 0, peak = 0,
                 per_bead_max = 0;

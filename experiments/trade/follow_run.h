@@ -56,8 +56,8 @@ struct SamplingOfTimes {
 struct FollowedRun {
   RunHistory history;
   TradeErrors errors;  ///< all errors except those of events and contacts
-  std::optional<double>
-      tests;  ///< sphere pairs tested by a contact search in the hierarchy, mean over the times examined
+  /// Sphere pairs tested by a contact search in the hierarchy, mean over the times examined.
+  std::optional<double> tests;
 };
 
 /// `cutoff` is the length limit for edges_missed.

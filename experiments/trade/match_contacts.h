@@ -26,7 +26,7 @@ struct ContactTime {
 struct ContactMatch {
   std::uint64_t expected = 0, missed = 0, spurious = 0;
   std::uint64_t timed = 0;                        ///< number of contact pairs whose ends are compared
-  double time_error_sum = 0, time_error_max = 0;  ///< over both ends, in frames
+  double time_error_sum = 0, time_error_max = 0;  ///< errors of both ends, in frames
 };
 
 /// Matches contacts. An expected contact is missed if no found contact of the same pair overlaps it to within

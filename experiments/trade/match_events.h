@@ -17,7 +17,7 @@ struct TimedEvent {
 
 struct EventMatch {
   std::uint64_t expected = 0, missed = 0, invented = 0, matched = 0;
-  double time_error_sum = 0, time_error_max = 0;  ///< over the matched events, in frames
+  double time_error_sum = 0, time_error_max = 0;  ///< errors over the matched events, in frames
 };
 
 /// Matches events. Two events match if they are the same change at most `reach` frames apart. Equal changes
