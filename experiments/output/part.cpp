@@ -34,8 +34,8 @@ int make(const fs::path& path, Part::Kind kind) {
   return descriptor;
 }
 
-// Returns whether the lock was taken on a file that still exists. Between creation and locking, another
-// program may remove the file as stale.
+// Locks the file. Returns whether the file still exists: before the lock, another program may have removed it
+// as stale.
 bool lock_unless_removed(int descriptor) {
   ::flock(descriptor, LOCK_EX);  // without locks in the file system, stale files are never removed
   struct stat status {};

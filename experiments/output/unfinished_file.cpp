@@ -88,8 +88,8 @@ void handle_signals() {
   for (int signal = 1; signal <= SIGRTMAX; ++signal) {
     if (spares_the_program(signal)) continue;
     struct sigaction action {};
-    if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL)
-      continue;  // ignored: nohup
+    // A signal is ignored, for instance, under nohup.
+    if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
     action.sa_handler = remove_unfinished_and_end;
     action.sa_flags = SA_ONSTACK;
     ::sigfillset(&action.sa_mask);  // other signals wait until everything is removed

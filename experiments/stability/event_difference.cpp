@@ -23,7 +23,8 @@ double least_worst_error(const Times& times) {
   const bool fewer_exact = times.exact.size() <= times.other.size();
   const std::size_t rows = std::min(times.exact.size(), times.other.size());
   const std::size_t columns = std::max(times.exact.size(), times.other.size());
-  // For the first i events of the shorter and the first j events of the longer history.
+  // worst[j] is the least worst error for the first i events of the shorter and the first j events of the
+  // longer history.
   std::vector<double> worst(columns + 1, 0);
   for (std::size_t i = 0; i < rows; ++i) {
     double diagonal = worst[0];
