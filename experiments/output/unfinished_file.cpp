@@ -88,7 +88,7 @@ void handle_signals() {
   for (int signal = 1; signal <= SIGRTMAX; ++signal) {
     if (spares_the_program(signal)) continue;
     struct sigaction action {};
-    // A signal is ignored, for instance, under nohup.
+    // A signal that is already handled or ignored (as under nohup) stays so.
     if (::sigaction(signal, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) continue;
     action.sa_handler = remove_unfinished_and_end;
     action.sa_flags = SA_ONSTACK;

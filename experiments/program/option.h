@@ -67,7 +67,8 @@ class OptionList {
   OptionList() = default;
   OptionList(std::vector<Option<Options>> options) : options_(std::move(options)) {}
 
-  /// Appends options. Options of a base class or of a member are read into that part of the options.
+  /// Appends options. Overloads append the options of a base class or of a member, whose values are read into
+  /// that part of `Options`.
   [[nodiscard]] OptionList with(const std::vector<Option<Options>>& others) const {
     OptionList all = *this;
     all.options_.insert(all.options_.end(), others.begin(), others.end());
