@@ -18,7 +18,7 @@ fs::path place_of(const fs::path& path) {
   std::error_code lost;
   fs::path whole = fs::absolute(path, lost);
   constexpr int most_links = 40;
-  for (int links = 0; links < most_links && fs::is_symlink(whole, lost); ++links)  // links to missing files
+  for (int links = 0; links < most_links && fs::is_symlink(whole, lost); ++links)  // missing targets too
     whole = whole.parent_path() / fs::read_symlink(whole, lost);
   const fs::path found = fs::weakly_canonical(whole, lost);
   const fs::path place = (lost ? whole : found).lexically_normal();

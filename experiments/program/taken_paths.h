@@ -26,8 +26,8 @@ class TakenPaths {
   /// Registers the destination of --json: a file, as `write` does, or - for standard output, which may itself
   /// be redirected to a file.
   void write_json(const std::string& destination);
-  /// Registers a file that will be written. Throws InputError if the file is already registered or is
-  /// registered as a directory. Devices may be shared.
+  /// Registers a file that will be written. Throws InputError if the file is already registered or must be a
+  /// directory for another result. Devices may be shared.
   void write(const std::string& option, const std::filesystem::path& path);
   /// Registers a directory and files with these names that will be written in it. Throws InputError as
   /// `write` does, and also if the directory or one of its parents is registered as a file.

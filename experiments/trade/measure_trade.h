@@ -27,7 +27,7 @@ struct TradeTask {
 
 struct TradeCost {
   double seconds = 0;                ///< processor time after the first build: median of the rounds
-  double quickest = 0, slowest = 0;  ///< over the rounds
+  double quickest = 0, slowest = 0;  ///< least and most of the rounds
   double ratio = 1;                  ///< to the exact run's time for the same number of frames
   std::uint64_t certificates = 0, events = 0;
   std::optional<double> tests;  ///< FollowedRun::tests

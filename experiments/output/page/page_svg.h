@@ -17,7 +17,7 @@ struct DrawingSize {
 
 /// The kind of element to which the texts of a drawing belong.
 enum class TextsOf {
-  marks,   ///< hypertext K: a label with a point
+  marks,   ///< text K belongs to hypertext label K, which has a point
   strips,  ///< as `marks`, but over the full height and halfway to both neighbours
   squares  ///< the K-th filled polygon
 };
