@@ -21,7 +21,8 @@ inline constexpr std::string_view possible_contacts_file = "possible_contacts.cs
 /// Returns whether the session has the structure `contacts`.
 [[nodiscard]] bool has_contacts(const Session& session);
 
-/// Returns the pairs in contact at the frame just reached, or nothing if the session has no contacts.
+/// Returns the number of pairs in contact at the frame just reached, or nothing if the session has no
+/// contacts.
 [[nodiscard]] std::optional<std::uint64_t> contacts_at(const Session& session, std::size_t frame);
 
 /// Listens to all events and writes a line for each event of a contact.
