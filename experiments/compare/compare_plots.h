@@ -1,6 +1,6 @@
 #pragma once
-// The plots of `kds compare`. If there are more than a few curves, each structure has its own small plot,
-// whose curves are the inputs and motions.
+// The plots of `kds compare`. If there are more than a few curves, each structure has its own small plot with
+// a curve per input and motion.
 
 #include <string>
 #include <vector>
