@@ -1,4 +1,5 @@
-// Five points in space, one of them passing through the others' sphere: their power diagram changes once.
+// Computes the power diagram of five moving points. One point passes through the sphere of the other four, so
+// the diagram changes once.
 #include <cstdio>
 
 #include "kds/simulator.h"
@@ -13,7 +14,7 @@ int main() {
     for (int axis = 0; axis < 3; ++axis)
       for (int end = 0; end < 2; ++end)  // the fifth moves to (2, 2, 2)
         motion.set_coordinate(bead, end, axis, bead == 4 && end == 1 ? 2.0 : start[bead][axis]);
-  kds::Simulator simulator(kds::AuditMode::events);  // checks against CGAL between all events
+  kds::Simulator simulator(kds::AuditMode::events);  // audits against CGAL between all events
   kds::PowerDiagram<3> diagram(simulator, motion);
   simulator.build();
   simulator.run_step();

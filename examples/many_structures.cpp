@@ -1,5 +1,5 @@
-// Four structures on one set of moving beads, on one clock: who listens hears of every change as it happens,
-// a log keeps them all, and a second run makes the logged changes again, without a certificate.
+// Runs four structures on one set of moving beads and one clock. A listener is notified of every change as it
+// happens and a log records every change. A second run repeats the logged changes without certificates.
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -14,7 +14,7 @@ constexpr kds::BeadId beads = 40;
 constexpr int steps = 3;
 using Motion = kds::BezierMotion<3, 1>;  // in space, linear between two frames
 
-/// A coil that winds up: where a bead is at a frame.
+/// Computes the position of a bead of a coil that winds up, at a frame.
 void place(kds::BeadId bead, int frame, double (&at)[3]) {
   const double angle = 0.6 * bead * (1 + 0.15 * frame), radius = 2 + 0.3 * std::sin(1.7 * bead + frame);
   at[0] = radius * std::cos(angle);
@@ -22,7 +22,7 @@ void place(kds::BeadId bead, int frame, double (&at)[3]) {
   at[2] = 0.45 * bead * (1 - 0.08 * frame);
 }
 
-/// Sets the motion to that from one frame to the next.
+/// Loads the motion from frame `step` to the next frame.
 void load(Motion& motion, int step) {
   double at[3];
   for (kds::BeadId bead = 0; bead < beads; ++bead) {
@@ -65,7 +65,7 @@ int main() {
   }
   run.finish();
 
-  // The same structures again, led by the log; after each step they are compared with static builds.
+  // Replays the log on the same four structures and compares them with static builds after each step.
   load(motion, 0);
   kds::SessionOptions audited = options;
   audited.audits = kds::AuditMode::frames;

@@ -1,5 +1,5 @@
-// When two certificates fail that the framework does not have: exact failure times, the filter and the
-// statistics follow from their formulas.
+// Computes when two certificate types defined outside the framework fail. The exact failure times, the filter
+// and the statistics follow from the formulas of the certificates.
 #include "examples/new_certificate.h"
 
 #include <cstdio>
@@ -13,7 +13,7 @@ namespace {
 constexpr kds::BeadId beads = 40;
 using Motion = kds::BezierMotion<3, 1>;  // in space, linear in u
 
-/// A cloud that turns inside out: each bead goes to the other side of the origin.
+/// Makes a cloud that turns inside out: each bead moves through the origin to the opposite side.
 Motion cloud() {
   Motion motion(beads);
   for (kds::BeadId bead = 0; bead < beads; ++bead) {
@@ -26,7 +26,7 @@ Motion cloud() {
   return motion;
 }
 
-/// Searches the first failures of certificates that hold at the start, and tells of the earliest.
+/// Searches for the first failures of the certificates that hold at the start, and prints the earliest.
 template <class Certificate>
 void tell(const Motion& motion, const typename Certificate::Constants& constants,
           const std::vector<Certificate>& certificates) {
@@ -58,10 +58,10 @@ int main() {
   std::vector<Near> pairs;
   for (kds::BeadId b = 1; b < beads; ++b)
     for (kds::BeadId a = 0; a < b; ++a) pairs.push_back({{a, b}, /*near=*/false});
-  tell(motion, {.cutoff = {1, 9}}, pairs);  // it grows from 1 to 9
+  tell(motion, {.cutoff = {1, 9}}, pairs);  // the cutoff grows from 1 to 9
 
   std::vector<Above> sides;
   for (kds::BeadId b = 0; b < beads; ++b) sides.push_back({{b}});
-  // The plane rises along its normal, which turns as it does.
+  // The plane rises along its normal, and the normal turns meanwhile.
   tell(motion, {.foot = {{0, 0, -30}, {0, 0, 10}}, .normal = {{0, 0, 1}, {0.5, 0, 1}}}, sides);
 }

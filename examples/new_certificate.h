@@ -1,12 +1,12 @@
 #pragma once
-// Two certificate types that the framework does not have.
+// Two certificate types defined outside the framework.
 
 #include <array>
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/constants.h"
 
-/// Two beads are closer than a cutoff, which may change in time; or, the other side, they are not.
+/// Two beads are closer than a cutoff that may change in time. The negated certificate: they are not closer.
 struct Near {
   static constexpr kds::CertificateType type{1001, "near"};
   struct Constants {
@@ -23,11 +23,11 @@ struct Near {
   }
 };
 
-/// A bead is above a plane, which may move and turn; or, the other side, below.
+/// A bead is above a plane that may move and turn. The negated certificate: the bead is below.
 struct Above {
   static constexpr kds::CertificateType type{1002, "above"};
   struct Constants {
-    kds::ConstantPoint<3> foot;  // some point of the plane
+    kds::ConstantPoint<3> foot;  // any point of the plane
     kds::ConstantVector<3> normal;
   };
   std::array<kds::BeadId, 1> beads{};

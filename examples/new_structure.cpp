@@ -1,5 +1,6 @@
-// Runs a structure that the framework does not have, the pairs of beads within a cutoff that breathes, with
-// an exact audit between all events; and once more on integers alone: the histories are the same.
+// Runs a structure defined outside the framework: the pairs of beads within a cutoff that changes in time.
+// The first run is audited exactly between all events; a second run uses integers alone. Both histories are
+// equal.
 #include "examples/new_structure.h"
 
 #include <cmath>
@@ -14,7 +15,7 @@ constexpr kds::BeadId beads = 24;
 constexpr int steps = 4;
 using Motion = kds::BezierMotion<2, 1>;  // in the plane, linear between two frames
 
-/// Beads on two circles that turn against each other.
+/// Places beads on two circles that rotate in opposite directions.
 void place(Motion& motion, int end, int frame) {
   for (kds::BeadId bead = 0; bead < beads; ++bead) {
     const double radius = bead % 2 == 0 ? 5 : 4, turn = (bead % 2 == 0 ? 0.2 : -0.3) * frame + 0.5 * bead;

@@ -1,6 +1,6 @@
 #pragma once
-// A structure that the framework does not have: the pairs of beads closer than a cutoff, which may change in
-// time. Each pair has one certificate: that it is near, or that it is not.
+// A structure defined outside the framework: the pairs of beads closer than a cutoff that may change in time.
+// Each pair has one certificate, which states that the pair is near or that it is not.
 
 #include <array>
 #include <optional>
@@ -22,7 +22,7 @@ class NeighborPairs final : public kds::GuardedStructure<Near> {
       for (kds::BeadId a = 0; a < b; ++a) pairs_.push_back({a, b});
     near_.resize(pairs_.size());
   }
-  /// In the next step: one number, or one each control point of the motion.
+  /// Sets the cutoff of the next step: one number, or one number for each control point of the motion.
   void set_cutoff(const kds::Constant<1>& cutoff) { table().set_constants({.cutoff = cutoff}); }
   [[nodiscard]] std::vector<Pair> pairs() const {
     std::vector<Pair> near;

@@ -1,6 +1,6 @@
-// A motion of one's own: a screw, that is a turn about an axis and a shift along it. Beads on screws move on
-// no polynomial; cubic curves with the screw's positions and velocities at both ends come within a bound that
-// is stated and kept.
+// A user-defined motion: a screw, which is a rotation about an axis and a translation along it. A screw is
+// not a polynomial curve. Cubic Hermite interpolation matches the screw's positions and velocities at both
+// ends of a step, and error() bounds the distance between the two curves.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -19,8 +19,8 @@ class ScrewMotion {
   static constexpr int degree = 3;
 
   struct Bead {
-    double distance, phase, height;  ///< from the axis, about it, along it
-    bool turns;                      ///< else it rests
+    double distance, phase, height;  ///< from the axis, angle about the axis, position along the axis
+    bool turns;                      ///< false: the bead rests
   };
 
   ScrewMotion(std::vector<Bead> beads, double angle, double rise, double radius)
@@ -28,8 +28,8 @@ class ScrewMotion {
     for (Curve& curve : curves_) std::fill(std::begin(curve.radius), std::end(curve.radius), radius);
   }
 
-  // What a motion offers (motions/curves/motion.h). A control point is followed by its weight, which nobody
-  // asks for here.
+  // Members that the Motion concept requires (motions/curves/motion.h). A weight follows each control point;
+  // no structure here reads the weights.
   [[nodiscard]] std::size_t bead_count() const { return curves_.size(); }
   [[nodiscard]] const double* control_point(kds::BeadId bead, int k) const { return curves_[bead].point[k]; }
   [[nodiscard]] double coordinate(kds::BeadId bead, int k, int axis) const {
@@ -39,7 +39,8 @@ class ScrewMotion {
   [[nodiscard]] const double* radii(kds::BeadId bead) const { return curves_[bead].radius; }
   [[nodiscard]] double radius(kds::BeadId bead, int k) const { return curves_[bead].radius[k]; }
 
-  /// The cubics of a step: ends p and q, velocities v and w there, control points p, p + v/3, q - w/3, q.
+  /// Computes the cubics of a step: a cubic with ends p and q and velocities v and w there has the control
+  /// points p, p + v/3, q - w/3, q.
   void load(int step) {
     for (std::size_t b = 0; b < beads_.size(); ++b) {
       const Bead& bead = beads_[b];
@@ -56,15 +57,16 @@ class ScrewMotion {
     }
   }
 
-  /// How far a bead is at most from its screw at any time: cubic Hermite interpolation errs by at most the
-  /// fourth derivative, distance * angle^4, divided by 384. Rounding is some 1e-16 of the coordinates.
+  /// Returns an upper bound of the distance between a bead and its screw at any time: the error of cubic
+  /// Hermite interpolation is at most the fourth derivative, distance * angle^4, divided by 384. Rounding
+  /// adds about 1e-16 of the coordinates.
   [[nodiscard]] double error() const {
     double farthest = 0;
     for (const Bead& bead : beads_) farthest = std::max(farthest, bead.distance);
     return farthest * std::pow(angle_, 4) / 384;
   }
 
-  /// How far the beads are from their screws at many times of the step that is loaded.
+  /// Measures the largest distance between the beads and their screws at sampled times of the loaded step.
   [[nodiscard]] double measured_error(int step) const {
     double largest = 0;
     for (std::size_t b = 0; b < beads_.size(); ++b) {
@@ -87,7 +89,8 @@ class ScrewMotion {
 
  private:
   struct Curve {
-    double point[4][4] = {};  // beads lie equally spaced in memory, their control points in a row
+    double point[4][4] =
+        {};  // beads are equally spaced in memory, and the control points of a bead are contiguous
     double radius[4] = {};
   };
   std::vector<Bead> beads_;
@@ -100,7 +103,7 @@ static_assert(kds::Motion<ScrewMotion>);
 }  // namespace
 
 int main() {
-  // A thread of 24 beads screws past four beads at rest.
+  // A thread of 24 beads moves on screws past four beads at rest.
   std::vector<ScrewMotion::Bead> bead_list;
   for (int i = 0; i < 24; ++i) bead_list.push_back({3.0, 0.5 * i, 0.35 * i, true});
   for (int i = 0; i < 4; ++i) bead_list.push_back({4.7, 0.3 + 1.6 * i, 5.1, false});

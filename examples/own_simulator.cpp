@@ -1,6 +1,6 @@
-// A simulation of one's own, a chain of springs that falls on a peg: it hands over one frame after the other,
-// nothing is stored, and when beads meet the peg and part from it is known as it happens, between frames,
-// too.
+// A user's own simulation: a chain of springs falls on a peg. The simulation pushes one frame after another,
+// and no frame is stored. Contacts between beads and the peg are reported as they begin and end, also between
+// frames.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -12,9 +12,9 @@
 
 namespace {
 
-constexpr kds::BeadId links = 12, peg = links;  // the peg is the last bead, and rests
+constexpr kds::BeadId links = 12, peg = links;  // the last bead is the peg, which rests
 constexpr double time_step = 0.01, radius = 0.3;
-/// Knows nothing of kds.
+/// The simulation itself, which does not depend on kds.
 class SpringChain {
  public:
   SpringChain() {
@@ -64,7 +64,7 @@ class SpringChain {
   std::array<Vector, links> velocity_{};
 };
 
-/// Tells of contacts as they happen.
+/// Prints contacts as they begin and end.
 class Reporter final : public kds::EventListener {
  public:
   void on_event(const kds::Event& event) override {

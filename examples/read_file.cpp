@@ -1,4 +1,5 @@
-// Reads frames of a trajectory, makes a scene of them, and runs structures over it. FILE: PDB, mmCIF or XYZ.
+// Reads frames of a trajectory, makes a scene of the frames, and runs structures over the scene. FILE is PDB,
+// mmCIF or XYZ.
 #include <cstdint>
 #include <cstdio>
 #include <span>
@@ -43,7 +44,7 @@ int main(int argc, char** argv) {
   }
   try {
     run_file(argv[1]);
-  } catch (const kds::InputError& error) {  // names file, frame, bead or option
+  } catch (const kds::InputError& error) {  // the message names the file, frame, bead or option
     std::fprintf(stderr, "%s\n", error.what());
     return 2;
   }

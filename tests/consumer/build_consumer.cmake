@@ -1,5 +1,6 @@
-# Configures, builds and runs a copy of the consumer's project with the kds that has been built in KDS_BUILD.
-# cmake -DKDS_BUILD=<build tree> -DGENERATOR=<generator> -DCOMPILER=<c++> -DBUILD_TYPE=<type> -DPLACE=<folder> -P build_consumer.cmake
+# Configures, builds and runs a copy of the consumer's project with the kds that was built in KDS_BUILD.
+# cmake -DKDS_BUILD=<build tree> -DGENERATOR=<generator> -DCOMPILER=<c++> -DBUILD_TYPE=<type> -DPLACE=<folder>
+#   -P build_consumer.cmake
 file(REMOVE_RECURSE "${PLACE}")
 file(COPY "${CMAKE_CURRENT_LIST_DIR}/" DESTINATION "${PLACE}/source")
 

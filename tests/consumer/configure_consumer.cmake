@@ -1,6 +1,8 @@
-# Configures a copy of the consumer's project with kds as a folder of it, builds nothing, and reads how its own file would be
-# compiled: with what kds needs and with nothing that is only ours.
-# cmake -DKDS_SOURCE=<source tree> -DGENERATOR=<generator> -DCOMPILER=<c++> -DPLACE=<folder> -P configure_consumer.cmake
+# Configures a copy of the consumer's project with kds as a folder of it and builds nothing. Then checks how
+# the consumer's own file would be compiled: with the flags that kds requires, and without flags that concern
+# only the development of kds.
+# cmake -DKDS_SOURCE=<source tree> -DGENERATOR=<generator> -DCOMPILER=<c++> -DPLACE=<folder>
+#   -P configure_consumer.cmake
 file(REMOVE_RECURSE "${PLACE}")
 file(COPY "${CMAKE_CURRENT_LIST_DIR}/" DESTINATION "${PLACE}/source")
 execute_process(COMMAND ${CMAKE_COMMAND} -S "${PLACE}/source" -B "${PLACE}/build" -G "${GENERATOR}"

@@ -1,4 +1,4 @@
-// Three beads on a line that all pass each other.
+// Three beads on a line, each of which passes the other two.
 #include <cstdio>
 
 #include "kds/simulator.h"

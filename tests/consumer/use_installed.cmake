@@ -1,7 +1,8 @@
-# Installs kds from its build tree into a prefix of its own, moves that elsewhere, and configures, builds and runs three projects of
-# somebody else with it: one with the engine alone, the first example, one with structures; then compiles the last by pkg-config,
-# where there is one.
-# cmake -DKDS_BUILD=<build tree> -DGENERATOR=<generator> -DCOMPILER=<c++> -DBUILD_TYPE=<type> -DPLACE=<folder> -P use_installed.cmake
+# Installs kds from its build tree into a prefix, moves the prefix elsewhere, and configures, builds and runs
+# three user's projects with it: one with the engine alone, the first example, and one with structures. Then
+# compiles the last project by pkg-config, if pkg-config is available.
+# cmake -DKDS_BUILD=<build tree> -DGENERATOR=<generator> -DCOMPILER=<c++> -DBUILD_TYPE=<type> -DPLACE=<folder>
+#   -P use_installed.cmake
 file(REMOVE_RECURSE "${PLACE}")
 
 function(run)
@@ -24,7 +25,8 @@ foreach(component motions certificates engine structures kds)
 endforeach()
 file(RENAME "${PLACE}/first" "${PLACE}/prefix")
 
-# Nothing in it says where it was built or first installed, and headers that see CGAL or gemmi stay at home.
+# The installed files must not name the build folder or the first prefix, and must not include headers that
+# include CGAL or gemmi.
 cmake_path(GET KDS_BUILD PARENT_PATH home)
 file(GLOB_RECURSE texts "${PLACE}/prefix/*.cmake" "${PLACE}/prefix/*.pc" "${PLACE}/prefix/*.h")
 if(NOT texts)
@@ -66,7 +68,7 @@ if(PKG_CONFIG AND NOT SANITIZE)
   set(ENV{PKG_CONFIG_PATH} "${PLACE}/prefix/lib/pkgconfig")
   run(${PKG_CONFIG} --cflags --libs kds)
   separate_arguments(flags UNIX_COMMAND "${output}")
-  # Code of lanes in headers must be for the processors that the libraries are for.
+  # Inline vector code in headers must be compiled for the same processors as the libraries.
   file(GLOB_RECURSE targets "${PLACE}/prefix/*/kds-motions.cmake")
   file(STRINGS "${targets}" definitions REGEX "INTERFACE_COMPILE_DEFINITIONS")
   string(REGEX MATCHALL "KDS_[A-Z0-9_]+" by_cmake "${definitions}")
@@ -76,7 +78,7 @@ if(PKG_CONFIG AND NOT SANITIZE)
   if(NOT by_cmake STREQUAL by_pkg_config)
     message(FATAL_ERROR "CMake defines '${by_cmake}' for users, pkg-config '${by_pkg_config}'")
   endif()
-  # Objects come before the libraries that they need.
+  # Object files come before the libraries that they need.
   run(${COMPILER} -std=c++20 "${PLACE}/source/consumer.cpp" -o "${PLACE}/by_pkg_config" ${flags})
   expect("${PLACE}/by_pkg_config" 3)
 endif()

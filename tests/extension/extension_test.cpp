@@ -1,4 +1,4 @@
-// A certificate type, a structure, a motion and a reader, each in one file outside the tree's libraries.
+// A certificate type, a structure, a motion and a reader, each in one file outside of the tree's libraries.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ TEST(Extension, AMotionDrivesStructuresOfOursAndOfOthers) {
   const double rest[6][3] = {{0, 0, 0}, {4, 0, 0}, {0, 5, 0}, {0, 0, 6}, {7, 7, 7}, {-8, 1, 2}};
   const double still[3] = {0, 0, 0}, back[3] = {-6.5, -6.5, -6.5};
   for (kds::BeadId b = 0; b < 6; ++b) motion.set(b, rest[b], still);
-  motion.set(4, rest[4], back);  // passes close to bead 0, and leaves again
+  motion.set(4, rest[4], back);  // bead 4 passes close to bead 0, then returns
   for (const kds::Kernel kernel : {kds::Kernel::filtered, kds::Kernel::exact}) {
     kds::Simulator simulator(kds::AuditMode::events, kernel);
     Nearest nearest(simulator, motion);

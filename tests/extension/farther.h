@@ -1,5 +1,5 @@
 #pragma once
-// A certificate type of someone else: bead a is farther from bead c than bead b is.
+// A user-defined certificate type: bead a is farther from bead c than bead b is.
 
 #include <array>
 

@@ -1,4 +1,5 @@
-// The kds program with a structure and a reader of someone else: nothing of the tree's libraries knows them.
+// The kds program with a user-defined structure and a user-defined reader. The tree's libraries do not know
+// either of them.
 
 #include "experiments/kds_main.h"
 #include "tests/extension/nearest.h"

@@ -1,5 +1,5 @@
 #pragma once
-// A structure of someone else: the bead nearest to bead 0, kept by one certificate for each other bead.
+// A user-defined structure: the bead nearest to bead 0. One certificate for each other bead guards it.
 
 #include <algorithm>
 #include <array>
@@ -42,7 +42,7 @@ class Nearest final : public kds::GuardedStructure<Farther> {
   }
 
  private:
-  static constexpr std::array<kds::EventKind, 1> overtakes{{{"overtake"}}};  // ids: the nearest from now on
+  static constexpr std::array<kds::EventKind, 1> overtakes{{{"overtake"}}};  // ids: the new nearest bead
 
   [[nodiscard]] std::size_t place_count() const override { return others_.size(); }
   [[nodiscard]] Farther certificate(std::size_t place) const override {
@@ -56,7 +56,7 @@ class Nearest final : public kds::GuardedStructure<Farther> {
   }
 
   kds::BeadId nearest_ = 1;
-  std::vector<kds::BeadId> others_;  // all beads but the nearest and bead 0
+  std::vector<kds::BeadId> others_;  // all beads except bead 0 and the nearest one
 };
 
 class NearestInRun final : public kds::RunningStructure {

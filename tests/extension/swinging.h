@@ -1,5 +1,5 @@
 #pragma once
-// A motion of someone else: beads on parabolas about where they rest, of degree 2.
+// A user-defined motion of degree 2: beads move on parabolas about their rest positions.
 
 #include <cstddef>
 #include <vector>
@@ -24,7 +24,7 @@ class Swinging {
   [[nodiscard]] const double* radii(kds::BeadId bead) const { return control_[bead].radius; }
   [[nodiscard]] double radius(kds::BeadId bead, int k) const { return control_[bead].radius[k]; }
 
-  /// It goes from `rest` along `swing` and comes back.
+  /// Makes the bead move from `rest` along `swing` and back.
   void set(kds::BeadId bead, const double (&rest)[3], const double (&swing)[3]) {
     for (int k = 0; k <= degree; ++k)
       for (int axis = 0; axis < dimension; ++axis)

@@ -1,5 +1,5 @@
 #pragma once
-// A reader of someone else: a file of numbers, a line a bead and a blank line between frames.
+// A user-defined reader for a file of numbers: one line per bead and a blank line between frames.
 
 #include <fstream>
 #include <memory>

@@ -1,10 +1,10 @@
 #pragma once
-// How many cases property tests try, and from which seed:
+// Sets how many cases property tests try, and their seed:
 //
-//   KDS_PROPERTY_CASES   all parts of a test together
+//   KDS_PROPERTY_CASES   cases of all parts of a test together
 //   KDS_PROPERTY_SEED
 //
-// A part's cases follow from seed and part alone.
+// The cases of a part depend only on the seed and the part.
 
 #include <cstdint>
 #include <cstdlib>
@@ -36,7 +36,7 @@ inline Random property_random(unsigned part) {
   return Random(sequence);
 }
 
-/// A smaller polynomial with the same fault: coefficients left out, zeroed or halved while `is_faulty`.
+/// Shrinks a polynomial that has a fault: drops, zeroes or halves coefficients as long as `is_faulty` holds.
 template <class Predicate>
 Scaled shrunk(Scaled p, const Predicate& is_faulty) {
   int tries_left = 3000;

@@ -1,12 +1,12 @@
 #pragma once
-// How many rounds tests of random cases go.
+// Sets how many rounds tests of random cases run.
 
 #include <algorithm>
 
 namespace kds::test {
 
-/// All of them; a tenth, but at least so many, under the sanitizers, which are many times slower and look for
-/// faults of memory, not of geometry.
+/// Returns all rounds in normal builds. Returns a tenth, but at least the given minimum, under the
+/// sanitizers, which are much slower and look for memory faults rather than geometric faults.
 template <class Count>
 [[nodiscard]] constexpr Count rounds(Count all, [[maybe_unused]] Count least = 1) {
 #ifdef KDS_SANITIZED

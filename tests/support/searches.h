@@ -1,5 +1,6 @@
 #pragma once
-// One certificate over a motion at a time: each call makes the search that a structure would keep.
+// Searches single certificates over a motion. Each call constructs the search object that a structure would
+// keep.
 
 #include <algorithm>
 #include <array>
@@ -11,7 +12,7 @@
 
 namespace kds::test {
 
-/// Of these beads in their order, its unused places filled.
+/// Returns the identity with these beads in their order; unused places are filled.
 [[nodiscard]] inline Identity identity_with(std::uint32_t type, std::initializer_list<BeadId> beads) {
   Identity identity{type, {}};
   identity.beads.fill(no_bead);

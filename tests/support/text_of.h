@@ -1,12 +1,12 @@
 #pragma once
-// Messages of tests. (Sums of strings trip a false warning of g++ 12.)
+// Builds messages of tests. (String concatenation with + triggers a false warning of g++ 12.)
 
 #include <sstream>
 #include <string>
 
 namespace kds::test {
 
-/// The parts one after another, as they print.
+/// Prints the parts one after another.
 template <class... Parts>
 std::string text_of(const Parts&... parts) {
   std::ostringstream out;

@@ -1,4 +1,4 @@
-// A structure of one certificate: which of two beads on a line is ahead.
+// A structure with one certificate: which of two beads on a line is ahead.
 #include <cstdio>
 
 #include "certificates/types/precedes.h"

@@ -1,5 +1,5 @@
 #pragma once
-// What typed tests need of every certificate type: a random one over beads 0, 1, 2, ..., and its opposite.
+// Makes, for typed tests, a random certificate of any type over beads 0, 1, 2, ..., and its negation.
 
 #include <algorithm>
 #include <tuple>

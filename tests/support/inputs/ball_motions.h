@@ -1,5 +1,6 @@
 #pragma once
-// Motions of a basis of balls and one more ball, and who is inside by the definition.
+// Random motions of a basis of balls and one further ball, and a judge that decides from the definition
+// whether that ball is inside the basis' sphere.
 
 #include <cmath>
 #include <optional>
@@ -20,17 +21,17 @@ struct BallCase {
   using C = BallInSphere<Dimension, Size>;
 };
 
-/// Where the corners of a simplex around the origin are.
+/// The corners of a simplex around the origin.
 inline constexpr double corners[2][4][3] = {{{1, 0, 0}, {-0.5, 0.75, 0}, {-0.5, -0.75, 0}, {0, 0, 0}},
                                             {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
 
-/// What to make of random numbers: mostly around a good basis.
+/// Parameters that map random numbers to balls; most are placed around a good basis.
 struct BallShape {
   double noise = 0.3;
   double motion = 0.3;
   double largest_radius = 0.5;
-  double reach = 1.5;  // of the last ball
-  bool whole = false;  // multiples of 1/4: tangencies, coincidences
+  double reach = 1.5;  // distance factor of the last ball
+  bool whole = false;  // round to multiples of 1/4, which makes tangencies and coincidences
   bool changing = true;
 };
 
@@ -70,7 +71,7 @@ C certificate_at(const M& motion, const Dyadic& time, bool inside = true) {
   return certificate;
 }
 
-/// The judge's answer: 1, 0, -1; none if the basis is not proper then.
+/// Returns the judge's answer: 1, 0 or -1. Returns nothing if the basis is not proper at that time.
 template <class M>
 std::optional<int> judged_inside(const M& motion, const Dyadic& time) {
   std::vector<Ball> balls;

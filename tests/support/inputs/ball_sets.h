@@ -1,6 +1,6 @@
 #pragma once
-// Sets of balls that are hard on minimum enclosing spheres, and a check of their basis from the definition
-// over rationals, with nothing of structures/ but its numbers' names.
+// Sets of balls that are difficult inputs for minimum enclosing spheres, and a check of a basis from the
+// definition over rationals. The check uses nothing of structures/ except the type names of its numbers.
 
 #include <Eigen/Core>
 #include <array>
@@ -22,7 +22,7 @@ struct BallSet {
   std::vector<double> radii;
 };
 
-/// The `which`-th kind of set, of `beads` balls; in the plane the third coordinate is zero.
+/// Makes the `which`-th kind of set, with `beads` balls. In the plane the third coordinate is zero.
 inline BallSet hard_ball_set(std::mt19937& random, std::size_t which, Eigen::Index beads, bool equal,
                              bool flat) {
   const auto whole = [&random](unsigned range) { return static_cast<double>(random() % range); };
@@ -68,7 +68,7 @@ inline BallSet hard_ball_set(std::mt19937& random, std::size_t which, Eigen::Ind
     double radius = 0.25;
     if (!equal) {
       radius = random() % 3 == 0 ? 0.5 : which == 1 ? whole(3) : std::abs(real(random));
-      if (random() % 16 == 0) radius *= 8;  // holds others
+      if (random() % 16 == 0) radius *= 8;  // contains other balls
       if (random() % 8 == 0) radius = 0;
     }
     if (which == 9) radius *= scale;
@@ -80,8 +80,9 @@ inline BallSet hard_ball_set(std::mt19937& random, std::size_t which, Eigen::Ind
 }
 inline constexpr std::size_t hard_ball_sets = 12;
 
-/// Why the basis' sphere is not the smallest around balls first..last, or has a ball to spare; or nothing.
-/// `radius`: what it should be to 1e-12 of its size.
+/// Explains why the basis' sphere is not the smallest sphere around balls first..last, or why the basis has a
+/// superfluous ball. Returns nothing if the basis is correct. `radius` is compared with a relative tolerance
+/// of 1e-12.
 inline std::optional<std::string> not_smallest_ball(const BallSet& set, std::size_t first, std::size_t last,
                                                     const std::vector<std::size_t>& basis, double radius) {
   const auto ball = [&](std::size_t b) {

@@ -1,5 +1,5 @@
 #pragma once
-// Courses of beads that tests set, turn and carry on while time runs; and what every refused edit looks like.
+// Courses of beads that tests set, bend and continue while time runs, and a check that an edit was refused.
 
 #include <gmock/gmock.h>
 
@@ -11,15 +11,15 @@
 namespace kds::test {
 
 enum class Places {
-  generic,  ///< in [-2, 2], short enough for sums without rounding
-  grid      ///< whole, of few values: many ties
+  generic,  ///< in [-2, 2], with few enough bits that sums are exact
+  grid      ///< whole numbers from a small range: many ties
 };
 
 inline double draw_place(Random& random, Places places) {
   return places == Places::grid ? pick(random, -2, 2) : 0x1p-16 * pick(random, -(1 << 17), 1 << 17);
 }
 
-/// Turns the bead's linear course at u, where it stays as it is.
+/// Bends the bead's linear course at u: the position at u stays, the end of the course changes.
 template <class M>
 void bend(M& motion, BeadId b, double u, Random& random) {
   for (int axis = 0; axis < M::dimension; ++axis) {
@@ -29,7 +29,8 @@ void bend(M& motion, BeadId b, double u, Random& random) {
   }
 }
 
-/// Of the next step: each bead on the course that `set(bead)` gives it, but from where it has come to.
+/// Loads the next step: each bead gets the course that `set(bead)` sets, moved to start at the bead's present
+/// position.
 template <class M, class Set>
 void carry_on(M& motion, Set set) {
   for (BeadId b = 0; b < motion.bead_count(); ++b) {

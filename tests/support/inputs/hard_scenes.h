@@ -1,5 +1,5 @@
 #pragma once
-// Small scenes that ask much of exact arithmetic.
+// Small scenes that are difficult for exact arithmetic.
 
 #include <cmath>
 #include <cstdint>
@@ -12,16 +12,16 @@
 
 namespace kds::test {
 
-/// A number like 7.25 or -3.5, times a power of ten.
+/// Returns a number such as 7.25 or -3.5, times a power of ten.
 inline double decimal(Random& random, int exponent) {
   const double mantissa = std::uniform_real_distribution<double>(-9.99, 9.99)(random);
   return std::strtod((std::to_string(mantissa) + "e" + std::to_string(exponent)).c_str(), nullptr);
 }
 
-/// 4 to 8 points in the plane or in space, with weights or without, of degree 1 to 10, whose control points
-/// are anywhere between 10^-300 and 10^300; in some, most numbers are of one of three sizes, a quarter of
-/// them zero, or only one is large. Every fifth coordinate is at rest, its degree 0 but for how it is
-/// written.
+/// Makes 4 to 8 points in the plane or in space, with or without weights, of degree 1 to 10.
+/// Control points range from 10^-300 to 10^300. In some scenes most numbers have one of three sizes and a
+/// quarter of the numbers are zero; in others only one number is large. Every fifth coordinate is at rest:
+/// its true degree is 0, although it is written with the full degree.
 inline Instance wild_instance(std::uint64_t seed) {
   Random random(seed);
   Instance instance;
@@ -60,8 +60,8 @@ inline Instance wild_instance(std::uint64_t seed) {
   return instance;
 }
 
-/// 5 to 16 balls of a few radii in 2 to 4 frames, whose coordinates are -1, 0 and 1, or a little more: many
-/// coincide, hold each other, rest, and change places at the same time.
+/// A scene of 5 to 16 balls with a few different radii in 2 to 4 frames. Coordinates are -1, 0 and 1, or
+/// slightly larger. Many balls coincide, contain each other, rest, or change places at the same time.
 struct LatticeScene {
   Trajectory necklace;
   std::vector<double> radii;

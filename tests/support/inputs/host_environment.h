@@ -11,7 +11,7 @@ namespace kds::test {
 struct HostEnvironment {
   const char* name;
   int rounding;
-  unsigned flushing;  ///< bits of the control register
+  unsigned flushing;  ///< flush bits of the control register
 };
 
 inline constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;

@@ -1,5 +1,5 @@
 #pragma once
-// Random scenes full of ties: beads with whole coordinates that meet, cross a face or an edge of the hull
+// Random scenes full of ties. Beads have whole coordinates; they meet, cross a face or an edge of the hull
 // together, or all pass through one point, line or plane at the same time.
 
 #include <algorithm>
@@ -12,25 +12,25 @@
 namespace kds::test {
 
 enum class LatticeScene {
-  random,     ///< all control points are lattice points
-  crossing,   ///< beads of a resting simplex, and others that all pass through one lattice point of it at the
-              ///< same time
+  random,    ///< all control points are lattice points
+  crossing,  ///< the beads of a simplex rest, and all other beads pass through one of its lattice points at
+             ///< the same time
   collapse,   ///< all beads pass through a point, line or plane at u = 1/2
-  from_flat,  ///< all beads start in a point, line or plane
-  into_flat,  ///< all beads end there
-  winding,    ///< near scenes in which beads that pass through the hull together wind it around twice
+  from_flat,  ///< all beads start in one point, line or plane
+  into_flat,  ///< all beads end in one point, line or plane
+  winding,    ///< variations of scenes in which beads cross the hull together so that it winds around twice
 };
 inline constexpr int lattice_scene_kinds = 6;
 
 namespace detail {
 
-/// Whole numbers in [low, high].
+/// Returns a random whole number in [low, high].
 inline int whole_number(std::mt19937& random, int low, int high) {
   return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
 }
 
-/// Scenes in which local convexity holds while the hull winds around twice: start and end of each coordinate,
-/// and the weight.
+/// Scenes in which every facet is locally convex although the hull winds around twice. A bead has the start
+/// and end of each coordinate, and a weight.
 struct WindingBead {
   std::array<int, 3> from, to;
   int weight;
@@ -54,8 +54,8 @@ inline constexpr std::array<std::array<WindingBead, 6>, 1> winding_in_plane{{{{{
                                                                                {{8, 16, 0}, {8, 16, 0}, 0},
                                                                                {{0, 8, 0}, {10, 8, 0}, 4}}}}};
 
-/// The control values of (2u-1)^Degree, u^Degree or (1-u)^Degree: zero in the middle, at the start or at the
-/// end.
+/// Returns the control values of (2u-1)^Degree, u^Degree or (1-u)^Degree, which vanish in the middle, at the
+/// start or at the end.
 template <int Degree>
 std::array<int, Degree + 1> vanishing(LatticeScene kind) {
   std::array<int, Degree + 1> values{};
@@ -71,8 +71,8 @@ std::array<int, Degree + 1> vanishing(LatticeScene kind) {
 
 }  // namespace detail
 
-/// One of the scenes above with its beads in another order, perhaps others among them, some coordinates
-/// changed, sheared, and brought to the degree.
+/// Varies one of the scenes above: permutes the beads, may add beads, changes some coordinates, applies a
+/// shear, and raises the degree.
 template <int Dimension, int Degree>
 BezierMotion<Dimension, Degree> winding_scene(std::mt19937& random) {
   using detail::whole_number;
@@ -99,7 +99,7 @@ BezierMotion<Dimension, Degree> winding_scene(std::mt19937& random) {
   const int shear = Dimension == 3 ? whole_number(random, -1, 1) : 0;
   std::shuffle(beads.begin(), beads.end(), random);
   BezierMotion<Dimension, Degree> motion(beads.size());
-  constexpr int scale = 6;  // thirds and halves stay whole
+  constexpr int scale = 6;  // with this factor thirds and halves are whole
   for (BeadId b = 0; b < beads.size(); ++b) {
     auto& bead = beads[b];
     bead.from[axis] += shear * bead.from[other];
@@ -115,14 +115,15 @@ BezierMotion<Dimension, Degree> winding_scene(std::mt19937& random) {
   return motion;
 }
 
-/// One step of at least Dimension + 1 beads. Half of the scenes have weights, a quarter weights that move.
+/// Makes one step of at least Dimension + 1 beads. Half of the scenes have weights; in a quarter the weights
+/// change in time.
 template <int Dimension, int Degree>
 BezierMotion<Dimension, Degree> lattice_scene(std::mt19937& random, LatticeScene kind) {
   using detail::whole_number;
   if (kind == LatticeScene::winding) return winding_scene<Dimension, Degree>(random);
   const int beads = whole_number(random, Dimension + 1, Dimension + 7);
   const int range = whole_number(random, 1, 4);
-  const int flat_axes = whole_number(random, 1, Dimension);  // in which all beads meet
+  const int flat_axes = whole_number(random, 1, Dimension);  // axes along which all beads meet
   const auto value_at = detail::vanishing<Degree>(kind);
   BezierMotion<Dimension, Degree> motion(static_cast<std::size_t>(beads));
   std::array<int, Dimension> meeting{};

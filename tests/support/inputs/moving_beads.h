@@ -1,5 +1,6 @@
 #pragma once
-// Motions for tests of structures, and what it takes to run a structure on them and look at it on the way.
+// Motions for tests of structures, and helpers that run a structure on a motion and inspect it during the
+// run.
 
 #include <Eigen/Core>
 #include <array>
@@ -25,7 +26,7 @@ inline std::filesystem::path data(const std::string& name) {
   return std::filesystem::path(KDS_DATA_DIR) / name;
 }
 
-/// One linear step. Beads of one weight: which, is all the same.
+/// Makes one linear step. All beads have the same weight; its value does not change any result.
 inline Space moving(const Points& from, const Points& to, double weight = 0) {
   Space motion(from.size());
   for (BeadId b = 0; b < from.size(); ++b) {
@@ -38,14 +39,15 @@ inline Space moving(const Points& from, const Points& to, double weight = 0) {
   return motion;
 }
 
-/// The steps between frames.
+/// Makes the steps between consecutive frames.
 inline std::vector<Space> through(const std::vector<Points>& frames) {
   std::vector<Space> steps;
   for (std::size_t k = 0; k + 1 < frames.size(); ++k) steps.push_back(moving(frames[k], frames[k + 1]));
   return steps;
 }
 
-/// Steps of frames [first, last] of a trajectory, strided, all its atoms.
+/// Makes the steps between frames [first, last] of a trajectory, taking every `stride`-th frame, with all
+/// atoms.
 inline std::vector<Space> trajectory_steps(const std::string& name, std::size_t first, std::size_t last,
                                            std::size_t stride = 1) {
   ReadOptions options;
@@ -57,7 +59,7 @@ inline std::vector<Space> trajectory_steps(const std::string& name, std::size_t 
   return steps;
 }
 
-/// The one step of an instance file in data/kinetic.
+/// Reads the only step of an instance file in data/kinetic.
 template <Motion M>
 M instance_motion(const std::string& name) {
   const Scene scene(read_instance(data("kinetic/" + name + ".txt")));
@@ -66,7 +68,7 @@ M instance_motion(const std::string& name) {
   return motion;
 }
 
-/// Whole coordinates in [0, range): the smaller the range, the more ties.
+/// Makes random points with whole coordinates in [0, range). A smaller range gives more ties.
 inline Points random_grid_points(std::mt19937& random, std::size_t beads, int range) {
   Points points(beads);
   for (auto& point : points) {
@@ -75,7 +77,7 @@ inline Points random_grid_points(std::mt19937& random, std::size_t beads, int ra
   return points;
 }
 
-/// Everything that was recorded.
+/// Records every event.
 struct History final : EventListener {
   std::vector<Event> events;
   void on_event(const Event& event) override { events.push_back(event); }
@@ -88,7 +90,7 @@ struct History final : EventListener {
   }
 };
 
-/// A structure that only looks at the others whenever they are audited.
+/// A structure that makes no changes: it inspects the other structures at each audit.
 class Witness final : public KineticStructure {
  public:
   using Look = std::function<std::optional<std::string>(const Dyadic&)>;
@@ -107,7 +109,7 @@ class Witness final : public KineticStructure {
   Look look_;
 };
 
-/// A structure on its own simulator.
+/// A structure with its own simulator.
 template <class Structure, Motion M>
 class Rig {
  public:
@@ -131,7 +133,7 @@ class Rig {
     motion = next;
     simulator.run_step();
   }
-  /// The same changes from another run's history, without certificates.
+  /// Replays the changes of another run's history without certificates.
   void replay(const std::vector<M>& steps, const History& log) {
     motion = steps.front();
     simulator.build_for_replay();
@@ -157,7 +159,7 @@ class Rig {
   Structure structure;
 };
 
-/// created = never failing + cancelled + failed.
+/// Checks that created = never failing + cancelled + failed.
 inline bool books_balance(const StructureStatistics& statistics) {
   const CertificateCounts& c = statistics.certificates;
   return c.created == c.never_failing + c.cancelled + c.failed + c.touched && c.alive == 0;

@@ -1,5 +1,6 @@
 #pragma once
-// A holder of failures whose functions are polynomials made by hand: what the engine sees of a certificate.
+// A failure source with handwritten polynomials as functions, which shows the engine what it sees of
+// certificates.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,17 +13,17 @@
 
 namespace kds::test {
 
-/// p - q u: falls through zero at p/q.
+/// p - q u: becomes negative at p/q.
 inline Scaled falling(std::int64_t p, std::int64_t q) { return {Integer(p), Integer(p - q)}; }
 
-/// 1 - k u^2: falls through zero at sqrt(1/k).
+/// 1 - k u^2: becomes negative at sqrt(1/k).
 inline Scaled falling_at_root_of_one_over(std::int64_t k) { return {1, 2, Integer(1 - k)}; }
 
 inline Identity named(BeadId bead, std::uint32_t type = 0) {
   return identity_of({type, {}}, std::array{bead});
 }
 
-/// Entries by slot; nothing happens when one fails.
+/// Holds entries by slot. A failure has no effect.
 class PolynomialSource : public FailureSource {
  public:
   struct Entry {
@@ -38,7 +39,7 @@ class PolynomialSource : public FailureSource {
     return static_cast<std::uint32_t>(entries_.size() - 1);
   }
 
-  /// The first failure of an entry after the start of the step, as the exact stage finds it.
+  /// Returns the first failure of an entry after the start of the step, as the exact stage finds it.
   [[nodiscard]] FailureTime first_time(std::uint32_t slot) const {
     StageCounts stages;
     return exact_first_failure(*exact_function(slot), Instant(0), stages).time;

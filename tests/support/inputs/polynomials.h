@@ -1,5 +1,6 @@
 #pragma once
-// Random polynomials in scaled Bernstein form with whole coefficients, made to be hard to isolate.
+// Random polynomials in scaled Bernstein form with whole coefficients, constructed so that their roots are
+// hard to isolate.
 
 #include <cstdint>
 #include <span>
@@ -22,7 +23,7 @@ inline Scaled product(const Scaled& a, const Scaled& b) {
   return c;
 }
 
-/// q u - p, with the root p/q.
+/// q u - p, which has the root p/q.
 inline Scaled linear(const Integer& p, const Integer& q) { return {Integer(-p), Integer(q - p)}; }
 
 /// a u^2 + b u + c.
@@ -30,7 +31,7 @@ inline Scaled quadratic(const Integer& a, const Integer& b, const Integer& c) {
   return {c, Integer(b + 2 * c), Integer(a + b + c)};
 }
 
-/// A linear factor whose root is special more often than not.
+/// Returns a random linear factor; more than half of its roots are special values.
 inline Scaled random_linear(Random& random) {
   switch (pick(random, 0, 7)) {
     case 0:
@@ -39,19 +40,19 @@ inline Scaled random_linear(Random& random) {
       return linear(1, 1);
     case 2:
       return linear(1, 2);
-    case 3: {  // few bits
+    case 3: {  // a root with few bits
       const int bits = pick(random, 1, 6);
       return linear(pick(random, 0, 1 << bits), Integer(1) << bits);
     }
-    case 4: {  // a double's worth of bits, at times more
+    case 4: {  // a root with the bits of a double, or more
       const auto bits = static_cast<unsigned>(pick(random, 10, 70));
       return linear((Integer(random()) << 6) >> (70 - bits), Integer(1) << bits);
     }
-    case 5: {  // no dyadic number
+    case 5: {  // a root that is not dyadic
       const int q = 2 * pick(random, 1, 20) + 1;
       return linear(pick(random, -q, 2 * q), q);
     }
-    case 6:  // outside
+    case 6:  // a root outside of the step
       return linear(pick(random, -30, 30), pick(random, 1, 9));
     default: {
       const int q = pick(random, 2, 1000);
@@ -60,17 +61,17 @@ inline Scaled random_linear(Random& random) {
   }
 }
 
-/// A quadratic factor: irrational roots, two of them 2^-30 or 2^-60 apart, or none.
+/// Returns a quadratic factor with two irrational roots that are 2^-30 or 2^-60 apart, or without real roots.
 inline Scaled random_quadratic(Random& random) {
   switch (pick(random, 0, 3)) {
-    case 0: {  // (q u - p)^2 q' - 2^-shift : close irrational roots about p/q
+    case 0: {  // (q u - p)^2 q' - 2^-shift : close irrational roots near p/q
       const Integer q = pick(random, 2, 50);
       const Integer p = pick(random, 0, static_cast<int>(q.get_si()));
       const unsigned shift = random() % 2 ? 60 : 120;
       const Integer s = Integer(1) << shift;
       return quadratic(q * q * s, -2 * p * q * s, p * p * s - pick(random, 1, 3));
     }
-    case 1: {  // the same without a real root
+    case 1: {  // as above, but without a real root
       const Integer q = pick(random, 2, 50);
       const Integer p = pick(random, 0, static_cast<int>(q.get_si()));
       const Integer s = Integer(1) << static_cast<unsigned>(pick(random, 0, 100));
@@ -83,7 +84,8 @@ inline Scaled random_quadratic(Random& random) {
   }
 }
 
-/// Two rational roots 2^-60 apart, or a rational one that close to a dyadic one.
+/// Returns a polynomial with two rational roots 2^-60 apart, or a rational root that close to a dyadic
+/// number.
 inline Scaled close_pair(Random& random) {
   const Integer s = Integer(1) << 60;
   const Integer q = pick(random, 1, 12);
@@ -101,21 +103,22 @@ inline Scaled random_coefficients(Random& random, int degree, unsigned bits) {
   return p;
 }
 
-/// Roots 1/(n+1), ..., n/(n+1).
+/// Returns Wilkinson's polynomial with the roots 1/(n+1), ..., n/(n+1).
 inline Scaled wilkinson(int n) {
   Scaled p{1};
   for (int i = 1; i <= n; ++i) p = product(p, linear(i, n + 1));
   return p;
 }
 
-/// Degree at most 18; `factors` of two polynomials in common are what makes times equal.
+/// Returns a random polynomial of degree at most 18. Two polynomials often have factors in common, which
+/// makes equal failure times.
 inline Scaled random_polynomial(Random& random) {
   Scaled p{Integer(random() % 2 ? 1 : -1)};
   const auto degree_left = [&] { return 19 - static_cast<int>(p.size()); };
   switch (pick(random, 0, 11)) {
     case 0:
       return random_coefficients(random, pick(random, 1, 18), static_cast<unsigned>(pick(random, 1, 300)));
-    case 1:  // many small coefficients, zeros among them
+    case 1:  // many small coefficients, some of them zero
       return random_coefficients(random, pick(random, 1, 18), 1);
     case 2:
       return Scaled(static_cast<std::size_t>(pick(random, 1, 8)), 0);
@@ -140,14 +143,16 @@ inline Scaled random_polynomial(Random& random) {
     p = product(p,
                 random_coefficients(random, pick(random, 1, 3), static_cast<unsigned>(pick(random, 1, 60))));
   }
-  while (degree_left() > 0 && random() % 4 == 0) p = product(p, {1, 1});  // the same, of a higher degree
+  while (degree_left() > 0 && random() % 4 == 0)
+    p = product(p, {1, 1});  // raises the degree without changing the polynomial
   if (random() % 8 == 0) {
     for (Integer& x : p) x <<= 1100;
   }
   return p;
 }
 
-/// u^n - 2 (a u - 1)^2, scaled: two irrational roots about 1/a, the closer the larger a and n (Mignotte).
+/// u^n - 2 (a u - 1)^2, scaled (Mignotte's polynomial): two irrational roots near 1/a, which are closer for
+/// larger a and n.
 inline Scaled mignotte(int n, int a) {
   Scaled p = product(linear(1, a), linear(1, a));
   while (static_cast<int>(p.size()) <= n) p = product(p, {1, 1});
@@ -156,7 +161,7 @@ inline Scaled mignotte(int n, int a) {
   return p;
 }
 
-/// Mostly of degree 6 or less: hard ones that a judge is quickly done with.
+/// Returns a hard polynomial, mostly of degree 6 or less, that a judge decides quickly.
 inline Scaled small_polynomial(Random& random) {
   Scaled p{Integer(random() % 2 ? 1 : -1)};
   switch (pick(random, 0, 6)) {
@@ -177,11 +182,11 @@ inline Scaled small_polynomial(Random& random) {
     for (int power = random() % 3 == 0 ? pick(random, 2, 3) : 1; power > 0 && p.size() <= 6; --power)
       p = product(p, factor);
   }
-  if (random() % 4 == 0) p = product(p, {1, 1});  // the same, of a higher degree
+  if (random() % 4 == 0) p = product(p, {1, 1});  // raises the degree without changing the polynomial
   return p;
 }
 
-/// A polynomial that shares a factor with p.
+/// Returns a polynomial that has a factor in common with p.
 inline Scaled relative_of(const Scaled& p, Random& random) {
   Scaled q = p;
   if (random() % 2) {
@@ -191,7 +196,7 @@ inline Scaled relative_of(const Scaled& p, Random& random) {
   return q;
 }
 
-/// Two polynomials with a common root, the second with another one 2^-60 away or less.
+/// Returns two polynomials with a common root. The second has a further root at most 2^-60 away.
 inline std::pair<Scaled, Scaled> close_relatives(Random& random) {
   const Integer s = Integer(1) << 60;
   const Integer q = pick(random, 2, 50);

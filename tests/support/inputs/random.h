@@ -1,5 +1,5 @@
 #pragma once
-// Numbers drawn at random, the same on every machine for one seed of one standard library.
+// Random numbers. One seed gives the same numbers on every machine with the same standard library.
 
 #include <random>
 
@@ -17,7 +17,7 @@ inline double uniform(Random& random, double low = -1, double high = 1) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-/// A dyadic in [0,1], often a special one.
+/// Returns a random dyadic number in [0, 1], often a special one.
 inline Dyadic random_dyadic(Random& random) {
   switch (pick(random, 0, 4)) {
     case 0:

@@ -1,5 +1,5 @@
 #pragma once
-// Random motions of a few beads, most of them degenerate in one way or another.
+// Random motions of a few beads, most of which are degenerate in some way.
 
 #include <array>
 #include <cmath>
@@ -14,16 +14,16 @@ namespace kds::test {
 
 enum class MotionKind {
   generic,
-  grid,         ///< small whole coordinates: coplanar, cospherical, coincident beads, simultaneous events
-  coincident,   ///< every other bead a copy
-  collinear,    ///< all on one moving line
-  planar,       ///< all in one moving plane
-  cospherical,  ///< all on the unit sphere of small rationals at the start
+  grid,         ///< small whole coordinates: coplanar, cospherical and coincident beads, simultaneous events
+  coincident,   ///< every second bead is a copy
+  collinear,    ///< all beads are on one moving line
+  planar,       ///< all beads are in one moving plane
+  cospherical,  ///< all beads start on the unit sphere, with small rational coordinates
   at_rest,
-  ulp_steps,    ///< moves by a last place or two
-  tiny_steps,   ///< moves by subnormal numbers
-  far_away,     ///< about (2^40, 2^40, 2^40)
-  mixed_scales  ///< exponents all over
+  ulp_steps,    ///< beads move by a unit or two in the last place
+  tiny_steps,   ///< beads move by subnormal numbers
+  far_away,     ///< all beads are near (2^40, 2^40, 2^40)
+  mixed_scales  ///< numbers with very different exponents
 };
 inline constexpr std::array all_motion_kinds{
     MotionKind::generic,    MotionKind::grid,        MotionKind::coincident,  MotionKind::collinear,
@@ -79,7 +79,7 @@ M random_motion(Random& random, std::size_t beads, MotionKind kind) {
         for (int axis = 0; axis < M::dimension; ++axis)
           motion.set_coordinate(b, k, axis, motion.coordinate(b - 1, k, axis));
       }
-      if (kind == MotionKind::collinear && b >= 2) {  // whole multiples of a difference: exact
+      if (kind == MotionKind::collinear && b >= 2) {  // whole multiples of a difference are exact
         const double share = pick(random, -2, 3);
         for (int axis = 0; axis < M::dimension; ++axis) {
           const double from = motion.coordinate(0, k, axis);
@@ -93,9 +93,9 @@ M random_motion(Random& random, std::size_t beads, MotionKind kind) {
   return motion;
 }
 
-/// Balls of unequal radii in space, the first the least, whose smallest sphere, of radius 1, touches the
-/// first four at the start. Their centres are nearly in one plane, no farther from it than `height`. They
-/// move up to `pace`.
+/// Makes balls of unequal radii in space, the first with the smallest radius. At the start their smallest
+/// enclosing sphere has radius 1 and touches the first four balls. The centres are within `height` of one
+/// plane. Centres move by up to `pace`.
 template <Motion M>
 M nearly_flat_basis(Random& random, std::size_t beads, double height, double pace) {
   static_assert(M::dimension == 3);
@@ -119,7 +119,7 @@ M nearly_flat_basis(Random& random, std::size_t beads, double height, double pac
   return motion;
 }
 
-/// Coordinates and radii times 2^exponent, weights times its square.
+/// Multiplies coordinates and radii by 2^exponent, and weights by its square.
 template <Motion M>
 void scale(M& motion, int exponent) {
   for (BeadId b = 0; b < motion.bead_count(); ++b) {

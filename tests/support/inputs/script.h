@@ -1,5 +1,5 @@
 #pragma once
-// A structure without any geometry, to try the simulator on.
+// A structure without geometry, for tests of the simulator.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace kds::test {
 
 using Log = std::vector<std::string>;
 
-/// Plays a script, and writes down what it is asked.
+/// Plays a script and records every call that it receives.
 class Script final : public KineticStructure, public FailureSource {
  public:
   Script(Simulator& simulator, Log& log, std::string name)
@@ -25,13 +25,13 @@ class Script final : public KineticStructure, public FailureSource {
     simulator.add_table(*this, {0, "a polynomial"});
   }
 
-  /// From now on: `note` fails where `function` does first, with what it then does.
+  /// Schedules an entry from now on: at the first failure of `function`, records `note` and runs the action.
   QueueHandle schedule(const std::string& note, Scaled function, BeadId bead,
                        std::function<void()> action = {}) {
     const auto slot = static_cast<std::uint32_t>(entries_.size());
     entries_.push_back({note, std::move(function), bead, std::move(action), false});
     StageCounts stages;
-    // The first root at or after now: the script knows what it does.
+    // Takes the first root at or after now; the script is responsible for its functions.
     const Failure failure = exact_first_failure(*exact_function(slot), Instant(0), stages);
     return entries_[slot].handle = simulator_.schedule(failure.time, *this, slot);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The closest pair of balls by looking at all pairs, distances as whole numbers of many bits.
+// Finds the closest pair of balls by brute force over all pairs, with distances as integers of many bits.
 
 #include <Eigen/Core>
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace kds::test {
 
-/// |a - b| - r - s, rounded down to a multiple of 2^-500. Two such distances are equal or more than 2^-400
-/// apart where all numbers are below 2^10 in size and multiples of 2^-70: their difference times its three
-/// conjugates is a multiple of 2^-280.
+/// Returns |a - b| - r - s, rounded down to a multiple of 2^-500. The numbers are below 2^10 in size and
+/// multiples of 2^-70. Two such distances are then equal or more than 2^-400 apart: their difference times
+/// its three conjugates is a multiple of 2^-280.
 inline Integer gap_in_units(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s) {
   Rational square = 0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -33,12 +33,13 @@ inline int compare_gap_units(const Integer& a, const Integer& b) {
 }
 
 struct ClosestByForce {
-  std::pair<BeadId, BeadId> beads;  ///< of equally close pairs the first
+  std::pair<BeadId, BeadId> beads;  ///< the first of equally close pairs
   Integer gap;
 };
 
-/// Among the pairs that are no neighbours; none if there are none. Of numbers below 2^10 in size, so that
-/// doubles are off by less than 2^-30 by far: what is farther by more is passed over.
+/// Returns the closest pair among the pairs that are not neighbours, or nothing if there is no such pair.
+/// Numbers must be below 2^10 in size. The error of a distance in double is then far below 2^-30, so pairs
+/// that are farther by more than that are skipped.
 template <class AreNeighbors>
 std::optional<ClosestByForce> closest_by_force(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
                                                AreNeighbors are_neighbors) {

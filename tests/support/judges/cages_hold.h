@@ -1,6 +1,7 @@
 #pragma once
-// Whether spheres that move along Bezier curves hold the balls of their nodes at a time: from the definition,
-// over rationals, power by power. Uses nothing of structures/ but the tree and the spheres themselves.
+// Checks whether spheres that move along Bezier curves contain the balls of their nodes at a given time. The
+// check follows the definition over rationals in the power basis, and uses nothing of structures/ except the
+// tree and the spheres.
 
 #include <cmath>
 #include <optional>
@@ -14,7 +15,7 @@
 
 namespace kds::test {
 
-/// The sum of the Bernstein polynomials at u times these numbers.
+/// Evaluates the Bernstein polynomial with these control numbers at u.
 inline Rational bernstein_sum(const std::vector<double>& control_numbers, const Rational& u) {
   const int degree = static_cast<int>(control_numbers.size()) - 1;
   Rational sum = 0;
@@ -26,7 +27,7 @@ inline Rational bernstein_sum(const std::vector<double>& control_numbers, const 
   return sum;
 }
 
-/// A ball of a motion at a time.
+/// Returns a ball of a motion at a time.
 template <int D>
 struct BallAt {
   std::array<Rational, D> center;
@@ -45,7 +46,7 @@ BallAt<D> ball_of(const M& motion, BeadId bead, const Rational& u) {
   return ball;
 }
 
-/// A sphere of these control spheres at a time.
+/// Returns the sphere with these control spheres at a time.
 template <int D>
 BallAt<D> sphere_of(const std::vector<Cage<D>>& controls, const Rational& u) {
   BallAt<D> sphere;
@@ -69,8 +70,8 @@ bool holds(const BallAt<D>& sphere, const BallAt<D>& ball) {
   return room >= 0 && square <= room * room;
 }
 
-/// What sticks out of a node's sphere of these control spheres at a time u of the motion, which is `of_cage`
-/// of the sphere.
+/// Reports each ball that is not contained in a node's sphere at time u of the motion, which is time
+/// `of_cage` of the spheres' curve.
 template <int D, class M>
 std::optional<std::string> sticks_out(const M& motion, const BeadRange& range,
                                       const std::vector<Cage<D>>& controls, const Rational& u,

@@ -23,7 +23,8 @@ ExactSphere cgal_smallest_sphere(std::span<const ExactPoint> points, BeadId firs
     spheres.emplace_back(Geometry::Point_3(number(p[0]), number(p[1]), number(p[2])), Number(0));
   }
   CGAL::Min_sphere_of_spheres_d<Traits> smallest(spheres.begin(), spheres.end());
-  // Its numbers are a + b sqrt(d). Of points the centre is rational and the radius is one of a and b sqrt(d).
+  // CGAL's numbers here have the form a + b sqrt(d). The centre of points is rational, and their radius is
+  // either a or b sqrt(d).
   const Number d = smallest.discriminant();
   ExactSphere sphere;
   auto coordinate = smallest.center_cartesian_begin();

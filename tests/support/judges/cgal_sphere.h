@@ -1,6 +1,6 @@
 #pragma once
-// CGAL's smallest enclosing sphere over rational numbers. With exact numbers it takes the LP algorithm: the
-// default in double, farthest first, is wrong on cospherical points.
+// CGAL's smallest enclosing sphere over rational numbers. Exact numbers allow CGAL's LP algorithm; the
+// default algorithm for double, farthest first, is wrong on cospherical points.
 
 #include <span>
 

@@ -1,5 +1,6 @@
 #pragma once
-// CGAL's regular triangulation over rational numbers: no filter, no interval, no rounding mode.
+// CGAL's regular triangulation over rational numbers, which needs no filter, interval arithmetic or rounding
+// mode.
 
 #include <array>
 #include <span>
@@ -10,7 +11,7 @@
 namespace kds::test {
 
 struct CgalCells {
-  std::vector<std::array<BeadId, 4>> cells;  ///< finite, beads ascending, sorted
+  std::vector<std::array<BeadId, 4>> cells;  ///< finite cells, sorted; the beads of each ascend
   std::size_t visible = 0;
   bool valid = false;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Which balls are within a distance of each other, by looking at all pairs over rationals.
+// Finds the balls within a distance of each other by brute force over all pairs, in rationals.
 
 #include <Eigen/Core>
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace kds::test {
 
-/// The pairs for which |a - b| <= r + s + distance.
+/// Returns the pairs for which |a - b| <= r + s + distance.
 inline std::vector<BeadPair> pairs_over_rationals(const Eigen::Matrix3Xd& centers,
                                                   std::span<const double> radii, const PairsAsked& asked,
                                                   double distance = 0) {

@@ -1,6 +1,7 @@
 #pragma once
-// What happens between two balls, found out for the pair alone: its polynomial in rationals, all its roots by
-// Sturm sequences, in every step of a run. Nothing of it comes from certificates/ or structures/contacts.
+// Judges the contact events of each pair of balls alone: the pair's polynomial over rationals, and all of its
+// roots by Sturm sequences, in every step of a run. The judge uses nothing of certificates/ or
+// structures/contacts.
 
 #include <cstddef>
 #include <map>
@@ -28,11 +29,11 @@ struct PairHistory {
   std::vector<PairEvent> events;
 };
 
-/// |c_j - c_i|^2 - (r_i + r_j)^2 in powers of u, times a positive number.
+/// Returns a positive multiple of |c_j - c_i|^2 - (r_i + r_j)^2 in powers of u.
 template <Motion M>
 sturm::Polynomial contact_polynomial(const M& motion, const BeadPair& pair) {
   constexpr int degree = M::degree;
-  const auto powers_of = [&](auto control) {  // of a Bezier curve
+  const auto powers_of = [&](auto control) {  // powers of a Bezier curve
     std::vector<Rational> powers(degree + 1);
     for (int k = 0; k <= degree; ++k) {
       Rational binomial = 1;
@@ -75,7 +76,7 @@ PairHistory judged_history(const std::vector<M>& steps, const BeadPair& pair) {
   bool in_contact = false;
   for (std::size_t step = 0; step < steps.size(); ++step) {
     const sturm::Polynomial f = contact_polynomial(steps[step], pair);
-    // With a root at the start, for what happens there.
+    // The factor u adds a root at the start, so that events at the start are found.
     const auto at_start = std::make_shared<const sturm::Sequence>(sturm::Polynomial{0, 1});
     const auto happens_at_start = [&](std::uint8_t kind) {
       history.events.push_back({step, kind, at_start, {0, 0}});
@@ -107,7 +108,8 @@ PairHistory judged_history(const std::vector<M>& steps, const BeadPair& pair) {
   return history;
 }
 
-/// Whether the bracket, strictly, or the number that it is, holds the root.
+/// Returns whether the root lies strictly inside of the bracket, or equals it if the bracket is a single
+/// number.
 inline bool is_in_bracket(const PairEvent& event, double lower, double upper) {
   const Rational low(lower), high(upper);
   sturm::Root root = event.root;
@@ -123,8 +125,8 @@ inline bool is_in_bracket(const PairEvent& event, double lower, double upper) {
   }
 }
 
-/// What is wrong with a run's history, or nothing: each pair asked about has its events, in their order, at
-/// their times, and no others.
+/// Explains what is wrong with a run's history; returns nothing if each pair in question has exactly its
+/// events, in order and at the right times.
 template <Motion M>
 std::optional<std::string> contact_history_fault(const std::vector<M>& steps, const PairsAsked& asked,
                                                  const History& history,

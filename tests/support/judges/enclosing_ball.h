@@ -1,7 +1,7 @@
 #pragma once
-// The sphere that touches some balls from outside, at one time, from its definition over rationals: the
-// centre solved for by elimination, the one square root enclosed as closely as asked for. Nothing of it comes
-// from certificates/.
+// Computes the sphere that encloses and touches some balls at one time, from its definition over rationals.
+// Elimination gives the centre, and the only square root is enclosed to any requested precision. The judge
+// uses nothing of certificates/.
 
 #include <optional>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace kds::test {
 
-/// A number known to lie in [lower, upper].
+/// A number known to lie in the interval [lower, upper].
 struct Enclosed {
   Rational lower, upper;
 
@@ -19,7 +19,7 @@ struct Enclosed {
   Enclosed(const Rational& exact) : lower(exact), upper(exact) {}
   Enclosed(Rational low, Rational high) : lower(std::move(low)), upper(std::move(high)) {}
 
-  /// 1, -1, or 0: zero or not known.
+  /// 1 or -1; 0 means zero or undecided.
   [[nodiscard]] int sign() const { return lower > 0 ? 1 : upper < 0 ? -1 : 0; }
 
   friend Enclosed operator+(const Enclosed& a, const Enclosed& b) {
@@ -34,7 +34,7 @@ struct Enclosed {
   }
 };
 
-/// A square root to `bits` places relative to its size; exact where it is rational.
+/// Encloses a square root to `bits` relative bits. The result is exact if the root is rational.
 inline Enclosed square_root(const Rational& x, unsigned bits) {
   const Integer n = numerator(x);
   const Integer d = denominator(x);
@@ -56,18 +56,18 @@ Ball ball_at(const M& motion, BeadId bead, const Dyadic& time) {
   return {point_at(motion, bead, time), exact_radius(motion, bead, time)};
 }
 
-/// The smallest sphere that touches all balls of a basis from outside, seen from the first.
+/// The smallest sphere that encloses and touches all balls of a basis, relative to the first ball.
 struct TouchingSphere {
-  std::array<Enclosed, 3> center;  ///< minus the first ball's
-  Enclosed radius;                 ///< minus the first ball's
+  std::array<Enclosed, 3> center;  ///< minus the first ball's centre
+  Enclosed radius;                 ///< minus the first ball's radius
   std::vector<Enclosed> shares;    ///< barycentric coordinates of the centre
 
-  /// The centre lies in the interior of the hull of centres: it is the smallest enclosing sphere, and no ball
-  /// is to spare.
+  /// Returns whether the centre lies in the interior of the convex hull of the centres. In that case the
+  /// sphere is the smallest enclosing sphere and no ball of the basis is superfluous.
   [[nodiscard]] bool is_proper() const {
     return std::all_of(shares.begin(), shares.end(), [](const Enclosed& x) { return x.sign() > 0; });
   }
-  /// 1 inside, 0 inside and touching (or not known), -1 not inside.
+  /// Returns 1 for inside, 0 for inside and touching (or undecided), -1 for not inside.
   [[nodiscard]] int holds(const Ball& first, const Ball& ball) const {
     const Enclosed room = radius - Enclosed(ball.radius - first.radius);
     if (room.sign() < 0) return -1;
@@ -81,7 +81,7 @@ struct TouchingSphere {
   }
 };
 
-/// None if there is no such sphere or the centres are dependent.
+/// Returns nothing if no such sphere exists or the centres are affinely dependent.
 inline std::optional<TouchingSphere> touching_sphere(std::span<const Ball> basis, unsigned bits = 300) {
   const std::size_t m = basis.size() - 1;
   std::vector<RationalPoint> d(m);
@@ -96,7 +96,7 @@ inline std::optional<TouchingSphere> touching_sphere(std::span<const Ball> basis
   for (std::size_t i = 0; i < m; ++i) {
     for (std::size_t j = 0; j < m; ++j) gram[i][j] = dot(d[i], d[j]);
   }
-  // d_i . z = e_i + s_i rho: the centre is p + rho q, with barycentric coordinates y + rho w.
+  // Solves d_i . z = e_i + s_i rho: the centre is p + rho q, with barycentric coordinates y + rho w.
   const auto y = solve(gram, e);
   const auto w = solve(gram, s);
   if (!y || !w) return std::nullopt;
@@ -106,7 +106,7 @@ inline std::optional<TouchingSphere> touching_sphere(std::span<const Ball> basis
   const Rational b = dot(p, q);
   const Rational c = dot(p, p);
 
-  std::vector<Enclosed> roots;  // of a rho^2 + 2 b rho + c
+  std::vector<Enclosed> roots;  // roots of a rho^2 + 2 b rho + c
   if (a == 0) {
     if (b != 0) roots.emplace_back(Rational(-c / (2 * b)));
   } else {

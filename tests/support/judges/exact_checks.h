@@ -1,6 +1,6 @@
 #pragma once
-// What a triangulation and an enclosing sphere must satisfy, checked from exact positions by the definitions:
-// all beads against all cells. Uses nothing of certificates/ or structures/.
+// Checks triangulations and enclosing spheres by their definitions, from exact positions: all beads against
+// all cells. The checks use nothing of certificates/ or structures/.
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace kds::test {
 
-/// Coordinates and weight.
+/// Coordinates, followed by the weight.
 using ExactPoint = std::array<Rational, 4>;
 
 template <Motion M>
@@ -44,7 +44,7 @@ inline Integer det4(const Row& a, const Row& b, const Row& c, const Row& d) {
   return -a[3] * det3(b, c, d) + b[3] * det3(a, c, d) - c[3] * det3(a, b, d) + d[3] * det3(a, b, c);
 }
 
-/// Whole multiples: coordinates times the common denominator, weights times its square.
+/// Scales to whole numbers: coordinates times the common denominator, weights times its square.
 inline std::vector<Row> whole(std::span<const ExactPoint> points) {
   Integer common = 1;
   for (const ExactPoint& p : points) {
@@ -69,8 +69,9 @@ inline Row lifted(const Row& a, const Row& b) {
 
 }  // namespace detail
 
-/// Why these finite cells (beads ascending) are no regular triangulation of the points, or nothing. Any of
-/// several in degenerate position will do. Beads without a cell are right only where another has their place.
+/// Explains why these finite cells (the beads of each ascend) are not a regular triangulation of the points;
+/// returns nothing if they are. In degenerate position every regular triangulation is accepted. A bead may
+/// lack a cell only if another bead has the same position.
 inline std::optional<std::string> not_regular(std::span<const ExactPoint> points,
                                               std::span<const std::array<BeadId, 4>> cells) {
   const auto p = detail::whole(points);
@@ -129,10 +130,11 @@ inline std::optional<std::string> not_regular(std::span<const ExactPoint> points
 
 struct ExactSphere {
   std::array<Rational, 3> center;
-  Rational square;  ///< of the radius
+  Rational square;  ///< square of the radius
 };
 
-/// The smallest sphere through some points and each point's weight in its centre. None if they are dependent.
+/// Returns the smallest sphere through some points, and the barycentric coordinate of each point in its
+/// centre. Returns nothing if the points are affinely dependent.
 inline std::optional<std::pair<ExactSphere, std::vector<Rational>>> sphere_through(
     std::span<const ExactPoint> points, std::span<const BeadId> basis) {
   const std::size_t m = basis.size() - 1;
@@ -144,14 +146,15 @@ inline std::optional<std::pair<ExactSphere, std::vector<Rational>>> sphere_throu
   const auto dot = [](const auto& a, const auto& b) {
     return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
   };
-  // Gauss on G y = diag(G) / 2.
+  // Gaussian elimination on G y = diag(G) / 2.
   std::vector<std::vector<Rational>> g(m, std::vector<Rational>(m + 1));
   for (std::size_t i = 0; i < m; ++i) {
     for (std::size_t j = 0; j < m; ++j) g[i][j] = dot(d[i], d[j]);
     g[i][m] = dot(d[i], d[i]) / 2;
   }
   for (std::size_t k = 0; k < m; ++k) {
-    if (g[k][k] == 0) return std::nullopt;  // positive semidefinite: a zero pivot means dependent
+    if (g[k][k] == 0)
+      return std::nullopt;  // G is positive semidefinite, so a zero pivot means dependent points
     for (std::size_t i = 0; i < m; ++i) {
       if (i == k) continue;
       const Rational factor = g[i][k] / g[k][k];
@@ -171,8 +174,8 @@ inline std::optional<std::pair<ExactSphere, std::vector<Rational>>> sphere_throu
   return std::pair(sphere, weights);
 }
 
-/// Why the basis' sphere is not the smallest around beads first..last, or nothing. `strict`: no bead to
-/// spare.
+/// Explains why the basis' sphere is not the smallest sphere around beads first..last; returns nothing if it
+/// is. With `strict`, a superfluous bead in the basis is a fault too.
 inline std::optional<std::string> not_smallest_sphere(std::span<const ExactPoint> points, BeadId first,
                                                       BeadId last, std::span<const BeadId> basis,
                                                       bool strict) {

@@ -1,5 +1,6 @@
 #pragma once
-// Failures and signs of single certificates by integers alone, for tests of what claims to know them.
+// Computes failures and signs of single certificates with integers alone, for tests of faster ways to compute
+// them.
 
 #include "certificates/search/ball_in_sphere_search.h"
 #include "certificates/search/certificate_search.h"

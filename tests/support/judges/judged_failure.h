@@ -1,5 +1,5 @@
 #pragma once
-// What a failure ought to be, by Sturm sequences, and whether an answer is that.
+// Computes the expected failure by Sturm sequences, and checks whether an answer agrees.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 
 namespace kds::test {
 
-/// The present time as the judge sees it.
+/// The present time in the judge's representation.
 struct JudgedTime {
   std::shared_ptr<const sturm::Sequence> sequence;
   sturm::Root root;
@@ -47,10 +47,11 @@ inline JudgedFailure judged_failure(const ExactPolynomial& function, const Judge
   return {};
 }
 
-/// Whether the function turns negative at a failure time, as a certificate's own does, or only changes sign.
+/// How the function behaves at a failure time: it turns negative, as the certificate's own function does, or
+/// it only changes sign.
 enum class AtFailure { descends, changes };
 
-/// The answer says what it ought to, and what it says of its bracket holds.
+/// Checks that the answer is the expected one, and that its claims about its bracket hold.
 inline void expect_confirmed(const std::string& kernel, const Failure& answer,
                              const ExactPolynomial& function, const JudgedFailure& expected,
                              AtFailure at_failure = AtFailure::descends) {
@@ -87,7 +88,7 @@ inline void expect_confirmed(const std::string& kernel, const Failure& answer,
   }
 }
 
-/// Functions held by slot, for instants.
+/// Holds functions by slot, for instants.
 class Functions final : public CertificateSource {
  public:
   std::uint32_t add(ExactPolynomial function) {

@@ -1,5 +1,5 @@
 #pragma once
-// The slow obvious twin of EventQueue: an unordered list that is searched from end to end.
+// A slow and obvious reference for EventQueue: an unordered list with linear search.
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
-// Structures over moving points, judged at every instant at which they are audited by what exact positions
-// say, and by the runs of other kernels and replays. Nothing here is the library's but the numbers.
+// Runs structures over moving points. Each audit compares the structure with the exact positions, and runs
+// with other kernels and replays must agree. This file uses nothing of the library except its numbers.
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@
 
 namespace kds::test {
 
-using ExactPoints = std::vector<std::vector<Rational>>;  ///< of each bead its coordinates
+using ExactPoints = std::vector<std::vector<Rational>>;  ///< the coordinates of each bead
 
-/// Where the beads are, by de Casteljau's scheme.
+/// Computes the positions of the beads by de Casteljau's algorithm.
 template <Motion M>
 ExactPoints points_at(const M& motion, const Rational& u) {
   const int degree = degree_of(motion);
@@ -36,7 +36,7 @@ ExactPoints points_at(const M& motion, const Rational& u) {
   return points;
 }
 
-/// Steps of random motions, each from where the one before ends.
+/// Makes steps of random motions; each starts at the end of the step before it.
 template <Motion M>
 std::vector<M> random_steps(Random& random, std::size_t beads, MotionKind kind, std::size_t count) {
   std::vector<M> steps;
@@ -49,9 +49,9 @@ std::vector<M> random_steps(Random& random, std::size_t beads, MotionKind kind, 
   return steps;
 }
 
-/// Runs the steps with audits between all events, and asks `fault(structure, points)` at each audit and what
-/// `answer(structure)` is at the end. The other kernels and a replay must go the same way. Returns the
-/// history.
+/// Runs the steps with audits between all events. Calls `fault(structure, points)` at each audit and
+/// `answer(structure)` at the end. Runs with the other kernels and a replay must have the same history.
+/// Returns the history.
 template <class Structure, Motion M, class Fault, class Answer>
 History expect_right_at_all_times(const std::vector<M>& steps, Fault fault, Answer answer) {
   Rig<Structure, M> filtered(steps.front(), AuditMode::events);

@@ -1,7 +1,7 @@
 #pragma once
-// The slow obvious twin of certificates' functions with constants: polynomials with rational coefficients,
-// made of control points one by one. Nothing of it comes from certificates/ but the exact polynomial that
-// judges take.
+// A slow and obvious reference for the functions of certificates with constants: polynomials with rational
+// coefficients, computed from control points one by one. The file uses nothing of certificates/ except the
+// exact polynomial that judges take.
 
 #include <cstddef>
 #include <span>
@@ -13,10 +13,10 @@
 
 namespace kds::test {
 
-/// In scaled Bernstein form.
+/// Coefficients in scaled Bernstein form.
 using RationalCurve = std::vector<Rational>;
 
-/// With these control points, or this one all along.
+/// Makes the curve with these control points, or the constant curve if there is only one.
 inline RationalCurve rational_curve(std::span<const double> control_points, int degree) {
   RationalCurve curve;
   for (int k = 0; k <= degree; ++k)
@@ -37,7 +37,7 @@ inline RationalCurve product(const RationalCurve& a, const RationalCurve& b) {
     for (std::size_t j = 0; j < b.size(); ++j) c[i + j] += a[i] * b[j];
   return c;
 }
-/// Of any degrees.
+/// Adds two curves of any degrees.
 inline RationalCurve sum(RationalCurve a, RationalCurve b, int sign = 1) {
   const RationalCurve one{1, 1};  // u + (1-u)
   while (a.size() < b.size()) a = product(a, one);

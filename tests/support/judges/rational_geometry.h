@@ -1,5 +1,6 @@
 #pragma once
-// Points, determinants and linear systems over rationals, by elimination: what certificates are judged by.
+// Points, determinants and linear systems over rationals, solved by elimination. Tests judge certificates by
+// these.
 
 #include <array>
 #include <cstddef>
@@ -37,7 +38,7 @@ inline Rational determinant_of(Matrix m) {
   return result;
 }
 
-/// x with m x = b by Cramer's rule; none if m is singular.
+/// Solves m x = b by Cramer's rule; returns nothing if m is singular.
 inline std::optional<std::vector<Rational>> solve(const Matrix& m, const std::vector<Rational>& b) {
   const Rational whole = determinant_of(m);
   if (whole == 0) return std::nullopt;
@@ -57,8 +58,8 @@ inline RationalPoint minus(const RationalPoint& a, const RationalPoint& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-/// Barycentric coordinates of the centre of the smallest sphere through the points, in their affine hull;
-/// none if they are affinely dependent.
+/// Returns the barycentric coordinates of the centre of the smallest sphere through the points, in their
+/// affine hull. Returns nothing if the points are affinely dependent.
 inline std::optional<std::vector<Rational>> circumcenter(std::span<const RationalPoint> points) {
   // sum_i l_i = 1 and |c - p_0|^2 = |c - p_k|^2, that is 2 (p_k - p_0) . (c - p_0) = |p_k - p_0|^2
   const std::size_t n = points.size();
@@ -81,7 +82,7 @@ inline RationalPoint combination(std::span<const RationalPoint> points,
   return sum;
 }
 
-/// Sign of a certificate's function at a time, from the exact position then.
+/// Returns the sign of a certificate's function at a time, from the exact positions at that time.
 template <class Certificate, Motion M>
 int sign_at(const Certificate& certificate, const M& motion, const Dyadic& time) {
   const auto function = function_of(certificate, MomentView<M>(motion, certificate.beads, time));
@@ -98,7 +99,7 @@ RationalPoint point_at(const M& motion, BeadId bead, const Dyadic& time) {
   return point;
 }
 
-/// Beads at rest.
+/// Makes a motion of beads at rest.
 inline BezierMotion<3, 1> at_rest(std::span<const std::array<double, 3>> points,
                                   std::span<const double> weights = {}) {
   BezierMotion<3, 1> motion(points.size());

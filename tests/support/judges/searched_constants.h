@@ -1,6 +1,6 @@
 #pragma once
-// The search of a certificate type with constants beside its rational twin, by Sturm sequences: all along a
-// step, the certificate and at its failure the opposite one.
+// Compares the search of a certificate type with constants with its rational reference, which uses Sturm
+// sequences. The comparison covers a whole step, and at each failure the negated certificate.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 
 namespace kds::test {
 
-/// Numbers that constants are likely to be, times 2^exponent: one, or one each control point.
+/// Returns typical values of constants, times 2^exponent: one number, or one for each control point.
 inline std::vector<double> random_constant(Random& random, int degree, int exponent = 0) {
   const int kind = pick(random, 0, 5);
   const auto number = [&] {
@@ -35,12 +35,13 @@ inline std::vector<double> random_constant(Random& random, int degree, int expon
   return numbers;
 }
 
-/// Of the searches from the start.
+/// Counts over the searches from the start of the step.
 struct DecidedInDouble {
   int decided = 0, in_double = 0;
 };
 
-/// `positive`: the twin of the side that is not negated; `opposite(certificate)` changes its side.
+/// `positive` is the reference for the certificate that is not negated; `opposite(certificate)` negates a
+/// certificate.
 template <class Certificate, class Opposite>
 void expect_judged_all_along(const CertificateSearch<Certificate>& search, Certificate certificate,
                              const RationalCurve& positive, double start, Opposite opposite,
@@ -69,7 +70,8 @@ void expect_judged_all_along(const CertificateSearch<Certificate>& search, Certi
     }
     for (const double time : {0.0, 0.125, 0.7, 1.0})
       EXPECT_EQ(search.sign_at(certificate, Dyadic(time)), function.sign_at(Dyadic(time)));
-    if (testing::Test::HasFailure() || failure.kind <= Failure::Kind::zero) return;  // or never
+    if (testing::Test::HasFailure() || failure.kind <= Failure::Kind::zero)
+      return;  // the certificate never fails, or its function is zero
     if (failure.kind == Failure::Kind::later) {
       now = Instant(failure.time, functions, functions.add(function));
       judged_now = expected.time;

@@ -1,5 +1,5 @@
 #pragma once
-// The contacts of balls that stand still, found without the library's detectors.
+// Finds the contacts of balls at rest without the library's detectors.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -12,7 +12,8 @@
 
 namespace kds::test {
 
-/// The pairs asked about whose closed balls meet, ascending. Centres have three rows; finite. Exact.
+/// Returns, in ascending order, the pairs in question whose closed balls intersect. Centres are finite and
+/// have three rows. The result is exact.
 [[nodiscard]] inline std::vector<BeadPair> contacts_of(const Eigen::Matrix3Xd& centers,
                                                        std::span<const double> radii,
                                                        const PairsAsked& asked) {

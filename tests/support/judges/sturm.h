@@ -1,6 +1,6 @@
 #pragma once
-// An independent judge of roots: Sturm sequences of polynomials in the power basis, looked at in rational
-// places. Slow and obvious, and nothing of it comes from certificates/.
+// An independent judge of roots: Sturm sequences of polynomials in the power basis, evaluated at rational
+// numbers. The code is slow and obvious, and uses nothing of certificates/.
 
 #include <cstddef>
 #include <span>
@@ -12,11 +12,11 @@
 
 namespace kds::test::sturm {
 
-/// Coefficients of 1, x, x^2, ...; no leading zeros, empty is zero. Whole, as common denominators are no
-/// matter to roots and signs.
+/// Coefficients of 1, x, x^2, ..., without leading zeros. The empty polynomial is zero. Coefficients are
+/// whole, because a common denominator changes neither roots nor signs.
 using Polynomial = std::vector<Integer>;
 
-/// With the root x alone, rising.
+/// Returns an increasing polynomial whose only root is x.
 inline Polynomial with_root(const Rational& x) { return {Integer(-numerator(x)), denominator(x)}; }
 
 inline void trim(Polynomial& p) {
@@ -25,7 +25,7 @@ inline void trim(Polynomial& p) {
 
 inline int sign(const Integer& x) { return sgn(x); }
 
-/// sum_k scaled[k] u^k (1-u)^(n-k), multiplied out.
+/// Expands sum_k scaled[k] u^k (1-u)^(n-k).
 inline Polynomial from_scaled(std::span<const Integer> scaled) {
   Polynomial sum(scaled.size());
   for (std::size_t k = 0; k < scaled.size(); ++k) {
@@ -61,7 +61,8 @@ inline Polynomial derivative(const Polynomial& p) {
   return d;
 }
 
-/// Times a positive number: coefficients without a common divisor, so that remainders stay small.
+/// Multiplies by a positive number so that the coefficients have no common divisor, which keeps remainders
+/// small.
 inline void normalize(Polynomial& p) {
   trim(p);
   Integer content = 0;
@@ -72,7 +73,7 @@ inline void normalize(Polynomial& p) {
   for (Integer& x : p) x /= content;
 }
 
-/// The remainder times a positive number.
+/// Returns a positive multiple of the remainder.
 inline Polynomial remainder(Polynomial a, const Polynomial& b) {
   if (b.empty()) throw std::logic_error("sturm: division by zero");
   trim(a);
@@ -88,11 +89,11 @@ inline Polynomial remainder(Polynomial a, const Polynomial& b) {
   return a;
 }
 
-/// a / b times a positive number, where b divides a.
+/// Returns a positive multiple of a / b, where b divides a.
 inline Polynomial quotient(Polynomial a, Polynomial b) {
   if (b.empty()) throw std::logic_error("sturm: division by zero");
   normalize(a);
-  normalize(b);  // so that the quotient is whole, by Gauss's lemma
+  normalize(b);  // so that the quotient has whole coefficients, by Gauss's lemma
   Polynomial result(a.size() >= b.size() ? a.size() - b.size() + 1 : 0);
   for (std::size_t k = result.size(); k-- > 0;) {
     result[k] = a[k + b.size() - 1] / b.back();
@@ -121,7 +122,7 @@ inline Polynomial square_free(const Polynomial& p) {
   return result;
 }
 
-/// Counts distinct roots of a polynomial that is not zero.
+/// Counts the distinct roots of a nonzero polynomial.
 class Sequence {
  public:
   explicit Sequence(const Polynomial& p) {
@@ -139,15 +140,15 @@ class Sequence {
   [[nodiscard]] const Polynomial& square_free_part() const { return chain_[0]; }
   [[nodiscard]] bool is_root(const Rational& x) const { return sign_at(chain_[0], x) == 0; }
 
-  /// In (a, b].
+  /// Counts the roots in (a, b].
   [[nodiscard]] int roots_after(const Rational& a, const Rational& b) const {
     return a < b ? variations(a) - variations(b) : 0;
   }
-  /// In (a, b).
+  /// Counts the roots in (a, b).
   [[nodiscard]] int roots_between(const Rational& a, const Rational& b) const {
     return a < b ? roots_after(a, b) - int{is_root(b)} : 0;
   }
-  /// In [a, b].
+  /// Counts the roots in [a, b].
   [[nodiscard]] int roots_on(const Rational& a, const Rational& b) const {
     return roots_after(a, b) + int{is_root(a)};
   }
@@ -168,7 +169,7 @@ class Sequence {
   std::vector<Polynomial> chain_;
 };
 
-/// The one root of a polynomial in (lower, upper]; lower == upper is that number itself.
+/// The only root of a polynomial in (lower, upper]; if lower == upper, the root is that number.
 struct Root {
   Rational lower, upper;
 
@@ -189,7 +190,7 @@ inline void halve(const Sequence& sequence, Root& root) {
   }
 }
 
-/// The roots on [a, b], ascending, each once.
+/// Returns the distinct roots on [a, b] in ascending order.
 inline std::vector<Root> roots_on(const Sequence& sequence, const Rational& a, const Rational& b) {
   std::vector<Root> found;
   if (sequence.is_root(a)) found.push_back({a, a});
@@ -210,7 +211,7 @@ inline std::vector<Root> roots_on(const Sequence& sequence, const Rational& a, c
   return found;
 }
 
-/// Whether the root of `sequence` is one of f too.
+/// Returns whether the root of `sequence` is also a root of f.
 inline bool shares(const Sequence& sequence, const Root& root, const Polynomial& f) {
   if (f.empty()) return true;
   if (root.is_number()) return sign_at(f, root.upper) == 0;
@@ -219,7 +220,7 @@ inline bool shares(const Sequence& sequence, const Root& root, const Polynomial&
   return common.size() > 1 && Sequence(common).roots_after(root.lower, root.upper) == 1;
 }
 
-/// How often the root is one of f: 0 if it is none.
+/// Returns the multiplicity of the root in f, which is 0 if it is not a root of f.
 inline int multiplicity(const Sequence& sequence, const Root& root, Polynomial f) {
   int times = 0;
   while (!f.empty() && shares(sequence, root, f)) {
@@ -229,7 +230,7 @@ inline int multiplicity(const Sequence& sequence, const Root& root, Polynomial f
   return times;
 }
 
-/// -1, 0, 1.
+/// Compares two roots; returns -1, 0 or 1.
 inline int compare(const Sequence& a, Root x, const Sequence& b, Root y) {
   const auto apart = [&] {
     return x.is_number() && y.is_number() ? x.lower != y.lower
@@ -254,7 +255,7 @@ inline int compare(const Sequence& a, Root x, const Sequence& b, Root y) {
   return x.upper < y.upper || (x.upper == y.upper && x.lower < y.lower) ? -1 : 1;
 }
 
-/// Sign of f on (x, x + delta).
+/// Returns the sign of f on (x, x + delta).
 inline int sign_after(Polynomial f, const Rational& x) {
   while (!f.empty()) {
     if (const int s = sign_at(f, x)) return s;
@@ -263,7 +264,7 @@ inline int sign_after(Polynomial f, const Rational& x) {
   return 0;
 }
 
-/// Sign of f just after a root of `sequence`; `own` is f's.
+/// Returns the sign of f just after a root of `sequence`. `own` is the Sturm sequence of f.
 inline int sign_after(const Polynomial& f, const Sequence& own, const Sequence& sequence, Root root) {
   const int here = shares(sequence, root, f) ? 1 : 0;
   while (!root.is_number()) {

@@ -1,6 +1,6 @@
 #pragma once
-// Triangulations in space and random points for them: what every mirror of CGAL's triangulation must satisfy,
-// looked for cell by cell.
+// Triangulations in space, random points for them, and checks that every mirror of CGAL's triangulation must
+// pass, cell by cell.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ inline int place(const RegularTriangulation<3>& t, CellId cell, BeadId bead) {
   return static_cast<int>(std::find(v.begin(), v.end(), bead) - v.begin());
 }
 
-/// All cells, infinite ones too, beads ascending.
+/// Returns all cells, including infinite ones; the beads of each cell ascend.
 inline std::set<CellBeads<3>> all_cells(const RegularTriangulation<3>& triangulation) {
   std::set<CellBeads<3>> cells;
   for (const CellId cell : live_cells(triangulation))
@@ -58,7 +58,7 @@ inline int parity(CellBeads<3> from, const CellBeads<3>& to) {
   return sign;
 }
 
-/// What stands together around a bead, looked for in the mirror alone.
+/// Checks the cells around each bead, using the mirror alone.
 inline void check_around(const RegularTriangulation<3>& triangulation, std::size_t beads) {
   std::set<std::vector<BeadId>> faces;
   std::map<BeadId, CellId> some_cell;
@@ -87,7 +87,7 @@ inline void check_around(const RegularTriangulation<3>& triangulation, std::size
   }
 }
 
-/// The mirror by itself, and against what CGAL can be asked for.
+/// Checks the mirror itself, and compares it with CGAL's answers.
 inline void check_mirror(const RegularTriangulation<3>& triangulation, std::size_t beads) {
   check_around(triangulation, beads);
   const auto cells = triangulation.cells();
@@ -109,7 +109,7 @@ inline void check_mirror(const RegularTriangulation<3>& triangulation, std::size
       const int back = index_of(c.beyond[at(i)]);
       ASSERT_EQ(cells[n].beyond[at(back)], facet_id(cell, i));
       ASSERT_EQ(c.apex[at(i)], cells[n].vertex[at(back)]);
-      // The neighbour is this cell with one bead exchanged, and turns the other way for it.
+      // A neighbour is this cell with one bead exchanged, and the exchange reverses its orientation.
       CellBeads<3> exchanged = c.vertex;
       exchanged[at(i)] = cells[n].vertex[at(back)];
       ASSERT_NE(exchanged[at(i)], c.vertex[at(i)]);
@@ -123,7 +123,7 @@ inline void check_mirror(const RegularTriangulation<3>& triangulation, std::size
   }
   sort_cells(finite);
   ASSERT_EQ(finite, triangulation.finite_cells());
-  // Cells of each bead, and what follows for the facets whose two cells name it.
+  // Counts the cells at each bead, and the facets at each bead that follow from the two cells of each facet.
   std::vector<std::uint32_t> cells_at(beads, 0), facets_with(beads, 0);
   for (const CellId cell : live) {
     for (int i = 0; i < 4; ++i) {
