@@ -1,5 +1,4 @@
-// Computes the power diagram of five moving points. One point passes through the sphere of the other four, so
-// the diagram changes once.
+// The power diagram of five moving points changes once: one point enters the sphere of the other four.
 #include <cstdio>
 
 #include "kds/simulator.h"

@@ -54,7 +54,7 @@ class Owner final : public KineticStructure {
   CertificateTable<Precedes> table;
 };
 
-// Bead i stands at i; beads 10 + i move from 100 to -100 + i.
+// Bead i rests at i; bead 10 + i moves from 100 to -100 + i.
 Line sweeping() {
   Line motion(20);
   for (BeadId i = 0; i < 10; ++i) {
@@ -100,8 +100,8 @@ TEST_P(CertificateTableTest, ForgetsWhatNeverFails) {
   expect_sum();
 }
 
-// Doubles that contradict themselves come to an end: with `fast`, what is watched after so many certificates
-// of a step is taken to hold, until the next step.
+// Contradictory doubles must not loop forever: after a limit of certificates per step, the kernel `fast`
+// takes new certificates to hold until the next step.
 TEST_P(CertificateTableTest, FastLooksAtSoManyInAStep) {
   constexpr std::uint64_t beads = 20, most = 20'000 + 4'000 * beads + 4 * beads * beads;
   const auto watch_and_drop = [this] {
@@ -122,7 +122,7 @@ TEST_P(CertificateTableTest, KeepsNothingOfWhatIsViolatedAtBirth) {
   run([this] {
     EXPECT_EQ(owner.table.watch({{1, 0}}, 7), CertificateHandle::violated);
     EXPECT_EQ(counts().alive, 0U);
-    owner.table.drop(CertificateHandle::violated);  // nothing to give up
+    owner.table.drop(CertificateHandle::violated);  // there is no certificate to drop
     EXPECT_EQ(counts().alive, 0U);
   });
   EXPECT_EQ(counts().created, 1U);
@@ -202,7 +202,7 @@ TEST_P(CertificateTableTest, SlotsAreUsedAgain) {
   EXPECT_THAT(owner.failed, testing::ElementsAre(3, 2));
 }
 
-// The present event's function must stay known while it is present.
+// The function of the present event must stay available while that event is handled.
 TEST_P(CertificateTableTest, TheFailingSlotIsNotUsedAgainAtOnce) {
   std::vector<std::uint32_t> slots;
   run(
@@ -219,7 +219,7 @@ TEST_P(CertificateTableTest, TheFailingSlotIsNotUsedAgainAtOnce) {
         }
       });
   EXPECT_THAT(owner.failed, testing::ElementsAre(9, 8, 7, 6, 5));
-  // But after it: two slots do for all.
+  // The slot is reused after the event, so two slots are enough.
   EXPECT_EQ(*std::max_element(slots.begin(), slots.end()), 1U);
 }
 
@@ -273,7 +273,7 @@ TEST_P(CertificateTableTest, EveryStageIsCounted) {
             19U);
 }
 
-// A few at a time or all at once: the same guards in the same order.
+// Watching a few certificates at a time or all at once makes the same guards in the same order.
 TEST_P(CertificateTableTest, ManyAreAsOneByOne) {
   std::vector<std::pair<std::uint32_t, CertificateHandle>> expected, many;
   for (const bool a_few_at_a_time : {false, true}) {
@@ -301,7 +301,7 @@ TEST_P(CertificateTableTest, ManyAreAsOneByOne) {
   EXPECT_EQ(many, expected);
 }
 
-// Anything at random; only the books are checked.
+// Random operations; the test checks only the statistics.
 TEST_P(CertificateTableTest, TheBooksBalance) {
   std::mt19937 random(5);
   std::uint64_t peak = 0;
@@ -338,7 +338,7 @@ TEST_P(CertificateTableTest, TheBooksBalance) {
   expect_sum();
 }
 
-// Another type of the number that Precedes has.
+// Another certificate type with the same type number as Precedes.
 struct Follows {
   static constexpr CertificateType type{Precedes::type.number, "follows"};
   std::array<BeadId, 2> beads{};
@@ -351,7 +351,7 @@ struct Follows {
 
 template <>
 std::unique_ptr<CertificateSearch<certificate_table_test::Follows>> search_over(const MotionRef<1>&) {
-  return nullptr;  // nobody gets so far as to search
+  return nullptr;  // the constructor throws before any search
 }
 
 namespace certificate_table_test {
@@ -361,7 +361,8 @@ TEST(CertificateTables, OfTwoTypesOfOneNumberAreRefused) {
   const Line motion = sweeping();
   Simulator simulator;
   Owner owner(simulator, motion);
-  EXPECT_NO_THROW(CertificateTable<Precedes>(simulator, owner, 0, 7, MotionRef<1>(motion)));  // the same type
+  EXPECT_NO_THROW(
+      CertificateTable<Precedes>(simulator, owner, 0, 7, MotionRef<1>(motion)));  // the same type is allowed
   Simulator other;
   Owner another(other, motion);
   try {
@@ -373,7 +374,7 @@ TEST(CertificateTables, OfTwoTypesOfOneNumberAreRefused) {
   }
 }
 
-// Polynomial and radical certificates in one queue.
+// Polynomial and radical certificates share one queue.
 class BallOwner final : public KineticStructure {
  public:
   BallOwner(Simulator& simulator, const MotionRef<2>& motion)
@@ -386,7 +387,8 @@ class BallOwner final : public KineticStructure {
   }
   void build() override {}
   void start_step() override {
-    // The ball leaves the sphere at u = 1/3; its certificate comes before the contact's, and its type after.
+    // The ball leaves the sphere at u = 1/3. Its certificate is watched before the contact's, although its
+    // type comes later.
     EXPECT_TRUE(has_slot(inside.watch({{0, 1}, true}, 0)));
     EXPECT_TRUE(has_slot(contacts.watch(Contact({2, 3}, 1), 0)));
     EXPECT_EQ(contacts.watch(Contact({0, 2}, 1), 1), CertificateHandle::never);
@@ -422,7 +424,7 @@ void expect_balls_in_order(Kernel kernel, const std::vector<unsigned>& expected)
   set(0, 0, 0, 0, 1);
   set(1, 0, 1.5, 0, 0.5);
   set(2, 0, 0, 100, 1);
-  set(3, 4, -2, 100, 1);  // meets 2 at x = 2
+  set(3, 4, -2, 100, 1);  // meets bead 2 at x = 2
   Simulator simulator(AuditMode::none, kernel);
   BallOwner owner(simulator, motion);
   simulator.build();

@@ -17,7 +17,8 @@ using test::LinearQueue;
 
 struct Key {
   int value = 0;
-  std::unique_ptr<int> ballast = std::make_unique<int>(0);  // keys can only be moved, and a lost one shows
+  std::unique_ptr<int> ballast =
+      std::make_unique<int>(0);  // keys are move-only, and reading a lost key fails visibly
 };
 
 struct Order {
@@ -26,12 +27,13 @@ struct Order {
     ++comparisons;
     return a.value + *a.ballast < b.value + *b.ballast;
   }
-  // Bins as wide as 10 keys, bounds that overlap, and keys beyond both ends of what the queue expects.
+  // Bins are 10 keys wide, the bounds of keys overlap, and some keys lie beyond both ends of the range that
+  // the queue expects.
   static double earliest(const Key& key) { return (key.value - 7) / 10240.0; }
   static double latest(const Key& key) { return (key.value + 7) / 10240.0; }
 };
 
-// Both are to behave alike.
+// Both queues must behave alike.
 template <class Queue>
 class EventQueueTest : public testing::Test {
  protected:
@@ -78,7 +80,7 @@ TYPED_TEST(EventQueueTest, FindsEveryEntryByItsHandle) {
     held[this->push(value)] = value;
     for (const auto& [handle, expected] : held) ASSERT_EQ(this->queue.at(handle).value, expected);
   }
-  EXPECT_EQ(held.size(), 100U);  // no handle twice
+  EXPECT_EQ(held.size(), 100U);  // all handles differ
 }
 
 TYPED_TEST(EventQueueTest, ErasesAnyEntry) {
@@ -94,10 +96,10 @@ TYPED_TEST(EventQueueTest, ErasesAnyEntry) {
   }
 }
 
-// The entry that fills the hole comes from another branch: it may have to rise, not sink.
+// Erasing fills the hole with an entry from another branch, which may have to rise instead of sink.
 TYPED_TEST(EventQueueTest, ErasingLetsTheFillerRise) {
   std::vector<QueueHandle> handles;
-  // A 4-ary heap, level by level: all under 10 is large, and the last entry, 4, is far from there.
+  // A 4-ary heap, level by level: the keys below 10 are large, and the last entry, 4, is in a distant branch.
   for (const int value : {0, 10, 1, 2, 3, 20, 21, 22, 23, 30, 31, 32, 33, 40, 41, 42, 43, 50, 51, 52, 4})
     handles.push_back(this->push(value));
   this->queue.erase(handles[5]);
@@ -146,7 +148,8 @@ TYPED_TEST(EventQueueTest, KeepsEntriesOfEqualKeys) {
   EXPECT_TRUE(left.empty());
 }
 
-// As FailureOrder narrows brackets: keys change under the queue's hands, their order does not.
+// FailureOrder narrows brackets inside the queue in the same way: keys change in place, but their order
+// stays.
 TYPED_TEST(EventQueueTest, LetsKeysBeWrittenTo) {
   std::vector<QueueHandle> handles;
   for (int i = 0; i < 40; ++i) handles.push_back(this->push(10 * (11 * i % 40)));
@@ -157,7 +160,7 @@ TYPED_TEST(EventQueueTest, LetsKeysBeWrittenTo) {
 }
 
 TYPED_TEST(EventQueueTest, AgreesWithAMultimap) {
-  // The list is slow: fewer entries at a time.
+  // The linear list is slow, so it gets fewer entries at a time.
   constexpr bool linear = std::same_as<TypeParam, LinearQueue<Key, Order>>;
   std::mt19937 random(20240705);
   std::multimap<int, QueueHandle> reference;
@@ -200,13 +203,13 @@ TYPED_TEST(EventQueueTest, AgreesWithAMultimap) {
   }
 }
 
-// All in one bin: a heap, once it is brought.
+// All entries are in one bin, which becomes a heap once it is near.
 struct OneBin : Order {
   static double earliest(const Key&) { return 0.5; }
   static double latest(const Key&) { return 0.5; }
 };
 
-// The header's cost table.
+// Checks the cost table of the header.
 TEST(EventQueueCost, GrowsWithTheLogarithm) {
   OneBin order;
   EventQueue<Key, OneBin> queue(order);
@@ -217,7 +220,7 @@ TEST(EventQueueCost, GrowsWithTheLogarithm) {
     handles.push_back(queue.push([&](QueueHandle) { return Key{value}; }));
   };
   push();
-  ASSERT_GE(queue.top().value, 0);  // the bin is near from now on
+  ASSERT_GE(queue.top().value, 0);  // the bin is a heap from now on
   for (int i = 0; i < 4096; ++i) {
     const std::size_t before = order.comparisons;
     push();
@@ -226,7 +229,7 @@ TEST(EventQueueCost, GrowsWithTheLogarithm) {
   for (std::size_t i = 0; i < 4000; ++i) {
     const std::size_t before = order.comparisons;
     queue.erase(handles[i]);
-    ASSERT_LE(order.comparisons - before, 29U);  // a step of a filler that sinks compares four times
+    ASSERT_LE(order.comparisons - before, 29U);  // each step of an entry that sinks makes four comparisons
     const std::size_t unchanged = order.comparisons;
     ASSERT_GE(queue.top().value, 0);
     ASSERT_EQ(order.comparisons, unchanged);
@@ -258,7 +261,7 @@ struct Throwing : Order {
   }
 };
 
-// As an exact comparison may, for want of memory.
+// An exact comparison may throw if memory runs out.
 TEST(EventQueueErrors, ClearMendsWhatAnOrderThatThrewLeft) {
   Throwing order;
   EventQueue<Key, Throwing> queue(order);
@@ -281,7 +284,7 @@ struct Fetching : Order {
   void fetch(const Key& key, unsigned bins_ahead) { told[key.value].push_back(bins_ahead); }
 };
 
-// Each failure is announced bin by bin before its time, where there are many.
+// In a long queue each failure is announced when its bin is two bins, one bin and no bin ahead.
 TEST(EventQueueFetch, AnnouncesWhatComesNear) {
   Fetching order;
   EventQueue<Key, Fetching> queue(order);
@@ -289,7 +292,7 @@ TEST(EventQueueFetch, AnnouncesWhatComesNear) {
   std::size_t most_ahead = 0;
   for (int value = 0; value < 10000; ++value, queue.pop()) {
     ASSERT_EQ(queue.top().value, value);
-    if (value >= 100) {  // the first bins are near at once
+    if (value >= 100) {  // the first bins are near from the start
       ASSERT_EQ(order.told[value], (std::vector<unsigned>{2, 1, 0})) << value;
     }
     most_ahead = std::max(most_ahead, order.told.size() - static_cast<std::size_t>(value));

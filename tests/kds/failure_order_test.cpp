@@ -20,13 +20,13 @@ class FailureOrderTest : public testing::Test {
   }
   ScheduledFailure exactly(std::uint32_t slot) { return {source.first_time(slot), 0, slot, &source}; }
 
-  /// a before b, whichever is asked first, and b not before a.
+  /// Checks that a comes before b and that b does not come before a, whichever question is asked first.
   void expect_before(ScheduledFailure a, ScheduledFailure b) {
     EXPECT_TRUE(order.before(a, b));
     EXPECT_FALSE(order.before(b, a));
     EXPECT_TRUE(order.before(a, b));
   }
-  /// The same time.
+  /// Checks that the times are equal.
   void expect_tie(ScheduledFailure a, ScheduledFailure b) {
     EXPECT_EQ(order.compare_times(a, b), 0);
     EXPECT_EQ(order.compare_times(b, a), 0);
@@ -75,7 +75,8 @@ TEST_F(FailureOrderTest, NarrowingKeepsTheTimeInTheBracket) {
   ScheduledFailure fa = at(0.1, 0.9, a);
   ScheduledFailure fb = at(0.2, 0.8, b);
   EXPECT_TRUE(order.before(fa, fb));
-  EXPECT_LE(fa.time.upper, fb.time.lower);  // they need no exact work any more
+  EXPECT_LE(fa.time.upper,
+            fb.time.lower);  // the brackets are disjoint now, so comparisons need no exact work
   EXPECT_LT(Rational(fa.time.lower), fraction(2, 5));
   EXPECT_GT(Rational(fa.time.upper), fraction(2, 5));
   EXPECT_LT(Rational(fb.time.lower), fraction(3, 7));
@@ -87,7 +88,7 @@ TEST_F(FailureOrderTest, NarrowingKeepsTheTimeInTheBracket) {
 }
 
 TEST_F(FailureOrderTest, ABracketOfSeveralRootsIsNotNarrowed) {
-  // Roots 1/5, 2/5, 4/5; the failure at 4/5 is root number 2 of the whole step.
+  // The roots are 1/5, 2/5 and 4/5. The failure at 4/5 is root number 2 of the whole step.
   const auto a = source.add(product(product(falling(1, 5), falling(2, 5)), falling(4, 5)), named(1));
   const auto b = source.add(falling(5, 7), named(2));
   ScheduledFailure last{{0, 1, 2, false}, 0, a, &source};
@@ -100,7 +101,8 @@ TEST_F(FailureOrderTest, ABracketOfSeveralRootsIsNotNarrowed) {
     EXPECT_FALSE(order.before(other, first));
   }
   for (const ScheduledFailure& failure : {first, last}) {
-    EXPECT_EQ(failure.time.lower, 0);  // in a narrower one it would have another number
+    EXPECT_EQ(failure.time.lower,
+              0);  // the root's number belongs to this bracket, which must not be narrowed
     EXPECT_EQ(failure.time.upper, 1);
   }
 }
@@ -155,9 +157,9 @@ TEST_F(FailureOrderTest, TieNumbersSpareTheSecondComparison) {
   EXPECT_EQ(order.counts().exact, exact);
 }
 
-// A tie found in one place must not make equal what is tied elsewhere.
+// A tie at one time must not affect ties at other times.
 TEST_F(FailureOrderTest, TieNumbersOfDifferentTimesDiffer) {
-  // Brackets that are not narrowed, so that they overlap whatever is known.
+  // These brackets are not narrowed, so they overlap in every comparison.
   const auto wide = [&](const Scaled& function, BeadId bead) {
     return ScheduledFailure{{0.5, 0.9, 0, false}, 0, source.add(function, named(bead)), &source};
   };
@@ -184,16 +186,16 @@ TEST_F(FailureOrderTest, PointTimes) {
   expect_before(p, at(0.5, 0.5, also_half));
   expect_before(at(0.25, 0.25, quarter), p);
   expect_before(at(0.3, 0.4, third), p);
-  expect_before(at(0.3, 0.5, third), p);       // at the end of a bracket
-  expect_before(p, at(0.5, 0.75, near_half));  // which is no root
-  expect_before(at(0.3, 0.6, third), p);       // inside one
+  expect_before(at(0.3, 0.5, third), p);       // p is the upper end of the bracket
+  expect_before(p, at(0.5, 0.75, near_half));  // p is the lower end of the bracket, but not the root
+  expect_before(at(0.3, 0.6, third), p);       // p is inside of the bracket
   expect_before(p, at(0.3, 0.6, near_half));
-  expect_tie(p, at(0.3, 0.6, also_half));  // the root itself
+  expect_tie(p, at(0.3, 0.6, also_half));  // p is the root itself
   expect_before(p, at(0.3, 0.6, also_half));
 }
 
 TEST_F(FailureOrderTest, ADoubleRootElsewhereDoesNotDisturb) {
-  // (1 - 3u)^2 touches zero at 1/3, then the function falls at 1/2.
+  // (1 - 3u)^2 touches zero at 1/3; the function becomes negative at 1/2.
   const auto a = source.add(product(product(falling(1, 3), falling(1, 3)), falling(1, 2)), named(1));
   const auto b = source.add(falling(3, 7), named(2));
   ScheduledFailure fa = exactly(a);
@@ -202,8 +204,8 @@ TEST_F(FailureOrderTest, ADoubleRootElsewhereDoesNotDisturb) {
   expect_before(exactly(b), fa);
 }
 
-// Everything at once: roots from a small set, so that many are equal; brackets of all widths; some functions
-// shared. The reference is a sort by rational root, identity, place.
+// Random failures that combine all cases: roots from a small set, so that many are equal; brackets of all
+// widths; some shared functions. The reference sorts by rational root, identity and place.
 class RandomFailures : public testing::TestWithParam<unsigned> {
  protected:
   struct Wanted {
@@ -218,7 +220,7 @@ class RandomFailures : public testing::TestWithParam<unsigned> {
       const int q = 2 + below(6);
       const int p = 1 + below(q - 1);
       const Rational root(p, q);
-      // All other factors are positive on [0, root].
+      // The other factors are positive on [0, root].
       Scaled function = falling(p, q);
       std::vector<Rational> others;
       for (int extra = below(3); extra > 0; --extra) {
@@ -230,7 +232,7 @@ class RandomFailures : public testing::TestWithParam<unsigned> {
       const Identity identity = named(static_cast<BeadId>(below(1000)), static_cast<std::uint32_t>(below(3)));
       const auto slot = source.add(function, identity, i);
       FailureTime time = source.first_time(slot);
-      if (below(3) != 0) {  // a wider bracket, which holds no other root
+      if (below(3) != 0) {  // a wider bracket that contains no other root
         const double lower = time.lower - std::ldexp(time.lower, -1 - below(20));
         const double upper = time.upper + std::ldexp(1.0, -1 - below(20));
         const bool alone = std::none_of(others.begin(), others.end(), [&](const Rational& other) {
@@ -239,7 +241,7 @@ class RandomFailures : public testing::TestWithParam<unsigned> {
         if (alone && upper < 1) time = {lower, upper, 0, true};
       }
       failures.push_back({root, {time, 0, slot, &source}});
-      if (below(4) == 0)  // another holder of the same certificate
+      if (below(4) == 0)  // a second holder of the same certificate
         failures.push_back({root, {time, 0, source.add(function, identity, 100 + i), &source}});
     }
   }
@@ -274,7 +276,7 @@ TEST_P(RandomFailures, EveryPairComparesAsItsRootsDo) {
       ASSERT_EQ(order.compare_times(fresh_a, fresh_b), sign);
     }
   }
-  // Again with what was narrowed and tied on the way.
+  // Repeats the comparisons with the brackets that were narrowed and the ties that were found above.
   for (int round = 0; round < 2; ++round) {
     for (Wanted& a : failures) {
       for (Wanted& b : failures) {

@@ -75,7 +75,7 @@ TEST(Fingerprint, DiffersForManyShortHistories) {
   EXPECT_EQ(prints.size(), 10000U);
 }
 
-// On every machine the same. Changes only with the definition of the hash.
+// The hash is equal on all machines. This value changes only if the definition of the hash changes.
 TEST(Fingerprint, Golden) {
   EXPECT_EQ(Fingerprint().value(), 0xc3817c016ba4ff30ULL);
   EXPECT_EQ(fingerprint({{3, 1, {2, 5, {10, 20, 30, 40, 0xffffffffU}}}}), 0x96e1e86f59a4a322ULL);

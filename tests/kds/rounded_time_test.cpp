@@ -1,4 +1,4 @@
-// Times as they are printed: twelve digits, each of them right.
+// Tests printed times: twelve digits, correctly rounded.
 
 #include "kds/rounded_time.h"
 
@@ -22,7 +22,7 @@ using namespace test;
 
 constexpr FrameStamp step_begin{0, {}}, step_end{1, {}};
 
-/// The root of a function, known to lie in a bracket.
+/// The root of a function, with a bracket that contains it.
 class Root {
  public:
   Root(Scaled function, double lower, double upper)
@@ -47,7 +47,7 @@ Integer power_of_ten(unsigned long exponent) {
   return power;
 }
 
-/// (p/q) 10^-places, and away from that by 10^-more.
+/// A function with the root (p/q) 10^-places + sign 10^-more.
 Scaled near(std::int64_t p, unsigned long places, unsigned long more, int sign) {
   return linear(Integer(p) * power_of_ten(more - places) + Integer(sign), power_of_ten(more));
 }
@@ -55,7 +55,7 @@ Scaled near(std::int64_t p, unsigned long places, unsigned long more, int sign) 
 TEST(RoundedTime, IsNarrowedUntilTwelveDigitsAreCertain) {
   const Root root(falling_at_root_of_one_over(2), 0.5, 0.9);
   EXPECT_EQ(root.printed(), "0.707106781187");
-  EXPECT_EQ(root.now().lower(), 0.5);  // and is what it was
+  EXPECT_EQ(root.now().lower(), 0.5);  // printing does not change the bracket
   EXPECT_EQ(root.now().upper(), 0.9);
   EXPECT_EQ(rounded_time(root.now(), {1000, {}}, {1010, {}}).frame, 1007.07106781);
   EXPECT_FALSE(rounded_time(root.now(), {1000, {}}, {1010, {}}).picoseconds);
@@ -73,7 +73,8 @@ TEST(RoundedTime, ExactTimesAreRecognised) {
   EXPECT_EQ(Root(falling(1, 3), 0.25, 0.5).picoseconds(2, -1), 1.0);
 }
 
-// Half a unit of the last digit, which is no double: the even digit, as for doubles that are ties.
+// Half a unit of the last digit that no double represents: rounds to the even digit, as for doubles that are
+// ties.
 TEST(RoundedTime, TiesOfTheRoundingEnd) {
   EXPECT_EQ(Root(near(1234567890125, 13, 13, 0), 0.1, 0.2).printed(), "0.123456789012");
   EXPECT_EQ(Root(near(1234567890135, 13, 13, 0), 0.1, 0.2).printed(), "0.123456789014");
@@ -103,7 +104,7 @@ TEST(RoundedTime, ABracketAloneHasTheDigitsOfBothEnds) {
   EXPECT_EQ(frame(0.1, 0.2, 30), 30);
 }
 
-// The judge: on rational numbers, no more than half a unit of the twelfth digit away.
+// The judge uses rational numbers: the error is at most half a unit of the twelfth digit.
 TEST(RoundedTime, IsTheNearestNumberOfTwelveDigits) {
   Random random(34);
   for (int round = 0; round < rounds(2000); ++round) {

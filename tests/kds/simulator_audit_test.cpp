@@ -29,14 +29,14 @@ TEST_F(AuditedTest, LooksAtWhatWasDoneWhileTimeStoodStill) {
   simulator.leave_step();
   simulator.finish();
   EXPECT_THAT(log, ElementsAre("a settle", "a 1/2", "a finish", "a end"));
-  ASSERT_EQ(a.audits.size(), 3U);  // before the event, after it, at the end
+  ASSERT_EQ(a.audits.size(), 3U);  // before the event, after the event, at the end
   EXPECT_GT(a.audits[0], fraction(1, 4));
   EXPECT_LT(a.audits[0], fraction(1, 2));
 }
 
 class AuditedNowTest : public testing::Test {
  protected:
-  Simulator simulator;  // no audits unless they are asked for
+  Simulator simulator;  // audits are off by default
   Log log;
   Script a{simulator, log, "a"};
 };
@@ -86,7 +86,7 @@ TEST_F(AuditedTest, AuditsStrictlyBetweenAllEvents) {
   simulator.run_step();
   simulator.finish();
   const Rational soon = fraction(1, 2) + fraction(1, Integer(1) << 41);
-  ASSERT_EQ(a.audits.size(), 6U);  // the start, between 0, 1/3, 1/2, soon after and 1, the end
+  ASSERT_EQ(a.audits.size(), 6U);  // at the start, between 0, 1/3, 1/2, just after 1/2 and 1, and at the end
   const std::array<Rational, 5> ends{0, fraction(1, 3), fraction(1, 2), soon, 1};
   EXPECT_EQ(a.audits.front(), 0);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -141,7 +141,7 @@ TEST_F(AuditedTest, AStepWithoutEventsIsAuditedInside) {
   EXPECT_EQ(a.audits[0], 0);
   EXPECT_GT(a.audits[1], 0);
   EXPECT_LT(a.audits[1], 1);
-  EXPECT_EQ(a.audits[2], 1);  // which is the next step's start
+  EXPECT_EQ(a.audits[2], 1);  // u = 1 is also the start of the next step
   EXPECT_GT(a.audits[3], 0);
   EXPECT_LT(a.audits[3], 1);
   EXPECT_EQ(a.audits[4], 1);

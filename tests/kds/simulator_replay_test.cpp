@@ -74,7 +74,9 @@ TEST(SimulatorReplay, EqualsTheRun) {
   Log replay_log;
   Script replayed_a{replay, replay_log, "a"};
   Script replayed_b{replay, replay_log, "b"};
-  replayed_a.on_build = [&] { replayed_a.change(2, 99); };  // what building records is in the log as well
+  replayed_a.on_build = [&] {
+    replayed_a.change(2, 99);
+  };  // the log also contains the changes that structures make while they are built
   Listener replay_listener;
   replay.listen(replay_listener);
   replay.build_for_replay();

@@ -55,7 +55,7 @@ TEST_F(SimulatorTest, RunsTimeByTime) {
   log.clear();
   EXPECT_TRUE(simulator.run_next());
   EXPECT_THAT(log, ElementsAre("a 1/3"));
-  // A third is no double: its time is known exactly all the same, whatever becomes of the certificate.
+  // The time 1/3 is not a double. It stays known exactly, even after the certificate is dropped.
   EXPECT_EQ(a.retired, 1);
   ExactTime before(Dyadic(0.333)), after(Dyadic(0.334));
   EXPECT_LT(ExactTime::compare(before, simulator.now().exact()), 0);
@@ -66,7 +66,7 @@ TEST_F(SimulatorTest, RunsTimeByTime) {
   ExactTime half(Dyadic(0.5));
   EXPECT_EQ(ExactTime::compare(half, simulator.now().exact()), 0);
   EXPECT_FALSE(simulator.run_next());
-  EXPECT_EQ(ExactTime::compare(half, simulator.now().exact()), 0);  // time stays
+  EXPECT_EQ(ExactTime::compare(half, simulator.now().exact()), 0);  // the time does not change
   simulator.run_until(Dyadic(0.5));
   simulator.leave_step();
   EXPECT_THROW(simulator.require_standing_still(), std::invalid_argument);
@@ -84,7 +84,7 @@ TEST_F(SimulatorTest, EventsTellOfFramesAsTheyAreSet) {
   ASSERT_EQ(listener.heard.size(), 2U);
   EXPECT_EQ(listener.heard[0].event.frame(), 8.0);
   EXPECT_EQ(listener.heard[0].event.picoseconds(), 2.0);
-  EXPECT_EQ(listener.heard[1].event.frame(), 1.5);  // not said: steps
+  EXPECT_EQ(listener.heard[1].event.frame(), 1.5);  // the default unit of frames is steps
   EXPECT_EQ(listener.heard[1].event.picoseconds(), std::nullopt);
   EXPECT_EQ(listener.heard[1].event.kind.name, "turn");
 }
@@ -97,7 +97,7 @@ void nap() {
   }
 }
 
-/// Takes its time over each event.
+/// A listener that sleeps at each event.
 class Sleeper final : public EventListener {
  public:
   void on_event(const Event&) override {
@@ -107,7 +107,7 @@ class Sleeper final : public EventListener {
   int naps = 0;
 };
 
-// A moment counts for one of structures, engine and listeners.
+// Every moment is charged to exactly one of structures, engine and listeners.
 TEST_F(SimulatorTest, ListenersHaveTheirOwnSeconds) {
   Script b{simulator, log, "b"};
   Sleeper sleeper;
@@ -119,7 +119,7 @@ TEST_F(SimulatorTest, ListenersHaveTheirOwnSeconds) {
   b.on_start = [&] {
     b.schedule("1/3", falling(1, 3), 2, [&] {
       b.change(0, 2);
-      nap();  // after a listener, time counts for the structure again
+      nap();  // time counts for the structure again when the listener returns
       b.needs_after_batch = true;
     });
   };
@@ -134,7 +134,7 @@ TEST_F(SimulatorTest, ListenersHaveTheirOwnSeconds) {
   ASSERT_EQ(sleeper.naps, 4);
   EXPECT_GE(simulator.seconds_of_listeners(), sleeper.naps * Seconds(nap_time).count());
   EXPECT_GE(simulator.seconds_of(1), 2 * Seconds(nap_time).count());
-  // No moment counts twice.
+  // No moment is charged twice.
   EXPECT_LE(simulator.seconds() + simulator.seconds_of(0) + simulator.seconds_of(1) +
                 simulator.seconds_of_listeners(),
             passed);
@@ -178,7 +178,7 @@ TEST_F(SimulatorTest, AStepOfTooManyFailuresIsGivenUp) {
   EXPECT_THAT(log, ElementsAre("a build", "a start", "a 1/3", "a 1/2"));
   EXPECT_EQ(a.cleared, 1);
   EXPECT_EQ(simulator.step(), 1U);
-  // The next step is as any other.
+  // The next step runs as usual.
   log.clear();
   EXPECT_TRUE(simulator.try_step(3));
   simulator.finish();
@@ -236,7 +236,7 @@ TEST_F(SimulatorTest, SettlesAfterTheStartAndAfterTheLastEvent) {
   EXPECT_THAT(log, ElementsAre("a build", "a start", "a settle", "a 1/2", "a settle", "a finish", "a end"));
 }
 
-// The exact time of the present event is there for as long as structures settle.
+// The exact time of the present event stays available while structures settle.
 
 TEST_F(SimulatorTest, TheTimeDoesNotMoveBeforeAllIsSettled) {
   a.on_start = [&] { a.schedule("1/3", falling(1, 3), 1, [&] { a.needs_after_batch = true; }); };
@@ -315,7 +315,7 @@ TEST_F(SimulatorTest, StandsStillWithinAStep) {
   simulator.run_until(Dyadic(0.0));
   EXPECT_THAT(log, ElementsAre("a build", "a start"));
   log.clear();
-  simulator.run_until(Dyadic(0.25));  // what happens right then has happened, and is settled
+  simulator.run_until(Dyadic(0.25));  // events at exactly this time are handled and settled
   EXPECT_THAT(log, ElementsAre("a 1/4", "a settle"));
   EXPECT_EQ(simulator.now().exact().lower(), Dyadic(0.25));
   EXPECT_TRUE(simulator.now().exact().is_dyadic());
@@ -326,7 +326,7 @@ TEST_F(SimulatorTest, StandsStillWithinAStep) {
   EXPECT_GT(simulator.moment(), moment);
   EXPECT_THROW(simulator.run_until(Dyadic(0.25)), std::invalid_argument);
   EXPECT_THROW(simulator.run_until(Dyadic(1.0)), std::invalid_argument);
-  a.schedule("1/2", falling(1, 2), 4);  // from outside
+  a.schedule("1/2", falling(1, 2), 4);  // scheduled by the caller, not by a structure
   log.clear();
   simulator.run_until(Dyadic(0.625));
   EXPECT_THAT(log, ElementsAre("a 1/3", "a 1/2"));
@@ -336,8 +336,6 @@ TEST_F(SimulatorTest, StandsStillWithinAStep) {
   EXPECT_EQ(a.retired, 4);
   EXPECT_EQ(simulator.step(), 1U);
 }
-
-// What is needs_after_batch while time stands still is settled, and looked at, before it goes on.
 
 TEST_F(SimulatorTest, StepsFollowEachOther) {
   a.on_start = [&] {
@@ -368,7 +366,7 @@ TEST_F(SimulatorTest, CountsEventsByKindAndStep) {
   run(false);
   run(true);
   EXPECT_THAT(a.statistics.events_by_kind, ElementsAre(4, 2, 1));
-  EXPECT_THAT(a.statistics.events_per_step, ElementsAre(2, 2));  // external ones
+  EXPECT_THAT(a.statistics.events_per_step, ElementsAre(2, 2));  // external events only
   EXPECT_EQ(a.statistics.audits_run, 0U);
   EXPECT_THAT(a.audits, IsEmpty());
 }
@@ -404,7 +402,7 @@ TEST_F(SimulatorTest, ListenersHearEveryChange) {
   }
 }
 
-// What is asked for at the wrong time is refused by one message that says what to do.
+// A call at the wrong time is refused with one message that says what to do.
 template <class Exception, class Use>
 std::string refusal_of(Use use) {
   try {
@@ -427,7 +425,7 @@ TEST_F(SimulatorTest, NoStepWithoutBuilding) {
   expect_build_first(refusal_of<std::logic_error>([&] { simulator.replay_step({}); }));
   expect_build_first(refusal_of<std::logic_error>([&] { simulator.finish(); }));
   EXPECT_THAT(log, IsEmpty());
-  run();  // no harm was done
+  run();  // the refused calls had no effect
   EXPECT_THAT(log, ElementsAre("a build", "a start", "a finish", "a end"));
 }
 
@@ -483,7 +481,7 @@ TEST_F(SimulatorTest, TimeIsChargedToStructures) {
   const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
   EXPECT_GE(a.statistics.build_seconds, 0.003);
   EXPECT_GE(simulator.seconds_of(1), 0.006);
-  // Nothing is charged twice.
+  // No time is charged twice.
   EXPECT_LE(a.statistics.build_seconds + b.statistics.build_seconds + simulator.seconds_of(0) +
                 simulator.seconds_of(1) + simulator.seconds(),
             all.count());

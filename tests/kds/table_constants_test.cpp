@@ -1,4 +1,4 @@
-// Tables of certificates with constants in a run: the pairs within a cutoff of examples/new_structure.h.
+// Runs of certificate tables with constants, for the pairs within a cutoff of examples/new_structure.h.
 
 #include <gmock/gmock.h>
 
@@ -18,7 +18,7 @@ namespace {
 using test::MotionKind;
 using test::Random;
 
-/// The slow obvious twin: by rational distances at the end of the step.
+/// A slow and obvious reference: compares rational distances at the end of the step.
 template <Motion M>
 std::vector<std::array<BeadId, 2>> pairs_at_end(const M& motion, double cutoff) {
   std::vector<std::array<BeadId, 2>> pairs;
@@ -36,7 +36,8 @@ std::vector<std::array<BeadId, 2>> pairs_at_end(const M& motion, double cutoff) 
   return pairs;
 }
 
-/// Cutoffs at the step's control points, of frame after frame.
+/// Returns the cutoffs at the control points of the given step. Consecutive steps agree at their common
+/// frame.
 std::vector<double> cutoffs(int degree, int step) {
   std::vector<double> cutoff(static_cast<std::size_t>(degree) + 1, 1.25);
   cutoff.front() = step % 2 == 0 ? 0.5 : 2;
@@ -44,7 +45,7 @@ std::vector<double> cutoffs(int degree, int step) {
   return cutoff;
 }
 
-/// Steps that go on where the one before ended.
+/// Makes steps, each of which starts where the step before ends.
 template <Motion M>
 std::vector<M> steps_of(Random& random, std::size_t beads, MotionKind kind, int count) {
   std::vector<M> steps;
@@ -70,7 +71,7 @@ std::uint64_t fingerprint(Kernel kernel, const std::vector<M>& steps) {
     if (step == 0) simulator.build();
     simulator.run_step();
     if (kernel != Kernel::fast) {
-      // What is right at the cutoff at the end changes in the next step, if it does.
+      // A pair exactly at the cutoff at the end may change in the next step.
       auto expected = pairs_at_end(motion, cutoff.back());
       std::vector<std::array<BeadId, 2>> missing;
       const auto found = neighbors.pairs();
@@ -121,7 +122,7 @@ TEST(TableConstants, OneBeadHasNoPairs) {
   EXPECT_THAT(neighbors.pairs(), testing::IsEmpty());
 }
 
-/// Structures of one type with cutoffs of their own.
+/// Structures of one type with different cutoffs.
 TEST(TableConstants, OtherConstantsAreOtherFunctions) {
   BezierMotion<2, 1> motion(2);
   motion.set_coordinate(1, 0, 0, 4);
@@ -130,7 +131,7 @@ TEST(TableConstants, OtherConstantsAreOtherFunctions) {
       same(simulator, motion);
   wide.set_cutoff(3);
   narrow.set_cutoff(1);
-  nearly.set_cutoff(std::nextafter(1.0, 2));  // reached before, if only by a trifle
+  nearly.set_cutoff(std::nextafter(1.0, 2));  // reached slightly earlier
   same.set_cutoff(1);
   struct Listener final : EventListener {
     void on_event(const Event& event) override {
@@ -150,7 +151,7 @@ TEST(TableConstants, OtherConstantsAreOtherFunctions) {
   EXPECT_EQ(simulator.comparisons().ties, 1U);
 }
 
-/// A pair with many cutoffs, each in a table of its own; keeps the order in which they are reached.
+/// A pair with many cutoffs, each in its own table. Records the order in which the cutoffs are reached.
 class ManyCutoffs final : public KineticStructure {
  public:
   ManyCutoffs(Simulator& simulator, const MotionRef<2>& motion, std::size_t count)
@@ -192,7 +193,8 @@ TEST(TableConstants, ManyTablesOfOneStructureAreManyFunctions) {
   motion.set_coordinate(1, 0, 0, 4);
   Simulator simulator;
   ManyCutoffs cutoffs(simulator, motion, count);
-  // All within some last places: no double tells when they are reached. The last table's is reached first.
+  // The cutoffs differ only in their last bits, so doubles cannot decide the order of the failures. The last
+  // table fails first.
   double cutoff = 1;
   for (std::size_t t = 0; t < count; ++t) {
     cutoffs.set_cutoff(t, cutoff);
@@ -210,7 +212,7 @@ TEST(TableConstants, InTheMidstOfAStepTheyAreRefused) {
   motion.set_coordinate(1, 0, 0, 4);
   Simulator simulator;
   NeighborPairs<2> neighbors(simulator, motion);
-  EXPECT_THROW(simulator.build(), std::logic_error);  // there are none
+  EXPECT_THROW(simulator.build(), std::logic_error);  // no cutoff is set
   neighbors.set_cutoff(3);
   simulator.build();
   simulator.enter_step();

@@ -1,4 +1,4 @@
-// A certificate type of a user's own, of eight beads, which none of the framework's has: two cages of four
+// A user-defined certificate type of eight beads, more than any type of the framework: two cages of four
 // beads are apart along the first axis as long as their centroids are in order.
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ static_assert(CertificateFor<CagesInOrder, BezierMotion<2, 1>>);
 
 constexpr std::array<BeadId, 8> in_a_row{0, 1, 2, 3, 4, 5, 6, 7};
 
-/// Cages of width 2 whose centroids go from 0 to 6 and from 3 to 1: they meet where 6 u = 3 - 2 u.
+/// Makes cages of width 2 whose centroids move from 0 to 6 and from 3 to 1. They meet where 6 u = 3 - 2 u.
 template <class M>
 M crossing_cages(M motion, int degree) {
   for (BeadId b = 0; b < 8; ++b) {
