@@ -1,4 +1,4 @@
-// The bounds that float_frame.h claims, on rationals.
+// Checks the error bounds stated in float_frame.h over rationals.
 
 #include "structures/blocks/float_frame.h"
 
@@ -25,8 +25,9 @@ struct Pair {
   std::vector<double> radii;
 };
 
-/// Two balls that touch, or overlap by a rounding, at the edge of a scene that two others make wide: the
-/// floats are as coarse as they get, and both centres about half a float from one.
+/// Makes two balls that touch, or overlap by a rounding error, at the edge of a scene that two other balls
+/// make wide. The floats there have their largest spacing, and both centres lie about half a spacing from a
+/// float.
 Pair touching_pair(Random& random) {
   Pair pair{Eigen::Matrix3Xd(3, 4), {0, 0, 0, 0}};
   pair.centers.col(2).setConstant(-1);
@@ -39,7 +40,7 @@ Pair touching_pair(Random& random) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const double sign = direction[axis] < 0 ? -1 : 1;
     const double edge = std::round(uniform(random, 0.5, 0.99) * 0x1p24) * 0x1p-24;
-    // Rounded to floats, the two move apart by up to a float.
+    // Rounding to floats moves the two centres apart by up to one spacing of floats.
     pair.centers(axis, 0) = sign * (edge - half_float);
     pair.centers(axis, 1) = pair.centers(axis, 0) + direction[axis] * reach;
   }
@@ -51,7 +52,7 @@ Pair touching_pair(Random& random) {
   return pair;
 }
 
-/// The coordinates of all beads in the frame, as floats of doubles; one row an axis.
+/// Returns the coordinates of all beads in the frame, rounded to floats; one row per axis.
 std::array<std::vector<float>, 3> places_in(const FloatFrame<3>& frame, const Balls<3>& balls) {
   std::array<std::vector<double>, 3> copies;
   std::array<double*, 3> doubles{};
@@ -95,7 +96,7 @@ TEST(FloatFrame, BallsThatTouchAreNearInFloats) {
     double& least = axes ? tightest_turned : tightest;
     least = std::min(least, 1 - static_cast<double>(std::sqrt(square) / reach));
   }
-  EXPECT_LT(tightest, 0x1p-17);  // the cases come close
+  EXPECT_LT(tightest, 0x1p-17);  // some cases come close to the bound
   EXPECT_LT(tightest_turned, 0x1p-16);
 }
 

@@ -22,7 +22,7 @@ using Box = EnclosingBox<M::dimension>;
 template <Motion M>
 using BoxRig = Rig<Box<M>, M>;
 
-/// Whether an end is not as far out as some bead.
+/// Explains which end is not extreme, or returns nothing.
 template <int Dimension>
 std::optional<std::string> fault_of(const EnclosingBox<Dimension>& box, const ExactPoints& points) {
   for (std::size_t e = 0; e < 2 * Dimension; ++e) {
@@ -68,7 +68,8 @@ TEST(EnclosingBox, OfOneBeadOrNone) {
   EXPECT_THAT(none.structure.ends(), IsEmpty());
 }
 
-// Of those that go together the least; it is so from a frame on, whoever was there before.
+// Among beads that move together, the structure reports the least bead. From a frame on it is the least one,
+// whichever bead was reported before.
 TEST(EnclosingBox, OfBeadsThatTieTheLeastIsThere) {
   const Points all_in_one(5, {1, 1, 1});
   BoxRig<Space> rig(moving(all_in_one, Points(5, {2, 0, 1})), AuditMode::events);
@@ -82,7 +83,7 @@ TEST(EnclosingBox, OfBeadsThatTieTheLeastIsThere) {
   EXPECT_THAT(told(history), ElementsAre("max-x 2 1 at 1", "max-x 1 2 at 2"));
 }
 
-// Whatever happens at one time, the end goes from one bead to another once, or it stays.
+// However many beads meet at one time, an end changes at most once.
 TEST(EnclosingBox, WhereManyMeetTheEndChangesHandsOnce) {
   Points from, to;
   for (int b = 0; b < 9; ++b) {

@@ -21,14 +21,15 @@ using Wrapped = ChordCages<StaticWrappedHierarchy<D>>;
 template <int D>
 using Layered = ChordCages<LayeredHierarchy<D>>;
 
-// One of a few beads, one of a single bead, and the rest.
+// Makes a necklace of a few beads, a necklace of a single bead, and a necklace of the rest.
 std::vector<BeadRange> necklaces_of(std::size_t beads) {
   const auto n = static_cast<BeadId>(beads);
   if (n < 8) return {{0, n - 1}};
   return {{0, n / 3}, {n / 3 + 1, n / 3 + 1}, {n / 3 + 2, n - 1}};
 }
 
-/// Multiples of 2^-53 and of a prime's inverse, ends and their neighbours among them.
+/// Returns a random time: a multiple of 2^-53 or of the inverse of a prime, or an end of the step or a time
+/// next to one.
 Rational random_time(Random& random) {
   switch (random() % 8) {
     case 0:
@@ -72,7 +73,7 @@ void expect_to_hold(const std::vector<M>& steps, Random& random, int times) {
   }
 }
 
-/// 0: each bead's own, changing; 1: all equal; 2: zero; 3: unequal, constant.
+/// 0: different and changing radii; 1: equal radii; 2: zero radii; 3: different constant radii.
 template <Motion M>
 void set_radii(M& motion, Random& random, int which) {
   if (which == 0) return;
@@ -106,7 +107,7 @@ TYPED_TEST(ChordCagesIn, HoldEveryBeadAtAllTimesOnHardMotions) {
   }
 }
 
-// Half a turn and more in a step, in opposite directions: chords pass through the middle.
+// Beads turn by half a turn or more in a step, in opposite directions, so their chords pass near the middle.
 TYPED_TEST(ChordCagesIn, HoldBeadsThatTurnFast) {
   constexpr int d = TypeParam::dimension;
   Random random(2);
@@ -128,7 +129,7 @@ TYPED_TEST(ChordCagesIn, HoldBeadsThatTurnFast) {
   }
 }
 
-// Steps that go on from each other, and one that does not.
+// Consecutive steps that continue each other, and one step that does not.
 TYPED_TEST(ChordCagesIn, AreTheSmallestSpheresAtControlPoints) {
   constexpr int d = TypeParam::dimension;
   Random random(3);
@@ -231,7 +232,7 @@ TEST(ChordHierarchy, PassesItsAuditsAndRefusesChanges) {
   layered.run(steps);
   EXPECT_EQ(layered.structure.name(), "layered");
   EXPECT_EQ(layered.structure.audit(Dyadic(0.375)), std::nullopt);
-  // Cages of a step that was not taken do not hold the beads of another.
+  // The audit compares cages of one step with the beads of another step, so it must report a fault.
   wrapped.motion = steps.front();
   EXPECT_THAT(*wrapped.structure.audit(Dyadic(0.375)), testing::HasSubstr("sticks out"));
   EXPECT_THAT(*wrapped.structure.audit(Dyadic(1.0)), testing::HasSubstr("outside"));

@@ -15,8 +15,8 @@ namespace {
 
 using namespace test;
 
-/// The radius of the smallest sphere around some beads at a time, or a little less: that of a basis of it,
-/// found among rounded positions, but solved for exactly.
+/// Returns a lower bound of the radius of the smallest sphere around some beads at a time, usually the radius
+/// itself. The basis is found from rounded positions and its sphere is then solved exactly.
 template <Motion M>
 std::optional<Rational> least_radius(const M& motion, const BeadRange& range, const Dyadic& time) {
   constexpr int d = M::dimension;
@@ -29,7 +29,8 @@ std::optional<Rational> least_radius(const M& motion, const BeadRange& range, co
   for (const BeadId b : found.basis) basis.push_back(ball_at(motion, b, time));
   if (basis.size() == 1) return basis[0].radius;
   const auto sphere = touching_sphere(basis);
-  if (!sphere || !sphere->is_proper()) return std::nullopt;  // the rounded positions' basis is none
+  if (!sphere || !sphere->is_proper())
+    return std::nullopt;  // the basis of the rounded positions is not proper at the exact positions
   return basis[0].radius + sphere->radius.lower;
 }
 
@@ -37,7 +38,7 @@ struct Counts {
   std::uint64_t bisections = 0, unproved = 0, compared = 0;
 };
 
-/// All nodes at random exact times: beads inside, radii within the tightness.
+/// Checks all nodes at random exact times: beads are inside, and radii are within the tightness.
 template <Motion M>
 void expect_tight(const M& motion, double tightness, Random& random, int times, Counts& counts) {
   constexpr int d = M::dimension;
@@ -91,7 +92,7 @@ TYPED_TEST(TightCagesIn, RadiiAreWithinTheTightnessAtRandomExactTimes) {
         random_motion<TypeParam>(random, 12, round % 3 == 0 ? MotionKind::cospherical : MotionKind::generic);
     for (BeadId b = 0; b < 12 && round % 2 == 0; ++b)
       for (int k = 0; k <= TypeParam::degree; ++k) motion.set_radius(b, k, 0.1);
-    if (round % 4 >= 2) {  // calm: little more than a rotation
+    if (round % 4 >= 2) {  // calm: all beads stay near their start
       for (BeadId b = 0; b < 12; ++b)
         for (int k = 1; k <= TypeParam::degree; ++k)
           for (int axis = 0; axis < TypeParam::dimension; ++axis)
@@ -107,7 +108,8 @@ TYPED_TEST(TightCagesIn, RadiiAreWithinTheTightnessAtRandomExactTimes) {
   EXPECT_GT(counts.compared, rounds(1000U));
 }
 
-// Points that meet in the middle: no part of the step around it is tight, and it is said.
+// Two points meet in the middle. No part of the step around that time can be proved tight, and the structure
+// counts such parts as unproved.
 TEST(TightCages, SaysWhatIsNotProved) {
   const Space meeting = moving({{0, 0, 0}, {1, 0, 0}}, {{1, 0x1p-20, 0}, {0, 0, 0}});
   Random random(12);
@@ -125,7 +127,7 @@ TEST(TightCages, SaysWhatIsNotProved) {
   EXPECT_LT(tight.bisections(), 4U * TightCages<3>::most_halvings);
 }
 
-// Rigid motion in one direction asks for nothing; a quarter of a turn asks for a few halvings.
+// A rigid translation needs no bisection; a quarter turn needs a few.
 TEST(TightCages, HalvesWhatTurns) {
   Random random(13);
   Counts calm, turning;

@@ -29,7 +29,7 @@ Rational square_of_distance(const std::vector<Rational>& a, const std::vector<Ra
   return sum;
 }
 
-/// Whether some pair, of all of them, is closer than the one that is known.
+/// Compares the known pair with all pairs; explains a fault, or returns nothing.
 template <int Dimension>
 std::optional<std::string> fault_of(const KineticClosestPair<Dimension>& closest, const ExactPoints& at) {
   if (at.size() < 2) return closest.pair() ? std::optional("a pair of one bead") : std::nullopt;
@@ -74,7 +74,8 @@ TEST(KineticClosestPair, OfFewBeads) {
   EXPECT_THAT(expect_right(through({{{0, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {0, 0, 0}}})).events, IsEmpty());
 }
 
-// As far apart for all of a step; from a frame on it is the first, whichever was there before.
+// Among pairs that are equally close for a whole step, the structure reports the first pair, whichever pair
+// was reported before the frame.
 TEST(KineticClosestPair, OfPairsEquallyCloseTheFirst) {
   const Points grid{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
   Points wide = grid;
@@ -88,7 +89,7 @@ TEST(KineticClosestPair, OfPairsEquallyCloseTheFirst) {
   EXPECT_THAT(expect_right(through({together, Points(4, {3, 1, 0}), together})).events, IsEmpty());
 }
 
-// Whatever happens at one time, the closest pair changes once or not at all.
+// Whatever happens at one time, the closest pair changes at most once.
 TEST(KineticClosestPair, WhereManyMeetItChangesOnce) {
   Points from, to;
   for (int b = 0; b < 6; ++b) {
@@ -96,7 +97,7 @@ TEST(KineticClosestPair, WhereManyMeetItChangesOnce) {
     to.push_back({-1.0 * b * b, 0, 0});
   }
   EXPECT_THAT(told(expect_right<Space>({moving(from, to)})), IsEmpty());
-  // Pairs of one length that all come to another at once.
+  // Pairs of different lengths all reach other lengths at once.
   Points rows, mirrored;
   for (int b = 0; b < 6; ++b) {
     rows.push_back({10.0 * b, 0, 0});
@@ -140,7 +141,7 @@ TEST(KineticClosestPair, OfAProteinThatTurnsLittleFewPairsAreLookedAt) {
   for (const Space& step : steps) EXPECT_LT(candidate_pairs(Curves<3>(step)).size(), 20 * step.bead_count());
 }
 
-/// A pair left out is never as close as some pair always is, at many times.
+/// Checks at several times that no pair left out of the candidates is among the closest pairs.
 template <Motion M>
 void expect_the_closest_among_candidates(const M& motion) {
   const auto candidates = candidate_pairs(Curves<M::dimension>(motion));
@@ -148,7 +149,7 @@ void expect_the_closest_among_candidates(const M& motion) {
   for (const double u : {0.0, 0.125, 0.5, 0.75, 1.0}) {
     const ExactPoints at = points_at(motion, Rational(u));
     std::optional<Rational> least;
-    std::vector<Pair> closest;  // all that tie
+    std::vector<Pair> closest;  // all pairs that tie
     for (BeadId a = 0; a < at.size(); ++a) {
       for (BeadId b = a + 1; b < at.size(); ++b) {
         const Rational square = square_of_distance(at[a], at[b]);
@@ -174,9 +175,9 @@ TEST(KineticClosestPair, NoPairIsLeftOutThatMayBeTheClosest) {
   }
 }
 
-/// Distances that differ in their last bits alone, of beads that rest or nearly do, along the axes or nearly:
-/// what is rounded away decides which pair is the closest. At all scales, where bits are lost at the bottom
-/// and where differences and sums overflow, too.
+/// Distances that differ only in their last bits, of beads that rest or nearly rest and lie along the axes or
+/// nearly so. Rounding errors would decide which pair is the closest. The scales include underflow of low
+/// bits, and overflow of differences and sums.
 TEST(KineticClosestPair, NoPairIsLeftOutByRounding) {
   Random random(10);
   for (const int exponent : {0, -1060, -1022, 1022}) {

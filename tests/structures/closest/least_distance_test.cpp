@@ -1,5 +1,6 @@
-// The enclosure of two beads' least distance in a step, over rationals: at many times no distance is below
-// it, at its time none above, and in linear motion the least one itself lies in it.
+// Checks the enclosure of the least distance of two beads in a step over rationals. At sampled times no
+// distance is below the enclosure, and at the reported time the distance is not above it. In linear motion
+// the enclosure contains the exact least distance.
 
 #include "structures/closest/least_distance.h"
 
@@ -75,7 +76,7 @@ TEST(LeastDistance, EnclosesThatOfRandomMotions) {
   }
 }
 
-// |d|^2 = |d0|^2 + 2 u d0 e + u^2 |e|^2, whose least value is where its derivative is zero, or at an end.
+// |d|^2 = |d0|^2 + 2 u d0 e + u^2 |e|^2 is least where its derivative is zero, or at an end of the step.
 TEST(LeastDistance, HasTheLeastOneOfLinearMotion) {
   Random random(2);
   for (unsigned round = 0; round < rounds(200U); ++round) {
@@ -120,7 +121,7 @@ TEST(LeastDistance, IsUnknownWhereDoublesOverflow) {
       least_distance(Curves<3>(moving({{-huge, 0, 0}, {huge, 0, 0}}, {{0, 0, 0}, {1, 0, 0}})), 0, 1);
   EXPECT_EQ(least.lower, 0);
   EXPECT_EQ(least.upper, HUGE_VAL);
-  // The distance is a double, its margin is not.
+  // The distance is representable as a double, but its margin overflows.
   const Points apart{{-0.5 * huge, 0, 0}, {0.5 * huge, 0, 0}};
   const LeastDistance nearly = least_distance(Curves<3>(moving(apart, apart)), 0, 1);
   EXPECT_EQ(nearly.lower, 0);

@@ -1,5 +1,5 @@
-// Theorem 3.5: the closest pair of beads that are no neighbours, and whether any collide, against all pairs
-// in exact arithmetic.
+// Theorem 3.5: the closest pair of beads that are not neighbours, and whether any pair collides, compared
+// with all pairs in exact arithmetic.
 
 #include "structures/collision/closest_pair.h"
 
@@ -38,7 +38,7 @@ struct Balls {
   }
 };
 
-/// What the cases of a test were like, so that it can be seen that they were hard.
+/// Counts how often hard cases occurred in a test, so that the test can require them.
 struct Seen {
   unsigned collisions = 0, disjoint = 0, hidden = 0, no_edge = 0, unconnected_only = 0, near = 0;
 };
@@ -86,8 +86,8 @@ Eigen::Vector3d random_direction(Random& random, int dimension) {
   }
 }
 
-/// A necklace whose consecutive beads meet, and others not, but for what `flaws` brings: 1, breaks; 2,
-/// collisions.
+/// Appends a necklace whose consecutive beads meet and whose other beads do not. `flaws` allows exceptions:
+/// bit 1 allows breaks, bit 2 allows collisions.
 void grow(Balls& balls, Random& random, std::size_t beads, int dimension, Sizes sizes, unsigned flaws) {
   const auto first = static_cast<BeadId>(balls.centers.size());
   const auto fits = [&](const Eigen::Vector3d& c, double r) {
@@ -117,7 +117,8 @@ void grow(Balls& balls, Random& random, std::size_t beads, int dimension, Sizes 
       double bond = reach * uniform(random, sizes == Sizes::wild || on_a_line ? 0.02 : 0.6, 0.999);
       if ((flaws & 1U) != 0 && random() % 3 == 0) bond = reach * uniform(random, 1.01, 2);
       Eigen::Vector3d direction = random_direction(random, dimension);
-      if (random() % 2 == 0) direction = (direction - 0.5 * before).normalized();  // stay together
+      if (random() % 2 == 0)
+        direction = (direction - 0.5 * before).normalized();  // keep the beads close together
       if (on_a_line) direction = Eigen::Vector3d(random() % 2 == 0 ? 1 : -1, 0, 0);
       c = before + bond * direction;
       if (sizes == Sizes::grid) {
@@ -140,11 +141,11 @@ Seen run_necklaces(unsigned cases, unsigned flaws) {
     Random random(7919 * seed + Dimension + 10 * flaws);
     const auto sizes = static_cast<Sizes>(seed % 5);
     Balls balls;
-    const bool few = random() % 3 == 0;  // beads beside the ends matter most
+    const bool few = random() % 3 == 0;  // short necklaces, where beads near the ends matter most
     const unsigned necklaces = few ? 2 : 1 + (random() % 4 == 0 ? 1 + random() % 2 : 0);
     for (unsigned k = 0; k < necklaces; ++k)
       grow(balls, random, 1 + random() % (few ? 3 : necklaces == 1 ? 16 : 8), Dimension, sizes, flaws);
-    if (sizes == Sizes::wild_on_a_line) {  // and some beside it
+    if (sizes == Sizes::wild_on_a_line) {  // add beads beside the line
       for (unsigned k = random() % 6; k > 0; --k) {
         const double away = uniform(random, 3, 7);
         const Eigen::Vector3d c = away * random_direction(random, Dimension);
@@ -195,7 +196,7 @@ TEST(ClosestPair, OfNecklacesWithBreaksAndCollisions) {
   }
 }
 
-/// Balls anywhere; neighbours are all that meet, and some pairs besides.
+/// Random balls. The neighbours are the pairs that meet, plus some other pairs, minus some pairs that meet.
 template <int Dimension>
 Seen run_families(unsigned cases) {
   Seen seen;
@@ -213,8 +214,8 @@ Seen run_families(unsigned cases) {
       balls.radii.push_back(grid ? 0.25 * (1 + random() % 3) : uniform(random, 0, 1));
     }
     std::vector<BeadPairs::Pair> pairs;
-    const bool more = seed % 3 == 0;   // neighbours that do not meet
-    const bool fewer = seed % 7 == 0;  // collisions
+    const bool more = seed % 3 == 0;   // some neighbours do not meet
+    const bool fewer = seed % 7 == 0;  // some pairs that meet are not neighbours, which makes collisions
     for (BeadId a = 0; a < beads; ++a) {
       for (BeadId b = a + 1; b < beads; ++b) {
         const bool meet = balls.compare(a, b) <= 0;
@@ -242,9 +243,10 @@ std::vector<double> squares(const std::vector<double>& radii) {
   return weights;
 }
 
-/// A bead (2) and one inside it (3), beyond which the chain is broken, and one apart (5): its power cell ends
-/// where that of the small one begins. No end of the necklace, no common neighbour, no edge: the pairs of the
-/// theorem as printed do not have it, for 3 and 4 are neighbours that do not meet.
+/// A counterexample to the theorem as printed. Bead 2 contains bead 3, the chain is broken after bead 3, and
+/// bead 5 is apart; the power cell of 5 ends where the cell of the small bead 3 begins. The closest pair, 2
+/// and 5, contains no end of the necklace, has no common neighbour and is no edge, so the printed theorem
+/// misses it: 3 and 4 are neighbours that do not meet.
 TEST(ClosestPair, BesideABreakTheTheoremNeedsMore) {
   Balls balls;
   balls.centers = {{-80, 3, 0}, {-40, 0, 0},  {0, 0, 0},  {0.1875, 0, 0},
@@ -261,7 +263,8 @@ TEST(ClosestPair, BesideABreakTheTheoremNeedsMore) {
   EXPECT_NEAR(report.pair->distance, 1.375, 1e-12);
 }
 
-/// Neighbours that are neighbours of each other help no one: a family as the theorem allows it by its words.
+/// Neighbours of a bead that are neighbours of each other do not connect anything. The wording of the theorem
+/// allows such a family.
 TEST(ClosestPair, AThirdNeighborOfBothConnectsNothing) {
   Balls balls;
   balls.centers = {{0, 0, 0}, {0.1875, 0, 0}, {-0.375, 0, 0}, {2.75, 0, 0}};
@@ -273,7 +276,7 @@ TEST(ClosestPair, AThirdNeighborOfBothConnectsNothing) {
   EXPECT_EQ(seen.unconnected_only, 1U);
 }
 
-/// Beads too thin to meet: no one connects, and a grid keeps the pairs few.
+/// Beads too small to meet: no neighbours connect, and a grid limits the number of pairs.
 TEST(ClosestPair, OfThinBeads) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     Random random(seed);
@@ -311,7 +314,7 @@ TEST(ClosestPair, InFewBeadsAndFlatScenes) {
   }
 }
 
-/// Rounded squares of radii may change the diagram where balls all but touch: a grid answers then.
+/// Rounding of squared radii may change the diagram where balls almost touch. In that case the grid answers.
 TEST(ClosestPair, WhereRoundedSquaresOfRadiiMightMatter) {
   Seen seen;
   for (unsigned seed = 0; seed < 500U; ++seed) {
@@ -319,7 +322,7 @@ TEST(ClosestPair, WhereRoundedSquaresOfRadiiMightMatter) {
     Balls balls;
     grow(balls, random, 8, 3, Sizes::unequal, 0);
     if (balls.radii.size() < 8) continue;
-    // One more, next to bead 3 on a free side if there is one.
+    // Adds a bead next to bead 3 if a random direction is free.
     const double r = uniform(random, 0.1, 0.5);
     const double gap = std::ldexp(1.0, -10 - static_cast<int>(seed % 40));
     const Eigen::Vector3d c = balls.centers[3] + (balls.radii[3] + r + gap) * random_direction(random, 3);
@@ -363,7 +366,7 @@ TEST(ClosestPair, OfProteins) {
                       std::string(files[0]) + " " + policy);
       disjoint += seen.disjoint;
       collisions += seen.collisions;
-      // A triangulation that is kept up gives the same edges.
+      // A maintained triangulation gives the same edges.
       RegularTriangulation<3> triangulation;
       const auto built = triangulation.build(balls.matrix(), squares(balls.radii));
       const DiagramEdges edges = edges_of(triangulation, balls.radii.size(), built.hidden);
@@ -378,7 +381,7 @@ TEST(ClosestPair, OfProteins) {
   EXPECT_GT(collisions, 3U);
 }
 
-// Comparisons that doubles cannot decide, against whole numbers.
+// Comparisons that doubles cannot decide, checked in integers.
 TEST(BallDistance, ComparesGapsAndPowers) {
   Random random(3);
   unsigned equal = 0, close = 0;

@@ -1,4 +1,4 @@
-// Static detectors against all pairs decided one by one.
+// Compares static detectors with exact decisions for all pairs.
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ void expect_all_right(const CollisionScene& scene) {
     BlockTree<Dimension> sequence(scene.asked, BlockOrder::sequence, target);
     ASSERT_EQ(sequence.pairs(balls), expected) << "blocks in sequence, " << with;
     ASSERT_EQ(sequence.pairs(balls), expected) << "the same again, " << with;
-    // The same bits on all targets.
+    // All vector targets must give the same bits.
     if (!counts) counts = sequence.counts();
     EXPECT_EQ(counts->group_pairs, sequence.counts().group_pairs) << with;
     EXPECT_EQ(counts->candidates, sequence.counts().candidates) << with;
@@ -71,8 +71,8 @@ TEST(CollisionDetectors, RandomScenesOfAllSizesAndPlaces) {
   }
 }
 
-/// Chains that go straight on or bend, here and there sharply, with steps such that beads `apart` from each
-/// other along them touch, or nearly do, or are clearly apart.
+/// Makes chains that are straight or bend, in a few places sharply. The steps are chosen so that beads that
+/// are `apart` beads from each other along the chain touch exactly, almost touch, or are clearly apart.
 template <int Dimension>
 CollisionScene stretched_scene(Random& random) {
   CollisionScene scene{
@@ -83,7 +83,7 @@ CollisionScene stretched_scene(Random& random) {
   const double step = factors[random() % factors.size()] / scene.asked.apart;
   const double bend = random() % 2 == 0 ? 0 : uniform(random, 0, 0.2);
   const double scatter = random() % 3 == 0 ? 0.05 : 0;
-  const std::uint64_t straight_on = 10 + random() % 100;  // beads from one sharp bend to the next
+  const std::uint64_t straight_on = 10 + random() % 100;  // mean number of beads between two sharp bends
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
   double angle = random() % 2 == 0 ? 0 : uniform(random, 0, 7);
   for (Eigen::Index b = 0; b < scene.centers.cols(); ++b) {
@@ -109,7 +109,8 @@ void expect_right_when_stretched(Random& random, std::size_t& skipped, std::size
   BlockTree<Dimension> tree(scene.asked, BlockOrder::sequence);
   found += tree.pairs(balls).empty() ? 0 : 1;
   const std::size_t blocks = scene.radii.size() / 16;
-  skipped += tree.counts().block_pairs < blocks ? 1 : 0;  // with themselves they would be as many
+  skipped +=
+      tree.counts().block_pairs < blocks ? 1 : 0;  // pairs of blocks with themselves alone would be as many
 }
 
 TEST(CollisionDetectors, StretchedPiecesOfChainsAreSkipped) {
@@ -141,8 +142,8 @@ TEST(CollisionDetectors, NoBeadsOneBeadTwoBeads) {
   }
 }
 
-// Many that coincide, and grids in which every bead touches its neighbours exactly: all candidates are
-// decided on rationals.
+// Many coincident beads, and grids in which every bead exactly touches its neighbours: all candidates are
+// decided over rationals.
 TEST(CollisionDetectors, AllCoincideOrTouch) {
   CollisionScene same{"coincident", Eigen::Matrix3Xd::Constant(3, 70, 0.1), std::vector<double>(70, 0.0), {}};
   same.asked.necklaces = {{0, 69}};
@@ -174,7 +175,7 @@ TEST(CollisionDetectors, SequenceIsGivenUpWhereItCostsTooMuch) {
   EXPECT_EQ(tree.pairs(balls), CellList<3>(gas.asked).pairs(balls));
   EXPECT_EQ(tree.order(), BlockOrder::spatial);
   EXPECT_EQ(tree.pairs(balls), all_pairs(gas.centers, gas.radii, gas.asked, 3));
-  // A straight chain then: the sequence is tried again.
+  // A straight chain follows: the detector tries the sequence order again.
   for (Eigen::Index b = 0; b < beads; ++b) gas.centers.col(b) = Eigen::Vector3d(static_cast<double>(b), 0, 0);
   const Balls<3> straight(gas.centers, gas.radii);
   tree.forget_order();
@@ -182,7 +183,8 @@ TEST(CollisionDetectors, SequenceIsGivenUpWhereItCostsTooMuch) {
   EXPECT_EQ(tree.order(), BlockOrder::sequence);
 }
 
-/// A chain through a grid of beads that touch exactly, row after row to and fro, turned about its first bead.
+/// Makes a chain that runs to and fro through the rows of a grid of beads that touch exactly, turned about
+/// its first bead.
 template <int Dimension>
 CollisionScene packed_chain(Eigen::Index side, double angle) {
   const Eigen::Index beads = Dimension == 3 ? side * side * side : side * side;
@@ -211,14 +213,14 @@ void expect_turned(Eigen::Index side) {
   CollisionScene scene = packed_chain<Dimension>(side, 0.6);
   BlockTree<Dimension> tree(scene.asked);
   CellList<Dimension> cells(scene.asked);
-  for (const double spread : {1.0, 0.999, 1.001}) {  // about half meet, all, none
+  for (const double spread : {1.0, 0.999, 1.001}) {  // about half of the pairs meet, all meet, none meets
     const Balls<Dimension> balls(spread * scene.centers, scene.radii);
     EXPECT_EQ(tree.pairs(balls), cells.pairs(balls));
     ASSERT_TRUE(tree.frame().axes);
     EXPECT_EQ(tree.order(), BlockOrder::sequence);
   }
   const auto turned = tree.counts();
-  // Near pairs of some blocks in a turned frame: those of all near pairs that have a bead in them.
+  // Near pairs of some blocks in a turned frame are the near pairs that have a bead in these blocks.
   const Balls<Dimension> balls(scene.centers, scene.radii);
   const auto near = tree.near_pairs(balls, 0.1, 100 * scene.radii.size());
   std::vector<BeadPair> all(near->begin(), near->end()), some;
@@ -231,7 +233,7 @@ void expect_turned(Eigen::Index side) {
   std::sort(found.begin(), found.end());
   EXPECT_FALSE(some.empty());
   EXPECT_EQ(found, some);
-  // Along the coordinates' axes it is more work; another scene begins with them.
+  // Boxes along the coordinate axes need more work. Another scene starts with such boxes.
   BlockTree<Dimension> plain(scene.asked, BlockOrder::sequence);
   (void)plain.pairs(Balls<Dimension>(1.001 * scene.centers, scene.radii));
   EXPECT_GT(plain.counts().block_pairs + plain.counts().group_pairs,

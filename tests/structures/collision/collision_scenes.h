@@ -1,5 +1,5 @@
 #pragma once
-// Scenes for tests of collision detectors, and what an obvious loop over all pairs finds in them.
+// Scenes for tests of collision detectors, and a brute-force loop over all pairs.
 
 #include <Eigen/Core>
 #include <Eigen/QR>
@@ -38,7 +38,7 @@ inline std::vector<BeadPair> all_pairs(const Eigen::Matrix3Xd& centers, const st
   return found;
 }
 
-/// One necklace, two, or many, some of one bead.
+/// Returns a question about one, two or many necklaces, some of which have a single bead.
 inline PairsAsked some_pairs(Random& random, std::size_t beads) {
   PairsAsked asked;
   const std::uint64_t form = random() % 4;
@@ -55,7 +55,7 @@ inline PairsAsked some_pairs(Random& random, std::size_t beads) {
   return asked;
 }
 
-/// Any orthonormal axes.
+/// Returns random orthonormal axes.
 template <int Dimension>
 Axes<Dimension> random_axes(Random& random) {
   const Eigen::Matrix<double, Dimension, Dimension> m =
@@ -68,8 +68,8 @@ Axes<Dimension> random_axes(Random& random) {
   return axes;
 }
 
-/// A chain of random steps or points anywhere, of any size and place, radii equal, mixed or partly zero,
-/// whole numbers that touch exactly among them.
+/// Makes a random scene: a random walk or scattered points, of any size and place, with equal, mixed or
+/// partly zero radii. Some scenes have whole numbers, so that beads touch exactly.
 inline CollisionScene random_scene(Random& random, std::size_t most_beads) {
   CollisionScene scene;
   const std::size_t beads = 1 + random() % most_beads;
@@ -88,7 +88,7 @@ inline CollisionScene random_scene(Random& random, std::size_t most_beads) {
     } else if (places == 2) {
       at = (box * step).array().round();  // a grid of beads that touch exactly, or coincide
     } else {
-      at += Eigen::Vector3d(1, 0.01 * step[1], 0.01 * step[2]);  // stretched
+      at += Eigen::Vector3d(1, 0.01 * step[1], 0.01 * step[2]);  // a nearly straight chain
     }
     scene.centers.col(static_cast<Eigen::Index>(b)) = at;
     double& radius = scene.radii[b];
@@ -98,7 +98,7 @@ inline CollisionScene random_scene(Random& random, std::size_t most_beads) {
     if (sizes == 3 && random() % 10 == 0) radius = std::exp(uniform(random, -20, 3));
   }
   scene.name = "places " + std::to_string(places) + ", sizes " + std::to_string(sizes);
-  // Sizes and places where floats, or doubles, over- and underflow, or see little.
+  // Scales at which floats or doubles overflow, underflow or lose precision.
   constexpr double smallest = std::numeric_limits<double>::denorm_min();
   const std::vector<double> scales{1,       1,        1,     0x1p100, 0x1p-100,
                                    0x1p140, 0x1p-160, 1e300, 1e-300,  1e4 * smallest};
@@ -114,7 +114,7 @@ inline CollisionScene random_scene(Random& random, std::size_t most_beads) {
     scene.name += ", offset " + std::to_string(std::log2(offset));
   }
   if (beads > 2 && random() % 8 == 0) {
-    scene.centers.col(1) *= -1e7;  // one far away: a wide frame for all the others
+    scene.centers.col(1) *= -1e7;  // one bead far away makes the float frame coarse for all other beads
     if (!scene.centers.allFinite()) scene.centers.col(1).setConstant(-1.7e308);
     scene.name += ", one far";
   }

@@ -1,5 +1,5 @@
 #pragma once
-// One question to all static detectors, and whether they agree.
+// Asks all static detectors the same question and checks that they agree.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ inline std::ostream& operator<<(std::ostream& out, const BeadPair& pair) {
 
 namespace kds::test {
 
-/// What the cases of a test were like, so that it can be seen that they were hard.
+/// Counts how often hard cases occurred in a test, so that the test can require them.
 struct DetectorsSeen {
   unsigned cases = 0, colliding = 0, touching = 0, by_walk = 0;
 };
@@ -100,7 +100,7 @@ void expect_diagram_agrees(const Balls<Dimension>& balls, const PairsAsked& aske
       << what << ", walk";
 }
 
-/// All methods beside brute force; `distance` is that of a second question.
+/// Compares all methods with brute force. `distance` belongs to a second question.
 template <int Dimension>
 void expect_detectors_agree(const Balls<Dimension>& balls, const PairsAsked& asked, double distance,
                             const std::string& what, DetectorsSeen& seen) {

@@ -1,4 +1,4 @@
-// Every static detector beside brute force, and brute force beside rationals.
+// Compares every static detector with brute force, and brute force with rationals.
 
 #include "tests/structures/collision/detectors.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 using namespace test;
 
-// Some partition into necklaces, and some question about it.
+// Returns a random partition into necklaces and a random question about it.
 template <class Generator>
 PairsAsked random_question(Generator& random, BeadId beads) {
   PairsAsked asked;
@@ -46,7 +46,7 @@ void ask_all_about_hard_sets(unsigned cases, BeadId most_beads, bool over_ration
     const BallSet set = hard_ball_set(random, kind, Eigen::Index{beads}, equal, Dimension == 2);
     const Balls<Dimension> balls(set.centers, set.radii);
     const PairsAsked asked = random_question(random, beads);
-    // A distance at which some pairs are in reach exactly, or nearly.
+    // A distance at which some pairs are exactly, or almost, within reach.
     const auto a = static_cast<BeadId>(random() % beads), b = static_cast<BeadId>(random() % beads);
     const double gap = (set.centers.col(a) - set.centers.col(b)).stableNorm() - set.radii[a] - set.radii[b];
     const double distance = random() % 3 == 0 ? 0.5 * set.radii[a] : std::max(0.0, gap);
@@ -71,7 +71,8 @@ TEST(Detectors, OfLargerHardSets) {
   ask_all_about_hard_sets<2>(120, 200, false);
 }
 
-// A chain of beads that stays in a box: bonds of about a diameter, sizes alike or not.
+// Makes a chain of beads that stays in a box. Bonds are about one diameter long, and radii are equal or
+// different.
 BallSet random_necklace(Random& random, BeadId beads, bool equal, bool flat) {
   BallSet set;
   set.name = "necklace";
@@ -100,7 +101,7 @@ void ask_all_about_necklaces(unsigned cases, BeadId most_beads) {
     Random random(49979687 * seed + Dimension);
     const auto beads = static_cast<BeadId>(1 + random() % most_beads);
     BallSet set = random_necklace(random, beads, random() % 2 == 0, Dimension == 2);
-    if (seed % 4 == 0)  // few collide, or none
+    if (seed % 4 == 0)  // few pairs collide, or none
       for (double& radius : set.radii) radius *= 10.0 / (10 + beads);
     const Balls<Dimension> balls(set.centers, set.radii);
     const PairsAsked asked = random() % 2 == 0 ? all_pairs({{0, beads - 1}}) : random_question(random, beads);
@@ -119,7 +120,7 @@ TEST(Detectors, OfLongRandomNecklaces) {
   ask_all_about_necklaces<2>(20, 1500);
 }
 
-// Rows of a grid to and fro; beads of radius 0.5 touch those beside them, exactly.
+// Rows of a grid run to and fro; beads of radius 0.5 (times `scale`) exactly touch the adjacent beads.
 template <int Dimension>
 void ask_all_about_a_grid(BeadId side, double scale, const Eigen::Vector3d& shift) {
   Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Zero(3, Dimension == 2 ? side * side : side * side * side);
@@ -135,7 +136,7 @@ void ask_all_about_a_grid(BeadId side, double scale, const Eigen::Vector3d& shif
   const std::string what = "grid of side " + std::to_string(side) + " at scale " + std::to_string(scale);
   const PairsAsked asked = all_pairs({{0, beads - 1}});
   expect_detectors_agree(balls, asked, 0.5 * scale, what, seen);
-  // Of d n^(d-1) (n-1) touching pairs those along the chain are not asked for.
+  // The grid has d n^(d-1) (n-1) touching pairs. The question leaves out the pairs along the chain.
   const BeadId lines = Dimension == 2 ? side : side * side;
   EXPECT_EQ(pairs_by_force(balls, asked).size(), Dimension * lines * (side - 1) - (beads - 1)) << what;
   expect_detectors_agree(balls, all_pairs({{0, beads / 2 - 1}, {beads / 2, beads - 1}}), scale, what, seen);
@@ -148,7 +149,7 @@ TEST(Detectors, OfGridsThatTouch) {
     ask_all_about_a_grid<3>(5, scale, {0, 0, 0});
     ask_all_about_a_grid<3>(4, scale, {0x1p40, -0x1p45, 0x1p30});
   }
-  for (const double scale : {0x1p-520, 0x1p505}) {  // all of it on rationals
+  for (const double scale : {0x1p-520, 0x1p505}) {  // scales at which all pairs are decided over rationals
     ask_all_about_a_grid<2>(5, scale, {0, 0, 0});
     ask_all_about_a_grid<3>(3, scale, {0, 0, 0});
   }

@@ -1,4 +1,4 @@
-// Distance queries against all pairs decided one by one.
+// Compares distance queries with exact decisions for all pairs.
 
 #include "structures/collision/distance_queries.h"
 
@@ -48,7 +48,7 @@ void expect_right_in_motion(const CollisionScene& scene, Random& random) {
   Balls<Dimension> balls(scene.centers, scene.radii);
   Eigen::Matrix3Xd centers = scene.centers;
   const double size = std::min(scene.centers.cwiseAbs().maxCoeff(), 1e306);  // sums stay finite
-  // The pair that was closest may be the farthest in the next frame.
+  // The closest pair of one frame may be the farthest pair of the next.
   for (const double step : {0.0, 1e-3 * size, size}) {
     for (Eigen::Index b = 0; step > 0 && b < centers.cols(); ++b)
       for (Eigen::Index axis = 0; axis < 3; ++axis) centers(axis, b) += uniform(random, -step, step);
@@ -88,7 +88,7 @@ TEST(DistanceQueries, NoBeadsOneBeadTwoBeads) {
   }
 }
 
-// Of beads that lie upon each other all pairs of neighbouring heaps are equally far apart.
+// Beads coincide in heaps, so all pairs of adjacent heaps have equal distances.
 TEST(DistanceQueries, MorePairsEquallyFarApartThanAreListed) {
   constexpr BeadId heap = 40, heaps = 30, beads = heap * heaps;
   Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Zero(3, beads);

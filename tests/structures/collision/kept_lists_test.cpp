@@ -1,4 +1,5 @@
-// Lists kept from frame to frame, on beads that move in every way, against all pairs at every frame.
+// Pair lists that are kept from frame to frame, compared with all pairs at every frame, for beads that move
+// in many ways.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ using namespace test;
 enum class Moves { rest, slow, fast, slow_then_jump, one_teleports, all_fly_on, together, tail, any };
 constexpr unsigned moves_count = 9;
 
-/// How far the farthest bead goes in this frame.
+/// Moves the beads by one frame; returns an upper bound of the largest displacement.
 double move(CollisionScene& scene, Moves moves, int frame, Random& random) {
   const Eigen::Matrix3Xd before = scene.centers;
   const double unit = 0.5;
@@ -44,7 +45,7 @@ double move(CollisionScene& scene, Moves moves, int frame, Random& random) {
   return (scene.centers - before).colwise().norm().maxCoeff() * (1 + 1e-12);
 }
 
-/// How many repairs there were.
+/// Returns the number of repairs.
 template <int Dimension>
 std::uint64_t follow(unsigned seed) {
   Random random(seed);
@@ -74,7 +75,7 @@ std::uint64_t follow(unsigned seed) {
     EXPECT_EQ(told.pairs(balls[k]), expected[k]) << "auto with a declared speed, " << what;
     if (::testing::Test::HasFailure()) return 0;
   }
-  // The same work on all targets.
+  // All vector targets do the same work.
   EXPECT_EQ(automatic.counts().rebuilds, plain.counts().rebuilds);
   EXPECT_EQ(automatic.counts().from_scratch, plain.counts().from_scratch);
   EXPECT_EQ(automatic.counts().repairs, plain.counts().repairs);
@@ -93,8 +94,8 @@ TEST(KeptLists, SamePairsAtEveryFrameHoweverBeadsMove) {
   EXPECT_GT(repairs, rounds(450U));
 }
 
-/// A gas, which is put in spatial order, its last beads in a corner; or straight chains side by side whose
-/// beads touch exactly.
+/// Makes a gas, whose beads are put into spatial order with the last beads in a corner, or straight chains
+/// side by side whose beads touch exactly.
 CollisionScene many_beads(Random& random, int dimension, bool gas, bool equal) {
   constexpr Eigen::Index beads = 4000;
   CollisionScene scene{
@@ -112,7 +113,7 @@ CollisionScene many_beads(Random& random, int dimension, bool gas, bool equal) {
   return scene;
 }
 
-// A tail swings, a bead goes out of the frame of floats and comes back, again and again, all others creep.
+// A tail swings, one bead repeatedly leaves the float frame and comes back, and all other beads creep.
 template <int Dimension>
 void swing_tail(bool gas, bool equal) {
   Random random(1);
@@ -131,7 +132,8 @@ void swing_tail(bool gas, bool equal) {
     ASSERT_EQ(detector.pairs(balls), cells.pairs(balls)) << scene.name << ", frame " << k;
   }
   EXPECT_GE(detector.counts().repairs, gas ? 1 : frames / 2) << scene.name;
-  // Whether it pays for beads in spatial order depends on how many of them a processor compares at once.
+  // Repairs of beads in spatial order pay only if the processor compares few beads at once, so the test
+  // requires nothing of the gas.
   if (!gas) {
     EXPECT_LE(detector.counts().from_scratch + detector.counts().rebuilds, frames / 3) << scene.name;
   }
@@ -152,7 +154,8 @@ Eigen::Matrix3Xd straight(std::size_t beads, double y) {
   return c;
 }
 
-// Two distant necklaces: once their distance is known, nothing is read until they can have come near.
+// Two distant necklaces. Once the distance is known, no coordinates are read until the necklaces could have
+// come near.
 TEST(KeptLists, DistantNecklacesAreNotReadWithADeclaredSpeed) {
   Eigen::Matrix3Xd centers(3, 200);
   centers << straight(100, 0), straight(100, 1000);
@@ -172,7 +175,8 @@ TEST(KeptLists, DistantNecklacesAreNotReadWithADeclaredSpeed) {
   EXPECT_GT(detector.counts().unread, 4 * (detector.counts().read + detector.counts().rebuilds));
 }
 
-// Two clouds at some distance: a skin as wide as that would have all pairs of them to keep.
+// Two clouds at some distance. A skin as wide as the distance would have to keep all pairs between the
+// clouds.
 TEST(KeptLists, SkinsAreNotWidenedUntilEverythingIsNear) {
   Random random(1);
   constexpr Eigen::Index count = rounds(6000, 2000);
@@ -192,7 +196,7 @@ TEST(KeptLists, SkinsAreNotWidenedUntilEverythingIsNear) {
   }
 }
 
-// A pair is found anew while its unmarked bead is away from where it was, and meets when that is back there.
+// A pair is found again while its unmarked bead is displaced, and meets when that bead is back at its place.
 TEST(KeptLists, ABeadWithoutAMarkMayGoBack) {
   const std::vector<double> radii(2, 0.5);
   Eigen::Matrix3Xd centers = straight(2, 0);

@@ -1,4 +1,4 @@
-// Every static detector beside brute force on real proteins.
+// Compares every static detector with brute force on real proteins.
 
 #include <string>
 
@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-// Frames `every` apart, with radii that make some beads collide and some not.
+// Takes every `every`-th frame, with radii at which some beads collide and others do not.
 void ask_all_about(const std::string& file, const ReadOptions& options, const std::string& policy,
                    double factor, BeadId apart, std::size_t every, DetectorsSeen& seen) {
   const std::vector<Trajectory> necklaces = read_trajectories(data(file), options);
@@ -71,7 +71,7 @@ TEST(ProteinCollisions, OfTrajectories) {
   EXPECT_GT(seen.colliding, 5U);
 }
 
-/// Two proteins in each other's place, of two files.
+/// Two proteins from two files at the same place.
 TEST(ProteinCollisions, BetweenChains) {
   DetectorsSeen seen, of_all;
   for (const Selection selection : {Selection::backbone, Selection::all}) {

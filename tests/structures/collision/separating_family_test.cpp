@@ -1,4 +1,4 @@
-// Separating families: a damaged one is found out, and sizes are those of the theorem.
+// Separating families: a damaged family is detected, and the sizes agree with the theorem.
 
 #include "structures/collision/separating_family.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A grid without collisions, of which two beads are moved into each other where asked for.
+/// A grid without collisions. On request, two beads are moved into each other.
 struct Scene {
   Eigen::Matrix3Xd centers = models::packed_grid(150, 3, 0.05);
   std::vector<double> radii = std::vector<double>(150, 1);
@@ -49,7 +49,7 @@ TEST(SeparatingFamily, EachPairIsNeeded) {
     const BeadRange a = scene.family.spheres[pair.first].beads, b = scene.family.spheres[pair.second].beads;
     scene.family.pairs.erase(scene.family.pairs.begin() + static_cast<std::ptrdiff_t>(k));
     EXPECT_THAT(scene.fault(), HasSubstr("are not separated")) << a.first << " " << b.first;
-    scene.family.pairs.push_back(pair);  // in another order
+    scene.family.pairs.push_back(pair);  // the order of the two beads is reversed
     EXPECT_EQ(scene.fault(), "none");
   }
 }
@@ -96,10 +96,10 @@ TEST(SeparatingFamily, CollisionsAreNoPartOfIt) {
   EXPECT_THAT(scene.fault(), HasSubstr("nobody asked"));
   scene = Scene();
   scene.pairs = {{20, 70}};
-  EXPECT_THAT(scene.fault(), HasSubstr("twice"));  // and disjoint
+  EXPECT_THAT(scene.fault(), HasSubstr("twice"));  // and the pair is disjoint
 }
 
-/// A disjoint pair that is called a collision instead of being separated.
+/// A disjoint pair is listed as a collision instead of being separated.
 TEST(SeparatingFamily, WhatIsCalledACollisionIsOne) {
   Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Zero(3, 2);
   centers(0, 1) = 5;
@@ -110,7 +110,7 @@ TEST(SeparatingFamily, WhatIsCalledACollisionIsOne) {
   EXPECT_THAT(*fault, HasSubstr("are disjoint, but not separated"));
 }
 
-/// Whole grids of sides that are no powers of two, without collisions.
+/// Complete grids without collisions whose sides are not powers of two.
 template <int Dimension>
 std::uint64_t family_of_grid(Hierarchy kind, std::size_t side) {
   const std::size_t rows = Dimension == 2 ? side : side * side;

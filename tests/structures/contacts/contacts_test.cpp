@@ -29,7 +29,7 @@ PairsAsked all_pairs(std::size_t beads, BeadId apart = 1) {
   return {{{0, static_cast<BeadId>(beads - 1)}}, true, apart, true};
 }
 
-/// "begin 0 1 at 0.25" in the order of time.
+/// Returns the events as lines such as "begin 0 1 at 0.25", in order of time.
 template <Motion M>
 std::vector<std::string> told(const ContactRig<M>& rig) {
   std::vector<std::string> lines;
@@ -77,7 +77,8 @@ void expect_right(const std::vector<M>& steps, const PairsAsked& asked, bool rep
   EXPECT_EQ(again.structure.pairs(), filtered.structure.pairs());
 }
 
-/// Two balls, the first at rest in the origin, radii 1 both, and where the second is at each frame.
+/// Runs two balls of radius 1: the first rests at the origin, and the second is at the given places in the
+/// frames.
 std::vector<std::string> told_of(const Points& places, bool in_contact_at_start = false) {
   std::vector<Points> frames;
   for (const auto& place : places) frames.push_back({{0, 0, 0}, place});
@@ -105,7 +106,7 @@ TEST(Contacts, ATouchIsNoBeginning) {
   EXPECT_THAT(told_of({{-4, 2, 0}, {0, 2, 0}, {4, 2, 0}}), ElementsAre("touch 0 1 at 1"));
   EXPECT_THAT(told_of({{-4, 2, 0}, {0, 2, 0}, {-4, 2, 0}}), ElementsAre("touch 0 1 at 1"));
   EXPECT_THAT(told_of({{2, 0, 0}, {4, 0, 0}}), ElementsAre("touch 0 1 at 0"));
-  // At the end nothing follows: nothing happens.
+  // A touch at the very end is not an event, because no motion follows.
   EXPECT_THAT(told_of({{4, 0, 0}, {2, 0, 0}}), IsEmpty());
   EXPECT_THAT(told_of({{4, 0, 0}, {2, 0, 0}, {4, 0, 0}}), ElementsAre("touch 0 1 at 1"));
 }
@@ -114,7 +115,7 @@ TEST(Contacts, AtFrames) {
   EXPECT_THAT(told_of({{4, 0, 0}, {2, 0, 0}, {0, 0, 0}}), ElementsAre("begin 0 1 at 1"));
   EXPECT_THAT(told_of({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, true), ElementsAre("end 0 1 at 1"));
   EXPECT_THAT(told_of({{2, 0, 0}, {0, 0, 0}}, true), IsEmpty());
-  // From inside a contact that only comes to touching goes on.
+  // A contact that shrinks to touching and grows again goes on without an event.
   EXPECT_THAT(told_of({{0, 0, 0}, {2, 0, 0}, {0, 0, 0}}, true), IsEmpty());
 }
 
@@ -137,7 +138,7 @@ TEST(Contacts, CoincidentCentres) {
   expect_right(
       with_radii(through({{{0, 0, 0}, {0, 0, 0}}, {{1, 0, 0}, {1, 0, 0}}, {{3, 0, 0}, {1, 0, 0}}}), {0.5}),
       all_pairs(2));
-  // Points meet where they coincide.
+  // Points meet if they coincide.
   expect_right(with_radii(through({{{0, 0, 0}, {1, 1, 1}}, {{1, 1, 1}, {0, 0, 0}}}), {0}), all_pairs(2));
   expect_right(
       with_radii(through({{{0, 0, 0}, {0, 0, 0}}, {{1, 1, 1}, {1, 1, 1}}, {{1, 1, 1}, {2, 2, 2}}}), {0}),
@@ -161,13 +162,13 @@ TEST(Contacts, PairsNearAlongTheChainAreLeftOut) {
   }
 }
 
-/// Steps whose frames have whole coordinates: touches, ties, contacts at frames.
+/// Makes steps whose frames have whole coordinates: touches, ties, and contacts at frames.
 std::vector<Space> random_grid_steps(std::mt19937& random, std::size_t beads, int range, std::size_t count) {
   std::vector<Points> frames;
   for (std::size_t k = 0; k <= count; ++k) {
     frames.push_back(random_grid_points(random, beads, range));
     for (std::size_t b = 0; k > 0 && b < beads; ++b)
-      if (random() % 4 == 0) frames[k][b] = frames[k - 1][b];  // at rest
+      if (random() % 4 == 0) frames[k][b] = frames[k - 1][b];  // the bead rests
   }
   std::vector<double> radii;
   for (std::size_t b = 0; b < beads; ++b) radii.push_back(0.5 * static_cast<double>(random() % 4));
@@ -207,7 +208,7 @@ using MotionsOfAllKinds = testing::Types<BezierMotion<2, 1>, BezierMotion<3, 1>,
                                          BezierMotion<3, 3>, BezierMotion<3, 2>>;
 TYPED_TEST_SUITE(ContactMotions, MotionsOfAllKinds);
 
-// Grazing, coincident, resting, tiny, far away, of all scales; radii that change.
+// Motions with grazing, coincident and resting beads, at tiny, far and mixed scales, with changing radii.
 TYPED_TEST(ContactMotions, AgreeWithEachPairsOwnPolynomial) {
   Random random(11);
   for (const MotionKind kind : all_motion_kinds) {
@@ -239,7 +240,7 @@ TEST(Contacts, HugeAndTinyLengths) {
   }
 }
 
-// One bead far out: floats do not tell the others apart any more.
+// One bead is so far away that floats cannot distinguish the other beads.
 TEST(Contacts, OneBeadFarAway) {
   constexpr std::size_t beads = 10 + rounds(30U);
   std::mt19937 random(8);
@@ -252,7 +253,7 @@ TEST(Contacts, OneBeadFarAway) {
   }
 }
 
-// Where floats are no help either: nothing is counted from a bead's number past all numbers.
+// Floats cannot decide these pairs. Bead numbers must not overflow past the end of the chain.
 TEST(Contacts, NoPairIsAskedForBeyondTheChain) {
   Points from, to;
   for (int i = 0; i < 24; ++i) {
@@ -268,7 +269,7 @@ TEST(Contacts, NoPairIsAskedForBeyondTheChain) {
   }
 }
 
-// Three beads, of which one pair is asked for: it has one certificate, and the chain's box another.
+// One pair of three beads is in question. The pair has one certificate, and the box of the chain another.
 TEST(Contacts, CertificatesAreCountedThatThereAre) {
   const auto steps = std::vector{
       with_radii(moving({{0, 0, 0}, {5, 0, 0}, {10, 0, 0}}, {{0, 0, 0}, {5, 0, 0}, {1, 0, 0}}), {1})};
@@ -280,7 +281,7 @@ TEST(Contacts, CertificatesAreCountedThatThereAre) {
   }
 }
 
-/// Steps of a protein's backbone, balls so many times as large as half its longest bond.
+/// Returns steps of a protein's backbone. The radius of the balls is `times` times half of the longest bond.
 std::vector<Space> backbone_steps(const std::string& name, const std::string& topology, std::size_t frames,
                                   std::size_t stride, double times) {
   ReadOptions options;
@@ -301,7 +302,7 @@ std::vector<Space> backbone_steps(const std::string& name, const std::string& to
   return steps;
 }
 
-// Every pair's own quadratic, frame after frame.
+// Compares each frame with the quadratic of each pair.
 TEST(Contacts, OfProteins) {
   const auto villin = backbone_steps("villin_hp36_300K.dcd", "villin_hp36_300K.pdb", rounds(4U), 3, 2.5);
   expect_right(villin, all_pairs(villin.front().bead_count(), 5));
@@ -328,7 +329,7 @@ TEST(Contacts, AreThoseOfFrames) {
   }
 }
 
-// Many blocks: three levels of boxes, blocks grouped by where they are, anew as the family grows.
+// Many blocks: three levels of boxes, with blocks grouped by position and regrouped as the family grows.
 TEST(Contacts, OfALongChainAreThoseOfFrames) {
   constexpr std::size_t beads = rounds(6000U, 1500U), first = beads * 2 / 3;
   std::mt19937 random(17);
@@ -339,7 +340,7 @@ TEST(Contacts, OfALongChainAreThoseOfFrames) {
       frames[0][b][axis] = b == 0 ? 0 : 0.995 * wandering(frames[0][b - 1][axis]);
   for (std::size_t k = 1; k < 6; ++k) {
     frames.push_back(frames.back());
-    // In the second half they are drawn together, which makes the family grow.
+    // In the second half of the run the beads contract, which makes the family grow.
     for (auto& point : frames.back())
       for (double& x : point) x = (k < 3 ? 1 : 0.6) * x + 0.2 * wandering(0);
   }
@@ -358,11 +359,11 @@ TEST(Contacts, OfALongChainAreThoseOfFrames) {
   }
   EXPECT_GT(rig.history.events.size(), beads / 6);
   const auto& c = rig.structure.statistics.certificates;
-  EXPECT_LT(c.created, steps.size() * beads * 1000);  // of 3000 pairs a bead
+  EXPECT_LT(c.created, steps.size() * beads * 1000);  // each bead has 3000 pairs
 }
 
 TEST(Contacts, BeadsAtRestCostNothing) {
-  // Two necklaces that rest side by side, and one that moves far away from both.
+  // Two necklaces rest side by side, and a third moves far away from both.
   Points from, to;
   for (int i = 0; i < 96; ++i) {
     const double x = i % 32;
@@ -377,7 +378,7 @@ TEST(Contacts, BeadsAtRestCostNothing) {
   const StructureStatistics& s = rig.structure.statistics;
   EXPECT_FALSE(rig.structure.pairs().empty());
   EXPECT_THAT(rig.history.events, IsEmpty());
-  // What moves is looked at: its own pairs, and boxes of it against those at rest.
+  // The structure examines only the moving necklace: its own pairs, and its boxes against the boxes at rest.
   const PairsAsked alone{{{0, 31}}, true, 2, true};
   Points lone_from(from.begin() + 64, from.end()), lone_to(to.begin() + 64, to.end());
   const auto lone = with_radii(through({lone_from, lone_to, lone_from, lone_to}), {0.5});
@@ -386,7 +387,7 @@ TEST(Contacts, BeadsAtRestCostNothing) {
   EXPECT_LT(s.certificates.created, 2 * moving_one.structure.statistics.certificates.created);
 }
 
-/// Pairs of a family that are not proved apart, by brute force over all pairs of blocks.
+/// Returns the pairs of a family that are not proved apart, by brute force over all pairs of blocks.
 PairsOfBlocks looked_at(const Space& motion, BeadId apart, bool short_vectors) {
   const std::vector<BeadRange> necklaces{{0, static_cast<BeadId>(motion.bead_count() - 1)}};
   const std::vector<BeadBlock> blocks = blocks_of(necklaces);
@@ -403,7 +404,7 @@ PairsOfBlocks looked_at(const Space& motion, BeadId apart, bool short_vectors) {
   return pairs;
 }
 
-// Nearly all pairs are settled by floats, and none wrongly.
+// Floats settle almost all pairs, and settle none wrongly.
 TEST(Contacts, WhatFloatsProve) {
   Random random(13);
   for (int round = 0; round < rounds(6); ++round) {

@@ -23,7 +23,7 @@ std::vector<std::uint64_t> found(const SampledContacts& sampled) {
   return found;
 }
 
-/// Two balls of radius 1, one at rest, the other at x at each frame.
+/// Runs two balls of radius 1. One rests, and the other is at x at each frame.
 SampledContacts sampled(const std::vector<double>& x) {
   std::vector<Points> frames;
   for (const double place : x) frames.push_back({{0, 0, 0}, {place, 0, 0}});
@@ -48,18 +48,20 @@ SampledContacts sampled(const std::vector<double>& x) {
 }
 
 TEST(SampledContacts, AreFoundWhereAFrameLiesInThem) {
-  EXPECT_THAT(found(sampled({-9, 9})), ElementsAre(0, 0, 0));              // passes through between frames
-  EXPECT_THAT(found(sampled({-9, 0, 9})), ElementsAre(1, 0, 0));           // at frame 1
-  EXPECT_THAT(found(sampled({-9, -4, 0, 9})), ElementsAre(1, 1, 0));       // at frame 2
-  EXPECT_THAT(found(sampled({0, 9})), ElementsAre(1, 1, 1));               // at the start
-  EXPECT_THAT(found(sampled({-9, -9, -9, 0})), ElementsAre(1, 0, 0));      // at the end
-  EXPECT_THAT(found(sampled({-9, -2, -9})), ElementsAre(1, 0, 0));         // touches at frame 1
-  EXPECT_THAT(found(sampled({-9, -9, -2, -9})), ElementsAre(1, 1, 0));     // at frame 2
+  EXPECT_THAT(found(sampled({-9, 9})), ElementsAre(0, 0, 0));           // passes through between two frames
+  EXPECT_THAT(found(sampled({-9, 0, 9})), ElementsAre(1, 0, 0));        // in contact at frame 1
+  EXPECT_THAT(found(sampled({-9, -4, 0, 9})), ElementsAre(1, 1, 0));    // in contact at frame 2
+  EXPECT_THAT(found(sampled({0, 9})), ElementsAre(1, 1, 1));            // in contact at the start
+  EXPECT_THAT(found(sampled({-9, -9, -9, 0})), ElementsAre(1, 0, 0));   // in contact at the end
+  EXPECT_THAT(found(sampled({-9, -2, -9})), ElementsAre(1, 0, 0));      // touches at frame 1
+  EXPECT_THAT(found(sampled({-9, -9, -2, -9})), ElementsAre(1, 1, 0));  // touches at frame 2
   EXPECT_THAT(found(sampled({-9, -2, 0, -2, -9})), ElementsAre(1, 1, 0));  // begins and ends at frames
-  EXPECT_THAT(found(sampled({-9, 9, -9, 0, 9})), ElementsAre(1, 0, 0));    // the last of three
+  EXPECT_THAT(found(sampled({-9, 9, -9, 0, 9})),
+              ElementsAre(1, 0, 0));  // only the last of three contacts contains a frame
 }
 
-// The share missed grows with the stride, as in the trial of which the design tells (2.5 times the radius).
+// The share of missed contacts grows with the stride, as in the trial in the design document (2.5 times the
+// radius).
 TEST(SampledContacts, OfAProteinMostAreMissedBetweenFrames) {
   ReadOptions options;
   options.topology = data("trajectories/random100_400K.pdb");

@@ -15,8 +15,8 @@ namespace {
 
 using namespace test;
 
-/// Whether two balls meet in linear motion: where their square distance less that of their reach, a quadratic
-/// over rationals, is least.
+/// Returns whether two balls meet in linear motion. The squared distance minus the squared sum of radii is a
+/// quadratic over rationals, which is evaluated at its minimum.
 template <class M>
 bool meet(const M& motion, const BeadPair& pair) {
   const auto excess = [&](const Rational& u) {
@@ -57,7 +57,7 @@ void expect_all_found(const M& motion, const PairsAsked& asked, std::size_t& mee
   std::sort(found.pairs.begin(), found.pairs.end());
   ASSERT_EQ(found.pairs, all_that_meet(motion, asked));
   meeting += found.pairs.size();
-  // At rest: those that meet at the start of a motion that stays there.
+  // A motion at rest: the pairs that meet are those that meet at the start.
   M still = motion;
   for (BeadId b = 0; b < motion.bead_count(); ++b) {
     for (int axis = 0; axis < d; ++axis) still.set_coordinate(b, 1, axis, motion.coordinate(b, 0, axis));
@@ -95,7 +95,7 @@ TYPED_TEST(SweptContactsIn, FindAllThatMeetInAStepAndNoOthers) {
   EXPECT_GT(meeting, rounds(300U));
 }
 
-// Touching at one moment, and passing by an ulp.
+// Touching at one moment, and missing each other by an ulp.
 TEST(SweptContacts, TouchingCounts) {
   const double gap = 0x1p-50;
   for (const double height : {1.0, 1.0 + gap}) {

@@ -18,7 +18,7 @@ using namespace test;
 
 Basis basis_of(std::initializer_list<BeadId> beads) { return Basis(std::span(beads.begin(), beads.size())); }
 
-/// Signs at the start, on integers.
+/// Computes signs at the start, in integers.
 struct AtStart {
   const Space& motion;
   template <class Certificate>
@@ -36,7 +36,7 @@ MembershipSigns<3, AtStart> signs_of(const Space& motion) {
 }
 static_assert(SphereSigns<MembershipSigns<3, AtStart>>);
 
-/// Does not know, or knows better.
+/// Always gives the same answer: zero (undecided), or an answer that contradicts the positions.
 template <int answer>
 struct Always {
   static constexpr int dimension = 3;
@@ -44,7 +44,7 @@ struct Always {
   int orientation(const Basis&) const { return answer; }
 };
 
-/// By exact spheres: no certificates.
+/// Computes signs by exact spheres, without certificates.
 template <int Dimension>
 struct BySpheres {
   static constexpr int dimension = Dimension;
@@ -55,7 +55,7 @@ struct BySpheres {
     std::vector<IntegerBall<Dimension>> members;
     for (const BeadId b : basis) members.push_back(whole_ball(balls, b, unit));
     const auto sphere = kds::ExactSphere<Dimension>::touching(members);
-    // Nothing else must be asked for.
+    // The algorithm must ask only about proper bases.
     EXPECT_TRUE(sphere && sphere->is_proper());
     const bool holds = sphere && sphere->holds(whole_ball(balls, bead, unit));
     return holds == inside ? 1 : -1;
@@ -91,7 +91,7 @@ TEST(Basis, MembershipOfEverySize) {
   const auto sign = [&](const Basis& basis, BeadId bead, bool wanted) {
     return signs.membership(basis, bead, wanted, orientation_of(basis, signs));
   };
-  EXPECT_TRUE(inside(basis_of({0}), 7));  // the same place
+  EXPECT_TRUE(inside(basis_of({0}), 7));  // the same position
   EXPECT_FALSE(inside(basis_of({0}), 1));
   EXPECT_TRUE(inside(basis_of({0, 1}), 4));
   EXPECT_TRUE(inside(basis_of({0, 1}), 5));  // on the sphere
@@ -120,7 +120,7 @@ TEST(Basis, ProperIffNoBeadIsToSpare) {
   EXPECT_TRUE(is_proper(basis_of({0, 1, 3}), signs));   // acute
   EXPECT_FALSE(is_proper(basis_of({0, 1, 4}), signs));  // obtuse
   EXPECT_TRUE(is_proper(basis_of({0, 1, 3, 5}), signs));
-  EXPECT_FALSE(is_proper(basis_of({0, 1, 4, 5}), signs));  // the centre is off the tetrahedron
+  EXPECT_FALSE(is_proper(basis_of({0, 1, 4, 5}), signs));  // the centre is outside of the tetrahedron
 }
 
 TEST(Basis, AmongUpToFiveBeads) {
@@ -151,7 +151,7 @@ TEST(Basis, NoneIfTheSignsContradictThemselves) {
   const std::vector<BeadId> beads{0, 1, 2, 3, 4};
   Always<0> zero;
   Always<-1> contrary;
-  EXPECT_TRUE(basis_of_points(beads, zero).has_value());  // all in one place, for all it knows
+  EXPECT_TRUE(basis_of_points(beads, zero).has_value());  // zero signs mean that all beads may coincide
   EXPECT_FALSE(basis_of_points(beads, contrary).has_value());
   EXPECT_EQ(basis_of_points(std::span(beads).first(1), contrary)->size, 1);
 }

@@ -30,11 +30,11 @@ TYPED_TEST(SmallestSphereIn, OfHardSetsIsTheSmallestWithNoBallToSpare) {
       by_double += found.took_exact ? 0 : 1;
       ASSERT_EQ(not_smallest_ball(set, 0, last, places(found.basis), found.sphere.radius), std::nullopt)
           << set.name << ", round " << round;
-      // Its slow twin agrees about the sphere; the basis may be another.
+      // The slow reference finds the same sphere; its basis may differ.
       const SmallestSphere twin = smallest_sphere(balls, 0, last, {}, ExactUse::everywhere);
       ASSERT_EQ(not_smallest_ball(set, 0, last, places(twin.basis), found.sphere.radius), std::nullopt)
           << set.name << ", round " << round;
-      // From any guess.
+      // Starts from any guess.
       std::vector<BeadId> guess;
       for (unsigned i = 0; i < 1 + random() % 6; ++i)
         guess.push_back(static_cast<BeadId>(random() % (last + 1)));

@@ -1,4 +1,4 @@
-// Bases that doubles prove are those that whole numbers find.
+// Bases that are proved in doubles are equal to those that integers find.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-// The kinetic wrapped hierarchy of balls of any radii, in the plane and in space, and of equal ones in the
-// plane: audited between all events, and judged there by the definition over rationals. Equal radii in space
-// have a file of their own.
+// The kinetic wrapped hierarchy of balls with any radii, in the plane and in space, and of balls with equal
+// radii in the plane. Audits run between all events, and the definition over rationals judges each audit.
+// Equal radii in space have their own file.
 
 #include <gtest/gtest.h>
 
@@ -33,8 +33,8 @@ std::vector<Ball> balls_of(const M& motion, const Basis& basis, const Dyadic& ti
   return balls;
 }
 
-/// Why the sphere of a node's basis is not the smallest at `time`, or nothing. Between events beads may be to
-/// spare for a while.
+/// Explains why the sphere of a node's basis is not the smallest sphere at `time`, or returns nothing. A
+/// basis may have superfluous beads between events for a while.
 template <class M>
 std::optional<std::string> not_smallest(const M& motion, const BeadRange& range, const Basis& basis,
                                         const Dyadic& time) {
@@ -101,7 +101,7 @@ void make_equal(M& motion) {
   }
 }
 
-/// A second step that goes on from where the first ends, to the mirror image of its start.
+/// Adds a second step that starts where the first ends and ends at the mirror image of the first's start.
 template <class M>
 std::vector<M> there_and_back(const M& motion) {
   std::vector<M> steps(2, motion);
@@ -120,7 +120,7 @@ std::vector<M> there_and_back(const M& motion) {
   return steps;
 }
 
-/// All kinds of motion, two steps each; how many events.
+/// Runs all kinds of motion, two steps each; returns the number of events.
 template <class M, Radii radii>
 std::uint64_t run_random(unsigned rounds, std::size_t most_beads) {
   std::uint64_t events = 0;
@@ -154,7 +154,7 @@ TEST(BallHierarchy, EqualBallsInThePlane) {
   EXPECT_GT((run_random<BezierMotion<2, 1>, Radii::equal>(test::rounds(20U), 9)), test::rounds(400U));
 }
 
-// Equal radii are no special case for what takes any.
+// The code for any radii gives the same events for equal radii as the code for equal radii.
 TEST(BallHierarchy, EqualRadiiEitherWay) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     Random random(seed);
@@ -165,7 +165,7 @@ TEST(BallHierarchy, EqualRadiiEitherWay) {
   }
 }
 
-// A ball grows until it holds the others, and shrinks again; another passes through it.
+// A ball grows until it contains the others, and shrinks again; another ball passes through it.
 TEST(BallHierarchy, ABallThatHoldsOthers) {
   for (const double largest : {3.0, 8.0}) {
     Space motion(3);
@@ -181,8 +181,8 @@ TEST(BallHierarchy, ABallThatHoldsOthers) {
   }
 }
 
-// Four balls of three sizes pass through a plane, their centres on an ellipse, and a fifth comes to their
-// sphere at that moment.
+// Four balls of three sizes pass through a plane, with their centres on an ellipse. A fifth ball reaches
+// their sphere at the same moment.
 TEST(BallHierarchy, AFullBasisTurnsOverWhileABallEnters) {
   const double bead[5][3] = {{0, 16, 1}, {0, -16, 1}, {10, 0, -1}, {-40, 0, -1}, {1, 2, 0.125}};
   for (const double last : {1.0, 20.0, 24.0, 30.0, 36.0}) {
@@ -219,7 +219,7 @@ TEST(BallHierarchy, AProteinWithTwoSizesOfBeads) {
             (fingerprint_of<Radii::any, Kernel::filtered>(steps)));
 }
 
-// Weights of a lifted motion are fictitious between frames, and radii would be.
+// Lifted motion has fictitious weights between frames, so its radii would be fictitious too.
 TEST(BallHierarchy, RefusesLiftedMotion) {
   const LiftedMotion<3> motion(3);
   const std::vector<BeadRange> necklace{{0, 2}};
@@ -228,7 +228,8 @@ TEST(BallHierarchy, RefusesLiftedMotion) {
     EXPECT_THROW(WrappedHierarchy<3>(simulator, motion, necklace, radii), std::invalid_argument);
 }
 
-// Bounds on paths are compiled up to degree three: motion of a higher degree goes without.
+// The bounds on paths of spheres are compiled up to degree three. Motion of a higher degree runs without the
+// bounds.
 TEST(BallHierarchy, MotionOfAHigherDegree) {
   const std::vector<BeadRange> necklace{{0, 5}};
   for (const Radii radii : {Radii::equal, Radii::any}) {
@@ -250,7 +251,8 @@ TEST(BallHierarchy, MotionOfAHigherDegree) {
   }
 }
 
-// Norms of unequal radii have twelve times the motion's degree, functions of equal ones half as much.
+// Norms for unequal radii have twelve times the degree of the motion; functions for equal radii have half of
+// that.
 TEST(BallHierarchy, RefusesMotionWhoseFunctionsHaveTooHighADegree) {
   const std::vector<BeadRange> necklace{{0, 5}};
   const auto make = [&](Radii radii, int degree) {
@@ -264,7 +266,7 @@ TEST(BallHierarchy, RefusesMotionWhoseFunctionsHaveTooHighADegree) {
   EXPECT_THROW(make(Radii::equal, 11), std::invalid_argument);
 }
 
-// Only what a scene requires.
+// Selections keep only the nodes that a scene needs.
 
 TEST(NodeSelection, LevelsAndBeads) {
   const std::vector<BeadRange> necklaces{{0, 15}, {16, 19}};
@@ -281,7 +283,7 @@ TEST(NodeSelection, LevelsAndBeads) {
   EXPECT_EQ(count({0, 9, BeadRange{12, 19}}), 6);
 }
 
-// Kept nodes have the events that they have among all.
+// A selected node has the same events as in a run with all nodes.
 TEST(NodeSelection, OtherNodesMakeNoDifference) {
   const Space motion = instance_motion<Space>("d3_n50_linear");
   const std::vector<BeadRange> necklace{{0, 49}};
@@ -312,7 +314,7 @@ TEST(NodeSelection, OtherNodesMakeNoDifference) {
   EXPECT_LT(some.structure.statistics.certificates.created, all.structure.statistics.certificates.created);
 }
 
-// At the frame between two steps a basis may be flat, or its beads in one place.
+// At the frame between two steps, the beads of a basis may be affinely dependent or coincide.
 TEST(NodeSelection, AQueryAtADegenerateFrame) {
   const auto square = [](double z) { return Points{{4, 0, z}, {-4, 0, z}, {0, 4, -z}, {0, -4, -z}}; };
   const Points apart{{-1, 0, 0}, {1, 0, 0}}, together{{0, 0, 0}, {0, 0, 0}};
@@ -329,7 +331,7 @@ TEST(NodeSelection, AQueryAtADegenerateFrame) {
   }
 }
 
-// A query that goes down to whichever child is wider.
+// A query that descends into the wider child.
 TEST(NodeSelection, WhatAQueryAsksFor) {
   const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 6);
   const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(steps.front().bead_count() - 1)}};

@@ -1,6 +1,6 @@
-// Cages against CGAL's Min_sphere_of_spheres_d over rationals, with its LP algorithm: its default on doubles
-// is wrong on cospherical beads. A sample of small cages at one frame of each file; with KDS_CHECKED_FRAMES
-// every cage at as many frames.
+// Compares cages with CGAL's Min_sphere_of_spheres_d over rationals and its LP algorithm; the default
+// algorithm for double is wrong on cospherical beads. The test samples small cages at one frame of each file.
+// With KDS_CHECKED_FRAMES it checks every cage at that many frames.
 
 #include <CGAL/Gmpq.h>
 #include <CGAL/Min_sphere_of_spheres_d.h>
@@ -47,10 +47,10 @@ double cgal_radius(const BallSet& set, BeadId first, BeadId last) {
   const double root = std::sqrt(CGAL::to_double(d));
   const double x = CGAL::to_double(a), y = CGAL::to_double(b) * root;
   if (x * y >= 0) return x + y;
-  return CGAL::to_double(a * a - b * b * d) / (x - y);  // by the conjugate where the parts cancel
+  return CGAL::to_double(a * a - b * b * d) / (x - y);  // uses the conjugate if the two parts cancel
 }
 
-/// Every `stride`-th node of at most `most` beads.
+/// Checks every `stride`-th node with at most `most` beads.
 template <int D>
 std::size_t check_cages(StaticWrappedHierarchy<D>& hierarchy, const BallSet& set, std::size_t most,
                         NodeId stride) {

@@ -1,6 +1,7 @@
-// Beads of a kinetic wrapped hierarchy that change course while time runs: bent, sent elsewhere, made one
-// with another, at rational and at irrational times. Audited over rationals between all events; the slow twin
-// is the hierarchy of the curves that there are, run to that time from the start.
+// Beads of a kinetic wrapped hierarchy change course while time runs: courses are bent, replaced, or made
+// equal to another bead's course, at rational and irrational times. Audits over rationals run between all
+// events. The slow reference is a hierarchy built on the current curves and run from the start to the present
+// time.
 
 #include <gmock/gmock.h>
 
@@ -87,7 +88,7 @@ class BentRun {
       motion_.set_radius(b, k, of_.radii == Radii::equal ? 0.5 : 0.125 * (1 + b % 3));
     }
   }
-  /// Goes where the other goes.
+  /// Gives a bead the course of another bead.
   void join(BeadId b, BeadId other) {
     for (int k = 0; k <= M::degree; ++k)
       for (int axis = 0; axis < dimension; ++axis)
@@ -115,7 +116,7 @@ class BentRun {
           join(next, b);
         });
         break;
-      case 3:  // nothing becomes of it
+      case 3:  // the declared change leaves all courses as they are
         simulator_.change_motion(beads, [] {});
         if (of_.kernel != Kernel::fast) {
           EXPECT_EQ(history_.events.size(), before + 1);
@@ -134,7 +135,7 @@ class BentRun {
   void check(double u) {
     if (of_.kernel == Kernel::fast) return;
     EXPECT_EQ(hierarchy_.audit(Dyadic(u)), std::nullopt);
-    if (of_.places == Places::grid || of_.relax > 0) return;  // many are right
+    if (of_.places == Places::grid || of_.relax > 0) return;  // several bases are correct
     Simulator simulator;
     Hierarchy twin(simulator, motion_, necklaces, of_.radii);
     simulator.build();
@@ -146,7 +147,7 @@ class BentRun {
         ADD_FAILURE() << "another basis of node " << node << " at u = " << u;
     }
   }
-  /// Of beads that are one each will do.
+  /// Returns the courses of a basis. Among beads with equal courses any bead may be in the basis.
   [[nodiscard]] std::vector<std::array<double, 3>> courses_of(const Basis& basis) const {
     std::vector<std::array<double, 3>> courses;
     for (const BeadId b : basis)
@@ -222,7 +223,7 @@ TEST(HierarchyCourses, KernelsAgreeAndFastEnds) {
   }
 }
 
-/// Of nine beads at rest one goes far away and comes back to where it was.
+/// Nine beads rest; one of them moves far away and comes back to its place.
 TEST(HierarchyCourses, AllNodesOfABeadAndNoOthersAreRepaired) {
   Points at;
   for (int i = 0; i < 9; ++i) at.push_back({1.0 * i, 0.25 * (i % 3), 0.125 * (i % 2)});

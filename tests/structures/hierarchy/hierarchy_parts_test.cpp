@@ -1,4 +1,4 @@
-// The parts of the wrapped hierarchy alone, at the start of a step.
+// Tests the parts of the wrapped hierarchy alone, at the start of a step.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using namespace test;
 
-/// One necklace over all beads.
+/// The parts for one necklace of all beads.
 struct Parts {
   Parts(const Space& motion, Kernel kernel, Radii radii, bool relaxed = false)
       : simulator(AuditMode::none, kernel),
@@ -86,10 +86,11 @@ TEST(BasisRepair, FindsTheBasisOfABasisAndTheBeadThatEscaped) {
   }
 }
 
-// Certificates' signs judge: what is proved is what they find, and most of it is.
+// The signs of certificates judge the proofs: every proved basis agrees with the signs, and most bases are
+// proved.
 TEST(NodeProofs, ProveTheBasisWithABeadThatIsOutside) {
   for (const Radii radii : {Radii::equal, Radii::any}) {
-    std::array<int, 5> escapes{}, proved{};  // by the size of the next basis
+    std::array<int, 5> escapes{}, proved{};  // counted by the size of the next basis
     int left_out = 0;
     for (unsigned seed = 0; seed < 200; ++seed) {
       Random random(seed);
@@ -119,7 +120,8 @@ TEST(NodeProofs, ProveTheBasisWithABeadThatIsOutside) {
   }
 }
 
-// Of a right angle the corner is on the sphere of the other two: signs alone tell that it is left out.
+// In a right triangle the corner lies on the sphere of the other two points. Only signs show that the corner
+// is not in the basis.
 TEST(NodeProofs, ProveNoBasisWithAnotherBeadOnItsSphere) {
   Space motion(3);
   const std::array<std::array<double, 3>, 3> at{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}};
@@ -156,7 +158,7 @@ TEST(NodeProofs, ProveAllOfBeadsAtRestButNothingByIntegers) {
     }
     nodes = wide;
     parts.proofs.add_unsettled(pairs, bases, nodes);
-    EXPECT_EQ(nodes, wide);  // two of one radius never part
+    EXPECT_EQ(nodes, wide);  // two beads of equal radius never change their basis
     parts.proofs.find_candidates(nodes, bases);
     EXPECT_EQ(parts.proofs.candidates().size(), kernel == Kernel::exact ? wide.size() : 0);
     EXPECT_EQ(parts.proofs.proves_bases(), kernel != Kernel::exact);
@@ -164,7 +166,7 @@ TEST(NodeProofs, ProveAllOfBeadsAtRestButNothingByIntegers) {
 }
 
 TEST(NodeGuards, HoldACertificateUntilItIsDropped) {
-  // A bead leaves the sphere of two others halfway.
+  // A bead leaves the sphere of two others in the middle of the step.
   Space motion = moving({{-1, 0, 0}, {1, 0, 0}, {0, 0, 0}}, {{-1, 0, 0}, {1, 0, 0}, {0, 2, 0}});
   Parts parts(motion, Kernel::filtered, Radii::equal);
   parts.simulator.build();

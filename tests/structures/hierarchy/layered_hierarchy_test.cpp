@@ -15,7 +15,7 @@ namespace {
 
 using namespace test;
 
-/// One sphere around two, as one would write it down.
+/// A reference implementation: the smallest sphere around two spheres, by the textbook formula.
 template <int D>
 Cage<D> around(const Cage<D>& a, const Cage<D>& b) {
   const Point<D> d = detail::minus(b.center, a.center);
@@ -95,7 +95,7 @@ TEST(LayeredHierarchy, RadiiThatOverflowAreAsWrittenDown) {
   }
 }
 
-/// Whether the first sphere, as it stands, holds the second.
+/// Returns whether the first sphere, as stored, contains the second.
 bool holds(const Sphere& outer, const Eigen::Vector3d& center, double radius) {
   Rational square = 0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -106,7 +106,8 @@ bool holds(const Sphere& outer, const Eigen::Vector3d& center, double radius) {
   return room >= 0 && square <= Rational(room * room);
 }
 
-// One in the other, or all but, by some ulps; and at sizes whose squares leave the range of doubles.
+// One ball contains the other, or almost does, up to some ulps. Some sizes have squares outside of the range
+// of doubles.
 TEST(LayeredHierarchy, HoldsTwoBallsExactlyHoweverTheyLie) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> real(-1, 1);
@@ -158,7 +159,7 @@ TEST(LayeredHierarchy, HoldsItsChildrenTouchingThem) {
       radius[side] = part.radius;
       EXPECT_LE(reach[side], cage.radius * (1 + 1e-13));
     }
-    if (cage.radius == radius[0] || cage.radius == radius[1]) continue;  // one holds the other
+    if (cage.radius == radius[0] || cage.radius == radius[1]) continue;  // one ball contains the other
     for (const double r : reach) EXPECT_NEAR(r, cage.radius, 1e-13 * cage.radius);
   }
 }

@@ -1,5 +1,6 @@
-// The kinetic wrapped hierarchy with relaxed spheres: between all events each basis is that of its own
-// minimum enclosing sphere, and holds all beads of its node when it is made larger, judged over rationals.
+// The kinetic wrapped hierarchy with relaxed spheres. Between all events, judged over rationals, each basis
+// is the basis of its own minimum enclosing sphere, and that sphere enlarged by the relaxation contains all
+// beads of the node.
 
 #include <gtest/gtest.h>
 
@@ -36,12 +37,12 @@ Rational square_of_distance(const ExactPoint& p, const test::ExactSphere& sphere
   return square;
 }
 
-/// Of points: why a basis is not that of its own smallest sphere, or which bead is too far out. Its sphere
-/// goes through all of it, so that no member is outside.
+/// Explains, for points, why a basis is not the basis of its own smallest sphere, or which bead is too far
+/// out. The sphere passes through all members of the basis, so no member can be outside.
 std::optional<std::string> not_relaxed(std::span<const ExactPoint> points, const BeadRange& range,
                                        const Basis& basis, const Relaxation& relaxation) {
   const auto found = sphere_through(points, beads_of(basis));
-  if (!found) return std::nullopt;  // beads that are together for a while
+  if (!found) return std::nullopt;  // beads that coincide for a while
   for (const Rational& weight : found->second)
     if (weight < 0) return "the centre is not inside the basis";
   const Rational larger = 1 + Rational(relaxation.share());
@@ -51,7 +52,7 @@ std::optional<std::string> not_relaxed(std::span<const ExactPoint> points, const
   return std::nullopt;
 }
 
-/// Of all beads, or of some: the others are left zero.
+/// Returns the positions of all beads, or of some beads; the other positions are zero.
 template <class M>
 std::vector<ExactPoint> points_at(const M& motion, const Dyadic& time, std::optional<BeadRange> of = {}) {
   std::vector<ExactPoint> points(motion.bead_count());
@@ -64,7 +65,7 @@ std::vector<ExactPoint> points_at(const M& motion, const Dyadic& time, std::opti
   return points;
 }
 
-/// Audited between all events; how many there were.
+/// Runs with audits between all events; returns the number of events.
 template <class M>
 std::uint64_t run_audited(const std::vector<M>& steps, double share, Kernel kernel = Kernel::filtered,
                           int stride = 1) {
@@ -111,7 +112,7 @@ void make_equal(M& motion) {
   }
 }
 
-/// The step, and a second one that goes back to its start.
+/// Returns the step, and a second step that goes back to the start.
 template <class M>
 std::vector<M> there_and_back(const M& motion) {
   std::vector<M> steps(2, motion);
@@ -123,8 +124,8 @@ std::vector<M> there_and_back(const M& motion) {
   return steps;
 }
 
-// A bead that goes straight out is taken in when it is a quarter of the radius out, at u = 5/8, and the next
-// sphere holds it.
+// A bead that moves straight outwards is added to the basis when it is a quarter of the radius outside, at u
+// = 5/8. The next sphere contains it.
 TEST(RelaxedHierarchy, AnEscapeWaits) {
   const Space motion = moving({{-4, 0, 0}, {4, 0, 0}, {0, 0, 0}}, {{-4, 0, 0}, {4, 0, 0}, {0, 8, 0}});
   const auto first_event = [&](double share) {
@@ -140,7 +141,8 @@ TEST(RelaxedHierarchy, AnEscapeWaits) {
   first_event(1);
 }
 
-// Without a relaxation nothing is another: fingerprints of known runs are in tests/support/fingerprints.csv.
+// Without a relaxation the hierarchy is the wrapped hierarchy. Fingerprints of known runs are in
+// tests/support/fingerprints.csv.
 TEST(RelaxedHierarchy, NoneIsTheWrappedHierarchy) {
   const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 4);
   Rig<WrappedHierarchy<3>, Space> plain(steps.front(), AuditMode::none, Kernel::filtered,
@@ -182,7 +184,8 @@ TEST(RelaxedHierarchy, MotionsFullOfTies) {
     std::vector<Points> frames;
     for (int k = 0; k < 3; ++k)
       frames.push_back(k > 0 && random() % 4 == 0 ? frames.back() : random_grid_points(random, beads, 3));
-    const double share = round % 2 == 0 ? 0.125 : 0.5;  // spheres of whole numbers are left at whole numbers
+    const double share =
+        round % 2 == 0 ? 0.125 : 0.5;  // with these shares, enlarged spheres may pass through grid points
     SCOPED_TRACE(text_of("round ", round, ": ", testing::PrintToString(frames)));
     run_audited(through(frames), share);
     EXPECT_EQ(fingerprint_of(through(frames), share, Kernel::exact),
@@ -217,8 +220,8 @@ TEST(RelaxedHierarchy, DegenerateInstances) {
   }
 }
 
-// Of a protein, at 10^4 random times: the smallest sphere is between the basis' and that made larger. CGAL
-// knows the smallest one.
+// Checks a protein at 10^4 random times: the radius of the smallest sphere lies between the radius of the
+// basis' sphere and the enlarged radius. CGAL computes the smallest sphere.
 TEST(RelaxedHierarchy, HoldsAllBeadsOfAProteinAtRandomTimes) {
   const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 40);
   for (const double share : {0.01, 0.1}) {
@@ -244,7 +247,7 @@ TEST(RelaxedHierarchy, HoldsAllBeadsOfAProteinAtRandomTimes) {
           bases[*node] = Basis(std::span(change.ids).subspan(2, change.size - 2U));
         }
         if (next < rig.history.events.size() && rig.history.events[next].lower < u)
-          continue;  // as good as then
+          continue;  // the next event happens at about this time
         const NodeId node = static_cast<NodeId>(random() % tree.node_count());
         const BeadRange& range = tree.range(node);
         const auto points = points_at(steps[k], Dyadic(u), range);
@@ -260,7 +263,7 @@ TEST(RelaxedHierarchy, HoldsAllBeadsOfAProteinAtRandomTimes) {
       events += rig.history.events.size() - before;
     }
     EXPECT_GT(looked_at, static_cast<std::size_t>(rounds(4700)));
-    EXPECT_GE(cgal, rounds(5U) / 5);  // some bead is out at times, if one looks often
+    EXPECT_GE(cgal, rounds(5U) / 5);  // frequent checks find some bead outside of its basis' sphere
     Rig<WrappedHierarchy<3>, Space> plain(steps.front(), AuditMode::none, Kernel::filtered,
                                           std::vector<BeadRange>{{0, 107}}, Radii::equal);
     plain.run(steps);
@@ -268,7 +271,7 @@ TEST(RelaxedHierarchy, HoldsAllBeadsOfAProteinAtRandomTimes) {
   }
 }
 
-// The audit must be able to fail: a basis that is too small, and one with a bead to spare.
+// The audit must be able to fail: it rejects a basis that is too small, and a basis with a superfluous bead.
 TEST(RelaxedHierarchy, AuditsNoticeBeadsTooFarOut) {
   const Space motion = moving({{-4, 0, 0}, {4, 0, 0}, {0, 4.5, 0}}, {{-4, 0, 0}, {4, 0, 0}, {0, 4.5, 0}});
   const auto fault = [&](double share, std::initializer_list<BeadId> basis) {
@@ -286,10 +289,10 @@ TEST(RelaxedHierarchy, AuditsNoticeBeadsTooFarOut) {
   EXPECT_EQ(fault(0.12, {0, 1, 2}), std::nullopt);
 }
 
-// Balls of unequal radii.
+// Tests for balls of unequal radii.
 
-/// Why the sphere of (1 + share) R does not hold a ball of the node, as far as enclosures of numbers tell, or
-/// the basis' own sphere is none.
+/// Explains why the sphere of radius (1 + share) R does not contain a ball of the node, or why the basis has
+/// no proper sphere. Interval enclosures decide.
 template <class M>
 std::optional<std::string> ball_too_far_out(const M& motion, const BeadRange& range, const Basis& basis,
                                             const Rational& share, const Dyadic& time) {
@@ -314,7 +317,8 @@ std::optional<std::string> ball_too_far_out(const M& motion, const BeadRange& ra
   return std::nullopt;
 }
 
-/// Audited by the structure, and judged by the definition, between all events; how many there were.
+/// Runs with audits of the structure and a judge by the definition between all events; returns the number of
+/// events.
 template <class M>
 std::uint64_t run_balls(const std::vector<M>& steps, double share) {
   RelaxedRig<M> rig(steps.front(), AuditMode::events, Kernel::filtered, share, Radii::any);
@@ -357,7 +361,7 @@ TEST(RelaxedHierarchy, UnequalRadiiInSpaceAndInThePlane) {
   EXPECT_GT(events, static_cast<std::uint64_t>(rounds(40)));
 }
 
-// Of a protein with beads of two sizes, where most nodes are large enough to be relaxed.
+// A protein with beads of two sizes, where most nodes are large enough to be relaxed.
 TEST(RelaxedHierarchy, AProteinWithTwoSizesOfBeads) {
   std::vector<Space> steps = trajectory_steps("villin_hp36_300K.dcd", 0, 2);
   for (Space& motion : steps) {

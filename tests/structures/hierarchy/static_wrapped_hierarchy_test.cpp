@@ -19,7 +19,7 @@ Trajectory frames_of(const std::string& name, FrameRange range) {
   return read_trajectory(data(name), options);
 }
 
-// Several necklaces, one of a single bead.
+// Splits the beads into several necklaces, one of which has a single bead.
 std::vector<BeadRange> split(std::size_t beads) {
   const auto n = static_cast<BeadId>(beads);
   if (n < 12) return {{0, n - 1}};
@@ -68,7 +68,7 @@ TYPED_TEST(StaticWrappedHierarchyIn, IsExactOnHardSetsBuiltAndUpdated) {
       const WrapCounts again = hierarchy.update(balls);
       EXPECT_TRUE(again.exact > 0 || again.changed == 0) << set.name;
       expect_exact(hierarchy, set);
-      // Somewhere else altogether, then back, from the bases of there.
+      // Moves the beads to a different set and back. Each update starts with the bases of the set before it.
       const BallSet other = hard_ball_set(random, (which + 1) % hard_ball_sets, beads, true, d == 2);
       balls.move_to(other.centers);
       hierarchy.update(balls);
@@ -101,7 +101,7 @@ TEST(StaticWrappedHierarchy, IsExactOnTrajectories) {
   }
 }
 
-// Built they are looked at one by one, updated four at a time.
+// A build looks at pairs one by one; an update looks at four pairs at a time.
 TYPED_TEST(StaticWrappedHierarchyIn, PairsUpdatedAreThoseBuilt) {
   constexpr int d = TypeParam::value;
   std::mt19937 random(57 + d);
@@ -126,7 +126,7 @@ TYPED_TEST(StaticWrappedHierarchyIn, PairsUpdatedAreThoseBuilt) {
   }
 }
 
-// Larger than what one thread does at a time, and with cages that are skipped.
+// The set is larger than one thread's share of work, and some cages are skipped.
 TEST(StaticWrappedHierarchy, ThreadsGiveTheSameBits) {
   std::mt19937 random(17);
   std::normal_distribution<double> step;
@@ -157,7 +157,7 @@ TEST(StaticWrappedHierarchy, ThreadsGiveTheSameBits) {
       ASSERT_EQ(layered_one.sphere(node).center, layered_all.sphere(node).center);
       ASSERT_EQ(layered_one.sphere(node).radius, layered_all.sphere(node).radius);
     }
-    // From scratch the same spheres, and a few checked from the definition.
+    // A fresh build gives the same spheres; a few spheres are checked from the definition.
     StaticWrappedHierarchy<3> fresh(necklaces);
     fresh.build(balls);
     expect_same(one, fresh);
@@ -178,7 +178,7 @@ struct Walk {
   std::vector<BeadRange> necklaces;
 };
 
-// A random walk of beads that then jitter.
+// Makes a random walk of beads, and frames in which the beads jitter.
 Walk jittering_walk(Eigen::Index beads, bool equal, double jitter) {
   std::mt19937 random(29);
   std::normal_distribution<double> step;
@@ -220,10 +220,10 @@ TEST(StaticWrappedHierarchy, EveryVerificationGivesTheSameAndCountsItsTests) {
       EXPECT_EQ(n.changed, c.changed);
       EXPECT_EQ(n.changed, b.changed);
       EXPECT_EQ(n.cage_tests, 0U);
-      EXPECT_TRUE(k > 0 || n.bead_tests == all);  // nothing to repair at first
+      EXPECT_TRUE(k > 0 || n.bead_tests == all);  // the first update has nothing to repair
       EXPECT_LT(b.bead_tests, n.bead_tests);
       EXPECT_LT(c.bead_tests + c.cage_tests, n.bead_tests);
-      // At rest the cascade starts where it ended.
+      // Beads at rest: the cascade starts from its last result.
       const WrapCounts again = cascade.update(balls, Update::cascade);
       if (k == 0) {
         EXPECT_LT(again.bead_tests + again.cage_tests, c.bead_tests + c.cage_tests);
@@ -264,7 +264,7 @@ TEST(StaticWrappedHierarchy, TrustedBasesHaveABoundOnWhatSticksOut) {
       }
     }
     EXPECT_GT(out, 0U) << "or the bound was not tried";
-    // Verified again: exact, and the same as from scratch.
+    // A verified update is exact and equal to a fresh build.
     const Balls<3> last(walk.frames.back(), walk.radii);
     StaticWrappedHierarchy<3> fresh(walk.necklaces);
     fresh.build(last);

@@ -1,5 +1,5 @@
-// How much larger layered cages can be than wrapped ones: Theorem 2.3 and Lemmas 2.4 and 2.5 of Agarwal et
-// al.
+// Bounds how much larger layered cages are than wrapped cages: Theorem 2.3 and Lemmas 2.4 and 2.5 of Agarwal
+// et al.
 
 #include <gtest/gtest.h>
 
@@ -16,9 +16,9 @@ namespace {
 
 using namespace test;
 
-constexpr double slack = 1e-12;  // of the square radius: both hierarchies are rounded
+constexpr double slack = 1e-12;  // relative to the squared radius: both hierarchies round
 
-/// The level of each node: the greatest distance to a bead below.
+/// Returns the level of each node: the greatest number of edges down to a bead.
 std::vector<int> levels_of(const NecklaceTree& tree) {
   std::vector<int> level(tree.node_count());
   const auto of = [&](NodeId child) { return child == NecklaceTree::leaf ? 0 : level[child]; };
@@ -37,10 +37,10 @@ void check_bounds(const Eigen::Matrix3Xd& centers, const std::vector<double>& ra
   layered.build(balls);
   const NecklaceTree& tree = wrapped.tree();
   const std::vector<int> level = levels_of(tree);
-  // Every subtree is a hierarchy: its root against all below it.
+  // Every subtree is a hierarchy, so each root is compared with all nodes below it.
   for (NodeId root = 0; root < tree.node_count(); ++root) {
     const Sphere whole = wrapped.sphere(root);
-    if (whole.radius == 0) continue;  // all beads at one place
+    if (whole.radius == 0) continue;  // all beads coincide
     const double square = whole.radius * whole.radius;
     const double ratio = layered.sphere(root).radius / whole.radius;
     ASSERT_GE(ratio, 1 - slack);
@@ -103,7 +103,7 @@ TEST(Tightness, PointsOfLemmaTwoFiveReachTheSquareRootOfTheHeight) {
 }
 
 TEST(Tightness, RatiosOfKnownCages) {
-  // Three beads in a row are wrapped as tightly as layered; a bent chain of four is not.
+  // Three consecutive beads are wrapped as tightly as layered; a bent chain of four is not.
   Eigen::Matrix3Xd bent(3, 4);
   bent << 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0;
   const std::vector<double> radii(4, 0);
@@ -114,7 +114,7 @@ TEST(Tightness, RatiosOfKnownCages) {
   wrapped.build(balls);
   layered.build(balls);
   const Tightness ratios = tightness_of(wrapped, layered);
-  EXPECT_NEAR(ratios.least, std::sqrt(0.5), 1e-14);  // a half diagonal in a circle of radius 1, rounded up
+  EXPECT_NEAR(ratios.least, std::sqrt(0.5), 1e-14);  // half of a diagonal in a circle of radius 1, rounded up
   EXPECT_NEAR(ratios.average, (2 + std::sqrt(0.5)) / 3, 1e-14);
 }
 

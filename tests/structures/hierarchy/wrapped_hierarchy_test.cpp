@@ -28,7 +28,7 @@ Necklaces one_necklace(const Space& motion) { return {{0, static_cast<BeadId>(mo
 
 std::span<const BeadId> beads_of(const Basis& basis) { return {basis.begin(), basis.end()}; }
 
-/// Every node against the definition and against CGAL over the rationals.
+/// Compares every node with the definition and with CGAL over rationals.
 template <Kernel K>
 void expect_right_at(const WrappedRig<K>& rig, const Dyadic& time, bool cgal = true) {
   const auto points = exact_points(rig.motion, time);
@@ -55,10 +55,10 @@ Witness::Look definition(WrappedRig<K>& rig, int stride) {
     const NecklaceTree& tree = rig.structure.tree();
     for (NodeId node = 0; node < tree.node_count(); ++node) {
       const auto [first, last] = tree.range(node);
-      // Between events the basis need not be strict: beads may be to spare for a whole step (two that stay
-      // together).
+      // Between events the basis need not be strict. Superfluous beads may stay for a whole step, as when two
+      // beads move together.
       const Basis& basis = rig.structure.basis(node);
-      if (!sphere_through(points, beads_of(basis))) continue;  // beads that are together for a while
+      if (!sphere_through(points, beads_of(basis))) continue;  // beads that coincide for a while
       if (auto wrong = not_smallest_sphere(points, first, last, beads_of(basis), false)) {
         return text_of("node ", first, "-", last, ": ", *wrong);
       }
@@ -67,7 +67,8 @@ Witness::Look definition(WrappedRig<K>& rig, int stride) {
   };
 }
 
-/// Each event names its kind and its node's next basis: checks kinds against the set differences of bases.
+/// Checks that each event names its kind and the next basis of its node: the kind must agree with the set
+/// difference of the two bases.
 template <Kernel K>
 void expect_consistent_log(const WrappedRig<K>& rig, std::map<std::pair<BeadId, BeadId>, Basis> bases) {
   std::array<std::uint64_t, 4> kinds{};
@@ -90,7 +91,7 @@ void expect_consistent_log(const WrappedRig<K>& rig, std::map<std::pair<BeadId, 
   EXPECT_THAT(rig.structure.statistics.events_by_kind, testing::ElementsAreArray(kinds));
 }
 
-/// Audited between all events, by the structure and by the definition.
+/// Runs with audits between all events, by the structure and by the definition.
 template <Kernel K>
 void run_audited(const std::vector<Space>& steps, const Necklaces& necklaces, int stride = 1) {
   WrappedRig<K> rig(steps.front(), AuditMode::events, necklaces);
@@ -133,7 +134,7 @@ std::uint64_t fingerprint_of(const std::vector<Space>& steps, const Necklaces& n
   return rig.simulator.fingerprint();
 }
 
-// Few beads.
+// Tests with few beads.
 
 TEST(WrappedHierarchy, OneBeadHasNoNodes) {
   const Space motion = moving({{1, 2, 3}}, {{4, 5, 6}});
@@ -145,15 +146,16 @@ TEST(WrappedHierarchy, OneBeadHasNoNodes) {
 
 TEST(WrappedHierarchy, TwoBeadsHaveNoEvents) {
   run_audited({moving({{0, 0, 0}, {1, 0, 0}}, {{5, 0, 0}, {1, 7, 0}})});
-  run_audited({moving({{0, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {0, 0, 0}})});  // through each other
-  run_audited({moving({{0, 0, 0}, {1, 0, 0}}, {{2, 0, 0}, {2, 0, 0}})});  // meeting at the end
-  run_audited({moving({{2, 0, 0}, {2, 0, 0}}, {{0, 0, 0}, {1, 0, 0}})});  // parting at the start
-  run_audited({moving({{2, 0, 0}, {2, 0, 0}}, {{3, 1, 0}, {3, 1, 0}})});  // together
+  run_audited({moving({{0, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {0, 0, 0}})});  // the beads pass through each other
+  run_audited({moving({{0, 0, 0}, {1, 0, 0}}, {{2, 0, 0}, {2, 0, 0}})});  // the beads meet at the end
+  run_audited({moving({{2, 0, 0}, {2, 0, 0}}, {{0, 0, 0}, {1, 0, 0}})});  // the beads part at the start
+  run_audited({moving({{2, 0, 0}, {2, 0, 0}}, {{3, 1, 0}, {3, 1, 0}})});  // the beads move together
   run_audited(through({{{2, 0, 0}, {2, 0, 0}}, {{3, 1, 0}, {3, 1, 0}}, {{3, 1, 0}, {4, 1, 0}}}));
 }
 
 TEST(WrappedHierarchy, ThreeBeads) {
-  // An obtuse triangle becomes acute, and obtuse at another bead: enter, then leave.
+  // An obtuse triangle becomes acute, and then obtuse at another bead: one bead enters the basis, then one
+  // leaves.
   const std::vector<Space> steps{
       moving({{-4, 0, 0}, {4, 0, 0}, {-3, 1, 0}}, {{-4, 0, 0}, {4, 0, 0}, {14, 1, 0}})};
   WrappedRig<Kernel::filtered> rig(steps.front(), AuditMode::events, one_necklace(steps.front()));
@@ -161,13 +163,14 @@ TEST(WrappedHierarchy, ThreeBeads) {
   EXPECT_THAT(rig.structure.statistics.events_by_kind, testing::ElementsAre(1, 1, 0, 0));
   run_audited(steps);
   run_audited({moving({{-4, 0, 0}, {4, 0, 0}, {0, 0, 0}}, {{-4, 0, 0}, {4, 0, 0}, {0, 9, 0}})});
-  run_audited({moving({{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {0, 0, 0}, {-1, 0, 0}})});  // all meet
   run_audited(
-      {moving({{-1, 0, 0}, {1, 0, 0}, {0, 3, 0}}, {{1, 0, 0}, {-1, 0, 0}, {0, 3, 0}})});  // two trade places
+      {moving({{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {0, 0, 0}, {-1, 0, 0}})});  // all beads meet
+  run_audited({moving({{-1, 0, 0}, {1, 0, 0}, {0, 3, 0}},
+                      {{1, 0, 0}, {-1, 0, 0}, {0, 3, 0}})});  // two beads trade places
 }
 
-// A square that bends through its plane: four beads on one circle at that moment, all basis beads before and
-// after.
+// A square bends through its plane. At that moment its four beads lie on one circle; before and after they
+// are the basis.
 TEST(WrappedHierarchy, AFourBeadBasisPassesThroughAPlane) {
   const auto bent = [](double s, std::initializer_list<std::array<double, 3>> more) {
     Points points{{2, 0, s}, {-2, 0, s}, {0, 2, -s}, {0, -2, -s}};
@@ -179,12 +182,12 @@ TEST(WrappedHierarchy, AFourBeadBasisPassesThroughAPlane) {
   run_audited({moving(bent(-1, {{1, 0, 0}, {0, 1, 1}}), bent(1, {{1, 0, 0}, {0, 1, 1}}))});
   run_audited(through({bent(-1, {{0, 0, 0}}), bent(0, {{0, 0, 0}}), bent(1, {{0, 0, 0}})}));
   run_audited<Kernel::exact>({moving(bent(-1, {{0, 0, 0}}), bent(1, {{0, 0, 0}}))}, {{0, 4}});
-  // Not at the middle of the step, and not in a plane of axes.
+  // The same motion, but not at the middle of the step and not in a coordinate plane.
   run_audited({moving(bent(-1, {{0, 0, 0}}), bent(4, {{0, 0, 0}}))});
 }
 
-// Halfway the four basis beads lie in one plane and each touches the others' sphere: no certificate changes
-// sign, and yet the basis turns over.
+// In the middle of the step the four basis beads lie in one plane, and each touches the sphere of the other
+// three. No certificate changes sign, but the orientation of the basis flips.
 TEST(WrappedHierarchy, ABasisTurnsOverByTouchingAlone) {
   run_audited({moving({{2, 2, 0}, {0, 2, 0}, {2, 0, 0}, {2, 2, 2}, {2, 0, 2}, {0, 0, 0}, {0, 0, 2}},
                       {{0, 0, 2}, {2, 0, 2}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 2}, {2, 2, 0}})});
@@ -225,7 +228,7 @@ TEST(WrappedHierarchy, Grids) {
   for (int i = 0; i < 27; ++i) {
     const double x = i % 3, y = i / 3 % 3, z = i / 9;
     grid.push_back({x, y, z});
-    turned.push_back({2 - y, x, z});  // by a quarter: on the way it shrinks, and stays a grid
+    turned.push_back({2 - y, x, z});  // a quarter turn; in between, linear motion shrinks the grid
     sheared.push_back({x + y, y - z, z + x});
   }
   run_audited<Kernel::filtered>({moving(grid, grid)}, {{0, 26}});
@@ -254,7 +257,7 @@ TEST(WrappedHierarchy, RotatingPolygonsAndHelix) {
     }
   }
   run_audited(through(frames));
-  // The same with whole coordinates: a square and an octagon of 3-4-5 triangles, a quarter turn on.
+  // A similar case with whole coordinates: a square and an octagon of 3-4-5 triangles, turned by a quarter.
   const Points octagon{{5, 0, 0},  {4, 3, 0},   {3, 4, 0},   {0, 5, 0},  {-3, 4, 0}, {-4, 3, 0},
                        {-5, 0, 0}, {-4, -3, 0}, {-3, -4, 0}, {0, -5, 0}, {3, -4, 0}, {4, -3, 0}};
   Points turned;
@@ -294,7 +297,7 @@ TEST(WrappedHierarchy, RandomFramesFullOfTies) {
   }
 }
 
-// Symmetric motions p -> -p, mirrored and turned ones: everything happens at u = 1/2.
+// Symmetric motions p -> -p, also mirrored and turned: all events happen at u = 1/2.
 TEST(WrappedHierarchy, SymmetricMotions) {
   std::mt19937 random(23);
   for (int round = 0; round < test::rounds(150); ++round) {
@@ -311,7 +314,7 @@ TEST(WrappedHierarchy, SymmetricMotions) {
   }
 }
 
-// Real input, general position.
+// Real input in general position.
 
 TEST(WrappedHierarchy, RightAtTheFramesOfATrajectory) {
   const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 3);
@@ -345,7 +348,8 @@ TEST(WrappedHierarchy, KernelsAgree) {
     WrappedRig<Kernel::filtered> filtered(motion->front(), AuditMode::none, necklaces);
     filtered.run(*motion);
     EXPECT_EQ(fingerprint_of<Kernel::exact>(*motion, necklaces), filtered.simulator.fingerprint());
-    // One function may fail in two nodes at once: the double kernel has them in any order.
+    // One function may fail in two nodes at once, and the double kernel may handle these failures in any
+    // order.
     WrappedRig<Kernel::fast> fast(motion->front(), AuditMode::none, necklaces);
     fast.run(*motion);
     const auto changes = [](const History& history) {
@@ -404,7 +408,7 @@ TEST(WrappedHierarchy, SeveralNecklaces) {
   const Space motion = instance_motion<Space>("d3_n50_linear");
   const Necklaces necklaces{{0, 16}, {17, 17}, {18, 19}, {20, 49}};
   run_audited<Kernel::filtered>({motion}, necklaces, 10);
-  // Each behaves as it does alone.
+  // Each necklace has the same events as when it runs alone.
   WrappedRig<Kernel::filtered> all(motion, AuditMode::none, necklaces);
   all.run();
   std::uint64_t alone = 0;
@@ -434,7 +438,7 @@ TEST(WrappedHierarchy, TheExactStageIsRareInGeneralPosition) {
   EXPECT_LT(statistics.stages.signs_exact, 100U);
 }
 
-// The audit must be able to fail: any other basis is wrong.
+// The audit must be able to fail: it rejects every other basis.
 TEST(WrappedHierarchy, AuditsNoticeEveryWrongBasis) {
   const Space motion = instance_motion<Space>("d3_n20_linear");
   WrappedRig<Kernel::filtered> rig(motion, AuditMode::frames, one_necklace(motion));
@@ -451,7 +455,7 @@ TEST(WrappedHierarchy, AuditsNoticeEveryWrongBasis) {
       }
       if (change.size == 2) continue;
       const Basis other(std::span(change.ids).subspan(2, change.size - 2U));
-      // A basis with beads to spare is one still, as at a frame where a bead is about to leave.
+      // A basis with superfluous beads is still a valid basis, as at a frame where a bead is about to leave.
       const bool contains =
           std::all_of(right.begin(), right.end(), [&](BeadId b) { return other.contains(b); });
       rig.structure.apply(change);
@@ -470,7 +474,7 @@ TEST(WrappedHierarchy, ATranslationGivesNoEvent) {
   std::vector<Points> frames(11, Points(first.bead_count()));
   for (std::size_t k = 0; k < frames.size(); ++k) {
     for (BeadId b = 0; b < first.bead_count(); ++b) {
-      // Whole multiples of 2^-12: a sum is not rounded.
+      // Whole multiples of 2^-12, so that sums are exact.
       for (int axis = 0; axis < 3; ++axis) {
         frames[k][b][static_cast<std::size_t>(axis)] =
             std::round(first.coordinate(b, 0, axis) * 4096) / 4096 + static_cast<double>(k) * (0.5 + axis);
@@ -486,7 +490,8 @@ TEST(WrappedHierarchy, ATranslationGivesNoEvent) {
             rig.structure.statistics.certificates.created);
 }
 
-// Four beads on one circle, two of which leave it outwards: the basis is theirs from the start on.
+// Four beads start on one circle and two of them leave it outwards, so these two are the basis from the
+// start.
 TEST(WrappedHierarchy, TiesAtTheStartAreSettledWhenItIsBuilt) {
   for (const BeadId leaves : {0U, 1U}) {
     Space motion(4);
@@ -502,8 +507,8 @@ TEST(WrappedHierarchy, TiesAtTheStartAreSettledWhenItIsBuilt) {
   }
 }
 
-// Beads that jostle in slow motion: most nodes rest, some wake up, and the reference moves up. Now and then
-// the chain jumps.
+// Beads jostle slowly: most nodes rest, some become active, and the reference moves. Now and then the whole
+// chain jumps.
 TEST(WrappedHierarchy, NodesRestInSlowMotion) {
   Random random(5);
   std::vector<Points> frames(1, Points(60));
