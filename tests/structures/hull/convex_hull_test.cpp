@@ -28,7 +28,8 @@ using Curved = BezierMotion<2, 3>;
 template <Motion M>
 using HullRig = Rig<ConvexHull, M>;
 
-/// The least beads at the corners that CGAL finds with exact numbers, counterclockwise from the least on.
+/// Returns the corners that CGAL finds with exact numbers, counterclockwise from the least bead. The least
+/// bead stands for beads at one corner.
 std::vector<BeadId> corners_by_cgal(const ExactPoints& at) {
   using Geometry = CGAL::Simple_cartesian<CGAL::Gmpq>;
   std::vector<Geometry::Point_2> points, corners;
@@ -41,12 +42,12 @@ std::vector<BeadId> corners_by_cgal(const ExactPoints& at) {
   return beads;
 }
 
-int differences;  // where the corners known are not those of this very moment
+int differences;  // counts the audits at which the known corners differ from the exact corners of that moment
 
-/// What is wrong with corners at a moment of ties, which may lie on edges and together.
+/// Explains what is wrong with corners at a moment of ties; corners may lie on edges or coincide then.
 std::optional<std::string> fault_at_ties(const std::vector<BeadId>& known, const std::vector<BeadId>& right,
                                          const ExactPoints& at) {
-  std::vector<BeadId> places;  // of the known ones, those at corners
+  std::vector<BeadId> places;  // the known beads that are at exact corners
   for (const BeadId b : known)
     for (const BeadId corner : right)
       if (at[b] == at[corner] && (places.empty() || places.back() != corner)) places.push_back(corner);
@@ -82,7 +83,8 @@ History expect_right(const std::vector<M>& steps) {
                                                [](const ConvexHull& hull) { return hull.corners(); });
 }
 
-/// "enter 3 between 1 and 2 at 0.5", without what the halves only keep for themselves.
+/// Returns lines such as "enter 3 between 1 and 2 at 0.5". Leaves out interchanges, which only the two halves
+/// of the hull need.
 std::vector<std::string> told(const History& history) {
   std::vector<std::string> lines;
   for (const Event& e : history.events) {
@@ -147,7 +149,7 @@ TEST(ConvexHull, OfFewBeads) {
   one.run();
   EXPECT_THAT(one.structure.corners(), ElementsAre(0));
   EXPECT_THAT(told(expect_right(flat_through({{{0, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {0, 0, 0}}}))), IsEmpty());
-  // Together, apart, together.
+  // Two beads are together, apart, and together again.
   EXPECT_THAT(told(expect_right(flat_through({{{0, 0, 0}, {0, 0, 0}},
                                               {{0, 0, 0}, {0, 0, 0}},  //
                                               {{0, 0, 0}, {0, 1, 0}},
@@ -176,7 +178,7 @@ TEST(ConvexHull, OfBeadsTogetherTheLeastIsTheCorner) {
   HullRig<Plane> rig(flat(twice, later), AuditMode::events);
   rig.run();
   EXPECT_THAT(rig.structure.corners(), ElementsAre(4, 5, 6, 7));
-  // Where they have met again for a whole step, it is the least again.
+  // Beads that coincide again for a whole step: the least bead is the corner again.
   for (const Points& last : {twice, later}) {
     const std::vector<Plane> steps = flat_through({twice, later, twice, twice, last});
     expect_right(steps);
@@ -186,7 +188,7 @@ TEST(ConvexHull, OfBeadsTogetherTheLeastIsTheCorner) {
   }
 }
 
-// All meet in a point, or in a line, and come out the other way round, or in another order.
+// All beads meet in a point or on a line, and leave in the opposite or another order.
 TEST(ConvexHull, AllMeet) {
   Points from, to, to_line;
   for (int b = 0; b < 7; ++b) {
@@ -199,7 +201,7 @@ TEST(ConvexHull, AllMeet) {
   Points on_a_line = to_line;
   for (auto& p : on_a_line) p[1] = 0;
   expect_right(flat_through({from, on_a_line, to_line, Points(7, {0, 0, 0}), from}));
-  // Some turn back, the others go through: the order around changes.
+  // Some beads turn back and the other beads pass through, which changes the order around the hull.
   BezierMotion<2, 2> through(5);
   for (BeadId b = 0; b < 5; ++b) {
     for (int axis = 0; axis < 2; ++axis) {
@@ -240,7 +242,7 @@ void try_random_motions(unsigned seed) {
 TEST(ConvexHull, RandomMotions) { try_random_motions<Plane>(2); }
 TEST(ConvexHull, RandomCurves) { try_random_motions<Curved>(4); }
 
-/// Instances of data/kinetic; in general position corners are exactly CGAL's between all events.
+/// Instances of data/kinetic. In general position the corners are exactly CGAL's between all events.
 TEST(ConvexHull, Instances) {
   differences = 0;
   EXPECT_GT(told(expect_right<Plane>({instance_motion<Plane>("d2_n50_linear")})).size(), 10U);
@@ -279,7 +281,7 @@ TEST(ConvexHull, AuditsNoticeEveryWrongHull) {
   EXPECT_EQ(rig.structure.audit(Dyadic(0.5)), std::nullopt);
   rig.structure.apply({ConvexHull::leave, 3, {1, 0, 2}});
   for (const double time : {0.0, 0.5, 1.0}) EXPECT_NE(rig.structure.audit(Dyadic(time)), std::nullopt);
-  rig.structure.apply({ConvexHull::enter, 3, {1, 2, 3}});  // in another order
+  rig.structure.apply({ConvexHull::enter, 3, {1, 2, 3}});  // the same ids in another order
   for (const double time : {0.0, 0.5, 1.0}) EXPECT_NE(rig.structure.audit(Dyadic(time)), std::nullopt);
   rig.structure.apply({ConvexHull::leave, 3, {1, 2, 3}});
   rig.structure.apply({ConvexHull::enter, 3, {1, 0, 2}});

@@ -1,4 +1,4 @@
-// The first look at nodes, four at a time, against chord and scan of each alone.
+// Compares the filter that looks at four nodes at a time with the chord and the scan of each node alone.
 
 #include "structures/moving_sphere/beads_beyond.h"
 
@@ -20,8 +20,8 @@ struct Tally {
   int steady = 0, unproved = 0, beyond = 0;
 };
 
-/// What is told of a node: all beads are looked at one by one, as exactly as the bound is, in doubles that
-/// are rounded alike.
+/// Judges the filter's answer for a node: examines the beads one by one with the same bound and the same
+/// rounding in double.
 template <class M>
 void judge(const BeadPaths<M::dimension>& paths, const BeadRange& range, const Basis& basis, bool steady,
            const SphereChord<M::dimension>& chord, std::span<const BeadId> beyond, Tally& tally) {
@@ -41,7 +41,7 @@ void judge(const BeadPaths<M::dimension>& paths, const BeadRange& range, const B
   EXPECT_EQ(chord.center, own.center);
   EXPECT_EQ(chord.limit, own.limit);
   EXPECT_EQ(chord.dip, own.dip);
-  // Each bead's own chord stays within the limit's, or it is told of.
+  // Each bead's own chord stays within the limit's chord, unless the filter reports the bead.
   for (BeadId b = range.first; b <= range.last; ++b) {
     bool inside = true;
     for (int k = 0; k <= paths.degree(); ++k) {
@@ -67,7 +67,7 @@ void judge(const BeadPaths<M::dimension>& paths, const BeadRange& range, const B
 template <class M>
 void look_at_random_nodes(unsigned seed, Tally& tally) {
   Random random(seed);
-  const BeadId count = seed % 7 == 0 ? 301 : 40;  // longer than the scan's words too
+  const BeadId count = seed % 7 == 0 ? 301 : 40;  // longer than one word of the scan
   const MotionKind kind = all_motion_kinds[seed % std::size(all_motion_kinds)];
   auto motion = random_motion<M>(random, count, kind);
   if (seed % 2 == 0) {
@@ -107,7 +107,7 @@ void look_at_random_nodes(unsigned seed, Tally& tally) {
       const std::size_t some = std::min<std::size_t>(4, ranges[size].size() - from);
       const auto nodes = std::span<const BeadRange>(ranges[size]).subspan(from, some);
       const auto their_bases = std::span<const Basis>(bases[size]).subspan(from, some);
-      std::vector<BeadId> beyond{7};  // it appends
+      std::vector<BeadId> beyond{7};  // the filter appends
       ChordFilterResult<M::dimension> look;
       filter_nodes<M::dimension>(paths, nodes, their_bases, look, beyond);
       std::size_t begin = 1;
@@ -134,7 +134,7 @@ TYPED_TEST(SteadyNodes, AreThoseOfChordAndScan) {
   EXPECT_GT(tally.beyond, 1000);
 }
 
-// Left out, equal radii change nothing.
+// Equal radii may be left out without changing the result.
 TEST(SteadyNodes, RadiiCanBeLeftOut) {
   Random random(3);
   auto motion = random_motion<BezierMotion<3, 1>>(random, 41, MotionKind::generic);

@@ -1,4 +1,5 @@
-// When balls cross spheres, as paths of spheres prove it, against radical certificates on integers.
+// Times at which balls cross spheres, as paths of spheres prove them, compared with radical certificates in
+// integers.
 
 #include "structures/moving_sphere/gap_root.h"
 
@@ -29,7 +30,7 @@ struct Tally {
   int asked = 0, never = 0, later = 0, never_again = 0, again = 0, signs = 0;
 };
 
-/// Calls `visit` with the certificate, if it is a radical one.
+/// Calls `visit` with the certificate if it is radical.
 template <class M, class Visit>
 void visit_radical(const M& motion, const Basis& basis, BeadId bead, bool inside, const Instant& now,
                    Visit visit) {
@@ -45,7 +46,7 @@ void visit_radical(const M& motion, const Basis& basis, BeadId bead, bool inside
                    });
 }
 
-/// The same time, in a bracket that holds no other root of the norm.
+/// Checks that the times are equal and that the bracket contains no other root of the norm.
 void expect_same_time(const ExactPolynomial& function, const FailureTime& ours, const FailureTime& exact) {
   ASSERT_LT(ours.lower, ours.upper);
   const ExactPolynomial simple = function.square_free();
@@ -55,7 +56,7 @@ void expect_same_time(const ExactPolynomial& function, const FailureTime& ours, 
   EXPECT_EQ(ExactTime::compare(a, b), 0);
 }
 
-/// All that is claimed of a bead and a sphere from a time on, and from the time of its failure.
+/// Judges all claims about a bead and a sphere, from a given time on and from the time of the failure on.
 template <class M>
 void judge(const M& motion, const BeadPaths<M::dimension>& paths, const Basis& basis, BeadId bead,
            bool inside, double from, Tally& tally) {
@@ -71,7 +72,7 @@ void judge(const M& motion, const BeadPaths<M::dimension>& paths, const Basis& b
     const ExactPolynomial function = *search_for(certificate, motion)->exact_function(certificate);
     ASSERT_NO_FATAL_FAILURE(expect_same_time(function, ours->time, exact.time));
 
-    // From then on it lies on the other side, at first.
+    // Just after the failure, the bead lies on the other side.
     PolynomialSource source;
     source.add(function.scaled(), {});
     const Instant now(ours->time, source, 0);
@@ -86,7 +87,7 @@ void judge(const M& motion, const BeadPaths<M::dimension>& paths, const Basis& b
   });
 }
 
-/// The signs that are claimed at four times, each the start of a period in which the sphere is known.
+/// Judges the claimed signs at four times, each the start of a period in which the sphere is known.
 template <class M>
 void judge_signs(Random& random, const M& motion, const BeadPaths<M::dimension>& paths, const Basis& basis,
                  BeadId bead, double from, Tally& tally) {
@@ -163,7 +164,7 @@ TEST(SphereCrossing, IsWhenRadicalCertificatesFail) {
   }
 }
 
-// Where the centre moves more than the radius as that grows.
+// Bases whose centre moves by more than the radius changes.
 TEST(SphereCrossing, OfNearlyFlatBases) {
   Tally tally;
   int steep = 0;
@@ -214,7 +215,8 @@ TEST(SphereCrossing, ScalesWithTheInput) {
   }
 }
 
-// A pair turns and is shortest in the middle, where its sphere cuts a third ball by less than rounding.
+// A pair turns and is shortest in the middle of the step. Its sphere cuts a third ball there by less than the
+// rounding error.
 TEST(SphereCrossing, TouchesAreLeftToIntegers) {
   const Points from{{-2, -1, 0}, {2, 1, 0}, {0, 2, 0}}, to{{-2, 1, 0}, {2, -1, 0}, {0, 2, 0}};
   Space motion = moving(from, to);
@@ -230,7 +232,7 @@ TEST(SphereCrossing, TouchesAreLeftToIntegers) {
   EXPECT_FALSE(crossings.first_failure(paths, pair, 2, true, 0, 0, false).has_value());
 }
 
-// Next to the root of a ball that flies by, however fast, the signs that are claimed at a period's ends.
+// Judges the claimed signs at the ends of a period next to the root of a ball that flies by at any speed.
 TEST(SphereCrossing, SignsOfAFastBall) {
   std::mt19937_64 random(5);
   const auto uniform = [&] { return 0.3 + 0.7 * static_cast<double>(random() >> 11U) * 0x1p-53; };
@@ -245,7 +247,7 @@ TEST(SphereCrossing, SignsOfAFastBall) {
         for (int k = 0; k <= 1; ++k) motion.set_radius(b, k, radii[b]);
       BeadPaths<3> paths;
       paths.set(Curves<3>(motion));
-      // The pair's sphere rests: radius R around (0, y, 0).
+      // The pair's sphere is at rest, with radius R and centre (0, y, 0).
       const Rational radius = (Rational(2) + Rational(0.25) + Rational(0.3)) / 2;
       const Rational y = radius - Rational(0.25) - 1, room = radius - Rational(0.125);
       const auto sign_of_gap = [&](double u) {
@@ -277,7 +279,7 @@ TEST(SphereCrossing, SignsOfAFastBall) {
             << from_x << ' ' << to_x << ' ' << times[i];
       }
     }
-    // Slow ones are known at some ends, fast ones of all that far away.
+    // The signs of slow balls are known at some ends; the signs of fast balls are not known next to the root.
     if (exponent <= 16) {
       EXPECT_GT(claimed, 100) << exponent;
     }

@@ -1,4 +1,4 @@
-// What the path of a sphere proves, against certificates on integers.
+// The proofs from the path of a sphere, compared with certificates in integers.
 
 #include "structures/moving_sphere/sphere_chord.h"
 
@@ -32,7 +32,7 @@ Basis basis_at(const M& motion, const BeadRange& range, double time) {
   return smallest_sphere(balls, range.first, range.last).basis;
 }
 
-/// Of the bead's certificate against the basis, from `now` on.
+/// Returns the failure of the bead's certificate with the basis, from `now` on.
 template <Radii radii, class M>
 Failure failure_of(const M& motion, const Basis& basis, BeadId bead, bool inside, const Instant& now) {
   int orientation = 0;
@@ -46,7 +46,7 @@ Failure failure_of(const M& motion, const Basis& basis, BeadId bead, bool inside
       [&](const auto& certificate) { return integer_first_failure(certificate, motion, now); });
 }
 
-/// Whether it holds from `now` to the end of the step, or to an earlier time.
+/// Returns whether the certificate holds from `now` to time `to`, by default the end of the step.
 template <Radii radii, class M>
 bool holds(const M& motion, const Basis& basis, BeadId bead, bool inside, const Instant& now, double to = 1) {
   const Failure failure = failure_of<radii>(motion, basis, bead, inside, now);
@@ -56,10 +56,10 @@ bool holds(const M& motion, const Basis& basis, BeadId bead, bool inside, const 
 
 struct Tally {
   int proved = 0, inside = 0, beyond = 0, kept = 0, dipping = 0, risen = 0;
-  int steep = 0;  // proved ones of four balls whose centre moves more than the radius as that grows
+  int steep = 0;  // proved bases of four balls whose centre moves by more than the radius changes
 };
 
-/// Of a basis of four: q (sphere_chord.h).
+/// Returns q of a basis of four balls (sphere_chord.h).
 template <class M>
 Eigen::Vector3d slope_of(const M& motion, const Basis& basis, double time) {
   const auto at = approximate_positions(motion, time);
@@ -74,7 +74,7 @@ Eigen::Vector3d slope_of(const M& motion, const Basis& basis, double time) {
   return c.partialPivLu().solve(s);
 }
 
-/// Judges all that is claimed of the basis at `from` of all beads.
+/// Judges all claims about the basis at `from` and all beads.
 template <Radii radii, class M>
 void judge(const M& motion, double from, Tally& tally) {
   const auto count = static_cast<BeadId>(motion.bead_count());
@@ -111,8 +111,8 @@ void judge(const M& motion, double from, Tally& tally) {
   }
 }
 
-/// The same of what is claimed from a later time on only, when what has just risen from zero is sure: of the
-/// basis at `sure`, in chords that begin before that.
+/// Judges the claims that hold only from a later time `sure` on, when values that have just risen from zero
+/// are certain. The basis is that of `sure`, and the chords begin at `from`, before that time.
 template <Radii radii, class M>
 void judge_risen(const M& motion, double from, double sure, Tally& tally) {
   const auto count = static_cast<BeadId>(motion.bead_count());
@@ -140,7 +140,8 @@ void judge_risen(const M& motion, double from, double sure, Tally& tally) {
   }
 }
 
-/// From rest to far: at first hardly anything is beyond, then all.
+/// Speeds range from rest to far motion: at first almost no bead can leave the sphere, in the end all beads
+/// can.
 template <class M, Radii radii>
 Tally judge_random(unsigned seeds) {
   Tally tally;
@@ -195,8 +196,8 @@ TEST(SpherePath, OfBallsInThePlaneAndOfCurvedMotion) {
   }
 }
 
-// Where the centre moves more than the radius as that grows, a ball that does not grow tells two spheres
-// apart.
+// If the centre moves by more than the radius changes, two spheres touch the basis; a ball of constant radius
+// distinguishes them.
 template <class M>
 void judge_nearly_flat(Tally& tally) {
   for (unsigned seed = 0; seed < test::rounds(150U); ++seed) {
@@ -253,8 +254,8 @@ TEST(SpherePath, ScalesWithTheInput) {
   judge_scales<BezierMotion<3, 3>, Radii::equal>();
 }
 
-/// Sets bead 4 a hair from the chord's limit, at both ends in one direction: if it is said to stay inside it
-/// does.
+/// Places bead 4 just inside or outside of the chord's limit, at both ends in one direction. If the chord
+/// claims that the bead stays inside, the bead must stay inside.
 template <Radii radii>
 void judge_next_to_limit(Space motion, const Basis& basis, const SphereChord<3>& chord,
                          const Eigen::Vector3d& way, double off, Tally& tally) {
@@ -307,7 +308,7 @@ TEST(SpherePath, BeadsNextToTheLimit) {
   EXPECT_GT(tally.beyond, test::rounds(50));
 }
 
-// In the directions in which the centre strays most.
+// Places beads in the directions in which the centre deviates most.
 TEST(SpherePath, BeadsNextToTheLimitOfNearlyFlatBases) {
   Tally tally;
   const Basis basis(std::array<BeadId, 4>{0, 1, 2, 3});
@@ -352,7 +353,7 @@ void judge_parts(unsigned seed, Tally& tally) {
   std::array<Period, 4> periods;
   std::array<SphereChord<M::dimension>, 4> chords;
   bases.fill(basis);
-  // Ends that are rounded, the last of them that of the step in half of all cases.
+  // The ends of the periods are rounded. In half of the cases the last end is the end of the step.
   const double end = seed % 2 == 0 ? 1 : from + 0.5 * (1 - from);
   for (std::size_t i = 0; i < 4; ++i) {
     periods[i].from = i == 0 ? from : periods[i - 1].to;
@@ -394,7 +395,8 @@ TEST(SpherePath, ProvesPartsOfAStep) {
   }
 }
 
-// Two balls are said to be apart only where neither ever holds the other, and mostly where that is so.
+// Two balls are claimed to be apart only if neither ever contains the other, and in most such cases the claim
+// is made.
 template <class M>
 void judge_pairs(unsigned seed, int& said, int& missed) {
   Random random(seed);
@@ -430,7 +432,7 @@ TEST(SpherePath, KnowsBallsThatStayApart) {
   EXPECT_GT(missed, test::rounds(10));
 }
 
-// Four bases at once are bounded as each alone, bit for bit.
+// Bounding four bases at once gives the same bits as bounding each alone.
 template <class M>
 void judge_four(Random& random, std::size_t size) {
   const auto motion = random_motion<M>(random, 24, MotionKind::generic);
@@ -469,7 +471,8 @@ TEST(SpherePath, OfFourBasesAtOnce) {
   }
 }
 
-// A rigid turn: the triangle's centre rests, its radius dips in between by what the formula says.
+// A rigid rotation: the centre of the triangle rests, and in between the radius decreases (dips) by the
+// amount that the formula gives.
 TEST(SpherePath, SeesTheDipOfATurningBasis) {
   const double r = 1, turn = 0.2;
   Points from, to;
@@ -479,7 +482,9 @@ TEST(SpherePath, SeesTheDipOfATurningBasis) {
     to.push_back({r * std::cos(a + turn), r * std::sin(a + turn), 0});
   }
   const double dip = r * (1 - std::cos(turn / 2));
-  for (const double share : {0.5, 3.0}) {  // of the dip: inside the whole sphere, but is it in the dip?
+  for (const double share :
+       {0.5,
+        3.0}) {  // share of the dip: the bead is inside of the full sphere, and may be outside during the dip
     Points start = from, end = to;
     start.push_back({0, 0, r - share * dip});
     end.push_back(start.back());
@@ -496,7 +501,7 @@ TEST(SpherePath, SeesTheDipOfATurningBasis) {
   }
 }
 
-// Where motion is slow the kinetic hierarchy makes hardly any certificate.
+// In slow motion the kinetic hierarchy makes almost no certificates.
 TEST(SpherePath, PrunesCertificatesInSlowMotion) {
   Random random(12);
   Points from(200), to(200);

@@ -1,4 +1,4 @@
-// Tolerances of spheres against the bases of balls that have wandered as far, found on integers.
+// The slack of spheres, compared with the bases of balls that have moved that far, computed in integers.
 
 #include "structures/moving_sphere/sphere_slack.h"
 
@@ -55,7 +55,8 @@ Cloud<D> random_cloud(Random& random, bool equal) {
   return cloud;
 }
 
-/// All balls moved by `distance`: at random, or so that the sphere shrinks and others stick out.
+/// Moves all balls by `distance`: in random directions, or so that the sphere shrinks and other balls stick
+/// out.
 template <int D>
 Cloud<D> wandered(const Cloud<D>& cloud, const SmallestSphere& smallest, double distance, int how,
                   Random& random) {
@@ -109,7 +110,7 @@ TEST(SphereTolerance, BasesStayWhileBallsWanderNoFarther) {
   }
   for (const Tally& tally : {space, plane}) {
     EXPECT_GT(tally.proved, tally.asked / 2);
-    EXPECT_GT(tally.changed_beyond, tally.proved);  // nor is it far too small
+    EXPECT_GT(tally.changed_beyond, tally.proved);  // the slack is not far too small either
   }
 }
 
@@ -122,7 +123,7 @@ TEST(SphereTolerance, ScalesWithTheInput) {
   }
 }
 
-// A bead on the sphere, a basis bead to spare, a flat basis: nothing is left.
+// A bead on the sphere, a superfluous basis bead and a flat basis leave no slack.
 TEST(SphereTolerance, NoneWhereTheBasisIsAboutToChange) {
   Cloud<3> square;
   square.centers.resize(3, 4);
@@ -143,8 +144,8 @@ TEST(SphereTolerance, NoneWhereTheBasisIsAboutToChange) {
   }
 }
 
-// A pair and two beads well inside its sphere, of which one goes `away` in the middle of the step. All swing
-// along x, so far perhaps that differences are no numbers.
+// A pair and two beads well inside of its sphere, one of which moves by `away` in the middle of the step. All
+// beads swing along x, in some cases so far that differences overflow.
 TEST(NodeSlack, ABeadThatGoesAwayAndBackWithinAStep) {
   const std::array y{-1.0, 1.0, 0.0, 0.0}, z{0.0, 0.0, 0.3, 0.2};
   const std::array necklace{BeadRange{0, 3}};

@@ -1,4 +1,4 @@
-// Comparisons of balls that are nearly or exactly as far apart, beside rationals.
+// Comparisons of pairs of balls whose distances are almost or exactly equal, checked over rationals.
 
 #include "structures/necklace/ball_distance.h"
 
@@ -27,7 +27,7 @@ Rational square(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return sum;
 }
 
-/// Points of a coarse grid, some an ulp or two away from it.
+/// Returns a point of a coarse grid, in some cases moved by an ulp or two.
 Eigen::Vector3d near_grid(Random& random, double scale) {
   Eigen::Vector3d point;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -96,7 +96,7 @@ TEST(ExactTotal, SumsAreNotRounded) {
       const bool plus = random() % 2 == 0;
       plus ? total.add_square(x) : total.subtract_square(x);
       expected += plus ? value * value : Rational(-value * value);
-      if (term % 2 == 1 && random() % 2 == 0) {  // cancel it again
+      if (term % 2 == 1 && random() % 2 == 0) {  // cancels the previous term
         plus ? total.subtract_square(x) : total.add_square(x);
         expected -= plus ? value * value : Rational(-value * value);
         ++term;

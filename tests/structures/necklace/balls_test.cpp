@@ -41,7 +41,7 @@ void set_radii(M& motion, Random& random, bool equal) {
   }
 }
 
-// From one motion to another in the same memory: more beads, fewer, other radii, the same.
+// Reuses the same memory for one motion after another: more beads, fewer beads, other radii, the same radii.
 template <Motion M>
 void expect_to_follow(Random& random) {
   constexpr int d = M::dimension;
@@ -94,7 +94,7 @@ void expect_to_know_the_start(Random& random, bool equal) {
     motion.set_radius(b, 0, radius + 1);
     EXPECT_FALSE(next.move_on_from(start, curves)) << b;
     motion.set_radius(b, 0, radius);
-    motion.set_weight(b, 0, weight + 1);  // nothing to balls
+    motion.set_weight(b, 0, weight + 1);  // balls do not depend on weights
     EXPECT_TRUE(next.move_on_from(start, curves)) << b;
   }
   const auto fewer = random_motion<BezierMotion<3, 1>>(random, 5, MotionKind::generic);
@@ -107,7 +107,7 @@ TEST(Balls, KnowTheStartOfAMotionBitForBit) {
   expect_to_know_the_start(random, true);
 }
 
-// What a motion's type refuses itself comes in through other memory.
+// A motion with raw memory, which can contain values that the motion classes refuse.
 template <int D>
 struct RawMotion {
   static constexpr int dimension = D, degree = 1;
@@ -124,7 +124,7 @@ struct RawMotion {
 
 template <int D>
 void expect_refusal(const RawMotion<D>& motion, const std::string& message) {
-  const RawMotion<D> before(motion.bead_count());  // all radii are zero, as most of `motion` are
+  const RawMotion<D> before(motion.bead_count());  // all radii are zero, like most radii of `motion`
   for (const bool moved : {false, true}) {
     Balls<D> balls;
     if (moved) balls.move_to(Curves<D>(before), 1);
@@ -150,7 +150,7 @@ void expect_refusals() {
       motion.own_radii[b][1] = bad;
       expect_refusal(motion, name + "expected a finite radius, not negative");
       motion.own_radii[b][1] = 0;
-      motion.points[b][2 * D + 1] = bad;  // a weight
+      motion.points[b][2 * D + 1] = bad;  // a weight, which balls do not read
       EXPECT_NO_THROW(Balls<D>(Curves<D>(motion), 1));
     }
     RawMotion<D> motion(6);

@@ -1,4 +1,4 @@
-// Where the models are proper necklaces: in every frame, and between frames where that is promised.
+// The models are proper necklaces in every frame, and between frames if the model promises that.
 
 #include <gtest/gtest.h>
 
@@ -67,7 +67,8 @@ TEST(ModelNecklaces, AreProper) {
   }
 }
 
-// The default turns fit the beads. Splines and grills need some beads for their bends.
+// With their default turns the models are proper. Splines and grills need a minimum number of beads for their
+// bends.
 TEST(ModelNecklaces, AreProperByDefault) {
   for (const models::Model& model : models::all_models()) {
     std::size_t beads = model.name == "grill" ? 40 : model.name == "spline" ? 8 : 2;
@@ -111,11 +112,11 @@ TEST(ModelNecklaces, WanderingStaysProperBetweenFrames) {
         moved += way > 0;
       }
     }
-    EXPECT_GT(static_cast<double>(moved), 0.6 * 400 * 11) << step;  // few find no place to go
+    EXPECT_GT(static_cast<double>(moved), 0.6 * 400 * 11) << step;  // few beads find no free place
   }
 }
 
-// Two balls in one: the layered hierarchy, node by node.
+// The smallest ball around two balls, which computes the layered hierarchy node by node.
 struct Ball {
   Eigen::Vector3d center;
   double radius;
@@ -140,7 +141,7 @@ TEST(TightnessPoints, MakeTheLayeredHierarchyAsWideAsLemma25Says) {
       EXPECT_EQ(points(2, p), 0);
       level.push_back({points.col(p), 0});
     }
-    // The smallest circle of all has radius 1: points opposite each other touch it.
+    // The smallest circle around all points has radius 1: opposite points touch it.
     const Eigen::Index half = points.cols() / 2;
     for (Eigen::Index p = 0; p < half; ++p) EXPECT_EQ(points.col(p), -points.col(half + p));
     for (int l = 1; l <= h; ++l) {

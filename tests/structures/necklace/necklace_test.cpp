@@ -1,4 +1,4 @@
-// Conditions of a necklace against all pairs in rational numbers.
+// Compares the conditions of a necklace with all pairs over rationals.
 
 #include "structures/necklace/necklace.h"
 
@@ -42,7 +42,7 @@ Rational squared(const Scene& scene, BeadId a, BeadId b) {
   return sum;
 }
 
-// As the definitions say, in quadratic time.
+// Follows the definitions in quadratic time.
 std::array<List, 5> brute_force(const Scene& scene, double rho) {
   std::array<List, 5> found;
   const auto add = [&](Condition c, BeadId a, BeadId b) {
@@ -87,7 +87,7 @@ std::array<List, 5> brute_force(const Scene& scene, double rho) {
   return found;
 }
 
-// Returns how many violations there are of each condition.
+// Returns the number of violations of each condition.
 std::array<std::size_t, 5> check(const Scene& scene, double rho = std::numeric_limits<double>::infinity()) {
   const auto expected = brute_force(scene, rho);
   std::array<std::size_t, 5> counts{};
@@ -122,7 +122,7 @@ TEST(Necklace, TouchingBallsInARowAreProper) {
 }
 
 TEST(Necklace, EachConditionIsReportedByItsBeads) {
-  // 0-1 apart; 1-3 touch; 3 holds 4 and touches it from inside; 5 is a point.
+  // 0 and 1 are apart; 1 and 3 touch; 3 contains 4 and touches it from inside; 5 is a point.
   const Scene broken =
       scene({{-3, 0, 0, 0.9}, {0, 0, 0, 2}, {3, 0, 0, 1}, {0, 4, 0, 2}, {0, 5, 0, 1}, {0, 6, 0, 0}});
   const NecklaceReport report = validate(broken.necklaces());
@@ -133,7 +133,7 @@ TEST(Necklace, EachConditionIsReportedByItsBeads) {
   EXPECT_EQ(report[Condition::uniform_bonds].count, 0U);
   EXPECT_FALSE(report.proper());
   const NecklaceReport strict = broken.necklaces().front().validate({2, 10});
-  EXPECT_EQ(strict[Condition::uniform_radii].listed, (List{{0, 1}, {5, 1}}));  // 1 to 2 is just uniform
+  EXPECT_EQ(strict[Condition::uniform_radii].listed, (List{{0, 1}, {5, 1}}));  // the ratio 2 is just uniform
   EXPECT_EQ(strict[Condition::uniform_bonds].listed, (List{{3, 2}, {4, 2}}));
   check(broken);
   check(broken, 2);
@@ -145,13 +145,14 @@ TEST(Necklace, AnUlpDecides) {
   EXPECT_EQ(check(scene({{0, 0, 0, 1}, {2, 0, 0, 1}}))[0], 0U);
   EXPECT_EQ(check(scene({{0, 0, 0, 1}, {below, 0, 0, 1}}))[0], 0U);
   EXPECT_EQ(check(scene({{0, 0, 0, 1}, {0x1p-30, above, 0, 1}}))[0], 1U);
-  // Beads 0 and 2 at distance 5 by 3, 4, 5; and what doubles cannot see: 3 away by 2^-60 of an axis
+  // Beads 0 and 2 have distance 5, by the triangle 3, 4, 5. Doubles cannot represent an overlap of 2^-60 in
+  // one coordinate.
   EXPECT_EQ(check(scene({{0, 0, 0, 2}, {1, 1, 0, 1}, {3, 4, 0, 3}}))[1], 1U);
   EXPECT_EQ(check(scene({{0, 0, 0, 2}, {1, 1, 0, 1}, {3, 4, 0x1p-60, 3}}))[1], 0U);
-  // Inside by an ulp, or not.
+  // Bead 1 is inside by an ulp, or is not inside.
   EXPECT_EQ(check(scene({{0, 0, 0, 3}, {2, 0, 0, 1}}))[2], 1U);
   EXPECT_EQ(check(scene({{0, 0, 0, 3}, {2, 0x1p-60, 0, 1}}))[2], 0U);
-  // Uniform by an ulp, or not.
+  // Radii are uniform by an ulp, or are not.
   EXPECT_EQ(check(scene({{0, 0, 0, 1}, {2, 0, 0, 2}}), 2)[3], 0U);
   EXPECT_EQ(check(scene({{0, 0, 0, 1}, {2, 0, 0, above}}), 2)[3], 1U);
   EXPECT_EQ(check(scene({{0, 0, 0, 1}, {1, 0, 0, 1}, {3, 0, 0, 1}}), 2)[4], 0U);
@@ -165,14 +166,14 @@ TEST(Necklace, AtExtremesOfScale) {
     auto scaled = chain;
     for (auto& ball : scaled) ball *= scale;
     EXPECT_EQ(check(scene(scaled)), check(scene(chain))) << scale;
-    if (scale < 0x1p-1070) continue;  // half of it is nothing
+    if (scale < 0x1p-1070) continue;  // half of the smallest number rounds to zero
     EXPECT_EQ(check(scene(scaled), 1.5), check(scene(chain), 1.5)) << scale;
   }
   check(scene({{0, 0, 0, 1e-300}, {1e-300, 0, 0, 1}, {1e300, 0, 0, 1e300}, {-1e300, 0, 0, 1e-308}}), 1e9);
 }
 
 TEST(Necklace, SeveralInOneScene) {
-  // The last bead of the one touches the first of the other: not a bond, but a meeting.
+  // The last bead of one necklace touches the first bead of the other: that is no bond, but a contact.
   const Scene two = scene({{0, 0, 0, 1}, {2, 0, 0, 1}, {4, 0, 0, 1}, {6, 0, 0, 4}}, {{0, 1}, {2, 3}});
   const NecklaceReport report = validate(two.necklaces(), {2});
   EXPECT_EQ(report[Condition::connected].count, 0U);
@@ -190,7 +191,7 @@ TEST(Necklace, AgainstAllPairsOnRandomScenes) {
   for (int round = 0; round < test::rounds(300); ++round) {
     std::vector<Eigen::Vector4d> balls;
     const int beads = number(1, 40);
-    for (int i = 0; i < beads; ++i)  // whole numbers: many ties
+    for (int i = 0; i < beads; ++i)  // whole numbers, which make many ties
       balls.emplace_back(number(-4, 4), number(-4, 4), round % 2 == 0 ? 0 : number(-4, 4),
                          round % 3 == 0 ? 1 : std::exp2(number(-3, 1)) * (number(0, 9) > 0));
     std::vector<BeadRange> ranges;
@@ -232,18 +233,19 @@ TEST(Necklace, OfRealFiles) {
     const auto beads = static_cast<BeadId>(read[0].bead_count());
     return check({read[0].frames[0], bead_radii(radius, read), {{0, beads - 1}}});
   };
-  // Half the longest bond connects all beads, up to its rounding, and parts the others.
+  // The radius "auto", half of the longest bond, connects all consecutive beads up to its rounding, and
+  // separates the other beads.
   const auto villin = counts("trajectories/villin_hp36_300K.pdb", "auto");
   EXPECT_LE(villin[0], 1U);
   EXPECT_EQ(villin[1], 0U);
   EXPECT_EQ(villin[2], 0U);
   EXPECT_GT(counts("trajectories/villin_hp36_300K.pdb", "element")[1], 100U);
   EXPECT_EQ(counts("trajectories/villin_hp36_300K.pdb", "element:fit")[1], 0U);
-  EXPECT_GE(counts("proteins/2f4k.pdb", "0.7")[0], 20U);  // all bonds but C-N are longer
+  EXPECT_GE(counts("proteins/2f4k.pdb", "0.7")[0], 20U);  // all bonds except C-N are longer than 1.4
 }
 
 TEST(Necklace, ManyBeadsTakeLittleTime) {
-  // Quadratic time would be minutes. Many ties: every bond and every row of the grid touches.
+  // Quadratic time would take minutes. The grid has many ties, because all bonds and all rows touch.
   Eigen::Matrix3Xd grid = models::packed_grid(50000, 3, 0, 1);
   const std::vector<double> radii(50000, 1);
   const NecklaceReport report = Necklace({0, 49999}, grid, radii).validate({2, 5});

@@ -26,9 +26,9 @@ std::size_t check_subtree(const NecklaceTree& tree, NodeId node, const BeadRange
   EXPECT_EQ(tree.range(node), expected);
   EXPECT_EQ(tree.find(expected), node);
   const NodeId l = tree.left(node), r = tree.right(node);
-  EXPECT_GT(l, node);  // a leaf's number is the largest
+  EXPECT_GT(l, node);  // NecklaceTree::leaf is the largest number
   EXPECT_GT(r, node);
-  // Halves differ by one bead at most; the left is never the smaller.
+  // The two halves differ by at most one bead, and the left half is never the smaller one.
   const BeadId size = expected.last - expected.first + 1;
   const BeadId middle = expected.first + (size + 1) / 2 - 1;
   return 1 + check_subtree(tree, l, {expected.first, middle}) +

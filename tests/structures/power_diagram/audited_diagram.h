@@ -1,5 +1,5 @@
 #pragma once
-// A power diagram in space, run with audits and looked at with exact numbers.
+// A power diagram in space that is run with audits and inspected with exact numbers.
 
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ namespace kds::test {
 
 using PowerRig = Rig<PowerDiagram<3>, Space>;
 
-/// The final cells at u = 1, checked by the definition and against CGAL over the rationals.
+/// Checks the final cells at u = 1 by the definition and against CGAL over rationals.
 inline void expect_right_at_the_end(PowerRig& rig) {
   const StaticTriangulation<3> end = rig.structure.at_frame(false);
   const auto points = exact_points(rig.motion, Dyadic(1.0));
@@ -30,9 +30,9 @@ inline void expect_right_at_the_end(PowerRig& rig) {
   EXPECT_EQ(not_regular(points, end.cells), std::nullopt);
 }
 
-/// Looks at every `stride`-th audit between events of the first step with its own eyes. (Later steps may
-/// start from a flat frame, which `at_frame` answers for.) It looks a moment later: cells may be flat at a
-/// single moment without an event.
+/// Returns a witness that checks every `stride`-th audit between events of the first step by the definition.
+/// (Later steps may start from a flat frame, which `at_frame` checks.) The positions are those of a slightly
+/// later time, because cells may be flat at a single moment without an event.
 inline Witness::Look definition(PowerRig& rig, int stride) {
   return [&rig, stride, count = 0](const Dyadic& time) mutable -> std::optional<std::string> {
     if (rig.simulator.step() != 0 || time == Dyadic(0.0) || time == Dyadic(1.0) || count++ % stride != 0)
@@ -42,7 +42,8 @@ inline Witness::Look definition(PowerRig& rig, int stride) {
   };
 }
 
-/// Runs with audits between all events. Clean refusals (InputError) are allowed and returned as true.
+/// Runs with audits between all events. Returns true if the run was refused with an InputError, which is
+/// allowed.
 inline bool run_audited(const std::vector<Space>& steps, bool look = true, Kernel kernel = Kernel::filtered) {
   PowerRig rig(steps.front(), AuditMode::events, kernel);
   Witness witness(

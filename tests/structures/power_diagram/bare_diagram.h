@@ -1,6 +1,6 @@
 #pragma once
-// The parts of a power diagram within reach of tests: a structure that is built, and does in a step what the
-// test asks of its parts.
+// Gives tests access to the parts of a power diagram: a structure that is built and, in a step, does only
+// what the test asks of its parts.
 
 #include <array>
 #include <optional>
@@ -53,11 +53,12 @@ class BareDiagram final : public KineticStructure {
     return audit_of(state, time);
   }
 
-  /// Certificates that are counted alive: of all facets, and dimension + 2 of each hidden bead.
+  /// Returns the number of certificates that count as alive: one for each facet, and dimension + 2 for each
+  /// hidden bead.
   [[nodiscard]] std::uint64_t expected_alive() const {
     return state.triangulation.live_count() * (Dimension + 1) / 2 + state.hidden.size() * (Dimension + 2);
   }
-  /// Guards with a failure in the queue.
+  /// Returns the number of guards with a failure in the queue.
   [[nodiscard]] std::size_t waiting() const {
     std::size_t count = 0;
     const auto look = [&](const auto&, CertificateHandle guard) {
@@ -81,8 +82,8 @@ class BareDiagram final : public KineticStructure {
 template <int Dimension>
 using BareRig = Rig<BareDiagram<Dimension>, BezierMotion<Dimension, 1>>;
 
-/// Beads at random in a square or cube, some of them so heavy that others are hidden; each moves by up to
-/// `step`.
+/// Makes random beads in a square or cube, some of them so heavy that they hide others. Each bead moves by up
+/// to `step`.
 template <int Dimension>
 BezierMotion<Dimension, 1> random_beads(unsigned seed, BeadId beads, double step, double heaviest = 0) {
   std::mt19937 random(seed);

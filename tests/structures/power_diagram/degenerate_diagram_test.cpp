@@ -1,4 +1,4 @@
-// Motions full of ties.
+// Power diagrams of motions full of ties.
 #include "tests/structures/power_diagram/audited_diagram.h"
 
 #include "motions/base/input_error.h"
@@ -91,7 +91,8 @@ TEST(PowerDiagram, ExactAgreesOnMotionsFullOfTies) {
   }
 }
 
-// Beads that stay together hide each other by turns; which facet of an event comes first must not tell.
+// Beads that move together hide each other in turn. The result must not depend on which facet of an event is
+// handled first.
 TEST(PowerDiagram, ExactAgreesOnTwinsThatStayTogether) {
   std::mt19937 random(13);
   for (int round = 0; round < test::rounds(500); ++round) {

@@ -1,4 +1,4 @@
-// Flips by the certificate that failed, and as a log has them.
+// Flips that a failed certificate requests, and flips as a log stores them.
 
 #include "structures/power_diagram/diagram_flips.h"
 
@@ -27,7 +27,8 @@ TEST(DiagramFlips, RepairWhatFails) {
   }
 }
 
-// A bead passes through a triangle: 2-3. Its way back, and all other logged flips, undo each other.
+// A bead passes through a triangle, which is a 2-3 flip. The reverse flip undoes it, and so for every logged
+// flip.
 TEST(DiagramFlips, AreUndone) {
   const Points points{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 5}, {0, 0, -5}};
   BareRig<3> rig(moving(points, points));

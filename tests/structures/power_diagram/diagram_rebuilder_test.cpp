@@ -1,4 +1,4 @@
-// Rebuilds at a time just after now, and the static diagrams they come from.
+// Rebuilds just after the present time, and the static diagrams that they use.
 
 #include "structures/power_diagram/diagram_rebuilder.h"
 
@@ -25,7 +25,7 @@ TEST(DiagramRebuilder, BuildsWhereItStandsBeforeAnythingFails) {
   EXPECT_EQ(diagram.statistics.rebuilds, 1U);
   EXPECT_EQ(diagram.state.triangulation.finite_cells(), cells);
   EXPECT_EQ(diagram.statistics.certificates.alive, diagram.expected_alive());
-  // The log says when, and so it is made again.
+  // The log contains the time of the rebuild, so a replay can repeat it.
   const Change change = rig.history.events.back().change;
   ASSERT_EQ(change.kind, DiagramEvents<3>::rebuild);
   diagram.rebuilder.apply(change);
@@ -44,7 +44,8 @@ TEST(DiagramRebuilder, FindsNoCellsInOnePlane) {
   EXPECT_THROW(rig.structure.rebuilder.rebuild_at_first_time_that_works(), InputError);
 }
 
-// Exact positions at the ends are the doubles; beads left out keep their names to themselves.
+// The exact positions at both ends are the doubles. Beads that are left out do not shift the numbers of other
+// beads.
 TEST(StaticDiagrams, AreOfTheBeadsPresent) {
   BareRig<3> rig(random_beads<3>(2, 40, 0.05, 0.1));
   BareDiagram<3>& diagram = rig.structure;

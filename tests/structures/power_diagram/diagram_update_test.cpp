@@ -1,5 +1,5 @@
-// Updates from frame to frame: whatever the technique, the diagram is CGAL's static one, or, where a frame is
-// degenerate, regular by the definition.
+// Updates from frame to frame. For every technique the diagram equals CGAL's static diagram, or, at
+// degenerate frames, is regular by the definition.
 
 #include "structures/power_diagram/diagram_update.h"
 
@@ -26,7 +26,7 @@ constexpr std::array all_techniques{
     UpdateTechnique::rebuild, UpdateTechnique::reinsert, UpdateTechnique::greedy,   UpdateTechnique::kinetic,
     UpdateTechnique::lifted,  UpdateTechnique::activate, UpdateTechnique::automatic};
 
-/// Runs over all frames and checks at each; the sum of what was done.
+/// Runs over all frames and checks the diagram at each; returns the sum of the counts.
 template <int Dimension>
 UpdateCounts run_in(UpdateTechnique technique, const std::vector<Frame>& frames) {
   SCOPED_TRACE(name_of(technique));
@@ -72,8 +72,8 @@ std::vector<Frame> frames_of(const std::vector<Space>& steps) {
   return frames;
 }
 
-/// Random points in a cube, each moved by up to `step` a frame; weights from 0 to `weight`, changing too if
-/// `weights_move`.
+/// Makes random points in a cube, each of which moves by up to `step` per frame. Weights are between 0 and
+/// `weight`, and change if `weights_move`.
 std::vector<Frame> random_frames(unsigned seed, Eigen::Index beads, std::size_t count, double step,
                                  double weight, bool weights_move) {
   std::mt19937 random(seed);
@@ -92,7 +92,8 @@ std::vector<Frame> random_frames(unsigned seed, Eigen::Index beads, std::size_t 
   return frames;
 }
 
-/// 40 beads at whole coordinates up to `size`, anew in every frame; weights 0, where the seed is even 0 to 2.
+/// Makes 40 beads at random whole coordinates up to `size`, drawn again in every frame. Weights are 0 for odd
+/// seeds, and 0 to 2 for even seeds.
 std::vector<Frame> grid_frames(unsigned seed, std::size_t count, int size) {
   std::mt19937 random(seed);
   std::vector<Frame> frames;
@@ -131,7 +132,7 @@ TEST(DiagramUpdate, TrajectoriesAndTheirStrides) {
   }
 }
 
-// Whole coordinates: many beads on one sphere, flat hulls, coincident beads.
+// Whole coordinates: many cospherical beads, flat hulls, coincident beads.
 TEST(DiagramUpdate, DegenerateFrames) {
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {
     const auto frames = grid_frames(seed, 4, seed < 3 ? 5 : 4);
@@ -154,7 +155,7 @@ TEST(DiagramUpdate, NothingHappensWhereNothingMoves) {
 TEST(DiagramUpdate, OneBeadMovesAlone) {
   auto frames = random_frames(8, 200, 1, 0, 0, false);
   frames.resize(2, frames[0]);
-  // Two of a hundred: it is in the midst of the others.
+  // Bead 50 moves into the middle of the other beads.
   frames[1].centers.col(50) += Eigen::Vector3d(0.08, 0.03, -0.02);
   const UpdateCounts activate = run(UpdateTechnique::activate, frames);
   EXPECT_GT(activate.failed, 0U);
@@ -165,7 +166,7 @@ TEST(DiagramUpdate, OneBeadMovesAlone) {
   const UpdateCounts kinetic = run(UpdateTechnique::kinetic, frames);
   EXPECT_EQ(kinetic.activated, 200U);
   EXPECT_LE(kinetic.events, activate.events);
-  // All failed certificates name it.
+  // All failed certificates contain bead 50.
   const UpdateCounts greedy = run(UpdateTechnique::greedy, frames);
   EXPECT_EQ(greedy.removed, 1U);
   EXPECT_EQ(greedy.rebuilds, 0U);
@@ -187,8 +188,8 @@ TEST(DiagramUpdate, AutomaticMovesWhereLittleHappensAndRebuildsWhereMuchDoes) {
   EXPECT_EQ(run(UpdateTechnique::automatic, random_frames(3, 300, 4, 0.5, 0, false)).rebuilds, 3U);
 }
 
-// Where the answer is clear samples become rare; a change is noticed as the step is given up, and looked at
-// again some frames later.
+// If one technique clearly wins, samples become rare. A change is noticed when the step is given up, and is
+// sampled again some frames later.
 TEST(DiagramUpdate, AutomaticSamplesSeldomWhereTheAnswerIsClear) {
   auto frames = random_frames(3, 300, 21, 0.001, 0, false);
   const std::size_t slow = frames.size() - 1;
@@ -210,7 +211,7 @@ TEST(DiagramUpdate, AutomaticSamplesSeldomWhereTheAnswerIsClear) {
 }
 
 TEST(DiagramUpdate, AutomaticGivesUpWhereMuchHappensThatTheFramesDoNotShow) {
-  // One crowd passes through another, to and fro: each is as it was, but for what lies between them.
+  // One crowd passes through another, to and fro. Each crowd stays as it is, except where it faces the other.
   constexpr unsigned beads = rounds(400U, 120U);
   auto frames = random_frames(5, beads, 1, 0, 0, false);
   frames.resize(8, frames[0]);
@@ -220,7 +221,7 @@ TEST(DiagramUpdate, AutomaticGivesUpWhereMuchHappensThatTheFramesDoNotShow) {
   EXPECT_GT(moved.events, 7 * 3 * beads);
   const UpdateCounts counts = run(UpdateTechnique::automatic, frames);
   EXPECT_EQ(counts.rebuilds, 7U);
-  EXPECT_EQ(counts.activated, beads);  // tried once
+  EXPECT_EQ(counts.activated, beads);  // one step was tried
   EXPECT_LE(counts.events, 3 * beads);
 }
 
@@ -233,7 +234,7 @@ TEST(DiagramUpdate, FramesInOnePlaneOnTheWay) {
     run(technique, frames);
 }
 
-// A straight chain rolls up; some of its beads are hidden by others while there is no cell yet.
+// A straight chain rolls up. Some beads are hidden by other beads while the diagram has no cells yet.
 TEST(DiagramUpdate, HiddenBeadsInAFlatFrame) {
   for (const unsigned seed : {1U, 2U, 3U, 4U}) {
     auto frames = random_frames(seed, 4 + 2 * seed, 4, 0.2, 0.3, false);
@@ -268,12 +269,12 @@ TEST(DiagramUpdateInPlane, HiddenBeadsWeightsThatMoveAndBeadsThatComeBack) {
     }
   }
   EXPECT_GT(hidden, 500U);
-  // Beads were taken out and put in, not always too many.
+  // Beads were removed and inserted, and not in all steps too many.
   EXPECT_GT(removed, 100U);
   EXPECT_LT(rebuilds, 60U);
 }
 
-// Many beads on one circle, flat hulls, coincident beads; once all on one line.
+// Many beads on one circle, flat hulls, coincident beads, and in one frame all beads on one line.
 TEST(DiagramUpdateInPlane, DegenerateFrames) {
   for (unsigned seed = 1; seed <= rounds(6U, 3U); ++seed) {
     auto frames = grid_frames(seed, 5, seed < 4 ? 8 : 5);

@@ -1,5 +1,5 @@
-// A facet is found positive only where its certificate, judged on integers, never fails, a cell only where it
-// is, judged on integers; and every facet is looked at once.
+// The filter reports a facet as positive only if its certificate, judged in integers, never fails, and a cell
+// as positive only if the cell is positive, judged in integers. The filter examines every facet once.
 
 #include "structures/power_diagram/facet_filter.h"
 
@@ -21,8 +21,8 @@
 namespace kds::facet_filter_test {
 namespace {
 
-/// On integers: 0 if it does not even hold at the start, above 1 if it never fails in the step, else not
-/// before it fails.
+/// Judges a certificate in integers. Returns 0 if it does not hold at the start, a number above 1 if it never
+/// fails in the step, and otherwise a time not after its failure.
 template <class Certificate, Motion M>
 double failure_of(const M& motion, const Certificate& certificate) {
   const KnownAtStart known = KnownAtStart::unknown;
@@ -48,14 +48,14 @@ bool holds(const M& motion, const TriangulationCell<M::dimension>& cell, int fac
   return failure_of(motion, power_test(cell, facet)) > 1;
 }
 
-/// On integers, where the step ends.
+/// Judges the orientation of a cell at the end of the step, in integers.
 template <Motion M>
 bool is_positive_at_end(const M& motion, const TriangulationCell<M::dimension>& cell) {
   return search_over<Orientation<M::dimension>>(MotionRef<M::dimension>(motion))
              ->sign_at(Orientation<M::dimension>(cell.vertex, 1), Dyadic(1.0)) > 0;
 }
 
-/// On integers, at some times of the step.
+/// Judges the orientation of a cell at some times of the step, in integers.
 template <Motion M>
 bool is_positive_throughout(const M& motion, const TriangulationCell<M::dimension>& cell) {
   const auto search = search_over<Orientation<M::dimension>>(MotionRef<M::dimension>(motion));
@@ -65,7 +65,7 @@ bool is_positive_throughout(const M& motion, const TriangulationCell<M::dimensio
   return positive;
 }
 
-/// Cells of which something was found positive in a part of the step, and nothing all over it.
+/// Counts the cells that have a fact proved in a part of the step only.
 std::uint64_t found_in_parts = 0;
 
 template <int dimension>
@@ -87,7 +87,8 @@ struct Found {
   }
 };
 
-/// A cell of the first beads, another beyond each facet, and the same turned over.
+/// Returns a cell of the first beads with another bead beyond each facet, and the same cell with the opposite
+/// orientation.
 template <int dimension>
 std::array<TriangulationCell<dimension>, 2> cell_both_ways() {
   TriangulationCell<dimension> cell;
@@ -100,8 +101,8 @@ std::array<TriangulationCell<dimension>, 2> cell_both_ways() {
   return {cell, turned};
 }
 
-/// A filter of parts of the step finds what that of the step does, `all`, and of its parts what is so on
-/// integers; of cells alone the same.
+/// Checks a filter of parts of the step: it finds everything that the filter of the whole step finds (`all`),
+/// and its findings for parts are correct in integers. A filter of cells alone finds the same.
 template <Motion M>
 void expect_right_in_parts(const M& motion, std::span<const TriangulationCell<M::dimension>> cells,
                            const Found<M::dimension>& all, const LengthUnit& unit) {
@@ -137,7 +138,7 @@ void expect_right_in_parts(const M& motion, std::span<const TriangulationCell<M:
   }
 }
 
-/// Looks at all facets of some cells, and judges them; in a unit of length that is off by 2^off.
+/// Examines all facets of some cells and judges the result. The unit of length is off by a factor of 2^off.
 template <Motion M>
 void expect_right(const M& motion, std::span<const TriangulationCell<M::dimension>> cells,
                   std::uint64_t& found, int off = 0) {
@@ -147,7 +148,7 @@ void expect_right(const M& motion, std::span<const TriangulationCell<M::dimensio
   FacetFilter positive(*filter, unit, Rounding::charged);
   for (CellId id = 0; id < cells.size(); ++id) positive.look_at(cells[id], id, all_facets<M::dimension>, all);
   positive.finish(all);
-  positive.finish(all);  // nothing is left
+  positive.finish(all);  // no facet is left to finish
   const std::set<FacetId>& doubts = all.doubts;
   EXPECT_EQ(positive.count() + doubts.size(), cells.size() * (M::dimension + 1));
   EXPECT_EQ(all.ends.size(), cells.size());
@@ -158,7 +159,7 @@ void expect_right(const M& motion, std::span<const TriangulationCell<M::dimensio
     EXPECT_TRUE(!all.throughout[id] || is_positive_throughout(motion, cells[id])) << id;
   }
   found += positive.count();
-  // Of some facets, or none, the same is found.
+  // Examining some facets, or none, gives the same result for these facets.
   FacetFilter positive_of_some(*filter, unit, Rounding::charged);
   std::vector<unsigned> wanted;
   for (CellId id = 0; id < cells.size(); ++id) {
@@ -173,7 +174,7 @@ void expect_right(const M& motion, std::span<const TriangulationCell<M::dimensio
     EXPECT_TRUE(!some.ends.at(id) || is_positive_at_end(motion, cells[id])) << id;
   }
   if constexpr (!lifted<M> && M::degree == 1) expect_right_in_parts(motion, cells, all, unit);
-  // A few at a time the same are found.
+  // Examining a few facets at a time gives the same result.
   std::vector<CellId> few;
   for (CellId id = 0; id < cells.size() && id < few_cells; ++id) {
     few.push_back(id);
@@ -193,7 +194,7 @@ void slow_down(M& motion) {
   }
 }
 
-/// Of two cells' worth of beads, nothing degenerate, so slow that some facets hold all the time.
+/// Makes a motion of the beads of two cells, generic and so slow that some facets hold throughout the step.
 template <Motion M>
 M slow_motion(test::Random& random) {
   M motion = test::random_motion<M>(random, 2 * (M::dimension + 1), test::MotionKind::generic);
@@ -213,7 +214,7 @@ void compare(std::uint64_t least_found) {
   for (int round = 0; round < 30; ++round) {
     for (const test::MotionKind kind : test::all_motion_kinds) {
       M motion = test::random_motion<M>(random, 2 * (M::dimension + 1), kind);
-      if (round % 2 == 0) slow_down(motion);  // then some hold all the time
+      if (round % 2 == 0) slow_down(motion);  // slow enough that some facets hold throughout the step
       expect_right(motion, found);
     }
   }
@@ -230,7 +231,8 @@ TEST(FacetFilter, HoldAllOverTheStep) {
   compare<LiftedMotion<2>>(100);
 }
 
-// Corners of a cube and its mirror image, moved by less and less: where floats round away what decides.
+// Corners of a cube and its mirror image, moved by ever smaller amounts, down to where floats round away the
+// deciding digits.
 TEST(FacetFilter, HoldNextToZero) {
   using M = BezierMotion<3, 1>;
   test::Random random(5);
@@ -247,7 +249,7 @@ TEST(FacetFilter, HoldNextToZero) {
       }
       auto cells = cell_both_ways<3>();
       for (auto& cell : cells) {
-        std::swap(cell.vertex[3], cell.apex[0]);  // corners 0, 1, 2, 4: not in one plane
+        std::swap(cell.vertex[3], cell.apex[0]);  // corners 0, 1, 2 and 4 are not coplanar
       }
       expect_right<M>(motion, cells, found);
     }
@@ -255,7 +257,7 @@ TEST(FacetFilter, HoldNextToZero) {
   EXPECT_GT(found, test::rounds(1000U));
 }
 
-/// All lengths times 2^exponent, exactly.
+/// Multiplies all lengths by 2^exponent, which is exact.
 template <Motion M>
 void scale_with_drift(M& motion, int exponent) {
   test::scale(motion, exponent);
@@ -267,7 +269,7 @@ void scale_with_drift(M& motion, int exponent) {
   }
 }
 
-// The unit of length does not matter: what is found is the same, as far as doubles hold the numbers.
+// The unit of length does not change the result, as long as doubles can represent the numbers.
 template <Motion M>
 void expect_same_at_any_scale() {
   test::Random random(6);
@@ -300,7 +302,8 @@ TEST(FacetFilter, FindTheSameAtAnyScale) {
   expect_same_at_any_scale<LiftedMotion<3>>();
 }
 
-// In a unit that is far off nothing is found, near the ends of what the bound is claimed for what is right.
+// In a unit that is far off the filter finds nothing. At the limits for which the bound is stated, everything
+// found is correct.
 TEST(FacetFilter, HoldInAnyUnit) {
   using M = BezierMotion<3, 1>;
   test::Random random(6);
@@ -319,7 +322,7 @@ TEST(FacetFilter, HoldInAnyUnit) {
   }
 }
 
-// Rows of unlike size: some beads a thousand times farther away, or nearer, than others.
+// Rows of very different lengths: some beads are a thousand times farther away, or nearer, than others.
 TEST(FacetFilter, HoldWhereRowsAreUnlike) {
   using M = BezierMotion<3, 1>;
   test::Random random(8);
@@ -342,7 +345,7 @@ TEST(FacetFilter, HoldWhereRowsAreUnlike) {
   EXPECT_GT(found, test::rounds(200U));
 }
 
-// Weights that differ by just what the bound lets them, m^2 of a row, by an ulp more and by an ulp less.
+// Weights that differ by the largest amount that the bound allows, m^2 of a row, or by an ulp more or less.
 TEST(FacetFilter, HoldWhereWeightsAreAsLargeAsTheyMayBe) {
   using M = BezierMotion<3, 1>;
   test::Random random(9);
@@ -366,7 +369,7 @@ TEST(FacetFilter, HoldWhereWeightsAreAsLargeAsTheyMayBe) {
   EXPECT_GT(found, test::rounds(50U));
 }
 
-// What all beads share is taken off, whatever is taken for it: the verdicts stay right.
+// Any common drift may be subtracted from all beads: the verdicts stay correct.
 TEST(FacetFilter, HoldWithDrift) {
   using M = LiftedMotion<3>;
   test::Random random(10);
@@ -382,7 +385,7 @@ TEST(FacetFilter, HoldWithDrift) {
   EXPECT_GT(found, test::rounds(100U));
 }
 
-// The code for any processor gives the same bits.
+// The code for each vector target gives the same bits.
 TEST(FacetFilter, AreTheSameOnAnyProcessor) {
   using M = BezierMotion<3, 1>;
   test::Random random(11);
@@ -438,7 +441,7 @@ TEST(FacetCover, HasEachFacetOnce) {
   expect_each_once<2>();
 }
 
-// Facets that name infinity are not found, and do not get in the way of others.
+// Facets with an infinite vertex are never reported as positive, and do not disturb other facets.
 TEST(FacetFilter, OfAFewAreFinite) {
   using M = BezierMotion<3, 1>;
   test::Random random(8);

@@ -1,4 +1,5 @@
-// Every facet has one certificate, made and given up with its cells, whatever filters find of it.
+// Every facet has exactly one certificate, which is created and dropped with its cells, whatever the filters
+// prove about it.
 
 #include "structures/power_diagram/facet_guards.h"
 
@@ -16,7 +17,7 @@ void expect_one_a_facet(Kernel kernel, double step) {
   BareRig<dimension> rig(random_beads<dimension>(1, 60, step), AuditMode::none, kernel);
   BareDiagram<dimension>& diagram = rig.structure;
   rig.simulator.build();
-  for (int k = 0; k < 2; ++k) {  // where motion is slow the second has slack
+  for (int k = 0; k < 2; ++k) {  // in slow motion the second step uses slack
     rig.simulator.enter_step();
     diagram.facets.watch_all();
     EXPECT_EQ(diagram.statistics.certificates.alive, diagram.expected_alive());
@@ -70,7 +71,7 @@ TEST(FacetGuards, AroundNewCellsAreMadeAnew) {
   }
 }
 
-// Facets between beads that rest are counted, and have no certificate.
+// Facets between beads at rest are only counted, and have no certificate.
 TEST(FacetGuards, OfBeadsThatRestAreOnlyCounted) {
   auto motion = random_beads<3>(4, 60, 0.05);
   std::vector<char> moving(60, 0);
@@ -96,7 +97,7 @@ TEST(FacetGuards, OfBeadsThatRestAreOnlyCounted) {
   EXPECT_EQ(diagram.facets.flipped().size(), around.size());
 }
 
-// A guard that is given up while it fails puts the diagram in doubt.
+// Dropping a guard that fails at this moment puts the diagram in doubt.
 TEST(FacetGuards, AreGivenUpInDoubtWhereTheyFailNow) {
   BareRig<3> rig(random_beads<3>(5, 40, 0.1));
   BareDiagram<3>& diagram = rig.structure;
@@ -107,7 +108,7 @@ TEST(FacetGuards, AreGivenUpInDoubtWhereTheyFailNow) {
   diagram.facets.drop_all();
   EXPECT_EQ(diagram.state.doubt, Doubt::none);
   diagram.facets.watch_all();
-  rig.simulator.leave_step();  // all fail, none is repaired
+  rig.simulator.leave_step();  // all these guards fail, and nothing is repaired
   EXPECT_GT(diagram.failed.size(), 5U);
 }
 

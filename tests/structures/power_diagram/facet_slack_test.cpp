@@ -1,4 +1,4 @@
-// A facet that rests in a step, judged on integers, does not fail in it.
+// A facet that rests in a step does not fail in the step, judged in integers.
 
 #include "structures/power_diagram/facet_slack.h"
 
@@ -38,7 +38,8 @@ void expect_resting_to_hold(double distance, double least_share) {
       for (int axis = 0; axis < dimension; ++axis) {
         const double x = motion.coordinate(b, 1, axis);
         motion.set_coordinate(b, 0, axis, x);
-        motion.set_coordinate(b, 1, axis, x + distance * (1 + test::uniform(random)));  // and a drift
+        motion.set_coordinate(
+            b, 1, axis, x + distance * (1 + test::uniform(random)));  // the random part and a common drift
       }
     }
     slack.start_step(any.curves(), triangulation);
@@ -54,7 +55,7 @@ void expect_resting_to_hold(double distance, double least_share) {
       for (int i = 0; i <= dimension; ++i) {
         const bool other = (others[id] >> i & 1U) != 0;
         if (cell_of(triangulation.beyond(id, i)) < id) {
-          EXPECT_FALSE(other);  // it is met at the other cell
+          EXPECT_FALSE(other);  // the facet is visited from its other cell
           continue;
         }
         ++all;
@@ -77,7 +78,7 @@ void expect_resting_to_hold(double distance, double least_share) {
             });
       }
     }
-    // What is forgotten, at both cells, is looked at, once.
+    // A facet that was forgotten at both of its cells is visited once.
     const auto [other, k] =
         std::pair(cell_of(triangulation.beyond(0, 0)), index_of(triangulation.beyond(0, 0)));
     slack.forget(0, 0);
@@ -98,7 +99,7 @@ void expect_resting_to_hold(double distance, double least_share) {
 TEST(FacetSlack, HoldWhereBeadsStrayLess) {
   expect_resting_to_hold<3>(1e-6, 0.9);
   expect_resting_to_hold<3>(1e-4, 0.5);
-  expect_resting_to_hold<3>(0.1, 0);  // too fast to take any
+  expect_resting_to_hold<3>(0.1, 0);  // too fast for any facet to rest
   expect_resting_to_hold<2>(1e-5, 0.9);
 }
 

@@ -1,4 +1,4 @@
-// Scenes by hand: few beads, in one plane or one place.
+// Handmade scenes: few beads, in one plane or at one place.
 #include "tests/structures/power_diagram/audited_diagram.h"
 
 #include "motions/base/input_error.h"
@@ -20,8 +20,8 @@ TEST(PowerDiagram, FourBeads) {
   ASSERT_NO_THROW(still.run());
   EXPECT_EQ(still.history.events.size(), 0U);
   EXPECT_THAT(still.structure.at_frame(false).cells, testing::ElementsAre(CellBeads<3>{0, 1, 2, 3}));
-  // The tetrahedron turns inside out: through a triangle with a bead inside; through a square; through both
-  // at once.
+  // A tetrahedron turns inside out: through a triangle with a bead inside; through a square; through both at
+  // once.
   EXPECT_FALSE(run_audited({moving(start, {{1, 1, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}})}));
   EXPECT_FALSE(run_audited({moving({{1, 0, 1}, {-1, 0, 1}, {0, 1, -1}, {0, -1, -1}},
                                    {{1, 0, -1}, {-1, 0, -1}, {0, 1, 2}, {0, -1, 2}})}));
@@ -32,7 +32,7 @@ TEST(PowerDiagram, FourBeads) {
 }
 
 TEST(PowerDiagram, FiveBeads) {
-  // One bead goes through a triangle: 2-3, and out again on the other side: hull events.
+  // One bead moves through a triangle (a 2-3 flip) and leaves on the other side (hull events).
   const Points base{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 5}};
   Points from = base, to = base;
   from.push_back({0, 0, -1});
@@ -41,7 +41,7 @@ TEST(PowerDiagram, FiveBeads) {
   from.back() = {1, 0, -7};
   to.back() = {1, 2, 17};
   EXPECT_FALSE(run_audited({moving(from, to)}));
-  // Cospherical for ever: an octahedron that loses a bead, turned by a quarter in its plane.
+  // Beads that stay cospherical: an octahedron that loses a bead, and a quarter turn in its plane.
   EXPECT_FALSE(run_audited({moving({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
                                    {{0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}})}));
 }
@@ -87,7 +87,7 @@ TEST(PowerDiagram, CoplanarAllTheTimeIsRefused) {
   const Points other{{1, 0, 0}, {4, 2, 0}, {0, 5, 0}, {6, 8, 0}, {2, 1, 0}};
   PowerRig rig(moving(flat, other));
   EXPECT_THROW(rig.run(), InputError);
-  // After a step in space it may be refused, or done rightly.
+  // After a step in space, the flat step may be refused or handled correctly.
   Points solid = flat;
   solid[2][2] = 1;
   run_audited(through({solid, flat, other}));
@@ -101,7 +101,8 @@ TEST(PowerDiagram, BeadsThatMeet) {
     points.insert(points.end(), more);
     return points;
   };
-  // In between, at the end, at a frame and back, at a frame and through, from the start.
+  // The beads meet inside of the step, at its end, at a frame where they turn back, at a frame that they pass
+  // through, and at the start.
   EXPECT_FALSE(run_audited({moving(with({{1, 1, 1}, {3, 3, 3}}), with({{3, 3, 3}, {1, 1, 1}}))}));
   EXPECT_FALSE(run_audited({moving(with({{1, 1, 1}, {3, 3, 3}}), with({{2, 2, 2}, {2, 2, 2}}))}));
   EXPECT_FALSE(run_audited(
@@ -122,14 +123,14 @@ TEST(PowerDiagram, OfBeadsInOnePlaceForGoodOneIsHidden) {
   EXPECT_EQ(rig.structure.at_frame(false).hidden.size(), 1U);
 }
 
-// Two beads pass each other along an edge of the hull, on a line with its ends for ever: certificates that
-// are zero all the time see no fold.
+// Two beads pass each other along an edge of the hull and stay on a line with the ends of the edge. The
+// certificates that are zero throughout cannot detect a fold.
 TEST(PowerDiagram, BeadsThatTradePlacesAlongAnEdgeOfTheHull) {
   EXPECT_FALSE(run_audited({moving({{1, 0, 1}, {1, 1, 0}, {1, 1, 1}, {1, 1, 0}, {1, 0, 1}, {0, 0, 0}},
                                    {{1, 0, 1}, {1, 1, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 0}, {0, 1, 1}})}));
 }
 
-// A cell that is flat at a frame and stays so for the step after it, as repeated frames have it.
+// A cell that is flat at a frame and during the whole next step, as with repeated frames.
 TEST(PowerDiagram, FlatCellsDoNotOutliveTheirFrame) {
   const Points solid{{0, 0, 0}, {6, 0, 1}, {0, 6, 2}, {6, 6, 5}, {3, 3, 9}, {2, 3, -7}};
   Points square = solid;
@@ -141,7 +142,8 @@ TEST(PowerDiagram, FlatCellsDoNotOutliveTheirFrame) {
   }
 }
 
-// As repeated frames have it, or a chain that slides in its plane: nothing is there between.
+// Flat steps, as with repeated frames or a chain that slides in its plane: the diagram has no cells during
+// such a step.
 TEST(PowerDiagram, StepsInOnePlaneHaveNoCells) {
   const Points solid{{0, 0, 0}, {6, 0, 1}, {0, 6, 2}, {6, 6, 5}, {3, 3, 9}, {2, 3, -7}, {2, 3, -7}};
   const auto laid = [](Points points) {
@@ -173,7 +175,8 @@ TEST(PowerDiagram, StepsInOnePlaneHaveNoCells) {
   EXPECT_TRUE(run_audited(through({flat, slid, flat}), false)) << "never any";
 }
 
-// Flat at the start, and again at a time nearer to it than the finest grid whose times a log holds.
+// The beads are coplanar at the start, and again so soon that the finest grid of times in a log does not
+// separate the two moments.
 TEST(PowerDiagram, RebuildsBetweenTimesOfAnyDistance) {
   for (const double soon : {0x1p-199, 0x1p-200, 0x1p-300, 0x1p-1000}) {
     SCOPED_TRACE(soon);

@@ -1,4 +1,4 @@
-// Hidden beads are guarded in the cells they are in.
+// Hidden beads are guarded in the cells that contain them.
 
 #include "structures/power_diagram/hidden_guards.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-/// Whether the bead is in its host now, by exact signs.
+/// Returns whether the bead is inside of its host cell now, by exact signs.
 template <int dimension>
 bool is_in_host(const DiagramState<dimension>& state, BeadId bead) {
   const auto& v = state.beads_of(state.hidden.host(bead));
@@ -34,7 +34,7 @@ void expect_housed(Kernel kernel) {
   EXPECT_EQ(diagram.state.doubt, Doubt::none);
   EXPECT_EQ(diagram.statistics.certificates.alive, diagram.expected_alive());
   for (const BeadId bead : diagram.state.hidden.beads()) EXPECT_TRUE(is_in_host(diagram.state, bead)) << bead;
-  // Displaced they have no host and no guards; they find their cells again from anywhere.
+  // Displaced beads have no host and no guards. They find their cells again from any cell.
   const BeadId bead = diagram.state.hidden.beads()[0];
   const CellId host = diagram.state.hidden.host(bead);
   diagram.hidden.displace(std::array{host});
@@ -59,7 +59,7 @@ TEST(HiddenGuards, HouseAndGuardAllHiddenBeads) {
   }
 }
 
-// A walk leads from any cell to the one that a bead is in, or out of the hull.
+// A walk leads from any cell to the cell that contains a bead, or out of the hull.
 TEST(HiddenGuards, WalksArriveFromAnywhere) {
   auto motion = random_beads<3>(2, 60, 0, 0.1);
   BareRig<3> rig(motion);

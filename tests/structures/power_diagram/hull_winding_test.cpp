@@ -1,6 +1,6 @@
-// Beads that pass through the hull together, at moments at which cells of the hull only touch flatness: each
-// certificate holds afterwards on a hull that winds around twice, so that the winding number must be looked
-// at.
+// Beads pass through the hull together, at moments at which cells of the hull touch flatness without changing
+// sign. Afterwards each certificate holds although the hull winds around twice, so the winding number must be
+// checked.
 
 #include <gmock/gmock.h>
 
@@ -28,7 +28,7 @@ std::vector<CellBeads<M::dimension>> cells_at_the_end(const M& motion, Kernel ke
   return rig.structure.at_frame(false).cells;
 }
 
-/// Centres in two frames, and one weight a bead.
+/// Makes a motion from the centres in two frames and one weight per bead.
 template <int Dimension>
 Bezier<Dimension, 1> between(const Points& from, const Points& to, const std::vector<double>& weights) {
   Bezier<Dimension, 1> motion(from.size());
@@ -44,7 +44,7 @@ Bezier<Dimension, 1> between(const Points& from, const Points& to, const std::ve
 
 class HullWinding : public testing::TestWithParam<Kernel> {};
 
-// Five of six beads lie in one plane on the hull at u = 1/2, equal radii.
+// Five of six beads lie in one plane on the hull at u = 1/2; radii are equal.
 TEST_P(HullWinding, FiveBeadsInAPlaneOfTheHull) {
   const auto motion = between<3>({{1, 0, 0}, {1, 1, 1}, {2, 0, 1}, {1, 2, 2}, {2, 1, 0}, {2, 0, 2}},
                                  {{1, 1, 0}, {0, 0, 2}, {0, 1, 1}, {1, 2, 2}, {1, 0, 2}, {0, 1, 2}},
@@ -54,7 +54,7 @@ TEST_P(HullWinding, FiveBeadsInAPlaneOfTheHull) {
                           CellBeads<3>{2, 3, 4, 5}));
 }
 
-// Two beads meet exactly on an edge of the hull at u = 0.8 and cross it together, unequal radii.
+// Two beads meet exactly on an edge of the hull at u = 0.8 and cross it together; radii are unequal.
 TEST_P(HullWinding, TwoBeadsCrossAnEdgeTogether) {
   const auto motion =
       between<2>({{2, 0, 0}, {1, 0, 0}, {0, 0, 0}, {1, 1, 0}, {1, 2, 0}, {0, 1, 0}},
@@ -66,7 +66,7 @@ TEST_P(HullWinding, TwoBeadsCrossAnEdgeTogether) {
                   CellBeads<2>{1, 4, 5}, CellBeads<2>{2, 3, 5}, CellBeads<2>{2, 4, 5}));
 }
 
-// A bead at 10^80 times the others' distances: cells that fill a hole may fold the hull flat.
+// A bead is up to 10^150 times farther away than the others: cells that fill a hole may fold the hull flat.
 TEST_P(HullWinding, SurvivesABeadFromFarAway) {
   for (const double far : {1e30, 1e80, 1e150}) {
     const auto motion = between<3>({{1, 1, -1}, {-1, -1, -1}, {1, -1, -1}, {far, -far, 0}, {-1, 1, -1}},
@@ -81,7 +81,8 @@ INSTANTIATE_TEST_SUITE_P(Kernels, HullWinding,
                          testing::ValuesIn({Kernel::fast, Kernel::filtered, Kernel::exact}),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
-// The diagram equals a static build after every event of scenes full of ties: an audit follows each of them.
+// The diagram equals a static build after every event of scenes full of ties, because an audit follows each
+// event.
 TEST(PowerDiagram, LatticeScenesAreRightAfterEveryEvent) {
   LatticeCounts counts;
   for (std::uint32_t seed = 1; seed <= rounds(100U, 3U); ++seed) {

@@ -1,5 +1,5 @@
-// The power diagram in the plane, and in space under curved motions: the counts of CGAL's kinetic package,
-// and the definition by brute force between events.
+// The power diagram in the plane, and in space under curved motions. The counts of CGAL's kinetic package and
+// the definition, by brute force between events, judge it.
 
 #include <gmock/gmock.h>
 
@@ -29,7 +29,7 @@ Rational turn(const Point& a, const Point& b, const Point& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/// Twice the area of the convex hull, by Andrew's monotone chain.
+/// Returns twice the area of the convex hull, by Andrew's monotone chain algorithm.
 Rational hull_area(std::vector<Point> points) {
   std::sort(points.begin(), points.end());
   std::vector<Point> hull;
@@ -47,8 +47,8 @@ Rational hull_area(std::vector<Point> points) {
   return area;
 }
 
-/// Why these triangles are no Delaunay triangulation of the points, or nothing: one with a point in its
-/// circle, or areas that do not add up to the hull's.
+/// Explains why these triangles are not a Delaunay triangulation of the points: a point lies inside of a
+/// circumcircle, or the areas do not add up to the hull's area. Returns nothing if they are one.
 std::optional<std::string> not_delaunay(const std::vector<Point>& p, std::span<const CellBeads<2>> cells) {
   Rational area = 0;
   for (const auto& [a, b, c] : cells) {
@@ -61,7 +61,7 @@ std::optional<std::string> not_delaunay(const std::vector<Point>& p, std::span<c
       return x * x + y * y;
     };
     for (BeadId t = 0; t < p.size(); ++t) {
-      // The incircle determinant, its rows taken from t.
+      // The incircle determinant with rows relative to t.
       const Rational inside = square(a, t) * turn(p[t], p[b], p[c]) - square(b, t) * turn(p[t], p[a], p[c]) +
                               square(c, t) * turn(p[t], p[a], p[b]);
       if (inside * twice > 0) return text_of("bead ", t, " is inside the circle of ", a, ' ', b, ' ', c);
@@ -81,7 +81,8 @@ std::vector<Point> points_at(const M& motion, const Dyadic& time) {
   return points;
 }
 
-/// Looks at every `stride`-th audit, a moment later: cells may be flat at a single moment without an event.
+/// Returns a witness that checks every `stride`-th audit at a slightly later time, because cells may be flat
+/// at a single moment without an event.
 template <class M>
 Witness::Look definition(const RigOf<M>& rig, int stride) {
   return [&rig, stride, count = 0](const Dyadic& time) mutable -> std::optional<std::string> {
@@ -176,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Data, DegeneratePlane,
                                          "gridint", "swap", "converge"),
                          [](const auto& test) { return std::string(test.param); });
 
-// Few points on a small grid: coincident, collinear and cocircular ones, and many events at once.
+// Few points on a small grid: coincident, collinear and cocircular points, and many simultaneous events.
 TEST(PlaneDiagram, RandomMotionsFullOfTies) {
   std::mt19937 random(21);
   int ran = 0;
@@ -202,12 +203,12 @@ TEST(PlaneDiagram, RandomMotionsFullOfTies) {
       exact.run();
       EXPECT_EQ(exact.simulator.fingerprint(), rig.simulator.fingerprint());
       ++ran;
-    } catch (const InputError&) {  // beads that stay together, or on one line
+    } catch (const InputError&) {  // beads move together, or all beads are on one line
     } catch (const std::exception& error) {
       ADD_FAILURE() << error.what();
     }
     try {
-      fast.run();  // whatever it says, it ends
+      fast.run();  // the result may be wrong, but the run must end
     } catch (const InputError&) {
     }
     if (HasFailure()) return;
@@ -215,8 +216,8 @@ TEST(PlaneDiagram, RandomMotionsFullOfTies) {
   EXPECT_GT(ran, test::rounds(400));
 }
 
-// Beads that stay together, one of them hidden: it is in any of the cells around the other. Which one is the
-// same with both kernels.
+// Two beads move together and one of them is hidden. It lies in each of the cells around the other, and both
+// kernels must choose the same cell.
 TEST(PlaneDiagram, KernelsHouseHiddenBeadsAtVerticesAlike) {
   std::uint64_t wandered = 0;
   for (unsigned seed = 1; seed <= rounds(12U, 3U); ++seed) {

@@ -1,5 +1,5 @@
-// Beads that come, go and change course while the power diagram runs. After each edit, and between all
-// events, audits compare with CGAL over the rationals and with the definition.
+// Beads are inserted, erased and change course while the power diagram runs. After each edit and between all
+// events, audits compare the diagram with CGAL over rationals and with the definition.
 
 #include <gmock/gmock.h>
 
@@ -32,7 +32,7 @@ enum class Scene { generic, weighted, grid, grid_at_rest, line };
 constexpr std::array all_scenes{Scene::generic, Scene::weighted, Scene::grid, Scene::grid_at_rest,
                                 Scene::line};
 
-/// A curve whose numbers are short, so that it can be bent without rounding.
+/// Sets a curve whose coordinates have few bits, so that it can be bent without rounding.
 template <class M>
 void set_curve(M& motion, BeadId b, Random& random, Scene scene) {
   const bool grid = scene == Scene::grid || scene == Scene::grid_at_rest;
@@ -41,7 +41,7 @@ void set_curve(M& motion, BeadId b, Random& random, Scene scene) {
       double x = grid ? pick(random, -2, 2) : 0x1p-20 * pick(random, -(1 << 20), 1 << 20);
       if (k > 0 && scene == Scene::grid_at_rest) x = motion.coordinate(b, 0, axis);
       if (k > 0 && scene == Scene::weighted) x = motion.coordinate(b, 0, axis) + 0.25 * x;
-      if (scene == Scene::line && axis > 0 && k == 0) x = 0;  // at the start only
+      if (scene == Scene::line && axis > 0 && k == 0) x = 0;  // on the line at the start only
       motion.set_coordinate(b, k, axis, x);
     }
   }
@@ -59,7 +59,7 @@ struct Totals {
   std::uint64_t inserts = 0, erases = 0, changes = 0, rebuilds = 0, hidden = 0;
 };
 
-/// Edits at 16 times of each of two steps, one or a few at a time.
+/// Makes edits at 16 times of each of two steps, one or a few at a time.
 template <class M>
 void run(unsigned seed, Scene scene, Totals& totals) {
   SCOPED_TRACE(testing::Message() << "seed " << seed << ", scene " << static_cast<int>(scene));
@@ -96,7 +96,7 @@ void run(unsigned seed, Scene scene, Totals& totals) {
     for (int sixteenth = 1; sixteenth < 16; ++sixteenth) {
       const double u = sixteenth / 16.0;
       for (unsigned k = 0; k < 1 + random() % 3; ++k) {
-        simulator.run_until(Dyadic(u + 0x1p-12 * k));  // looks at the edit before
+        simulator.run_until(Dyadic(u + 0x1p-12 * k));  // audits the edit before
         count_present();
         const auto b = static_cast<BeadId>(random() % beads);
         if (diagram.is_absent(b)) {
@@ -105,8 +105,8 @@ void run(unsigned seed, Scene scene, Totals& totals) {
         } else if (random() % 2 == 0 && present.size() > M::dimension + 3) {
           try {
             diagram.erase(b);
-          } catch (
-              const std::invalid_argument& refusal) {  // all left would stay in one plane, or on one line
+          } catch (const std::invalid_argument&
+                       refusal) {  // the beads left would stay in one plane, or on one line
             EXPECT_TRUE(scene == Scene::grid || scene == Scene::grid_at_rest) << refusal.what();
             EXPECT_FALSE(diagram.is_absent(b));
           }
@@ -126,7 +126,7 @@ void run(unsigned seed, Scene scene, Totals& totals) {
   totals.erases += kinds[Diagram<M>::erases];
   totals.changes += kinds[Diagram<M>::changes];
   totals.rebuilds += diagram.statistics.rebuilds;
-  // Edits of hidden beads exchange no cells.
+  // Edits of hidden beads do not exchange cells.
   for (std::size_t e = 0; e < history.events.size(); ++e) {
     const auto kind = history.events[e].change.kind;
     const bool edits = kind == Diagram<M>::inserts || kind == Diagram<M>::erases;
@@ -141,7 +141,7 @@ void run_all(unsigned seeds) {
     for (unsigned seed = 0; seed < seeds && !testing::Test::HasFailure(); ++seed) {
       try {
         run<M>(seed, scene, totals);
-      } catch (const InputError&) {  // all left in one plane, or on one line
+      } catch (const InputError&) {  // the beads left are in one plane, or on one line
         EXPECT_TRUE(scene == Scene::grid || scene == Scene::grid_at_rest);
       } catch (const std::exception& error) {
         FAIL() << "seed " << seed << ", scene " << static_cast<int>(scene) << ": " << error.what();
@@ -177,7 +177,7 @@ Space random_space(std::size_t beads, unsigned seed, double weight) {
   return motion;
 }
 
-/// By a scan of all cells.
+/// Finds the neighbours by a scan of all cells.
 std::vector<BeadId> scanned_neighbors(const PowerDiagram<3>& diagram, BeadId bead) {
   std::vector<BeadId> neighbors;
   for (const CellBeads<3>& cell : diagram.at_frame(false).cells) {
@@ -253,7 +253,7 @@ TEST(PowerDiagramEdits, RefusesBadCalls) {
   EXPECT_EQ(diagram.statistics.events_by_kind[Diagram<Space>::erases], 1U);
 }
 
-// A large bead comes and goes: those it hides come back as they were.
+// A large bead is inserted and erased: the beads that it hides become visible again.
 TEST(PowerDiagramEdits, HidesAndShows) {
   Space motion = random_space(60, 2, 0);
   for (int axis = 0; axis < 3; ++axis) {
@@ -284,7 +284,7 @@ TEST(PowerDiagramEdits, HidesAndShows) {
 TEST(PowerDiagramEdits, AreReplayed) {
   for (const double weight : {0.0, 0.2}) {
     std::vector<Space> steps{random_space(80, 3, weight), random_space(80, 4, weight)};
-    for (BeadId b = 0; b < 80; ++b) {  // the second goes on where the first ends
+    for (BeadId b = 0; b < 80; ++b) {  // the second step starts where the first ends
       for (int axis = 0; axis < 3; ++axis) {
         const double moves = steps[1].coordinate(b, 1, axis) - steps[1].coordinate(b, 0, axis);
         const double x = steps[0].coordinate(b, 1, axis);
@@ -323,12 +323,12 @@ TEST(PowerDiagramEdits, AreReplayed) {
     std::uint64_t external = 0;
     for (std::size_t kind = 0; kind < Diagram<Space>::wanders; ++kind)
       external += rig.structure.statistics.events_by_kind[kind];
-    EXPECT_EQ(rig.external_events(), external);  // edits are counted apart
+    EXPECT_EQ(rig.external_events(), external);  // edits are counted separately
     EXPECT_EQ(rig.structure.statistics.rebuilds, 0U);
   }
 }
 
-/// Inserts, erases and bends under one kernel.
+/// Runs inserts, erases and bends under one kernel.
 std::pair<std::uint64_t, std::uint64_t> run_kernel(Kernel kernel) {
   using Plane = BezierMotion<2, 1>;
   Random random(77);
@@ -379,7 +379,7 @@ TEST(PowerDiagramEdits, ReplayRefusesWhatDoesNotFit) {
         for (std::size_t e = 0; e < edit.size(); ++e) {
           Change change = edit[e];
           if (e == spoiled && left_out) continue;
-          if (e == spoiled) std::swap(change.ids[0], change.ids[1]);  // turned over, or no bead
+          if (e == spoiled) std::swap(change.ids[0], change.ids[1]);  // opposite orientation, or not a bead
           again.structure.apply(change);
         }
       };
@@ -392,7 +392,8 @@ TEST(PowerDiagramEdits, ReplayRefusesWhatDoesNotFit) {
   }
 }
 
-// Certificates made and signs taken follow the beads around, not the diagram.
+// The number of certificates and signs depends on the degree of the edited bead, not on the size of the
+// diagram.
 TEST(PowerDiagramEdits, CostFollowsTheDegree) {
   std::array<double, 2> certificates{}, signs{};
   for (std::size_t large = 0; large < 2; ++large) {
@@ -406,7 +407,7 @@ TEST(PowerDiagramEdits, CostFollowsTheDegree) {
     const std::uint64_t certificates_before = s.certificates.created, signs_before = signs_taken();
     constexpr int edits = 100;
     for (BeadId b = 0; b < edits; ++b) {
-      // A bead that was beside it is where it is looked for.
+      // A nearest bead serves as the hint for the search.
       rig.structure.erase(100 + b);
       BeadId near = no_bead;
       double least = 1e300;

@@ -1,5 +1,5 @@
-// Memory of a running power diagram beyond CGAL's own triangulation of the same beads, as the allocator
-// counts it.
+// Measures, with a counting allocator, the memory of a running power diagram beyond CGAL's triangulation of
+// the same beads.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ double bytes_of_cgal(const Space& motion) {
   return bytes_allocated() - before;
 }
 
-/// Steps that follow each other, of beads spread evenly.
+/// Makes consecutive steps of evenly distributed beads.
 void move_on(Space& motion, Random& random, double step) {
   for (BeadId b = 0; b < motion.bead_count(); ++b) {
     for (int axis = 0; axis < 3; ++axis) {

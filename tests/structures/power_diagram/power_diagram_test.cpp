@@ -17,7 +17,7 @@ namespace {
 
 using namespace test;
 
-// General position: the instances of data/kinetic and the counts of CGAL's kinetic package.
+// General position: the instances of data/kinetic and the event counts of CGAL's kinetic package.
 
 struct Count {
   std::string name;
@@ -57,11 +57,12 @@ TEST(PowerDiagram, AuditsPassBetweenAllEvents) {
     Witness witness(rig.simulator, definition(rig, stride));
     ASSERT_NO_THROW(rig.run()) << name;
     EXPECT_EQ(rig.structure.statistics.audits_run,
-              rig.external_events() + 3);  // and before the first, and the ends
+              rig.external_events() +
+                  3);  // one audit after each event, one before the first event, and one at each end
   }
 }
 
-// The diagram that is kept up knows the closest pair at every frame.
+// The maintained diagram gives the closest pair at every frame.
 TEST(PowerDiagram, EdgesAtFramesHaveTheClosestPair) {
   const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 4);
   PowerRig rig(steps[0]);
@@ -109,7 +110,7 @@ TEST(PowerDiagram, KernelsAgreeOnRealTrajectories) {
   expect_right_at_the_end(filtered);
 }
 
-// Flips as logged: made on a set of cells by hand they lead from CGAL's cells at u = 0 to those at u = 1.
+// Applying the logged flips to a set of cells leads from CGAL's cells at u = 0 to CGAL's cells at u = 1.
 TEST(PowerDiagram, LoggedFlipsTurnTheFirstCellsIntoTheLast) {
   const Space motion = instance_motion<Space>("d3_n20_linear");
   PowerRig rig(motion);
@@ -150,7 +151,7 @@ TEST(PowerDiagram, LoggedFlipsTurnTheFirstCellsIntoTheLast) {
             cgal_regular_cells(exact_points(motion, Dyadic(1.0))).cells);
 }
 
-// Certificates are born at their own root all the time; the double stages must settle them.
+// Every event creates certificates at their own root. The double stages must decide them.
 TEST(PowerDiagram, TheExactStageIsRareInGeneralPosition) {
   PowerRig rig(instance_motion<Space>("d3_n50_linear"));
   rig.run();
@@ -163,13 +164,14 @@ TEST(PowerDiagram, CountsCertificatesPerBead) {
   const Points start{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   PowerRig rig(moving(start, start));
   rig.run();
-  // Four facets of the one cell, each with infinity for a fifth, and six between infinite cells.
+  // The only cell has four facets, each with the infinite vertex as the fifth vertex; six more facets lie
+  // between infinite cells.
   EXPECT_EQ(rig.structure.statistics.certificates.created, 10U);
   EXPECT_EQ(rig.structure.statistics.certificates.peak, 10U);
   EXPECT_EQ(rig.structure.statistics.certificates.per_bead_max, 10U);
 }
 
-// The audit must be able to fail: every flip that can be made of a right diagram makes it wrong.
+// The audit must be able to fail: every possible flip of a correct diagram makes it wrong.
 TEST(PowerDiagram, AuditsNoticeEveryWrongFlip) {
   const Space motion = instance_motion<Space>("d3_n20_linear");
   PowerRig rig(motion, AuditMode::frames);
@@ -183,7 +185,8 @@ TEST(PowerDiagram, AuditsNoticeEveryWrongFlip) {
       change.kind = forth ? PowerDiagram<3>::to_edge : PowerDiagram<3>::to_facet;
       Change back = e.change;
       back.kind = forth ? PowerDiagram<3>::to_facet : PowerDiagram<3>::to_edge;
-      // Only what leaves a triangulation: no second edge between two beads, no second facet of three.
+      // Applies only flips that leave a triangulation: two beads have at most one edge, and three beads at
+      // most one facet.
       const auto together = [cells = rig.structure.at_frame(false).cells](std::span<const BeadId> beads) {
         return std::any_of(cells.begin(), cells.end(), [&](const CellBeads<3>& cell) {
           return std::all_of(beads.begin(), beads.end(),
@@ -216,9 +219,9 @@ TEST(PowerDiagram, RefusesChangesThatCannotBe) {
   rig.run();
   using Diagram = PowerDiagram<3>;
   EXPECT_THROW(rig.structure.apply({Diagram::to_edge, 5, {0, 1, 3, 2, 4}}),
-               std::invalid_argument);  // another apex
+               std::invalid_argument);  // a different apex
   EXPECT_THROW(rig.structure.apply({Diagram::to_edge, 5, {0, 3, 4, 1, 2}}),
-               std::invalid_argument);  // no such cell
+               std::invalid_argument);  // this cell does not exist
   EXPECT_THROW(rig.structure.apply({Diagram::to_facet, 5, {0, 1, 2, 3, 4}}), std::invalid_argument);
   EXPECT_THROW(rig.structure.apply({Diagram::to_edge, 5, {0, 1, 9, 3, 4}}), std::invalid_argument);
   rig.structure.apply({Diagram::to_edge, 5, {0, 1, 2, 3, 4}});
@@ -226,9 +229,10 @@ TEST(PowerDiagram, RefusesChangesThatCannotBe) {
   rig.structure.apply({Diagram::to_facet, 5, {0, 1, 2, 3, 4}});
 }
 
-// A log may have been edited: the diagram must stay a triangulation.
+// A log may have been edited; the diagram must still be a triangulation.
 TEST(PowerDiagram, RefusesASecondEdgeBetweenTwoBeads) {
-  const Points points{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 1}, {0, 0, -1}};  // three cells around 3-4
+  const Points points{
+      {3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 1}, {0, 0, -1}};  // three cells around edge 3-4
   PowerRig rig(moving(points, points));
   rig.run();
   EXPECT_THROW(rig.structure.apply({PowerDiagram<3>::to_edge, 5, {0, 3, 4, 1, 2}}), std::invalid_argument);

@@ -1,5 +1,5 @@
-// Scenes as regular as can be: lattices that move as one, and with one part that moves. Many balls lie on one
-// sphere then, much happens at once, and flips block each other.
+// Highly regular scenes: lattices that move rigidly, also with one part that moves differently. Many balls
+// lie on one sphere, many events are simultaneous, and flips block each other.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ std::vector<Eigen::Matrix3Xd> one_moves() {
   return frames;
 }
 
-/// A lattice of whole numbers, sheared, scaled and turned by a quarter.
+/// Makes a lattice of whole coordinates, transformed by `by`: sheared, scaled or turned by a quarter.
 std::vector<Eigen::Matrix3Xd> whole_lattice(const Eigen::Matrix3d& by) {
   Eigen::Matrix3Xd points(3, 36);
   for (Eigen::Index b = 0; b < points.cols(); ++b)
@@ -48,7 +48,7 @@ std::vector<Eigen::Matrix3Xd> whole_lattice(const Eigen::Matrix3d& by) {
   return {points, by * points, by * by * points};
 }
 
-/// Rings of beads one above the other, turned about a slanted axis and stretched.
+/// Makes rings of beads, one above the other, turned about a slanted axis and stretched.
 std::vector<Eigen::Matrix3Xd> rings() {
   Eigen::Matrix3Xd points(3, 24);
   for (Eigen::Index b = 0; b < points.cols(); ++b) {
@@ -59,7 +59,7 @@ std::vector<Eigen::Matrix3Xd> rings() {
   return {points, turn * points, turn * Eigen::Vector3d(1, 1.25, 1).asDiagonal() * points};
 }
 
-/// A lattice in one plane that turns in space: it has a diagram for what its coordinates were rounded by.
+/// Makes a plane lattice that turns in space. It has a diagram only because its coordinates are rounded.
 std::vector<Eigen::Matrix3Xd> turning_plane() {
   Eigen::Matrix3Xd points(3, 16);
   for (Eigen::Index b = 0; b < points.cols(); ++b)
@@ -105,7 +105,7 @@ TEST(RegularScenes, KernelsAgreeAndAuditsPassBetweenAllEvents) {
   }
 }
 
-// Where flips block each other a few cells are exchanged, not the diagram.
+// If flips block each other, only a few cells are exchanged, not the whole diagram.
 TEST(RegularScenes, BlockedFlipsAreRepairedWhereTheyAre) {
   const std::vector<Space> steps = steps_through(model("grid", 343, models::ShapeMotion::rotate));
   SpaceRig rig(steps[0]);
@@ -118,7 +118,7 @@ TEST(RegularScenes, BlockedFlipsAreRepairedWhereTheyAre) {
   EXPECT_LE(kinds[DiagramEvents<3>::clears], 40 * kinds[DiagramEvents<3>::repairs]);
 }
 
-// A hidden bead appears at the very moment at which flips elsewhere block each other.
+// A hidden bead becomes visible at the same moment at which flips elsewhere block each other.
 TEST(RegularScenes, WhatHappensBesideABlockIsNotLost) {
   const auto motion = instance_motion<Space>("../hostile/appearance_beside_a_block");
   SpaceRig filtered(motion, AuditMode::events), exact(motion, AuditMode::none, Kernel::exact);

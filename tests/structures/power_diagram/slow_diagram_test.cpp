@@ -6,7 +6,7 @@ namespace {
 
 using namespace test;
 
-// Beads that creep, and all drift away together.
+// Makes beads that creep while all of them drift together.
 std::vector<Space> creeping(std::mt19937& random, std::size_t beads, std::size_t frames, double step) {
   std::uniform_real_distribution<double> anywhere(0, 1), wander(-step, step);
   std::vector<Points> path(frames, Points(beads));
@@ -45,7 +45,7 @@ TEST(PowerDiagram, ATranslationGivesNoEvent) {
   std::vector<Points> frames(11, Points(first.bead_count()));
   for (std::size_t k = 0; k < frames.size(); ++k) {
     for (BeadId b = 0; b < first.bead_count(); ++b) {
-      // Whole multiples of 2^-12: a sum is not rounded.
+      // Whole multiples of 2^-12, so that sums are exact.
       for (int axis = 0; axis < 3; ++axis) {
         frames[k][b][static_cast<std::size_t>(axis)] =
             std::round(first.coordinate(b, 0, axis) * 4096) / 4096 + static_cast<double>(k) * (0.5 + axis);

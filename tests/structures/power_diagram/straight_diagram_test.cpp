@@ -1,5 +1,5 @@
-// Beads that go straight on for several steps: facets that are looked at ahead rest, and everything happens
-// as it does to the exact kernel, which looks at all of them in each step.
+// Beads keep their velocities for several steps. Facets that were examined ahead rest, and all events agree
+// with the exact kernel, which examines every facet in each step.
 
 #include <cmath>
 
@@ -11,13 +11,13 @@ namespace {
 
 using namespace test;
 
-/// How beads move: coordinates and velocities are multiples of `unit`; where few values are possible much
-/// happens at once, and right where steps meet.
+/// Parameters of the motion. Coordinates and velocities are multiples of `unit`. If few values are possible,
+/// many events are simultaneous, also exactly where steps meet.
 struct Walk {
   double unit = 0x1p-12;
-  int range = 1 << 12, fastest = 160;  // in units
-  double turning = 0.1;                // of the beads, from step to step
-  double at_rest = 0.2;                // of those
+  int range = 1 << 12, fastest = 160;  // multiples of `unit`
+  double turning = 0.1;                // share of beads that change velocity from step to step
+  double at_rest = 0.2;                // share of these beads that come to rest
   bool radii = false;
 };
 
@@ -51,7 +51,7 @@ std::vector<M> steps_of(const Walk& walk, std::size_t beads, std::size_t count, 
 template <class M>
 using RigOf = Rig<PowerDiagram<M::dimension>, M>;
 
-/// Returns how many facets rested.
+/// Returns the number of facets that rested.
 template <class M>
 std::uint64_t expect_as_exact(const std::vector<M>& steps, AuditMode audits) {
   RigOf<M> rig(steps.front(), audits);
@@ -91,7 +91,7 @@ TEST(PowerDiagram, FacetsOfBeadsThatGoStraightOnRest) {
   expect_as_exact_however_many_turn<BezierMotion<2, 1>>();
 }
 
-// Events where steps meet, where beads turn, and at other times that are shared.
+// Events where steps meet, where beads turn, and at other shared times.
 TEST(PowerDiagram, FacetsRestAlsoWhereMuchHappensAtOnce) {
   for (unsigned seed = 0; seed < rounds(12U, 2U); ++seed) {
     SCOPED_TRACE(seed);
@@ -105,7 +105,7 @@ TEST(PowerDiagram, FacetsRestAlsoWhereMuchHappensAtOnce) {
   }
 }
 
-// Far beyond double's grid steps are rounded, and no bead is known to go on.
+// Coordinates far beyond the precision of double round each step, so no bead is known to keep its velocity.
 TEST(PowerDiagram, WhatIsRoundedDoesNotRest) {
   auto steps = steps_of<BezierMotion<3, 1>>({}, 30, 8, 5);
   for (auto& step : steps)
@@ -116,7 +116,8 @@ TEST(PowerDiagram, WhatIsRoundedDoesNotRest) {
   expect_as_exact(steps, AuditMode::events);
 }
 
-// A course that changes within a step ends what was known of its bead, whether or not it is taken up again.
+// A change of course within a step invalidates everything known about the bead, even if the bead returns to
+// its old course.
 TEST(PowerDiagram, FacetsDoNotRestAcrossAChangeOfCourse) {
   using M = BezierMotion<3, 1>;
   for (unsigned seed = 0; seed < rounds(3U); ++seed) {
@@ -134,7 +135,7 @@ TEST(PowerDiagram, FacetsDoNotRestAcrossAChangeOfCourse) {
         if (k % 3 == 1) {
           rig.simulator.run_until(Dyadic(0.5));
           const BeadId bead = static_cast<BeadId>(seed + k);
-          // Twice as far as it would go, then back: it ends where it would.
+          // The bead moves twice as far as before and then back, so it ends where it would have ended.
           const auto bend = [&](double by) {
             rig.structure.change_motion(bead, [&] {
               for (const int end : {0, 1})
@@ -155,7 +156,8 @@ TEST(PowerDiagram, FacetsDoNotRestAcrossAChangeOfCourse) {
   }
 }
 
-// Beads come and go while others go straight on: what is known of facets that stay is not that of new ones.
+// Beads are inserted and erased while others keep their velocities. Facts about facets that stay must not be
+// used for new facets.
 TEST(PowerDiagram, FacetsRestWhileBeadsComeAndGo) {
   using M = BezierMotion<3, 1>;
   for (unsigned seed = 0; seed < rounds(4U); ++seed) {

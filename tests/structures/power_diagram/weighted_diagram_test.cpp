@@ -1,5 +1,5 @@
-// The power diagram of unequal weights elsewhere: in the plane, under curved and lifted motion, in integers
-// alone. Audits compare with CGAL over the rationals and with the definition.
+// Power diagrams with unequal weights in the plane, under curved and lifted motion, and with integers alone.
+// Audits compare with CGAL over rationals and with the definition.
 
 #include <gmock/gmock.h>
 
@@ -36,12 +36,12 @@ TEST(WeightedDiagram, CurvedMotion) {
   using Curved = BezierMotion<3, 2>;
   Rig<PowerOf<Curved>, Curved> rig(instance_motion<Curved>("w3_n20_degree2_visible"), AuditMode::events);
   ASSERT_NO_THROW(rig.run());
-  // CGAL's package reports 423: not what audits and integers alone say.
+  // CGAL's package reports 423 events, which contradicts both the audits and the integers.
   EXPECT_EQ(rig.external_events(), 432U);
   EXPECT_EQ(rig.structure.statistics.events_by_kind[PowerOf<Curved>::wanders], 9U);
 }
 
-/// Random motions of all kinds, audited between all events; `change` has a last word on each.
+/// Runs random motions of all kinds with audits between all events; `change` may modify each motion.
 template <class M, class ChangeMotion>
 void run_random(unsigned seeds, ChangeMotion change) {
   std::uint64_t hides = 0, shows = 0;
@@ -55,7 +55,7 @@ void run_random(unsigned seeds, ChangeMotion change) {
       Rig<PowerOf<M>, M> rig(motion, AuditMode::events);
       try {
         rig.run();
-      } catch (const InputError&) {  // all on one line, or events too close for a rebuild
+      } catch (const InputError&) {  // all beads on one line, or events too close for a rebuild
         continue;
       } catch (const std::exception& error) {
         FAIL() << error.what();
@@ -97,7 +97,7 @@ TEST(LiftedDiagram, BringsTheDiagramFromFrameToFrame) {
   EXPECT_EQ(rig.structure.statistics.rebuilds, 0U);
 }
 
-// A drift of all beads, however large, is no motion at all.
+// A common drift of all beads, however large, does not change the result.
 TEST(LiftedDiagram, CommonDriftChangesNothing) {
   Random random(4);
   for (const double speed : {1.0, 0x1p20}) {

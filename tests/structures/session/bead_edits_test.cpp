@@ -1,6 +1,6 @@
-// Beads that come, go and change course in several structures on one clock, at rational times, at the
-// irrational times of events, and where many things happen at once. The slow twin: the same structures, made
-// of the beads present and the curves that there are, and run to that time from the start.
+// Beads are inserted, erased and change course in several structures on one clock: at rational times, at the
+// irrational times of events, and at times with many simultaneous events. The slow reference consists of the
+// same structures, built on the present beads and their current curves and run from the start to that time.
 
 #include <gmock/gmock.h>
 
@@ -52,7 +52,7 @@ void set_curve(M& motion, BeadId b, Random& random, Places places) {
   }
 }
 
-/// The list's functions in their order: beads that move alike may trade places.
+/// Returns the curves of the list in order. Beads with equal curves may trade places.
 template <class M>
 std::vector<std::vector<double>> courses(const M& motion, const std::vector<BeadId>& order) {
   std::vector<std::vector<double>> all;
@@ -94,7 +94,7 @@ class EditedRun {
       compare(0);
       for (int stand = 1; stand < 10; ++stand) {
         double u = 0.1 * stand;
-        if (stand % 3 == 0) u = 0x1p-4 * std::floor(16 * u);  // where much happens at once on a grid
+        if (stand % 3 == 0) u = 0x1p-4 * std::floor(16 * u);  // a time of many simultaneous events on a grid
         if (simulator_.now().lower() <= u) {
           simulator_.run_until(Dyadic(u));
           edit();
@@ -126,7 +126,8 @@ class EditedRun {
       } else if (b < 4) {
         try {
           structure->erase(b);
-        } catch (const std::invalid_argument& refusal) {  // all left would stay in one plane, or on one line
+        } catch (
+            const std::invalid_argument& refusal) {  // the beads left would stay in one plane, or on one line
           EXPECT_EQ(places_, Places::grid) << refusal.what();
           EXPECT_THAT(refusal.what(), HasSubstr("all beads stay"));
           EXPECT_FALSE(structure->is_absent(b));
@@ -139,17 +140,17 @@ class EditedRun {
     switch (random_() % 6) {
       case 0:
         return simulator_.change_motion(beads, [&] { set_curve(motion_, b, random_, places_); });
-      case 1:  // a turn, where numbers are short enough for one without rounding
+      case 1:  // a bend, if coordinates have few enough bits to bend without rounding
         if (M::degree > 1 || !now.is_dyadic()) return;
         return simulator_.change_motion(beads, [&] { bend(motion_, b, now.lower().round_down(), random_); });
-      case 2:  // two, and one that nothing becomes of
+      case 2:  // two beads, and a third whose declared change has no effect
         beads = {b, static_cast<BeadId>((b + 1) % motion_.bead_count()),
                  static_cast<BeadId>((b + 2) % motion_.bead_count())};
         return simulator_.change_motion(beads, [&] {
           set_curve(motion_, beads[0], random_, places_);
           set_curve(motion_, beads[1], random_, places_);
         });
-      case 3:  // all, as they were
+      case 3:  // all beads, without an effect
         for (BeadId all = 0; all < motion_.bead_count(); ++all) beads.push_back(all);
         return simulator_.change_motion(beads, [] {});
       default:
@@ -169,7 +170,7 @@ class EditedRun {
     simulator.run_until(Dyadic(u));
     EXPECT_EQ(courses(motion_, structures_.sorted.order()), courses(motion_, twins.sorted.order()));
     EXPECT_EQ(structures_.contacts.pairs(), twins.contacts.pairs());
-    if (places_ == Places::grid) return;  // many power diagrams are right then: audits look at it
+    if (places_ == Places::grid) return;  // several power diagrams are correct, and the audit checks ours
     const auto cells = structures_.power.at_frame(true), of_twin = twins.power.at_frame(true);
     EXPECT_EQ(cells.cells, of_twin.cells);
     EXPECT_EQ(cells.hidden, of_twin.hidden);
@@ -191,7 +192,7 @@ void run_all(unsigned seeds) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", places " << static_cast<int>(places));
       try {
         EditedRun<M>(seed, places, totals).run();
-      } catch (const InputError& error) {  // all left in one plane, or on one line
+      } catch (const InputError& error) {  // the beads left are in one plane, or on one line
         EXPECT_EQ(places, Places::grid) << error.what();
       }
     }
@@ -220,7 +221,7 @@ TEST(BeadEdits, KernelsAgreeAndFastEnds) {
   }
 }
 
-/// A few lines, of which two meet at an irrational time: bead 0 on a parabola, bead 1 at rest.
+/// Few beads on a line, two of which meet at an irrational time: bead 0 moves on a parabola and bead 1 rests.
 using Parabolas = BezierMotion<1, 2>;
 Parabolas parabolas() {
   Parabolas motion(3);
@@ -240,11 +241,12 @@ TEST(BeadEdits, JustAfterAnEventAtAnIrrationalTime) {
   EXPECT_THAT(rig.structure.order(), testing::ElementsAre(1, 0, 2));
   EXPECT_LT(rig.simulator.now().lower(), rig.simulator.now().upper());
   EXPECT_NEAR(rig.simulator.now().lower(), std::sqrt(0.5), 1e-9);
-  // Bead 2 comes to where the others are at this very time, from above: it is first just after it. Bead 0 is
-  // said to change, and does not.
+  // Bead 2 arrives from above at the place of the others at exactly this time, so it is first just after it.
+  // Bead 0 is declared as changed but does not change.
   rig.simulator.change_motion(std::array<BeadId, 2>{0, 2}, [&] {
     for (int k = 0; k <= 2; ++k) {
-      rig.motion.set_coordinate(2, k, 0, 1 - rig.motion.coordinate(0, k, 0));  // 1 - u^2: 1/2 then
+      rig.motion.set_coordinate(2, k, 0,
+                                1 - rig.motion.coordinate(0, k, 0));  // 1 - u^2, which is 1/2 at that time
     }
   });
   EXPECT_THAT(rig.structure.order(), testing::ElementsAre(2, 1, 0));
@@ -256,7 +258,7 @@ TEST(BeadEdits, ErasedBeadsComeBackWhereTheyAreThen) {
   Rig<SortedList<1>, Parabolas> rig(parabolas(), AuditMode::events);
   rig.structure.leave_out(0);
   rig.structure.leave_out(1);
-  rig.structure.leave_out(2);  // none is left
+  rig.structure.leave_out(2);  // no bead is left
   rig.simulator.build();
   rig.simulator.enter_step();
   EXPECT_FALSE(rig.simulator.run_next());
@@ -274,7 +276,7 @@ TEST(BeadEdits, ErasedBeadsComeBackWhereTheyAreThen) {
   EXPECT_EQ(rig.external_events(), 0U);
 }
 
-/// Inserts and erases of all structures, made again from the log without certificates.
+/// Replays inserts and erases of all structures from the log, without certificates.
 TEST(BeadEdits, AreReplayed) {
   Random random(7);
   Space motion(12);
@@ -337,7 +339,7 @@ TEST(BeadEdits, BadCallsAreRefusedAndChangeNothing) {
     expect_edit_refused([&] { structure->erase(6); }, "there is no bead 6");
   }
   expect_edit_refused([&] { simulator.change_motion(unknown, [] { FAIL(); }); }, "there is no bead 6");
-  // A number that is none: the bead goes on as it did.
+  // A coordinate that is not a number is refused, and the bead keeps its course.
   EXPECT_THROW(simulator.change_motion(third, [&] { motion.set_coordinate(3, 1, 0, std::nan("")); }),
                std::invalid_argument);
   simulator.leave_step();
@@ -356,13 +358,13 @@ TEST(BeadEdits, AreRefusedByStructuresThatCannotFollow) {
   simulator.enter_step();
   expect_edit_refused([&] { simulator.change_motion(std::array<BeadId, 1>{3}, [] { FAIL(); }); },
                       "wrapped: its beads cannot change course within a step, only between two of them");
-  sorted.erase(3);  // that concerns nobody else
+  sorted.erase(3);  // this concerns no other structure
   simulator.leave_step();
 }
 
 using Plane = BezierMotion<2, 1>;
 
-/// The bead goes straight from one place to the other.
+/// Makes the bead move straight from one place to the other.
 void set_line(Plane& motion, BeadId bead, std::array<double, 2> from, std::array<double, 2> to) {
   for (int axis = 0; axis < 2; ++axis) {
     motion.set_coordinate(bead, 0, axis, from[static_cast<std::size_t>(axis)]);
@@ -387,7 +389,7 @@ struct ListAndDiagram {
   History history;
 };
 
-// Three beads are a diagram, two are none: nothing is flat before or after.
+// Three beads have a diagram, two have none. The beads are not flat before or after the change.
 TEST(BeadEdits, ABeadWithoutWhichNoDiagramIsLeftChangesCourse) {
   for (const bool at_event : {false, true}) {
     Plane motion(3);
@@ -397,13 +399,13 @@ TEST(BeadEdits, ABeadWithoutWhichNoDiagramIsLeftChangesCourse) {
     ListAndDiagram run(motion);
     if (at_event) {
       ASSERT_TRUE(run.simulator.run_next());
-      EXPECT_NEAR(run.simulator.now().lower(), 1.0 / 3, 1e-9);  // no dyadic
+      EXPECT_NEAR(run.simulator.now().lower(), 1.0 / 3, 1e-9);  // not dyadic
     } else {
       run.simulator.run_until(Dyadic(0.25));
     }
     const std::array<BeadId, 1> last{2};
     run.simulator.change_motion(last, [] {});
-    EXPECT_EQ(run.power.statistics.rebuilds, 0U);  // it does not jump
+    EXPECT_EQ(run.power.statistics.rebuilds, 0U);  // the bead does not jump
     run.simulator.change_motion(last, [&] { set_line(motion, 2, {0.5, 4}, {-6, 2}); });
     EXPECT_EQ(run.power.statistics.rebuilds, 1U);
     EXPECT_EQ(run.changes(), 4U);
@@ -431,7 +433,7 @@ TEST(BeadEdits, ABeadWithoutWhichAllIsFlatChangesCourseAndIsNotErased) {
 TEST(BeadEdits, AllStructuresAreAskedBeforeAnyChanges) {
   Plane motion(4);
   for (BeadId b = 0; b < 4; ++b) set_line(motion, b, {1.0 * b, 0}, {3.0 - b, 1});
-  ListAndDiagram run(motion);  // all on one line
+  ListAndDiagram run(motion);  // all beads on one line
   const std::size_t told = run.history.events.size();
   expect_edit_refused([&] { run.simulator.change_motion(std::array<BeadId, 1>{3}, [] { FAIL(); }); },
                       "in which all beads stay on one line");
@@ -482,8 +484,8 @@ TEST(BeadEdits, AreNotForListenersAndAListenerThatThrowsEndsTheRun) {
     rig.simulator.build();
     if (!throws) {
       rig.simulator.run_step();
-      rig.simulator.enter_step();  // the same again
-      rig.structure.erase(0);      // tells of itself
+      rig.simulator.enter_step();  // the next step runs as usual
+      rig.structure.erase(0);      // an edit that notifies the listener again
       rig.simulator.leave_step();
       EXPECT_EQ(rig.history.events.size(), 2U + 1U);
       continue;

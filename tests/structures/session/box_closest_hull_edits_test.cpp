@@ -1,5 +1,5 @@
-// Edits of the enclosing box, the closest pair and the convex hull one by one: what they tell, what they
-// cost, and which are refused.
+// Single edits of the enclosing box, the closest pair and the convex hull: the changes that they report,
+// their cost, and the edits that are refused.
 
 #include <gmock/gmock.h>
 
@@ -37,7 +37,7 @@ Plane at_rest(const std::vector<std::array<double, 2>>& places) {
   return motion;
 }
 
-/// "insert 3", "min-x 4294967295 3": what structures tell, in order.
+/// Returns the reported changes in order, as lines such as "insert 3" and "min-x 4294967295 3".
 std::vector<std::string> told(const History& history) {
   std::vector<std::string> lines;
   for (const Event& e : history.events) {
@@ -103,15 +103,16 @@ TEST(BoxClosestHullEdits, AHullOfNoneOfSomeAndOfNone) {
   rig.simulator.leave_step();
 }
 
-// A bead at rest is overtaken by one on a parabola, at an irrational time; right then beads come.
+// A bead on a parabola overtakes a bead at rest at an irrational time. Beads are inserted at exactly that
+// time.
 TEST(BoxClosestHullEdits, JustAfterAnEventAtAnIrrationalTime) {
   using Parabola = BezierMotion<1, 2>;
   Parabola motion(4);
   for (int k = 0; k <= 2; ++k) {
     motion.set_coordinate(0, k, 0, k == 2 ? 1 : 0);      // u^2
-    motion.set_coordinate(1, k, 0, 0.5);                 // as bead 0 at that time
-    motion.set_coordinate(2, k, 0, k == 2 ? 1.5 : 0.5);  // 1/2 + u^2: never there
-    motion.set_coordinate(3, k, 0, k == 2 ? 0 : 1);      // 1 - u^2: as bead 0 at that time
+    motion.set_coordinate(1, k, 0, 0.5);                 // equal to bead 0 at that time
+    motion.set_coordinate(2, k, 0, k == 2 ? 1.5 : 0.5);  // 1/2 + u^2: never equal to the others
+    motion.set_coordinate(3, k, 0, k == 2 ? 0 : 1);      // 1 - u^2: equal to bead 0 at that time
   }
   Rig<EnclosingBox<1>, Parabola> rig(motion, AuditMode::events);
   for (const BeadId b : {2U, 3U}) rig.structure.leave_out(b);
@@ -131,7 +132,7 @@ TEST(BoxClosestHullEdits, JustAfterAnEventAtAnIrrationalTime) {
   rig.simulator.change_motion(Beads{2, 3}, [&] {
     for (int k = 0; k <= 2; ++k) {
       rig.motion.set_coordinate(2, k, 0, 0.25);
-      rig.motion.set_coordinate(3, k, 0, k == 2 ? 1 : 0);  // as bead 0 from now on
+      rig.motion.set_coordinate(3, k, 0, k == 2 ? 1 : 0);  // equal to bead 0 from now on
     }
   });
   EXPECT_THAT(rig.structure.ends(), ElementsAre(2, 0));
@@ -149,7 +150,10 @@ TEST(BoxClosestHullEdits, ABeadOfABoxCostsACertificateALevel) {
     rig.structure.erase(b);
     rig.structure.insert(b);
     rig.simulator.change_motion(Beads{b}, [] {});
-    EXPECT_LE(created - before, 3 * 6 * 2 * 9U);  // three edits, six ends, who wins may have to be turned
+    EXPECT_LE(
+        created - before,
+        3 * 6 * 2 *
+            9U);  // three edits, six ends, nine levels of the tournament, at most two certificates at each
   }
   rig.simulator.leave_step();
 }
@@ -177,7 +181,7 @@ struct Structures {
   Structures(Simulator& simulator, const Plane& motion)
       : box(simulator, motion), closest(simulator, motion), hull(simulator, motion) {}
 
-  /// Each twice.
+  /// Each structure, and its edits.
   [[nodiscard]] std::array<std::pair<KineticStructure*, BeadEdits*>, 3> all() {
     return {{{&box, &box}, {&closest, &closest}, {&hull, &hull}}};
   }

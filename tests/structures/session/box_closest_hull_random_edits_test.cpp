@@ -1,7 +1,7 @@
-// Beads that come, go and change course in the enclosing box, the closest pair and the convex hull, on one
-// clock, at rational times, at the irrational times of events, and where many things happen at once. Two slow
-// twins: the same structures, made of the beads present and the curves that there are, and run to that time
-// from the start; and what exact positions a moment later say, looked at one by one.
+// Beads are inserted, erased and change course in the enclosing box, the closest pair and the convex hull on
+// one clock: at rational times, at the irrational times of events, and at times with many simultaneous
+// events. There are two slow references: the same structures, built on the present beads and their current
+// curves and run from the start to that time; and brute force on the exact positions a moment later.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ using namespace test;
 
 using Beads = std::vector<BeadId>;
 
-// What exact positions say; of beads that tie the least.
+// Finds the ends of the box from exact positions; among beads that tie, the least bead counts.
 
 Beads ends_of(const ExactPoints& at, const Beads& present, std::size_t dimension) {
   Beads ends;
@@ -60,7 +60,7 @@ Beads closest_of(const ExactPoints& at, const Beads& present) {
   return closest;
 }
 
-/// Wraps a gift, counterclockwise from the least corner.
+/// Finds the corners by gift wrapping, counterclockwise from the least corner.
 Beads corners_of(const ExactPoints& at, const Beads& present) {
   if (present.empty()) return {};
   const auto first =
@@ -76,7 +76,7 @@ Beads corners_of(const ExactPoints& at, const Beads& present) {
                                          : (at[next][0] - at[last][0]) * (at[b][1] - at[last][1]) -
                                                (at[next][1] - at[last][1]) * (at[b][0] - at[last][0]);
       const bool is_between = turn == 0 && (at[next] < at[last] ? at[b] < at[next] : at[next] < at[b]);
-      if (turn < 0 || is_between) next = b;  // the farthest of those in line
+      if (turn < 0 || is_between) next = b;  // the farthest of collinear beads
     }
     last = next;
   } while (at[last] != at[first]);
@@ -84,7 +84,7 @@ Beads corners_of(const ExactPoints& at, const Beads& present) {
   return corners;
 }
 
-/// A structure, its answer, and what that is to be.
+/// A structure, its answer, and the expected answer.
 struct Subject {
   KineticStructure* structure;
   BeadEdits* edits;
@@ -104,7 +104,7 @@ struct None {
   None(Simulator&, const M&) {}
 };
 
-/// All that there are in the dimension.
+/// All structures that exist in the dimension.
 template <int D>
 struct Structures {
   template <class M>
@@ -127,7 +127,7 @@ struct Structures {
   std::vector<Subject> all;
 };
 
-/// On a grid half of the beads rest: they tie for the rest of the step.
+/// On a grid half of the beads rest, which makes ties for the rest of the step.
 template <class M>
 void set_curve(M& motion, BeadId b, Random& random, Places places) {
   const bool rests = places == Places::grid && random() % 2 == 0;
@@ -169,7 +169,7 @@ class EditedRun {
       edit();
       for (int stand = 1; stand < 10; ++stand) {
         double u = 0.1 * stand;
-        if (stand % 3 == 0) u = 0x1p-3 * std::floor(8 * u);  // where much happens at once on a grid
+        if (stand % 3 == 0) u = 0x1p-3 * std::floor(8 * u);  // a time of many simultaneous events on a grid
         if (simulator_.now().lower() <= u) {
           simulator_.run_until(Dyadic(u));
           compare();
@@ -242,7 +242,7 @@ class EditedRun {
     switch (random_() % 6) {
       case 0:
         return simulator_.change_motion(beads, set_all);
-      case 1:  // a turn, where numbers are short enough for one without rounding
+      case 1:  // a bend, if coordinates have few enough bits to bend without rounding
         if (M::degree > 1 || !now.is_dyadic()) return;
         ++totals_.turned;
         return simulator_.change_motion(beads, [&] { bend(motion_, b, now.lower().round_down(), random_); });
@@ -251,7 +251,7 @@ class EditedRun {
         return simulator_.change_motion(beads, set_all);
       case 3:
         for (BeadId other = 0; other < count; ++other) beads.push_back(other);
-        if (random_() % 2 == 0) return simulator_.change_motion(beads, [] {});  // as they were
+        if (random_() % 2 == 0) return simulator_.change_motion(beads, [] {});  // without an effect
         return simulator_.change_motion(beads, set_all);
       default:
         return;
@@ -260,7 +260,7 @@ class EditedRun {
 
   void compare() {
     if (simulator_.kernel() == Kernel::fast) return;
-    const Dyadic soon = next_on_grid(simulator_.now().exact(), 200);  // before anything else happens
+    const Dyadic soon = next_on_grid(simulator_.now().exact(), 200);  // before the next event
     const ExactPoints at = points_at(motion_, soon.rational());
     Simulator simulator;
     Structures<dimension> twins(simulator, motion_);

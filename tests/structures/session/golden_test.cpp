@@ -1,5 +1,5 @@
-// Fingerprints of whole runs: the order of all events and every change. They are the same on every machine
-// and for every exact kernel, and change only for a stated reason (another event order, other kinds or ids of
+// Fingerprints of whole runs: the order of all events and every change. They are equal on all machines and
+// for all exact kernels. They change only for a stated reason (another event order, other kinds or ids of
 // changes).
 
 #include <gtest/gtest.h>

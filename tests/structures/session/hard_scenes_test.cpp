@@ -1,6 +1,6 @@
-// Small scenes that ask much of exact arithmetic: they end, at the latest where the work that is allowed is
-// done, and all kernels that promise anything tell the same. A few dozen of them; all, 500 and 1000, where
-// the environment has KDS_ALL_HARD_SCENES=1.
+// Small scenes that are difficult for exact arithmetic. Each run ends, at the latest at the work limit, and
+// all exact kernels give the same result. By default a few dozen scenes run; with KDS_ALL_HARD_SCENES=1 in
+// the environment all 500 and 1000 run.
 
 #include "tests/support/inputs/hard_scenes.h"
 #include "tests/support/rounds.h"
@@ -26,7 +26,7 @@ std::uint64_t some_of(std::uint64_t all, std::uint64_t few) {
 constexpr std::string_view limit = "limit";
 
 struct Outcome {
-  std::string ending;  // "done", "limit", or what refused it
+  std::string ending;  // "done", "limit", or the message of a refusal
   std::uint64_t fingerprint = 0;
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
@@ -49,14 +49,14 @@ Outcome run(const Scene& scene, const std::vector<std::string>& structures, Kern
     }
     session.simulator().finish();
     return {"done", session.simulator().fingerprint()};
-  } catch (const InputError& refusal) {  // of what is beyond a stated limit
+  } catch (const InputError& refusal) {  // input beyond a stated limit
     return {refusal.what()};
   } catch (const WorkLimitReached&) {
     return {std::string(limit)};
   }
 }
 
-// Scenes whose events are too close together are refused, those alike with both.
+// Scenes whose events are too close together are refused, by both kernels alike.
 void expect_kernels_agree(const Scene& scene, const std::vector<std::string>& structures, bool with_exact,
                           int& done) {
   const Outcome filtered = run(scene, structures, Kernel::filtered);
@@ -87,7 +87,7 @@ TEST(HardScenes, OfBallsOnALatticeInHermiteMotion) {
     const LatticeScene lattice = lattice_scene(seed);
     SCOPED_TRACE(lattice.necklace.file);
     const Scene scene(std::span(&lattice.necklace, 1), lattice.radii, FrameMotion::hermite);
-    // Integers alone take a second for one of them.
+    // Integers alone take a second per scene.
     const bool with_exact = count == 1000 || seed % 5 == 0;
     expect_kernels_agree(scene, {seed % 2 == 0 ? "wrapped" : "power"}, with_exact, done);
   }

@@ -1,5 +1,5 @@
-// The library in a host that rounds otherwise or flushes what is tiny to zero: the same histories and the
-// same static structures, and the host's environment stays.
+// Runs the library in a host that uses another rounding mode or flushes subnormal numbers to zero. Histories
+// and static structures are the same, and the host's environment is unchanged afterwards.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ class InHost : public testing::TestWithParam<HostEnvironment> {
  protected:
   void TearDown() override { std::fesetenv(FE_DFL_ENV); }
 
-  // The same inside as outside; `of_run` tells what came out.
+  // Checks that a run gives the same result inside the host's environment as outside; `of_run` returns the
+  // result.
   template <class Run>
   void expect_the_same(const Run& of_run) {
     const auto expected = of_run();
@@ -52,7 +53,7 @@ TEST_P(InHost, Power) {
   expect_same_history<PowerDiagram<3>>(std::vector{instance_motion<Space>("d3_n20_linear")});
 }
 
-// Edits are entries of their own.
+// Edits enter the library separately.
 TEST_P(InHost, PowerWithEdits) {
   expect_the_same([] {
     Rig<PowerDiagram<3>, Space> rig(instance_motion<Space>("d3_n20_linear"), AuditMode::events);
@@ -78,7 +79,7 @@ TEST_P(InHost, Wrapped) {
                                            Radii::equal);
 }
 
-// Radii so different that bounds of spheres round often.
+// Radii differ so much that the bounds of spheres round often.
 TEST_P(InHost, StaticHierarchyOnAllThreads) {
   const Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Random(3, 2000);
   std::vector<double> radii(2000);

@@ -1,5 +1,6 @@
-// The facade: frames that are pushed, a scene, a motion; structures by name and by type, some of some beads;
-// event by event, to a time and back; what those who listen are told, and what writers make of it.
+// Tests the facade: pushed frames, a scene and a motion; structures by name and by type, some on a part of
+// the beads; running event by event, to a time and back; the events that listeners receive, and the files
+// that writers make of them.
 
 #include "structures/session/kinetic_run.h"
 
@@ -29,7 +30,7 @@ using testing::MatchesRegex;
 
 using Frame = std::vector<double>;
 
-/// Beads of two necklaces that go about, `dimension` coordinates each.
+/// Makes frames of two necklaces whose beads wander, with `dimension` coordinates each.
 std::vector<Frame> frames_of(int dimension, std::size_t count, unsigned seed = 1) {
   Random random(seed);
   std::vector<Frame> frames(count, Frame(static_cast<std::size_t>(dimension) * 14));
@@ -44,7 +45,7 @@ PushedFrames beads_in(int dimension, FrameMotion motion = FrameMotion::linear) {
   return {dimension, {9, 5}, {0.4}, motion};
 }
 
-/// The same frames as files would have them.
+/// Makes a scene of the same frames, as if they were read from files.
 Scene scene_of(int dimension, const std::vector<Frame>& frames, FrameMotion motion = FrameMotion::linear) {
   std::vector<Trajectory> necklaces(2);
   for (const Frame& frame : frames) {
@@ -141,7 +142,7 @@ TEST_P(RunOver, BuildingAndLoadingBeforeAStepIsTheSameRun) {
   in_parts.listen(log);
   at_once.finish();
   in_parts.build();
-  in_parts.build();  // has no further effect
+  in_parts.build();  // a second build has no effect
   EXPECT_TRUE(log.events.empty());
   std::size_t steps = 0;
   for (; in_parts.load_step(); ++steps) {
@@ -185,9 +186,10 @@ TEST(KineticRun, GoesBackByReplayWithItsEdits) {
     ASSERT_TRUE(run.next_event());  // at an irrational time
     run.erase(1, 7);
     run.insert(0, 3);
-    run.change_motion({4}, [](SceneMotion& motion) {  // from elsewhere, and there in time
-      for (int axis = 0; axis < 3; ++axis) motion.set_coordinate(4, 0, axis, 2.0);
-    });
+    run.change_motion(
+        {4}, [](SceneMotion& motion) {  // a course that starts elsewhere and ends where the old course ends
+          for (int axis = 0; axis < 3; ++axis) motion.set_coordinate(4, 0, axis, 2.0);
+        });
   };
   KineticRun straight(scene, options);
   meddle(straight);
@@ -201,10 +203,10 @@ TEST(KineticRun, GoesBackByReplayWithItsEdits) {
   meddle(run);
   run.go_to(3.25);
   const std::vector<std::string> told = lines_of(log);
-  run.go_to(3.25);  // there already
+  run.go_to(3.25);  // the run is already at this time
   for (const double back : {2.5, 1.75, 3.0}) {
     run.go_to(back);
-    EXPECT_EQ(lines_of(log).size(), told.size());  // nobody is told
+    EXPECT_EQ(lines_of(log).size(), told.size());  // listeners are not notified
     run.go_to(3.25);
     EXPECT_EQ(run.simulator().fingerprint(), fingerprint) << back;
     const std::vector<std::string> again = lines_of(log);
@@ -213,13 +215,13 @@ TEST(KineticRun, GoesBackByReplayWithItsEdits) {
                                        told.end()));
     log.events.resize(told.size());
   }
-  // Before the edits: these are forgotten.
+  // Goes to a time before the edits, which forgets the edits.
   run.go_to(1.25);
   run.finish();
   KineticRun plain(scene, options);
   plain.finish();
   EXPECT_EQ(run.simulator().fingerprint(), plain.simulator().fingerprint());
-  // After the end, too.
+  // Going back works after the end, too.
   run.go_to(0);
   run.finish();
   EXPECT_EQ(run.simulator().fingerprint(), plain.simulator().fingerprint());
@@ -235,10 +237,10 @@ TEST(KineticRun, RefusesTimesThatItCannotGoTo) {
   EXPECT_THROW(pushed.go_to(0.5), std::invalid_argument);
   pushed.take(frames_of(2, 2)[1]);
   pushed.go_to(0.5);
-  EXPECT_THROW(pushed.go_to(0.25), std::invalid_argument);  // it keeps no frames
+  EXPECT_THROW(pushed.go_to(0.25), std::invalid_argument);  // a run with pushed frames keeps no frames
   pushed.go_to(0.75);
   EXPECT_TRUE(pushed.within_step());
-  pushed.take(frames_of(2, 3)[2]);  // ends that step
+  pushed.take(frames_of(2, 3)[2]);  // ends the current step
   EXPECT_EQ(pushed.simulator().step(), 1U);
   pushed.finish();
   EXPECT_EQ(pushed.simulator().step(), 2U);
@@ -266,7 +268,7 @@ TEST(KineticRun, RefusesFramesThatAreNone) {
   EXPECT_EQ(refusal_of([&] { run.push(broken); }),
             "frame 2: expected 2 coordinates each of 14 beads, 28 numbers, found 26");
   EXPECT_THAT(refusal_of([&] { run.push({}); }), HasSubstr("found 0"));
-  run.push(frames[2]);  // nothing has happened
+  run.push(frames[2]);  // no event has happened
   run.push(frames[3]);
   for (const Frame& frame : frames) other.push(frame);
   EXPECT_EQ(run.simulator().fingerprint(), other.simulator().fingerprint());
@@ -291,7 +293,7 @@ TEST(KineticRun, WithoutFramesOrEvents) {
   EXPECT_FALSE(none.next_event());
   EXPECT_FALSE(none.run_step());
   none.finish();
-  KineticRun still({1, {3}}, {});  // points on a line: sorted
+  KineticRun still({1, {3}}, {});  // points on a line use the sorted list
   ASSERT_EQ(still.structures().size(), 1U);
   still.push(std::vector<double>{1, 3, 2});
   still.push(std::vector<double>{1, 3, 2});
@@ -312,7 +314,7 @@ TEST(KineticRun, StructuresOfSomeBeadsOnly) {
   run.keep_only(3, some);
   EventLog log;
   run.listen(log);
-  // The same beads alone.
+  // Runs the same beads alone.
   std::vector<Frame> alone(frames.size());
   for (std::size_t f = 0; f < frames.size(); ++f)
     for (const BeadId b : some)
@@ -339,7 +341,7 @@ TEST(KineticRun, StructuresOfSomeBeadsOnly) {
     for (const BeadId id : e.ids())
       EXPECT_TRUE(id == no_bead || std::find(some.begin(), some.end(), id) != some.end()) << id;
   }
-  EXPECT_THROW(run.keep_only(0, some), std::logic_error);  // it has begun
+  EXPECT_THROW(run.keep_only(0, some), std::logic_error);  // the run has begun
 }
 
 TEST(KineticRun, RefusesSubsetsThatCannotBe) {
@@ -419,7 +421,7 @@ TEST(KineticRun, ACourseThatEndsElsewhereIsRefused) {
   }
   KineticRun plain(scene, {.structures = {"sorted"}});
   plain.finish();
-  run.go_to(0.25);  // without that edit it goes on
+  run.go_to(0.25);  // without that edit the run goes on
   run.finish();
   EXPECT_EQ(run.simulator().fingerprint(), plain.simulator().fingerprint());
 }
@@ -464,14 +466,14 @@ TEST(KineticRun, NextEventStandsAtAFrameWhereSomethingHappensThere) {
   const std::vector<Frame> frames{{0, 1, 5}, {1, 1, 5}, {3, 1, 5}, {3, 1, 5}};
   run.take(frames[0]);
   run.take(frames[1]);
-  EXPECT_FALSE(run.next_event());  // they meet at the end
+  EXPECT_FALSE(run.next_event());  // the beads meet at the end, which is not an event
   run.take(frames[2]);
   ASSERT_TRUE(run.next_event());
   EXPECT_TRUE(run.within_step());
   EXPECT_EQ(run.simulator().step(), 1U);
   EXPECT_EQ(run.simulator().now().upper(), 0.0);
   EXPECT_THAT(run.structure<SortedList<1>>(0).order(), ElementsAre(1, 0, 2));
-  run.erase(0, 2);  // time stands still
+  run.erase(0, 2);  // time does not advance
   EXPECT_FALSE(run.next_event());
   run.take(frames[3]);
   EXPECT_FALSE(run.next_event());
@@ -610,7 +612,7 @@ TEST(EventWriters, CsvHasItsHeaderWithoutEventsTimesOrFrames) {
     writer.finish();
     EXPECT_EQ(csv.str(), "frame,lower,upper,structure,kind,external,node,beads,residues\n");
   }
-  std::ostringstream known;  // where frames are there already
+  std::ostringstream known;  // a run whose frames exist from the start
   const Scene scene = scene_of(2, frames_of(2, 2));
   EventCsv at_once(known, scene);
   EXPECT_EQ(known.str(), csv.str());

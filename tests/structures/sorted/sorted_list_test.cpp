@@ -28,7 +28,8 @@ Line moving_on_a_line(const std::vector<double>& from, const std::vector<double>
   return motion;
 }
 
-/// When each pair trades places strictly inside the step: linear motions do it once at most.
+/// Returns the times at which pairs trade places strictly inside of the step. In linear motion each pair does
+/// so at most once.
 std::map<std::pair<BeadId, BeadId>, Rational> crossings(const Line& motion) {
   std::map<std::pair<BeadId, BeadId>, Rational> times;
   for (BeadId a = 0; a < motion.bead_count(); ++a) {
@@ -41,7 +42,7 @@ std::map<std::pair<BeadId, BeadId>, Rational> crossings(const Line& motion) {
   return times;
 }
 
-/// Each crossing must be there once, in the order of time.
+/// Each crossing must be reported once, in order of time.
 void expect_all_crossings(const Line& motion, Kernel kernel = Kernel::filtered) {
   SortedRig<Line> rig(motion, AuditMode::events, kernel);
   ASSERT_NO_THROW(rig.run());
@@ -65,13 +66,14 @@ void expect_all_crossings(const Line& motion, Kernel kernel = Kernel::filtered) 
 }
 
 TEST(SortedList, SmallAndSimple) {
-  expect_all_crossings(moving_on_a_line({0, 1, 2}, {2, 1, 0}));  // all in one point
+  expect_all_crossings(moving_on_a_line({0, 1, 2}, {2, 1, 0}));  // all beads meet in one point
   expect_all_crossings(moving_on_a_line({0, 1, 2, 3}, {3, 2, 1, 0}));
   expect_all_crossings(moving_on_a_line({0, 1, 2, 3, 4, 5, 6}, {6, 5, 4, 3, 2, 1, 0}));
   expect_all_crossings(moving_on_a_line({0, 1}, {1, 0}));
-  expect_all_crossings(moving_on_a_line({0, 1}, {1, 1}));        // meet at the end: not yet
-  expect_all_crossings(moving_on_a_line({1, 1}, {1, 0}));        // part at the start
-  expect_all_crossings(moving_on_a_line({1, 1, 0}, {1, 1, 2}));  // one passes two that stay together
+  expect_all_crossings(
+      moving_on_a_line({0, 1}, {1, 1}));  // two beads meet at the end, which is not yet an event
+  expect_all_crossings(moving_on_a_line({1, 1}, {1, 0}));        // two beads part at the start
+  expect_all_crossings(moving_on_a_line({1, 1, 0}, {1, 1, 2}));  // one bead passes two that move together
   expect_all_crossings(moving_on_a_line({3}, {4}));
 }
 
@@ -104,7 +106,7 @@ TEST(SortedList, RandomMotionsFullOfTies) {
   }
 }
 
-// What happens exactly at a frame is judged by the next step's motion.
+// The next step's motion decides events that happen exactly at a frame.
 TEST(SortedList, RandomFramesFullOfTies) {
   std::mt19937 random(8);
   for (int round = 0; round < test::rounds(200); ++round) {
@@ -126,7 +128,7 @@ TEST(SortedList, RandomFramesFullOfTies) {
     EXPECT_NO_THROW(exact.run(steps));
     EXPECT_EQ(filtered.simulator.fingerprint(), exact.simulator.fingerprint());
     EXPECT_TRUE(books_balance(filtered.structure.statistics));
-    // Nothing is done in vain: within a step no pair trades places twice.
+    // No work is wasted: within a step no pair trades places twice.
     for (std::size_t k = 0; k < steps.size(); ++k) {
       std::map<std::pair<BeadId, BeadId>, int> times;
       for (const Event& e : filtered.history.of_step(k)) {
@@ -138,7 +140,7 @@ TEST(SortedList, RandomFramesFullOfTies) {
   }
 }
 
-// Two pairs side by side cross at a frame; then a third neighbour does, once.
+// Two adjacent pairs cross at a frame; then a third neighbour crosses once.
 TEST(SortedList, CrossingsAtAFrameLeaveNoCertificateBehind) {
   const std::vector<std::vector<double>> frames{{0, 2, 4}, {1, 1, 4}, {2, 0, 1}};
   std::vector<Line> steps;
@@ -186,7 +188,7 @@ TEST(SortedList, RefusesChangesThatCannotBe) {
   EXPECT_THAT(rig.structure.order(), testing::ElementsAre(0, 2, 1));
 }
 
-// The instances of data/kinetic, against what CGAL's kinetic package counts (see the README there).
+// The instances of data/kinetic, compared with the counts of CGAL's kinetic package (see the README there).
 
 struct Instance1 {
   std::string name;
@@ -242,7 +244,7 @@ INSTANTIATE_TEST_SUITE_P(Data, SortedInstance,
                                          Instance1{"d1_n100_degree3", 4791}),
                          [](const auto& test) { return test.param.name; });
 
-// Certificates are born at their own root with every event; the double stages must settle them.
+// Every event creates certificates at their own root. The double stages must decide them.
 TEST(SortedList, TheExactStageIsRareInGeneralPosition) {
   const auto check = [](const auto& motion) {
     SortedRig<std::decay_t<decltype(motion)>> rig(motion);
@@ -253,7 +255,7 @@ TEST(SortedList, TheExactStageIsRareInGeneralPosition) {
   check(instance_motion<BezierMotion<1, 3>>("d1_n100_degree3"));
 }
 
-// A structure over one axis of a motion in space.
+// A structure that uses one axis of a motion in space.
 TEST(SortedList, SortsAlongTheFirstAxis) {
   const auto motion = instance_motion<Space>("degenerate_d3_n64_gridint");
   SortedRig<Space> rig(motion, AuditMode::events);

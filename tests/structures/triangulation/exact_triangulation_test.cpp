@@ -1,5 +1,6 @@
-// Static triangulations of exact positions beside CGAL over rational numbers without any filter, where beads
-// lie regularly, nearly so, and anyhow; and the power tests in them beside the determinant by its definition.
+// Compares static triangulations of exact positions with CGAL over rationals without a filter, for regular,
+// nearly regular and arbitrary positions. Compares the power tests in them with the determinant by its
+// definition.
 
 #include "structures/triangulation/exact_triangulation.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 using namespace test;
 
-/// By its definition: over all permutations of the columns.
+/// Computes the determinant by its definition, as a sum over all permutations of the columns.
 template <std::size_t N>
 Integer determinant(const std::array<std::array<Integer, N>, N>& rows) {
   std::array<std::size_t, N> column{};
@@ -42,7 +43,7 @@ void expect_sign_of_determinant(std::mt19937_64& random, unsigned bits, int& zer
   std::array<std::array<Integer, Dimension + 1>, count> numbers;
   for (auto& point : numbers) {
     for (Integer& x : point) {
-      x = static_cast<std::int64_t>(random() % 3) - 1;  // on a lattice, as often as not on one sphere
+      x = static_cast<std::int64_t>(random() % 3) - 1;  // on a lattice, where points are often cospherical
       if (bits > 0) x = (x << bits) + static_cast<std::int64_t>(random() % 3);
     }
   }
@@ -60,7 +61,7 @@ void expect_sign_of_determinant(std::mt19937_64& random, unsigned bits, int& zer
   WholePowerTest<Dimension> test;
   const int sign = sgn(determinant(rows));
   EXPECT_EQ(test.sign(points), sign);
-  EXPECT_EQ(test.sign(points), sign);  // in room that was used before
+  EXPECT_EQ(test.sign(points), sign);  // reuses the memory of the call before
   std::swap(points[0], points[1]);
   EXPECT_EQ(test.sign(points), -sign);
   zeros += sign == 0 ? 1 : 0;
@@ -79,7 +80,8 @@ TEST(WholePowerTest, IsTheDeterminant) {
   }
 }
 
-/// Points of a lattice, moved by up to so many times 2^-bits, turned so that all their coordinates are long.
+/// Makes lattice points that are moved by up to `most` times 2^-bits, and turned so that all coordinates are
+/// long.
 std::vector<ExactPoint> near_lattice(std::mt19937_64& random, int most, unsigned bits) {
   const auto moved = [&](int x) {
     const auto by = static_cast<std::int64_t>(random() % static_cast<unsigned>(2 * most + 1)) - most;
@@ -112,7 +114,7 @@ TEST(ExactTriangulation, IsRightOnLatticesAndNearThem) {
       const CgalCells cgal = cgal_regular_cells(points);
       EXPECT_EQ(points.size() - built.hidden.size(), cgal.visible);
       if (most == 1000) {
-        EXPECT_EQ(built.cells, cgal.cells);  // in general position there is but one
+        EXPECT_EQ(built.cells, cgal.cells);  // in general position the triangulation is unique
       }
     }
   }
@@ -127,7 +129,7 @@ TEST(ExactTriangulation, IsRightInThePlane) {
     const auto built = static_triangulation<2>(beads_of(points), true);
     EXPECT_EQ(built.dimension, 2);
     EXPECT_TRUE(built.hidden.empty());
-    EXPECT_EQ(built.cells.size(), 2 * points.size() - 2);  // with the infinite ones: a sphere
+    EXPECT_EQ(built.cells.size(), 2 * points.size() - 2);  // with the infinite cells the hull is a sphere
   }
 }
 

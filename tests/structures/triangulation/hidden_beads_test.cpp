@@ -1,5 +1,5 @@
-// Hidden beads in the kinetic power diagram: unequal weights in space. Audits compare with CGAL over the
-// rationals, and with the definition.
+// Hidden beads in the kinetic power diagram: unequal weights in space. Audits compare with CGAL over
+// rationals and with the definition.
 
 #include "structures/triangulation/hidden_beads.h"
 
@@ -26,14 +26,14 @@ std::uint64_t count(const WeightedRig& rig, Diagram::Kind kind) {
   return rig.structure.statistics.events_by_kind[kind];
 }
 
-// Lists against a plain array of hosts.
+// Compares the lists with a plain array of hosts.
 TEST(HiddenBeads, ListsAreThoseOfASlowTwin) {
   std::mt19937 random(8);
   constexpr BeadId beads = 12;
   HiddenBeads lists;
   lists.assign(beads, std::vector<BeadId>{3, 7});
   EXPECT_THAT(lists.beads(), ElementsAre(3, 7));
-  std::array<int, beads> host{};  // -2 visible, -1 nowhere
+  std::array<int, beads> host{};  // -2: visible, -1: without a host
   host.fill(-2);
   host[3] = host[7] = -1;
   for (int round = 0; round < test::rounds(5000); ++round) {
@@ -81,7 +81,8 @@ void PrintTo(const Count& count, std::ostream* out) { *out << count.name; }
 
 class WeightedInstance : public testing::TestWithParam<Count> {};
 
-// CGAL's kinetic package counts wandering too: 1231, 1264 and 293 events; 242 is confirmed by brute force.
+// CGAL's kinetic package also counts events in which a hidden bead changes its cell: 1231, 1264 and 293
+// events. The count 242 is confirmed by brute force.
 TEST_P(WeightedInstance, HasTheEventsOfCgal) {
   const Space motion = instance_motion<Space>(GetParam().name);
   WeightedRig rig(motion, AuditMode::events);
@@ -118,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Data, DegenerateWeighted,
                                          "gridint", "swap", "converge"),
                          [](const auto& test) { return std::string(test.param); });
 
-/// A tetrahedron of light beads and others in it.
+/// Makes a tetrahedron of light beads with other beads inside.
 WeightedRig in_a_tetrahedron(const Points& from, const Points& to, const std::vector<double>& weights) {
   Points start{{9, 0, -3}, {-9, 9, -3}, {-9, -9, -3}, {0, 0, 9}};
   Points end = start;
@@ -132,7 +133,8 @@ WeightedRig in_a_tetrahedron(const Points& from, const Points& to, const std::ve
 }
 
 TEST(HiddenBead, ComesOutOfAHeavyOne) {
-  // Twice through the power sphere's surface: visible at first, hidden near the heavy bead, visible again.
+  // The bead crosses the surface of the power sphere twice: it is visible at first, hidden near the heavy
+  // bead, and visible again.
   auto rig = in_a_tetrahedron({{0, 0, 0}, {0.5, 0.25, -2.5}}, {{0, 0, 0}, {0.75, 0.5, 4}}, {45, 0});
   ASSERT_NO_THROW(rig.run());
   EXPECT_EQ(count(rig, Diagram::hides), 1U);
@@ -151,7 +153,7 @@ TEST(HiddenBead, HiddenAtTheStartAndManyInOneCell) {
 }
 
 TEST(HiddenBead, LeavesAndEntersThroughTheHull) {
-  // Heavy beads at a face's corners hide what is just below it, so it leaves the hull hidden.
+  // Heavy beads at the corners of a face hide a bead just below the face, so it leaves the hull while hidden.
   Points start{{9, 0, 0}, {-9, 9, 0}, {-9, -9, 0}, {0, 0, -9}, {-3, 0.5, -0.1}};
   Points out = start;
   out.back() = {-3, 0.25, 5};
@@ -185,13 +187,13 @@ TEST(HiddenBead, RefusesChangesThatCannotBe) {
   const auto refuses = [&](const Change& change) {
     EXPECT_THROW(rig.structure.apply(change), std::invalid_argument);
   };
-  refuses({Diagram::shows, 5, {0, 1, 2, 3, 5}});    // no such cell
-  refuses({Diagram::shows, 5, {0, 1, 2, 4, 3}});    // not hidden
-  refuses({Diagram::shows, 5, {0, 1, 2, 4, 9}});    // no such bead
-  refuses({Diagram::hides, 5, {0, 1, 2, 3, 5}});    // hidden already
-  refuses({Diagram::hides, 5, {0, 1, 2, 4, 3}});    // has other cells
-  refuses({Diagram::wanders, 5, {4, 0, 1, 2, 3}});  // not hidden
-  refuses({Diagram::wanders, 5, {5, 0, 1, 2, 3}});  // no such cell
+  refuses({Diagram::shows, 5, {0, 1, 2, 3, 5}});    // this cell does not exist
+  refuses({Diagram::shows, 5, {0, 1, 2, 4, 3}});    // the bead is not hidden
+  refuses({Diagram::shows, 5, {0, 1, 2, 4, 9}});    // this bead does not exist
+  refuses({Diagram::hides, 5, {0, 1, 2, 3, 5}});    // the bead is already hidden
+  refuses({Diagram::hides, 5, {0, 1, 2, 4, 3}});    // the bead has other cells
+  refuses({Diagram::wanders, 5, {4, 0, 1, 2, 3}});  // the bead is not hidden
+  refuses({Diagram::wanders, 5, {5, 0, 1, 2, 3}});  // this cell does not exist
   refuses({Diagram::hides, 5, {0, 1, 2, 3, infinite_bead}});
   rig.structure.apply({Diagram::wanders, 5, {5, 0, 1, 3, 4}});
   rig.structure.apply({Diagram::shows, 5, {0, 1, 2, 4, 5}});
@@ -199,10 +201,10 @@ TEST(HiddenBead, RefusesChangesThatCannotBe) {
   rig.structure.apply({Diagram::hides, 5, {0, 1, 2, 3, 4}});
   EXPECT_THAT(rig.structure.at_frame(false).cells, ElementsAre(CellBeads<3>{0, 1, 2, 3}));
   EXPECT_NE(rig.structure.audit(Dyadic(1.0)), std::nullopt) << "4 is not hidden by the others";
-  refuses({Diagram::hides, 5, {1, 2, 3, infinite_bead, 0}});  // four beads must stay
+  refuses({Diagram::hides, 5, {1, 2, 3, infinite_bead, 0}});  // four beads must stay visible
 }
 
-// Audits between all events on random motions, most of them degenerate, with weights that hide many.
+// Random motions, most of them degenerate, with weights that hide many beads; audits run between all events.
 TEST(HiddenBead, RandomMotions) {
   int hidden = 0;
   for (unsigned seed = 0; seed < test::rounds(6U); ++seed) {
@@ -221,7 +223,7 @@ TEST(HiddenBead, RandomMotions) {
       WeightedRig rig(motion, AuditMode::events);
       try {
         rig.run();
-      } catch (const InputError&) {  // all in one plane, or events too close for a rebuild
+      } catch (const InputError&) {  // all beads in one plane, or events too close for a rebuild
         continue;
       } catch (const std::exception& error) {
         FAIL() << error.what();

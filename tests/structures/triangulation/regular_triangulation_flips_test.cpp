@@ -14,9 +14,9 @@ namespace {
 
 using namespace test;
 
-// Mutate, validate, repeat.
+// Changes the triangulation, validates it, and repeats.
 
-/// The other bead across a facet.
+/// Returns the other bead across a facet.
 BeadId apex(const RegularTriangulation<3>& t, CellId cell, int i) { return t.apex(t.beyond(cell, i)); }
 
 struct Flip {
@@ -35,7 +35,7 @@ bool has_facet(const RegularTriangulation<3>& t, const std::array<BeadId, 3>& fa
   return false;
 }
 
-/// Makes a flip and checks the cells it says it made.
+/// Makes a flip and checks the cells that it reports as made.
 void make(RegularTriangulation<3>& t, const Flip& flip) {
   const auto& [a, b, c] = flip.facet;
   const auto& [d, e] = flip.edge;
@@ -85,7 +85,8 @@ TEST_P(RandomFlips, ForthAndBack) {
     if (random() % 2 == 0) {
       if (t.is_edge(d, e)) continue;
     } else {
-      // An edge of the facet with three cells: x, y of the facet, around them d, e and the third.
+      // An edge of the facet with three cells: x and y belong to the facet; d, e and the third bead are
+      // around the edge.
       const std::size_t third = random() % 3;
       const BeadId x = facet[(third + 1) % 3], y = facet[(third + 2) % 3], z = facet[third];
       if (!t.find_cell({x, y, d, e}) || has_facet(t, {z, d, e})) continue;
@@ -108,12 +109,13 @@ TEST_P(RandomFlips, ForthAndBack) {
   check_mirror(t, beads);
   EXPECT_EQ(all_cells(t), start);
   EXPECT_TRUE(t.is_valid());
-  EXPECT_LE(t.cells().size(), slots + 151);  // slots of cells that went are used again
+  EXPECT_LE(t.cells().size(), slots + 151);  // the slots of removed cells are reused
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomFlips, testing::Range(0U, 12U));
 
-// A bead is taken out and put back by cells, its place filled as CGAL fills it without the bead.
+// Removes a bead and puts it back, cell by cell. CGAL's triangulation without the bead tells how to fill its
+// place.
 TEST(RegularTriangulation, ReplacesCells) {
   constexpr BeadId beads = 40;
   const Cloud cloud(beads);
@@ -129,7 +131,7 @@ TEST(RegularTriangulation, ReplacesCells) {
     EXPECT_EQ(star.size(), std::count_if(cells.begin(), cells.end(), [&](const CellBeads<3>& c) {
                 return std::find(c.begin(), c.end(), bead) != c.end();
               }));
-    // All beads but this one, named from 0.
+    // All beads except this one, renumbered from 0.
     std::vector<ExactBead> others = exact_beads(cloud);
     others.erase(others.begin() + bead);
     std::vector<CellBeads<3>> made;
@@ -139,7 +141,7 @@ TEST(RegularTriangulation, ReplacesCells) {
     }
     ASSERT_TRUE(triangulation.fits(around, made));
 
-    // What does not fit is refused.
+    // Cells that do not fit are refused.
     const auto refused = [&](const std::vector<CellId>& old, const std::vector<CellBeads<3>>& cells_made) {
       EXPECT_FALSE(triangulation.fits(old, cells_made));
       EXPECT_THROW(static_cast<void>(triangulation.replace(old, cells_made)), std::logic_error);
@@ -158,7 +160,7 @@ TEST(RegularTriangulation, ReplacesCells) {
     std::vector<CellId> twice = around;
     twice.push_back(around[0]);
     refused(twice, made);
-    wrong = star;  // another bead, a vertex elsewhere, in its place
+    wrong = star;  // replaces the bead by another bead, which is a vertex elsewhere
     BeadId far = 0;
     while (far == bead || triangulation.is_edge(far, bead)) ++far;
     for (auto& c : wrong) std::replace(c.begin(), c.end(), bead, far);
@@ -191,7 +193,7 @@ TEST(RegularTriangulation, SlotsAreUsedAgain) {
   EXPECT_EQ(t.cells().size(), slots + 1);
 }
 
-// Flips that CGAL's side has not done yet do not outlive what they were of.
+// Flips that are not yet made in CGAL's triangulation are forgotten when the triangulation is built again.
 TEST(RegularTriangulation, FlipsBeforeABuildAreForgotten) {
   const std::vector<double> weights(5, 0.25);
   const auto centers = [](const Points& points) { return control_points(moving(points, points), 0); };

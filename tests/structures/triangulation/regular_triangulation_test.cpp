@@ -50,7 +50,7 @@ TEST(RegularTriangulation, TellsDimensionAndHiddenBeads) {
   cloud = Cloud(6);
   cloud.centers.col(4) = cloud.centers.col(1);
   EXPECT_EQ(triangulation.build(cloud.centers, cloud.weights).hidden.size(), 1U);
-  // A small ball deep inside a large one.
+  // A small ball deep inside of a large ball.
   cloud = Cloud(6);
   cloud.centers.col(0) = Eigen::Vector3d(-9, -9, -9);
   cloud.centers.col(1) = Eigen::Vector3d(9, 0, 0);
@@ -82,7 +82,7 @@ TEST(RegularTriangulation, AssignsOrientedCells) {
     RegularTriangulation<3> built;
     (void)built.build(cloud.centers, cloud.weights);
     EXPECT_EQ(all_cells(triangulation), all_cells(built));
-    // Over another one, whose points stay.
+    // Builds over another triangulation whose points remain.
     (void)built.build(Cloud(beads, 6).centers, cloud.weights);
     built.set_points(cloud.centers, cloud.weights);
     built.assign(beads, exact.cells);
@@ -113,7 +113,7 @@ TEST(RegularTriangulation, TakesBeadsOutAndPutsThemIn) {
       EXPECT_TRUE(t.is_valid());
       for (const BeadId b : some) {
         EXPECT_FALSE(t.is_vertex(b));
-        // Elsewhere, and one so heavy that it hides others.
+        // Moves a bead elsewhere and makes it so heavy that it hides others.
         cloud.centers.col(b).x() = static_cast<double>(random() % 1000000);
         cloud.weights[b] = b == some.front() ? 4e10 : 0;
       }
@@ -123,7 +123,7 @@ TEST(RegularTriangulation, TakesBeadsOutAndPutsThemIn) {
       EXPECT_EQ(t.finite_cells(), expected.cells);
       for (BeadId b = 0; b < beads; ++b)
         EXPECT_NE(t.is_vertex(b), std::binary_search(expected.hidden.begin(), expected.hidden.end(), b));
-      for (double& w : cloud.weights) w = 0;  // all come back
+      for (double& w : cloud.weights) w = 0;  // all beads become visible
       (void)t.build(cloud.centers, cloud.weights);
     }
   }
@@ -137,10 +137,10 @@ TEST(RegularTriangulation, ASampleTellsTheShareOfFailedCertificates) {
   const auto still = t.sample(cloud.centers, cloud.weights, 1, 0);
   EXPECT_GT(still.tested, 1000U);
   EXPECT_EQ(still.failed, 0U);
-  const auto apart = t.sample(Cloud(400, 4).centers, cloud.weights, 1, 0);  // all else
+  const auto apart = t.sample(Cloud(400, 4).centers, cloud.weights, 1, 0);  // everything differs
   EXPECT_GT(3 * apart.failed, apart.tested);
   EXPECT_LT(t.sample(cloud.centers, cloud.weights, 8, 0).tested, still.tested / 4);
-  // At other turns of others, with or without a mirror.
+  // Samples with another phase, with or without a mirror.
   RegularTriangulation<3> bare;
   (void)bare.build_bare(cloud.centers, cloud.weights);
   t.make_mirror();
@@ -164,13 +164,13 @@ TEST(RegularTriangulation, RefusesCellsThatDoNotCloseUp) {
   EXPECT_THROW(triangulation.assign(8, cells), std::logic_error);
 }
 
-// The points decide: turned inside out, or moved through a facet.
+// Validity depends on the points: they are turned inside out, or moved through a facet.
 TEST(RegularTriangulation, ValidityFollowsThePoints) {
   const Points before{
-      {3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 5}, {0, 0, -5}};  // two cells and no edge 3-4
+      {3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 5}, {0, 0, -5}};  // two cells without edge 3-4
   Points after = before;
   after[3][2] = 1;
-  after[4][2] = -1;  // now the edge 3-4 is there
+  after[4][2] = -1;  // the correct diagram contains edge 3-4 now
   const std::vector<double> weights(5, 0.25);
   const auto centers = [](const Points& points) { return control_points(moving(points, points), 0); };
   RegularTriangulation<3> triangulation;
@@ -199,9 +199,9 @@ TEST(RegularTriangulation, ValidityFollowsThePoints) {
   EXPECT_EQ(least_orientation(triangulation, Snapshot<3>(Eigen::Matrix3Xd::Zero(3, 5), weights)), 0);
 }
 
-// Points that a motion has reached are set when CGAL's side is looked at, after what flips did there.
+// The points of a motion are passed to CGAL's triangulation when that is next read, after the pending flips.
 TEST(RegularTriangulation, PointsFollowAMotion) {
-  // Bead 4 comes into the sphere of the others.
+  // Bead 4 moves into the sphere of the other beads.
   const Points before{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {0, 0, 9}, {20, 20, 20}};
   Points after = before;
   after[4] = {3.5, 3.5, 3.5};
@@ -214,12 +214,12 @@ TEST(RegularTriangulation, PointsFollowAMotion) {
   (void)t.set_points(motion, 0);
   EXPECT_TRUE(t.is_valid());
   (void)t.set_points(motion, 1);
-  t.set_points(control_points(motion, 0), control_weights(motion, 0));  // the latest counts
+  t.set_points(control_points(motion, 0), control_weights(motion, 0));  // the last call counts
   EXPECT_TRUE(t.is_valid());
   (void)t.set_points(motion, 1);
   (void)t.build(control_points(motion, 0), control_weights(motion, 0));
   EXPECT_TRUE(t.is_valid());
-  // Cells assigned get the points that were to be set.
+  // Assigned cells get the points that were pending.
   RegularTriangulation<3> other;
   (void)other.build(control_points(motion, 1), control_weights(motion, 1));
   std::vector<CellBeads<3>> cells;

@@ -1,4 +1,4 @@
-// What makes a triangulation irregular is found, and named.
+// The reason why a triangulation is irregular is found and named.
 
 #include "structures/triangulation/regularity_fault.h"
 
@@ -51,14 +51,14 @@ void expect_faults() {
   EXPECT_EQ(right.fault(absent), std::nullopt);
   absent.assign(beads, 1);
   EXPECT_THAT(right.fault(absent), Optional(HasSubstr("should be absent")));
-  // A heavy bead elsewhere: its cells are turned over, or others'.
+  // A heavy bead elsewhere: its cells, or cells of others, have the wrong orientation.
   Scene<dimension> moved(0);
   EXPECT_EQ(moved.fault(), std::nullopt);
   moved.centers.col(30) += Eigen::Vector3d(0.7, 0.7, dimension == 3 ? 0.7 : 0.0);
   EXPECT_NE(moved.fault(), std::nullopt);
   EXPECT_GT(snapshot_faults(moved.triangulation, Snapshot<dimension>(moved.centers, moved.weights)).failed(),
             0U);
-  // A bead far from where it is hidden.
+  // A bead that is far from its host cell.
   Scene<dimension> far(0.1);
   far.weights[far.hidden[0].bead] = 10;
   EXPECT_NE(far.fault(), std::nullopt);

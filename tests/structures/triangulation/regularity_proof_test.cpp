@@ -1,6 +1,6 @@
-// The checker proves right triangulations and no wrong ones. The judges are static builds over rationals, the
-// definition with every sign exact, and triangulations in which every facet is right while the hull winds
-// twice.
+// The checker proves correct triangulations and no wrong ones. The judges are static builds over rationals,
+// the definition with exact signs, and triangulations in which every facet is locally correct while the hull
+// winds around twice.
 
 #include "structures/triangulation/regularity_proof.h"
 
@@ -142,8 +142,8 @@ TEST(RegularityProof, HiddenAndAbsentBeadsAreLookedAt) {
   expect_hidden_beads_are_looked_at<3>();
 }
 
-/// Cells around the origin, or an edge through it, that wind `turns` times; beads after the `axis` ones lie
-/// on a circle.
+/// Makes cells around the origin, or around an edge through it, that wind around `turns` times. The beads
+/// after the first `axis` beads lie on a circle.
 template <int dimension>
 bool is_fan_proved(int turns) {
   constexpr BeadId axis = dimension - 1, rim = 9;
@@ -196,7 +196,7 @@ TEST(RegularityProof, TiesAreNotProved) {
   EXPECT_TRUE(Built<2>(square, Dyadic(0.5)).is_proved(square, Dyadic(0.5)));
 }
 
-/// Integer coordinates of a small range, half of the beads at rest: many facets are ties.
+/// Makes integer coordinates of a small range, with half of the beads at rest, so that many facets are ties.
 template <int dimension>
 Line<dimension> random_lattice_line(Random& random, BeadId beads) {
   Line<dimension> motion(beads);
