@@ -1,5 +1,5 @@
 #pragma once
-// Files that tests write for the readers, and what they expect of refusals.
+// Files that tests write for the readers, and checks of refusals.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -25,7 +25,7 @@ inline std::filesystem::path data_file(std::string_view name) {
   return std::filesystem::path(KDS_DATA_DIR) / name;
 }
 
-/// A path that no other test, running now, uses.
+/// Returns a path that no other running test uses.
 inline std::filesystem::path temporary(const std::string& name) {
   const auto* info = testing::UnitTest::GetInstance()->current_test_info();
   std::string folder =
@@ -38,7 +38,7 @@ inline std::filesystem::path temporary(const std::string& name) {
 
 inline std::filesystem::path write_file(const std::string& name, std::string_view bytes) {
   const std::filesystem::path path = temporary(name);
-  std::filesystem::remove(path);  // writing over a file can wait for the disk
+  std::filesystem::remove(path);  // overwriting an existing file may wait for the disk
   std::ofstream(path, std::ios::binary) << bytes;
   return path;
 }
@@ -48,7 +48,7 @@ inline std::string read_bytes(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The call must throw an InputError of one line that holds all the parts.
+/// The call must throw an InputError whose message is one line and contains all parts.
 inline void expect_refused(const std::function<void()>& call, std::initializer_list<std::string_view> parts) {
   try {
     call();
@@ -62,7 +62,7 @@ inline void expect_refused(const std::function<void()>& call, std::initializer_l
   ADD_FAILURE() << "expected an InputError";
 }
 
-/// An atom's line of a PDB file.
+/// An atom line of a PDB file.
 struct PdbAtom {
   std::string name = "CA";
   std::string residue = "ALA";
@@ -84,7 +84,7 @@ inline std::string pdb_line(const PdbAtom& atom) {
   return line;
 }
 
-/// N, CA and C of one residue along x, 1.5 apart, from x = 4.5 number.
+/// Returns N, CA and C of one residue along x, 1.5 apart, starting at x = 4.5 * `number`.
 inline std::string pdb_residue(int number, char chain = 'A', double y = 0) {
   std::string lines;
   const double x = 4.5 * number;
@@ -95,23 +95,23 @@ inline std::string pdb_residue(int number, char chain = 'A', double y = 0) {
   return lines;
 }
 
-/// Writes DCD files of every kind, right and wrong.
+/// Writes valid and invalid DCD files of every kind.
 struct DcdMaker {
   bool big_endian = false;
   std::size_t marker_size = 4;
   std::int32_t frames_claimed = -1;  ///< -1: the true number
-  bool claim_as_said = false;        ///< frames_claimed stands as it is
+  bool claim_as_said = false;        ///< write frames_claimed unchanged
   bool cell = false;
   std::array<double, 6> cell_values{50, 0, 50, 0, 0, 50};  ///< a, gamma, b, beta, alpha, c
   bool fourth = false;
-  std::vector<std::int32_t> free_atoms;  ///< from 1; empty: none is fixed
+  std::vector<std::int32_t> free_atoms;  ///< numbers from 1; empty: no atom is fixed
   std::string magic = "CORD";
   std::string title = std::string(80, 't');
-  std::int32_t version = 24;  ///< 0: of X-PLOR
+  std::int32_t version = 24;  ///< 0: X-PLOR
   std::int32_t first_step = 0, steps_a_frame = 0;
-  double step_length = 0;                                 ///< in the unit of CHARMM
-  std::int32_t atoms_claimed = -1;                        ///< -1: those of frame 0
-  std::vector<std::vector<std::array<float, 3>>> frames;  ///< all atoms of each
+  double step_length = 0;                                 ///< in the time unit of CHARMM
+  std::int32_t atoms_claimed = -1;                        ///< -1: the number of atoms in frame 0
+  std::vector<std::vector<std::array<float, 3>>> frames;  ///< all atoms of each frame
 
   template <class Number>
   void put(std::string& out, Number number) const {
@@ -186,7 +186,7 @@ struct DcdMaker {
     for (std::size_t k = 0; k < frames.size(); ++k) out += frame(k);
     return out;
   }
-  /// A straight chain with bonds of 1.5 that moves by 0.25 in y a frame.
+  /// Makes a straight chain with bonds of 1.5 that moves by 0.25 in y per frame.
   static DcdMaker chain(std::size_t atoms, std::size_t frames) {
     DcdMaker maker;
     for (std::size_t k = 0; k < frames; ++k) {

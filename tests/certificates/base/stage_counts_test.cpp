@@ -32,7 +32,7 @@ TEST(Stages, AddUpButForSizes) {
     EXPECT_EQ(sum.*stage.count, stage.of == Stage::Of::size ? 5U : 8U) << stage.name;
 }
 
-// Rows of the table in docs/exactness.md begin with a key of results.
+// Each row of the table in docs/exactness.md begins with a key that the results use.
 TEST(Stages, AreThoseOfTheDocuments) {
   std::ifstream file(KDS_DATA_DIR "/../docs/exactness.md");
   ASSERT_TRUE(file.is_open());

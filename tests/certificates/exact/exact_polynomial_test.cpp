@@ -14,14 +14,14 @@ using test::Scaled;
 
 sturm::Polynomial power_form(const ExactPolynomial& p) { return sturm::from_scaled(p.scaled()); }
 
-// One is the other times a positive number.
+// Returns whether one polynomial is a positive multiple of the other.
 bool same_up_to_positive_factor(sturm::Polynomial a, sturm::Polynomial b) {
   sturm::normalize(a);
   sturm::normalize(b);
   return a == b;
 }
 
-// p((upper - lower) s + lower) times a positive number
+// Returns a positive multiple of p((upper - lower) s + lower).
 sturm::Polynomial composed(const sturm::Polynomial& p, const Rational& lower, const Rational& upper) {
   const Integer d = denominator(lower) * denominator(upper);
   const Integer start = numerator(lower) * denominator(upper);
@@ -41,7 +41,7 @@ sturm::Polynomial composed(const sturm::Polynomial& p, const Rational& lower, co
   return result;
 }
 
-// Roots of p in [0,1): what square-free parts and divisors keep.
+// Keeps the roots of p in [0, 1), which square-free parts and divisors keep too.
 sturm::Polynomial without_root_at_one(sturm::Polynomial p) {
   while (!p.empty() && sturm::sign_at(p, 1) == 0) p = sturm::quotient(p, {-1, 1});
   return p;
@@ -99,7 +99,7 @@ TEST(ExactPolynomial, IsolatesTheRootsOfKnownPolynomials) {
   EXPECT_EQ(count({7}), 0U);
   EXPECT_EQ(count({5, 5}), 0U);
   EXPECT_EQ(count({0, 1}), 1U);  // u
-  EXPECT_EQ(count({1, 0}), 0U);  // 1-u: its root is the next step's
+  EXPECT_EQ(count({1, 0}), 0U);  // 1-u: its root belongs to the next step
   EXPECT_EQ(count({0, 1, 0}), 1U);
   EXPECT_EQ(count({-1, 1}), 1U);
   EXPECT_EQ(count({1, -2, 1}), 1U);  // (1-2u)^2
@@ -109,7 +109,7 @@ TEST(ExactPolynomial, IsolatesTheRootsOfKnownPolynomials) {
       2U);
 }
 
-// Their binomials exceed 64 bits.
+// The binomials of this degree exceed 64 bits.
 TEST(ExactPolynomial, IsolatesRootsOfHighDegrees) {
   Scaled scaled{1};
   for (int i = 1; i <= 80; ++i) scaled = test::product(scaled, test::linear(i, 97));
@@ -131,7 +131,7 @@ TEST(ExactPolynomial, SquareFreePartHasTheSameRootsOnce) {
     const ExactPolynomial simple = p.square_free();
     EXPECT_EQ(simple.is_zero(), p.is_zero());
     if (p.is_zero()) continue;
-    // As a polynomial in u it may keep or lose factors 1-u; everything else must agree up to sign.
+    // Powers of 1-u may be kept or lost; all other factors must agree up to sign.
     sturm::Polynomial expected = sturm::square_free(without_root_at_one(power_form(p)));
     sturm::Polynomial found = without_root_at_one(power_form(simple));
     sturm::normalize(expected);
@@ -168,7 +168,8 @@ TEST(ExactPolynomial, CommonDivisorIsThatOfThePowerBasis) {
   EXPECT_GT(common_factors, test::rounds(300));
 }
 
-// A degree written higher than it is: factors (1-u) + u, which are no repeated and no common roots.
+// A polynomial written with a higher degree than its own has factors (1-u) + u = 1, which are neither
+// repeated nor common roots.
 TEST(ExactPolynomial, ElevationIsDividedOut) {
   test::Random random(31);
   const auto elevated = [](std::vector<Integer> c, int times) {

@@ -1,7 +1,7 @@
-// Many random and adversarial polynomials against Sturm sequences: isolating intervals, multiplicities, the
-// order of times, signs at and just after them, touches, and what the whole cascade from doubles to integers
-// makes of them. A case is isolation and one of these others. How many, and from which seed:
-// tests/support/property_runs.h.
+// Compares many random and adversarial polynomials with Sturm sequences: isolating intervals, multiplicities,
+// the order of times, signs at and just after times, touches, and the results of the whole cascade from
+// doubles to integers. Each case tests isolation or one of the other properties.
+// tests/support/property_runs.h sets the number of cases and the seed.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ using test::Scaled;
 
 constexpr unsigned parts = 16;
 
-// What did not hold first, if anything.
+// Records the first property that did not hold.
 struct Faults {
   std::string first;
   void expect(bool holds, const char* what) {
@@ -33,7 +33,7 @@ struct Faults {
   }
 };
 
-// A polynomial that is not zero, and all that is to be known of its roots in [0,1).
+// A nonzero polynomial and all facts about its roots in [0, 1).
 struct Judged {
   explicit Judged(const ExactPolynomial& p)
       : ours(p), simple(p.square_free()), power(sturm::from_scaled(p.scaled())), sequence(power) {
@@ -56,7 +56,7 @@ struct Judged {
     return static_cast<std::size_t>(sequence.roots_on(0, x));
   }
   [[nodiscard]] int sign_after(const Rational& x) const { return sturm::sign_after(power, x); }
-  // Root number `index` is alone strictly between these two.
+  // Returns whether root number `index` is the only root strictly between the two numbers.
   [[nodiscard]] bool isolates(const Rational& lower, const Rational& upper, std::size_t index) const {
     return up_to(lower) == index && before(upper) == index + 1;
   }
@@ -91,7 +91,7 @@ ExactPolynomial derivative(const ExactPolynomial& p) {
 void expect_isolation(const Judged& p, const Dyadic& lower, const Dyadic& upper, Faults& faults) {
   const auto found = isolate_roots(p.simple, lower, upper);
   const std::size_t first = p.before(lower.rational());
-  // As it may be kept or dropped, a root at the very end of the step is not looked at.
+  // A root at the very end of the step may be kept or dropped, so it is not compared.
   const std::size_t end = std::min(p.up_to(upper.rational()), p.roots.size());
   const std::size_t count =
       found.size() - (!found.empty() && found.back().lower == Dyadic(1.0) && end == p.roots.size() ? 1 : 0);
@@ -110,7 +110,8 @@ std::vector<ExactTime> times_of(const Judged& p) {
   return times;
 }
 
-// As many derivatives vanish at a root as it is manifold, and the next one tells the sign after it.
+// At a root of multiplicity m the first m-1 derivatives vanish, and the next derivative gives the sign after
+// the root.
 void expect_multiplicities(const Judged& p, Faults& faults) {
   std::vector<ExactTime> times = times_of(p);
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -124,7 +125,8 @@ void expect_multiplicities(const Judged& p, Faults& faults) {
   }
 }
 
-// All through the step, the function always taken with the sign that it has just after now.
+// Follows all failures of the step. After each failure the function gets the sign that makes it positive just
+// after now.
 void expect_failures(const Judged& p, const Dyadic& from, TouchPolicy touches, Faults& faults) {
   ExactTime now(from);
   int sign = p.sign_after(from.rational());
@@ -143,7 +145,7 @@ void expect_failures(const Judged& p, const Dyadic& from, TouchPolicy touches, F
   }
 }
 
-// Times of two polynomials and a number: their order, and the signs of `q` at them.
+// Compares times of two polynomials and a number: their order, and the signs of `q` at these times.
 void expect_order(const Judged& p, const Judged& q, const Dyadic& number, Random& random, Faults& faults) {
   const Judged at_number{ExactPolynomial(test::linear(number.numerator(), Integer(1) << number.exponent()))};
   struct Time {
@@ -172,8 +174,9 @@ void expect_order(const Judged& p, const Judged& q, const Dyadic& number, Random
   }
 }
 
-// Any polynomial of degree 6 or 15 as the function of a cubic motion: beads 1 and 2
-// move along (1-u)^i u^(3-i), the others along the polynomial's coefficients, four to a bead.
+// A certificate whose function is any polynomial of degree 6 or 15 in a cubic motion. Beads 1 and 2 move
+// along (1-u)^i u^(3-i), and the other beads along the coefficients of the polynomial, four coefficients per
+// bead.
 template <int Degree>
 struct AnyCurve {
   static_assert(Degree == 6 || Degree == 15);
@@ -187,7 +190,8 @@ struct AnyCurve {
   [[nodiscard]] bool side() const { return sign > 0; }
   template <MotionView View>
   [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 3 + pieces>& b) {
-    // Bead 1: (1-u)^3 and u^3; bead 2: (1-u)^2 u and (1-u) u^2; then one for each part.
+    // Bead 1 moves along (1-u)^3 and u^3, and bead 2 along (1-u)^2 u and (1-u) u^2. Each further bead carries
+    // one part of the polynomial.
     const auto ends = view.difference(b[1], b[0]), middle = view.difference(b[2], b[0]);
     const auto part = [&](std::size_t i) { return view.difference(b[3 + i], b[0])[0]; };
     if constexpr (Degree == 6) {
@@ -217,15 +221,14 @@ std::unique_ptr<CertificateSearch<AnyCurve<15>>> search_over(const MotionRef<2>&
 namespace exact_properties_test {
 namespace {
 
-// A polynomial times a positive number as a certificate's function; none where control points would be no
-// doubles.
+// A motion and a certificate whose function is a positive multiple of a polynomial.
 template <class M, class C>
 struct OnAMotion {
   M motion;
   C certificate;
-  bool as_it_was = true;  // no coefficient was rounded
+  bool as_it_was = true;  // true while no coefficient has been rounded
 
-  /// False where the number is too large.
+  /// Returns false if the number is too large for a double.
   [[nodiscard]] bool set(BeadId bead, int k, const Integer& x) {
     const double control = x.get_d();
     if (!std::isfinite(control)) return false;
@@ -238,7 +241,7 @@ struct OnAMotion {
 template <Motion M>
 std::optional<OnAMotion<M, Precedes>> as_way_of_a_bead(const Scaled& scaled, M motion) {
   const auto degree = static_cast<int>(scaled.size()) - 1;
-  const std::int64_t common = degree == 3 ? 3 : degree == 6 ? 60 : 45045;  // multiple of all binomials
+  const std::int64_t common = degree == 3 ? 3 : degree == 6 ? 60 : 45045;  // a multiple of all binomials
   OnAMotion<M, Precedes> result{std::move(motion), Precedes({0, 1})};
   for (int k = 0; k <= degree; ++k) {
     if (!result.set(1, k, scaled[static_cast<std::size_t>(k)] * (common / binomial(degree, k))))
@@ -254,13 +257,14 @@ std::optional<OnAMotion<BezierMotion<2, 3>, AnyCurve<Degree>>> as_any_curve(cons
   for (BeadId b = 0; b < 3 + pieces; ++b) result.certificate.beads[b] = b;
   for (int axis = 0; axis < 2; ++axis) {
     result.motion.set_coordinate(1, 3 * axis, axis, 1);
-    result.motion.set_coordinate(2, 1 + axis, axis, 1);  // a third of it, as the middle binomials are three
+    result.motion.set_coordinate(2, 1 + axis, axis,
+                                 1);  // a third of the function, because the middle binomials are 3
   }
   for (std::size_t part = 0; part < pieces; ++part) {
-    // Where two pieces share a coefficient, at degree 6, the first has it.
+    // At degree 6 two pieces share a coefficient, which belongs to the first piece.
     const std::size_t first = Degree == 6 ? 3 * part : 4 * part;
     for (std::size_t k = Degree == 6 && part > 0 ? 1 : 0; k <= 3; ++k) {
-      // Products with bead 2 are thrice what they are to be.
+      // Products with bead 2 are three times too large, so the other terms are multiplied by 3.
       const std::int64_t times = (k == 0 || k == 3 ? 3 : 1) * (part == 0 || part + 1 == pieces ? 3 : 1);
       if (!result.set(static_cast<BeadId>(3 + part), static_cast<int>(k), scaled[first + k] * times))
         return std::nullopt;
@@ -269,7 +273,7 @@ std::optional<OnAMotion<BezierMotion<2, 3>, AnyCurve<Degree>>> as_any_curve(cons
   return result;
 }
 
-// The same polynomial as a certificate's function, through all stages.
+// Tests the same polynomial as a certificate's function, through all stages.
 template <class M, class C>
 void expect_cascade(const Judged& p, std::optional<OnAMotion<M, C>> made, const Dyadic& from, Random& random,
                     Faults& faults) {
@@ -304,7 +308,7 @@ void expect_cascade(const Judged& p, std::optional<OnAMotion<M, C>> made, const 
     }
     const Failure failure =
         test::first_failure(Kernel::filtered, certificate, motion, now, birth, stages, touches);
-    // Whoever does not ask for touches may be told of none.
+    // If touches are not requested, the search may skip them.
     while (touches == TouchPolicy::ignored && index < judge.roots.size() &&
            judge.multiplicities[index] % 2 == 0)
       ++index;
@@ -329,7 +333,7 @@ void expect_cascade(const Judged& p, std::optional<OnAMotion<M, C>> made, const 
     now = Instant(time, functions, functions.add(test::exact_function(certificate, motion)));
     if (!even) certificate.sign = -certificate.sign;
     birth = !even && random() % 4 != 0 ? KnownAtStart::at_own_root : KnownAtStart::unknown;
-    // From now on the certificate holds just after now.
+    // From now on the certificate holds just after each time `now`.
     sign = 1;
     ++index;
   }
@@ -338,7 +342,7 @@ void expect_cascade(const Judged& p, std::optional<OnAMotion<M, C>> made, const 
 struct Case {
   Scaled p, q;
   Dyadic from, to;
-  std::uint64_t seed;  // of what is drawn on the way
+  std::uint64_t seed;  // for the random choices within the case
 };
 
 std::string fault_of(const Case& c) {
@@ -364,7 +368,8 @@ std::string fault_of(const Case& c) {
       if (const ExactPolynomial q(c.q); !q.is_zero()) expect_order(p, Judged(q), c.to, random, faults);
       break;
     default:
-      // In lanes as the functions of cubic motions, and alone where the bead's way is of a higher degree.
+      // Functions of cubic motions use the vectorized code; curves of higher degree use the code for one
+      // function.
       const bool in_lanes = random() % 4 != 0;
       const auto elevated = [&](std::size_t degree) {
         Scaled scaled = p.ours.scaled();

@@ -14,7 +14,7 @@ namespace {
 namespace sturm = test::sturm;
 using test::Scaled;
 
-// A time as the code has it, and as the judge sees it.
+// A time as ExactTime, and as the judge's root.
 struct Time {
   ExactTime ours;
   std::shared_ptr<const sturm::Sequence> sequence;
@@ -26,7 +26,7 @@ Time at(const Dyadic& u) {
   return {ExactTime(u), std::make_shared<sturm::Sequence>(sturm::with_root(x)), {x, x}};
 }
 
-// All roots on [from, 1).
+// Returns all roots on [from, 1).
 std::vector<Time> times_of(const Scaled& scaled, const Dyadic& from) {
   const ExactPolynomial p(scaled);
   std::vector<Time> times;
@@ -47,7 +47,7 @@ int judge(const Time& a, const Time& b) {
   return sturm::compare(*a.sequence, a.judged, *b.sequence, b.judged);
 }
 
-// The time lies where it says it does.
+// Checks that the time lies within its interval.
 void expect_enclosed(const Time& time) {
   const Rational lower = time.ours.lower().rational();
   const Rational upper = time.ours.upper().rational();
@@ -81,7 +81,8 @@ TEST(ExactTime, ComparesAsSturmDoes) {
       Time b = times[random() % times.size()];
       const int expected = judge(a, b);
       EXPECT_EQ(ExactTime::compare(a.ours, b.ours), expected);
-      EXPECT_EQ(ExactTime::compare(b.ours, a.ours), -expected);  // narrowed by now
+      EXPECT_EQ(ExactTime::compare(b.ours, a.ours),
+                -expected);  // with the interval narrowed by the comparison above
       expect_enclosed(a);
       expect_enclosed(b);
       ties += expected == 0;
@@ -102,7 +103,7 @@ TEST(ExactTime, NarrowsWithoutChangingTheValue) {
       time.ours.refine();
       EXPECT_LE(time.ours.upper().rational() - time.ours.lower().rational(), length / 2);
     }
-    // A narrower interval is taken if and only if it holds the time.
+    // A narrower interval is accepted if and only if it contains the time.
     const Rational length = time.ours.upper().rational() - time.ours.lower().rational();
     const Dyadic middle = Dyadic::midpoint(time.ours.lower(), time.ours.upper());
     const Dyadic quarter = Dyadic::midpoint(time.ours.lower(), middle);
@@ -119,7 +120,7 @@ TEST(ExactTime, NarrowsWithoutChangingTheValue) {
   }
 }
 
-// The number of halvings after which a dyadic root shows varies over all budgets.
+// The number of bisections that reveal a dyadic root varies over all budgets.
 TEST(ExactTime, EqualsTheDyadicThatItIs) {
   for (unsigned bits = 1; bits <= 60; ++bits) {
     const Dyadic u(Integer(1), bits);
@@ -197,7 +198,7 @@ TEST(FirstFailureAfter, IsTheFirstRootFromWhichItIsNegative) {
       }
       touches += sturm::multiplicity(*root.sequence, root.judged, power) % 2 == 0;
     }
-    EXPECT_GE(sign_after(ExactPolynomial(f), now.ours), 0);  // also narrows `now`, as is asked for
+    EXPECT_GE(sign_after(ExactPolynomial(f), now.ours), 0);  // the call also narrows `now`
     const auto found = first_failure_after(ExactPolynomial(f), now.ours);
     ASSERT_EQ(found.has_value(), expected.has_value());
     if (!found) continue;
@@ -213,7 +214,7 @@ TEST(FirstFailureAfter, IsTheFirstRootFromWhichItIsNegative) {
 }
 
 TEST(FirstFailureAfter, ReportsTouchesWhereAsked) {
-  const ExactPolynomial p({1, -2, 1, 0});  // (1-u) (1-2u)^2 in scaled form: touches at 1/2
+  const ExactPolynomial p({1, -2, 1, 0});  // (1-u) (1-2u)^2 in scaled form, which touches zero at 1/2
   ExactTime start{Dyadic(0.0)};
   ASSERT_EQ(sign_after(p, start), 1);
   EXPECT_FALSE(first_failure_after(p, start).has_value());
@@ -263,7 +264,7 @@ TEST(FirstFailureAfter, KnownCases) {
   EXPECT_TRUE(is(first({1, -3, 3, -1}, 0), 0.5)) << "(1-2u)^3 fails";
   EXPECT_FALSE(first({-1, 0}, 1)) << "nothing follows u = 1";
   EXPECT_FALSE(first({1, -2, 0}, 1));
-  // u (1-2u)(4u-1): positive on (1/4, 1/2)
+  // u (1-2u)(4u-1), which is positive on (1/4, 1/2).
   const Scaled three = test::product(test::product({0, 1}, {1, -1}), {-1, 3});
   EXPECT_TRUE(is(first(three, 0.25), 0.5));
   EXPECT_TRUE(is(first(three, 0.375), 0.5));
@@ -286,7 +287,7 @@ TEST(NextOnGrid, IsTheFirstMultipleAfter) {
   }
 }
 
-// A root at a dyadic that no halving of its interval ever meets.
+// A root at a dyadic number that bisection of its interval never hits.
 TEST(NextOnGrid, EndsWhereTheTimeIsOnTheGrid) {
   const ExactPolynomial half(test::linear(1, 2));
   ExactTime time(half, {Dyadic(0.25), Dyadic(1.0)});
@@ -312,7 +313,7 @@ TEST(DyadicBetween, LiesBetween) {
   }
 }
 
-// What happens at one time is asked about once for each function that vanishes there.
+// A time at which many functions vanish tests each function once.
 TEST(ExactTime, DoesNotGrowWithHowManyFunctionsVanishAtIt) {
   const ExactPolynomial p({Integer(2), Integer(1), Integer(-7)});
   auto roots = isolate_roots(p, Dyadic(0.0), Dyadic(1.0));

@@ -17,7 +17,7 @@ struct Named {
   }
 };
 
-// (3u - 1)(3u - 2) and more of its kind.
+// (3u - 1)(3u - 2) and a similar factor.
 ExactPolynomial some_polynomial() { return ExactPolynomial({Integer(2), Integer(-5), Integer(2)}); }
 
 std::uint64_t work_of_roots(ExactWork& account) {
@@ -43,7 +43,9 @@ TEST(ExactWork, GoesToTheAccountThatIsOpen) {
   {
     const ExactWork::Open again(inner);
     ExactWork::spend(5);
-    std::thread([] { ExactWork::spend(100); }).join();  // another thread's is its own
+    std::thread([] {
+      ExactWork::spend(100);
+    }).join();  // the work of another thread is not charged to this account
   }
   ExactWork::spend(4);
   EXPECT_EQ(outer.done(), 7U);
@@ -92,7 +94,7 @@ TEST(ExactWork, CallsItsWatcherAsWorkGoesOn) {
   EXPECT_EQ(calls, 0);
   ExactWork::spend(1);
   EXPECT_EQ(calls, 1);
-  ExactWork::spend(1000);  // one call, however much at once
+  ExactWork::spend(1000);  // the watcher is called once, however much work is spent at once
   EXPECT_EQ(calls, 2);
   account.set_limit(account.done() + 150);
   ExactWork::spend(120);

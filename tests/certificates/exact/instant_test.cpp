@@ -23,7 +23,7 @@ TEST(Instant, OfADoubleIsExact) {
 }
 
 TEST(Instant, OfALongDyadicHasABracketAndIsExact) {
-  const Dyadic time = Dyadic(Integer(1) + (Integer(1) << 80), 82);  // a little above 1/4
+  const Dyadic time = Dyadic(Integer(1) + (Integer(1) << 80), 82);  // slightly above 1/4
   const Instant instant(time);
   EXPECT_LT(instant.lower(), instant.upper());
   ExactTime expected(time);

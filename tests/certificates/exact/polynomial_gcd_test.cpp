@@ -16,7 +16,7 @@ using test::Scaled;
 
 const Integer prime = (Integer(1) << 61) - 1;
 
-// Coefficients of 1, x, x^2, ... here.
+// Coefficients of 1, x, x^2, ... (in this file only).
 Scaled random_power(test::Random& random, int degree) {
   Scaled p = test::random_coefficients(random, degree, static_cast<unsigned>(test::pick(random, 1, 200)));
   if (p.back() == 0) p.back() = 1;
@@ -47,11 +47,13 @@ TEST(PolynomialGcd, MostlySeesThatThereIsNone) {
     coprime += truth;
     seen += answer;
   }
-  EXPECT_EQ(seen, coprime);  // a prime of 61 bits does not divide a resultant by chance
+  EXPECT_EQ(
+      seen,
+      coprime);  // it is practically impossible that a random resultant is divisible by a prime of 61 bits
 }
 
 TEST(PolynomialGcd, SaysNothingWhereThePrimeHidesTheDegree) {
-  // x + 1 divides both; modulo the prime one of them is a constant.
+  // x + 1 divides both polynomials, but modulo the prime one of them is constant.
   EXPECT_FALSE(certainly_coprime({1, 1}, test::product({1, 1}, {1, prime})));
   EXPECT_FALSE(certainly_coprime(test::product({1, prime}, {1, 1}), {1, 1}));
   EXPECT_FALSE(certainly_coprime({5, prime}, {5, prime}));
@@ -74,7 +76,7 @@ TEST(PolynomialGcd, ProvesSquareFreeness) {
   EXPECT_FALSE(certainly_square_free({-1, 0, prime}));
 }
 
-// Beside Euclid's algorithm on whole numbers.
+// Compares with Euclid's algorithm over integers.
 TEST(PolynomialGcd, FindsTheGcd) {
   test::Random random(804);
   for (int i = 0; i < test::rounds(600) && !testing::Test::HasFailure(); ++i) {
@@ -120,7 +122,7 @@ TEST(PolynomialGcd, OfZeroIsTheOther) {
   EXPECT_TRUE(polynomial_gcd({}, {}).empty());
 }
 
-// Beside Euclid's algorithm on whole numbers.
+// Compares with Euclid's algorithm over integers.
 TEST(PolynomialGcd, DividesOutRepeatedFactors) {
   test::Random random(806);
   for (int i = 0; i < test::rounds(300) && !testing::Test::HasFailure(); ++i) {
@@ -137,7 +139,7 @@ TEST(PolynomialGcd, DividesOutRepeatedFactors) {
   EXPECT_EQ(without_repeated_factors({-4, 8, -4}), (Scaled{1, -1}));
 }
 
-// Each thread has memory of FLINT's, which it gives back.
+// FLINT allocates memory per thread, and each thread releases its memory.
 TEST(PolynomialGcd, IsFoundInAnyThread) {
   test::Random random(807);
   const Scaled factor = test::random_coefficients(random, 3, 400);

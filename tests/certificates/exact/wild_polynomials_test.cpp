@@ -1,5 +1,5 @@
-// Polynomials whose coefficients are of wildly different size, and roots that lie very close together, beside
-// Sturm's sequences on whole numbers.
+// Polynomials whose coefficients have very different sizes, and roots that lie very close together, compared
+// with Sturm sequences over integers.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ Scaled wild(Random& random, int degree, int bits) {
   return p;
 }
 
-// Roots around one, 2^-gap apart, times another polynomial.
+// Makes roots around one number that are 2^-gap apart, times another polynomial.
 Scaled cluster(Random& random, int roots, unsigned gap) {
   const Integer q = Integer(test::pick(random, 3, 100)) << gap;
   const Integer p = q / 3;
@@ -51,7 +51,7 @@ ExactPolynomial wide(const Scaled& scaled) {
   return ExactPolynomial(std::make_shared<const WidePolynomial>(scaled));
 }
 
-// Without the roots at u = 1, which square-free parts drop.
+// Returns the judge without roots at u = 1, which square-free parts drop.
 sturm::Sequence judge_of(Scaled p) {
   while (p.back() == 0) p.pop_back();
   return sturm::Sequence(sturm::from_scaled(p));
@@ -133,7 +133,7 @@ TEST(WildPolynomials, SignsAreThoseOfWholeNumbers) {
   EXPECT_GT(signs_closely, test::rounds(30));
 }
 
-// A function and its negative share what is found out about their roots, and no sign of theirs.
+// A function and its negation share everything known about their roots, but not their signs.
 TEST(WildPolynomials, TheNegativeHasTheSameRootsAndTheOtherSigns) {
   Random random(1205);
   int roots_seen = 0;
@@ -158,7 +158,7 @@ TEST(WildPolynomials, TheNegativeHasTheSameRootsAndTheOtherSigns) {
       const int after = sign_after(p, time);
       EXPECT_EQ(sign_after(negative, time), -after);
       EXPECT_EQ(sign_at(negative, time), 0);
-      ExactTime judged(plain.square_free(), root);  // not wide: by other ways
+      ExactTime judged(plain.square_free(), root);  // an ordinary polynomial, which uses other algorithms
       EXPECT_EQ(after, sign_after(plain, judged));
       EXPECT_EQ(ExactTime::compare(time, judged), 0);
     }
@@ -166,7 +166,8 @@ TEST(WildPolynomials, TheNegativeHasTheSameRootsAndTheOtherSigns) {
   EXPECT_GT(roots_seen, test::rounds(50));
 }
 
-// Asked for twice, in either order, it is found once.
+// The gcd of two polynomials is computed once, whichever of the two is named first and however often it is
+// requested.
 TEST(WildPolynomials, WhatTwoHaveInCommonIsKept) {
   const Integer scale = Integer(1) << 200U;
   const Scaled shared = test::linear(scale + 3, 3 * scale);
@@ -179,7 +180,7 @@ TEST(WildPolynomials, WhatTwoHaveInCommonIsKept) {
   EXPECT_NE(ac.wide(), ab.wide());
   EXPECT_EQ(abs(ac.scaled()[0]), abs(ab.scaled()[0]));
   EXPECT_EQ(ExactPolynomial::gcd(a, b).wide(), ab.wide());
-  // Another one at the place of one that has gone is another one.
+  // A new polynomial at the address of a destroyed one is a different polynomial.
   const ExactPolynomial other =
       wide(test::product(test::linear(2 * scale + 5, 3 * scale), test::linear(1, 5)));
   EXPECT_EQ(sturm::sign_at(sturm::from_scaled(ExactPolynomial::gcd(a, other).scaled()),
@@ -187,8 +188,8 @@ TEST(WildPolynomials, WhatTwoHaveInCommonIsKept) {
             0);
 }
 
-// A root that was noted before roots were looked for is known twice: who narrows it until it is apart from a
-// time would wait for ever for one that stays as it was.
+// A root that was recorded before the roots were isolated is stored twice. Both records must be narrowed;
+// otherwise a loop that narrows the root until it is separate from another time would never end.
 TEST(WildPolynomials, RootsKnownTwiceAreNarrowedTwice) {
   const Integer scale = Integer(1) << 200U;
   const auto p = std::make_shared<const WidePolynomial>(test::linear(scale + 3, 3 * scale));
@@ -206,7 +207,7 @@ TEST(WildPolynomials, RootsKnownTwiceAreNarrowedTwice) {
   }
 }
 
-// Who looks for it again finds a root as narrow as it was left.
+// A root that is found again has the narrow interval of the last use.
 TEST(WildPolynomials, RootsStayNarrow) {
   const Integer scale = Integer(1) << 200U;
   const ExactPolynomial p =
@@ -223,7 +224,7 @@ TEST(WildPolynomials, RootsStayNarrow) {
   EXPECT_EQ(ExactTime::compare(first, second), -1);
 }
 
-// The same answers as of polynomials that are not wide.
+// Wide and ordinary polynomials give the same answers.
 TEST(WildPolynomials, WideOrNotIsTheSame) {
   Random random(1204);
   for (int i = 0; i < test::rounds(60) && !testing::Test::HasFailure(); ++i) {
@@ -259,7 +260,7 @@ TEST(WildPolynomials, WideOrNotIsTheSame) {
   }
 }
 
-// Roots are looked for as they are asked for, in whatever order: those of a polynomial that is not wide.
+// Roots are isolated on demand, in any order, and equal the roots of the ordinary polynomial.
 TEST(WildPolynomials, RootsAskedForInAnyOrderAreAllThereAre) {
   Random random(1206);
   for (int i = 0; i < test::rounds(60) && !testing::Test::HasFailure(); ++i) {
@@ -289,7 +290,7 @@ TEST(WildPolynomials, RootsAskedForInAnyOrderAreAllThereAre) {
   }
 }
 
-// The sign after a root that a function has in common with others, asked for the first time and again.
+// Tests the sign after a root that several functions have in common, for the first and for repeated requests.
 TEST(WildPolynomials, SignsAfterCommonRootsAreThoseOfOrdinaryPolynomials) {
   Random random(1207);
   int asked = 0;
@@ -318,7 +319,7 @@ TEST(WildPolynomials, SignsAfterCommonRootsAreThoseOfOrdinaryPolynomials) {
   EXPECT_GT(asked, test::rounds(60));
 }
 
-// A comparison begins with what another one has found out, also where doubles isolated the root.
+// A comparison starts with the interval that earlier comparisons narrowed, also if doubles isolated the root.
 TEST(WildPolynomials, RootsInBracketsOfDoublesStayNarrow) {
   const Integer scale = Integer(1) << 200U;
   const ExactPolynomial p = wide(test::product(test::linear(scale + 3, 3 * scale), test::linear(9, 7)));
@@ -330,7 +331,7 @@ TEST(WildPolynomials, RootsInBracketsOfDoublesStayNarrow) {
   EXPECT_EQ(ExactTime::compare(first, again), 0);
 }
 
-// Halving would take a step for each binary place.
+// Bisection alone would take one step per binary digit.
 TEST(WildPolynomials, OrdinaryRootsOfAnotherScaleTakeFewSteps) {
   const Integer far = Integer(1) << 3000U;
   ExactTime time(ExactPolynomial(test::linear(3, 7 * far)), {Dyadic(0.0), Dyadic(1.0)});
@@ -343,7 +344,7 @@ TEST(WildPolynomials, OrdinaryRootsOfAnotherScaleTakeFewSteps) {
   EXPECT_EQ(ExactTime::compare(time, other), 1);
 }
 
-// Says the coefficients of a polynomial, and counts how often it is asked for all digits.
+// Provides the coefficients of a polynomial, and counts the requests for all digits.
 class Source final : public CoefficientSource {
  public:
   explicit Source(Scaled p, int& asked) : p_(std::move(p)), asked_(asked) {}
@@ -380,11 +381,12 @@ TEST(WildPolynomials, AllDigitsAreAskedForOnlyWhereTheyCount) {
   const auto roots = isolate_roots(p.square_free(), Dyadic(0.0), Dyadic(1.0));
   ASSERT_EQ(roots.size(), 1U);
   EXPECT_EQ(asked, 0);
-  EXPECT_EQ(p.sign_at(Dyadic(0.5)), 1);  // 2^3000 cancels
+  EXPECT_EQ(p.sign_at(Dyadic(0.5)), 1);  // the terms of size 2^3000 cancel
   EXPECT_EQ(asked, 1);
 }
 
-// One gains a bit a round, the other thousands: it must not run ahead without end.
+// The ordinary polynomial gains one bit per round and the wide one thousands; the wide one must not run ahead
+// without limit.
 TEST(WildPolynomials, TimesOfWideAndOrdinaryFunctionsAreToldApartByFewDigits) {
   const Integer scale = Integer(1) << 200U;
   const Scaled outside = test::linear(9, 7);
@@ -403,7 +405,7 @@ TEST(WildPolynomials, TimesOfWideAndOrdinaryFunctionsAreToldApartByFewDigits) {
   EXPECT_LT(between.rational(), fraction(scale + 3, 3 * scale));
 }
 
-// Cannot form its coefficients at first.
+// A source that cannot compute its coefficients at first.
 class Failing final : public CoefficientSource {
  public:
   explicit Failing(const bool& fails) : fails_(fails) {}

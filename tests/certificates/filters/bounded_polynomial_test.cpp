@@ -20,7 +20,7 @@ double uniform(Random& random, double low = -1, double high = 1) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-// Plain Bernstein coefficients to a polynomial.
+// Converts plain Bernstein coefficients to a polynomial.
 sturm::Polynomial exact(const Coefficients<double>& bernstein) {
   std::vector<Integer> scaled;
   for (std::size_t k = 0; k < bernstein.size(); ++k) {
@@ -33,7 +33,7 @@ sturm::Polynomial exact(const Coefficients<double>& bernstein) {
   return p;
 }
 
-// Coefficients that are exact but for `error` each.
+// Makes coefficients with the given error each.
 BoundedPolynomial bounded(const Coefficients<double>& c, double error) {
   const int degree = static_cast<int>(c.size()) - 1;
   double largest = 0;
@@ -56,7 +56,8 @@ class BoundedPolynomials : public testing::TestWithParam<int> {
     return c;
   }
 
-  // Everything the search says of p must hold for all polynomials within the error; a few stand for them.
+  // Every answer of the search for p must hold for all polynomials within the error; a few of them are
+  // tested.
   Verdict expect_sound(const Coefficients<double>& c, double error, double from, Random& random) {
     const auto p = bounded(c, error);
     const int sign = p.certain_sign_at(from);
@@ -67,7 +68,7 @@ class BoundedPolynomials : public testing::TestWithParam<int> {
       Coefficients<double> near = c;
       for (std::size_t k = 0; k < near.size(); ++k) {
         const bool up = perturbation == 1 ? k % 2 == 0 : perturbation == 2 ? k % 2 == 1 : random() % 2 == 0;
-        // Half of the error leaves room for the rounding of the sum.
+        // Half of the error is kept for the rounding of the sum.
         if (perturbation > 0)
           near[k] += (up ? 1 : -1) * error * (perturbation < 4 ? 0.999 : uniform(random, 0, 0.999));
       }
@@ -135,7 +136,7 @@ TEST_P(BoundedPolynomials, VerdictsHoldWithinTheError) {
     const double scale = std::ldexp(1.0, test::pick(random, -300, 300));
     const double error = random() % 3 == 0 ? 0 : scale * std::ldexp(1.0, -test::pick(random, 1, 50));
     for (double& x : c) {
-      // Sizes about the error, about its bound after subdivision, and well above.
+      // Sizes near the error, near its bound after subdivision, and well above.
       const double size = random() % 2 ? scale : error > 0 ? error : scale * 0x1p-46;
       x = random() % 8 == 0 ? 0 : size * uniform(random, -2, 2);
     }
@@ -144,7 +145,7 @@ TEST_P(BoundedPolynomials, VerdictsHoldWithinTheError) {
   }
 }
 
-// The rounding claimed for values at doubles.
+// Checks the claimed rounding error of values at doubles.
 TEST_P(BoundedPolynomials, ValuesErrAsLittleAsClaimed) {
   Random random(408);
   double share = 0;
@@ -169,7 +170,7 @@ TEST_P(BoundedPolynomials, ValuesErrAsLittleAsClaimed) {
   EXPECT_GT(share, 0.001);
 }
 
-// ChordCandidate coefficients between certain ones: their signs may alternate.
+// Uncertain coefficients between certain ones: their signs may alternate.
 TEST_P(BoundedPolynomials, DoubtfulCoefficientsProveNothing) {
   Random random(403);
   const int cases = degree() > 6 ? 100 : 400;
@@ -189,7 +190,7 @@ TEST_P(BoundedPolynomials, CloseAndMultipleRootsAreNotMisjudged) {
   const int cases = degree() > 6 ? 150 : 400;
   for (int i = 0; i < cases && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE("seed 404, case " + std::to_string(i));
-    // Products of linear factors, rounded: the rounded one is what is judged.
+    // A product of linear factors, rounded; the judge uses the rounded polynomial.
     std::vector<double> scaled{1};
     double root = uniform(random, 0, 1);
     for (int k = 0; k < degree(); ++k) {
@@ -245,7 +246,7 @@ TEST_P(BoundedPolynomials, NothingIsProvedOfWhatIsNoNumber) {
       EXPECT_EQ(p.first_descent(0).verdict, Verdict::undecided) << text_of(c) << error;
       EXPECT_EQ(p.first_descent(u).verdict, Verdict::undecided) << text_of(c) << error;
     } else {
-      (void)p.first_descent(0);  // with errors as they are computed, infinite too, nothing is certain
+      (void)p.first_descent(0);  // computed errors, which may be infinite: no sign is certain
       const auto as_computed = bounded(c, 0);
       EXPECT_EQ(as_computed.certain_sign_at(u), 0);
       EXPECT_EQ(as_computed.first_descent(0).verdict, Verdict::undecided);

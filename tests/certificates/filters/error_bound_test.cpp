@@ -14,7 +14,7 @@ namespace {
 using test::MotionKind;
 using test::Subject;
 
-/// As searches derive it: over curves of the motion's degree.
+/// Returns the bound that searches derive, over curves of the motion's degree.
 template <class C, class M>
 const ErrorBound& bound_of() {
   return FunctionValues<C, Curves<M::dimension>>::error_bound(M::degree);
@@ -26,7 +26,7 @@ class ErrorBounds : public testing::Test {
   using C = typename S::C;
   using M = typename S::M;
 
-  // The largest |double - exact| / bound among the coefficients.
+  // Returns the largest |double - exact| / bound among the coefficients.
   static double share_used(const C& certificate, const M& motion) {
     const DoubleView<M> view(motion);
     const auto rounded = function_of(certificate, view);
@@ -41,7 +41,7 @@ class ErrorBounds : public testing::Test {
       const Rational value = shift > 0 ? fraction(exact.scaled[k], power) : Rational(exact.scaled[k] * power);
       const Rational error = abs(Dyadic(rounded.scaled[k]).rational() - value);
       share = std::max(share, Rational(error / Dyadic(bound.coefficient[k] * scale).rational()).get_d());
-      // and the plain coefficient, divided by its binomial
+      // checks also the plain coefficient, which is divided by its binomial
       const auto choose =
           static_cast<double>(binomial(static_cast<int>(rounded.scaled.size()) - 1, static_cast<int>(k)));
       const Rational plain = abs(Dyadic(rounded.scaled[k] / choose).rational() - value / Rational(choose));
@@ -67,7 +67,7 @@ TYPED_TEST(ErrorBounds, HoldAtAllScales) {
     for (const MotionKind kind : test::all_motion_kinds) {
       auto motion = test::random_motion<typename TypeParam::M>(random, TypeParam::beads, kind);
       test::scale(motion, test::pick(random, -180, 180));
-      if (random() % 4 == 0) {  // one bead much heavier than far
+      if (random() % 4 == 0) {  // the weight of one bead is much larger than its squared distance
         for (int k = 0; k <= TypeParam::M::degree; ++k)
           motion.set_weight(0, k, std::ldexp(1.0, test::pick(random, -300, 300)));
       }
@@ -78,14 +78,14 @@ TYPED_TEST(ErrorBounds, HoldAtAllScales) {
   }
 }
 
-// Random input uses a fair share of the bound: it is of the right size.
+// Random input uses a fair share of the bound, so the bound has the right size.
 TYPED_TEST(ErrorBounds, AreNotAbsurd) {
   test::Random random(602);
   double share = 0;
   for (int i = 0; i < test::rounds(1000); ++i) {
     auto motion = test::random_motion<typename TypeParam::M>(random, TypeParam::beads, MotionKind::generic);
     for (BeadId b = 0; b < TypeParam::beads;
-         ++b) {  // corners of a cube, nearly: all differences about as large
+         ++b) {  // approximately corners of a cube, so that all differences have similar sizes
       for (int k = 0; k <= TypeParam::M::degree; ++k) {
         for (int axis = 0; axis < TypeParam::M::dimension; ++axis) {
           const double x = motion.coordinate(b, k, axis);
@@ -122,7 +122,7 @@ TEST(ErrorBound, KnowsTheDegreeInLengths) {
   EXPECT_EQ((bound_of<BeadInSphere<3>, M>().power), 6);
 }
 
-// The roundings claimed for evaluation and subdivision, against exact values.
+// Checks the claimed rounding errors of evaluation and subdivision against exact values.
 TEST(ErrorBound, CoversEvaluation) {
   EXPECT_GE(value_rounding(5), 12 * 5 * 0x1p-53);
   EXPECT_GE(local_rounding(5), (subdivisions + 2) * value_rounding(5));

@@ -1,5 +1,5 @@
-// Four orientations are found positive at a moment only where each of them, on integers, is so all over its
-// bracket.
+// Four orientations are reported as positive at a moment only if each of them is positive throughout its
+// bracket, judged in integers.
 
 #include "certificates/filters/moment_lanes.h"
 
@@ -54,7 +54,7 @@ TEST(MomentLanes, SeeWhatIsPositive) {
   compare<LiftedMotion<3>>(300);
 }
 
-// A flat cell that opens: next to zero nothing is claimed that is not so.
+// A flat cell opens: near zero nothing wrong may be claimed.
 TEST(MomentLanes, ClaimNothingNextToZero) {
   test::Random random(92);
   std::uint64_t found = 0;
@@ -75,13 +75,13 @@ TEST(MomentLanes, ClaimNothingNextToZero) {
       ++found;
       EXPECT_EQ(test::sign_at(Orientation<3>(beads, 1), motion, Dyadic(0.25)), 1);
       EXPECT_EQ(test::sign_at(Orientation<3>(beads, 1), motion, Dyadic(0.25 + 0x1p-40)), 1);
-      EXPECT_LT(places, 26);  // floats see no more
+      EXPECT_LT(places, 26);  // floats cannot resolve smaller openings
     }
   }
   EXPECT_GT(found, test::rounds(100U));
 }
 
-// One of four that is not positive is enough, whichever it is; and so is a bracket too wide.
+// The answer is false if any one of the four orientations is not positive, or if any bracket is too wide.
 TEST(MomentLanes, SpeakForAllFour) {
   const std::vector<std::array<double, 3>> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const auto motion = test::at_rest(corners);

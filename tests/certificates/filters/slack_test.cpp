@@ -35,8 +35,8 @@ class Tolerances : public testing::Test {
     for (std::size_t lane = 1; lane < Lanes::width; ++lane) EXPECT_EQ(result.v[lane], result.v[0]);
     return result.v[0];
   }
-  // The formula's exact sign with every bead moved by at most half of `wander` in each coordinate: no
-  // difference by more than all of it.
+  // Returns the exact sign of the formula after every bead has moved by at most half of `wander` in each
+  // coordinate, so that no difference changes by more than `wander`.
   static int sign_after_wandering(M motion, double wander, bool to_the_corners, Random& random) {
     for (BeadId b = 0; b < beads; ++b) {
       for (int axis = 0; axis < 3; ++axis) {
@@ -67,9 +67,9 @@ TYPED_TEST(Tolerances, NoSignChangesWithinIt) {
     }
     EXPECT_EQ(TestFixture::slack(motion, -sign), 0);
     const double slack = TestFixture::slack(motion, sign);
-    if (slack == 0) continue;  // say nothing, far from the range of doubles
+    if (slack == 0) continue;  // far from the range of doubles the filter gives no slack
     ++positive;
-    // Rounding the moved coordinates must not carry them beyond it.
+    // The factor ensures that rounding does not move coordinates beyond the slack.
     for (int i = 0; i < 40; ++i)
       EXPECT_EQ(TestFixture::sign_after_wandering(motion, slack * (1 - 0x1p-20), i % 2 == 0, random), sign);
     bool changed = false;
@@ -78,12 +78,12 @@ TYPED_TEST(Tolerances, NoSignChangesWithinIt) {
     changed_soon_beyond += changed ? 1 : 0;
   }
   EXPECT_GT(positive, test::rounds(100));
-  EXPECT_GT(changed_soon_beyond, positive / 20);  // it is no more modest than it need be
+  EXPECT_GT(changed_soon_beyond, positive / 20);  // the slack is not unnecessarily small
 }
 
 TEST(Tolerance, IsTheDistanceToContactNearly) {
-  // Two balls of radius 1, 4 apart along an axis: their difference may shrink by 2, and the look goes no
-  // further than a sixteenth of the distance; from 2.1 apart, 0.1 is nearly tolerated whole.
+  // Two balls of radius 1 are 4 apart along an axis. The difference may shrink by 2, but the bound is limited
+  // to a sixteenth of the distance. At distance 2.1 almost all of the 0.1 is slack.
   BezierMotion<3, 1> motion(2);
   for (int k = 0; k <= 1; ++k) {
     for (BeadId b = 0; b < 2; ++b) motion.set_radius(b, k, 1);

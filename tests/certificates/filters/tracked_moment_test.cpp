@@ -1,4 +1,4 @@
-// Signs during a short time against exact ones at times in it.
+// Compares signs during a short period with exact signs at times in the period.
 
 #include "certificates/filters/tracked_moment.h"
 
@@ -18,7 +18,7 @@ struct Tally {
   int certain = 0, doubtful = 0;
 };
 
-/// Of one polynomial of a certificate, in periods from none to long.
+/// Judges one polynomial of a certificate, in periods of any length, including zero.
 template <class Polynomial, class M>
 void judge(const M& motion, Random& random, Tally& tally) {
   Polynomial polynomial;
@@ -42,7 +42,7 @@ void judge(const M& motion, Random& random, Tally& tally) {
   }
 }
 
-/// As many signs are certain at any scale.
+/// The number of certain signs does not depend on the scale.
 TEST(TrackedMoment, ScalesWithTheInput) {
   using Radical = BallInSphere<3, 4>::Radical;
   const auto tally_at = [](int exponent) {

@@ -38,7 +38,7 @@ void expect_same(double a, double b) {
   EXPECT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << a << " " << b;
 }
 
-// Played, a formula computes what it computes over a view, bit by bit.
+// Replaying a recorded formula gives the same bits as evaluating the formula over a view.
 TYPED_TEST(FormulaInDouble, IsWhatTheFormulaGives) {
   using F = typename TypeParam::C;
   using M = typename TypeParam::M;
@@ -90,7 +90,7 @@ TYPED_TEST(FormulaInDouble, IsWhatTheFormulaGives) {
   EXPECT_TRUE(lifted<M> || certain > 20) << certain;
 }
 
-// The bounds that are derived over magnitudes of a run-time degree are those of the formula itself.
+// The bounds that are derived for a run-time degree equal the bounds of the formula itself.
 TYPED_TEST(FormulaInDouble, BoundsAreThoseOfTheFormula) {
   using F = typename TypeParam::C;
   using M = typename TypeParam::M;
@@ -104,7 +104,7 @@ TYPED_TEST(FormulaInDouble, BoundsAreThoseOfTheFormula) {
   }
 }
 
-/// Positive while two beads are less than three times as far apart as two others.
+/// Positive while the distance of two beads is less than three times the distance of two others.
 struct ThreeTimesAsFar {
   static constexpr CertificateType type{1717, "three_times_as_far"};
   std::array<BeadId, 4> beads{};

@@ -34,8 +34,8 @@ using Subjects =
                    Subject<BeadInSphere<3>, BezierMotion<3, 3>>, Subject<Contact, BezierMotion<3, 3>>>;
 TYPED_TEST_SUITE(FormulaInIntegers, Subjects);
 
-// The formula played, by residues where they reach, as is said by how many bits there are at most, against
-// the formula itself on whole numbers.
+// Compares the replayed formula with the formula itself over integers. The replay uses residues if the bound
+// on the number of bits allows.
 template <class C, class M>
 void expect_same(const C& certificate, const M& motion) {
   using Values = FunctionValues<C, CurvesOf<M>>;
@@ -43,7 +43,7 @@ void expect_same(const C& certificate, const M& motion) {
   const auto expected = function_of(certificate, IntegerView<M>(motion, certificate.beads, channels));
   const CoefficientBits& size = detail::known_formula<C, CurvesOf<M>>().coefficient_bits(M::degree);
   const ExactPolynomial function = Values::exact(certificate, CurvesOf<M>(motion));
-  if (function.wide() != nullptr) {  // what is known of it before its whole numbers are
+  if (function.wide() != nullptr) {  // facts that are known before the integer coefficients are
     EXPECT_EQ(function.wide()->residues(), image_of(ExactPolynomial(expected).scaled()));
     const auto& leading = function.wide()->leading_digits();
     for (std::size_t k = 0; k < leading.size(); ++k) {
@@ -74,7 +74,7 @@ TYPED_TEST(FormulaInIntegers, IsWhatWholeNumbersGive) {
   }
 }
 
-// Every number at the end of its range, so that sums do not cancel by chance.
+// Every number is at the end of its range, so that sums do not cancel by chance.
 TYPED_TEST(FormulaInIntegers, HoldsTheLargestCoefficients) {
   using C = typename TypeParam::C;
   using M = typename TypeParam::M;
@@ -95,7 +95,7 @@ TYPED_TEST(FormulaInIntegers, HoldsTheLargestCoefficients) {
   }
 }
 
-// From what few primes hold to what all of them do not.
+// The widths range from numbers that need few primes to numbers that exceed all primes.
 TYPED_TEST(FormulaInIntegers, ReachesEveryWidth) {
   using C = typename TypeParam::C;
   using M = typename TypeParam::M;
@@ -118,7 +118,8 @@ TYPED_TEST(FormulaInIntegers, ReachesEveryWidth) {
   }
 }
 
-// What was formed is kept: by numbers, whatever beads they are of, and not for others.
+// Coefficients are cached by the numbers of the beads, whichever beads have these numbers, and are not used
+// for other numbers.
 TYPED_TEST(FormulaInIntegers, IsThatOfTheNumbersItIsAskedOf) {
   using C = typename TypeParam::C;
   using M = typename TypeParam::M;
@@ -131,7 +132,7 @@ TYPED_TEST(FormulaInIntegers, IsThatOfTheNumbersItIsAskedOf) {
     expect_same(certificate, motion);
     const std::uint64_t first = account.done();
     expect_same(certificate, motion);
-    EXPECT_LT(account.done() - first, 100U);  // it was not formed again
+    EXPECT_LT(account.done() - first, 100U);  // the coefficients were not computed again
     const auto bead = certificate.beads[0];
     motion.set_coordinate(bead, M::degree, 0, motion.coordinate(bead, M::degree, 0) + 1);
     expect_same(certificate, motion);
@@ -154,7 +155,7 @@ TEST(RecentCoefficients, AreKnownByFormulaAndEveryNumber) {
   EXPECT_EQ(recent.of({&a, others}), nullptr);
   EXPECT_EQ(recent.of({&a, more}), nullptr);
   EXPECT_EQ(recent.of({&a, {}}), nullptr);
-  recent.keep({&b, numbers}, {Integer(5)});  // the same place
+  recent.keep({&b, numbers}, {Integer(5)});  // the same cache entry
   EXPECT_EQ(recent.of({&a, numbers}), nullptr);
   ASSERT_NE(recent.of({&b, numbers}), nullptr);
   EXPECT_EQ(*recent.of({&b, numbers}), std::vector<Integer>{Integer(5)});
@@ -170,7 +171,7 @@ TYPED_TEST(FormulaInIntegers, OfBeadsAtTheOriginIsZero) {
   EXPECT_TRUE(Values::exact(certificate, CurvesOf<typename TypeParam::M>(motion)).is_zero());
 }
 
-// Numbers of a function's own, wide functions among them, whose digits are kept.
+// Functions with constants of their own, including wide functions, whose digits are cached.
 TEST(FormulaInIntegers, OfRelaxedBeadsKnowsTheirRelaxation) {
   Random random(905);
   for (int i = 0; i < test::rounds(100); ++i) {

@@ -1,5 +1,5 @@
-// A search that the library does not compile: a sphere through three beads says nothing in the plane that two
-// do not.
+// A search that the library does not compile: in the plane, the sphere through three beads is not needed
+// besides the one through two.
 #include "certificates/search/define_certificate_search.h"
 #include "certificates/types/bead_in_sphere.h"
 

@@ -1,5 +1,5 @@
-// Known functions at known times: what happens at birth, at touches and at the ends of a step, and which
-// stage says so.
+// Known functions at known times: the result at birth, at touches and at the ends of a step, and the stage
+// that decides it.
 #include <gtest/gtest.h>
 
 #include "certificates/search/exact_search.h"
@@ -13,7 +13,8 @@ namespace {
 
 using Kind = Failure::Kind;
 
-// Bead 1 at the Bezier curve with these control points, bead 0 at the origin: "0 precedes 1" is that curve.
+// Bead 1 moves on the Bezier curve with these control points and bead 0 rests at the origin, so the function
+// of "0 precedes 1" is that curve.
 template <int Degree>
 BezierMotion<1, Degree> curve(const std::array<double, Degree + 1>& control_points) {
   BezierMotion<1, Degree> motion(2);
@@ -30,7 +31,7 @@ Failure first(Kernel kernel, const M& motion, double now, StageCounts& stages,
   return test::first_failure(kernel, certificate, motion, Instant(now), KnownAtStart::unknown, stages);
 }
 
-// The kinds that both exact kernels agree on.
+// Returns the kind on which both exact kernels agree.
 template <class M>
 Failure agreed(const M& motion, double now = 0, const Precedes& certificate = ahead) {
   StageCounts stages;
@@ -49,7 +50,7 @@ TEST(Births, VanishingAtTheStart) {
   EXPECT_EQ(agreed(curve<2>({0, 1, -1})).kind, Kind::later);
   EXPECT_EQ(agreed(curve<3>({0, -1, 1, 1})).kind, Kind::at_birth);
   EXPECT_EQ(agreed(curve<1>({-1, 1})).kind, Kind::at_birth);
-  EXPECT_EQ(agreed(curve<1>({-1, 1}), 0.5).kind, Kind::never);  // zero there, positive after
+  EXPECT_EQ(agreed(curve<1>({-1, 1}), 0.5).kind, Kind::never);  // zero at this time, positive afterwards
   EXPECT_EQ(agreed(curve<1>({1, -1}), 0.5).kind, Kind::at_birth);
 }
 
@@ -66,7 +67,7 @@ TEST(Births, TouchingIsNoFailure) {
   EXPECT_EQ(agreed(curve<2>({1, -2, 4})).kind, Kind::never);  // (1-3u)^2
   EXPECT_EQ(agreed(curve<2>({1, std::nextafter(-2, -3), 4})).kind, Kind::later);
   EXPECT_EQ(agreed(curve<2>({1, std::nextafter(-2, 0), 4})).kind, Kind::never);
-  EXPECT_EQ(agreed(curve<3>({1, -1, 1, -1})).kind, Kind::later);  // (1-2u)^3 crosses
+  EXPECT_EQ(agreed(curve<3>({1, -1, 1, -1})).kind, Kind::later);  // (1-2u)^3, which crosses zero
   EXPECT_EQ(agreed(curve<2>({1, -1, 1}), 0.5).kind, Kind::never);
   EXPECT_EQ(agreed(curve<2>({1, -1, 1}), 0.5, behind).kind, Kind::at_birth);
   EXPECT_EQ(agreed(curve<2>({1, -1, 1}), 0, behind).kind, Kind::at_birth);
@@ -89,7 +90,8 @@ TEST(Births, FailsAtADouble) {
   EXPECT_LE(failure.time.upper - failure.time.lower, 0x1p-40);
 }
 
-// There and back: the opposite certificate born at the other's failure waits for the next root.
+// Alternates between a certificate and its negation: the one that is born at the other's failure waits for
+// the next root.
 void expect_alternation(Kernel kernel) {
   SCOPED_TRACE(name_of(kernel));
   const auto motion = curve<3>({2, -3, 3, -1});
@@ -183,7 +185,7 @@ TEST(Stages, SignsAreSettledInDoubleWhereTheyCanBe) {
   EXPECT_EQ(stages.signs_exact, 1U);
 }
 
-// Values in double are noise there; the sign is known.
+// Near the root, values in double are noise; the exact sign is known.
 TEST(Births, NearATripleRoot) {
   const auto motion = curve<3>({27, -63, 147, -343});  // (3-10u)^3
   for (int i = -300; i < 300; ++i) {
@@ -196,7 +198,8 @@ TEST(Births, NearATripleRoot) {
   }
 }
 
-// The present time is 3/10, known to lie in (1/4, 3/4); what is positive at 3/4 may have failed on the way.
+// The present time is 3/10, known to lie in (1/4, 3/4). A function that is positive at 3/4 may have failed in
+// between.
 TEST(Births, InAWideBracket) {
   test::Functions functions;
   const auto slot = functions.add(ExactPolynomial(std::vector<Integer>{3, -7}));
@@ -226,7 +229,8 @@ TEST(Births, AtAnOwnRootThatIsNotAlone) {
   }
 }
 
-// Three roots (2^70 + 2k) / 2^71, closer than doubles: a bracket of doubles names one of them by its number.
+// Three roots (2^70 + 2k) / 2^71, which are closer than doubles. A bracket of doubles identifies one of them
+// by its number.
 void expect_numbered(std::array<int, 3> roots) {
   const Integer s = Integer(1) << 70;
   std::vector<Integer> p{1};
@@ -259,8 +263,9 @@ void expect_numbered(std::array<int, 3> roots) {
 }
 
 TEST(FailureTimes, NumberTheRootsOfABracket) {
-  expect_numbered({-1, 0, 1});  // the middle one is a double
-  expect_numbered({1, 2, 3});   // positive before, negative after all three: still not isolated
+  expect_numbered({-1, 0, 1});  // the middle root is a double
+  expect_numbered(
+      {1, 2, 3});  // the bracket contains all three roots: positive before, negative after, but not isolating
 }
 
 TEST(FailureTimes, WithoutTheirRootAreRefused) {

@@ -1,5 +1,5 @@
-// A certificate with constants of three kinds at once, a cylinder that moves, turns and grows, beside its
-// rational twin.
+// Compares a certificate with three kinds of constants, a cylinder that moves, turns and grows, with its
+// rational reference.
 
 #include <gtest/gtest.h>
 

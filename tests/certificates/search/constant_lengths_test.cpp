@@ -1,4 +1,4 @@
-// Certificates with constants that are lengths and squared lengths, beside rational twins.
+// Compares certificates whose constants are lengths and squared lengths with rational references.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,8 @@ using test::product;
 using test::Random;
 using test::RationalCurve;
 
-/// A squared distance is above a squared length, and two beads' weights differ by less than another.
+/// The squared distance of two beads is greater than `square` plus the difference of their weights minus
+/// `between`.
 struct Apart {
   static constexpr CertificateType type{1003, "apart"};
   static constexpr bool uses_weights = true;
@@ -71,7 +72,7 @@ void expect_all_along(Certificate certificate, const M& motion,
       *search, certificate, twin, 0, [](const Certificate& c) { return opposite(c); }, count);
 }
 
-/// Cutoffs times 2^exponent over motions of all kinds, these times 2^of_motion.
+/// Cutoffs times 2^exponent over motions of all kinds, which are scaled by 2^of_motion.
 template <Motion M>
 test::DecidedInDouble expect_near_as_judged(int rounds, int exponent, int of_motion) {
   Random random(2101);
@@ -154,7 +155,7 @@ TEST(ConstantLengths, SquaredOnesAreAsJudged) {
   expect_apart_as_judged<BezierMotion<3, 3>>(test::rounds(3));
 }
 
-/// A bead that flies past another at this distance, closest at u = 1/2.
+/// Makes a bead that flies past another bead at this distance; they are closest at u = 1/2.
 BezierMotion<2, 1> flying_past(double distance) {
   BezierMotion<2, 1> motion(2);
   motion.set_coordinate(0, 0, 0, -1);
@@ -205,10 +206,11 @@ TEST(ConstantLengths, BeadsThatRestAtTheCutoffAreZero) {
   for (const bool side : {true, false})
     for (const Kernel kernel : {Kernel::filtered, Kernel::exact})
       EXPECT_EQ(first_failure(kernel, *search, Near{{0, 1}, side}).kind, Failure::Kind::zero);
-  search->set_constants({.cutoff = {5, 4}});  // reached at the start alone
+  search->set_constants({.cutoff = {5, 4}});  // the cutoff is reached only at the start
   EXPECT_EQ(first_failure(Kernel::filtered, *search, Near{{0, 1}, true}).kind, Failure::Kind::at_birth);
   EXPECT_EQ(first_failure(Kernel::filtered, *search, Near{{0, 1}, false}).kind, Failure::Kind::never);
-  search->set_constants({.cutoff = {4, 5}});  // at the end, which belongs to the next step
+  search->set_constants(
+      {.cutoff = {4, 5}});  // the cutoff is reached at the end, which belongs to the next step
   EXPECT_EQ(first_failure(Kernel::filtered, *search, Near{{0, 1}, false}).kind, Failure::Kind::never);
 }
 

@@ -1,4 +1,5 @@
-// Certificates with constant points, vectors and beads, and with positions of beads, beside rational twins.
+// Compares certificates with constant points, vectors and beads, and with positions of beads, with rational
+// references.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,8 @@ using test::product;
 using test::Random;
 using test::RationalCurve;
 
-/// In the plane, seen from the origin, a bead is to the left of another, the same for all.
+/// In the plane, seen from the origin, a bead is to the left of another bead, which is the same for all
+/// certificates.
 struct LeftOf {
   static constexpr CertificateType type{1003, "left_of"};
   static constexpr bool uses_positions = true;
@@ -71,7 +73,8 @@ void expect_all_along(const CertificateSearch<Certificate>& search, const Certif
       search, certificate, twin, start, [](const Certificate& c) { return opposite(c); }, count);
 }
 
-/// Three curves as the control points of a vector; all have one, or as many as the motion's.
+/// The control points of a vector, as three curves. All curves have one control point, or as many as the
+/// motion.
 using Coordinates = std::array<std::vector<double>, 3>;
 Coordinates random_vector(Random& random, int degree, int exponent) {
   Coordinates coordinates;
@@ -150,7 +153,7 @@ TEST(ConstantPlaces, ABeadThatTouchesAPlaneStaysAbove) {
       }
     }
   }
-  // A plane that comes to where the bead is at the end, and one that goes with it.
+  // A plane that reaches the bead at the end, and a plane that moves with the bead.
   for (int k = 0; k < 4; ++k) motion.set_coordinate(0, k, 2, 3);
   search->set_constants({.foot = {{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, 3}}, .normal = {{0, 0, 1}}});
   expect_all_along(*search, Above{{0}}, {3, 6, 3, 0});
@@ -187,7 +190,9 @@ void expect_left_of_as_judged(int rounds) {
       SCOPED_TRACE("round " + std::to_string(i) + ", kind " + std::to_string(static_cast<int>(kind)));
       const auto motion = test::random_motion<M>(random, 4, kind);
       const auto search = search_over<LeftOf>(MotionRef<2>(motion));
-      for (const BeadId other : {BeadId{3}, BeadId{0}}) {  // the second time of itself: zero
+      for (const BeadId other :
+           {BeadId{3},
+            BeadId{0}}) {  // the second bead is the certificate's own bead, so the function is zero
         search->set_constants({.other = other});
         const auto at = [&](BeadId b, int axis) { return test::rational_coordinate(motion, b, axis); };
         expect_all_along(*search, LeftOf{{0}, random() % 2 == 0},

@@ -1,5 +1,5 @@
-// Functions whose binomials exceed 64 bits are refused when a search is made, and a motion that has changed
-// its degree when the search is asked.
+// Functions whose binomials exceed 64 bits are refused when their search is constructed. If the degree of a
+// motion changes, the search refuses when it is used.
 
 #include "certificates/search/degree_limit.h"
 
@@ -42,7 +42,7 @@ TEST(DegreeLimit, OfARadicalIsThatOfItsNorm) {
             "ball_in_sphere over motion of degree 6: its function has degree 72, expected at most 61");
 }
 
-/// A ball whose path has control points to and fro.
+/// Makes a ball whose path has control points that alternate between two places.
 AnyDegreeMotion<1> meeting(int degree) {
   AnyDegreeMotion<1> motion(2, degree);
   for (int k = 0; k <= degree; ++k) {

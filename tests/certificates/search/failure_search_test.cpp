@@ -24,7 +24,7 @@ class FailureSearch : public testing::Test {
   using C = typename S::C;
   using M = typename S::M;
 
-  // Both exact kernels against the judge, from one instant on.
+  // Compares both exact kernels with the judge, from one instant on.
   Failure expect_agreement(const C& certificate, const M& motion, const Instant& now,
                            const JudgedTime& judged_now, KnownAtStart birth, JudgedTime& judged_then) {
     const ExactPolynomial function = test::exact_function(certificate, motion);
@@ -53,7 +53,7 @@ class FailureSearch : public testing::Test {
     return filtered;
   }
 
-  // The whole step: a certificate, at its failure the opposite one, and so on.
+  // Follows the whole step: a certificate, its negation at the failure, and so on.
   void expect_agreement_all_along(const C& first, const M& motion, double start) {
     C certificate = first;
     test::Functions functions;
@@ -63,7 +63,8 @@ class FailureSearch : public testing::Test {
     for (int event = 0; event < 20; ++event) {
       JudgedTime judged_then;
       const Failure failure = expect_agreement(certificate, motion, now, judged_now, birth, judged_then);
-      if (testing::Test::HasFailure() || failure.kind <= Failure::Kind::zero) return;  // or never
+      if (testing::Test::HasFailure() || failure.kind <= Failure::Kind::zero)
+        return;  // the certificate never fails, or its function is zero
       if (failure.kind == Failure::Kind::later) {
         now = Instant(failure.time, functions, functions.add(test::exact_function(certificate, motion)));
         judged_now = judged_then;
@@ -74,7 +75,7 @@ class FailureSearch : public testing::Test {
     FAIL() << "more failures than the function has roots";
   }
 
-  // Another certificate's view of the same instant.
+  // Searches another certificate from the same instant on.
   void expect_agreement_with_another(const C& first, const C& second, const M& motion) {
     test::Functions functions;
     JudgedTime then;
@@ -116,7 +117,7 @@ using Subjects =
                    Subject<Contact, BezierMotion<2, 3>>>;
 TYPED_TEST_SUITE(FailureSearch, Subjects);
 
-// Fewer for types of high degree, where the judge is slow.
+// Uses fewer rounds for types of high degree, for which the judge is slow.
 template <class S>
 constexpr int rounds_of(int linear) {
   using Function = decltype(function_of(typename S::C{}, MagnitudeView<S::M::dimension, S::M::degree>{}));
@@ -148,7 +149,7 @@ TYPED_TEST(FailureSearch, AgreesAtOtherCertificatesTimes) {
       const auto motion = test::random_motion<typename TypeParam::M>(random, beads + 1, kind);
       const auto certificate = test::random_certificate<typename TypeParam::C>(random);
       auto other = test::random_certificate<typename TypeParam::C>(random);
-      for (BeadId& bead : other.beads) bead += bead == beads - 1 ? 1 : 0;  // order kept
+      for (BeadId& bead : other.beads) bead += bead == beads - 1 ? 1 : 0;  // keeps the order of the beads
       SCOPED_TRACE("seed 302, round " + std::to_string(i) + ", kind " +
                    std::to_string(static_cast<int>(kind)));
       this->expect_agreement_with_another(certificate, other, motion);
@@ -175,7 +176,7 @@ TYPED_TEST(FailureSearch, ScaleChangesNothing) {
       SCOPED_TRACE("seed 303, round " + std::to_string(i) + ", times 2^" + std::to_string(exponent));
       this->expect_agreement_all_along(certificate, motion, 0);
       if (testing::Test::HasFailure()) return;
-      if (exponent > -900) {  // there low bits are lost
+      if (exponent > -900) {  // at smaller scales low bits are lost
         const Failure scaled = test::first_failure(Kernel::exact, certificate, motion, Instant(0),
                                                    KnownAtStart::unknown, stages);
         EXPECT_EQ(scaled.kind, plain.kind);
@@ -186,7 +187,8 @@ TYPED_TEST(FailureSearch, ScaleChangesNothing) {
   }
 }
 
-// Errors followed operation by operation have no range: what doubles decide at one scale they decide at all.
+// Tracked errors have no range limits: certificates that doubles decide at one scale they decide at all
+// scales.
 TYPED_TEST(FailureSearch, NoScaleIsLeftToIntegers) {
   test::Random random(306);
   StageCounts plain, scaled;
@@ -224,7 +226,7 @@ TEST(FailureTimes, KeepThatTheyAreATouch) {
   EXPECT_TRUE(failure.time.touch);
 }
 
-// Sizes at which the function's own values, or the products on the way, are subnormal.
+// Scales at which values of the function, or intermediate products, are subnormal.
 TYPED_TEST(FailureSearch, UnderflowNeverMisleads) {
   test::Random random(304);
   const int power =
@@ -259,7 +261,8 @@ TYPED_TEST(FailureSearch, GenericMotionIsSettledInDouble) {
 
 TYPED_TEST(FailureSearch, FastSurvivesEverything) {
   test::Random random(306);
-  // What makes infinities and numbers that are none on the way; motions refuse them as control points.
+  // Control points that produce infinities and NaNs in intermediate results; motions refuse these values as
+  // control points.
   constexpr double most = std::numeric_limits<double>::max();
   constexpr double specials[] = {most, -most, 0x1p1023, -0x1p1023, -0.0, 0x1p-1074, 0x1p1000};
   for (int i = 0; i < 2000; ++i) {
@@ -286,11 +289,11 @@ TYPED_TEST(FailureSearch, FastSurvivesEverything) {
   }
 }
 
-// What holds just after a function's last root holds for the rest of the step, and needs no search.
+// After its last root a function keeps its sign until the end of the step, and needs no search.
 TEST(LastRoot, IsToldWhereNoOtherFollows) {
   struct Curve {
     std::array<double, 4> control;
-    bool last;  // the first root is
+    bool last;  // the first root is the last one
   };
   for (const Curve& curve :
        {Curve{{1, 0.5, -0.5, -1}, true}, Curve{{1, -1, -1, -0.5}, true}, Curve{{1, -1, -1, 1}, false},

@@ -1,4 +1,4 @@
-// `fast` proves nothing; where certificates are well separated it is right all the same.
+// The kernel `fast` proves nothing, but it is correct if certificates are well separated.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,8 +23,8 @@ using Subjects =
                    Subject<Contact, BezierMotion<3, 1>>>;
 TYPED_TEST_SUITE(FastKernel, Subjects);
 
-// All at once, in lanes and what is left over alone: the kinds of failures are those of `filtered`, and their
-// times lie in its brackets, nearly.
+// Searches all certificates at once, by lanes, with the rest one by one. The kinds of failures are those of
+// `filtered`, and the times lie almost within its brackets.
 TYPED_TEST(FastKernel, SaysWhatFilteredSaysOfGenericMotion) {
   using C = typename TypeParam::C;
   test::Random random(311);
@@ -38,7 +38,7 @@ TYPED_TEST(FastKernel, SaysWhatFilteredSaysOfGenericMotion) {
       C certificate = test::random_certificate<C>(random);
       auto beads = certificate.beads;
       for (std::size_t b = 0; b < beads.size(); ++b)
-        beads[b] = static_cast<BeadId>(3 * b + random() % 3);  // ascending, as types want them
+        beads[b] = static_cast<BeadId>(3 * b + random() % 3);  // ascending, as certificate types require
       certificate.beads = beads;
       certificates.push_back(certificate);
     }

@@ -1,4 +1,5 @@
-// Certificates with four to six constants over curves of degree 4 and above, beside rational twins.
+// Compares certificates with four to six constants over curves of degree 4 and above with rational
+// references.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ using test::Random;
 using test::RationalCurve;
 using test::sum;
 
-/// A squared distance against the area of two lengths and two squared lengths.
+/// The squared distance of two beads is greater than a b + s - t, with lengths a, b and squared lengths s, t.
 struct FourConstants {
   static constexpr CertificateType type{1003, "four"};
   struct Constants {
@@ -38,8 +39,7 @@ struct FourConstants {
   }
 };
 
-/// A box of three lengths, its corner carried along by three more, in which the difference of two beads is
-/// compared in volume.
+/// The difference d of two beads satisfies (d[0] - u) x + (d[1] - v) y > z w, with six lengths.
 struct SixConstants {
   static constexpr CertificateType type{1004, "six"};
   struct Constants {
@@ -64,7 +64,7 @@ Certificate opposite(Certificate certificate) {
   return certificate;
 }
 
-/// So many constants, some of one control point, twins of theirs beside them.
+/// Random constants, some with one control point, and their rational references.
 template <int Degree, std::size_t Count>
 struct Drawn {
   std::array<std::vector<double>, Count> numbers;

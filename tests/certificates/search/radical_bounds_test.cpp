@@ -1,4 +1,4 @@
-// The derived error bounds of a radical's polynomials, against exact coefficients.
+// Compares the derived error bounds of a radical's polynomials with exact coefficients.
 #include <gtest/gtest.h>
 
 #include "certificates/formulas/function_values.h"
@@ -11,7 +11,8 @@ namespace {
 
 using test::Random;
 
-/// The largest |double - exact| / bound among the coefficients, by the type's own filter and as followed.
+/// Returns the largest |double - exact| / bound among the coefficients, for the type's own filter and for
+/// tracked errors.
 template <class Part, class M>
 double share_used(const M& motion) {
   detail::SignedPart<Part> part;
@@ -74,7 +75,8 @@ TYPED_TEST(RadicalBounds, HoldAtAllScales) {
     }
   }
   for (const double share : {rational, root, norm, condition}) EXPECT_LE(share, 1);
-  for (const double share : {rational, root, norm}) EXPECT_GT(share, 1e-7);  // not absurd
+  for (const double share : {rational, root, norm})
+    EXPECT_GT(share, 1e-7);  // the bounds are not far too large
 }
 
 }  // namespace

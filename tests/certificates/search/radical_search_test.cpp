@@ -29,7 +29,7 @@ TEST(Radicals, HaveTheSignOfTheGreaterPart) {
         const int expected = (value > 1e-9) - (value < -1e-9);
         const auto sign = [](int x) { return (x > 0) - (x < 0); };
         EXPECT_EQ(sign_of_radical(sign(a), sign(b), sign(a * a - b * b * d)), expected);
-        // What is not known of one part is not made up.
+        // If one of the signs is unknown, the function must not guess.
         for (const int guess :
              {sign_of_radical(0, sign(b), sign(a * a - b * b * d)),
               sign_of_radical(sign(a), 0, sign(a * a - b * b * d)), sign_of_radical(sign(a), sign(b), 0)}) {
@@ -47,13 +47,13 @@ Dyadic dyadic_of(const Rational& x) {
   return {Integer(numerator(x)), static_cast<unsigned>(mpz_sizeinbase(d.get_mpz_t(), 2)) - 1};
 }
 
-/// The norm's roots in [0,1), and who is inside between them, by the definition.
+/// The norm's roots in [0, 1), and whether the ball is inside between consecutive roots, by the definition.
 struct Course {
   std::shared_ptr<const sturm::Sequence> sequence;
   std::vector<sturm::Root> roots;
-  std::vector<int> signs;  ///< before the first root, after each
+  std::vector<int> signs;  ///< before the first root, and after each root
 
-  /// The first change to `sign` after root number `now` (-1: the start).
+  /// Returns the first change to `sign` after root number `now` (-1: the start).
   [[nodiscard]] JudgedFailure first(int sign, int now) const {
     for (std::size_t i = static_cast<std::size_t>(now + 1); i < roots.size(); ++i) {
       if (signs[i + 1] == sign) return {Kind::later, {sequence, roots[i]}};
@@ -62,7 +62,7 @@ struct Course {
   }
 };
 
-/// None if the basis is not proper all the time, or the norm vanishes.
+/// Returns nothing if the basis is not proper throughout, or if the norm vanishes.
 template <class M>
 std::optional<Course> course_of(const M& motion, const ExactPolynomial& norm) {
   sturm::Polynomial p = sturm::from_scaled(norm.scaled());
@@ -86,7 +86,7 @@ std::optional<Course> course_of(const M& motion, const ExactPolynomial& norm) {
       after = root.lower;
     }
     std::optional<int> sign;
-    for (const int part : {1, 3, 5, 7}) {  // the same all over the gap
+    for (const int part : {1, 3, 5, 7}) {  // the sign is the same throughout the gap
       const auto here = test::judged_inside(motion, dyadic_of(before + (after - before) * part / 8));
       if (!here || *here == 0) return std::nullopt;
       if (sign) {
@@ -100,7 +100,7 @@ std::optional<Course> course_of(const M& motion, const ExactPolynomial& norm) {
   return course;
 }
 
-/// All failures of the certificate and its opposite in turn, by both exact kernels.
+/// Checks all failures of the certificate and its negation in turn, by both exact kernels.
 template <class C, class M>
 void expect_course(const M& motion, const Course& course, bool inside, int& failures) {
   C certificate = test::certificate_at<C>(motion, Dyadic(0.0), inside);
@@ -182,7 +182,7 @@ TYPED_TEST(RadicalSearch, FailuresAreWhereTheBallCrossesTheSphere) {
     if (testing::Test::HasFailure()) return;
   }
   EXPECT_GT(this->judged_, rounds / 2);
-  EXPECT_GT(this->failures_, TypeParam::size == 1 ? 1 : rounds / 4);  // few balls fit into one
+  EXPECT_GT(this->failures_, TypeParam::size == 1 ? 1 : rounds / 4);  // few balls fit into a single ball
 }
 
 TYPED_TEST(RadicalSearch, GenericMotionIsSettledInDouble) {
@@ -252,7 +252,8 @@ TYPED_TEST(RadicalSearch, ScaleDoesNotMatter) {
 
 TYPED_TEST(RadicalSearch, FastSurvivesEverything) {
   Random random(754);
-  // What makes infinities and numbers that are none on the way; motions refuse them as control points.
+  // Control points that produce infinities and NaNs in intermediate results; motions refuse these values as
+  // control points.
   constexpr double most = std::numeric_limits<double>::max();
   constexpr double specials[] = {most, -most, 0x1p1000, 0x1p-1074, -0.0};
   for (int i = 0; i < test::rounds(300); ++i) {
@@ -294,7 +295,7 @@ BezierMotion<Dimension, 1> moving(const std::vector<Path>& paths) {
 }
 Path still(const std::array<double, 3>& at, double radius) { return {at, radius, at, radius}; }
 
-// The kind that both exact kernels agree on.
+// Returns the kind on which both exact kernels agree.
 template <class C, Motion M>
 Failure agreed(const M& motion, bool inside, TouchPolicy touches = TouchPolicy::ignored) {
   const C certificate = test::certificate_at<C>(motion, Dyadic(0.0), inside);
@@ -309,7 +310,7 @@ Failure agreed(const M& motion, bool inside, TouchPolicy touches = TouchPolicy::
 }
 
 TEST(RadicalSearch, TouchingIsNoFailure) {
-  // Along a line that comes as near to a ball's centre as the ball of radius 1/2 fits in: at u = 1/2.
+  // The line comes so close to a ball's centre that the ball of radius 1/2 just fits inside, at u = 1/2.
   const auto motion = moving<2>({still({0, 0, 0}, 1), {{-1, 0.5, 0}, 0.5, {1, 0.5, 0}, 0.5}});
   using C = BallInSphere<2, 1>;
   EXPECT_EQ(agreed<C>(motion, false).kind, Kind::never);
@@ -324,7 +325,7 @@ TEST(RadicalSearch, TouchingIsNoFailure) {
 }
 
 TEST(RadicalSearch, TouchingASphereOfTwo) {
-  // The sphere of radius 3 around the origin; a ball of radius 1 along the line y = 2.
+  // The sphere has radius 3 and centre at the origin; a ball of radius 1 moves along the line y = 2.
   const auto motion = moving<2>({still({-2, 0, 0}, 1), still({1, 0, 0}, 2), {{-2, 2, 0}, 1, {2, 2, 0}, 1}});
   const Failure touch = agreed<BallInSphere<2, 2>>(motion, false, TouchPolicy::reported);
   ASSERT_EQ(touch.kind, Kind::later);
@@ -345,7 +346,7 @@ TEST(RadicalSearch, ZeroForeverNeverFails) {
     EXPECT_EQ(agreed<C>(with(still({0, 2, 0}, 1)), inside).kind, Kind::zero);   // touches at rest
     EXPECT_EQ(agreed<C>(with(still({-2, 0, 0}, 1)), inside).kind, Kind::zero);  // a copy of the first
     EXPECT_EQ(agreed<C>(with({{0, 2, 0}, 1, {0, 1, 0}, 2}), inside).kind,
-              Kind::zero);  // grows as it moves in
+              Kind::zero);  // the ball grows as it moves inwards
   }
   // The whole scene grows.
   EXPECT_EQ(agreed<C>(moving<2>({{{-2, 0, 0}, 1, {-4, 0, 0}, 2},
@@ -357,7 +358,7 @@ TEST(RadicalSearch, ZeroForeverNeverFails) {
 }
 
 TEST(RadicalSearch, TheOtherRootOfAVanishingNormIsNone) {
-  // Equal radii around the origin: rho = 2 or -2. The ball satisfies the norm with -2 and is outside.
+  // Equal radii around the origin: rho = 2 or -2. The ball satisfies the norm with rho = -2 and is outside.
   const auto motion = moving<2>({still({-2, 0, 0}, 1), still({2, 0, 0}, 1), still({0, 3, 0}, 2)});
   using C = BallInSphere<2, 2>;
   EXPECT_TRUE(
@@ -366,8 +367,8 @@ TEST(RadicalSearch, TheOtherRootOfAVanishingNormIsNone) {
   EXPECT_EQ(agreed<C>(motion, false).kind, Kind::never);
 }
 
-// Two balls approach about one that is as large as their sphere when it coincides with it: there A + B
-// sqrt(D) touches zero, and the ball is out.
+// Two balls approach each other around a ball that is as large as their sphere when it coincides with the
+// sphere. At that time A + B sqrt(D) touches zero, and the ball is outside.
 TEST(RadicalSearch, ASphereThatShrinksIntoABallLosesIt) {
   const auto motion = moving<3>(
       {{{-2, 0, 0}, 0.25, {-0.5, 0, 0}, 0.25}, {{2, 0, 0}, 0.25, {0.5, 0, 0}, 0.25}, still({0, 0, 0}, 1)});
@@ -377,7 +378,7 @@ TEST(RadicalSearch, ASphereThatShrinksIntoABallLosesIt) {
   EXPECT_EQ((agreed<BallInSphere<3, 2>>(motion, false).kind), Kind::at_birth);
 }
 
-// Where the sphere lies in the ball, A + B sqrt(D) is positive as well.
+// If the sphere lies inside of the ball, A + B sqrt(D) is positive too.
 template <int Dimension, int Size>
 void expect_outside(const std::vector<Path>& basis) {
   for (const double radius : {4.0, 40.0}) {
@@ -409,7 +410,7 @@ TEST(RadicalSearch, ABallThatHoldsTheSphereIsNotInside) {
   expect_outside<3, 4>(space);
 }
 
-// Equal radii: A vanishes, the norm is a square, and the certificate for equal radii says the same.
+// Equal radii: A vanishes, the norm is a square, and the certificate for equal radii gives the same answers.
 template <int Dimension, int Size, class Equal>
 void expect_as_equal(const Equal& equal, const BezierMotion<Dimension, 1>& motion, bool inside, int& later) {
   using C = BallInSphere<Dimension, Size>;
@@ -472,7 +473,7 @@ void expect_judged(const typename T::M& motion) {
   EXPECT_GT(failures, 0);
 }
 
-// a = 0 at u = 1/2, with a > 0 on one side: radii that fall along the basis as steeply as the centres part.
+// a = 0 at u = 1/2 and a > 0 on one side: the radii decrease along the basis as fast as the centres separate.
 TEST(RadicalSearch, PassesTheVanishingOfTheLeadingCoefficient) {
   for (const double change : {0.125, -0.125, 0.0}) {
     const Path first = still({0, 0, 0}, 5);
@@ -504,7 +505,7 @@ TEST(RadicalSearch, NearlyFlatBases) {
       moving<2>({still({-1, 0, 0}, 0.5), still({1, 0, 0}, 0.5), still({0, 1 + thin, 0}, 0.5), ball}));
 }
 
-// Balls that touch from inside, or lie in one place, are no proper basis. What is said of them is said alike.
+// Balls that touch from inside, or coincide, are not a proper basis. Both kernels must give the same answer.
 TEST(RadicalSearch, ImproperBasesDoNoHarm) {
   const Path ball{{0, 0.5, 0}, 0.5, {1, 4, 1}, 0.5};
   const std::vector<std::vector<Path>> bases{
@@ -522,7 +523,8 @@ TEST(RadicalSearch, ImproperBasesDoNoHarm) {
   }
 }
 
-// Its function changes sign where the basis turns over, and comes back where the norm vanishes: no touch.
+// The function changes sign when the orientation of the basis flips, and changes back when the norm vanishes:
+// this is not a touch.
 TEST(RadicalSearch, ABasisThatTurnedOverTouchesNothing) {
   const auto motion = moving<2>({{{3, 0, 0}, 2, {-3, -3, 0}, 2},
                                  {{2, 3, 0}, 2, {2, 2, 0}, 2},

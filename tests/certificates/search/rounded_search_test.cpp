@@ -1,4 +1,4 @@
-// First failures of functions whose exact coefficients were rounded one by one, against Sturm sequences.
+// Compares first failures of functions whose exact coefficients were rounded one by one with Sturm sequences.
 
 #include <gtest/gtest.h>
 
@@ -48,8 +48,8 @@ TEST(RoundedSearch, FindsWhatSturmSequencesFind) {
     follow(test::random_polynomial(random), "seed 1301, case " + std::to_string(i));
 }
 
-/// Zero at the start and nearly so at the end, as functions of lattices are that rotate: but for what the
-/// coordinates were rounded by.
+/// Makes functions that are zero at the start and almost zero at the end. Rotating lattices have such
+/// functions, because their coordinates are rounded.
 Scaled nearly_zero_at_ends(test::Random& random) {
   Scaled p = test::product(test::product(test::linear(0, 1), test::linear(1, 1)),
                            test::random_coefficients(random, 3, 20));
@@ -92,7 +92,7 @@ TEST(RoundedSearch, SignsAreThoseOfTheFunction) {
   EXPECT_GT(certain, 2000);
 }
 
-// A double root is a touch, which only exact numbers tell from two roots or none.
+// A double root is a touch. Only exact arithmetic distinguishes it from two roots or none.
 TEST(RoundedSearch, DecidesNothingAtDoubleRoots) {
   const Scaled p = test::product(test::linear(1, 3), test::linear(1, 3));
   EXPECT_EQ(static_cast<int>(RoundedPolynomial(ExactPolynomial(p)).first_descent(0).verdict),

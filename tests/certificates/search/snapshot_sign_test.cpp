@@ -25,7 +25,8 @@ void signs_agree(std::array<BeadId, Certificate::size> beads) {
         const int sign = snapshot_sign(Certificate(beads, 1), placement);
         ASSERT_EQ(sign, test::sign_at(Certificate(beads, 1), motion, Dyadic(k))) << static_cast<int>(kind);
         ++seen[static_cast<std::size_t>(sign + 1)];
-        // In lanes, each the formula in the order of its beads: what is positive is so.
+        // The vectorized code evaluates the formula in the order of the beads in each lane. A sign reported
+        // as positive must be positive.
         std::array<std::array<BeadId, Certificate::size>, Lanes::width> tuples;
         tuples.fill(beads);
         std::swap(tuples[1][0], tuples[1][1]);
@@ -37,7 +38,7 @@ void signs_agree(std::array<BeadId, Certificate::size> beads) {
           EXPECT_TRUE(is_positive || positive[lane] == 0);
           if (!is_positive || kind != test::MotionKind::generic) continue;
           ++generic;
-          missed += positive[lane] != 0 ? 0 : 1;  // where a weight is more than a length squared
+          missed += positive[lane] != 0 ? 0 : 1;  // missed if a weight is larger than a squared length
         }
       }
     }

@@ -29,7 +29,7 @@ TYPED_TEST(BallInSpheres, HoldWhatTheSphereThroughTheBasisHolds) {
     SCOPED_TRACE("seed 741, round " + std::to_string(i));
     BallShape shape;
     shape.whole = i % 3 == 0;
-    if (i % 5 == 0) shape.largest_radius = 2.5;  // a tends to vanish, balls to hold each other
+    if (i % 5 == 0) shape.largest_radius = 2.5;  // often a vanishes, or balls contain each other
     if (i % 7 == 0) shape.largest_radius = 0;
     const auto motion = test::motion_of<TypeParam>(random, shape);
     const Dyadic time = test::random_dyadic(random);
@@ -56,8 +56,8 @@ TYPED_TEST(BallInSpheres, HoldWhatTheSphereThroughTheBasisHolds) {
   EXPECT_GT(seen[2], TypeParam::size == 1 ? 1 : 5);
 }
 
-// A ball leaves the sphere of two, and 2e-15 later one of the two gets inside the other: signs from then on
-// say nothing of the failure.
+// A ball leaves the sphere of two balls, and 2e-15 later one of the two gets inside the other. Signs after
+// that time say nothing about the failure.
 TEST(BallInSphere, FailsJustBeforeItGoesOutOfUse) {
   constexpr double z[2] = {-0.81240614211668882, -0.81208716991119012};
   constexpr double xy[3][2][2] = {
@@ -84,7 +84,7 @@ TEST(BallInSphere, FailsJustBeforeItGoesOutOfUse) {
   EXPECT_LT(exact.time.lower, 0.49968902421347866);
   EXPECT_LE(filtered.time.lower, exact.time.upper);
   EXPECT_GE(filtered.time.upper, exact.time.lower);
-  const double after = 0.49968902421425;  // where the other failure is doubtful, in double
+  const double after = 0.49968902421425;  // at this time the order of the two failures is uncertain in double
   const Curves<3> curves(motion);
   const auto usable = [&](double from, double to) {
     return detail::CertificateInDouble<BallInSphere<3, 2>, Curves<3>>(detail::Errors::own_filter, certificate,

@@ -111,8 +111,8 @@ TEST(BeadInSphere, DoesNotDependOnTheOrderOfTheBasis) {
   }
 }
 
-// A bead of the basis leaves when it gets into the sphere of its fellows: just when its barycentric
-// coordinate of the centre vanishes. The centre lies within the hull iff no bead is to leave.
+// A bead leaves the basis when it enters the sphere of the other members, which is when its barycentric
+// coordinate of the centre vanishes. The centre lies within the hull if and only if no bead leaves.
 template <int Size>
 void expect_leaving(const BezierMotion<3, 1>& motion, const Dyadic& time) {
   std::vector<RationalPoint> basis;
@@ -145,7 +145,8 @@ TEST(BeadInSphere, LeavingIsALostBarycentricCoordinate) {
   }
 }
 
-// Four beads of equal radii: the power test, times the orientation of the basis, tells who is outside.
+// For four beads of equal radii, the power test times the orientation of the basis decides whether a bead is
+// outside.
 TEST(BeadInSphere, OfFourBeadsIsAPowerTest) {
   test::Random random(724);
   for (int i = 0; i < 100; ++i) {

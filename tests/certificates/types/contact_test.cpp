@@ -13,7 +13,7 @@ using test::identity_with;
 
 using Kind = Failure::Kind;
 
-// Two balls on a line: bead 0 at rest at the origin, bead 1 from x0 to x1.
+// Makes two balls on a line: bead 0 rests at the origin, and bead 1 moves from x0 to x1.
 BezierMotion<1, 1> approach(double x0, double x1, double r0, double r1) {
   BezierMotion<1, 1> motion(2);
   for (int k = 0; k <= 1; ++k) {
@@ -49,7 +49,7 @@ TEST(Contact, EndsWhereTheyPart) {
 }
 
 TEST(Contact, TouchingIsNoFailure) {
-  BezierMotion<2, 1> passing(2);  // along a line at distance 2 = 1.5 + 0.5
+  BezierMotion<2, 1> passing(2);  // moves along a line at distance 2 = 1.5 + 0.5
   for (int k = 0; k <= 1; ++k) {
     passing.set_coordinate(1, k, 0, k == 0 ? -3 : 1);
     passing.set_coordinate(1, k, 1, 2);

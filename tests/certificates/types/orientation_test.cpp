@@ -28,8 +28,8 @@ TEST(Orientation, IsPositiveForTheAxes) {
 TEST(Orientation, VanishesOnPlanes) {
   EXPECT_EQ(orientation({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 7, 0}}), 0);
   EXPECT_EQ(orientation({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.25, 0.25}}), 0);
-  EXPECT_EQ(orientation({{1, 2, 3}, {2, 4, 6}, {3, 6, 9}, {0, 1, 0}}), 0);  // three on a line
-  EXPECT_EQ(orientation({{1, 2, 3}, {1, 2, 3}, {0, 1, 0}, {4, 4, 1}}), 0);  // two in one place
+  EXPECT_EQ(orientation({{1, 2, 3}, {2, 4, 6}, {3, 6, 9}, {0, 1, 0}}), 0);  // three beads on a line
+  EXPECT_EQ(orientation({{1, 2, 3}, {1, 2, 3}, {0, 1, 0}, {4, 4, 1}}), 0);  // two coincident beads
   EXPECT_NE(orientation({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 7, 0x1p-1074}}), 0);
 }
 
@@ -48,7 +48,7 @@ TEST(Orientation, IsAntisymmetric) {
       const int sign = inversions % 2 == 0 ? 1 : -1;
       EXPECT_EQ(test::sign_at(Orientation<3>(order, 1), motion, time), sign * first);
       EXPECT_EQ(test::sign_at(Orientation<3>(order, -1), motion, time), -sign * first);
-      // one function for all of them, to the last bit
+      // one function for all orders, equal to the last bit
       EXPECT_EQ(Orientation<3>(order, 1).identity(), Orientation<3>({0, 1, 2, 3}, 1).identity());
       const auto function = test::exact_function(Orientation<3>(order, sign), motion);
       EXPECT_EQ(function.scaled(), test::exact_function(Orientation<3>({0, 1, 2, 3}, 1), motion).scaled());

@@ -19,7 +19,7 @@ int power_test(const Points& points, const std::vector<double>& weights = {}) {
   return test::sign_at(PowerTest<3>({0, 1, 2, 3, 4}, 1), test::at_rest(points, weights), Dyadic(0.0));
 }
 
-// Positively oriented, on the sphere about (1/2, 1/2, 1/2).
+// A positively oriented cell whose sphere has the centre (1/2, 1/2, 1/2).
 const Points corner{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 Points with(const std::array<double, 3>& t) {
@@ -43,16 +43,17 @@ TEST(PowerTest, VanishesOnTheSphere) {
   EXPECT_EQ(power_test(with({0, 0, 1})), 0);  // a bead of the cell itself
   EXPECT_EQ(power_test(with({1, 1, std::nextafter(1.0, 2)})), 1);
   EXPECT_EQ(power_test(with({1, 1, std::nextafter(1.0, 0)})), -1);
-  EXPECT_EQ(power_test({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5, 0.5, 0}}), 0);  // all in a plane
+  EXPECT_EQ(power_test({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5, 0.5, 0}}),
+            0);  // all beads in a plane
 }
 
 TEST(PowerTest, HeavyBeadsReachIn) {
   EXPECT_EQ(power_test(with({2, 2, 2}), {0, 0, 0, 0, 1}), 1);
-  EXPECT_EQ(power_test(with({2, 2, 2}), {0, 0, 0, 0, 6}), 0);  // power 27/4 - 3/4 to the sphere
+  EXPECT_EQ(power_test(with({2, 2, 2}), {0, 0, 0, 0, 6}), 0);  // the power to the sphere is 27/4 - 3/4
   EXPECT_EQ(power_test(with({2, 2, 2}), {0, 0, 0, 0, 6.1}), -1);
   EXPECT_EQ(power_test(with({1, 1, 1}), {0, 0, 0, 0, -0.1}), 1);
-  EXPECT_EQ(power_test(with({1, 1, 1}), {5, 5, 5, 5, 5}), 0);  // only differences count
-  EXPECT_EQ(power_test(with({0, 0, 0}), {1, 0, 0, 0, 0}), 1);  // the lighter of two in one place
+  EXPECT_EQ(power_test(with({1, 1, 1}), {5, 5, 5, 5, 5}), 0);  // only differences of weights matter
+  EXPECT_EQ(power_test(with({0, 0, 0}), {1, 0, 0, 0, 0}), 1);  // the lighter of two coincident beads
   EXPECT_EQ(power_test(with({0, 0, 0}), {0, 0, 0, 0, 1}), -1);
 }
 
@@ -79,8 +80,8 @@ TEST(PowerTest, IsAntisymmetric) {
   }
 }
 
-// Against the sphere orthogonal to four balls, solved for, and against the determinant of absolute
-// coordinates.
+// Compares with the sphere orthogonal to four balls, computed by elimination, and with the determinant of
+// absolute coordinates.
 TEST(PowerTest, IsThePowerToTheOrthogonalSphere) {
   test::Random random(712);
   int proper = 0;
@@ -100,7 +101,7 @@ TEST(PowerTest, IsThePowerToTheOrthogonalSphere) {
       EXPECT_EQ(found, test::sign(test::determinant_of(rows)));
       EXPECT_EQ(found, test::exact_function(certificate, motion).sign_at(time));
 
-      // |x|^2 - w = 2 c.x + k for the four; above it is outside.
+      // |x|^2 - w = 2 c.x + k for the four balls; a larger value means outside.
       test::Matrix m;
       std::vector<Rational> right;
       test::Matrix orientation;

@@ -46,7 +46,7 @@ TEST(Precedes, HasOneIdentityBothWays) {
   EXPECT_EQ((Precedes{{5, 2}}.identity().type), Precedes::type.number);
 }
 
-// Simultaneous failures are handled in the order of types.
+// Simultaneous failures are handled in the order of their types.
 TEST(Identity, OrdersTypesFirst) {
   const auto of = [](const CertificateType& type, BeadId bead) {
     return identity_of(type, std::array{bead});

@@ -41,7 +41,7 @@ TEST(Relaxation, IsAWholeNumberOfUnitsNoMoreThanAskedFor) {
   }
 }
 
-// A quarter more: 5/4 of the radius.
+// A relaxation of a quarter: 5/4 of the radius.
 TEST(RelaxedBeadInSphere, OfTwoBeadsReachesBeyondTheBallOnTheirDiameter) {
   const std::array<double, 3> a{-4, 0, 0}, b{4, 0, 0};
   EXPECT_EQ(inside<2>({a, b, {0, 5, 0}}, 0.25), 0);
@@ -58,7 +58,7 @@ TEST(RelaxedBeadInSphere, OfTwoBeadsReachesBeyondTheBallOnTheirDiameter) {
 TEST(RelaxedBeadInSphere, OfThreeAndFourBeads) {
   const Points circle{{4, 0, 0}, {0, 4, 0}, {-4, 0, 0}};
   const Points sphere{{4, 0, 0}, {0, 4, 0}, {-4, 0, 0}, {0, 0, 4}};
-  const Points turned{{0, 4, 0}, {4, 0, 0}, {-4, 0, 0}, {0, 0, 4}};  // the other way round
+  const Points turned{{0, 4, 0}, {4, 0, 0}, {-4, 0, 0}, {0, 0, 4}};  // the opposite orientation
   for (const auto& [p, sign] :
        {std::pair(std::array{0.0, -3.0, 4.0}, 0), std::pair(std::array{0.0, 5.0, 0.0}, 0),
         std::pair(std::array{0.0, 3.0, 3.9}, 1), std::pair(std::array{3.0, 4.0, 0.1}, -1)}) {
@@ -70,7 +70,7 @@ TEST(RelaxedBeadInSphere, OfThreeAndFourBeads) {
   }
 }
 
-/// Judged by the centre solved for. `share`: exact in units.
+/// Compares with the centre computed by elimination. `share` is a multiple of the unit of relaxations.
 template <int Size, Motion M>
 void expect_larger_sphere(const M& motion, const Dyadic& time, double share) {
   const auto certificate = first_beads<Size>(Relaxation::of(share));
@@ -106,7 +106,7 @@ TEST(RelaxedBeadInSphere, AgreesWithTheCentreSolvedFor) {
   }
 }
 
-// What is not relaxed is the certificate of the sphere itself, times something positive.
+// Without relaxation the certificate is a positive multiple of the certificate for the sphere itself.
 TEST(RelaxedBeadInSphere, WithoutRelaxationItIsTheSphereItself) {
   test::Random random(732);
   for (int i = 0; i < 50; ++i) {
@@ -125,7 +125,7 @@ TEST(RelaxedBeadInSphere, IdentitiesTellRelaxationsApart) {
   EXPECT_NE(first_beads<2>(Relaxation::of(0.5)).identity(), first_beads<3>(Relaxation::of(0.5)).identity());
 }
 
-// All kernels find the first failure that a scan for sign changes by exact numbers does.
+// All kernels find the first failure that a scan for sign changes in exact arithmetic finds.
 template <int Size, Motion M>
 void expect_first_failures(unsigned seed) {
   test::Random random(seed);
@@ -157,7 +157,7 @@ void expect_first_failures(unsigned seed) {
   }
   EXPECT_GE(failures, test::rounds(3));
   if (M::degree == 1) {
-    EXPECT_GT(filter_stages.coefficients, 0U);  // the first filter of linear motion says something
+    EXPECT_GT(filter_stages.coefficients, 0U);  // the first filter decides some linear motions
     EXPECT_GT(filter_stages.isolation, 0U);
   }
 }
@@ -170,7 +170,7 @@ TEST(RelaxedBeadInSphere, KernelsAgreeOnFirstFailures) {
   expect_first_failures<3, BezierMotion<2, 3>>(745);
 }
 
-// Four certificates of unlike relaxations side by side fail when each does alone.
+// A batch of four certificates with different relaxations gives the same failures as each certificate alone.
 TEST(RelaxedBeadInSphere, ABatchTellsRelaxationsApart) {
   test::Random random(746);
   std::size_t failures = 0;

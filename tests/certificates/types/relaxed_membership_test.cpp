@@ -16,7 +16,7 @@ namespace {
 using test::Ball;
 using test::Enclosed;
 
-/// Balls of a few sizes, not far from each other.
+/// Makes balls of a few sizes that are close to each other.
 template <Motion M>
 M balls_near(test::Random& random, std::size_t count) {
   M motion(count);
@@ -35,10 +35,12 @@ M balls_near(test::Random& random, std::size_t count) {
 }
 
 struct Seen {
-  int relaxed = 0, between = 0, outside = 0;  ///< between the sphere and the relaxed one
+  int relaxed = 0, between = 0,
+      outside = 0;  ///< between: outside of the sphere, but inside of the relaxed sphere
 };
 
-/// Judges the certificate of the last ball by its definition, and what it is good for.
+/// Judges the certificate of the last ball by its definition, and checks the property for which the
+/// certificate exists.
 template <class Certificate, Motion M>
 void judge(const Certificate& certificate, const M& motion, double u, Seen& seen) {
   constexpr std::size_t size = std::tuple_size_v<decltype(Certificate{}.beads)> - 1;
@@ -71,7 +73,7 @@ void judge(const Certificate& certificate, const M& motion, double u, Seen& seen
       ASSERT_GE(room.upper, 0);  // the radius condition
     }
     const int expected = room.upper < 0 ? -1 : (room * room + Enclosed(tau) - distance).sign();
-    if (expected == 0) return;  // not known
+    if (expected == 0) return;  // the judge is undecided
     StageCounts stages;
     ++seen.relaxed;
     EXPECT_EQ(test::sign_now(Kernel::exact, certificate, motion, Instant(u), stages), expected);
@@ -79,7 +81,7 @@ void judge(const Certificate& certificate, const M& motion, double u, Seen& seen
     EXPECT_EQ(test::sign_just_after(Kernel::filtered, certificate, motion, Instant(u), stages), expected);
     const int inside = sphere->holds(basis[0], ball);
     EXPECT_TRUE(inside <= 0 || expected == 1);
-    if (expected > 0) {  // inside the sphere of (1 + share) R
+    if (expected > 0) {  // inside of the sphere of radius (1 + share) R
       const Enclosed reach = sphere->radius +
                              Enclosed(Rational(share)) * (sphere->radius + Enclosed(basis[0].radius)) -
                              Enclosed(Rational(ball.radius - basis[0].radius));
@@ -134,7 +136,7 @@ TEST(RelaxedMembership, OfUnequalBallsIsWhatItsDefinitionSays) {
   EXPECT_GT(of_one.relaxed, test::rounds(100));
 }
 
-// The two that are farthest apart come first, and the others keep their order.
+// The two beads that are farthest apart come first, and the others keep their order.
 TEST(RelaxedMembership, PutsTheFarthestFirst) {
   BezierMotion<3, 1> motion(4);
   const double x[4] = {0, 1, 7, -5};

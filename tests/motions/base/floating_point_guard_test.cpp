@@ -9,7 +9,7 @@
 namespace kds::floating_point_guard_test {
 namespace {
 
-// What the processor is to compute when the test runs, and not the compiler before.
+// Divides at run time: `volatile` prevents the compiler from folding the quotient.
 double quotient(double a, double b) {
   const volatile double dividend = a, divisor = b;
   return dividend / divisor;
@@ -45,7 +45,7 @@ TEST_P(Host, ComesBackWhereAnExceptionPasses) {
   EXPECT_TRUE(test::is_set(GetParam()));
 }
 
-// Without a guard these are other numbers, so that the tests above can fail.
+// Without a guard the results differ, so the tests above can fail.
 TEST_P(Host, DiffersFromTheDefault) {
   const bool to_nearest = quotient(1, 3) == 1.0 / 3 && quotient(-1, 3) == -1.0 / 3 && quotient(1, 10) == 0.1;
   const bool gradual = quotient(std::numeric_limits<double>::min(), 2) != 0;

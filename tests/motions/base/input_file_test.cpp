@@ -1,4 +1,4 @@
-// Gzipped files of several members, whole, cut off, damaged and with other data behind them.
+// Tests gzipped files of several members: complete, truncated, damaged, and with other data at the end.
 
 #include "motions/base/input_file.h"
 
@@ -12,7 +12,7 @@
 namespace kds::input_file_test {
 namespace {
 
-// One gzip member.
+// Returns one gzip member.
 std::string member(const std::string& text) {
   z_stream stream{};
   EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY), Z_OK);
@@ -59,7 +59,7 @@ TEST(InputFile, ZerosMayPadTheEnd) {
   EXPECT_EQ(unpack(member("one") + member(" two") + zeros), "one two");
 }
 
-// The second half of a file must never be lost without a word.
+// The second half of a file must never be dropped silently.
 TEST(InputFile, OtherDataBehindAMemberAreRefused) {
   const std::string one = member("one"), two = member("two");
   const std::string at = std::to_string(one.size());
@@ -74,7 +74,7 @@ TEST(InputFile, OtherDataBehindAMemberAreRefused) {
 TEST(InputFile, CutAnywhere) {
   const std::string one = member("one line\n"), both = one + member("and another\n");
   for (std::size_t size = 2; size < both.size(); ++size) {
-    if (size == one.size()) continue;  // a whole file
+    if (size == one.size()) continue;  // a complete file
     const auto path = test::write_file("a.gz", std::string_view(both).substr(0, size));
     InputFile file(path);
     std::array<char, 100> bytes{};
@@ -134,7 +134,7 @@ TEST(InputFile, SeeksInPlainAndPackedFiles) {
   }
 }
 
-// Readers of frames tell of it, too.
+// Readers of frames report it, too.
 TEST(InputFile, FramesBehindAMemberAreNotLost) {
   const std::string frame = "2\n\nC 0 0 0\nC 1 0 0\n";
   const auto read = [](const std::string& name, const std::string& bytes) {

@@ -93,7 +93,7 @@ TEST(LineReader, ReadsRegularFilesOnlyAndWaitsForNoPipe) {
   test::expect_refused([&] { const LineReader reader("no/such"); }, {"no/such", "cannot open"});
 }
 
-// What someone appends meanwhile is left unread.
+// Data appended while the file is read is not read.
 TEST(LineReader, AFileThatGrowsEndsWhereItEnded) {
   const auto path = test::write_file("a", "one\ntwo\n");
   LineReader reader(path);

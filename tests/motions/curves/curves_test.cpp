@@ -55,7 +55,7 @@ TEST(Curves, AreTheMotionWhereItLies) {
   test::Random random(1);
   expect_seen<BezierMotion<1, 1>>(random);
   expect_seen<BezierMotion<2, 2>>(random);
-  expect_seen<BezierMotion<3, 1>>(random);  // records are longer than what is in them
+  expect_seen<BezierMotion<3, 1>>(random);  // records are longer than their content
   expect_seen<BezierMotion<3, 3>>(random);
   expect_seen<LiftedMotion<2>>(random);
 }
@@ -75,7 +75,7 @@ TEST(Curves, OfALiftedMotionKnowItsDrift) {
   static_assert(lifted<CurvesOf<LiftedMotion<3>>> && !lifted<CurvesOf<BezierMotion<3, 1>>>);
 }
 
-// Control points of a bead in a column each.
+// A motion that stores the control points of each bead in a column.
 struct InColumns {
   static constexpr int dimension = 2, degree = 1;
   double numbers[2][8] = {};
@@ -93,11 +93,11 @@ TEST(Curves, OfControlPointsThatDoNotLieInARowAreRefused) {
   EXPECT_THROW((void)Curves<2>(InColumns{}), std::invalid_argument);
 }
 
-// Three beads, their first control points and radii where it says.
+// A motion of three beads whose first control points and radii are at given places.
 struct AtPlaces {
   static constexpr int dimension = 1, degree = 2;
   std::array<std::size_t, 3> point_places{0, 6, 12}, radius_places{20, 23, 26};
-  std::size_t last_stride = 2;  // from one control point of the last bead to the next
+  std::size_t last_stride = 2;  // distance from one control point of the last bead to the next
   std::array<double, 40> numbers{};
   [[nodiscard]] std::size_t bead_count() const { return 3; }
   [[nodiscard]] const double* control_point(BeadId bead, int k) const {
@@ -123,7 +123,7 @@ TEST(Curves, AreRefusedWhereTheLastBeadLiesElsewhere) {
   EXPECT_THROW((void)Curves<1>(motion), std::invalid_argument);
 }
 
-// It would see a motion that is gone.
+// A reference to a temporary motion would dangle, so it does not compile.
 static_assert(std::is_constructible_v<MotionRef<2>, const BezierMotion<2, 1>&>);
 static_assert(!std::is_constructible_v<MotionRef<2>, BezierMotion<2, 1>>);
 static_assert(!std::is_constructible_v<MotionRef<2>, const BezierMotion<2, 1>>);
@@ -178,7 +178,7 @@ void expect_finite_alone(M motion) {
     EXPECT_THROW(motion.set_coordinate(1, 1, 0, bad), std::invalid_argument);
     EXPECT_THROW(motion.set_weight(1, 1, bad), std::invalid_argument);
     EXPECT_THROW(motion.set_radius(1, 1, bad), std::invalid_argument);
-    EXPECT_EQ(motion.coordinate(1, 1, 0), 5);  // as it was
+    EXPECT_EQ(motion.coordinate(1, 1, 0), 5);  // unchanged
     EXPECT_EQ(motion.weight(1, 1), 6);
     EXPECT_EQ(motion.radius(1, 1), 7);
   }

@@ -73,14 +73,14 @@ TYPED_TEST(LinearEnds, AreFiniteWhateverBeadIsNot) {
             if (axis < d) {
               EXPECT_THROW(set(motion, frames), std::invalid_argument) << b;
             } else {
-              EXPECT_NO_THROW(set(motion, frames));  // nobody's coordinate
+              EXPECT_NO_THROW(set(motion, frames));  // not a coordinate of any bead
             }
           }
         }
         Frames frames = random_frames(random, beads);
         frames.radii[b] = bad;
         EXPECT_THROW(set(motion, frames), std::invalid_argument) << b;
-        frames.radii[b] = 0x1p600;  // its weight overflows
+        frames.radii[b] = 0x1p600;  // the weight, which is the squared radius, overflows
         EXPECT_THROW(set(motion, frames), std::invalid_argument) << b;
       }
     }

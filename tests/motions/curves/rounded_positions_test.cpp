@@ -1,4 +1,4 @@
-// Rounded positions are within their bounds of the exact ones.
+// The difference between rounded and exact positions is within the stated bounds.
 
 #include "motions/curves/rounded_positions.h"
 
@@ -75,14 +75,14 @@ TEST(RoundedPositions, HaveBoundsUpToTheLargestNumbers) {
       is_within(exact_position(motion, 0, Dyadic(0.3))[0], rounded.row(0)[0], rounded.coordinate_error()));
 }
 
-// A bound that is a NaN would be lost among the finite ones of the other beads.
+// A NaN bound of one bead must not be lost among the finite bounds of the others.
 TEST(RoundedPositions, WithoutABoundWhereNumbersOverflow) {
   constexpr double largest = std::numeric_limits<double>::max();
   for (const BeadId far : {0U, 1U, 2U}) {
     LiftedMotion<2> motion(3);
     for (BeadId b = 0; b < 3; ++b)
       for (int k = 0; k < 2; ++k) motion.set_coordinate(b, k, 0, b + 0.5 * k);
-    motion.set_coordinate(far, 0, 1, -largest / 4);  // the square of this course is beyond all doubles
+    motion.set_coordinate(far, 0, 1, -largest / 4);  // the square of this coordinate's range overflows
     motion.set_coordinate(far, 1, 1, largest / 4);
     for (const Dyadic& time : {Dyadic(0.0), Dyadic(0.3), Dyadic(1.0)}) {
       const RoundedPositions<2> rounded(MotionRef<2>(motion), time);

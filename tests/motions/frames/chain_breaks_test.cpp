@@ -14,7 +14,7 @@ Eigen::Matrix3Xd on_a_line(const std::vector<double>& places) {
 using Breaks = std::vector<std::size_t>;
 
 TEST(ChainBreaks, LongerThanOneAndAHalfMedians) {
-  EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 2, 3.5, 4.5})), Breaks{});  // 1.5 is not longer
+  EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 2, 3.5, 4.5})), Breaks{});  // 1.5 is not longer than the limit
   EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 2, 3.75, 4.75})), Breaks{2});
   EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 11, 12, 13, 23, 24})), (Breaks{1, 4}));
 }

@@ -13,7 +13,7 @@ namespace {
 using Frames = std::vector<Eigen::Matrix3Xd>;
 using Cells = std::vector<std::optional<Cell>>;
 
-// Returns in how many frames something moved. A cell that is not given is none.
+// Returns the number of frames in which a bead moved. Frames beyond the end of `cells` have no cell.
 std::size_t make_whole(Frames& frames, const Cells& cells) {
   WholeChain chain;
   std::size_t moved = 0;
@@ -24,7 +24,7 @@ std::size_t make_whole(Frames& frames, const Cells& cells) {
   return moved;
 }
 
-// A random walk with short bonds that drifts from frame to frame.
+// Makes a random walk with short bonds that drifts from frame to frame.
 Frames walk(std::mt19937& random, Eigen::Index beads, std::size_t count, const Eigen::Vector3d& drift) {
   std::uniform_real_distribution<double> step(-1, 1);
   Eigen::Matrix3Xd chain = Eigen::Matrix3Xd::Zero(3, beads);
@@ -35,7 +35,7 @@ Frames walk(std::mt19937& random, Eigen::Index beads, std::size_t count, const E
   return frames;
 }
 
-// Puts every bead into the cell, as simulation programs do.
+// Wraps every bead into the cell, as simulation programs do.
 Frames wrapped(const Frames& frames, const Cell& cell) {
   Frames result = frames;
   const Cell inverse = cell.inverse();
@@ -102,7 +102,7 @@ TEST(Periodic, FarOutCoordinatesStayFinite) {
   EXPECT_TRUE(frames[1].allFinite());
 }
 
-// All images within reach, by brute force.
+// Finds the shortest image by brute force over all images within reach.
 double shortest_image(const Eigen::Vector3d& difference, const Cell& cell, int reach) {
   double shortest = difference.norm();
   for (int i = -reach; i <= reach; ++i)
@@ -118,7 +118,7 @@ TEST(Periodic, NearestImagesInCellsOfAnyShape) {
   std::uniform_int_distribution<int> multiple(-4, 4);
   for (int round = 0; round < 40; ++round) {
     const Cell small = *cell_from_angles({12.0 + round % 3, 11, 13.0 + round % 5}, {60.0 + round, 70, 75});
-    // Spans the same lattice by other vectors, which may lean on each other as far as they like.
+    // These vectors span the same lattice, and may be arbitrarily oblique.
     Cell steps = Cell::Identity();
     steps(0, 1) = multiple(random);
     steps(0, 2) = multiple(random);
@@ -178,25 +178,25 @@ TEST(Periodic, CellsThatAreNotUsedSayWhy) {
     EXPECT_FALSE(read.cell.has_value() && !read.doubt.empty());
     return read.doubt;
   };
-  // These are no cells, and no doubt is reported.
+  // These values mean that there is no cell, so no doubt is reported.
   EXPECT_EQ(doubt({0, 0, 0}, {0, 0, 0}, {0, 0, 0}), "");
   EXPECT_EQ(doubt({1, 0, 0}, {0, 1, 0}, {0, 0, 1}), "");
   EXPECT_EQ(doubt({nan, 0, 0}, {0, 0, 0}, {0, 0, 0}, {false, false, false}), "");
   EXPECT_EQ(doubt({20, 0, 0}, {0, 20, 0}, {0, 0, 0}, {true, true, false}), "");
   for (const double bad : {0.0, nan, infinity, 0.5})
     EXPECT_NE(doubt({20, 0, 0}, {0, 20, 0}, {0, 0, bad}), "") << bad;
-  EXPECT_NE(doubt({20, 0, 0}, {40, 0, 0}, {0, 0, 20}), "");           // along one line
-  EXPECT_NE(doubt({20, 0, 0}, {0, 20, 0}, {7, 11, 0}), "");           // in one plane
-  EXPECT_NE(doubt({20, 0, 0}, {20.5, 0, 0}, {0, 0, 20}), "");         // shorter than 1 once reduced
-  EXPECT_NE(doubt({20, 0, 0}, {20, 0.5, 0}, {0, 0, 20}), "");         // likewise
-  EXPECT_NE(doubt({1e300, 0, 0}, {0, 1e300, 0}, {0, 0, 1e300}), "");  // beyond what can be squared
+  EXPECT_NE(doubt({20, 0, 0}, {40, 0, 0}, {0, 0, 20}), "");    // vectors along one line
+  EXPECT_NE(doubt({20, 0, 0}, {0, 20, 0}, {7, 11, 0}), "");    // vectors in one plane
+  EXPECT_NE(doubt({20, 0, 0}, {20.5, 0, 0}, {0, 0, 20}), "");  // a vector is shorter than 1 after reduction
+  EXPECT_NE(doubt({20, 0, 0}, {20, 0.5, 0}, {0, 0, 20}), "");  // a vector is shorter than 1 after reduction
+  EXPECT_NE(doubt({1e300, 0, 0}, {0, 1e300, 0}, {0, 0, 1e300}), "");  // the squares overflow
   EXPECT_NE(read_cell_from_lengths({-9, 20, 20}, {0, 0, 0}).doubt, "");
   EXPECT_NE(read_cell_from_lengths({20, 20, nan}, {0, 0, 0}).doubt, "");
   EXPECT_NE(read_cell_from_angles({20, 20, 20}, {30, 30, 90}).doubt, "");
   EXPECT_EQ(read_cell_from_angles({0, 0, 0}, {0, 0, 0}).doubt, "");
 }
 
-// Chains that are whole, in cells that are not theirs: bonds would be shorter.
+// Whole chains with a wrong cell: joining by that cell would shorten bonds, but not make them more alike.
 TEST(Periodic, BondsThatWouldNotBeMoreAlikeStay) {
   for (const double bond : {5.5, 6.0, 7.5, 9.0, 9.9}) {
     Eigen::Matrix3Xd chain = Eigen::Matrix3Xd::Zero(3, 12);
@@ -231,7 +231,8 @@ TEST(Periodic, ChainsThatAreMovedAsAWhole) {
   EXPECT_EQ(whole.make_whole(frame, cell), WholeChain::Outcome::joined);
 }
 
-// Chains put into their cell, in whatever shape, are never longer than it; unbroken longer chains are.
+// A chain that was wrapped into a cell of any shape is never longer than the cell; a longer chain was never
+// wrapped.
 TEST(Periodic, ChainsLongerThanTheirCell) {
   std::mt19937 random(9);
   for (const Eigen::Vector3d& angles : {Eigen::Vector3d(90, 90, 90), Eigen::Vector3d(60, 70, 60),

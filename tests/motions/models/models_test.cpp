@@ -1,4 +1,5 @@
-// Models: their elementary functions, shapes and motions, and that they are the same everywhere.
+// Tests the models: their elementary functions, shapes and motions, and that results are the same on all
+// platforms.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -72,7 +73,7 @@ std::uint64_t hash(const std::vector<Trajectory>& trajectories) {
   return h;
 }
 
-// Bit for bit, whatever the platform. Changed only where a model is meant to change.
+// Results are equal bit for bit on every platform. The values change only if a model is changed on purpose.
 TEST(Models, AreTheSameOnEveryPlatform) {
   const std::vector<std::pair<std::string_view, std::uint64_t>> golden{
       {"spline", 0x7dcf35374a956249},        {"helix", 0xe59b6022e8135d07},
@@ -127,7 +128,7 @@ TEST(Helix, LiesInACubeAndHasItsTurns) {
   for (Eigen::Index b = 0; b <= 1000; ++b) EXPECT_NEAR(shape.col(b).head<2>().norm(), side / 2, 1e-9 * side);
   for (Eigen::Index b = 0; b < 1000; ++b) EXPECT_NEAR((shape.col(b + 1) - shape.col(b)).norm(), 1.998, 1e-9);
   for (Eigen::Index turn = 0; turn <= 10; ++turn) EXPECT_NEAR(shape(1, 100 * turn), 0, 1e-9);
-  // Turns two bonds apart.
+  // Consecutive turns are two bonds apart.
   const double turns = turns_at_pitch(10000, 2);
   const Shape scaling = helix(10000, turns);
   EXPECT_NEAR((scaling(2, 9999) - scaling(2, 0)) / turns, 2 * 1.998, 0.02);
@@ -219,7 +220,7 @@ TEST(PlanarGrid, StaysInItsPlaneWhateverTheMotion) {
 }
 
 TEST(ModelWandering, DoesNotMakeWorseWhatIsWrongAlready) {
-  Shape broken(3, 4);  // 0-1 too long, 1-3 too near
+  Shape broken(3, 4);  // bond 0-1 is too long, and 1-3 are too near
   broken << 0, 3, 4.5, 4, 0, 0, 0, 0.5, 0, 0, 0, 0;
   Random random(4);
   const std::vector<Shape> frames = wandering(broken, 40, 0.2, random);

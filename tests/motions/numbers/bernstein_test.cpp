@@ -92,7 +92,7 @@ TEST(Bernstein, IsUsableInConstants) {
   static_assert(elevate<2>(p).scaled[1] == 0);
 }
 
-// The same polynomials with their degrees in the type and as numbers: coefficient for coefficient the same.
+// Polynomials with degrees in the type and with degrees at run time have the same coefficients.
 template <class Number, class Draw>
 class SameAtRunTime {
  public:
@@ -136,7 +136,7 @@ class SameAtRunTime {
     for (std::size_t k = 0; k < constant.scaled.size(); ++k) {
       if constexpr (std::is_same_v<Number, TrackedDouble>) {
         EXPECT_EQ(dynamic.scaled[k].value, constant.scaled[k].value);
-        // Elevation adds errors in another order; each is a bound.
+        // Elevation adds errors in another order; both results are bounds.
         const double error = constant.scaled[k].error;
         EXPECT_NEAR(dynamic.scaled[k].error, error, 0x1p-48 * error);
       } else {
@@ -154,7 +154,7 @@ void expect_same_at_run_time(Draw draw) {
   for (int i = 0; i < 20; ++i) {
     same.template expect<1>();
     same.template expect<3>();
-    same.template expect<18>();  // products lie beyond the room that coefficients have in the object
+    same.template expect<18>();  // products need more coefficients than fit into the object itself
   }
 }
 

@@ -41,7 +41,7 @@ TEST(Coefficients, AreCopiedWhateverTheirLengths) {
   for (const std::size_t from : {std::size_t{3}, room, room + 7, 3 * room}) {
     for (const std::size_t to : {std::size_t{2}, room, room + 1, 4 * room}) {
       const Coefficients<double> row = counting(from);
-      const Coefficients<double> copy(row);  // NOLINT: what is tested
+      const Coefficients<double> copy(row);  // NOLINT: the copy is the thing under test
       expect_counting(copy, from);
       Coefficients<double> assigned = counting(to);
       assigned = row;

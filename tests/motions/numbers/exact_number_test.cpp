@@ -86,7 +86,7 @@ TEST(Dyadic, IsKeptReduced) {
   EXPECT_EQ(zero, Dyadic());
 }
 
-// The doubles next to a dyadic, judged by rationals.
+// Checks the doubles next to a dyadic number by rationals.
 void expect_rounded(const Dyadic& d) {
   const double down = d.round_down();
   const double up = d.round_up();

@@ -1,4 +1,4 @@
-// Whole numbers of a fixed width against those of any width.
+// Compares integers of a fixed width with integers of any width.
 
 #include "motions/numbers/fixed_integer.h"
 
@@ -10,7 +10,7 @@
 namespace kds::fixed_integer_test {
 namespace {
 
-/// A number of about so many bits, and the same in a fixed width.
+/// A number of about the given number of bits, and its fixed-width version.
 struct Both {
   Integer whole = 0;
   FixedInteger fixed;
@@ -52,7 +52,7 @@ TEST(FixedInteger, WhatRunsOverOnTheWayDoesNotMatter) {
   std::mt19937_64 random(1202);
   for (int i = 0; i < 2000; ++i) {
     const Both a = random_number(random, 300), b = random_number(random, 300), c = random_number(random, 200);
-    const FixedInteger large = a.fixed * b.fixed;  // 600 bits
+    const FixedInteger large = a.fixed * b.fixed;  // 600 bits, which overflow
     EXPECT_EQ((large + c.fixed - large).whole_number(), c.whole);
   }
 }

@@ -15,11 +15,11 @@ TEST(Integer, HasBits) {
   EXPECT_EQ(bit_length(-(Integer(1) << 100)), 101U);
 }
 
-// What the exact stage takes for granted.
+// Checks the rounding rules of GMP on which the exact stage relies.
 TEST(Integer, RoundsAsIsSaid) {
   EXPECT_EQ(Integer(-2.75), -2);
-  EXPECT_EQ(Integer((Integer(1) << 60) + 127).get_d(), 0x1p60);  // towards zero
-  EXPECT_EQ(Integer(-5) >> 1, -3);                               // down
+  EXPECT_EQ(Integer((Integer(1) << 60) + 127).get_d(), 0x1p60);  // rounds towards zero
+  EXPECT_EQ(Integer(-5) >> 1, -3);                               // rounds down
   EXPECT_EQ(Integer(-5) / 2, -2);
   EXPECT_EQ(Integer(-5) % 2, -1);
   EXPECT_EQ(sqrt(Integer(99)), 9);
@@ -35,7 +35,7 @@ TEST(Rational, IsInLowestTerms) {
   EXPECT_EQ(half.get_str(), "1/2");
   EXPECT_EQ(fraction(4, 2).get_str(), "2");
   EXPECT_EQ(Rational(0.1).get_str(), "3602879701896397/36028797018963968");
-  EXPECT_EQ(fraction(-1, 10).get_d(), std::nextafter(-0.1, 0));  // towards zero
+  EXPECT_EQ(fraction(-1, 10).get_d(), std::nextafter(-0.1, 0));  // rounds towards zero
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-// Lanes that a function takes by reference arrive as they are, whatever processor the function is compiled
-// for.
+// Lanes that are passed by reference arrive unchanged, whatever processor the function is compiled for.
 
 #include "motions/numbers/lanes.h"
 
@@ -26,7 +25,7 @@ void scale_long(const double* row, const Lanes& factor, Lanes& result) {
   result = EightFloats(*one) + more;
 }
 
-// Called with values that the compiler does not know, so that it must pass them.
+// Called with values unknown to the compiler, so that they are really passed.
 
 [[gnu::noinline]] void expect_scaled(const Row& row, double factor) {
   Lanes result;

@@ -65,7 +65,8 @@ Integer random_integer(Random& random) {
   return x << static_cast<unsigned>(random() % 2 == 0 ? 0 : pick(random, 0, 900));
 }
 
-// Sums and products of numbers near and far, with what cancels: beside rationals.
+// Compares sums and products of numbers of similar and very different sizes, with cancellation, with
+// rationals (ball arithmetic).
 template <class Number, class Make>
 void expect_expressions_enclosed(std::uint64_t seed, const Make& make) {
   Random random(seed);
@@ -77,7 +78,7 @@ void expect_expressions_enclosed(std::uint64_t seed, const Make& make) {
       const Integer next = random_integer(random);
       Number y = make(next);
       Rational other = next;
-      if (random() % 3 == 0) {  // nearly what there is, with the other sign
+      if (random() % 3 == 0) {  // almost the present sum with the opposite sign
         y = x;
         y *= make(Integer(-1));
         other = -exact;
@@ -114,7 +115,7 @@ template <int Words>
 void expect_sums_of_products_enclosed(std::uint64_t seed) {
   Random random(seed);
   for (int i = 0; i < 1000 && !testing::Test::HasFailure(); ++i) {
-    // Products so far apart that most are below the last word of others, and some that cancel.
+    // Products of such different sizes that most lie below the last word of others, and some that cancel.
     FixedDigits<Words> sum;
     Rational exact = 0;
     for (int term = 0; term < 10; ++term) {
@@ -144,12 +145,12 @@ void expect_fixed_digits_right(std::uint64_t seed) {
     const Integer low = abs(random_integer(random)), high = low + abs(random_integer(random));
     const auto all = FixedDigits<Words>::between(low, high);
     for (const Integer& x : {low, high, Integer((low + high) / 2)}) expect_encloses(all, x);
-    // From longer digits, whose exponents are no multiples of 64.
+    // Starts from longer digits, whose exponents are not multiples of 64.
     LongDigits longer(high, static_cast<std::size_t>(pick(random, 64, 3000)));
     const int power = pick(random, -500, 500);
     longer.scale(power);
     expect_encloses(FixedDigits<Words>(longer), Rational(high) * power_of_two(power));
-    // As many digits as there is room for but one word.
+    // The result keeps at least all words but one.
     const FixedDigits<Words> alone(high);
     EXPECT_TRUE(alone.long_digits().has_digits(64 * (Words - 1) - 1));
   }
@@ -169,7 +170,7 @@ TEST(FixedDigits, KeepsWhatFits) {
   EXPECT_TRUE((Four(wide) - Four(wide)).is_zero());
   EXPECT_TRUE(Four(Integer(5) << 1000).long_digits().has_digits(5000));
   EXPECT_FALSE(Four((Integer(5) << 1000) + 1).long_digits().has_digits(300));
-  // All words are right where nothing cancels, whatever is far below.
+  // All words are correct without cancellation, whatever lies far below.
   Four sum(Integer(1) << 1000);
   add_product(sum, Four(Integer(-3)), Four(Integer(1) << 100));
   EXPECT_TRUE(sum.long_digits().has_digits(190));

@@ -11,7 +11,7 @@
 namespace kds::magnitude_test {
 namespace {
 
-// A number rounded, exactly, and as a magnitude for inputs at most `size` apart.
+// A number in floating point, exactly, and as a magnitude for inputs whose differences are at most `size`.
 template <class Rounded>
 struct Followed {
   Rounded rounded;
@@ -72,7 +72,7 @@ TYPED_TEST(MagnitudesTest, BoundTheErrorOfADeterminant) {
           std::max(largest_share, off.get_d() / (x.magnitude.error * std::pow(size, x.magnitude.power)));
     }
   }
-  EXPECT_GT(largest_share, 0.1);  // the bound is no exaggeration
+  EXPECT_GT(largest_share, 0.1);  // the bound is not exaggerated
 }
 
 TEST(MagnitudeTest, ConstantsAreExact) {
@@ -82,12 +82,13 @@ TEST(MagnitudeTest, ConstantsAreExact) {
   EXPECT_EQ(three.power, 0);
   const Magnitude product = three * Magnitude::input_difference(2);
   EXPECT_EQ(product.power, 2);
-  EXPECT_GT(product.error, 3 * Magnitude::input_difference(2).error);  // its own rounding
+  EXPECT_GT(product.error,
+            3 * Magnitude::input_difference(2).error);  // includes the rounding of the product itself
 }
 
 TEST(MagnitudeTest, UnlikePowersAreRefused) {
   EXPECT_THROW((void)(Magnitude::input_difference(1) + Magnitude::input_difference(2)), std::logic_error);
-  EXPECT_EQ((Magnitude{} + Magnitude::input_difference(2)).power, 2);  // zero is of any power
+  EXPECT_EQ((Magnitude{} + Magnitude::input_difference(2)).power, 2);  // zero is compatible with any power
   EXPECT_EQ((Magnitude::input_difference(2) - Magnitude{}).power, 2);
 }
 

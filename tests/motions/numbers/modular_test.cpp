@@ -14,7 +14,7 @@ using test::Random;
 
 Integer modulus(std::size_t i) { return Residue::modulus(residue_folds[i]); }
 
-// In [0, modulus).
+// Returns the residue in [0, modulus).
 std::uint64_t residue_of(const Integer& x, std::size_t i) {
   return mpz_fdiv_ui(x.get_mpz_t(), Residue::modulus(residue_folds[i]));
 }
@@ -95,7 +95,7 @@ TEST(Residue, WholeNumbersComeBack) {
   for (std::size_t count = 1; count <= residue_folds.size(); ++count) {
     product *= modulus(count - 1);
     residues.resize(count);
-    // Widths for which so many are enough, and no more is promised.
+    // The largest width for which this number of primes is enough.
     int bits = static_cast<int>(Residue::bits * count);
     while (residues_for(bits) > count) --bits;
     ASSERT_GE(bits, static_cast<int>(Residue::bits * count) - 2);

@@ -38,13 +38,13 @@ TEST(RecordedFormula, WritesDownEachStepInItsOrder) {
   EXPECT_EQ(formula.steps()[8].number, 3);
 }
 
-/// Follows which step's value lies in each place: what a step is made of must still be there.
+/// Tracks which step's value each place holds: the operands of a step must still be in their places.
 TEST(RecordedFormula, NoValueIsOverwrittenThatIsStillNeeded) {
   RecordedFormula formula;
   const View view(formula);
   const auto a = view.difference(1, 0), b = view.difference(2, 0);
   const auto r = view.radius_sum(0, 1);
-  static_cast<void>(view.radius_difference(0, 1));  // asked for and not used
+  static_cast<void>(view.radius_difference(0, 1));  // computed and not used
   auto x = a[0] * b[1];
   x += x;
   x -= a[1] * b[0];
@@ -52,7 +52,7 @@ TEST(RecordedFormula, NoValueIsOverwrittenThatIsStillNeeded) {
   auto z = -(x - y) * y;
   z += x * x;
   z += times(5, y) * x;
-  const RecordedFormula written = formula;  // with steps, not places
+  const RecordedFormula written = formula;  // operands are steps here, not places
   const std::uint16_t last = z.step;
   EXPECT_THROW(z += decltype(z){}, std::logic_error);
   formula.finish(last);

@@ -32,7 +32,7 @@ Followed input(std::mt19937_64& random, int lowest, int highest) {
 }
 
 void expect_enclosed(const Followed& x) {
-  if (!std::isfinite(x.tracked.error) || !std::isfinite(x.tracked.value)) return;  // says nothing
+  if (!std::isfinite(x.tracked.error) || !std::isfinite(x.tracked.value)) return;  // nothing is claimed
   EXPECT_LE(abs(Rational(x.tracked.value) - x.exact),
             Rational(x.tracked.error) * Rational(TrackedDouble::inflation));
 }

@@ -67,13 +67,13 @@ TEST(DcdReader, FlagsOfXplorAreNotRead) {
   DcdMaker maker = DcdMaker::chain(5, 2);
   maker.version = 0;
   std::string bytes = maker.bytes();
-  bytes[4 + 4 * 11] = 9;  // part of a time step in double there
+  bytes[4 + 4 * 11] = 9;  // in X-PLOR files this byte is part of a time step in double
   expect_frames(read(bytes), maker);
 }
 
 TEST(DcdReader, SelectsFramesBySeeking) {
   DcdMaker maker = DcdMaker::chain(5, 10);
-  maker.frames[3][2][1] = std::numeric_limits<float>::quiet_NaN();  // in a frame not asked for
+  maker.frames[3][2][1] = std::numeric_limits<float>::quiet_NaN();  // in a frame that is not selected
   const Trajectory trajectory = read(maker.bytes(), {.frames = {1, 9, 4}});
   EXPECT_EQ(trajectory.frame_numbers, (std::vector<std::size_t>{1, 5}));
   EXPECT_EQ(trajectory.frames[1](1, 0), 1.25);
@@ -111,7 +111,7 @@ TEST(DcdReader, RecordThatDisagreesWithTheAtoms) {
   for (std::size_t k = 0; k < 7; ++k) bytes += maker.frame(k);
   bytes += fewer.frame(0) + maker.frame(8);
   refuse(bytes, {"a.dcd: frame 7: record holds 100 atoms, expected 108"});
-  // The same where the file's size happens to fit.
+  // The same error is reported if the file size happens to fit.
   std::string flipped = maker.bytes();
   flipped[maker.header().size() + 2 * maker.frame(0).size()] = 12;
   refuse(flipped, {"a.dcd: frame 2: record holds 67 atoms, expected 108"});
@@ -180,7 +180,7 @@ TEST(DcdReader, CutAnywhere) {
     } catch (const InputError&) {
       EXPECT_FALSE(at_frame_end) << size;
     }
-    // Whole frames, where asked for by number, come out of every file that holds them.
+    // Whole frames that are selected by number can be read from every file that contains them.
     if (size > header + first) {
       EXPECT_EQ(read(bytes.substr(0, size), {.frames = up_to(1)}).frames.size(), 1U) << size;
     }
@@ -197,12 +197,12 @@ TEST(DcdReader, CellInCosinesOrDegrees) {
     const Trajectory trajectory = read(maker.bytes());
     EXPECT_EQ(trajectory.frames[0](0, 1), 20.5);
     EXPECT_EQ(trajectory.frames[0](0, 2), 22);
-    EXPECT_EQ(trajectory.frames[1](0, 0), 20.25);  // next to where it was
+    EXPECT_EQ(trajectory.frames[1](0, 0), 20.25);  // the image closest to the previous position
     EXPECT_TRUE(trajectory.breaks.empty());
   }
 }
 
-// A chain that goes through the walls of a cell. Where the cell is read rightly, bonds are 3.
+// A chain that crosses the walls of a cell. If the cell is read correctly, bonds have length 3.
 struct WrappedChain {
   Cell cell;
   DcdMaker maker;
@@ -231,7 +231,7 @@ struct WrappedChain {
   }
 };
 
-// The symmetric matrix whose square is the cell's metric, as CHARMM writes it.
+// Returns the symmetric matrix whose square is the metric of the cell, as CHARMM writes it.
 Cell shape_matrix(const Cell& cell) {
   const Eigen::SelfAdjointEigenSolver<Cell> solver(cell.transpose() * cell);
   return solver.operatorSqrt();
@@ -301,18 +301,18 @@ TEST(DcdReader, CellsOfAnUnknownFormAreNotUsed) {
   };
   const auto not_used =
       testing::ElementsAre(testing::HasSubstr("a.dcd: frame 0: its periodic cell is not used: "));
-  // Angles of 47 degrees, or the matrix of a rhombic dodecahedron.
+  // These values are ambiguous: angles of 47 degrees, or the matrix of a rhombic dodecahedron.
   const std::array<double, 6> either{188.6, 47.1, 188.6, 47.1, 47.1, 188.6};
   EXPECT_THAT(warnings(either, 24, "made up"), not_used);
   EXPECT_THAT(warnings(either, 35, "made up"), testing::IsEmpty());
   EXPECT_THAT(warnings(either, 24, "* CHARMM"), testing::IsEmpty());
   EXPECT_THAT(warnings(either, 24, "Created by DCD plugin"), testing::IsEmpty());
   EXPECT_THAT(warnings(either, 21, "* CHARMM"), testing::IsEmpty());
-  // No cell in any form.
+  // These values are not a cell in any form.
   EXPECT_THAT(warnings({20, -30, 20, 5, 5, 20}, 24, "made up"), not_used);
   EXPECT_THAT(warnings({20, 190, 20, 90, 90, 20}, 24, "made up"), not_used);
   EXPECT_THAT(warnings({20, 1, 20, 1, 1, 20}, 21, "made up"), not_used);
-  // NAMD writes no matrix.
+  // NAMD does not write matrices.
   EXPECT_THAT(warnings({38.5, -7.7, 38.5, -7.7, -7.7, 38.5}, 24, "Created by NAMD"), not_used);
   EXPECT_THAT(warnings({20, 0, 20, 0, 0, 0}, 24, "made up"), not_used);
   EXPECT_THAT(warnings({-20, 0, 20, 0, 0, 20}, 24, "made up"), not_used);
@@ -320,7 +320,7 @@ TEST(DcdReader, CellsOfAnUnknownFormAreNotUsed) {
   EXPECT_THAT(warnings({1, 90, 1, 90, 90, 1}, 24, "made up"), testing::IsEmpty());
 }
 
-// One frame decides the form of all: this matrix is nearly upright in the first frame.
+// One frame decides the form for all frames: in the first frame this matrix is almost diagonal.
 TEST(DcdReader, FormOfCellsIsThatOfTheFile) {
   DcdMaker maker = DcdMaker::chain(5, 2);
   maker.frames[0] = {{{0, 0, 0}, {3, 0, 0}, {6, 0, 0}, {9, 0, 0}, {12, 0, 0}}};
@@ -329,7 +329,8 @@ TEST(DcdReader, FormOfCellsIsThatOfTheFile) {
   std::string bytes = maker.header() + maker.frame(0);
   maker.cell_values = {20, -2, 20, -2, -2, 20};
   bytes += maker.frame(1);
-  // Read as cosines, the first frame would be a cell of another shape with a third of the volume.
+  // If the values were read as cosines, the first frame would be a cell of another shape with a third of the
+  // volume.
   EXPECT_THAT(read(bytes).warnings, testing::IsEmpty());
 }
 
@@ -372,17 +373,18 @@ TEST(DcdReader, TimesOfLammps) {
     double length;
     std::vector<double> times;
   };
-  for (const Case& one : std::initializer_list<Case>{{0, 1000, 1, {0, 1, 2, 3, 4}},
-                                                     {5000, 1000, 1, {5, 6, 7, 8, 9}},
-                                                     {0, 1, 1, {0, 0.001, 0.002, 0.003, 0.004}},
-                                                     {0, 100, 2, {0, 0.2, 0.4, 0.2 * 3, 0.8}},
-                                                     {0, 500, 0.5, {0, 0.25, 0.5, 0.75, 1}},
-                                                     {0, 100, 10, {0, 1, 2, 3, 4}},
-                                                     {0, 1000, 0.001, {}},  // metal, or electron
-                                                     {0, 1000, 0.005, {}},  // lj
-                                                     {0, 1000, 0.05, {}},
-                                                     {0, 1000, 1e-8, {}},  // si
-                                                     {0, 1000, 100, {}}}) {
+  for (const Case& one :
+       std::initializer_list<Case>{{0, 1000, 1, {0, 1, 2, 3, 4}},
+                                   {5000, 1000, 1, {5, 6, 7, 8, 9}},
+                                   {0, 1, 1, {0, 0.001, 0.002, 0.003, 0.004}},
+                                   {0, 100, 2, {0, 0.2, 0.4, 0.2 * 3, 0.8}},
+                                   {0, 500, 0.5, {0, 0.25, 0.5, 0.75, 1}},
+                                   {0, 100, 10, {0, 1, 2, 3, 4}},
+                                   {0, 1000, 0.001, {}},  // LAMMPS units "metal" or "electron"
+                                   {0, 1000, 0.005, {}},  // LAMMPS units "lj"
+                                   {0, 1000, 0.05, {}},
+                                   {0, 1000, 1e-8, {}},  // LAMMPS units "si"
+                                   {0, 1000, 100, {}}}) {
     DcdMaker maker = DcdMaker::chain(6, 5);
     maker.title = "Written by LAMMPS";
     maker.first_step = one.first;
@@ -419,11 +421,11 @@ TEST(DcdReader, TellsTheTimesOfFramesWhereTheHeaderHasThem) {
     for (const std::int32_t version : {24, 0}) {
       maker.big_endian = big_endian;
       maker.version = version;
-      // Steps of 2 fs, a frame every 500 of them: 1 ps.
+      // Steps of 2 fs with a frame every 500 steps: 1 ps.
       EXPECT_EQ(times(0, 500, 2 * femtoseconds), (std::vector<double>{1, 3, 5}));
       EXPECT_EQ(times(500, 500, 2 * femtoseconds), (std::vector<double>{2, 4, 6}));
       EXPECT_EQ(times(0, 1, 20 * femtoseconds), (std::vector<double>{0.02, 3 * 0.02, 5 * 0.02}));
-      // Written by programs that do not know, or no numbers that times can have.
+      // Written by programs that do not know the step, or values that are not possible times.
       EXPECT_TRUE(times(0, 1, 1).empty());
       EXPECT_TRUE(times(0, 0, 0).empty());
       EXPECT_TRUE(times(0, 1, 0).empty());
@@ -446,7 +448,7 @@ TEST(DcdReader, ResiduesNeedATopology) {
 }
 
 TEST(DcdReader, TopologyPicksAtoms) {
-  // Waters first, alternate locations and a second chain count as atoms of the DCD.
+  // Waters at the beginning, alternate locations and a second chain count as atoms of the DCD.
   std::string pdb =
       test::pdb_line({.name = "O", .residue = "HOH", .chain = 'W', .het = true, .element = "O"});
   pdb += test::pdb_residue(1, 'B') + test::pdb_residue(1) + test::pdb_line({.name = "CB", .alternate = 'A'}) +
@@ -469,7 +471,7 @@ TEST(DcdReader, TopologyPicksAtoms) {
             (std::vector<double>{5, 10}));
   EXPECT_EQ(x({.topology = topology, .selection = Selection::all, .chain = "A"}),
             (std::vector<double>{4, 5, 6, 7, 9, 10, 11}));
-  // A file of the beads alone.
+  // A file that contains the beads only.
   const Trajectory beads = read(DcdMaker::chain(6, 2).bytes(), {.topology = topology, .chain = "A"});
   EXPECT_EQ(beads.bead_count(), 6U);
   EXPECT_EQ(beads.element_radii.front(), 1.55);

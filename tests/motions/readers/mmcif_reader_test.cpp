@@ -50,7 +50,7 @@ TEST(MmcifReader, Reads) {
   EXPECT_EQ(trajectory.element_radii.size(), 6U);
 }
 
-// What nothing here needs may be missing; what is needed is asked for.
+// Columns that the reader does not need may be missing; a missing column that it needs is named in the error.
 TEST(MmcifReader, ReadsFilesWithoutTheColumnsThatAreNotNeeded) {
   const auto without = [](const std::vector<std::string>& columns) {
     std::string text = "data_X\nloop_\n";
@@ -102,7 +102,7 @@ TEST(MmcifReader, ReadsFilesWithoutTheColumnsThatAreNotNeeded) {
          {"neither a column _atom_site.label_atom_id nor _atom_site.auth_atom_id"});
   refuse(without({"label_comp_id"}),
          {"neither a column _atom_site.label_comp_id nor _atom_site.auth_comp_id"});
-  // Without numbers, residues begin where their atoms come again.
+  // Without numbers, a residue begins where an atom name repeats.
   const Trajectory unnumbered = read(without({"label_seq_id", "auth_seq_id"}), all);
   EXPECT_EQ(unnumbered.bead_count(), 4U);
   EXPECT_THAT(unnumbered.warnings,
@@ -148,7 +148,7 @@ TEST(MmcifReader, OneTableOfAtomsABlock) {
   const std::string full = file(residue(1));
   refuse(full + full.substr(full.find("loop_\n_atom_site")),
          {"data block 'X'", "more than one table _atom_site"});
-  // A single atom needs no loop, and tags are read in either case.
+  // A single atom needs no loop, and tags are case-insensitive.
   EXPECT_EQ(read("data_X\n_atom_site.Label_Atom_ID CA\n_atom_site.label_comp_id ALA\n_atom_site.cartn_x 1\n"
                  "_atom_site.CARTN_Y 2\n_atom_site.Cartn_z 3\n")
                 .frames[0],
@@ -221,7 +221,8 @@ TEST(MmcifReader, NumbersThatAreNone) {
                                  "nan", "inf", "1e999", "'1.5'"})
     refuse(file(atom("N", "1") + atom("CA", text) + atom("C", "1")),
            {"a.cif:" + lines + ": expected a number for _atom_site.Cartn_x, found " + in_quotes(text)});
-  // Rows may take several lines, and values text fields; comments and other items stand between.
+  // Rows may span several lines, values may be text fields, and comments and other items may stand in
+  // between.
   refuse(
       "data_X\nloop_\n_atom_site.label_atom_id _atom_site.label_comp_id\n# a comment\n_atom_site.Cartn_x\n"
       "_atom_site.Cartn_y _atom_site.Cartn_z\nCA ALA 1 2 3 # more\n'C\"' \"A 'B\"\n4 5\n6\nN\n;ALA\n;\n7\n8 "
@@ -247,7 +248,7 @@ TEST(MmcifReader, TagsGivenTwice) {
       {"a.cif: data block 'X' has the tag '_atom_site.cartn_x' twice"});
 }
 
-// Every line end reads as the same file, whatever stands in comments and text fields.
+// All line endings give the same result, also within comments and text fields.
 TEST(MmcifReader, LineEndsOfEveryKind) {
   const std::string comment = "# 1 2 3\n", field = "_a.b\n;one\n# ;two\n;\n";
   std::string text = file(residue(1) + comment + residue(2) + comment);
@@ -271,7 +272,7 @@ TEST(MmcifReader, LineEndsOfEveryKind) {
   refuse(bad, {"a.cif:" + std::to_string(std::count(head.begin(), head.end(), '\n') + 4) + ":", "'x'"});
 }
 
-// A chain across the wall of a cell of 10, in two models.
+// A chain that crosses the wall of a cell of length 10, in two models.
 TEST(MmcifReader, CellsOfSimulationBoxes) {
   const auto moved = [](const std::string& gamma, const std::string& group) {
     std::string text = "data_X\n";

@@ -1,4 +1,4 @@
-// Chains of one file beside each other in a periodic cell.
+// Chains of one file side by side in a periodic cell.
 
 #include "motions/readers/necklace_stream.h"
 
@@ -17,7 +17,8 @@ using testing::HasSubstr;
 
 constexpr double box = 20;
 
-// Chain A along x at y = 10, the others at y = 10 + `apart`, put into the box where `wrapped`.
+// Chain A runs along x at y = 10, the others at y = 10 + `apart`; with `wrapped`, beads are wrapped into the
+// box.
 std::string models(const std::vector<double>& apart, std::size_t count, bool wrapped,
                    const std::string& group = "P 1", double drift = 0) {
   const auto inside = [&](double x) { return wrapped ? x - box * std::floor(x / box) : x; };
@@ -66,7 +67,7 @@ TEST(NecklaceStream, PlacesChainsNearestToTheFirst) {
   }
 }
 
-// A chain lies near to any before it, not to the first alone.
+// A chain is placed near any earlier chain, not only near the first.
 TEST(NecklaceStream, PlacesAChainOfALongComplex) {
   const auto whole = read(models({4, 8, 12}, 2, false), "A,B,C,D");
   const auto wrapped = read(models({4, 8, 12}, 2, true), "A,B,C,D");
@@ -77,7 +78,7 @@ TEST(NecklaceStream, PlacesAChainOfALongComplex) {
   }
 }
 
-// A chain stays if its image is little nearer, and a line reports that image.
+// A chain stays in place if its image is only slightly nearer, and a warning reports that image.
 TEST(NecklaceStream, TellsOfAnImageThatIsLittleNearer) {
   const auto chains = read(models({11}, 2, false), "A,B");
   EXPECT_NEAR(distance(chains[0], chains[1], 0), 11, 1e-9);
@@ -94,7 +95,7 @@ TEST(NecklaceStream, TellsOfChainsThatDriftIntoAnotherImage) {
 }
 
 TEST(NecklaceStream, CrystalsStayAsTheyAre) {
-  // One model, or a space group of a crystal.
+  // A single model, or a crystal's space group.
   for (const std::string& text : {models({23}, 1, false), models({23}, 2, false, "P 21 21 21")}) {
     const auto chains = read(text, "A,B");
     EXPECT_NEAR(distance(chains[0], chains[1], 0), 23, 1e-9);
@@ -120,12 +121,13 @@ TEST(NecklaceStream, RefusesATrajectoryAsTopology) {
                                            frames.string() + " --topology " + structure.string()});
   test::expect_refused([&] { NecklaceStream(frames, {.topology = frames}); },
                        {"--topology:", "names no atoms; expected the PDB or mmCIF file"});
-  // A structure as topology of a structure is left unread.
+  // If a structure has another structure as its topology, the topology is ignored.
   const NecklaceStream stream(structure, {.topology = structure});
   EXPECT_THAT(stream.warnings(0), ElementsAre(HasSubstr("--topology is left unread")));
 }
 
-// A chain along x, with its bead 0 at x = `begin`, in a cell of this length; 0: without a cell.
+// Returns a frame with a chain along x whose bead 0 is at x = `begin`, in a cell of length `cell` (0: no
+// cell).
 std::string xyz_frame(double begin, int beads, double cell, double gap_after_1 = 0) {
   std::string text = std::to_string(beads) + '\n';
   const std::string length = std::to_string(cell);
@@ -140,7 +142,7 @@ Trajectory read_xyz(const std::string& text, const ReadOptions& options = {}) {
   return read_trajectory(test::write_file("a.xyz", text), options);
 }
 
-// The cell is in nanometres, the chain moves by 3 angstrom a frame.
+// The cell is in nanometres by mistake, and the chain moves by 3 angstrom per frame.
 TEST(NecklaceStream, DoesNotUseACellThatIsShorterThanTheChain) {
   std::string text;
   for (int k = 0; k < 4; ++k) text += xyz_frame(3 * k, 8, 5);
@@ -153,7 +155,7 @@ TEST(NecklaceStream, DoesNotUseACellThatIsShorterThanTheChain) {
                   HasSubstr("(4 frames)"))));
 }
 
-// A long chain whose bonds were joined before keeps its cell.
+// A long chain whose bonds were joined in an earlier frame keeps its cell.
 TEST(NecklaceStream, UsesACellAcrossWhichBondsWereJoined) {
   const std::string joined =
       "8\nLattice=\"5 0 0 0 5 0 0 0 5\"\nC 0 0 0\nC 1.5 0 0\nC 3 0 0\nC 4.5 0 0\nC 1 0 0\nC 2.5 0 0\nC 4 0 "
@@ -183,12 +185,12 @@ TEST(NecklaceStream, TellsOfBreaksInLaterFrames) {
   EXPECT_THAT(later.warnings,
               ElementsAre("" + test::temporary("a.xyz").string() +
                           ": frame 1: chain break after bead 1 (joined), not in frame 0 (2 frames)"));
-  // Breaks of the first frame are no news.
+  // Breaks that already exist in the first frame are not reported again.
   const Trajectory first = read_xyz(broken + whole + broken);
   EXPECT_EQ(first.breaks, std::vector<std::size_t>{1});
   EXPECT_EQ(first.later_breaks.frames, 0U);
   EXPECT_EQ(first.warnings.size(), 1U);
-  // Frames that are not read do not count, and reading again tells the same.
+  // Skipped frames do not count, and a second pass reports the same.
   EXPECT_EQ(read_xyz(whole + broken + whole, {.frames = {0, {}, 2}}).later_breaks.frames, 0U);
   NecklaceStream stream(test::write_file("b.xyz", whole + broken), {});
   for (int pass = 0; pass < 2; ++pass) {
@@ -210,7 +212,7 @@ TEST(NecklaceStream, TellsOfFramesWithoutTheCellOfOthers) {
   EXPECT_TRUE(read_xyz(without + without).warnings.empty());
 }
 
-// Two distances that are printed alike are no news.
+// A difference between two distances that print alike is not reported.
 TEST(NecklaceStream, TellsOfNoImageThatIsNearerByRoundingOnly) {
   EXPECT_TRUE(read(models({10.001}, 2, false), "A,B")[1].warnings.empty());
   EXPECT_FALSE(read(models({10.1}, 2, false), "A,B")[1].warnings.empty());

@@ -1,5 +1,5 @@
-// Kinds of PDB files that other programs write and the format does not foresee: each with several instances,
-// and the number of beads that a reader of columns would count.
+// Kinds of PDB files that other programs write and that the format does not foresee. Each kind has several
+// instances, and the number of beads that a plain column reader would count.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -28,10 +28,10 @@ void refuse(std::string_view text, std::initializer_list<std::string_view> parts
   test::expect_refused([&] { (void)read(text, options); }, parts);
 }
 
-// The place of a residue along x is its own, whatever its number says.
+// The x coordinate of a residue follows its position in the file, whatever its number is.
 struct Residue {
   std::string number = "1";
-  std::string name = "ALA";  // three letters, or four
+  std::string name = "ALA";  // three or four letters
   char chain = 'A';
   std::vector<std::string> atoms = {"N", "CA", "C"};
   bool het = false;
@@ -108,7 +108,7 @@ TEST(PdbKinds, SerialNumbersThatRunIntoTheRecordName) {
     for (std::string& line : lines) line.replace(6, 5, serial);
     EXPECT_EQ(read(text_of(lines)).bead_count(), 12U) << serial;
   }
-  // Behind HETATM a sixth digit moves all columns that follow.
+  // After HETATM, a sixth digit shifts all following columns.
   std::vector<std::string> lines = lines_of(File().add(1, 4).text);
   lines[4].replace(0, 11, "HETATM100000");
   refuse(text_of(lines), {"a.pdb:5:", "serial number overflows into column 12"});
@@ -182,7 +182,7 @@ TEST(PdbKinds, WhatFollowsTerIsNoPolymer) {
   EXPECT_THAT(trajectory.warnings,
               ElementsAre(testing::EndsWith(
                   "chain A: 2 amino acids taken for free ones (HETATM) and not read: GLU 92, MSE 93")));
-  // A modified residue is part of the second piece, and a piece of its own if it ends with TER.
+  // A modified residue is part of the second piece, or a piece of its own if TER follows it.
   File pieces;
   pieces.add(1, 2)
       .line("TER")
@@ -224,12 +224,12 @@ TEST(PdbKinds, MoleculesWithoutAChainName) {
       EXPECT_EQ(read_trajectories(path, {.chain = "2,1"}).size(), 2U);
       EXPECT_EQ(read(file.text, {.chain = " "}).bead_count(), static_cast<std::size_t>(9 * molecules));
       refuse(file.text, {"expected 1, 2"}, {.chain = "7"});
-      // A chain of that name goes first.
+      // A chain with that name takes precedence.
       EXPECT_EQ(read(file.text + File().add(1, 5, '2').text, {.chain = "2"}).bead_count(), 15U);
     }
 }
 
-// The advice names only what --chain reads.
+// The advice names only chains and molecules that --chain can read.
 TEST(PdbKinds, MoleculesBesideAChainWithTheirNumber) {
   const std::string molecules = File().add(1, 3, ' ').line("TER").add(4, 3, ' ').line("TER").text;
   constexpr const char* rename =
@@ -241,14 +241,14 @@ TEST(PdbKinds, MoleculesBesideAChainWithTheirNumber) {
   EXPECT_THAT(read(text, {.chain = " "}).warnings,
               ElementsAre(testing::EndsWith(fmt::format("; --chain 1 reads one each; {}", rename))));
   refuse(text, {"expected 1, 2"}, {.chain = "7"});
-  // The molecule that is read may be the one without a name of its own.
+  // The molecule that is read may be the one without its own name.
   const std::string other = molecules + File().add(1, 5, '1').text;
   EXPECT_THAT(read(other).warnings,
               ElementsAre(testing::HasSubstr("2, 1 not read; --chain 2 reads them likewise")));
 }
 
 TEST(PdbKinds, LigandsAndWatersBetweenMolecules) {
-  // As programs write that end everything with TER and have no HETATM.
+  // Some programs end every chain with TER and write no HETATM.
   File file;
   file.add({.number = "1", .name = "LIG", .chain = ' ', .atoms = {"C1", "O1"}}).line("TER");
   file.add(2, 2, ' ').line("TER");
@@ -301,7 +301,7 @@ TEST(PdbKinds, NumbersThatRestartOrCollide) {
 }
 
 TEST(PdbKinds, ARestartBehindAnIncompleteResidue) {
-  // The atoms of the second residue 1 stay together, though the first one lacks N.
+  // The atoms of the second residue 1 stay together, although the first residue 1 has no N.
   File file;
   file.add({.number = "1", .atoms = {"CA", "C"}}).add(2, 1).add(1, 2);
   const Trajectory trajectory = read(file.text);
@@ -328,18 +328,18 @@ TEST(PdbKinds, AtomsOfAResidueThatStandLaterInTheFile) {
   File file;
   file.add(1, 3);
   file.add({.number = "2", .atoms = {"H", "HA"}});                    // hydrogens at the end
-  file.add({.number = "1", .atoms = {"N", "CA"}, .alternate = 'B'});  // other locations at the end
+  file.add({.number = "1", .atoms = {"N", "CA"}, .alternate = 'B'});  // alternate locations at the end
   const Trajectory trajectory = read(file.text);
   EXPECT_EQ(trajectory.bead_count(), 9U);
   EXPECT_THAT(trajectory.warnings, IsEmpty());
   EXPECT_EQ(read(file.text, {.selection = Selection::all}).bead_count(), 13U);
-  // All atoms of one name first.
+  // All atoms of one name come first.
   File by_name;
   for (const char* name : {"N", "CA", "C"})
     for (int number = 1; number <= 4; ++number)
       by_name.add({.number = std::to_string(number), .atoms = {name}});
   EXPECT_EQ(read(by_name.text).bead_count(), 12U);
-  // An atom twice in a row is one atom.
+  // An atom that is repeated in consecutive lines is one atom.
   const Trajectory twice = read(File().add({.atoms = {"N", "N", "CA", "CA", "C", "C"}}).text);
   EXPECT_EQ(twice.frames[0].row(0), Eigen::RowVector3d(0, 3, 6));
   EXPECT_THAT(twice.warnings,
@@ -411,7 +411,7 @@ TEST(PdbKinds, NumbersThatOverflowTheirColumns) {
     EXPECT_EQ(read(with(31, coordinates), {.selection = Selection::all}).bead_count(), 4U) << coordinates;
 }
 
-// An element of columns 77 and 78 counts. A C-alpha without one is carbon.
+// The element in columns 77 and 78 is used. A C-alpha without an element is carbon.
 TEST(PdbKinds, ElementsThatTheFileGives) {
   const std::string chain = test::pdb_residue(1) + test::pdb_residue(2);
   for (const auto& [element, radius] : {std::pair("CA", 2.31), std::pair("C", 1.7), std::pair("", 1.7)}) {
@@ -446,7 +446,7 @@ TEST(PdbKinds, AtomsOutsideTheModels) {
   EXPECT_EQ(read(one + model + model + "END\n").frames.size(), 2U);
   for (const Selection selection : {Selection::automatic, Selection::all})
     refuse("MODEL 1\nENDMDL\n" + model, {"a.pdb: frame 0: no atoms"}, {.selection = selection});
-  // Only ENDMDL between the frames.
+  // Frames are separated by ENDMDL alone.
   EXPECT_EQ(read(model + one + "ENDMDL\n" + one + "ENDMDL\n").frames.size(), 3U);
   EXPECT_EQ(read(one + "ENDMDL\n" + one + "ENDMDL\nEND\n").frames.size(), 2U);
   EXPECT_EQ(read(model + model + "END\n" + model, {.frames = {2, std::nullopt, 1}}).frame_numbers,
@@ -480,12 +480,12 @@ TEST(PdbKinds, FilesWithoutPolymer) {
   EXPECT_THAT(read(file.text, all).warnings,
               ElementsAre(HasSubstr("chain W not read; --chain W or --chain S,W")));
   EXPECT_EQ(read(file.text, {.selection = Selection::all, .chain = "W"}).bead_count(), 2U);
-  // Beside a polymer, too.
+  // The same holds beside a polymer.
   EXPECT_EQ(read(File().add(1, 2).text + file.text, {.selection = Selection::all, .chain = "W"}).bead_count(),
             2U);
   refuse(File().add(1, 2).text + file.text, {"--select", "'W'", "--select all reads its 2 residues"},
          {.chain = "W"});
-  // A model of other beads.
+  // A model with coarse-grained beads.
   refuse(File().add({.atoms = {"BB", "SC1"}}).text, {"--select", "--select all reads its 1 residue"});
 }
 

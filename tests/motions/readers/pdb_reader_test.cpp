@@ -48,7 +48,7 @@ TEST(PdbReader, RealFiles) {
 }
 
 TEST(PdbReader, AllAtomsOfThePolymerOnly) {
-  // 304 atoms and nothing else.
+  // The file has exactly 304 atoms.
   EXPECT_EQ(read_trajectory(test::data_file("proteins/1l2y.pdb"), {.selection = Selection::all}).bead_count(),
             304U);
   const std::string water =
@@ -132,7 +132,7 @@ TEST(PdbReader, SeveralChainsAreANecklaceEach) {
   ASSERT_EQ(necklaces.size(), 2U);
   EXPECT_EQ(necklaces[0].file, file.string() + " chain C");
   EXPECT_EQ(necklaces[0].frames[1].row(1).minCoeff(), 20);
-  EXPECT_EQ(necklaces[0].breaks, std::vector<std::size_t>{2});  // none between the chains
+  EXPECT_EQ(necklaces[0].breaks, std::vector<std::size_t>{2});  // no break between the chains
   EXPECT_EQ(necklaces[1].frames[1].row(1).maxCoeff(), 0);
   EXPECT_TRUE(necklaces[1].breaks.empty());
   for (const Trajectory& necklace : necklaces) {
@@ -158,7 +158,8 @@ TEST(PdbReader, NamesTheChainsThatAreNotRead) {
   EXPECT_THAT(warnings(a + pdb_residue(1, 'B') + pdb_residue(1, 'C')),
               testing::ElementsAre(testing::EndsWith(
                   "a.pdb: chains B, C not read; --chain B or --chain A,B reads them likewise")));
-  EXPECT_TRUE(warnings(a + pdb_residue(1, 'B'), {.chain = "A"}).empty());  // who names chains knows
+  EXPECT_TRUE(warnings(a + pdb_residue(1, 'B'), {.chain = "A"})
+                  .empty());  // a user who names a chain knows of the others
   std::string many = a;
   for (char chain = 'B'; chain <= 'Z'; ++chain) many += pdb_residue(1, chain);
   EXPECT_THAT(warnings(many).front(), testing::HasSubstr("J, K and 15 more not read"));
@@ -232,7 +233,7 @@ TEST(PdbReader, CompressedFile) {
 TEST(PdbReader, OneBead) { EXPECT_EQ(read(pdb_line({}), {.selection = Selection::ca}).bead_count(), 1U); }
 
 TEST(PdbReader, ShiftedNamesWithoutElements) {
-  // As CHARMM writes them: names from column 13, no column for elements.
+  // CHARMM writes names from column 13 on, and no element column.
   std::string text;
   for (const char* name : {"N   ", "HN  ", "CA  ", "HG1 ", "CD  ", "SG  ", "C   "})
     text +=
@@ -263,7 +264,7 @@ TEST(PdbReader, CellsOfCrystalsAreNoBoxes) {
   }
 }
 
-// An atom behind a carriage return would be lost without a word.
+// An atom after a carriage return would be dropped silently.
 TEST(PdbReader, CarriageReturnsInsideALine) {
   const std::string text = pdb_residue(1);
   std::string one = text, all = text;

@@ -1,4 +1,4 @@
-// Whatever a file holds: frames that keep their promises come out, or an InputError.
+// Whatever a file contains, a reader returns valid frames or throws an InputError.
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -62,7 +62,7 @@ void expect_sound(const Trajectory& trajectory) {
   for (const std::string& warning : trajectory.warnings) ASSERT_EQ(warning.find('\n'), std::string::npos);
 }
 
-// Returns how many files were read after all.
+// Returns the number of files that could be read.
 template <class Read>
 int fuzz(const std::string& name, const std::string& bytes, int rounds, const Read& read) {
   std::mt19937 random(20);
@@ -83,7 +83,7 @@ int fuzz(const std::string& name, const std::string& bytes, int rounds, const Re
   return accepted;
 }
 
-// Frame by frame, and a second time from the start, come the same frames.
+// Checks that reading frame by frame, and reading a second time from the start, give the same frames.
 void expect_same_frame_by_frame(const Trajectory& trajectory, const std::filesystem::path& path,
                                 const ReadOptions& options) {
   NecklaceStream stream(path, options);
@@ -138,7 +138,7 @@ TEST(ReaderFuzz, Pdb) {
 
 TEST(ReaderFuzz, Mmcif) {
   std::string text = test::read_bytes(test::data_file("proteins/6wqa.cif"));
-  // A few residues' worth of the atoms, with the header of their loop.
+  // Takes the atoms of a few residues, with the header of their loop.
   const std::size_t loop = text.find("loop_\n_atom_site.");
   ASSERT_NE(loop, std::string::npos);
   const std::size_t end = text.find('\n', loop + 4000);

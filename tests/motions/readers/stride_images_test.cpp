@@ -1,4 +1,4 @@
-// Images of chains follow through the frames that a stride leaves out: reading every n-th frame gives the
+// Images of chains are tracked through the frames that a stride skips: reading every n-th frame gives the
 // n-th frames of the whole file.
 
 #include <gmock/gmock.h>
@@ -18,7 +18,7 @@ using Frames = std::vector<std::vector<std::array<double, 3>>>;
 
 constexpr double box = 12;
 
-// A random chain that drifts fast, in any direction, put into the box bead by bead or as a whole.
+// Makes a random chain that drifts fast in some direction, wrapped into the box bead by bead or as a whole.
 Frames drifting(std::mt19937& random, std::size_t beads, std::size_t count, double speed, bool by_bead) {
   std::uniform_real_distribution<double> unit(-1, 1);
   std::vector<std::array<double, 3>> chain(beads);
@@ -39,7 +39,7 @@ Frames drifting(std::mt19937& random, std::size_t beads, std::size_t count, doub
   return frames;
 }
 
-// In frames for which `has_cell` is false there is none.
+// Frames for which `has_cell` is false are written without a cell.
 std::string as_xyz(const Frames& frames, const std::vector<bool>& has_cell) {
   std::string text;
   for (std::size_t k = 0; k < frames.size(); ++k) {
@@ -107,7 +107,7 @@ TEST(StrideImages, EveryNthFrameOfTheWholeFile) {
   }
 }
 
-// A chain that moves by 10 in a box of 12 between frames that are read does not move back by 2.
+// A chain that moves by 10 in a box of 12 between two selected frames must not appear to move back by 2.
 TEST(StrideImages, FastMotionKeepsItsDirection) {
   Frames frames;
   for (int k = 0; k <= 30; ++k) {
@@ -124,7 +124,7 @@ TEST(StrideImages, FastMotionKeepsItsDirection) {
     for (int k = 0; k < 4; ++k)
       EXPECT_NEAR(trajectory.frames[static_cast<std::size_t>(k)](0, 0), 10 * k, 1e-5) << path;
   }
-  // Without cells the frames between are skipped unread.
+  // Without cells the frames in between are skipped without parsing.
   std::string text = as_xyz(frames, none);
   const std::size_t second = text.find("4\n\n", 1);
   text[text.find("C ", second)] = 'X';
@@ -133,12 +133,12 @@ TEST(StrideImages, FastMotionKeepsItsDirection) {
   EXPECT_THROW((void)read_trajectory(path), InputError);
 }
 
-// A frame that images follow through must be right, though it is not asked for.
+// A frame that is needed to track images is checked, although it is not selected.
 TEST(StrideImages, FramesBetweenAreChecked) {
   Frames frames(5, {{0, 0, 0}, {1.5, 0, 0}, {3, 0, 0}});
   std::string text = as_xyz(frames, std::vector<bool>(5, true));
   std::size_t place = 0;
-  for (int k = 0; k < 3; ++k) place = text.find("3\nLattice", place + 1);  // of frame 3
+  for (int k = 0; k < 3; ++k) place = text.find("3\nLattice", place + 1);  // the cell of frame 3
   text.replace(text.find("C 1.5", place), 5, "C nan");
   test::expect_refused(
       [&] {

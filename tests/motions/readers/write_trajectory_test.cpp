@@ -1,4 +1,4 @@
-// What is written is read back.
+// Writes trajectories and reads them back.
 
 #include "motions/readers/write_trajectory.h"
 

@@ -101,11 +101,11 @@ TEST(XyzReader, ExtendedXyz) {
   EXPECT_NE(trajectory.warnings[0].find("made whole"), std::string::npos);
   refuse("1\nLattice=\"10 0 0 0 10\"\nC 0 0 0\n", {"a.xyz:2:", "9 numbers"});
   refuse("1\nLattice=\"10 0 0 0 10 0 0 0 x\"\nC 0 0 0\n", {"a.xyz:2:", "'x'"});
-  // A flat lattice is none.
+  // A flat lattice is not a cell.
   EXPECT_TRUE(read("2\nLattice=\"0 0 0 0 0 0 0 0 0\"\nC 9 0 0\nC 1 0 0\n").warnings.empty());
 }
 
-// Every way to write a cell of 10 makes this chain whole: bonds of 8.75 become 1.25.
+// Every way to write a cell of length 10 makes this chain whole: bonds of 8.75 become 1.25.
 TEST(XyzReader, LatticeInEveryForm) {
   for (const std::string_view comment :
        {"Lattice=\"10 0 0 0 10 0 0 0 10\"", "Lattice = \"10 0 0 0 10 0 0 0 10\"",
@@ -232,7 +232,7 @@ TEST(XyzReader, MisspeltKeysAreToldOf) {
     EXPECT_NE(trajectory.warnings[0].find(line), std::string::npos) << trajectory.warnings[0];
     EXPECT_TRUE(trajectory.warnings[0].ends_with("(2 frames)")) << trajectory.warnings[0];
   }
-  // Other keys, words without '=', and keys beside the one that they resemble.
+  // Other keys, words without '=', and keys that resemble the supported key.
   for (const std::string_view comment : {"sublattice=1 proper=2", "pbe=-12.5 pc=3.25", "latice of 10", "pbcs",
                                          "Lattice=\"90 90 90\" lattices=5", "lattice_a=3 property_name=x"}) {
     EXPECT_TRUE(read("1\n" + std::string(comment) + "\nC 1 2 3\n").warnings.empty()) << comment;

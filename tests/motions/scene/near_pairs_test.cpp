@@ -1,4 +1,4 @@
-// Near pairs against all pairs.
+// Compares near pairs with all pairs.
 
 #include "motions/scene/near_pairs.h"
 
@@ -42,7 +42,8 @@ bool meet(const Balls& balls, BeadId i, BeadId j) {
   return square <= reach * reach;
 }
 
-// Each pair at most once, in order, and none that meets left out. Returns how many were visited.
+// Checks that each pair is visited at most once, in order, and that no pair that meets is missing. Returns
+// the number of visited pairs.
 std::size_t check(const Balls& balls) {
   Pairs visited;
   visit_near_pairs(balls.centers, balls.radii, [&](BeadId i, BeadId j) {
@@ -72,11 +73,12 @@ TEST(NearPairs, OfTiesOnTheGrid) {
   std::vector<Eigen::Vector4d> numbers;
   for (int x = -2; x <= 2; ++x)
     for (int y = -2; y <= 2; ++y)
-      for (int z = -2; z <= 2; ++z) numbers.emplace_back(x, y, z, 0.5);  // touching, on cell walls
+      for (int z = -2; z <= 2; ++z)
+        numbers.emplace_back(x, y, z, 0.5);  // balls that touch and lie on cell walls
   check(balls(numbers));
   for (auto& ball : numbers) ball.head<3>() *= std::nextafter(1.0, 2.0);
   check(balls(numbers));
-  for (auto& ball : numbers) ball.head<3>() = ball.head<3>().array() - 0x1p-60;  // just below the walls
+  for (auto& ball : numbers) ball.head<3>() = ball.head<3>().array() - 0x1p-60;  // slightly below the walls
   check(balls(numbers));
 }
 
@@ -95,7 +97,7 @@ TEST(NearPairs, AtExtremes) {
 TEST(NearPairs, AreFewWhereBallsAreSpread) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(0, 100);
-  std::vector<Eigen::Vector4d> numbers;  // of a volume of 1e6, 20000 balls of 4.2
+  std::vector<Eigen::Vector4d> numbers;  // 20000 balls of volume 4.2 in a volume of 1e6
   for (int i = 0; i < 20000; ++i) numbers.emplace_back(place(random), place(random), place(random), 1);
   const Balls spread = balls(numbers);
   std::size_t visited = 0;

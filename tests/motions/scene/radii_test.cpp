@@ -48,7 +48,7 @@ TEST(Radii, AutoIsHalfTheLongestBond) {
   EXPECT_EQ(radii("auto", {necklace({{7}}), necklace({{0, 5}})}), Radii(3, 2.5));
 }
 
-// The exact square of a bond's length, less that of the radii's sum.
+// Returns the exact square of a bond's length minus the squared sum of the radii.
 Rational gap(const Eigen::Matrix3Xd& frame, Eigen::Index bead, double radius) {
   Rational rest = -4 * Dyadic(radius).rational() * Dyadic(radius).rational();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -100,16 +100,16 @@ TEST(Radii, Element) {
 }
 
 TEST(Radii, FittedBallsAreDisjoint) {
-  // Beads 0 and 2 are 1.5 apart: radii of 1 shrink to just below 0.75.
+  // Beads 0 and 2 are 1.5 apart, so radii of 1 shrink to slightly below 0.75.
   const Radii fitted = radii("element:fit", {necklace({{0, 0.75, 1.5}})});
   EXPECT_LT(fitted[0] + fitted[2], 1.5);
   EXPECT_NEAR(fitted[0], 0.75, 1e-9);
   EXPECT_EQ(fitted[0], fitted[1]);
-  // Never larger than the element's, and the first frame alone counts.
+  // Fitted radii never exceed the element's radius, and only the first frame counts.
   EXPECT_EQ(radii("element:fit", {necklace({{0, 3, 6}, {0, 0, 0}})}), Radii(3, 1));
-  // Balls that just touch do touch.
+  // Balls that just touch count as touching.
   EXPECT_LT(radii("element:fit", {necklace({{0, 1, 2}})})[0], 1);
-  // Neighbours may overlap, beads of two necklaces may not.
+  // Neighbours may overlap; beads of different necklaces may not.
   EXPECT_EQ(radii("element:fit", {necklace({{0, 0.1}})}), Radii(2, 1));
   const Radii two = radii("element:fit", {necklace({{0, 9}}), necklace({{0, 9}}, 0.5)});
   EXPECT_LT(two[0] + two[2], 0.5);

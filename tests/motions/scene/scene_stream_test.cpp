@@ -1,4 +1,4 @@
-// A scene that reads its frames as it goes is the scene that holds them all.
+// A scene that reads its frames on demand equals the scene that holds all frames.
 
 #include "motions/scene/scene_stream.h"
 
@@ -124,7 +124,7 @@ TEST(SceneStream, TellsOfAFileThatLosesFramesMeanwhile) {
   test::expect_refused([&] { (void)scene.centers(3999); }, {"a.xyz: frame", "is gone"});
 }
 
-// Two files in one cell, the second on the other side of a wall.
+// Two files in one cell; the second chain is on the other side of a wall.
 TEST(SceneStream, TellsOfNearerImagesInOneCell) {
   const auto warnings = [](double y, std::string_view lattice) {
     const auto frame = [&](double height, std::string_view cell) {
@@ -147,7 +147,7 @@ TEST(SceneStream, TellsOfNearerImagesInOneCell) {
   EXPECT_TRUE(warnings(18, "21 20 20").empty());
 }
 
-// A later necklace is compared with all before it, not with the first file alone.
+// Each later necklace is compared with all earlier ones, not only with the first file.
 TEST(SceneStream, TellsOfNearerImagesOfAnyEarlierNecklace) {
   const auto file = [](const std::string& name, double y, double box) {
     const std::string frame = "2\nLattice=\"" + std::to_string(box) + " 40 40\"\nC 1 " + std::to_string(y) +
@@ -156,20 +156,20 @@ TEST(SceneStream, TellsOfNearerImagesOfAnyEarlierNecklace) {
   };
   const auto first = file("first.xyz", 13, 40), low = file("low.xyz", 1, 40), high = file("high.xyz", 38, 40);
   EXPECT_TRUE(open({first, low}).warnings.empty());
-  EXPECT_TRUE(open({first, high}).warnings.size() == 1U);  // 15 away, not 25
+  EXPECT_TRUE(open({first, high}).warnings.size() == 1U);  // 15 apart, not 25
   const std::vector<std::string> warnings = open({first, low, high}).warnings;
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("high.xyz: has a periodic image much nearer to the necklaces before it (3 away, "
                              "not 25)"),
             std::string::npos)
       << warnings[0];
-  // Cells are compared where they are the same, whatever the first file has.
+  // Necklaces with equal cells are compared, whatever cell the first file has.
   const auto other = file("other.xyz", 13, 41);
   EXPECT_EQ(open({other, low, high}).warnings.size(), 1U);
   EXPECT_TRUE(open({other, low}).warnings.empty());
 }
 
-// A chain of a later file, though the chain beside it is near as it lies.
+// A chain of a later file is reported, although the chain beside it is near without an image.
 TEST(SceneStream, TellsOfNearerImagesOfEachChain) {
   const auto models = [](const std::string& name, const std::vector<double>& heights) {
     std::string text;

@@ -148,7 +148,7 @@ TEST(Scene, BeadsThatKeepToAPlaneMakeAPlanarScene) {
       for (int axis = 0; axis < 2; ++axis)
         EXPECT_EQ(motion.coordinate(b, 3, axis), scene.centers(2)(axis, b));
 
-    necklaces[0].frames[1](across, 3) = std::nextafter(-2.5, 0);  // out of the plane once
+    necklaces[0].frames[1](across, 3) = std::nextafter(-2.5, 0);  // leaves the plane in one frame
     const Scene solid(necklaces, std::vector<double>(6, 1));
     EXPECT_EQ(solid.dimension(), 3);
     EXPECT_EQ(solid.centers(1).leftCols(4), necklaces[0].frames[1]);
@@ -201,7 +201,7 @@ Instance instance(int columns, int degree, std::vector<double> control_points) {
 }
 
 TEST(Scene, AnInstanceIsOneStep) {
-  // Two points in space with weights, degree 2: x, y, z, w with three control points each.
+  // Two points in space with weights, of degree 2: three control points for each of x, y, z and w.
   const Scene scene(instance(4, 2, {0, 1, 2, 3,  4,  5,  6,  7,  8,  4, 5, 9,  //
                                     9, 8, 7, -6, -5, -4, 30, 20, 10, 1, 2, -3}));
   EXPECT_EQ(scene.dimension(), 3);
@@ -250,7 +250,7 @@ TEST(Scene, RadiiAreEqualOnlyIfWeightsStaySo) {
   EXPECT_FALSE(Scene(instance(4, 1, {0, 1, 0, 1, 0, 1, 4, 4, 2, 3, 2, 3, 2, 3, 4, 5})).equal_radii());
 }
 
-// A weight that underflows is another weight.
+// A weight that underflows has changed, and is reported.
 TEST(Scene, WeightsTooSmallAreTold) {
   Trajectory necklace;
   necklace.frames.assign(2, Eigen::Matrix3Xd::Random(3, 4));

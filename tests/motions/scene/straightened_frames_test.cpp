@@ -44,7 +44,8 @@ Rational square_of_deviation(const Frames& a, const Frames& b, std::size_t frame
   return square;
 }
 
-/// Of the frames in between: where a bead turns by more than what is rounded.
+/// Counts, over all frames except the first and last, the turns of beads that are larger than rounding
+/// errors.
 std::size_t turns(const Frames& frames) {
   std::size_t count = 0;
   for (std::size_t k = 1; k + 1 < frames.size(); ++k)
@@ -53,7 +54,7 @@ std::size_t turns(const Frames& frames) {
   return count;
 }
 
-/// Where a bead nearly goes straight on, and its steps are not the same doubles.
+/// Counts the frames at which a bead moves almost straight on, but by steps that are different doubles.
 std::size_t steps_that_differ(const Frames& frames) {
   std::size_t count = 0;
   for (std::size_t k = 1; k + 1 < frames.size(); ++k) {
@@ -66,9 +67,9 @@ std::size_t steps_that_differ(const Frames& frames) {
   return count;
 }
 
-// Walks of any kind, of any number of frames: no exact deviation exceeds the tolerance, beads at the first
-// frame and the last are nearly where they were, those at rest just there, and beads turn less, or not at
-// all.
+// Random walks of all kinds with any number of frames. No exact deviation exceeds the tolerance. At the first
+// and last frame beads are near their original places, or exactly there if they rest. Beads turn less often,
+// or not at all.
 TEST(StraightenedFrames, NeverExceedTheTolerance) {
   std::mt19937 random(61);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -76,7 +77,7 @@ TEST(StraightenedFrames, NeverExceedTheTolerance) {
     SCOPED_TRACE(round);
     const std::size_t count = 1 + random() % 70;
     const double tolerance = std::array{0.0, 0.05, 0.3, 2.0}[static_cast<std::size_t>(round) % 4];
-    const double scale = round % 3 == 0 ? 0x1p40 : 1;  // doubles are coarse there
+    const double scale = round % 3 == 0 ? 0x1p40 : 1;  // at this scale doubles are coarse
     Frames frames;
     Eigen::Matrix3Xd now = Eigen::Matrix3Xd::NullaryExpr(3, 4, [&] { return scale + uniform(random); });
     for (std::size_t k = 0; k < count; ++k) {
@@ -108,7 +109,7 @@ TEST(StraightenedFrames, NeverExceedTheTolerance) {
   }
 }
 
-// Among the smallest doubles a length is rounded by as much as it is.
+// Among the smallest doubles, the rounding error of a length is as large as the length itself.
 TEST(StraightenedFrames, NeverExceedAToleranceOfTheSmallestDoubles) {
   constexpr double smallest = std::numeric_limits<double>::denorm_min();
   std::mt19937 random(62);
@@ -125,8 +126,9 @@ TEST(StraightenedFrames, NeverExceedAToleranceOfTheSmallestDoubles) {
   }
 }
 
-// A bead on a circle that only halves of halves of a block come near enough to, and one that goes straight on
-// by steps that are no multiples of any grid. In the plane z = 0.1, which no mean or rounding leads out of.
+// A bead on a circle, for which a block must be halved twice to come close enough, and a bead that moves
+// straight by steps that are not multiples of any grid. All beads are in the plane z = 0.1, and neither means
+// nor rounding may leave the plane.
 TEST(StraightenedFrames, HalveABlockForTheBeadsThatTurn) {
   Frames frames;
   for (int k = 0; k <= 16; ++k) {
@@ -134,7 +136,7 @@ TEST(StraightenedFrames, HalveABlockForTheBeadsThatTurn) {
     frames.emplace_back(3, 2);
     frames.back() << std::cos(angle), 0.3 * k, std::sin(angle), 0, 0.1, 0.1;
   }
-  // The sagitta of an eighth of a circle is 0.076, of a quarter 0.29; means lie within by 0.11.
+  // The sagitta of an eighth of a circle is 0.076, and of a quarter 0.29; means lie inside by 0.11.
   const Frames straight = straightened(frames, 0.25);
   EXPECT_EQ(turns(straight), 3U);
   EXPECT_EQ(turns(straightened(frames, 0.45)), 1U);
@@ -142,7 +144,7 @@ TEST(StraightenedFrames, HalveABlockForTheBeadsThatTurn) {
   for (const Eigen::Matrix3Xd& frame : straight) EXPECT_TRUE((frame.row(2).array() == 0.1).all());
 }
 
-// Chords from sample to sample would be off by twice as much as a bead vibrates.
+// Chords from sample to sample would deviate by twice the amplitude of the vibration.
 TEST(StraightenedFrames, DoNotFollowVibrations) {
   Frames frames;
   for (int k = 0; k <= 32; ++k) {
@@ -155,7 +157,7 @@ TEST(StraightenedFrames, DoNotFollowVibrations) {
   for (std::size_t k = 8; k + 8 < frames.size(); ++k) EXPECT_LT(std::abs(straight[k](1, 0)), 0.02);
 }
 
-// Means and chords of positions as far away as doubles go overflow: then samples stay.
+// Means and chords of positions near the largest doubles overflow; in that case the samples stay.
 TEST(StraightenedFrames, AreFiniteWhereDoublesOverflow) {
   for (const double tolerance : {1e-300, 1.0, 1e305}) {
     Frames frames;
@@ -172,7 +174,7 @@ TEST(StraightenedFrames, AreFiniteWhereDoublesOverflow) {
   }
 }
 
-// Whatever the units, and however far the tolerance is beyond them, beads keep apart.
+// Beads stay separate for any units and however far the tolerance exceeds the coordinates.
 TEST(StraightenedFrames, DoNotRoundBeadsTogether) {
   for (const double unit : {1.0, 0x1p-950, 0x1p-1040, 0x1p930}) {
     for (const double tolerance : {unit, 0x1p60 * unit}) {

@@ -29,7 +29,7 @@ class Frames final : public FrameReader {
   std::size_t next_ = 0;
 };
 
-/// Beads that wander, in space or in the plane y = 0.25.
+/// Makes beads that wander in space or in the plane y = 0.25.
 std::vector<Eigen::Matrix3Xd> wandering(unsigned seed, std::size_t frames, bool planar) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> step(-0.5, 0.5);
@@ -56,8 +56,8 @@ Scene every_so_many(const std::vector<Eigen::Matrix3Xd>& frames, std::size_t str
 
 Rational square(const std::array<Rational, 3>& v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
-/// The exact square of the deviation of a bead in a part of a step, at `time` of the step and as `share` of
-/// the part.
+/// Returns the exact square of a bead's deviation in a part of a step, at `time` of the step, which is
+/// `share` of the part.
 template <class M>
 Rational deviation_at(const Scene& scene, const M& motion, BeadId bead, const Dyadic& time,
                       const Rational& share, const Eigen::Matrix3Xd& before, const Eigen::Matrix3Xd& after) {
@@ -75,7 +75,8 @@ Rational deviation_at(const Scene& scene, const M& motion, BeadId bead, const Dy
   return square(apart);
 }
 
-/// That no deviation at an exact time exceeds what was found, and, at frames, that what was found is reached.
+/// Checks that no deviation at an exact time exceeds the result, and that, at frames, some deviation reaches
+/// it.
 template <class M>
 void expect_bounds(bool planar, FrameMotion kind) {
   constexpr std::size_t stride = 4;
@@ -91,7 +92,7 @@ void expect_bounds(bool planar, FrameMotion kind) {
     M motion(5);
     for (std::size_t step = 0; step < scene.step_count(); ++step) {
       scene.load(step, motion);
-      for (std::size_t i = 0; i < 64; ++i) {  // parts of the step are quarters
+      for (std::size_t i = 0; i < 64; ++i) {  // the parts of the step are quarters
         const std::size_t part = i / 16, place = step * stride + part;
         for (BeadId b = 0; b < 5; ++b) {
           const Rational at = deviation_at(scene, motion, b, Dyadic(static_cast<double>(i) / 64),
@@ -107,7 +108,7 @@ void expect_bounds(bool planar, FrameMotion kind) {
       EXPECT_GT(reached, found.of_bead[b] * (M::degree == 1 ? 1 - 1e-11 : 0.8));
     }
     EXPECT_EQ(found.of_bead[found.bead], found.largest);
-    if (M::degree == 1) {  // it is there
+    if (M::degree == 1) {  // the deviation is reached
       const std::size_t step = found.frame / stride;
       scene.load(step, motion);
       const double u = static_cast<double>(found.frame % stride) / stride;

@@ -62,7 +62,7 @@ TEST(Displacements, DriftIsFree) {
   wandering.set_reference(Curves<2>(motion));
   wandering.look_at(Curves<2>(motion));
   for (const double stray : wandering.strays()) EXPECT_LT(stray, 1e-11);
-  motion.set_coordinate(1, 1, 0, 1001.5);  // half a unit further than the others
+  motion.set_coordinate(1, 1, 0, 1001.5);  // half a unit farther than the others
   wandering.look_at(Curves<2>(motion));
   EXPECT_GT(wandering.strays()[1], 0.3);
   EXPECT_LT(wandering.strays()[1], 0.5);

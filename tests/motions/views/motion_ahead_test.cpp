@@ -21,8 +21,8 @@ void go_on(Step<dimension>& motion, BeadId bead, int axis, double by) {
   motion.set_coordinate(bead, 1, axis, from + by);
 }
 
-// Bead 0 goes straight on, 1 rests, 2 turns by little, 3 jumps, 4 gets another weight, 5 moves by a step
-// that is rounded.
+// Bead 0 moves straight on, bead 1 rests, bead 2 turns slightly, bead 3 jumps, bead 4 changes its weight, and
+// bead 5 moves by a step that is rounded.
 template <int dimension>
 void expect_to_tell_who_turned() {
   Step<dimension> motion(6);
@@ -66,8 +66,8 @@ TEST(MotionAhead, MoreOrFewerBeadsHaveAllTurned) {
   }
 }
 
-// By rationals, for numbers of all sizes: a bead that is known is where it is said to be after those steps,
-// and one that is not is nowhere near the others.
+// Checks by rationals, for numbers of all sizes: the predicted position of a known bead is exact, and a bead
+// that is not known is predicted to be far from all others.
 TEST(MotionAhead, IsExactOrFarAway) {
   test::Random random(3);
   std::size_t known = 0, unknown = 0;
@@ -106,7 +106,7 @@ TEST(MotionAhead, IsExactOrFarAway) {
   EXPECT_GT(unknown, 200U);
 }
 
-// Those that were not looked at in the step before have turned.
+// Beads that were not examined in the step before count as turned.
 TEST(MotionAhead, LooksAtSomeAlone) {
   Step<3> motion(100);
   MotionAhead<3> ahead;

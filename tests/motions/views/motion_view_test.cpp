@@ -23,7 +23,7 @@ Rational power_of_two(int exponent) {
   return exponent < 0 ? Rational(1 / power) : power;
 }
 
-// A control point as a rational, coordinates and then the weight.
+// Returns a control point as rationals: the coordinates, then the weight.
 template <Motion M>
 Rational control(const M& motion, BeadId bead, int k, int axis) {
   return Dyadic(axis < M::dimension ? motion.coordinate(bead, k, axis) : motion.weight(bead, k)).rational();
@@ -35,8 +35,7 @@ void expect_exact(const M& motion, const Dyadic& time) {
   const IntegerView<M> whole(motion, beads);
   const MomentView<M> moment(motion, beads, time);
   const Rational scale = power_of_two(whole_scale(motion, beads).exponent);
-  // Times from which the moment's numbers are scaled: (denominator)^degree for lengths, its square for
-  // weights.
+  // Scale factors of the moment's numbers: (denominator)^degree for lengths, and its square for weights.
   Rational later = 1;
   for (int k = 0; k < M::degree; ++k) later *= power_of_two(static_cast<int>(time.exponent()));
 
@@ -59,7 +58,7 @@ void expect_exact(const M& motion, const Dyadic& time) {
       const Rational at_time = pi[static_cast<std::size_t>(axis)] - pj[static_cast<std::size_t>(axis)];
       const auto& value = weight ? heavy : there[static_cast<std::size_t>(axis)];
       EXPECT_EQ(Rational(value.scaled[0]), at_time * factor * (weight ? Rational(later * later) : later));
-      // and both are the polynomial's value there
+      // and both equal the value of the polynomial at that time
       EXPECT_EQ(sturm::value(sturm::from_scaled(polynomial.scaled), time.rational()), at_time * factor);
     }
     const auto thicker = whole.radius_difference(i, j);
@@ -102,7 +101,7 @@ TEST(MotionViews, ExactOnesKnowNoLimits) {
       for (BeadId b = 0; b < 3; ++b) {
         for (int k = 0; k <= 1; ++k) {
           for (int axis = 0; axis < 3; ++axis) {
-            if (axis == 2 && b == 1) continue;  // one stays ordinary
+            if (axis == 2 && b == 1) continue;  // one coordinate stays ordinary
             motion.set_coordinate(b, k, axis, std::ldexp(motion.coordinate(b, k, axis), exponent));
           }
           motion.set_weight(b, k, std::ldexp(motion.weight(b, k), weight_exponent));
@@ -133,7 +132,7 @@ TEST(MotionViews, MomentsAtTheEndsAreTheFrames) {
 TEST(MotionViews, WholeNumbersNeedNoScale) {
   BezierMotion<2, 1> motion(2);
   const std::array<BeadId, 2> beads{0, 1};
-  EXPECT_LT(whole_scale(motion, beads).exponent, 0);  // all zero
+  EXPECT_LT(whole_scale(motion, beads).exponent, 0);  // all numbers are zero
   motion.set_coordinate(0, 0, 0, 3);
   EXPECT_EQ(whole_scale(motion, beads).exponent, 0);
   motion.set_coordinate(1, 1, 1, 0.125);
@@ -144,13 +143,13 @@ TEST(MotionViews, WholeNumbersNeedNoScale) {
   EXPECT_EQ(whole_scale(motion, beads).exponent, 4);
   motion.set_radius(0, 1, 0x1p-9);
   EXPECT_EQ(whole_scale(motion, beads).exponent, 9);
-  // What is not asked for does not make numbers longer.
+  // Numbers that the view does not need do not increase the scale.
   EXPECT_EQ(whole_scale(motion, beads, Channels{}).exponent, 3);
   EXPECT_EQ(whole_scale(motion, beads, Channels{.weights = true, .radii = false}).exponent, 4);
   EXPECT_EQ((IntegerView<BezierMotion<2, 1>>(motion, beads, Channels{}).difference(0, 1)[0].scaled[0]), 24);
 }
 
-// The view of doubles remembers the largest thing that it answered.
+// The view of doubles records the largest value that it returned.
 TEST(DoubleView, KnowsTheLargestLength) {
   BezierMotion<2, 1> motion(3);
   motion.set_coordinate(1, 1, 1, -5);
@@ -245,13 +244,12 @@ TEST(MotionViews, TrackedAtAUsefulScaleWhereverDifferencesAreFinite) {
   M same(2);
   EXPECT_EQ(scale_to_unit(same, beads), 1);
   same.set_coordinate(0, 0, 0, -0x1p1023);
-  same.set_coordinate(1, 0, 0, 0x1p1023);  // their difference is no double
+  same.set_coordinate(1, 0, 0, 0x1p1023);  // their difference overflows
   EXPECT_EQ(scale_to_unit(same, beads), 1);
 }
 
-// A degree that is known only at run time: exact views have the motion's values, and where the degree has
-// been compiled the very same coefficients.
-// Of motions of any degree it must be told one.
+// A degree that is known only at run time: exact views return the motion's values, and for compiled degrees
+// the same coefficients. Views of motions of any degree require the degree as an argument.
 static_assert(std::is_default_constructible_v<MagnitudeView<3, 1>>);
 static_assert(!std::is_default_constructible_v<MagnitudeView<3, any_degree>>);
 static_assert(std::is_constructible_v<MagnitudeView<3, any_degree>, int>);
@@ -308,7 +306,8 @@ TEST(AnyDegreeMotion, IsSeenAsItIs) {
   }
 }
 
-// The lift of every view, and of exact positions: |x|^2 less the weight moves linearly, the drift left out.
+// Checks the lift of every view and of exact positions: |x|^2 minus the weight moves linearly, without the
+// common drift.
 TEST(LiftedMotion, LiftsAreLinear) {
   test::Random random(6);
   LiftedMotion<3> motion(2);
@@ -334,7 +333,8 @@ TEST(LiftedMotion, LiftsAreLinear) {
   EXPECT_EQ(exact_position(motion, 0, Dyadic(1.0))[3], Rational(motion.weight(0, 1)));
   EXPECT_LT(exact_position(motion, 0, time)[3], Rational(std::max(motion.weight(0, 0), motion.weight(0, 1))));
 
-  // lift_difference leaves out a multiple of the centres: 2 (where bead 1 starts) . (difference).
+  // lift_difference leaves out a multiple of the difference of the centres: 2 (start of bead 1) .
+  // (difference).
   const std::array<BeadId, 2> beads{0, 1};
   const Rational scale =
       power_of_two(whole_scale(motion, beads, Channels{.weights = true, .radii = false}).exponent);
