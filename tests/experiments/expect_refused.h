@@ -1,5 +1,5 @@
 #pragma once
-// What every refusal of the program looks like from outside.
+// Checks how the program reports a refusal.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,8 @@
 
 namespace kds::test {
 
-/// Exit code 2, nothing on standard output, one line on standard error that has each of the words.
+/// Checks for exit code 2, nothing on standard output, and one line on standard error that contains each of
+/// the words.
 inline void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
   const ProgramRun run = run_program(arguments);
   EXPECT_EQ(run.code, 2) << testing::PrintToString(arguments) << "\n" << run.err;
@@ -22,7 +23,7 @@ inline void expect_refused(const std::vector<std::string>& arguments, const std:
   for (const std::string& word : words) EXPECT_THAT(run.err, testing::HasSubstr(word));
 }
 
-/// A frame of an XYZ file: beads as "x y z".
+/// Returns a frame of an XYZ file; each bead is given as "x y z".
 inline std::string xyz(const std::vector<std::string>& beads) {
   std::string frame = std::to_string(beads.size()) + "\nframe\n";
   for (const std::string& bead : beads) frame += "C " + bead + "\n";

@@ -1,6 +1,6 @@
-// Preloaded into the program, this is a host that rounds otherwise or flushes what is tiny to zero, as the
-// environment variable KDS_HOST says (the place in host_environments), and that looks at the end whether its
-// environment is still there.
+// A library that is preloaded into the program and acts as a host with another rounding mode, or one that
+// flushes subnormal numbers to zero. The environment variable KDS_HOST selects the environment (an index into
+// host_environments). At exit the library checks that the environment is still set.
 
 #include <unistd.h>
 

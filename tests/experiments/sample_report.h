@@ -1,5 +1,5 @@
 #pragma once
-// A small run, made up, with every kind of figure a report shows.
+// An invented small run with every kind of figure that a report shows.
 
 #include <initializer_list>
 
@@ -7,7 +7,7 @@
 
 namespace kds::test {
 
-/// From frame 0 on.
+/// Starts at frame 0.
 inline EventCourse course_of(std::initializer_list<std::uint64_t> events) {
   EventCourse course;
   for (const std::uint64_t count : events) course.add(count, course.steps());

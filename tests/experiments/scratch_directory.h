@@ -1,5 +1,5 @@
 #pragma once
-// A directory of the test's own, gone after it.
+// A temporary directory that is removed after the test.
 
 #include <gtest/gtest.h>
 #include <unistd.h>

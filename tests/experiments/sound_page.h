@@ -1,5 +1,5 @@
 #pragma once
-// What every page must be: well formed, complete in itself, and a page whatever files are called.
+// Checks that a page is well formed and self-contained, and stays a valid page for any file names.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ inline std::size_t count_of(const std::string& text, const std::string& word) {
   return times;
 }
 
-// Every tag is closed in order; the page is written as XML would be, but for <meta> and the declaration.
+// Every tag is closed in order. Apart from <meta> and the declaration, the page is written like XML.
 inline void expect_nested(const std::string& html) {
   std::vector<std::string> open;
   for (std::size_t start = 0; (start = html.find('<', start)) != std::string::npos;) {
@@ -44,13 +44,13 @@ inline void expect_no_network(const std::string& html) {
     EXPECT_THAT(html, testing::Not(testing::HasSubstr(word)));
 }
 
-/// All of it, and what every report has.
+/// Makes all of these checks, and checks the parts that every report has.
 inline void expect_sound(const std::string& html) {
   expect_nested(html);
   expect_no_network(html);
   for (const char* part : {"prefers-color-scheme: dark", "name=\"viewport\"", "How it was made"})
     EXPECT_THAT(html, testing::HasSubstr(part));
-  // Each plot for wide pages and for narrow ones.
+  // Each plot exists for wide and for narrow pages.
   EXPECT_EQ(count_of(html, "<svg class=\"wide\""), count_of(html, "<svg class=\"narrow\""));
   EXPECT_EQ(count_of(html, "<svg"), 2 * count_of(html, "<svg class=\"wide\""));
 }

@@ -1,4 +1,4 @@
-// `kds bench`, through the library and from outside.
+// Tests `kds bench`, through the library and as a process.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(BenchChains, EveryBeadMovesByTheDistance) {
     for (Eigen::Index b = 0; b < start.cols(); ++b)
       EXPECT_NEAR((frames[k].col(b) - frames[k - 1].col(b)).norm(), 0.01, 1e-12);
   }
-  EXPECT_EQ(frames, jostled_frames(start, 0.01, 4));  // the same again
+  EXPECT_EQ(frames, jostled_frames(start, 0.01, 4));  // deterministic
 }
 
 TEST(BenchChains, PlanarOnesStayInThePlane) {
@@ -116,7 +116,7 @@ TEST(Bench, HierarchiesGiveARowForEachMeasureAndInput) {
   for (const Json& row : json["rows"]) {
     names.insert(row["name"]);
     inputs.insert(row["input"]);
-    // So few beads may pass a few steps without an event.
+    // With so few beads, a few steps may have no event.
     EXPECT_GE(row["value"].get<double>(), row["unit"] == "events/step" ? 0 : 1e-9);
     EXPECT_EQ(row["ratio"].is_null(), row["peer_value"].is_null() || row["peer_value"] == 0);
     if (!row["ratio"].is_null()) {
@@ -178,7 +178,7 @@ TEST(Bench, CollisionGivesARowForEachDetectorMotionAndInput) {
     EXPECT_LE(row["value_least"], row["value"]);
     EXPECT_LE(row["value"], row["value_most"]);
     EXPECT_GT(row["value"].get<double>(), 0);
-    // Contacts have a goal on other trajectories, growth has one from 100,000 beads on.
+    // Contacts have a goal only on other trajectories, and growth has one only from 100,000 beads on.
     const std::string name = row["name"];
     ASSERT_EQ(row["goal"].is_null(),
               name.starts_with("contacts, ") || name.ends_with(", ten times the beads"));

@@ -1,4 +1,4 @@
-// `kds collide`: its options, what it finds and what it writes.
+// Tests `kds collide`: its options, its results and its files.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -60,7 +60,8 @@ TEST(CollideOptions, RefusesWithTheOptionAndWhatItTakes) {
   EXPECT_THAT(refusal({"a.pdb", "--pairs", "some"}), HasSubstr("--pairs: 'some' is not one of all, within"));
 }
 
-// A square of side 2 that opens: beads of radius 1 at the corners touch, those of a diagonal never.
+// Writes a square of side 2 that opens. Beads of radius 1 at adjacent corners touch; beads at opposite
+// corners never meet.
 std::string opening_square(const ScratchDirectory& directory) {
   return directory.file("square.xyz",
                         "4\nframe\nC 0 0 0\nC 2 0 0\nC 2 2 0\nC 0 2 0\n"
@@ -148,7 +149,7 @@ TEST(Collide, InThePlaneAndBetweenTwo) {
   ASSERT_EQ(run.code, 0) << run.err;
   json = Json::parse(run.out);
   ASSERT_EQ(json["rows"].size(), collision_methods().size());
-  for (const Json& row : json["rows"]) EXPECT_EQ(row["pairs"], 4) << row;  // beads of a touch
+  for (const Json& row : json["rows"]) EXPECT_EQ(row["pairs"], 4) << row;  // beads that touch
 }
 
 TEST(Collide, PairsWithinADistance) {
@@ -206,8 +207,8 @@ TEST(Collide, OfATrajectoryWithPlots) {
   expect_sound(page);
   for (const char* plot : {"by bead", "closest distance by frame", "overlap by 0."})
     EXPECT_THAT(page, HasSubstr(plot));
-  EXPECT_THAT(page, Not(HasSubstr("class=\"curve\"")));  // ten frames are no line
-  // Its page is not lost to another command's.
+  EXPECT_THAT(page, Not(HasSubstr("class=\"curve\"")));  // ten frames are drawn as marks, not as a line
+  // Another command must not overwrite the page.
   const ProgramRun other = run_program({"update", data_file("trajectories/villin_hp36_300K.dcd"), "--frames",
                                         ":3", "--out", (directory / "out").string()});
   EXPECT_EQ(other.code, 2);
@@ -253,7 +254,7 @@ TEST(Collide, AFullDiskIsAnInternalFailure) {
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
-// A method that is wrong is found out: the frame and both methods are named.
+// A wrong method is detected: the error names the frame and both methods.
 template <int Dimension>
 class Wrong final : public Detector<Dimension> {
  public:

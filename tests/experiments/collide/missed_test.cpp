@@ -1,4 +1,4 @@
-// `kds missed`: its options, what it counts and what it writes.
+// Tests `kds missed`: its options, its counts and its files.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST(MissedOptions, RefusesWithTheOptionAndWhatItTakes) {
               HasSubstr("--motion: 'lifted' is not one of linear, hermite"));
 }
 
-// A bead passes one that rests from x = -9 to 9, comes back for frames 2 and 3 and leaves.
+// A bead moves past a bead at rest from x = -9 to 9, comes back for frames 2 and 3, and leaves.
 struct Passing {
   ScratchDirectory directory;
   std::string rests = directory.file("rests.xyz", "1\n\nC 0 0 0\n");
@@ -87,7 +87,7 @@ TEST(Missed, CountsContactsInWhichNoFrameLies) {
   EXPECT_EQ(json["settings"]["apart"], 2);
   EXPECT_TRUE(json.contains("machine") && json.contains("version"));
   const Json& rows = json["rows"];
-  EXPECT_THAT(column(rows, "stride"), ElementsAre(1, 2, 4));  // 8 would look at one frame
+  EXPECT_THAT(column(rows, "stride"), ElementsAre(1, 2, 4));  // stride 8 would leave only one frame
   EXPECT_THAT(column(rows, "frames"), ElementsAre(5, 3, 2));
   EXPECT_THAT(column(rows, "contacts"), ElementsAre(2, 2, 2));
   EXPECT_THAT(column(rows, "found"), ElementsAre(1, 1, 0));
@@ -101,7 +101,7 @@ TEST(Missed, ARunAFactor) {
   ASSERT_EQ(run.code, 0) << run.err;
   const Json json = Json::parse(run.out);
   EXPECT_EQ(json["input"]["radius_max"], 1.0);
-  // Radii of 10 meet at all times.
+  // With factor 10 the beads are in contact throughout.
   EXPECT_THAT(column(json["rows"], "contacts"), ElementsAre(2, 1));
   EXPECT_THAT(column(json["rows"], "found"), ElementsAre(0, 1));
 }
@@ -145,7 +145,7 @@ TEST(Missed, WritesFilesAndAPage) {
   const std::string page = content_of(passing.directory / "report/report.html");
   expect_sound(page);
   EXPECT_THAT(page, HasSubstr("<svg"));
-  // Its page is not lost to another command's.
+  // Another command must not overwrite the page.
   run = run_program({"collide", passing.rests, "--radius", "1", "--out", out});
   EXPECT_EQ(run.code, 2);
   EXPECT_THAT(run.err, HasSubstr("report.html there was written by kds missed --out"));

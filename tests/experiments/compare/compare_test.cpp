@@ -1,4 +1,4 @@
-// `kds compare`: its options, and its counts beside those of single runs and of their dumps.
+// Tests `kds compare`: its options, and its counts compared with those of single runs and of their dumps.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ TEST(NetChanges, CountPlacesThatHoldSomethingElse) {
   const CombinatorialElements nodes{2, {element({0, 3, 0, 3}), element({0, 1, 0, 1}), element({2, 3, 2, 3})}};
   CombinatorialElements other = nodes;
   EXPECT_EQ(net_changes(nodes, other), 0U);
-  std::swap(other.all[0], other.all[2]);  // the order is of no account
+  std::swap(other.all[0], other.all[2]);  // the order does not matter
   EXPECT_EQ(net_changes(nodes, other), 0U);
   other.all[2] = element({0, 3, 0, 1, 3});
   EXPECT_EQ(net_changes(nodes, other), 1U);
@@ -105,7 +105,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& path) {
   return lines;
 }
 
-// Net changes by the dumps of two frames, slowly.
+// Counts net changes slowly, from the dumps of two frames.
 int cells_in_one_only(const std::filesystem::path& a, const std::filesystem::path& b) {
   const std::vector<std::string> x = lines_of(a), y = lines_of(b);
   const std::set<std::string> before(x.begin(), x.end()), after(y.begin(), y.end());
@@ -134,7 +134,7 @@ int ranks_changed(const std::filesystem::path& a, const std::filesystem::path& b
   for (std::size_t rank = 0; rank < before.size(); ++rank) changed += before[rank] == after[rank] ? 0 : 1;
   return changed;
 }
-// By the events: pairs that are in contact after a step and were not before it, or the other way round.
+// Counts, from the events, the pairs whose contact after a step differs from their contact before it.
 int pairs_changed(const std::filesystem::path& contacts, int steps) {
   std::vector<std::set<std::string>> after(static_cast<std::size_t>(steps) + 1);
   std::set<std::string> pairs;
@@ -243,7 +243,7 @@ TEST(Compare, SeveralInputsWithAPage) {
                                          "4\nb\nC 0 0 0\nC 1 0 0\nC 2 -1 0\nC 1 -1 1\n"
                                          "4\nc\nC 0 0 0\nC 1 0 0\nC 2 1 0\nC 2 2 1\n");
   const ProgramRun run = run_program({"compare", kPdb, other, "--structures", "sorted"});
-  EXPECT_EQ(run.code, 2);  // one frame
+  EXPECT_EQ(run.code, 2);  // the PDB file has only one frame
   const ProgramRun both = run_program({"compare", kDcd, other, "--structures", "sorted,wrapped", "--strides",
                                        "1,2", "--frames", ":3", "--out", scratch / "out"});
   ASSERT_EQ(both.code, 0) << both.err;
@@ -259,7 +259,7 @@ TEST(Compare, SeveralInputsWithAPage) {
   EXPECT_EQ(Json::parse(content_of(scratch / "out/compare.json"))["inputs"][1]["frames"], 3);
 }
 
-// With many curves each structure has a plot of its own; inputs of one chain share the plot along it.
+// With many curves each structure has its own plot; inputs of one chain share the plot along the chain.
 TEST(Compare, ManyRowsStayLegible) {
   const ScratchDirectory scratch;
   const std::string again = (scratch / "again.dcd").string();
@@ -270,7 +270,8 @@ TEST(Compare, ManyRowsStayLegible) {
   ASSERT_EQ(run.code, 0) << run.err;
   const std::string page = content_of(scratch / "out/report.html");
   expect_sound(page);
-  EXPECT_EQ(count_of(page, "<div class=\"panels\">"), 3U);  // a step, in all, efficiency
+  EXPECT_EQ(count_of(page, "<div class=\"panels\">"),
+            3U);  // changes per step, changes in all, and efficiency
   for (const char* structure : {"box", "wrapped", "power"})
     EXPECT_EQ(count_of(page, "<h3>" + std::string(structure) + "</h3>"), 3U);
   EXPECT_EQ(count_of(page, "along the chain, each row"), 1U);

@@ -1,5 +1,5 @@
-// How near two beads of a run come: the least of all pairs in all steps, and the interval of a run that
-// leaves out frames or lets beads go straight on holds it.
+// The closest approach of two beads in a run is the minimum over all pairs and steps. If a run skips frames
+// or straightens the motion, its interval must contain that minimum.
 
 #include "experiments/events/closest_approach.h"
 
@@ -31,7 +31,7 @@ Json summary_of(const std::string& frames, const std::vector<std::string>& more 
 
 DistanceRange range_of(const Json& json) { return {json.at(0).get<double>(), json.at(1).get<double>()}; }
 
-/// Of all pairs in all steps.
+/// Returns the minimum over all pairs in all steps.
 DistanceRange least_of_all(const std::vector<Space>& steps) {
   DistanceRange least{HUGE_VAL, HUGE_VAL};
   for (const Space& step : steps) {

@@ -1,5 +1,5 @@
-// The events of `wrapped`, made one by one on the dump of frame 0, give the dumps of all other frames: in
-// degenerate frames, too.
+// Applying the events of `wrapped` one by one to the dump of frame 0 gives the dumps of all other frames,
+// including degenerate frames.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@
 namespace kds::test::dump_replay_test {
 namespace {
 
-using Bases = std::map<std::string, std::string>;  // of nodes, FIRST-LAST
+using Bases = std::map<std::string, std::string>;  // by node, FIRST-LAST
 using Frame = std::vector<std::array<double, 3>>;
 
 std::vector<std::vector<std::string>> rows_of(const std::filesystem::path& path) {

@@ -1,4 +1,4 @@
-// kds run --events, and kds info --beads that tells whose residues its beads are.
+// Tests `kds run --events`, and `kds info --beads`, which prints the residue of each bead.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ std::vector<std::vector<std::string>> table_of(const std::filesystem::path& path
   return rows;
 }
 
-// Each bead's token, from kds info.
+// Returns the token of each bead as `kds info` prints it.
 std::vector<std::string> tokens_of_beads() {
   const ProgramRun info =
       run_program({"info", kDcd, "--topology", kPdb, "--frames", "0:2", "--beads", "--json", "-"});
@@ -54,7 +54,7 @@ std::vector<std::string> tokens_of_beads() {
   return tokens;
 }
 
-// The log has the same events in its own words.
+// The log has the same events in its own format.
 TEST(EventTable, HoldsTheEventsOfTheLogAndNamesTheirBeads) {
   const ScratchDirectory scratch;
   const ProgramRun run = run_program({"run", kDcd, "--topology", kPdb, "--frames", "10:40:2", "--structures",
@@ -115,7 +115,7 @@ TEST(EventTable, HoldsTheEventsOfTheLogAndNamesTheirBeads) {
   EXPECT_EQ(content_of(scratch / "replayed.csv"), content_of(scratch / "events.csv"));
 }
 
-// The same events as in the table, and what their ids are.
+// The JSON lines have the same events as the table, and name the roles of the ids.
 TEST(EventTable, IsOfJsonLinesWhereItsNameSaysSo) {
   const ScratchDirectory scratch;
   for (const char* name : {"events.csv", "events.JSONL"}) {
@@ -128,7 +128,7 @@ TEST(EventTable, IsOfJsonLinesWhereItsNameSaysSo) {
   const bool timed = rows[0].size() == 10;
   rows.erase(rows.begin());
   std::vector<std::string> lines = parts(content_of(scratch / "events.JSONL"), '\n');
-  lines.pop_back();  // behind the last one
+  lines.pop_back();  // after the last newline
   ASSERT_EQ(lines.size(), rows.size());
   const std::map<std::string, std::vector<std::string>> roles{
       {"wrapped", {"node", "basis"}}, {"contacts", {"first", "second"}}, {"2-3", {"triangle", "edge"}},
@@ -144,7 +144,7 @@ TEST(EventTable, IsOfJsonLinesWhereItsNameSaysSo) {
     const double first = std::stod(row[0]), lower = std::stod(row[1]), upper = std::stod(row[2]);
     EXPECT_EQ(line["frame"], first);
     EXPECT_EQ(line["step"], (first - 10) / 2);
-    EXPECT_NEAR(line["time"].get<double>(), first + lower + upper, 1e-9);  // strided: 2 frames a step
+    EXPECT_NEAR(line["time"].get<double>(), first + lower + upper, 1e-9);  // the stride is 2 frames per step
     EXPECT_EQ(line["lower"], lower);
     EXPECT_EQ(line["upper"], upper);
     EXPECT_EQ(line["structure"], row[3]);
@@ -163,7 +163,7 @@ TEST(EventTable, IsOfJsonLinesWhereItsNameSaysSo) {
     }
     EXPECT_EQ(names, roles.at(row[3] == "power" ? row[4] : row[3]));
     EXPECT_EQ(beads, row[7]);
-    std::size_t residue = row[6].empty() ? 0 : 2;  // of the node's ends, too
+    std::size_t residue = row[6].empty() ? 0 : 2;  // JSON also gives the residues of the node's ends
     for (; residue < line["residues"].size(); ++residue)
       residues += (residues.empty() ? "" : " ") + line["residues"][residue].get<std::string>();
     EXPECT_EQ(residues, row[8]);

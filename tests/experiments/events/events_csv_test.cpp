@@ -12,7 +12,7 @@
 namespace kds::events_csv_test {
 namespace {
 
-// Three steps of two structures, or of the first of them.
+// Returns the CSV of three steps of two structures, or of the first structure only.
 std::string csv_of(bool timed, const std::vector<FrameStamp>& frames, bool both) {
   std::ostringstream text;
   EventsCsv csv(text, timed);

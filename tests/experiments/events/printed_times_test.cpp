@@ -1,4 +1,4 @@
-// The times that files of events and contacts print: twelve digits, each of them right.
+// Times in the files of events and contacts have twelve correctly rounded digits.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,14 +26,15 @@ std::vector<std::string> lines_of(const std::filesystem::path& path) {
 
 std::string last_field(const std::string& line) { return line.substr(line.rfind(',') + 1); }
 
-/// A ball of radius 1 that passes another one, and nearly misses it.
+/// A ball of radius 1 that passes another ball and almost misses it.
 class Pass {
  public:
   Pass(const ScratchDirectory& scratch, double y) : scratch_(scratch), y_(y) {
     file_ = scratch.file("pass.xyz",
                          fmt::format("2\n\nC 0 0 0\nC {} {} 0\n2\n\nC 0 0 0\nC {} {} 0\n", from, y, to, y));
   }
-  /// The times at which they touch: sign -1 at the beginning, 1 at the end.
+  /// Returns the time at which the balls touch: at the beginning of the contact for sign -1, at the end for
+  /// sign 1.
   [[nodiscard]] std::string time(int sign) const {
     const long double half = std::sqrt((2.0L - y_) * (2.0L + y_));
     return fmt::format("{:.12g}", (sign * half - from) / (static_cast<long double>(to) - from));
@@ -88,7 +89,7 @@ TEST(PrintedTimes, AreCertainInCertifiedContacts) {
   EXPECT_NE(contacts[2].find("," + pass.time(1) + ","), std::string::npos) << contacts[2];
 }
 
-// Brackets depend on the kernel, times do not.
+// Brackets depend on the kernel, printed times do not.
 TEST(PrintedTimes, AreThoseOfAllKernels) {
   const ScratchDirectory scratch;
   std::vector<std::vector<std::string>> times;

@@ -119,7 +119,7 @@ TEST(StagedFiles, AppearTogetherOrNotAtAll) {
   {
     StagedFiles files(directory / "made/dump", "run", "--dump");
     files.write("frame-0", "zero");
-    EXPECT_EQ(entries_of("made/dump"), 1);  // hidden
+    EXPECT_EQ(entries_of("made/dump"), 1);  // a hidden entry
     EXPECT_FALSE(fs::exists(directory / "made/dump/frame-0"));
   }
   EXPECT_EQ(directory.entries(), 0U);
@@ -129,7 +129,7 @@ TEST(StagedFiles, AppearTogetherOrNotAtAll) {
     files.write("frame-1", "one");
     commit(files);
   }
-  EXPECT_EQ(entries_of("dump"), 3);  // with the manifest
+  EXPECT_EQ(entries_of("dump"), 3);  // including the manifest
   EXPECT_EQ(content_of(directory / "dump/frame-1"), "one");
 }
 
@@ -142,7 +142,7 @@ TEST(Parts, OfKilledProgramsAreCleared) {
   directory.file(".kds-a-b.part", "not ours");
   const Part file(directory.path(), Part::Kind::file, "x"), folder(directory.path(), Part::Kind::folder, "x");
   clear_stale_parts(directory.path());
-  EXPECT_TRUE(fs::exists(file.path()) && fs::exists(folder.path()));  // whose program lives
+  EXPECT_TRUE(fs::exists(file.path()) && fs::exists(folder.path()));  // their program is still running
   EXPECT_EQ(directory.entries(), 4U);
   EXPECT_TRUE(fs::exists(directory / ".kds-a-b.part"));
 }

@@ -36,7 +36,7 @@ unsigned mode_of(const fs::path& path) {
   return status.st_mode & 07777U;
 }
 
-// Without the manifest.
+// Counts entries without the manifest.
 std::size_t visible_entries(const ScratchDirectory& directory) {
   std::size_t count = 0;
   for (const auto& entry : fs::directory_iterator(directory.path()))
@@ -46,7 +46,7 @@ std::size_t visible_entries(const ScratchDirectory& directory) {
 
 void commit(Staged& staged) { commit_together(std::array<Staged*, 1>{&staged}); }
 
-// Both ways in which results come to their places.
+// Writes one result with each of the two classes that move results to their places.
 void write_alone(const fs::path& path, const std::string& content) {
   AtomicFile file(path, content);
   commit(file);
@@ -111,7 +111,7 @@ TEST(ReplaceFile, HardLinksStay) {
   }
 }
 
-// One of the places is a directory: nothing is replaced.
+// One of the places is a directory, so nothing is replaced.
 TEST(StagedFiles, ARefusedPlaceLeavesTheOthersAlone) {
   const ScratchDirectory directory;
   directory.file("a", "old");
@@ -124,7 +124,7 @@ TEST(StagedFiles, ARefusedPlaceLeavesTheOthersAlone) {
   EXPECT_EQ(content_of(directory / "a"), "old");
 }
 
-// Results of one command: where one cannot take its place, none does.
+// Results of one command: if one cannot be moved to its place, none is.
 TEST(Staged, AllOrNone) {
   const ScratchDirectory directory;
   const fs::path kept = directory.file("kept", "old"), circle = directory / "circle",
@@ -148,8 +148,8 @@ TEST(Staged, AllOrNone) {
   EXPECT_EQ(directory.entries(), 3U);
 }
 
-// A file that even its owner may not replace is found out before others are replaced. Not every file system
-// knows such files, nor every user may make them.
+// A file that even its owner may not replace (immutable) is detected before other files are replaced. Some
+// file systems lack such files, and some users may not create them.
 TEST(Staged, ImmutableFilesAreFoundOutBeforehand) {
   const ScratchDirectory directory;
   const fs::path immutable = directory.file("immutable", "old"), kept = directory.file("kept", "old");
@@ -161,7 +161,7 @@ TEST(Staged, ImmutableFilesAreFoundOutBeforehand) {
   EXPECT_EQ(content_of(kept), "old");
 }
 
-// Clearing takes no descriptor.
+// Clearing needs no file descriptor.
 TEST(StagedFiles, NothingIsLeftWhereFilesRunOut) {
   const ScratchDirectory directory;
   EXPECT_EXIT(
@@ -201,15 +201,15 @@ TEST(StagedFiles, AFileMayGrowUntilTheEnd) {
   EXPECT_EQ(content_of(directory / "growing").substr(0, 4), "0\n1\n");
   EXPECT_EQ(content_of(directory / "growing").size(), 48890U);
   EXPECT_FALSE(fs::exists(directory / "stale"));
-  EXPECT_EQ(directory.entries(), 4U);  // with the manifest
+  EXPECT_EQ(directory.entries(), 4U);  // including the manifest
 }
 
-// A signal that comes at any moment, even between the making of a file and its end, leaves nothing.
+// A signal at any moment, also between creating a file and finishing it, leaves no file behind.
 TEST(UnfinishedFile, EverySignalThatCanBeCaughtClearsTheFolder) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1,
                            SIGUSR2, SIGXCPU, SIGABRT, SIGSEGV, SIGFPE, SIGRTMIN, SIGRTMAX}) {
 #ifdef KDS_SANITIZED
-    if (signal == SIGSEGV || signal == SIGFPE) continue;  // the sanitizer's own
+    if (signal == SIGSEGV || signal == SIGFPE) continue;  // handled by the sanitizer
 #endif
     const ScratchDirectory directory;
     EXPECT_EXIT(
@@ -225,8 +225,8 @@ TEST(UnfinishedFile, EverySignalThatCanBeCaughtClearsTheFolder) {
   }
 }
 
-// Two of one kind: the second comes while the first is cleared up after. In a program of one thread that is
-// so for a moment alone, and another thread has it for as long as clearing takes.
+// Two signals of one kind: the second arrives during the cleanup after the first. A program with one thread
+// has this state only for a moment, so another thread sends the second signal while the cleanup runs.
 TEST(UnfinishedFile, ASecondSignalEndsNothingBeforeAllIsCleared) {
   const ScratchDirectory directory;
   EXPECT_EXIT(
@@ -235,7 +235,7 @@ TEST(UnfinishedFile, ASecondSignalEndsNothingBeforeAllIsCleared) {
         StagedFiles staged(directory / "made", "run", "--dump");
         for (int k = 0; k < files; ++k) staged.write("frame-" + std::to_string(k), "x");
         const auto part = *fs::directory_iterator(directory / "made");
-        const fs::path last = part.path() / std::to_string(files);  // the first to go
+        const fs::path last = part.path() / std::to_string(files);  // the first file to be removed
         std::thread other([&last] {
           while (::access(last.c_str(), F_OK) == 0) {
           }

@@ -61,7 +61,7 @@ TEST(ResultManifest, ALaterResultTakesAwayWhatIsStaleAndUnchanged) {
   EXPECT_EQ(content_of(directory / "c.csv"), "new");
 }
 
-// A program that is killed while files take their places leaves a manifest of both results.
+// A program that is killed while files are moved to their places leaves a manifest that covers both results.
 TEST(ResultManifest, ListsTwoVersionsOfAFile) {
   const ScratchDirectory directory;
   write_result(directory, {"a.csv"}, "old");

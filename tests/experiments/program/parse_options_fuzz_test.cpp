@@ -1,5 +1,5 @@
-// Whatever is typed after `kds generate`, `kds info`, `kds update` and `kds collide`, options, help or one
-// line come out.
+// Random arguments of `kds generate`, `kds info`, `kds update` and `kds collide` give options, help, or a
+// single line of error.
 
 #include <gtest/gtest.h>
 

@@ -24,12 +24,12 @@ TEST(PowerFit, FindsThePowerThatPointsFollow) {
   EXPECT_NEAR(fit->factor, 3, 1e-9);
   EXPECT_LE(fit->lower, fit->exponent);
   EXPECT_LT(fit->upper - fit->lower, 1e-9);
-  points[1].second *= 2;  // off the line: the interval is wide
+  points[1].second *= 2;  // a point off the line widens the interval
   EXPECT_GT(fit_power(points)->upper - fit_power(points)->lower, 0.3);
 }
 
-// y = 1, 2, 2, 4 over x = 1, 2, 4, 8: by hand, slope 0.6, residuals -0.1, 0.3, -0.3, 0.1; t with two degrees
-// of freedom is (2p - 1) / sqrt(2p (1 - p)).
+// y = 1, 2, 2, 4 at x = 1, 2, 4, 8. By hand: slope 0.6 and residuals -0.1, 0.3, -0.3, 0.1. The t quantile
+// with two degrees of freedom is (2p - 1) / sqrt(2p (1 - p)).
 TEST(PowerFit, IntervalAsByHand) {
   const auto fit = fit_power(Points{{1, 1}, {2, 2}, {4, 2}, {8, 4}});
   ASSERT_TRUE(fit);
@@ -49,8 +49,8 @@ TEST(PowerFit, WhatHasNoLogarithmIsLeftOut) {
             std::string::npos);
 }
 
-// Exponents 1 and 2 without one share or the other: their jackknife error is half their difference; t
-// with one degree of freedom is tan(pi (p - 1/2)).
+// The exponents without one or the other share are 1 and 2, so the jackknife error is half their difference.
+// The t quantile with one degree of freedom is tan(pi (p - 1/2)).
 TEST(PowerFit, IntervalOfSharesAsByHand) {
   const Points points{{1, 1}, {2, 3}, {4, 8}};
   const std::vector<Points> without{{{1, 1}, {2, 2}, {4, 4}}, {{1, 1}, {2, 4}, {4, 16}}};

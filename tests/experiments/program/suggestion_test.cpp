@@ -16,7 +16,7 @@ TEST(Suggestion, NamesTheNearest) {
   EXPECT_EQ(nearest("frames"), "--frames");
   EXPECT_EQ(nearest("--FRAMES"), "--frames");
   EXPECT_EQ(nearest("--struct"), "--structures");
-  EXPECT_EQ(nearest("--raduis"), "--radius");  // an exchange counts once
+  EXPECT_EQ(nearest("--raduis"), "--radius");  // an exchange of two letters counts once
   EXPECT_EQ(nearest("--radii"), "--radius");   // two edits of six letters
   EXPECT_EQ(nearest("rnu"), "run");
   EXPECT_EQ(nearest("reply"), "replay");

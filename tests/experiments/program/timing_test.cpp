@@ -17,7 +17,7 @@ TEST(Timing, AsManyRoundsAsAreAskedFor) {
   }
   std::size_t calls = 0;
   EXPECT_EQ(repeated_seconds(5, [&] { return static_cast<double>(++calls) + 1; }).median, 2);
-  EXPECT_EQ(calls, 1U);  // long work
+  EXPECT_EQ(calls, 1U);  // long work is called once
 }
 
 TEST(Timing, WorksGoInTurnsRoundByRound) {
@@ -29,7 +29,7 @@ TEST(Timing, WorksGoInTurnsRoundByRound) {
     };
   };
   const auto seconds = seconds_in_turn(3, {work('a', 0.5), work('b', 2), work('c', 0.25)});
-  EXPECT_EQ(order, "abcacac");  // b is long
+  EXPECT_EQ(order, "abcacac");  // b takes long, so it runs once
   EXPECT_EQ(seconds, (std::vector<std::vector<double>>{{0.5, 0.5, 0.5}, {2}, {0.25, 0.25, 0.25}}));
 }
 
@@ -43,7 +43,7 @@ TEST(Timing, RatiosAreOfOneRoundEach) {
   EXPECT_EQ(ratio.least, 1);
   EXPECT_EQ(ratio.median, 2);
   EXPECT_EQ(ratio.most, 3);
-  EXPECT_EQ(ratios_by_round({12}, {2, 3, 4}).most, 6);  // done once
+  EXPECT_EQ(ratios_by_round({12}, {2, 3, 4}).most, 6);  // one measurement is compared with each of the others
   EXPECT_EQ(ratios_by_round({2, 3, 4}, {2}).least, 1);
 }
 

@@ -1,4 +1,4 @@
-// `kds questions`: the deformation energy, and what is printed.
+// Tests `kds questions`: the deformation energy and the output.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(Deformation, AChainHasTheAnglesItWasMadeOf) {
   for (std::size_t k = 0; k < angles.torsion.size(); ++k) {
     ChainAngles other = angles;
     other.torsion[k] += 0.2;
-    const Deformation by = deformation(chain, chain_of(other, 3));  // bonds do not count
+    const Deformation by = deformation(chain, chain_of(other, 3));  // bond lengths do not count
     EXPECT_NEAR(by.torsion, 0.2 * 0.2 / 2, 1e-12);
     EXPECT_NEAR(by.bending, 0, 1e-20);
   }
@@ -74,7 +74,7 @@ TEST(Deformation, StraightAndShortChainsAndBeadsInOnePlace) {
   Eigen::Matrix3Xd bent = straight;
   bent.col(4) = Eigen::Vector3d(3, 1, 0);
   EXPECT_NEAR(deformation(straight, bent).bending, pi * pi / 8, 1e-12);  // a right angle at one bead
-  EXPECT_EQ(deformation(straight, bent).torsion, 0);                     // which a straight chain leaves open
+  EXPECT_EQ(deformation(straight, bent).torsion, 0);  // undefined at the straight part of a chain
   EXPECT_EQ(deformation(straight, Eigen::Matrix3Xd::Zero(3, 5)).energy(), 0);
   EXPECT_EQ(deformation(straight.leftCols(2), bent.leftCols(2)).energy(), 0);
   EXPECT_EQ(deformation(straight.leftCols(1), bent.leftCols(1)).energy(), 0);
@@ -102,7 +102,7 @@ void expect_energy(const Json& rows) {
       EXPECT_LT(row["bending"], 1e-20) << row;
       EXPECT_GT(row["torsion"], 1e-6) << row;
     }
-    // Half the square of a normal change of each of 125 or 126 angles.
+    // The expected energy is half the squared normal deviation for each of the 125 or 126 angles.
     if (row["subject"] == "random chain, both") {
       const double amplitude = row["step"], expected = 0.5 * amplitude * amplitude * 125;
       EXPECT_NEAR(row["bending"].get<double>() / expected, 1, 0.1) << row;
@@ -116,7 +116,7 @@ void expect_energy(const Json& rows) {
                                                             {"random chain, both", 9}}));
 }
 
-// More is known, more rarely pairs are searched again.
+// Stronger bounds cause fewer searches of pairs.
 void expect_bounds(const Json& rows) {
   EXPECT_EQ(rows.size(), 3 * 4U);
   for (const Json& row : rows) {
@@ -124,14 +124,14 @@ void expect_bounds(const Json& rows) {
     EXPECT_GT(row["frames"], row["speed"]) << row;
     EXPECT_GE(row["speed"], row["displacement"]) << row;
     EXPECT_GE(row["displacement"], row["two_largest"]) << row;
-    // It moves .01 radii a frame: in 200 frames never by half a skin of four.
+    // The beads move by 0.01 radii per frame, so in 200 frames none moves by half of a skin of four.
     if (row["subject"] == "wandering chain" && row["skin"] == 4) {
       EXPECT_EQ(row["displacement"], 0) << row;
     }
   }
 }
 
-// Bounds hold, and that on speed is the weaker.
+// The bounds hold, and the bound from the speed is the weaker one.
 void expect_trust(const Json& rows) {
   EXPECT_EQ(rows.size(), 3 * 6U);
   for (const Json& row : rows) {
@@ -158,13 +158,14 @@ void expect_combination(const Json& rows) {
   }
 }
 
-// Not under the sanitizers: thousands of runs of small chains, of which each is like those of other tests.
+// Excluded under the sanitizers: the test makes thousands of runs of small chains, and other tests make
+// similar runs.
 TEST(Questions, EnergyOfTheFramesOfRuns) {
   const ProgramRun run = run_program({"questions", "energy", "--seed", "3", "--json", "-"});
   ASSERT_EQ(run.code, 0) << run.err;
   const Json json = Json::parse(run.out);
   expect_energy(rows_of(json, "energy"));
-  // The same frames as kds run, at strides 1 and 8.
+  // The same frames as in `kds run`, at strides 1 and 8.
   for (const auto& [row, frames] : {std::pair<std::size_t, const char*>{0, "0:200"}, {3, "0:200:8"}}) {
     const ProgramRun by_run =
         run_program({"run", data_file("trajectories/villin_hp36_300K.dcd"), "--topology",
@@ -201,7 +202,7 @@ TEST(Questions, AllOfThemWithAPage) {
   };
   std::size_t lines = 0;
   for (std::size_t from = 0; from < csv.size(); from = csv.find('\n', from) + 1, ++lines)
-    if (csv.find('"', from) >= csv.find('\n', from)) {  // names with commas stand in quotes
+    if (csv.find('"', from) >= csv.find('\n', from)) {  // names with commas are quoted
       EXPECT_EQ(commas(from), commas(0)) << lines;
     }
   EXPECT_EQ(lines, json["rows"].size() + 1);
@@ -243,7 +244,7 @@ TEST(Questions, RefusesWhatIsNoQuestion) {
               HasSubstr("--rounds applies only to the question trust, which measures time"));
 }
 
-// A result must not replace what is measured.
+// A result must not replace the input files.
 TEST(Questions, NothingIsWrittenOntoTheData) {
   const ScratchDirectory directory;
   namespace fs = std::filesystem;

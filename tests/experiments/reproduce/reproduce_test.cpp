@@ -1,4 +1,4 @@
-// `kds reproduce`: what it measures beside slow counts, and what it writes.
+// Tests `kds reproduce`: its measurements compared with slow counts, and its files.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,13 +41,13 @@ TEST(PaperSubjects, AreThoseOfThePaper) {
   EXPECT_EQ(spirals.frames.size(), 3U);
 }
 
-// Edges from all cells, and the family judged by its definition.
+// Compares with the edges of all cells, and judges the family by its definition.
 TEST(PaperMeasurements, SelfCollision) {
   const Subject spline = model_subject("spline", 50);
   const SelfCollision found = self_collision_of(spline, 0, 1);
   std::set<std::pair<BeadId, BeadId>> edges;
   for (const auto& cell :
-       static_triangulation<3>(spline.frames[0], spline.radii).cells)  // weights are 1, too
+       static_triangulation<3>(spline.frames[0], spline.radii).cells)  // radii are 1, so weights are 1 too
     for (const BeadId a : cell)
       for (const BeadId b : cell)
         if (a < b) edges.insert({a, b});
@@ -95,7 +95,8 @@ TEST(PaperMeasurements, StepsBetweenFrames) {
 
 TEST(PaperMeasurements, TwoNecklaces) {
   const Subject spirals = two_rolling_spirals(100, 11);
-  EXPECT_EQ(collision_between(spirals, 0, 1, 1).wrapped_pairs, 1U);  // far apart: the two roots
+  EXPECT_EQ(collision_between(spirals, 0, 1, 1).wrapped_pairs,
+            1U);  // the chains are far apart, so only the two roots are compared
   const CollisionBetween near = collision_between(spirals, 9, 10, 1);
   const Balls<3> balls(spirals.frames[10], spirals.radii);
   const PairsAsked asked{spirals.necklaces, false, 1, true};
@@ -160,7 +161,7 @@ TEST(PaperReport, TimesHaveTheSpreadOfTheirRounds) {
   EXPECT_FALSE(row.contains("rho_avg_least"));
 }
 
-// Of several rounds the spread is none of one, in every table that has times.
+// The spread over several rounds differs from that of one round in every table with times.
 TEST(PaperTables, RoundsOfTimedColumnsDiffer) {
   for (const int number : {1, 2, 3, 4, 5, 6}) {
     const PaperTablePlan plan = plan_paper_table(number, kData, 3);
@@ -177,14 +178,15 @@ TEST(PaperTables, RoundsOfTimedColumnsDiffer) {
   }
 }
 
-// A claim that two tables tell of is one, and holds if both say so.
+// A claim that appears in two tables counts once, and holds if both tables confirm it.
 TEST(PaperReport, CountsEachClaimOnce) {
   const auto counts = [](const std::vector<PaperTable>& tables) {
     const ClaimsJudged claims = judged(tables);
     return std::pair(claims.hold, claims.all);
   };
   PaperTable other = sample();
-  other.rows[0].ours = {2.0, 100.0};  // bases are not flat, cells grow
+  other.rows[0].ours = {
+      2.0, 100.0};  // breaks the claim that bases are flat; the claim that cells grow still holds
   EXPECT_EQ(counts({sample()}), std::pair(2UL, 2UL));
   EXPECT_EQ(counts({other, sample()}), std::pair(1UL, 2UL));
   EXPECT_EQ(counts({sample(), other}), std::pair(1UL, 2UL));
@@ -195,7 +197,7 @@ TEST(PaperReport, CountsEachClaimOnce) {
   EXPECT_EQ(json[0]["findings"][0]["holds"], false);
 }
 
-// One step of kds compare is a row of table 6.
+// One step of `kds compare` equals a row of table 6.
 TEST(Reproduce, StabilityAsCompareHasIt) {
   const ScratchDirectory scratch;
   std::filesystem::create_directory(scratch / "out");

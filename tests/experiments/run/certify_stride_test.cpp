@@ -39,7 +39,7 @@ struct Pairs final : EventListener {
   void on_event(const Event& event) override { met.emplace(event.change.ids[0], event.change.ids[1]); }
 };
 
-/// By a run of all frames.
+/// Finds the true pairs by a run of all frames.
 PairsMet pairs_in_truth(const RunOptions& options) {
   const Scene scene = load_scene(options, [](const std::string&) {});
   const auto run = open_run(options, scene, AuditMode::none);
@@ -77,7 +77,7 @@ TEST(CertifyStride, SureContactsAreThereAndNoOthersThanPossibleOnes) {
   }
 }
 
-// Of beads that go straight on within a tolerance, with and without a stride.
+// Certificates for straightened motion within a tolerance, with and without a stride.
 TEST(CertifyStride, BoundsWhatAToleranceMayMiss) {
   for (const auto& [stride, tolerance] :
        {std::pair("1", "0.1"), std::pair("1", "0.2r"), std::pair("2", "0.4")}) {
@@ -101,7 +101,7 @@ TEST(CertifyStride, BoundsWhatAToleranceMayMiss) {
   }
 }
 
-// Where positions are rounded by more than deviations can be told to, the tolerance itself bounds them.
+// If positions are rounded by more than the resolution of the deviations, the tolerance itself is the bound.
 TEST(CertifyStride, IsNeverAboveTheToleranceFarFromTheOrigin) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> step(-1, 1);
@@ -195,7 +195,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& path) {
   return lines;
 }
 
-/// Contacts of a table of --out: the pair, begin and end by frames.
+/// Reads contacts from a table of --out: the pair, and begin and end in frames.
 struct Listed {
   std::string pair;
   double begin = 0, end = HUGE_VAL;
@@ -226,8 +226,8 @@ bool meet(const Listed& a, const Listed& b) {
   return a.pair == b.pair && a.begin <= b.end + 1e-9 && b.begin <= a.end + 1e-9;
 }
 
-// Every sure one has one of all frames within its time, and every one of these is within one of the two
-// files.
+// Each sure contact overlaps in time a contact of the run of all frames, and each contact of that run
+// overlaps a contact in one of the two files.
 TEST(CertifyStride, ListsWhichContactsAreSureAndWhichThereMayBe) {
   const ScratchDirectory scratch;
   const auto listed = [&](const std::string& name, const std::string& frames, std::vector<std::string> more) {
@@ -266,10 +266,11 @@ TEST(CertifyStride, ListsWhichContactsAreSureAndWhichThereMayBe) {
       not_found += contact.flag ? 0 : 1;
       EXPECT_EQ(contact.flag, meets_any(contact, found)) << contact.pair;
     }
-    EXPECT_EQ(sure == 0, frames == std::string("0:81:4"));  // deviations are larger than contacts are deep
+    EXPECT_EQ(sure == 0,
+              frames == std::string("0:81:4"));  // deviations are larger than the overlaps of contacts
     EXPECT_LT(sure, found.size());
     EXPECT_GT(not_found, 0U);
-    // But for the new column it is the table of the run itself.
+    // Apart from the new column, the table equals the table of an ordinary run.
     std::vector<std::string> with = lines_of(scratch / "run/contacts.csv");
     for (std::string& line : with) line.resize(line.rfind(','));
     static_cast<void>(listed("run", frames, more));

@@ -1,4 +1,4 @@
-// kds run with chord cages, from outside: its files, its options, and what it refuses.
+// Tests `kds run` with chord cages as a process: its files, its options and its refusals.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ std::vector<std::string> villin(std::vector<std::string> more) {
   return arguments;
 }
 
-/// The lines of a table without its header.
+/// Returns the lines of a table without its header.
 std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
   std::vector<std::vector<std::string>> lines;
   std::istringstream text(csv.substr(csv.find('\n') + 1));
@@ -66,7 +66,7 @@ TEST(ChordRun, BasesDumpedAtFramesAreThoseOfTheRunWithEvents) {
   }
 }
 
-/// Whether the ball holds this one, as these doubles stand.
+/// Returns whether one ball contains the other, with the doubles taken as exact numbers.
 bool holds(const std::array<double, 3>& center, double radius, const std::array<double, 3>& bead, double r) {
   const Rational room = Rational(radius) - Rational(r);
   Rational square = 0;
@@ -77,7 +77,7 @@ bool holds(const std::array<double, 3>& center, double radius, const std::array<
   return room >= 0 && square <= room * room;
 }
 
-// Near the origin and far from it, where centres are rounded by more than beads move.
+// Near the origin, and so far from it that centres are rounded by more than the beads move.
 TEST(ChordRun, DumpedSpheresHoldTheirBeadsExactly) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> step(-1, 1);

@@ -1,4 +1,4 @@
-// kds run --structures contacts, from outside: its files, its options, and what it refuses.
+// Tests `kds run --structures contacts` as a process: its files, its options and its refusals.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ std::string frames_at(const std::vector<std::string>& beads, const std::vector<d
   return frames;
 }
 
-// Balls come, meet an obstacle at rest, and go; one only touches it, at a frame.
+// Some balls meet an obstacle at rest and leave; one only touches it, at a frame.
 TEST(ContactsRun, ANecklaceAndAnObstacleAtRest) {
   const ScratchDirectory scratch;
   const std::string moving = scratch.file("moving.xyz", frames_at({"0 0", "8 0", "16 3"}, {-4, 0, 4}));
@@ -76,7 +76,7 @@ TEST(ContactsRun, NamesFramesAndTimes) {
   ASSERT_EQ(named.size(), dumped.size());
   EXPECT_GT(named.size(), 20U);
   EXPECT_EQ(dumped[1], "0,0,0,41,48,begin");
-  // A run of other structures takes its place.
+  // A run of other structures replaces the result.
   const ProgramRun other =
       run_program({"run", kDcd, "--topology", kPdb, "--frames", "0:3", "--structures", "sorted", "--out",
                    scratch / "out", "--dump", scratch / "dump", "--quiet"});
@@ -102,7 +102,8 @@ TEST(ContactsRun, StartAndEndAreCounted) {
   EXPECT_THAT(other.out, testing::Not(HasSubstr("contacts at")));
 }
 
-// Beads of a chain just touch with the automatic radius: the radius to try is named, and finds contacts.
+// With the automatic radius the beads of a chain just touch. The message names a radius to try, and that
+// radius finds contacts.
 TEST(ContactsRun, NamesARadiusWhereThereAreNone) {
   const std::vector<std::string> input{kDcd, "--topology", kPdb, "--frames", "0:3"};
   const auto run = [&](std::vector<std::string> arguments) {
@@ -124,7 +125,7 @@ TEST(ContactsRun, NamesARadiusWhereThereAreNone) {
   EXPECT_GE(Json::parse(some.out)["structures"]["contacts"]["contacts"]["at_start"], 108 / 4);
 }
 
-// The share of missed contacts is asked by factors of a radius, so the advice is a factor.
+// The share of missed contacts is requested by factors of a radius, so the advice names a factor.
 TEST(ContactsRun, WithoutContactsMissedNamesAFactor) {
   const auto run = [](std::vector<std::string> more) {
     std::vector<std::string> arguments{"missed", kDcd, "--topology", kPdb, "--frames", "0:4", "--quiet"};
@@ -140,7 +141,7 @@ TEST(ContactsRun, WithoutContactsMissedNamesAFactor) {
   const std::string message = run({}).err, factor = advised(message);
   EXPECT_THAT(message, HasSubstr("there are none with radii of 1 times --radius auto, 0.8"));
   EXPECT_THAT(message, testing::Not(HasSubstr("--radius 2")));
-  // The factor is of the automatic radius, whichever factor found no contacts.
+  // The advised factor refers to the automatic radius, whichever factors found no contacts.
   EXPECT_EQ(advised(run({"--factors", "0.25,0.5"}).err), factor);
   const ProgramRun some = run({"--factors", factor, "--apart", "5", "--json", "-"});
   EXPECT_EQ(some.err, "");

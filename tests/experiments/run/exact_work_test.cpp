@@ -1,4 +1,4 @@
-// The limit of a run's exact work, and what a run says that takes much of it.
+// The limit on a run's exact work, and the warnings of a run that needs much of it.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST(ExactWorkOfRuns, IsTheSameEachTimeAndLimitsTheRun) {
   }
 }
 
-// Before any step has begun.
+// The limit is reached before the first step begins.
 TEST(ExactWorkOfRuns, IsLimitedWhereTheFirstFrameIsBuilt) {
   const ProgramRun run = run_program({"run", data_file("trajectories/villin_hp36_300K.dcd"), "--frames",
                                       "0:2", "--structures", "wrapped", "--kernel", "exact", "--work", "10"});
@@ -96,7 +96,7 @@ TEST(ExactWorkOfRuns, IsToldOfWhereItIsExtraordinary) {
   };
   const std::vector<std::string> warnings = warnings_of(10'000);
   ASSERT_FALSE(warnings.empty());
-  EXPECT_LT(warnings.size(), 20U);  // only where all work has doubled
+  EXPECT_LT(warnings.size(), 20U);  // a warning appears only when the total work has doubled
   for (const std::string& warning : warnings) {
     EXPECT_THAT(warning, HasSubstr("step 0 (from frame 0 to frame 1)"));
     EXPECT_THAT(warning, HasSubstr(" of beads "));

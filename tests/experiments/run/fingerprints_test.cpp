@@ -1,12 +1,14 @@
-// Runs of the program whose histories are on record: tests/support/fingerprints.csv has a row for each, with
-// the fingerprint of all its events in their order and how many events each structure had. The file was made
-// by the program as it was before structures were compiled once a dimension, rows of contacts, boxes, hulls
-// and closest pairs by the first one that had them; a row changes only where a history is meant to change.
-//
-// Columns: `run`, the arguments of `kds run`, names with a slash in the data folder; `fingerprint`; `events`;
-// `model`, the arguments of `kds generate` where the input is a model; `beads`, a hash of that model's
-// coordinates, so that another model is told from another history; `replayed`, `always` or `all`. Rows marked
-// `all` take minutes and are replayed where the environment has KDS_ALL_FINGERPRINTS=1.
+// Runs of the program with recorded histories. tests/support/fingerprints.csv has a row for each run, with
+// the fingerprint of all events in order and the number of events of each structure. A row changes only if a
+// history is changed on purpose.
+// The columns are:
+// - `run`: the arguments of `kds run`; names with a slash are in the data folder
+// - `fingerprint`
+// - `events`
+// - `model`: the arguments of `kds generate`, if the input is a model
+// - `beads`: a hash of that model's coordinates, which distinguishes a changed model from a changed history
+// - `replayed`: `always` or `all`. Rows marked `all` take minutes and are replayed only with
+//   KDS_ALL_FINGERPRINTS=1 in the environment.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +42,7 @@ struct Row {
 
 enum class Source { instance, trajectory, model };
 
-// The fields of a line of CSV: those with commas stand between quotation marks, which none contains.
+// Splits a line of CSV into fields. Fields with commas are quoted, and no field contains a quotation mark.
 Words fields_of(const std::string& line) {
   Words fields{""};
   bool quoted = false;
@@ -82,7 +84,7 @@ Source source_of(const Row& row) {
   return row.run.starts_with("kinetic/") ? Source::instance : Source::trajectory;
 }
 
-// FNV-1a over the lines of beads.
+// Returns the FNV-1a hash of the lines with beads.
 std::string hash_of_beads(const std::string& xyz) {
   std::uint64_t hash = 0xcbf29ce484222325;
   std::istringstream lines(xyz);
@@ -98,12 +100,13 @@ std::string hash_of_beads(const std::string& xyz) {
   return text.str();
 }
 
-// Writes the model of a row into the directory and returns its files; none if it is not the model on record.
+// Writes the model of a row into the directory and returns its files. Returns no files if the model differs
+// from the recorded one.
 Words generate(const Row& row, const ScratchDirectory& scratch) {
   Words arguments = words_of(row.model);
   Words files{scratch / "model.xyz"};
   if (arguments.front() == "two-spirals") files = {scratch / "model-1.xyz", scratch / "model-2.xyz"};
-  // Models on record have the full turns, whether or not the beads leave room.
+  // Recorded models have the full number of turns, even if the beads are too large for that.
   const models::Model* const model = models::find_model(arguments.front());
   if (model != nullptr && model->takes(models::Setting::turns) &&
       std::ranges::count(arguments, "--turns") == 0)
@@ -120,7 +123,7 @@ Words generate(const Row& row, const ScratchDirectory& scratch) {
   return {};
 }
 
-// What follows `key` in the text from `from` on, up to a character of `ends`.
+// Returns the text after `key`, searched from `from` on, up to a character of `ends`.
 std::string value_after(std::string_view text, std::string_view key, std::string_view ends,
                         std::size_t from = 0) {
   const std::size_t at = text.find(key, from);
@@ -129,7 +132,7 @@ std::string value_after(std::string_view text, std::string_view key, std::string
   return std::string(text.substr(begin, text.find_first_of(ends, begin) - begin));
 }
 
-// The events of a summary, as in the table, of the structures that the table names.
+// Returns the events in a summary, in the format of the table, of the structures that the table names.
 std::string events_in(const std::string& summary, const std::string& expected) {
   std::string events;
   for (const std::string& word : words_of(expected)) {
@@ -158,7 +161,7 @@ void replay_all(Source source, const std::string& kernel) {
   const ScratchDirectory scratch;
   const char* all = std::getenv("KDS_ALL_FINGERPRINTS");
   const bool all_rows = all != nullptr && std::string_view(all) == "1";
-  std::string model;  // that the files in the directory have
+  std::string model;  // the model whose files are in the directory
   Words inputs;
   int rows = 0, replayed = 0;
   constexpr int every = 3 / test::rounds(3);

@@ -1,4 +1,4 @@
-// The program where something that is loaded with it has set another floating-point environment.
+// Runs the program with a preloaded library that has set another floating-point environment.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 using test::data_file;
 using test::run_program;
 
-// Everything but times: the events of each structure, and their fingerprint.
+// Returns the output without times: the events of each structure, and the fingerprint.
 std::vector<std::string> history(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "run");
   arguments.insert(arguments.end(), {"--quiet", "--json", "-"});

@@ -1,4 +1,4 @@
-// The page must open without a network and stay a page whatever the files are called.
+// The page must open without a network and stay a valid page for any file names.
 
 #include "experiments/run/html_report.h"
 
@@ -22,7 +22,7 @@ using testing::Not;
 TEST(HtmlReport, ShowsTableAndPlots) {
   const std::string html = html_report(test::sample_report());
   expect_sound(html);
-  EXPECT_EQ(count_of(html, "<figure>"), 4U);  // kinds of both, events per step and so far
+  EXPECT_EQ(count_of(html, "<figure>"), 4U);  // kinds of both structures, events per step, and events so far
   for (const char* text : {"<title>kds run: chain.pdb</title>", "1,234,567", "0000000000abcdef", "wrapped",
                            "power", "events per step", "events so far", "motion linear, kernel filtered"})
     EXPECT_THAT(html, HasSubstr(text));
@@ -38,7 +38,7 @@ TEST(HtmlReport, BeginsWithWhatWasFound) {
                 "wrapped).</p>\n</div>"));
 }
 
-// A single run's time is one draw: it stands in the table, and is no finding.
+// The time of a single run is one sample: the table shows it, but the findings do not.
 TEST(HtmlReport, TimesOfSeveralRoundsHaveTheirSpread) {
   RunReport report = test::sample_report();
   EXPECT_THAT(html_report(report), Not(HasSubstr("Keeping the")));
@@ -54,7 +54,7 @@ TEST(HtmlReport, TimesOfSeveralRoundsHaveTheirSpread) {
 
 TEST(HtmlReport, InternalKindsSaySo) {
   const std::string html = html_report(test::sample_report());
-  EXPECT_EQ(count_of(html, "wander (internal)"), 3U);  // in the table, and in both widths of the plot
+  EXPECT_EQ(count_of(html, "wander (internal)"), 3U);  // in the table, and in the wide and the narrow plot
   EXPECT_THAT(html, Not(HasSubstr("3-2 (internal)")));
 }
 
@@ -91,7 +91,7 @@ TEST(HtmlReport, PlacesAndDisplacementsWhereTheyAreKnown) {
   EXPECT_THAT(html_report(report), HasSubstr("bead 2, C of ALA 59\nwrapped: 5"));
 }
 
-// A bin's farthest is no mean.
+// The farthest displacement in a bin is not labelled as a mean.
 TEST(HtmlReport, BinsOfDisplacementsSayWhatTheyAre) {
   RunReport report = test::sample_report();
   report.displacement = Displacements(2);

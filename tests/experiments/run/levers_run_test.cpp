@@ -1,4 +1,4 @@
-// Runs with levers on what is hard for them, found by attack.
+// Runs with levers on difficult inputs, which were found by attacking the levers.
 
 #include <gmock/gmock.h>
 
@@ -32,7 +32,7 @@ void expect_runs(const std::string& file, std::vector<std::string> options) {
   EXPECT_EQ(run.code, 0) << run.err;
 }
 
-// Two beads trade places: how far apart they stay is not known, so that the third's certificate is not
+// Two beads trade places. Their least distance is unknown, so the certificate of the third bead is not
 // relaxed.
 TEST(LeversRun, RelaxedSpheresOfBeadsThatTradePlaces) {
   const ScratchDirectory directory;
@@ -45,7 +45,7 @@ TEST(LeversRun, RelaxedSpheresOfBeadsThatTradePlaces) {
                          kernel, "--audit", "events"});
 }
 
-// A ball that all but holds its neighbour.
+// A ball that almost contains its neighbour.
 TEST(LeversRun, LayeredSpheresOfBallsThatNearlyHoldEachOther) {
   const ScratchDirectory directory;
   for (const int ulps : {1, 5, 15, 40}) {
@@ -59,7 +59,7 @@ TEST(LeversRun, LayeredSpheresOfBallsThatNearlyHoldEachOther) {
   }
 }
 
-// No part of a step could be proved tight: that ends at once, and is counted.
+// No part of a step can be proved tight: the search ends at once, and the part is counted.
 TEST(LeversRun, TightnessThatCannotBeProved) {
   const ScratchDirectory directory;
   const auto unproved = [](const std::string& file, const std::string& radius) {
@@ -75,13 +75,13 @@ TEST(LeversRun, TightnessThatCannotBeProved) {
   EXPECT_GT(unproved(directory.file("far.xyz", moved(1e12, 1)), "0.5"), 0);
   EXPECT_GT(unproved(directory.file("large.xyz", moved(0, 1e100)), "1e99"), 0);
   EXPECT_GT(unproved(directory.file("small.xyz", moved(0, 1e-100)), "1e-101"), 0);
-  // Points that are one.
+  // Two points coincide throughout.
   const std::string one = directory.file("one.xyz", xyz({{{0, 0, 0}, {0, 0, 0}, {1, 1, 0}, {0, 0, 1}},
                                                          {{1, 1, 1}, {1, 1, 1}, {0, 0, 1}, {1, 1, 0}}}));
   EXPECT_GE(unproved(one, "file:" + directory.file("points.txt", "0\n")), 0);
 }
 
-// Beads at rest stay where they are, so that what lies in a plane does.
+// Beads at rest stay in place, so beads in a plane stay in the plane.
 TEST(LeversRun, ATolerancePutsNobodyOutOfAPlane) {
   const ScratchDirectory directory;
   std::vector<Beads> frames;
@@ -115,7 +115,7 @@ TEST(LeversRun, NoResultReplacesWhatARunIsReadFrom) {
     EXPECT_EQ(replay.code, 2);
     EXPECT_THAT(replay.err, HasSubstr("is the file of an input"));
   }
-  // One file by two names, none of them there yet.
+  // Two names of one file that does not exist yet.
   const ProgramRun twice =
       run_shell("cd \"$1\" && \"$0\" run a.xyz --events ./b.csv --log b.csv", {directory.path().string()});
   EXPECT_EQ(twice.code, 2);

@@ -1,4 +1,4 @@
-// Inputs of one frame: topologies given as inputs, and obstacles.
+// Inputs with one frame: topologies that are given as inputs, and obstacles.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(Obstacle, TopologiesGivenAsInputsAreRefused) {
   }
 }
 
-// A file of several models that names the atoms of a DCD is no second necklace.
+// A file with several models that names the atoms of a DCD is not a second necklace.
 TEST(Obstacle, ModelsGivenAsInputsAreRefused) {
   for (const char* command : {"run", "collide", "info", "update"})
     expect_refused({command, data_file("proteins/1l2y.pdb"), kModels}, {"1l2y.pdb", "--topology"});
@@ -42,7 +42,7 @@ TEST(Obstacle, HasAChainOfItsOwn) {
   expect_refused({"run", kVillin, "--obstacle", kVillinPdb, "--chain", "A/B/C"}, {"--chain", "A/B/C"});
 }
 
-// A DCD of all atoms, beside a structure whose selected beads are fewer.
+// A DCD with all atoms, beside a structure from which fewer beads are selected.
 TEST(Obstacle, AtomsAreCountedToo) {
   const ScratchDirectory directory;
   const std::string models = content_of(data_file("proteins/1l2y.pdb"));
@@ -50,7 +50,7 @@ TEST(Obstacle, AtomsAreCountedToo) {
   const std::string first = directory.file("first.pdb", models.substr(0, end) + "ENDMDL\nEND\n");
   expect_refused({"run", first, kModels, "--frames", ":3"},
                  {"first.pdb", "one frame and the atoms of", "--topology"});
-  // The names of a trajectory of models.
+  // A structure that names the atoms of a trajectory of models.
   expect_refused({"run", data_file("proteins/1l2y.pdb"), first, "--frames", ":3"},
                  {"first.pdb", "--obstacle"});
 }
@@ -74,7 +74,7 @@ TEST(Obstacle, IsANecklaceAtRest) {
   EXPECT_EQ(quiet.find("rests"), std::string::npos) << quiet;
   EXPECT_THAT(told, HasSubstr("wall.xyz: has one frame and rests while"));
   EXPECT_EQ(named["settings"]["obstacle"], wall);
-  // The structure itself may be an obstacle if it is called one.
+  // The structure itself may be an obstacle if the user declares it as one.
   EXPECT_EQ(run({kVillin, "--obstacle", kVillinPdb}).first["input"]["beads"], 216);
 }
 

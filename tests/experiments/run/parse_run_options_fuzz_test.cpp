@@ -1,4 +1,4 @@
-// Whatever is typed, the parser answers with options, with help, or with one line that says what is wrong.
+// For random arguments the parser returns options, help, or one line that explains the mistake.
 
 #include <gtest/gtest.h>
 

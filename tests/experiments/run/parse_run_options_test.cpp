@@ -1,4 +1,4 @@
-// Every option of `kds run`, and every refusal.
+// Tests every option of `kds run` and every refusal.
 
 #include "experiments/run/parse_run_options.h"
 

@@ -1,4 +1,4 @@
-// kds run --structures box,hull,closest, from outside: events, dumps, logs, replays, and what is refused.
+// Tests `kds run --structures box,hull,closest` as a process: events, dumps, logs, replays and refusals.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
-// A bead comes out of a square on its right, passing a corner's height, and goes back.
+// Returns frames in which a bead leaves a square on its right, passes the height of a corner, and comes back.
 std::string square_and_one() {
   std::string frames;
   for (const char* x : {"3", "5", "1"})

@@ -1,4 +1,4 @@
-// The program from outside: full disks, signals, closed streams, memory.
+// Tests the program as a process: full disks, signals, closed streams, memory.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -59,7 +59,7 @@ TEST(Program, AFullOutputIsAFailureWithTheSystemsReason) {
     expect_full(run_shell(std::string(line) + " > /dev/full", {kSmall, log}));
 }
 
-// Files of more than 4 KB cannot be written: as on a full disk, but for the reason.
+// A file size limit of 4 KB acts like a full disk, with another error.
 TEST(Program, ADiskThatFillsUpLeavesNoHalfResults) {
   const ScratchDirectory directory;
   const std::string out = (directory / "out/below").string();
@@ -75,7 +75,7 @@ TEST(Program, ADiskThatFillsUpLeavesNoHalfResults) {
   expect_full("stability --quiet --subjects orientation,power_test --cases 1 --out \"$2\"");
 }
 
-// As many frames as one likes need no more memory than a few.
+// Many frames need no more memory than a few.
 TEST(Program, MemoryDoesNotGrowWithTheFrames) {
   const ScratchDirectory directory;
   const auto peak = [&](std::size_t frames) {
@@ -109,7 +109,8 @@ TEST(Program, MemoryDoesNotGrowInOtherCommands) {
        (directory / "out").string()},
       {"update", "--radius", "0.1", "--rounds", "1", "--techniques", "hermite"}};
   const auto peaks = [&](std::size_t frames) {
-    // Frame by frame: the peak of a child process contains that of its parent.
+    // The input is written frame by frame, because the peak memory of a child process includes that of its
+    // parent.
     const std::string input = directory.file(std::to_string(frames) + ".xyz", "");
     std::ofstream file(input);
     for (std::size_t k = 0; k < frames; ++k) {
@@ -157,7 +158,7 @@ TEST(Program, AFileThatMayNotGrowIsAFailureWithoutATrace) {
 TEST(Program, AnInterruptedRunLeavesNothingBehind) {
   for (const char* signal : {"TERM", "HUP", "USR1", "XCPU"}) {
     const ScratchDirectory directory;
-    // Waits for the log in the making, and ends the program then.
+    // Waits until the unfinished log exists, then ends the program.
     const ProgramRun run = run_shell(
         "\"$0\" run \"$1\" --log \"$2/events.log\" --dump \"$2/made/dump\" --audit events & "
         "i=0; while [ -z \"$seen\" ] && [ $i -lt 200 ]; do sleep 0.05; seen=$(ls -A \"$2\" | grep part); "

@@ -1,4 +1,4 @@
-// The program from outside: where results go, and that they appear together.
+// Tests the program as a process: the places of its results, and that all results appear together.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ TEST(Program, StandardOutputHoldsWhatWasAskedFor) {
   const ProgramRun table = run_program({"run", kSmall});
   EXPECT_EQ(table.code, 0) << table.err;
   EXPECT_THAT(table.out, HasSubstr("fingerprint "));
-  EXPECT_EQ(table.err, "");  // no progress bar: standard error is no terminal
+  EXPECT_EQ(table.err, "");  // no progress bar, because standard error is not a terminal
 
   EXPECT_EQ(run_program({"run", kSmall, "--quiet"}).out, "");
 
@@ -129,7 +129,8 @@ TEST(Program, ARefusalMakesNoDirectory) {
   for (const char* option : {"--out", "--dump"}) {
     const std::string there = (directory / "new/there").string();
     expect_refused({"run", input, option, there}, {"frame 1"});
-    expect_refused({"run", flat, option, there, "--structures", "wrapped,power"}, {"plane"});  // at its end
+    expect_refused({"run", flat, option, there, "--structures", "wrapped,power"},
+                   {"plane"});  // the run fails at its end
     expect_refused({"run", kSmall, option, there, "--structures", "power"}, {"power"});
     EXPECT_FALSE(std::filesystem::exists(directory / "new"));
   }
@@ -177,7 +178,7 @@ TEST(Program, ADumpReplacesAnEarlierOneAsAWhole) {
                                                    "frame-01.power.csv", "notes.csv", ".kds-run-dump.files"));
 }
 
-// A file that no dump wrote stays, and a dump refuses a directory that has frames of others.
+// A dump keeps files that no dump wrote, and refuses a directory that contains frames of another program.
 TEST(Program, ADumpTouchesOnlyWhatADumpWrote) {
   const ScratchDirectory directory;
   const std::string dump = (directory / "dump").string();
@@ -221,7 +222,7 @@ TEST(Program, ResultsReplaceOnlyWhatTheSameCommandWrote) {
                  {"summary.json there has changed since kds run --out wrote it"});
   directory.file("out/info.csv", "the user's");
   expect_refused({"info", kTrajectory, "--out", out}, {"info.csv there was not written by kds info --out"});
-  // The user has not named these two files.
+  // The user has not named these two files on the command line.
   directory.file("pair-2.xyz", "the user's");
   expect_refused({"generate", "two-spirals", "--beads", "8", "-o", (directory / "pair.xyz").string()},
                  {"-o", "pair-2.xyz", "was not written by kds generate"});
@@ -233,7 +234,7 @@ TEST(Program, ResultsReplaceOnlyWhatTheSameCommandWrote) {
               0);
 }
 
-// A frame's file leads nowhere: neither the other frames nor the log nor the summary are replaced.
+// The file of one frame is a dangling link, so no other frame, log or summary is replaced.
 TEST(Program, AllResultsOfARunAreReplacedOrNone) {
   const ScratchDirectory directory;
   const std::string dump = (directory / "dump").string(), log = directory.file("log", "old"),
@@ -267,7 +268,7 @@ TEST(Program, AReportReplacesAnEarlierOneAsAWhole) {
   EXPECT_THAT(page, Not(HasSubstr("d1_n20_linear.txt")));
 }
 
-// The plots of the second run fail: the result of the first stays, page and figures.
+// The plots of the second run fail, so the page and the figures of the first result stay.
 TEST(Program, APlotThatFailsLeavesTheEarlierResult) {
   const ScratchDirectory directory;
   const std::string out = (directory / "out").string();
@@ -296,7 +297,7 @@ TEST(Program, WithoutGnuplotNoPageIsPromised) {
   }
 }
 
-// None of them is there yet, and one is to be a file and a directory.
+// The outputs do not exist yet, and one name is used as a file and as a directory.
 TEST(Program, AnOutputIsAFileOrADirectory) {
   const ScratchDirectory directory;
   const std::string both = (directory / "both").string();
@@ -314,7 +315,7 @@ TEST(Program, AnOutputIsAFileOrADirectory) {
   EXPECT_EQ(directory.entries(), 0U);
 }
 
-// Each has a contacts.csv of its own there.
+// Each of the two results has its own contacts.csv there.
 TEST(Program, DumpAndResultsOfContactsLieInTwoDirectories) {
   const ScratchDirectory directory;
   const std::string both = (directory / "both").string(), link = (directory / "link").string();
@@ -346,7 +347,8 @@ TEST(Program, StandardOutputIsAnOutputByItsPath) {
     const ProgramRun piped =
         run_shell("\"$0\" run \"$1\" --quiet --log " + std::string(name) + " | cat", {kSmall});
     EXPECT_EQ(piped.out, log) << name << piped.err;
-    // A file behind it is written on, not anew: what comes behind the log does not replace its beginning.
+    // Standard output that appends to a file: the program writes on, and must not replace the beginning of
+    // the file.
     const ProgramRun appended = run_shell("{ echo before; \"$0\" run \"$1\" --quiet --log " +
                                               std::string(name) + "; echo after; } > \"$2/file\"",
                                           {kSmall, here});
@@ -359,7 +361,7 @@ TEST(Program, StandardOutputIsAnOutputByItsPath) {
     expect_refused({"run", kSmall, "--log", closed}, {"--log", closed, "not open for writing"});
 }
 
-// They would wait for a reader, at the end of a run at the latest.
+// A named pipe would wait for a reader, at the end of a run at the latest.
 TEST(Program, NamedPipesAreNoOutputs) {
   const ScratchDirectory directory;
   const std::string pipe = (directory / "pipe").string(), out = (directory / "out").string();

@@ -1,4 +1,4 @@
-// The program from outside: what scenes it runs, and what they count.
+// Tests the program as a process: the scenes that it runs, and their counts.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 const std::string kSmall = data_file("kinetic/d1_n20_linear.txt");
 const std::string kTrajectory = data_file("trajectories/villin_hp36_300K.dcd");
 
-// A linear motion written with five control points a coordinate: other polynomials, the same events.
+// A linear motion written with five control points per coordinate has other polynomials but the same events.
 TEST(Program, RunsPolynomialsBeyondTheUsualDegrees) {
   const ScratchDirectory directory;
   std::mt19937 random(7);
@@ -117,7 +117,7 @@ TEST(Program, BeadsThatStayInATiltedPlaneAreRefusedByTheDiagramInSpace) {
   EXPECT_EQ(run_program({"run", flat, "--structures", "wrapped", "--audit", "events"}).code, 0);
 }
 
-// A bead that comes from so far that all its events lie within 2^-200 of the step.
+// A bead comes from so far away that all its events lie within 2^-200 of the step.
 TEST(Program, RebuildsBetweenEventsOfABeadFromFarAway) {
   const ScratchDirectory directory;
   const std::string far = directory.file(
@@ -129,7 +129,7 @@ TEST(Program, RebuildsBetweenEventsOfABeadFromFarAway) {
   EXPECT_EQ(Json::parse(run.out)["structures"]["power"]["audits"]["failed"], 0);
 }
 
-// Four beads in one plane at the start, and moves of a last place, which doubles cannot tell apart.
+// Four beads start in one plane and move by units in the last place, which doubles cannot resolve.
 TEST(Program, FastGoesOnWhereDoublesContradictThemselves) {
   const ScratchDirectory directory;
   const std::string flat = directory.file("flat.txt",
@@ -196,7 +196,7 @@ TEST(Program, GivesOneFingerprintForAllRunsAndExactKernels) {
   }
 }
 
-// Every third bead smaller: the hierarchy's certificates have square roots then.
+// Every third bead is smaller, so the certificates of the hierarchy contain square roots.
 TEST(Program, WrapsBallsOfSeveralSizes) {
   const ScratchDirectory directory;
   std::string radii;
@@ -304,7 +304,7 @@ TEST(Program, NamesFramesByTheirNumberInTheFile) {
 TEST(Program, TellsTheTimesThatAFileHas) {
   const ScratchDirectory directory;
   std::string bytes = content_of(kTrajectory);
-  const float length = 2 / 48.88821F;  // steps of 2 fs, ten of them a frame
+  const float length = 2 / 48.88821F;  // steps of 2 fs, ten steps per frame
   const std::int32_t steps = 10;
   std::memcpy(&bytes[8 + 4 * 2], &steps, sizeof steps);
   std::memcpy(&bytes[8 + 4 * 9], &length, sizeof length);
@@ -356,7 +356,7 @@ TEST(Program, RunsTheChainsOfAComplexOnOneClock) {
   expect_refused({"run", file, "--chain", "A,X"}, {"--chain", "has no chain 'X'"});
 }
 
-// Not that of the water.
+// The list omits the chain of the water.
 TEST(Program, ListsTheChainsThatCanBeChosen) {
   const ScratchDirectory directory;
   std::string model;

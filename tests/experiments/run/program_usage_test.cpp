@@ -1,4 +1,4 @@
-// The program from outside: help, exit codes, and one line for each mistake.
+// Tests the program as a process: help, exit codes, and one line for each mistake.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

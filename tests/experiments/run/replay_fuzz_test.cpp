@@ -1,5 +1,5 @@
-// Whatever a log says, replaying it ends in the same fingerprint, in another one, or in one line that says
-// what is wrong with it.
+// For any log, a replay ends with the same fingerprint, with another fingerprint, or with one line that
+// explains what is wrong with the log.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -98,7 +98,8 @@ void spoil(Lines& lines, std::mt19937& random) {
   lines[line] = joined(words);
 }
 
-// Whoever spoils a log may know how its steps are counted and hashed: mends both, and the count at the end.
+// An attacker may know how the steps of a log are counted and hashed. This function repairs both, and the
+// count at the end.
 void mend(Lines& lines) {
   Fingerprint hash;
   std::size_t in_step = 0, all = 0;
@@ -145,7 +146,8 @@ TEST(ReplayFuzz, SpoiledLogsAreRefusedOrDiffer) {
   EXPECT_GT(different, 0U);
 }
 
-// The times are told from others although each bracket holds its failure time, and every hash is mended.
+// Changed times are detected although each bracket still contains its failure time and every hash is
+// repaired.
 TEST(ReplayFuzz, WiderTimesDiffer) {
   const ScratchDirectory directory;
   const Lines right = log_of("d3_n20_linear.txt", "wrapped,power", directory);
@@ -168,7 +170,7 @@ TEST(ReplayFuzz, WiderTimesDiffer) {
   EXPECT_EQ(replay(write_log(all_wide, directory)), Outcome::different);
 }
 
-// Another version may have found other brackets: they are to hold the failure times.
+// Another version may have found other brackets, but they must contain the failure times.
 TEST(ReplayFuzz, TimesOfAnotherVersionHoldTheFailureTimes) {
   const ScratchDirectory directory;
   Lines lines = log_of("d3_n20_linear.txt", "wrapped,power", directory);

@@ -1,4 +1,4 @@
-// `kds generate`: its options, and the files that it writes.
+// Tests `kds generate`: its options and the files that it writes.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -121,7 +121,7 @@ TEST(GenerateOptions, RefusesWithTheOptionAndWhatItTakes) {
   EXPECT_THAT(refusal("grill", "--turns", "1"), HasSubstr("--turns: has no meaning for the model grill"));
 }
 
-// --help says how many beads are too few for the bends of a grill or a spline.
+// --help states how many beads the bends of a grill or a spline need.
 TEST(Generate, ShortGrillsAndSplinesMeet) {
   const ScratchDirectory directory;
   const auto is_proper = [&](const std::string& model, std::size_t beads) {

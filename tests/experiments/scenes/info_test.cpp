@@ -1,4 +1,4 @@
-// `kds info`: its options and what it tells.
+// Tests `kds info`: its options and its output.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -81,7 +81,8 @@ SceneInfo describe(const std::vector<Trajectory>& necklaces, const std::vector<d
 }
 
 TEST(SceneInfo, CountsOverFramesAndListsTheFirst) {
-  // A necklace of three frames comes apart and closes again; another rests, hit in the second and third.
+  // A necklace of three frames breaks and closes again. Another necklace rests, and the first collides with
+  // it in the second and third frame.
   const SceneInfo info = describe(
       {necklace("a", {row({0, 2, 4}), row({0, 3, 6}), row({0, 2, 5})}), necklace("b", {row({7.5, 9})})},
       {1, 1, 1, 1, 1}, 1.25);

@@ -1,4 +1,4 @@
-// `kds stability`, through the library and from outside.
+// Tests `kds stability`, through the library and as a process.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ std::vector<StabilityRow> rows_of(const Arguments& arguments) {
   return run_stability(parse_stability_options(arguments), [](std::size_t, std::size_t) {});
 }
 
-// Scenes.
+// Tests of scenes.
 
 TEST(StabilityScenes, AreTheSameForTheSameSeed) {
   for (const Extreme& extreme : all_extremes()) {
@@ -76,7 +76,7 @@ const Extreme& extreme(std::string_view name) {
   throw std::logic_error("no such extreme");
 }
 
-// The function of a certificate over the first beads of a scene.
+// Returns the function of a certificate over the first beads of a scene.
 template <class C, int Dimension>
 ExactPolynomial function_in(int motion_degree, std::string_view name, std::size_t number) {
   SceneRandom random = scene_random(11, name, number);
@@ -112,7 +112,7 @@ TEST(StabilityScenes, AreWhatTheySay) {
   EXPECT_GE(touching, 3);
 }
 
-// What a wrong kernel would look like.
+// Simulates the answers of a wrong kernel.
 
 struct Followed {
   explicit Followed(AnyDegreeMotion<2> beads) : motion(std::move(beads)) {
@@ -128,7 +128,7 @@ struct Followed {
   std::vector<Answer> filtered, exact;
 };
 
-// One with several failures.
+// Returns a case with several failures.
 std::unique_ptr<Followed> followed() {
   for (std::size_t number = 0;; ++number) {
     SceneRandom random = scene_random(13, "degree:18", number);
@@ -149,7 +149,7 @@ TEST(CompareAnswers, AWrongAnswerIsNoticed) {
   });
   const auto place = static_cast<std::size_t>(later - f.filtered.begin());
   std::vector<Answer> wrong = f.filtered;
-  wrong[place].failure.time.lower = wrong[place].failure.time.upper;  // a double beside the root
+  wrong[place].failure.time.lower = wrong[place].failure.time.upper;  // a double next to the root
   EXPECT_THAT(disagreement(wrong, f.exact, function).value_or(""), HasSubstr("filtered later"));
   wrong = f.filtered;
   wrong[place].failure.kind = Failure::Kind::never;
@@ -221,7 +221,7 @@ TEST(StabilityRow, HoldsOnlyWithoutTrouble) {
   }
 }
 
-// Rows.
+// Tests of rows.
 
 TEST(Stability, EverySubjectHoldsInAFewCasesOfEveryExtreme) {
   std::set<std::string> subjects, extremes;
@@ -279,7 +279,7 @@ TEST(Stability, BallsTouchAndCrossSpheres) {
   for (const StabilityRow& row :
        rows_of({"--subjects", "ball_in_sphere_1,contact", "--extremes", "contact", "--cases", "100"})) {
     EXPECT_TRUE(row.holds()) << name_of(row) << ": " << row.reason;
-    EXPECT_GT(row.stages.exact, 0U) << name_of(row);  // doubles prove no touch
+    EXPECT_GT(row.stages.exact, 0U) << name_of(row);  // doubles cannot prove a touch
   }
 }
 
@@ -297,7 +297,7 @@ TEST(Stability, FastIsWrongWhereProductsVanish) {
     EXPECT_EQ(row.fast.missed, row.events) << name_of(row);
     EXPECT_GT(row.wrong_signs, 0U);
     EXPECT_EQ(row.stages.coefficients, 0U);
-    // Only those that are searched again at what is known to be their last root.
+    // Only certificates that are searched again at a root that is known to be their last.
     EXPECT_LE(row.stages.isolation, row.stages.exact / 4);
   }
 }
@@ -319,7 +319,7 @@ TEST(Stability, TheSameSeedGivesTheSameRowsWhateverElseRuns) {
   EXPECT_EQ(found, alone.size());
 }
 
-// Options.
+// Tests of options.
 
 std::string refusal(const Arguments& arguments) {
   try {
@@ -361,7 +361,7 @@ TEST(StabilityOptions, RefusesWhatIsWrong) {
   EXPECT_THROW(rows_of({"--subjects", "precedes", "--extremes", "basis:flat"}), InputError);
 }
 
-// Reports.
+// Tests of reports.
 
 StabilityRow failing_row() {
   StabilityRow row;
@@ -398,7 +398,7 @@ TEST(StabilityReport, TheTableIsNoWiderThanATerminal) {
   for (const std::string& line : split(stability_table(rows), '\n')) EXPECT_LE(line.size(), 120U) << line;
 }
 
-// From outside.
+// Tests of the program as a process.
 
 namespace outside {
 
@@ -433,7 +433,7 @@ TEST(StabilityPage, TimesOfKernelsBesideEachOther) {
   EXPECT_THAT(stability_page(std::vector{rows[0]}, {}), Not(HasSubstr("<svg")));
 }
 
-// Thousands of rows are no page: they stand together, but for those that do not hold.
+// Thousands of rows do not fit on a page. The page sums them up, and lists the rows that do not hold.
 TEST(StabilityPage, SumsBySubjectAndByExtreme) {
   StabilityRow row;
   row.subject = "wrapped";
@@ -482,7 +482,8 @@ TEST(StabilityProgram, WritesRowsToFiles) {
   EXPECT_TRUE(json["version"].is_string());
   EXPECT_TRUE(json["machine"]["cpu"].is_string());
   EXPECT_EQ(json["holds"], true);
-  EXPECT_EQ(json["rows"].size(), 8U * 5U);  // two dimensions and degrees each; three offsets, two refused
+  EXPECT_EQ(json["rows"].size(),
+            8U * 5U);  // two dimensions and degrees each; two of the three offsets are refused
   for (const Json& row : json["rows"]) {
     for (const char* key :
          {"subject", "kind", "dimension", "degree", "function_degree", "extreme", "cases", "agree",
@@ -496,7 +497,7 @@ TEST(StabilityProgram, WritesRowsToFiles) {
     }
   }
   const auto lines = split(test::content_of(std::filesystem::path(out) / "stability.csv"), '\n');
-  EXPECT_EQ(lines.size(), json["rows"].size() + 2);  // header, and after the last newline
+  EXPECT_EQ(lines.size(), json["rows"].size() + 2);  // the header, and the empty text after the last newline
   for (std::size_t i = 1; i + 1 < lines.size(); ++i)
     EXPECT_EQ(split(lines[i], ',').size(), split(lines[0], ',').size());
 }

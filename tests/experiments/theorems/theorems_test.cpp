@@ -1,4 +1,4 @@
-// `kds theorems`: sizes, what is measured, and what it prints.
+// Tests `kds theorems`: sizes, measurements and output.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -78,7 +78,8 @@ TEST(ClosestByDiagram, IsThatOfASearchAndTellsWhatItLookedAt) {
   const TheoremPoint& point = series.front().points.front();
   EXPECT_EQ(point.holds, true);
   EXPECT_GT(point.value, static_cast<double>(point.beads));
-  EXPECT_LT(point.value, 6 * static_cast<double>(point.beads));  // edges, and pairs two beads apart
+  EXPECT_LT(point.value, 6 * static_cast<double>(
+                                 point.beads));  // edges, and pairs of beads that are two apart in the chain
   EXPECT_GT(point.seconds->median, 0);
 }
 
@@ -105,7 +106,7 @@ TEST(TheoremPlan, ThreeSizesOfEachFromTheLeastBeads) {
   for (std::size_t s = 0; s < series.size(); ++s) EXPECT_EQ(series[s].points.size(), plan.sizes[s]);
 }
 
-// The size of a family takes one search: no time is told.
+// The size of a family needs one search, so no time is reported.
 TEST(TheoremPlan, FamiliesAloneAreNotTimed) {
   for (const bool timed : {false, true}) {
     TheoremOptions options{{Theorem::family}, 4096};
@@ -118,7 +119,7 @@ TEST(TheoremPlan, FamiliesAloneAreNotTimed) {
   }
 }
 
-// Rows that are farther apart meet less.
+// Rows that are farther apart meet less often.
 TEST(TheoremPlan, FamiliesShrinkAsTheGapOfGridsGrows) {
   const auto family = [](double gap) {
     const TheoremPlan plan = plan_theorems({{Theorem::family}, 4096, gap});
@@ -136,7 +137,7 @@ TEST(TheoremPlan, OneSearchTellsOfBothTheorems) {
   EXPECT_EQ(both.series.size(), 2 * one.series.size());
 }
 
-// The same seed, the same figures but for times.
+// Equal seeds give equal figures, except for times.
 TEST(Theorems, RowsFitsAndPage) {
   const ScratchDirectory scratch;
   const ProgramRun run =
@@ -168,7 +169,7 @@ TEST(Theorems, RowsFitsAndPage) {
     EXPECT_NEAR(fit["exponent"], 0.5, 1e-6);
     EXPECT_EQ(fit["sizes"], 9);
   }
-  EXPECT_EQ(json["fits"].size(), 4 + 5 + 5 + 4U);  // one of each series
+  EXPECT_EQ(json["fits"].size(), 4 + 5 + 5 + 4U);  // one fit of each series
   const std::string csv = content_of(scratch / "out/theorems.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), json["rows"].size() + 1);
   const std::string page = content_of(scratch / "out/report.html");

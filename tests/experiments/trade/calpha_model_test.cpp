@@ -1,4 +1,4 @@
-// One bead a residue: which beads, which radii, and contacts of residues.
+// The model with one bead per residue: its beads, its radii, and contacts of residues.
 
 #include "experiments/trade/calpha_model.h"
 
@@ -10,7 +10,7 @@
 namespace kds::calpha_model_test {
 namespace {
 
-/// Three residues of one chain, of 3, 1 and 2 beads, on the x axis.
+/// Makes three residues of one chain, with 3, 1 and 2 beads, on the x axis.
 Trajectory small_chain() {
   Trajectory chain;
   chain.bead_names = {"N of ALA 1 in chain A",   "CA of ALA 1 in chain A", "C of ALA 1 in chain A",
@@ -32,11 +32,13 @@ TEST(CalphaModel, HasOneBeadAResidue) {
   EXPECT_EQ(model->residue[0], (BeadRange{0, 2}));
   EXPECT_EQ(model->residue[5], (BeadRange{10, 11}));
   EXPECT_EQ(model->ranges, (std::vector<BeadRange>{{0, 2}, {3, 5}}));
-  EXPECT_EQ(model->covering_radius, 13.1);  // a bead of radius 12, 1 away: three decimals, above it
+  EXPECT_EQ(
+      model->covering_radius,
+      13.1);  // the covered bead has radius 12 and is 1 away; the radius is rounded up to three decimals
   EXPECT_EQ(model->radii, (std::vector<double>{2, 4, 5, 8, 10, 11}));
   EXPECT_EQ(model->necklaces[1].frames[1](0, 2), 8);
   EXPECT_EQ(model->necklaces[0].breaks, (std::vector<std::size_t>{1}));
-  // Half of the longest bond that is no break: from 1 to 4.
+  // Half of the longest bond that is not a break: the bond from 1 to 4.
   EXPECT_EQ(calpha_model(chains, radii, "auto")->radii, std::vector<double>(6, 1.5));
 }
 
@@ -68,7 +70,7 @@ TEST(CalphaModel, TellsContactsOfResidues) {
   const std::vector<ContactTime> contacts{
       {{0, 2}, 0, 1}, {{0, 3}, 0, 1}, {{1, 5}, 4, 5}, {{2, 4}, 0, 1}, {{5, 6}, 2, 3}};
   const std::vector<ContactTime> of_residues = model->of_residues(contacts, 2);
-  ASSERT_EQ(of_residues.size(), 3U);  // but not within one, and not of neighbours
+  ASSERT_EQ(of_residues.size(), 3U);  // contacts within a residue and between neighbours are left out
   EXPECT_EQ(of_residues[0].pair, (BeadPair{0, 2}));
   EXPECT_EQ(of_residues[0].from, 0);
   EXPECT_EQ(of_residues[1].pair, (BeadPair{0, 2}));

@@ -1,4 +1,4 @@
-// Two histories beside each other: what is missed, what is invented, and when.
+// Compares two histories: missed events, invented events, and times.
 
 #include <gtest/gtest.h>
 
@@ -25,9 +25,9 @@ TEST(MatchEvents, OnlyTheSameChangeNearInTimeMatches) {
   const std::vector<TimedEvent> found{event(1.5, 0, 1, 2), event(2, 1, 1, 2), event(3, 0, 3, 1),
                                       event(9.5, 0, 4, 5), event(20, 0, 4, 5)};
   const EventMatch match = match_events(expected, found, 1);
-  EXPECT_EQ(match.matched, 2U);   // 1 with 1.5, 9 with 9.5
-  EXPECT_EQ(match.missed, 2U);    // 3 of (1, 2), and (1, 3), whose ids are in another order
-  EXPECT_EQ(match.invented, 3U);  // another kind, other ids, 20
+  EXPECT_EQ(match.matched, 2U);   // the pairs (1, 1.5) and (9, 9.5)
+  EXPECT_EQ(match.missed, 2U);    // the event at 3 of (1, 2), and (1, 3), whose ids are in another order
+  EXPECT_EQ(match.invented, 3U);  // another kind, other ids, and the event at 20
   EXPECT_EQ(match.time_error_sum, 1.0);
   EXPECT_EQ(match.time_error_max, 0.5);
 }

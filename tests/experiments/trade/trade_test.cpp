@@ -1,4 +1,4 @@
-// What `kds trade` measures, against the truth computed another way, and the command.
+// The measurements of `kds trade`, compared with results computed in another way, and the command itself.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -60,7 +60,7 @@ TEST(Trade, TheExactRunErrsNowhere) {
   for (const TradeRow& row : rows) {
     SCOPED_TRACE(words_of(row.setting));
     EXPECT_GT(row.cost.seconds, 0);
-#ifndef KDS_SANITIZED  // which has memory of its own
+#ifndef KDS_SANITIZED  // the sanitizers use memory of their own
     EXPECT_GT(row.cost.memory, 1000U);
 #endif
     if (!row.is_exact) continue;
@@ -147,14 +147,14 @@ TEST(Trade, CalphaAloneIsAnotherModel) {
   const std::vector<TradeRow> rows = measured(finest, {Want::contacts, Want::cages, Want::diagram});
   const std::string by_hand = fmt::format(" --radius {}", finest.calpha()->covering_radius);
   const TradeErrors& contacts = row_of(rows, "contacts --select ca --apart 2").errors;
-  EXPECT_EQ(contacts.contacts_missed, 1.0);  // CA are 3.8 apart, and closer than 4 only along the chain
+  EXPECT_EQ(contacts.contacts_missed, 1.0);  // CA atoms are 3.8 apart, and closer than 4 only along the chain
   EXPECT_FALSE(contacts.events_missed);
   EXPECT_EQ(contacts.displacement, 0.0);
   const TradeErrors& covering = row_of(rows, "contacts --select ca" + by_hand + " --apart 2").errors;
   EXPECT_EQ(covering.contacts_missed, 0.0);
   EXPECT_GT(covering.contacts_spurious.value(), 0);
   const TradeRow& diagram = row_of(rows, "power --select ca");
-  EXPECT_FALSE(diagram.errors.cells_wrong);  // there are no such cells
+  EXPECT_FALSE(diagram.errors.cells_wrong);  // the model has no such cells
   EXPECT_FALSE(diagram.on_front);
   EXPECT_LT(diagram.cost.certificates, row_of(rows, "power").cost.certificates / 2);
   const TradeErrors& cages = row_of(rows, "wrapped --select ca").errors;
@@ -168,17 +168,17 @@ TEST(Trade, CalphaAsksAboutAllResiduesOfBeadsSoFarApart) {
     TradeInput input;
     input.frames = 2;
     input.beads = 60;
-    input.residues = 20;  // 3 beads each on average
+    input.residues = 20;  // 3 beads per residue on average
     input.largest_residue = largest_residue;
     const std::vector<TradeGroup> groups = groups_for(Want::contacts, input, apart);
     const auto found = std::ranges::find_if(groups.front().settings, &TradeSetting::calpha);
     if (found == groups.front().settings.end()) throw std::logic_error("no setting of CA alone");
     return found->settings.apart;
   };
-  EXPECT_EQ(apart_of(3, 20), 6U);  // beads 0 and 20 are of residues 0 and 6
+  EXPECT_EQ(apart_of(3, 20), 6U);  // beads 0 and 20 belong to residues 0 and 6
   EXPECT_EQ(apart_of(3, 21), 7U);
   EXPECT_EQ(apart_of(5, 20), 4U);  // the largest residue counts, not the mean
-  EXPECT_EQ(apart_of(3, 5), 2U);   // adjacent residues are never asked about
+  EXPECT_EQ(apart_of(3, 5), 2U);   // adjacent residues are never compared
 }
 
 TEST(Trade, CalphaErrsByAnUnknownShareWithoutTrueContacts) {
@@ -193,11 +193,11 @@ TEST(Trade, CalphaErrsByAnUnknownShareWithoutTrueContacts) {
     compare_histories(exact, run, finest, setting);
     row.errors = run.errors;
   };
-  compare({2, {}, {{{0, 4}, 0, 1}}, {}});  // of adjacent residues
+  compare({2, {}, {{{0, 4}, 0, 1}}, {}});  // a contact of adjacent residues
   EXPECT_FALSE(row.errors.contacts_missed);
   EXPECT_FALSE(row.errors.contacts_spurious);
   EXPECT_TRUE(main_errors(row).empty());
-  compare({2, {}, {{{0, 4}, 0, 1}, {{0, 10}, 0, 1}}, {}});  // the other of residues 0 and 3
+  compare({2, {}, {{{0, 4}, 0, 1}, {{0, 10}, 0, 1}}, {}});  // the second is a contact of residues 0 and 3
   EXPECT_EQ(row.errors.contacts_missed, 1.0);
   EXPECT_EQ(row.errors.contacts_spurious, 1.0);
 }
@@ -259,7 +259,8 @@ TEST(Trade, ScenesCostByWhatIsAskedFor) {
 TEST(Trade, AStrideIsWrongByWhatItLeavesOut) {
   const FinestData finest = villin(9, 1.0);
   const Scene scene = finest.scene();
-  // At the frames left out, by hand; random times between may add a little, looks at frames alone miss some.
+  // The maximum over the skipped frames is computed by hand. Random times in between may add a little, and
+  // samples at frames alone miss some of it.
   double farthest = 0;
   for (std::size_t k = 0; k <= 8; ++k) {
     const double u = static_cast<double>(k) / 8;
@@ -349,7 +350,7 @@ std::string square_of(double height) {
                      height / 2);
 }
 
-// Every second frame, and so every stride, lies in a plane.
+// Every second frame, and therefore every stride, lies in a plane.
 TEST(TradeCommand, LeavesOutWhatDoesNotFitTheFrames) {
   const ScratchDirectory directory;
   std::string frames;

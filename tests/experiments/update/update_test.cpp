@@ -1,4 +1,4 @@
-// `kds update`: its options, what it counts and what it writes.
+// Tests `kds update`: its options, its counts and its files.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST(UpdateAudit, OnlyADiagramWithAFaultFails) {
   EXPECT_THROW(audit_update(without, one, wrong, "x"), AuditError);
 }
 
-/// Five beads of which one passes through the others' sphere: a cell becomes three, and back.
+/// Five beads, one of which passes through the sphere of the others: two cells become three, and two again.
 std::vector<Trajectory> passing() {
   Eigen::Matrix3Xd outside(3, 5), inside(3, 5);
   outside << 0, 4, 0, 0, 5,  //
@@ -102,7 +102,8 @@ TEST(CompareUpdates, CountsWhatChangesAndWhatIsDone) {
     SCOPED_TRACE(row.technique);
     EXPECT_EQ(row.technique, kTechniques[t]);
     EXPECT_EQ(row.task.steps, 3U);
-    // Two cells become three, nothing, and back: five of one frame that are not in the other.
+    // Two cells become three, then stay, then become two again. Each change has five cells that are in only
+    // one of the two frames.
     EXPECT_EQ(row.task.cells, 3U + 3U + 2U);
     EXPECT_EQ(row.task.cells_changed, 10U);
     EXPECT_EQ(row.task.hidden, 0U);
@@ -121,7 +122,7 @@ TEST(CompareUpdates, CountsWhatChangesAndWhatIsDone) {
       EXPECT_GE(row.events.value(), 2U);
       EXPECT_DOUBLE_EQ(row.efficiency().value(), static_cast<double>(*row.events) / 10);
     } else if (row.technique == "reinsert" || row.technique == "greedy") {
-      EXPECT_EQ(row.rebuilds, 2U);  // too few beads to take one out
+      EXPECT_EQ(row.rebuilds, 2U);  // too few beads to remove one
       EXPECT_TRUE(row.removed);
     }
   }
@@ -174,11 +175,13 @@ TEST(Update, OfATrajectoryWithPlots) {
   EXPECT_THAT(content_of(directory / "out/update.csv"), HasSubstr("\n4,auto,2,"));
   const std::string page = content_of(directory / "out/report.html");
   expect_sound(page);
-  EXPECT_EQ(count_of(page, "<table>"), 2U);  // a stride each
+  EXPECT_EQ(count_of(page, "<table>"), 2U);  // one table for each stride
   for (const char* plot : {"time / time to rebuild by stride", "events / changed cells by stride",
                            "% of certificates that fail by stride"})
     EXPECT_EQ(count_of(page, plot), 2U) << plot;
-  EXPECT_THAT(page, testing::Not(HasSubstr("class=\"curve")));  // marks: nothing is known between two strides
+  EXPECT_THAT(page,
+              testing::Not(HasSubstr(
+                  "class=\"curve")));  // marks without a line, because nothing is known between two strides
 }
 
 TEST(Update, BeadsThatHideOthers) {
@@ -210,7 +213,7 @@ TEST(Update, PlanarTrajectoriesInThePlane) {
   ASSERT_EQ(json["rows"].size(), 2 * kTechniques.size());
   for (const Json& row : json["rows"]) {
     EXPECT_EQ(row["audits"], row["steps"]);
-    // At most two triangles a bead.
+    // At most two triangles per bead.
     EXPECT_LT(row["cells"], row["steps"].get<double>() * 200);
     EXPECT_GT(row["cells"], row["steps"].get<double>() * 100);
   }

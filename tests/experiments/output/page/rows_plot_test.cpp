@@ -1,4 +1,4 @@
-// Rows of bars along the chain: values under the pointer, names where there is room, bins of long chains.
+// Rows of bars along the chain: values under the pointer, names if they fit, and bins for long chains.
 
 #include "experiments/output/page/rows_plot.h"
 
@@ -24,7 +24,7 @@ TEST(RowsPlot, EachColumnHasTheValuesOfAllRows) {
   const std::string html =
       svg_plot(RowsPlot{"bead", 3, bead, {{"wrapped", "", {0, 2, 4}}, {"it's <odd>", "", {1, 0, 0.5}}}});
   test::expect_nested(html);
-  EXPECT_EQ(count_of(html, "class=\"hot\""), 6U);  // wide and narrow
+  EXPECT_EQ(count_of(html, "class=\"hot\""), 6U);  // in the wide and the narrow plot
   EXPECT_EQ(count_of(html, "<title>bead 1\nwrapped: 2\nit&#39;s &lt;odd&gt;: 0</title>"), 2U);
   EXPECT_EQ(count_of(html, "var(--s0)"), 4U);
 }
@@ -44,7 +44,7 @@ TEST(RowsPlot, OfManyColumnsSomeStandTogether) {
   RowsPlot plot{"bead", 1000, bead, {{"power", "", std::vector<double>(1000, 1)}}};
   plot.rows[0].values[1] = 3;
   const std::string html = svg_plot(plot);
-  EXPECT_THAT(html, HasSubstr("<title>bead 0 to bead 2, mean\npower: 1.667</title>"));  // wide
+  EXPECT_THAT(html, HasSubstr("<title>bead 0 to bead 2, mean\npower: 1.667</title>"));  // in the wide plot
   EXPECT_THAT(html, HasSubstr("<title>bead 999\npower: 1</title>"));
   EXPECT_LE(count_of(html, "class=\"hot\""), 560U);
 }

@@ -1,4 +1,4 @@
-// Plots: where ticks stand, and what a page shows of values.
+// Plots: the positions of ticks, and the values that a page shows.
 
 #include "experiments/output/page/svg_plot.h"
 
@@ -44,7 +44,8 @@ TEST(SvgPlot, LogarithmicTicksArePowersOfTenWhereThereAreTwo) {
   test::expect_nested(svg_plot(PointPlot{"x", "y", {"a"}, {{"", 1e-12, 1, 0}, {"", 1e12, 1, 0}}}));
 }
 
-// Steps of less than a last place would never arrive; ends that are rounded would leave the axis.
+// Steps smaller than a unit in the last place would never reach the end of an axis, and rounded ends would
+// leave the axis.
 TEST(SvgPlot, ValuesThatAreAsGoodAsEqual) {
   const double next = std::nextafter(0.6, 1);
   for (const bool below_zero : {false, true}) {
@@ -117,8 +118,8 @@ TEST(SvgPlot, PanelsShareTheirKeyAndColours) {
   EXPECT_EQ(count_of(html, "<svg class=\"wide\""), 2U);
   EXPECT_EQ(count_of(html, "<svg class=\"narrow\""), 2U);
   EXPECT_THAT(html, HasSubstr("<h3>&lt;box&gt;</h3>"));
-  EXPECT_EQ(count_of(html, "fill=\"var(--s0)\""), 4U);  // two marks of a, wide and narrow
-  EXPECT_EQ(count_of(html, "fill=\"var(--s1)\""), 8U);  // b is the same in both
+  EXPECT_EQ(count_of(html, "fill=\"var(--s0)\""), 4U);  // two marks of a, in the wide and the narrow plot
+  EXPECT_EQ(count_of(html, "fill=\"var(--s1)\""), 8U);  // b has the same colour in both panels
 }
 
 TEST(SvgPlot, PanelsWithMoreNamesThanColoursHaveKeysOfTheirOwn) {
@@ -145,8 +146,8 @@ TEST(SvgPlot, ValuesAreShownUnderThePointer) {
   const std::string html = svg_plot(plot);
   EXPECT_THAT(html, HasSubstr("<title>frame 0\nwrapped: 3</title>"));
   EXPECT_THAT(html, HasSubstr("<title>frame 1\nwrapped: 4\npower: 40</title>"));
-  EXPECT_EQ(count_of(html, "class=\"curve"), 4U);  // two curves, wide and narrow
-  EXPECT_EQ(count_of(html, "<span"), 2U);          // the key stands once
+  EXPECT_EQ(count_of(html, "class=\"curve"), 4U);  // two curves, in the wide and the narrow plot
+  EXPECT_EQ(count_of(html, "<span"), 2U);          // the key appears once
   test::expect_nested(html);
 }
 
