@@ -1,6 +1,7 @@
-# Compiles mistakes.cpp as it is, and with each mistake; then the first ten lines of what the compiler says must name what is wrong.
-# Lines of source that it shows in between are left out: versions of g++ differ in how many there are.
-# user.h is compiled before, once for all: the compiler names it as it would name a source file that includes the same headers.
+# Compiles mistakes.cpp without a mistake, and with each mistake. The first ten lines of the compiler's
+# message must name the mistake. Source lines in the message are ignored, because versions of g++ print
+# different numbers of them. user.h is precompiled once, and the compiler names it like a source file that
+# includes the same headers.
 # cmake -DSOURCE=<kds> -DINCLUDES=<folders> -DCOMPILER=<c++> -DPLACE=<folder> -P check_errors.cmake
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE "${PLACE}")
@@ -16,7 +17,7 @@ if(failed)
   message(FATAL_ERROR "what users include does not compile:\n${errors}")
 endif()
 
-# compile(<macro>): sets errors to what the compiler says, and failed
+# compile(<macro>): sets `errors` to the compiler's message, and `failed`
 function(compile macro)
   execute_process(COMMAND "${COMPILER}" ${flags} -D${macro} -fsyntax-only mistakes.cpp WORKING_DIRECTORY "${PLACE}"
                   RESULT_VARIABLE failed ERROR_VARIABLE errors)
@@ -24,7 +25,7 @@ function(compile macro)
   set(errors "${errors}" PARENT_SCOPE)
 endfunction()
 
-# expect_error(<macro> <text>): the text stands in the first ten lines
+# expect_error(<macro> <text>): the text must be in the first ten lines
 function(expect_error macro text)
   compile(${macro})
   if(failed EQUAL 0)

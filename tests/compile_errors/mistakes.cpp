@@ -1,5 +1,5 @@
-// A certificate type and a structure as a user might write them, right, or with one mistake: the compiler is
-// to say which.
+// A certificate type and a structure as a user might write them, either correct or with one mistake that the
+// compiler must name.
 #include "user.h"
 
 struct Near {

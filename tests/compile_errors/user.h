@@ -1,5 +1,5 @@
 #pragma once
-// What a user's source file includes.
+// The headers that a user's source file includes.
 
 #include <array>
 

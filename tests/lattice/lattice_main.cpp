@@ -1,5 +1,5 @@
 // Runs random lattice scenes in one process: kds_lattice_scenes [SCENES] [FIRST SEED]. Prints the first
-// failure of each seed. Ends with 1 if there is any.
+// failure of each seed. Exits with 1 if any scene fails.
 
 #include <cstdio>
 #include <cstdlib>

@@ -20,7 +20,7 @@ namespace kds::test {
 
 namespace {
 
-/// A determinant by cofactors: slow, and shares no code with the product.
+/// Computes a determinant by cofactors: slow, and shares no code with the product.
 template <std::size_t N>
 Rational determinant(const std::array<std::array<Rational, N>, N>& rows) {
   if constexpr (N == 1) {
@@ -40,12 +40,13 @@ Rational determinant(const std::array<std::array<Rational, N>, N>& rows) {
   }
 }
 
-/// Coordinates, then the height over the paraboloid: squared length less weight.
+/// Coordinates, then the height over the paraboloid: squared length minus weight.
 template <int Dimension>
 using Lifted = std::array<Rational, Dimension + 1>;
 
-/// Returns what is wrong with the cells of a plane diagram, by the definition: no bead lies inside a cell's
-/// power circle, and three beads are a cell if all others are strictly outside their power circle.
+/// Explains what is wrong with the cells of a plane diagram by the definition, or returns nothing: no bead
+/// lies inside of a cell's power circle, and three beads are a cell if all others are strictly outside of
+/// their power circle.
 std::optional<std::string> not_the_regular_one(const std::vector<Lifted<2>>& points,
                                                const std::vector<CellBeads<2>>& cells) {
   const auto beads = static_cast<BeadId>(points.size());
@@ -153,7 +154,8 @@ class LatticeRun {
     }
   }
 
-  /// Another course through the same point at u = 1/2: elsewhere it is a jump.
+  /// Gives the bead another course through the same point. The point is that of u = 1/2, so at other times
+  /// the bead jumps.
   void bend(BeadId bead) {
     for (int axis = 0; axis < Dimension; ++axis) {
       const int by = detail::whole_number(random_, -1, 1);

@@ -1,5 +1,5 @@
 #pragma once
-// Runs power diagrams over random lattice scenes with audits between all events, edits at events among them.
+// Runs power diagrams over random lattice scenes with audits between all events, including edits at events.
 
 #include <cstdint>
 #include <functional>
@@ -14,7 +14,7 @@ struct LatticeCounts {
   std::uint64_t events = 0;
   std::uint64_t rebuilt = 0;  ///< scenes with a rebuild or a repair
   std::uint64_t refused = 0;  ///< scenes in which all beads stay in one plane (on one line)
-  std::uint64_t edited = 0;   ///< scenes in which beads came, went or changed course
+  std::uint64_t edited = 0;   ///< scenes in which beads were inserted, erased or changed course
 };
 
 /// Runs one scene of each dimension, degree (1 to 3) and kind, each from `seed`. Returns the first failure

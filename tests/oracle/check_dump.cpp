@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 const std::array<std::string, 3> kinds{"power", "hidden", "wrapped"};
 
-// Every frame has the files that frame 0 has, and no frame is beyond the last.
+// Every frame must have the same files as frame 0, and no file may belong to a frame after the last.
 void check_files(const Scene& scene, const fs::path& dir, Report& report) {
   for (const std::string& kind : kinds) {
     const bool expected = fs::exists(dump_file(dir, 0, kind));
@@ -45,7 +45,7 @@ void check_files(const Scene& scene, const fs::path& dir, Report& report) {
   }
 }
 
-// Reads a file of the dump, none after a complaint about its form.
+// Reads a file of the dump. Reports a wrong form as a mismatch and returns nothing.
 template <class Read>
 auto read_file(const fs::path& file, const Read& read, Report& report)
     -> std::optional<decltype(read(file))> {

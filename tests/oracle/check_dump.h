@@ -1,5 +1,5 @@
 #pragma once
-// A whole dump directory against the scene it claims to show.
+// Compares a whole dump directory with the scene that it shows.
 
 #include <cstddef>
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 namespace oracle {
 
-/// Every `every`-th node is compared with CGAL's exact sphere besides its proof (0: none).
+/// Every node is proved; every `every`-th node is also compared with CGAL's exact sphere (0: none).
 [[nodiscard]] Report check_dump(const Scene& scene, const std::filesystem::path& dir, std::size_t every);
 
-/// A dump that is right, from static structures only.
+/// Writes a correct dump, from static structures only.
 void write_static_dump(const Scene& scene, const std::filesystem::path& dir);
 
 }  // namespace oracle

@@ -1,13 +1,13 @@
-// Judges what `kds run --dump` wrote with CGAL's static structures and exact proofs, sharing no code with
+// Judges the dumps of `kds run --dump` with CGAL's static structures and exact proofs. Shares no code with
 // kds.
 //
 //   check_dumps --dump DIR INPUT... [--frames FIRST:LAST:STRIDE] [--radius R|file:PATH|auto] [--every K]
 //   INPUT: --dcd FILE [--select-from PDB] | --pdb FILE | --xyz FILE   (several: several necklaces)
 //          | --instance FILE
-//   check_dumps --make --dump DIR INPUT...     writes a right dump from static structures
-//   check_dumps --self-test [INPUT...]         spoils right dumps and demands to notice
+//   check_dumps --make --dump DIR INPUT...     writes a correct dump from static structures
+//   check_dumps --self-test [INPUT...]         corrupts correct dumps and requires that each is noticed
 //
-// Exit code: 0 all is right, 1 a mismatch, 2 bad usage.
+// Exit code: 0 if all is correct, 1 for a mismatch, 2 for wrong usage.
 
 #include <charconv>
 #include <cstdio>

@@ -70,7 +70,9 @@ struct Geometry<3> {
   static CGAL::Oriented_side power_test(const Points& p, const Cell& c, unsigned bead) {
     return CGAL::power_side_of_oriented_power_sphere(p[c[0]], p[c[1]], p[c[2]], p[c[3]], p[bead]);
   }
-  static bool is_hidden(const Triangulation::Vertex_handle&) { return false; }  // it keeps no such vertices
+  static bool is_hidden(const Triangulation::Vertex_handle&) {
+    return false;
+  }  // CGAL keeps no hidden vertices in space
   static auto cells_of(const Triangulation& t) { return t.finite_cell_handles(); }
 };
 
@@ -88,7 +90,7 @@ std::string text(const std::vector<unsigned>& beads) {
   return line;
 }
 
-// Times 2 in the plane, 6 in space.
+// Returns twice the area in the plane, and six times the volume in space.
 Rational volume_of(const Frame& frame, const std::vector<Cell>& cells) {
   Rational sum = 0;
   for (const Cell& cell : cells) {
@@ -108,7 +110,7 @@ Rational volume_of(const Frame& frame, const std::vector<Cell>& cells) {
   return sum;
 }
 
-// Proves a triangulation regular, or says what is wrong with it.
+// Proves that a triangulation is regular, or explains what is wrong with it.
 template <int space>
 class FacetsProof {
  public:
@@ -118,7 +120,8 @@ class FacetsProof {
   std::optional<std::string> objection(const PowerDiagram& reference) {
     if (auto wrong = flat_cell()) return wrong;
     if (auto wrong = bad_facet()) return wrong;
-    // All facets pair up and the rest is hull: the cells cover the hull evenly. Once, if the volume fits.
+    // All facets match in pairs and the others are hull facets, so the cells cover every point of the hull
+    // equally often. They cover it once if the volume is correct.
     if (volume_of(frame_, dumped_.cells) != volume_of(frame_, reference.cells)) {
       return "the cells do not fill the convex hull";
     }
@@ -196,10 +199,10 @@ class FacetsProof {
   const Frame& frame_;
   const PowerDiagram& dumped_;
   typename Geometry<space>::Points points_;
-  std::vector<Cell> oriented_;  ///< the same cells, positively oriented
+  std::vector<Cell> oriented_;  ///< the same cells with positive orientation
 };
 
-// Order of ids and lines, ranges, and vertices + hidden beads = all beads.
+// Checks the order of ids and lines, their ranges, and that vertices and hidden beads together are all beads.
 bool well_formed(std::size_t beads, const PowerDiagram& dumped, bool solid, const std::string& where,
                  Report& report) {
   const std::size_t before = report.mismatch_count;
@@ -238,8 +241,8 @@ bool well_formed(std::size_t beads, const PowerDiagram& dumped, bool solid, cons
   return report.mismatch_count == before;
 }
 
-// Where all beads lie in a plane (on a line of it) there are no cells; of coincident beads any may be the one
-// seen.
+// If all beads lie in a plane (or, in the plane, on a line), there are no cells. Any one of several
+// coincident beads may be the visible one.
 bool same_visible_points(const Frame& frame, const PowerDiagram& dumped, const PowerDiagram& reference) {
   const auto visible = [&](const std::vector<unsigned>& hidden) {
     std::vector<std::array<double, 4>> points;
@@ -262,7 +265,8 @@ PowerDiagram static_diagram(const Frame& frame, bool backwards) {
   for (unsigned i = 0; i < points.size(); ++i) {
     const unsigned bead = backwards ? static_cast<unsigned>(points.size()) - 1 - i : i;
     const auto vertex = triangulation.insert(points[bead]);
-    // None for a hidden point in space; for one that is there already the vertex that stands for both.
+    // CGAL returns no vertex for a hidden point in space. For a point that exists already it returns the
+    // vertex that represents both.
     if (vertex != decltype(vertex)() && vertex->info().bead == BeadOfVertex{}.bead)
       vertex->info().bead = bead;
   }

@@ -32,7 +32,7 @@ std::vector<unsigned> without(std::vector<unsigned> beads, std::size_t i) {
   return beads;
 }
 
-// Walks the nodes in preorder, which sorting by first, then by last downwards, must yield.
+// Walks the nodes in preorder, which equals the order by ascending first and then descending last bead.
 class TreeWalk {
  public:
   TreeWalk(std::vector<Node> nodes, const std::string& where, Report& report)
@@ -60,7 +60,7 @@ class TreeWalk {
     report_.mismatch(where_ + "range " + std::to_string(first) + "-" + std::to_string(last) + " " + what);
   }
 
-  // Height of the tree over the range, or none after a complaint.
+  // Returns the height of the tree over the range, or reports a mismatch and returns nothing.
   std::optional<unsigned> subtree(unsigned first, unsigned last) {
     if (first == last) return 0;
     if (next_ == nodes_.size() || nodes_[next_].first != first || nodes_[next_].last != last) {
@@ -86,7 +86,7 @@ class TreeWalk {
 bool agrees(const Node& node, const ExactSphere& sphere) {
   double size = sphere.radius;
   for (const double x : sphere.centre) size = std::max(size, std::abs(x));
-  // Written so that NaN disagrees.
+  // Written so that NaN counts as different.
   bool same = std::abs(node.radius - sphere.radius) <= tolerance * sphere.radius;
   for (std::size_t c = 0; c < 3; ++c) {
     same = same && std::abs(node.centre[c] - sphere.centre[c]) <= tolerance * size;
@@ -107,7 +107,7 @@ bool well_formed(const Node& node, std::size_t beads, const std::string& where, 
   return report.mismatch_count == before;
 }
 
-// The basis without beads to spare.
+// Returns the basis without superfluous beads.
 std::vector<unsigned> proper_part(const Frame& frame, std::vector<unsigned> basis) {
   const RootNumber radius = cgal_sphere(frame, basis).exact_radius;
   for (std::size_t i = 0; basis.size() > 1 && i < basis.size();) {
@@ -121,7 +121,7 @@ std::vector<unsigned> proper_part(const Frame& frame, std::vector<unsigned> basi
   return basis;
 }
 
-// In a degenerate frame a basis may have beads to spare, but none that does not touch its sphere.
+// In a degenerate frame a basis may have superfluous beads, but all of them must touch the sphere.
 std::optional<std::string> objection_to_members(const Frame& frame, const Node& node,
                                                 const ExactSphere& own) {
   for (const unsigned bead : node.basis) {
@@ -131,7 +131,7 @@ std::optional<std::string> objection_to_members(const Frame& frame, const Node& 
   return std::nullopt;
 }
 
-// Radii are compared as exact numbers, so the basis sphere is the node's sphere or it is not.
+// Radii are compared as exact numbers, so the basis sphere either is the node's sphere or is not.
 std::optional<std::string> objection_by_cgal(const Frame& frame, const Node& node,
                                              const ExactSphere& smallest) {
   const ExactSphere own = cgal_sphere(frame, node.basis);
@@ -142,7 +142,7 @@ std::optional<std::string> objection_by_cgal(const Frame& frame, const Node& nod
   return objection_to_members(frame, node, own);
 }
 
-// For beads of equal radii, of the basis' proper part where it has beads to spare.
+// Proves a node with beads of equal radii. If the basis has superfluous beads, proves its proper part.
 Proof prove_node(const Frame& frame, const Node& node) {
   Proof proof = prove_sphere(frame, node);
   if (!proof.objection) return proof;

@@ -1,5 +1,6 @@
 #pragma once
-// Is a list of nodes a binary tree over the sequence, each node with its smallest enclosing sphere?
+// Checks whether a list of nodes is a binary tree over the sequence, in which each node has its smallest
+// enclosing sphere.
 
 #include <string>
 #include <vector>
@@ -10,10 +11,10 @@
 
 namespace oracle {
 
-/// Nodes by halving each necklace, spheres by CGAL.
+/// Makes nodes by halving each necklace, with spheres by CGAL.
 [[nodiscard]] std::vector<Node> static_hierarchy(const Frame& frame, const std::vector<std::size_t>& ends);
 
-/// Every node is proved; every `every`-th (counted over all frames) is compared with CGAL's sphere as well.
+/// Proves every node. Also compares every `every`-th node (counted over all frames) with CGAL's sphere.
 void check_wrapped(const Frame& frame, const std::vector<std::size_t>& ends, const std::vector<Node>& nodes,
                    std::size_t every, const std::string& where, Report& report);
 

@@ -23,7 +23,7 @@ void tidy(std::vector<Cell>& cells) {
 
 bool has(const Cell& cell, unsigned bead) { return std::find(cell.begin(), cell.end(), bead) != cell.end(); }
 
-// The volume that the beads of a cell span, with a sign.
+// Returns the signed volume of the beads of a cell.
 double turn(const Frame& f, const Cell& beads) {
   std::array<std::array<double, 3>, 3> v{};
   for (std::size_t i = 0; i + 1 < beads.size(); ++i) {
@@ -35,8 +35,8 @@ double turn(const Frame& f, const Cell& beads) {
          v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
 }
 
-// Two cells exchanged for those around the line through their apexes, 2-3 in space and 2-2 in the plane: a
-// sound triangulation, which only the power test can tell from the right one.
+// Exchanges two cells for the cells around the line through their apexes (2-3 in space, 2-2 in the plane).
+// The result is a triangulation that only the power test can distinguish from the correct one.
 bool flip_around_apexes(const Frame& frame, std::vector<Cell>& cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     for (std::size_t j = i + 1; j < cells.size(); ++j) {
@@ -49,10 +49,10 @@ bool flip_around_apexes(const Frame& frame, std::vector<Cell>& cells) {
       std::vector<Cell> flipped;
       std::size_t positive = 0, negative = 0;
       for (std::size_t left_out = 0; left_out < common.size(); ++left_out) {
-        Cell cell = apexes;  // the rest of the common facet in cyclic order
+        Cell cell = apexes;  // the other beads of the common facet in cyclic order
         for (std::size_t k = 1; k < common.size(); ++k)
           cell.push_back(common[(left_out + k) % common.size()]);
-        // In the plane the two new cells lie on both sides of the line.
+        // In the plane the two new cells lie on opposite sides of the line.
         const double sign = common.size() == 2 && left_out == 1 ? -1 : 1;
         if (sign * turn(frame, cell) > 1e-6) ++positive;
         if (sign * turn(frame, cell) < -1e-6) ++negative;
@@ -69,7 +69,8 @@ bool flip_around_apexes(const Frame& frame, std::vector<Cell>& cells) {
   return false;
 }
 
-// Two hull facets in one plane (on one line), covered by a cell without volume: all facets still pair up.
+// Covers two hull facets in one plane (on one line) with a cell without volume, so that all facets still
+// match in pairs.
 bool cover_with_flat_cell(const Frame& frame, std::vector<Cell>& cells) {
   std::map<std::vector<unsigned>, int> facets;
   for (const Cell& cell : cells) {
@@ -93,7 +94,7 @@ bool cover_with_flat_cell(const Frame& frame, std::vector<Cell>& cells) {
   return false;
 }
 
-// Another bead in the same place.
+// Returns another bead at the same position.
 std::optional<unsigned> twin(const Frame& frame, unsigned bead) {
   for (unsigned other = 0; other < frame.size(); ++other) {
     if (other != bead && frame[other].centre == frame[bead].centre) return other;
@@ -101,7 +102,7 @@ std::optional<unsigned> twin(const Frame& frame, unsigned bead) {
   return std::nullopt;
 }
 
-// Where every bead has a twin, the twins' cells are as regular: the hull is filled twice.
+// If every bead has a twin, the cells of the twins are regular too. Adding them fills the hull twice.
 bool add_cells_of_twins(const Frame& frame, Tables& tables) {
   const std::vector<Cell> cells = tables.cells;
   for (Cell cell : cells) {
@@ -275,7 +276,7 @@ std::vector<Corruption> wrapped_corruptions() {
        [](const Scene& s, Tables& t, Dice&) {
          for (Node& node : t.nodes) {
            if (node.last - node.first != 2 || node.basis.size() != 2) continue;
-           Node wider = node;  // the circle through an obtuse triangle
+           Node wider = node;  // the circumcircle of an obtuse triangle
            wider.basis = {node.first, node.first + 1, node.first + 2};
            const ExactSphere circle = prove_sphere(s.frames[0], wider).sphere;
            if (!(circle.radius > node.radius * 1.0001)) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Ways to spoil a right dump. Each must be wrong in any position of the beads.
+// Ways to corrupt a correct dump. Each result is wrong for all positions of the beads.
 
 #include <functional>
 #include <vector>
@@ -10,14 +10,14 @@
 
 namespace oracle {
 
-/// What the files of one frame say.
+/// The contents of the files of one frame.
 struct Tables {
   std::vector<Cell> cells;
   std::vector<unsigned> hidden;
   std::vector<Node> nodes;
 };
 
-/// Spoils the tables of a frame; false where it cannot be done to them.
+/// Corrupts the tables of a frame; returns false if this corruption does not apply to them.
 struct Corruption {
   const char* name;
   std::function<bool(const Scene&, Tables&, Dice&)> spoil;

@@ -29,7 +29,7 @@ Number number(std::string_view text) {
   return value;
 }
 
-// Calls use(fields) for every line below the header.
+// Calls use(fields) for every line after the header.
 template <class Use>
 void for_each_line(const std::filesystem::path& path, std::string_view header, const Use& use) {
   const std::string text = read_text(path);

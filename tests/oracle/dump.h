@@ -1,5 +1,5 @@
 #pragma once
-// The files that `--dump` writes, read into plain tables: only their form is judged here.
+// Reads the files of `--dump` into plain tables, and judges only their form.
 
 #include <array>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace oracle {
 
-using Cell = std::vector<unsigned>;  ///< a bead a corner
+using Cell = std::vector<unsigned>;  ///< one bead for each corner
 
 struct Node {
   unsigned first = 0, last = 0;
@@ -19,7 +19,7 @@ struct Node {
   double radius = 0;
 };
 
-/// A file of another form than the contract says.
+/// A file whose form differs from the documented format.
 struct FormError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -27,7 +27,7 @@ struct FormError : std::runtime_error {
 [[nodiscard]] std::filesystem::path dump_file(const std::filesystem::path& dir, std::size_t frame,
                                               const std::string& what);
 
-/// Of a diagram in the plane (`space` 2) or in space (3).
+/// Reads the cells of a diagram in the plane (`space` 2) or in space (3).
 [[nodiscard]] std::vector<Cell> read_cells(const std::filesystem::path& path, int space);
 [[nodiscard]] std::vector<unsigned> read_hidden(const std::filesystem::path& path);
 [[nodiscard]] std::vector<Node> read_nodes(const std::filesystem::path& path);

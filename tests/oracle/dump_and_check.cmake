@@ -1,6 +1,6 @@
-# Runs `kds run` with its dumps written and its frames audited, and lets check_dumps judge them:
-#
-#   cmake -DKDS=<program> -DCHECK=<check_dumps> -DSCRATCH=<directory of its own> "-DRUN=<arguments of kds run>"
+# Runs `kds run` with dumps and with audits at frames, then judges the dumps by check_dumps:
+#   cmake -DKDS=<program> -DCHECK=<check_dumps> -DSCRATCH=<directory of its own> "-DRUN=<arguments of kds
+#   run>"
 #         "-DINPUT=<the same input in the words of check_dumps>" ["-DGENERATE=<arguments of kds generate>"]
 #         -P dump_and_check.cmake
 cmake_minimum_required(VERSION 3.25)
@@ -30,7 +30,7 @@ endif()
 must_succeed("${KDS}" run ${RUN} --audit frames --dump "${SCRATCH}" --quiet)
 must_succeed("${CHECK}" --dump "${SCRATCH}" ${INPUT})
 file(REMOVE_RECURSE "${SCRATCH}")
-# A check of nothing would succeed too.
+# A run that checks nothing would also succeed, so the counts must not be zero.
 if(NOT said MATCHES "^[1-9][0-9]* frames, [1-9][0-9]* cells, [1-9][0-9]* nodes .* 0 mismatches\n$")
   message(FATAL_ERROR "check_dumps looked at no frames, no cells or no nodes:\n${said}")
 endif()

@@ -30,7 +30,7 @@ struct SphereTraits {
   static Cartesian_const_iterator center_cartesian_begin(const Sphere& ball) { return ball.centre.data(); }
 };
 
-// Sign of a + b sqrt(d).
+// Returns the sign of a + b sqrt(d).
 CGAL::Sign sign_of(const Rational& a, const Rational& b, const Rational& d) {
   const CGAL::Sign sa = CGAL::sign(a), sb = CGAL::is_zero(d) ? CGAL::ZERO : CGAL::sign(b);
   if (sb == CGAL::ZERO || sa == sb) return sa;
@@ -42,7 +42,7 @@ using Vector = std::array<Rational, 3>;
 
 Rational dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Solves the m x m system by elimination; none where it is singular.
+// Solves the m x m system by elimination; returns nothing if it is singular.
 std::optional<std::vector<Rational>> solve(std::vector<std::vector<Rational>> rows) {
   const std::size_t m = rows.size();
   for (std::size_t c = 0; c < m; ++c) {
@@ -87,7 +87,7 @@ class Circumsphere {
 }  // namespace
 
 CGAL::Sign compare(const RootNumber& x, const RootNumber& y) {
-  // (x.a - y.a + x.b sqrt(x.d)) against y.b sqrt(y.d): by signs, then by squares.
+  // Compares (x.a - y.a + x.b sqrt(x.d)) with y.b sqrt(y.d): by signs, then by squares.
   const Rational a = x.a - y.a;
   const CGAL::Sign left = sign_of(a, x.b, x.d);
   const CGAL::Sign right = CGAL::is_zero(y.d) ? CGAL::ZERO : CGAL::sign(y.b);
@@ -98,7 +98,7 @@ CGAL::Sign compare(const RootNumber& x, const RootNumber& y) {
 }
 
 double to_double(const RootNumber& x) {
-  // By the conjugate where the parts cancel.
+  // Uses the conjugate if the two parts cancel.
   const double a = CGAL::to_double(x.a), b = CGAL::to_double(x.b), root = std::sqrt(CGAL::to_double(x.d));
   if (a * b >= 0) return a + b * root;
   const Rational norm = x.a * x.a - x.b * x.b * x.d;
@@ -130,7 +130,7 @@ ExactSphere cgal_sphere(const Frame& frame, const std::vector<unsigned>& beads) 
 }
 
 bool touches(const ExactSphere& sphere, const Ball& ball) {
-  // The squared distance of the centres less the squared difference of the radii is a + b sqrt(d).
+  // The squared distance of the centres minus the squared difference of the radii is a + b sqrt(d).
   const RootNumber& radius = sphere.exact_radius;
   const Rational& d = radius.d;
   const Rational gap = radius.a - Rational(ball.radius);
@@ -155,7 +155,8 @@ Proof prove_sphere(const Frame& frame, const Node& node) {
       d[i][c] = Rational(frame[node.basis[i + 1]].centre[c]) - Rational(base.centre[c]);
     }
   }
-  // The centre is base + sum lambda_i d_i, equally far from all: sum_k (d_i . d_k) lambda_k = d_i . d_i / 2.
+  // The centre is base + sum lambda_i d_i. It is equally far from all points if sum_k (d_i . d_k) lambda_k =
+  // d_i . d_i / 2.
   std::vector<std::vector<Rational>> rows(m, std::vector<Rational>(m + 1));
   for (std::size_t i = 0; i < m; ++i) {
     for (std::size_t k = 0; k < m; ++k) rows[i][k] = dot(d[i], d[k]);

@@ -1,5 +1,6 @@
 #pragma once
-// Smallest enclosing spheres in exact numbers, two ways: a proof for beads of equal radii, CGAL for all.
+// Smallest enclosing spheres in exact numbers, in two ways: a proof for beads of equal radii, and CGAL for
+// all beads.
 
 #include <array>
 #include <optional>
@@ -24,25 +25,27 @@ struct ExactSphere {
   std::array<double, 3> centre{};  ///< rounded
   double radius = 0;               ///< rounded
   RootNumber exact_radius;
-  std::array<RootNumber, 3> exact_centre;  ///< all under the root of the radius
+  std::array<RootNumber, 3> exact_centre;  ///< all have the same square root as the radius
   std::vector<unsigned> support;           ///< ascending
 };
 
-/// CGAL's smallest sphere around the given balls. Its LP algorithm: the default heuristic misses beads of
-/// cospherical sets.
+/// Returns CGAL's smallest sphere around the given balls, by its LP algorithm: the default heuristic misses
+/// beads of cospherical sets.
 [[nodiscard]] ExactSphere cgal_sphere(const Frame& frame, const std::vector<unsigned>& beads);
 
-/// Whether a ball inside the sphere touches it: its centre is as far from the sphere's as the radii differ.
+/// Returns whether a ball inside of the sphere touches it: the distance of the centres equals the difference
+/// of the radii.
 [[nodiscard]] bool touches(const ExactSphere& sphere, const Ball& ball);
 
 struct Proof {
-  ExactSphere sphere;  ///< through the basis; without its exact radius
+  ExactSphere sphere;  ///< through the basis, without its exact radius
   std::optional<std::string>
-      objection;  ///< why it is not the node's smallest sphere, or the basis not minimal
+      objection;  ///< the reason why it is not the node's smallest sphere, or why the basis is not minimal
 };
 
-/// For beads of equal radii: the basis centres are affinely independent, the centre lies strictly inside
-/// their hull and no centre of the node lies outside their circumsphere. That is all it takes.
+/// Proves the sphere of a node with beads of equal radii. Three conditions are sufficient: the basis centres
+/// are affinely independent, the centre lies strictly inside of their hull, and no centre of the node lies
+/// outside of their circumsphere.
 [[nodiscard]] Proof prove_sphere(const Frame& frame, const Node& node);
 
 }  // namespace oracle

@@ -1,5 +1,5 @@
 #pragma once
-// Exact fractions that share no code with GMP, which kds counts with.
+// Exact fractions that share no code with GMP, which kds uses.
 
 #include <CGAL/boost_mp.h>
 

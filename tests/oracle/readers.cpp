@@ -1,4 +1,4 @@
-// DCD, PDB and instance files, as plainly as can be.
+// Simple readers for DCD, PDB and instance files.
 
 #include <cmath>
 #include <cstdint>
@@ -39,7 +39,7 @@ std::string trimmed(const std::string& text) {
                                     : text.substr(first, text.find_last_not_of(" \r") - first + 1);
 }
 
-// N, CA, C of the first chain's residues while its records last; atoms after TER are ligands.
+// Picks N, CA and C of the residues of the first chain until its records end; atoms after TER are ligands.
 class BackbonePicker {
  public:
   void add(const std::string& line, std::size_t atom) {
@@ -51,7 +51,7 @@ class BackbonePicker {
     static const std::map<std::string, std::size_t> wanted{{"N", 0}, {"CA", 1}, {"C", 2}};
     const auto slot = wanted.find(trimmed(columns(line, 13, 16)));
     Residue& current = residues_.back();
-    if (slot == wanted.end() || current.found[slot->second]) return;  // the first alternate location stands
+    if (slot == wanted.end() || current.found[slot->second]) return;  // the first alternate location counts
     current.found[slot->second] = atom + 1;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::string field = columns(line, 31 + 8 * c, 38 + 8 * c);
@@ -76,7 +76,7 @@ class BackbonePicker {
   struct Residue {
     std::string name;
     std::array<std::array<double, 3>, 3> atoms;
-    std::array<std::size_t, 3> found;  ///< place + 1, or 0
+    std::array<std::size_t, 3> found;  ///< index + 1, or 0
   };
   std::optional<std::string> chain_;
   bool ended_ = false;
@@ -98,7 +98,7 @@ std::vector<Points> read_dcd(const std::filesystem::path& path) {
   if (bytes.size() < 92 || word_at(bytes, 0) != 84 || bytes.compare(4, 4, "CORD") != 0) {
     throw UsageError(path.string() + ": not a little-endian DCD file");
   }
-  // Word i of the control block stands at 8 + 4i.
+  // Word i of the control block is at 8 + 4i.
   const bool charmm = word_at(bytes, 8 + 4 * 19) != 0;
   const bool has_cell = charmm && word_at(bytes, 8 + 4 * 10) != 0;
   if (word_at(bytes, 8 + 4 * 8) != 0) throw UsageError(path.string() + ": fixed atoms are not supported");
@@ -111,7 +111,7 @@ std::vector<Points> read_dcd(const std::filesystem::path& path) {
   const std::size_t record = 4 * atoms + 8;
   const std::size_t cell = has_cell ? 48 + 8 : 0;
   std::vector<Points> frames;
-  // The frame count of the header is not to be trusted: read as many as there are.
+  // The frame count of the header is unreliable, so all frames in the file are read.
   for (; at + cell + 3 * record <= bytes.size(); at += cell + 3 * record) {
     if (has_cell && word_at(bytes, at) != 48) throw UsageError(path.string() + ": unit cell block expected");
     Points points(atoms);

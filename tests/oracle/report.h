@@ -1,5 +1,5 @@
 #pragma once
-// What was checked and what was found wrong.
+// Counts of the checks, and the mismatches found.
 
 #include <cstddef>
 #include <string>
@@ -11,7 +11,7 @@ namespace oracle {
 struct Report {
   std::size_t frames = 0, cells = 0, nodes = 0, cross_checked = 0, degenerate = 0;
   std::size_t mismatch_count = 0;
-  std::vector<std::string> mismatches;  ///< the first 20, one line each
+  std::vector<std::string> mismatches;  ///< the first 20 mismatches, one line each
 
   void mismatch(std::string line) {
     if (mismatch_count++ < 20) mismatches.push_back(std::move(line));

@@ -1,4 +1,4 @@
-// Necklaces put together into one scene, and the radii of its beads.
+// Combines necklaces into one scene, and computes the radii of its beads.
 
 #include "scene.h"
 
@@ -17,7 +17,7 @@ std::vector<Points> bead_frames(const Input& input) {
   if (!input.names || frames.empty()) return frames;
   const PdbBackbone names = read_pdb(*input.names);
   const std::size_t atoms = frames[0].size();
-  if (atoms == names.first_model_atoms.size()) return frames;  // the file holds the beads already
+  if (atoms == names.first_model_atoms.size()) return frames;  // the file contains only the beads
   if (atoms != names.atom_count) {
     throw UsageError(input.path.string() + ": " + std::to_string(atoms) + " atoms, but " +
                      input.names->string() + " has " + std::to_string(names.atom_count));
@@ -35,7 +35,8 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) 
                    (a[2] - b[2]) * (a[2] - b[2]));
 }
 
-// Half the longest bond; what is 1.5 times the median bond of the first frame is a chain break and no bond.
+// Returns half of the longest bond. A distance above 1.5 times the median bond of the first frame is a chain
+// break, not a bond.
 double automatic_radius(const std::vector<std::vector<Points>>& necklaces) {
   double longest = 0;
   for (const std::vector<Points>& frames : necklaces) {

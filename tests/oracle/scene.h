@@ -1,5 +1,6 @@
 #pragma once
-// The beads of a run at each of its frames, read by readers of our own: the oracle shares no code with kds.
+// The beads of a run at each of its frames, read by separate readers, because the oracle shares no code with
+// kds.
 
 #include <array>
 #include <cstddef>
@@ -11,7 +12,7 @@
 
 namespace oracle {
 
-/// Bad usage or an input that cannot be read.
+/// Wrong usage, or an input that cannot be read.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -19,7 +20,7 @@ struct UsageError : std::runtime_error {
 struct Ball {
   std::array<double, 3> centre{};
   double radius = 0;
-  double weight = 0;  ///< only differences of weights matter: 0 for all where radii are equal
+  double weight = 0;  ///< only differences of weights matter, so 0 for all beads of equal radii
 };
 
 using Frame = std::vector<Ball>;
@@ -27,8 +28,8 @@ using Frame = std::vector<Ball>;
 struct Scene {
   std::vector<Frame> frames;
   std::vector<std::size_t> ends;  ///< one past the last bead of each necklace
-  /// 2: the points of a planar instance, or the beads of a trajectory that keep to one plane x, y or z =
-  /// constant; then the coordinates in that plane come first in what `in_plane` returns.
+  /// 2 for the points of a planar instance, and for the beads of a trajectory that stay in one plane x, y or
+  /// z = constant. In that case `in_plane` returns the coordinates in that plane first.
   int dimension = 3;
   std::array<std::size_t, 3> axes{0, 1, 2};
 
@@ -41,7 +42,7 @@ enum class FileKind { dcd, pdb, xyz, instance };
 struct Input {
   FileKind kind = FileKind::dcd;
   std::filesystem::path path;
-  std::optional<std::filesystem::path> names;  ///< PDB that names the atoms of a DCD
+  std::optional<std::filesystem::path> names;  ///< PDB file that names the atoms of a DCD file
 };
 
 struct SceneOptions {
@@ -54,12 +55,12 @@ struct SceneOptions {
 
 [[nodiscard]] Scene read_scene(const SceneOptions& options);
 
-// The readers by themselves. Every frame of the file, every bead a point.
+// The readers. They return every frame of the file, with every bead as a point.
 using Points = std::vector<std::array<double, 3>>;
 
 struct PdbBackbone {
   std::vector<Points> models;                  ///< backbone beads of each model
-  std::vector<std::size_t> first_model_atoms;  ///< places of those beads among all atoms of model 1
+  std::vector<std::size_t> first_model_atoms;  ///< indices of those beads among all atoms of model 1
   std::size_t atom_count = 0;                  ///< all atoms of model 1
 };
 
@@ -67,7 +68,7 @@ struct PdbBackbone {
 [[nodiscard]] PdbBackbone read_pdb(const std::filesystem::path& path);
 [[nodiscard]] std::vector<Points> read_xyz(const std::filesystem::path& path);
 
-/// Those of a planar instance have z = 0; `dimension` tells.
+/// Reads an instance and sets `dimension`. Points of a planar instance have z = 0.
 [[nodiscard]] std::vector<Frame> read_instance(const std::filesystem::path& path, int& dimension);
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
 

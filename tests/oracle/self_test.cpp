@@ -37,12 +37,12 @@ class SelfTest {
     space_ = named.scene.dimension;
     original_ = {read_cells(dump_file(dump, 0, "power"), named.scene.dimension),
                  read_hidden(dump_file(dump, 0, "hidden")), read_nodes(dump_file(dump, 0, "wrapped"))};
-    Scene two = named.scene;  // the frames that corruptions look at
+    Scene two = named.scene;  // the two frames that corruptions use
     two.frames.resize(std::min<std::size_t>(two.frames.size(), 2));
     if (two.frames.size() < 2) return;
     fs::remove_all(dump);
     write_static_dump(two, dump);
-    // Apart, so that a corruption is noticed by the check of its own kind, and soon.
+    // The two kinds of files are separate, so that the check of the same kind must notice a corruption.
     const fs::path power = dir_ / "power", wrapped = dir_ / "wrapped";
     for (const fs::path& part : {power, wrapped}) {
       fs::remove_all(part);
@@ -53,7 +53,7 @@ class SelfTest {
       fs::rename(file, (is_node_file ? wrapped : power) / file.path().filename());
     }
     for (const Corruption& corruption : power_corruptions()) {
-      // In a degenerate frame a flip may be right.
+      // In a degenerate frame a flip may be correct.
       if (named.generic || std::string(corruption.name) != "a wrong flip")
         spoil(named, two, power, corruption);
     }
@@ -90,7 +90,7 @@ class SelfTest {
   }
 
   void judge(const NamedScene& named, const Scene& scene, const fs::path& dump, const std::string& what) {
-    // Without cross-checks: the proofs alone must notice.
+    // Without comparisons with CGAL: the proofs alone must notice the corruption.
     if (check_dump(scene, dump, 0).mismatch_count > 0) {
       ++caught;
     } else {
@@ -135,7 +135,7 @@ class SelfTest {
     fs::remove(dump_file(dump, 2, kind));
   }
 
-  // Beads to spare must pass where they touch the sphere.
+  // Superfluous beads must be accepted if they touch the sphere.
   void beads_to_spare(const NamedScene& named, const Scene& scene, const fs::path& dump) {
     Tables tables = original_;
     std::size_t found = 0;
@@ -157,7 +157,7 @@ class SelfTest {
     write(original_, dump);
   }
 
-  // Another of the grid's many triangulations must pass.
+  // Another one of the grid's many triangulations must be accepted.
   void other_triangulation(const NamedScene& named, const Scene& scene, const fs::path& dump) {
     Frame mirrored = scene.in_plane(0);
     for (Ball& ball : mirrored) ball.centre[0] = -ball.centre[0];
@@ -169,7 +169,7 @@ class SelfTest {
     const Report report = check_dump(scene, dump, 0);
     for (const std::string& line : report.mismatches) failures.push_back(named.name + ", mirrored: " + line);
     expect(report.degenerate == 1, named.name + ": the mirrored frame is degenerate");
-    original_ = tables;  // and spoiled it must not
+    original_ = tables;  // corruptions of this triangulation must be rejected
     for (const Corruption& corruption : power_corruptions()) {
       if (std::string(corruption.name) != "a wrong flip") spoil(named, scene, dump, corruption);
     }
@@ -177,7 +177,7 @@ class SelfTest {
 
   fs::path dir_;
   Tables original_;
-  int space_ = 3;  ///< of the scene at hand
+  int space_ = 3;  ///< dimension of the present scene
   std::vector<std::string> used_;
 };
 

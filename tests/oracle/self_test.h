@@ -1,5 +1,5 @@
 #pragma once
-// A test that cannot fail is worthless: right dumps must pass, spoiled ones must not.
+// Tests the oracle itself: it must accept correct dumps and reject corrupted ones.
 
 #include <cstdint>
 #include <filesystem>
@@ -12,10 +12,11 @@
 
 namespace oracle {
 
-/// Made scenes, and `given` if there is one. 0 where every dump was judged as it should be, else 1.
+/// Tests made scenes, and `given` if present. Returns 0 if every dump was judged correctly, else 1.
 [[nodiscard]] int self_test(const std::optional<Scene>& given);
 
-/// The same numbers on every machine, which the distributions of the library do not promise.
+/// Random numbers that are equal on every machine, which the distributions of the standard library do not
+/// guarantee.
 class Dice {
  public:
   explicit Dice(std::uint32_t seed) : engine_(seed) {}
@@ -29,10 +30,10 @@ class Dice {
 struct NamedScene {
   std::string name;
   Scene scene;
-  bool generic = true;  ///< general position at frame 0
+  bool generic = true;  ///< frame 0 is in general position
 };
 
-/// Writes files of every format into `dir` and reads them again. What a reader gets wrong goes to `failures`.
+/// Writes files of every format into `dir` and reads them back. Appends each error of a reader to `failures`.
 [[nodiscard]] std::vector<NamedScene> made_scenes(const std::filesystem::path& dir,
                                                   std::vector<std::string>& failures);
 

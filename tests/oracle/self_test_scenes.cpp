@@ -1,4 +1,4 @@
-// Files of every format, with what real ones bring: unit cells, waters, alternate locations, several models.
+// Files of every format with features of real files: unit cells, waters, alternate locations, several models.
 
 #include <array>
 #include <bit>
@@ -24,7 +24,7 @@ void write_dcd(const fs::path& path, const std::vector<Points>& frames, bool cel
   put_word(bytes, 84);
   bytes += "CORD";
   for (std::uint32_t i = 0; i < 20; ++i) {
-    // A header that claims more frames than there are, as found in the wild.
+    // The header claims more frames than the file has, as some real files do.
     put_word(bytes, i == 0 ? 500 : i == 10 ? static_cast<std::uint32_t>(cell) : i == 19 ? 24 : 0);
   }
   put_word(bytes, 84);
@@ -79,7 +79,7 @@ void write_pdb(const fs::path& path, const std::vector<std::vector<Atom>>& model
   out << "END\n";
 }
 
-// A random walk with jumps of about 1.5, in multiples of 1/1000 where `decimal`, else of 1/1024.
+// Makes a random walk with steps of about 1.5, in multiples of 1/1000 if `decimal`, else of 1/1024.
 Points random_chain(Dice& dice, std::size_t beads, bool decimal) {
   Points points;
   const double grain = decimal ? 1000.0 : 1024.0;
@@ -121,8 +121,8 @@ Scene scene_of(Input input) {
   return read_scene(options);
 }
 
-// Backbone beads among hydrogens, alternate locations, a HETATM residue, an incomplete residue, waters, a
-// chain B.
+// Makes backbone beads among hydrogens, alternate locations, a HETATM residue, an incomplete residue, waters
+// and a chain B.
 std::vector<Atom> protein_atoms(const Points& beads) {
   std::vector<Atom> atoms;
   const std::array<const char*, 3> names{" N  ", " CA ", " C  "};
@@ -154,7 +154,7 @@ void write_instance(const fs::path& path, const std::vector<std::vector<double>>
   }
 }
 
-// Points 0 to 19 and 20 to 39 set out from the same places.
+// Points 0 to 19 and 20 to 39 start at the same positions.
 Scene twin_scene(const fs::path& path, Dice& dice) {
   std::vector<std::vector<double>> rows;
   for (std::size_t i = 0; i < 40; ++i) {
@@ -178,7 +178,7 @@ Scene instance_scene(const fs::path& path, Dice& dice, int width, int degree, bo
     const std::array<int, 3> place{i / side % side, i % side, i / side / side};
     for (int c = 0; c < width; ++c) {
       for (int k = 0; k <= degree; ++k) {
-        // Weights large enough for some beads to be hidden.
+        // Weights are large enough to hide some beads.
         const double x = c == 3 ? dice.unit() / 3 : dice.unit();
         row.push_back(grid && k == 0 ? place[static_cast<std::size_t>(c)] : x);
       }
@@ -240,7 +240,7 @@ std::vector<NamedScene> made_scenes(const fs::path& dir, std::vector<std::string
   expect(scenes.back().scene.frames.size() == 2, "two necklaces: frames");
   expect(scenes.back().scene.frames[1][76].radius == 0.75, "two necklaces: radius");
 
-  // Bonds of 1, 2 (a second frame's), and a break of 5: the radius is 1.
+  // Bonds of 1, of 2 (in the second frame), and a break of 5: the radius is 1.
   write_dcd(dir / "bonds.dcd",
             {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {7, 0, 0}}, {{0, 0, 0}, {2, 0, 0}, {3, 0, 0}, {9, 0, 0}}},
             false);

@@ -1,4 +1,4 @@
-# Where there is no apt, scripts/setup names the packages of other systems; an option that it does not know is refused.
+# On systems without apt, scripts/setup names the packages of other systems. It refuses unknown options.
 # cmake -DROOT=<source tree> -DPLACE=<folder> -P check_elsewhere.cmake
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE "${PLACE}")
@@ -9,7 +9,7 @@ foreach(tool bash awk paste dirname)
 endforeach()
 set(ENV{PATH} "${PLACE}")
 
-# setup(<options>...): runs it, sets errors and failed
+# setup(<options>...): runs scripts/setup, sets `errors` and `failed`
 function(setup)
   execute_process(COMMAND bash "${ROOT}/scripts/setup" ${ARGN} RESULT_VARIABLE failed OUTPUT_QUIET ERROR_VARIABLE errors)
   set(failed "${failed}" PARENT_SCOPE)

@@ -1,4 +1,4 @@
-# Configuring names each package that is missing, in a line, with what systems call it.
+# Configuring names each missing package in one line, with its names on several systems.
 # cmake -DROOT=<source tree> -DGENERATOR=<generator> -DCOMPILER=<c++> -DPLACE=<folder> -P check_missing.cmake
 cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE "${PLACE}")

@@ -1,4 +1,4 @@
-# scripts/packages has a full row for each package that CMake looks for, and no other.
+# scripts/packages has a complete row for each package that CMake looks for, and no other rows.
 # cmake -DROOT=<source tree> -P check_packages.cmake
 cmake_minimum_required(VERSION 3.25)
 file(STRINGS "${ROOT}/scripts/packages" rows REGEX "^[^#]")
