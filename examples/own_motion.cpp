@@ -89,8 +89,8 @@ class ScrewMotion {
 
  private:
   struct Curve {
-    double point[4][4] =
-        {};  // beads are equally spaced in memory, and the control points of a bead are contiguous
+    // Beads are equally spaced in memory, and the control points of a bead are contiguous.
+    double point[4][4] = {};
     double radius[4] = {};
   };
   std::vector<Bead> beads_;

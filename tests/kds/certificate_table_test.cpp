@@ -361,8 +361,8 @@ TEST(CertificateTables, OfTwoTypesOfOneNumberAreRefused) {
   const Line motion = sweeping();
   Simulator simulator;
   Owner owner(simulator, motion);
-  EXPECT_NO_THROW(
-      CertificateTable<Precedes>(simulator, owner, 0, 7, MotionRef<1>(motion)));  // the same type is allowed
+  // The same type is allowed.
+  EXPECT_NO_THROW(CertificateTable<Precedes>(simulator, owner, 0, 7, MotionRef<1>(motion)));
   Simulator other;
   Owner another(other, motion);
   try {

@@ -17,8 +17,8 @@ using test::LinearQueue;
 
 struct Key {
   int value = 0;
-  std::unique_ptr<int> ballast =
-      std::make_unique<int>(0);  // keys are move-only, and reading a lost key fails visibly
+  // Keys are move-only, and reading a lost key fails visibly.
+  std::unique_ptr<int> ballast = std::make_unique<int>(0);
 };
 
 struct Order {

@@ -75,8 +75,8 @@ TEST_F(FailureOrderTest, NarrowingKeepsTheTimeInTheBracket) {
   ScheduledFailure fa = at(0.1, 0.9, a);
   ScheduledFailure fb = at(0.2, 0.8, b);
   EXPECT_TRUE(order.before(fa, fb));
-  EXPECT_LE(fa.time.upper,
-            fb.time.lower);  // the brackets are disjoint now, so comparisons need no exact work
+  // The brackets are disjoint now, so comparisons need no exact work.
+  EXPECT_LE(fa.time.upper, fb.time.lower);
   EXPECT_LT(Rational(fa.time.lower), fraction(2, 5));
   EXPECT_GT(Rational(fa.time.upper), fraction(2, 5));
   EXPECT_LT(Rational(fb.time.lower), fraction(3, 7));
@@ -101,8 +101,8 @@ TEST_F(FailureOrderTest, ABracketOfSeveralRootsIsNotNarrowed) {
     EXPECT_FALSE(order.before(other, first));
   }
   for (const ScheduledFailure& failure : {first, last}) {
-    EXPECT_EQ(failure.time.lower,
-              0);  // the root's number belongs to this bracket, which must not be narrowed
+    // The root's number belongs to this bracket, which must not be narrowed.
+    EXPECT_EQ(failure.time.lower, 0);
     EXPECT_EQ(failure.time.upper, 1);
   }
 }

@@ -74,9 +74,8 @@ TEST(SimulatorReplay, EqualsTheRun) {
   Log replay_log;
   Script replayed_a{replay, replay_log, "a"};
   Script replayed_b{replay, replay_log, "b"};
-  replayed_a.on_build = [&] {
-    replayed_a.change(2, 99);
-  };  // the log also contains the changes that structures make while they are built
+  // The log also contains the changes that structures make while they are built.
+  replayed_a.on_build = [&] { replayed_a.change(2, 99); };
   Listener replay_listener;
   replay.listen(replay_listener);
   replay.build_for_replay();

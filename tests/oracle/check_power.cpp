@@ -70,9 +70,8 @@ struct Geometry<3> {
   static CGAL::Oriented_side power_test(const Points& p, const Cell& c, unsigned bead) {
     return CGAL::power_side_of_oriented_power_sphere(p[c[0]], p[c[1]], p[c[2]], p[c[3]], p[bead]);
   }
-  static bool is_hidden(const Triangulation::Vertex_handle&) {
-    return false;
-  }  // CGAL keeps no hidden vertices in space
+  // CGAL keeps no hidden vertices in space.
+  static bool is_hidden(const Triangulation::Vertex_handle&) { return false; }
   static auto cells_of(const Triangulation& t) { return t.finite_cell_handles(); }
 };
 

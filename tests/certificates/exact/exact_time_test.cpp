@@ -81,8 +81,8 @@ TEST(ExactTime, ComparesAsSturmDoes) {
       Time b = times[random() % times.size()];
       const int expected = judge(a, b);
       EXPECT_EQ(ExactTime::compare(a.ours, b.ours), expected);
-      EXPECT_EQ(ExactTime::compare(b.ours, a.ours),
-                -expected);  // with the interval narrowed by the comparison above
+      // With the interval narrowed by the comparison above.
+      EXPECT_EQ(ExactTime::compare(b.ours, a.ours), -expected);
       expect_enclosed(a);
       expect_enclosed(b);
       ties += expected == 0;

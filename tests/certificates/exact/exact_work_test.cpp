@@ -43,9 +43,8 @@ TEST(ExactWork, GoesToTheAccountThatIsOpen) {
   {
     const ExactWork::Open again(inner);
     ExactWork::spend(5);
-    std::thread([] {
-      ExactWork::spend(100);
-    }).join();  // the work of another thread is not charged to this account
+    // The work of another thread is not charged to this account.
+    std::thread([] { ExactWork::spend(100); }).join();
   }
   ExactWork::spend(4);
   EXPECT_EQ(outer.done(), 7U);

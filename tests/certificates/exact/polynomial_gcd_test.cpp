@@ -47,9 +47,8 @@ TEST(PolynomialGcd, MostlySeesThatThereIsNone) {
     coprime += truth;
     seen += answer;
   }
-  EXPECT_EQ(
-      seen,
-      coprime);  // it is practically impossible that a random resultant is divisible by a prime of 61 bits
+  // It is practically impossible that a random resultant is divisible by a prime of 61 bits.
+  EXPECT_EQ(seen, coprime);
 }
 
 TEST(PolynomialGcd, SaysNothingWhereThePrimeHidesTheDegree) {

@@ -264,8 +264,8 @@ void expect_numbered(std::array<int, 3> roots) {
 
 TEST(FailureTimes, NumberTheRootsOfABracket) {
   expect_numbered({-1, 0, 1});  // the middle root is a double
-  expect_numbered(
-      {1, 2, 3});  // the bracket contains all three roots: positive before, negative after, but not isolating
+  // The bracket contains all three roots: positive before, negative after, but not isolating.
+  expect_numbered({1, 2, 3});
 }
 
 TEST(FailureTimes, WithoutTheirRootAreRefused) {

@@ -209,8 +209,8 @@ TEST(ConstantLengths, BeadsThatRestAtTheCutoffAreZero) {
   search->set_constants({.cutoff = {5, 4}});  // the cutoff is reached only at the start
   EXPECT_EQ(first_failure(Kernel::filtered, *search, Near{{0, 1}, true}).kind, Failure::Kind::at_birth);
   EXPECT_EQ(first_failure(Kernel::filtered, *search, Near{{0, 1}, false}).kind, Failure::Kind::never);
-  search->set_constants(
-      {.cutoff = {4, 5}});  // the cutoff is reached at the end, which belongs to the next step
+  // The cutoff is reached at the end, which belongs to the next step.
+  search->set_constants({.cutoff = {4, 5}});
   EXPECT_EQ(first_failure(Kernel::filtered, *search, Near{{0, 1}, false}).kind, Failure::Kind::never);
 }
 

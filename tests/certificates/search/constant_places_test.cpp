@@ -190,9 +190,8 @@ void expect_left_of_as_judged(int rounds) {
       SCOPED_TRACE("round " + std::to_string(i) + ", kind " + std::to_string(static_cast<int>(kind)));
       const auto motion = test::random_motion<M>(random, 4, kind);
       const auto search = search_over<LeftOf>(MotionRef<2>(motion));
-      for (const BeadId other :
-           {BeadId{3},
-            BeadId{0}}) {  // the second bead is the certificate's own bead, so the function is zero
+      // The second bead is the certificate's own bead, so the function is zero.
+      for (const BeadId other : {BeadId{3}, BeadId{0}}) {
         search->set_constants({.other = other});
         const auto at = [&](BeadId b, int axis) { return test::rational_coordinate(motion, b, axis); };
         expect_all_along(*search, LeftOf{{0}, random() % 2 == 0},

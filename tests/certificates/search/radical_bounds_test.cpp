@@ -75,8 +75,8 @@ TYPED_TEST(RadicalBounds, HoldAtAllScales) {
     }
   }
   for (const double share : {rational, root, norm, condition}) EXPECT_LE(share, 1);
-  for (const double share : {rational, root, norm})
-    EXPECT_GT(share, 1e-7);  // the bounds are not far too large
+  // The bounds are not far too large.
+  for (const double share : {rational, root, norm}) EXPECT_GT(share, 1e-7);
 }
 
 }  // namespace

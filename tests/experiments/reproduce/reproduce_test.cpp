@@ -95,8 +95,8 @@ TEST(PaperMeasurements, StepsBetweenFrames) {
 
 TEST(PaperMeasurements, TwoNecklaces) {
   const Subject spirals = two_rolling_spirals(100, 11);
-  EXPECT_EQ(collision_between(spirals, 0, 1, 1).wrapped_pairs,
-            1U);  // the chains are far apart, so only the two roots are compared
+  // The chains are far apart, so only the two roots are compared.
+  EXPECT_EQ(collision_between(spirals, 0, 1, 1).wrapped_pairs, 1U);
   const CollisionBetween near = collision_between(spirals, 9, 10, 1);
   const Balls<3> balls(spirals.frames[10], spirals.radii);
   const PairsAsked asked{spirals.necklaces, false, 1, true};
@@ -185,8 +185,8 @@ TEST(PaperReport, CountsEachClaimOnce) {
     return std::pair(claims.hold, claims.all);
   };
   PaperTable other = sample();
-  other.rows[0].ours = {
-      2.0, 100.0};  // breaks the claim that bases are flat; the claim that cells grow still holds
+  // Breaks the claim that bases are flat; the claim that cells grow still holds.
+  other.rows[0].ours = {2.0, 100.0};
   EXPECT_EQ(counts({sample()}), std::pair(2UL, 2UL));
   EXPECT_EQ(counts({other, sample()}), std::pair(1UL, 2UL));
   EXPECT_EQ(counts({sample(), other}), std::pair(1UL, 2UL));

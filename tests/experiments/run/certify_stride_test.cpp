@@ -266,8 +266,8 @@ TEST(CertifyStride, ListsWhichContactsAreSureAndWhichThereMayBe) {
       not_found += contact.flag ? 0 : 1;
       EXPECT_EQ(contact.flag, meets_any(contact, found)) << contact.pair;
     }
-    EXPECT_EQ(sure == 0,
-              frames == std::string("0:81:4"));  // deviations are larger than the overlaps of contacts
+    // Deviations are larger than the overlaps of contacts.
+    EXPECT_EQ(sure == 0, frames == std::string("0:81:4"));
     EXPECT_LT(sure, found.size());
     EXPECT_GT(not_found, 0U);
     // Apart from the new column, the table equals the table of an ordinary run.

@@ -129,8 +129,8 @@ TEST(Program, ARefusalMakesNoDirectory) {
   for (const char* option : {"--out", "--dump"}) {
     const std::string there = (directory / "new/there").string();
     expect_refused({"run", input, option, there}, {"frame 1"});
-    expect_refused({"run", flat, option, there, "--structures", "wrapped,power"},
-                   {"plane"});  // the run fails at its end
+    // The run fails at its end.
+    expect_refused({"run", flat, option, there, "--structures", "wrapped,power"}, {"plane"});
     expect_refused({"run", kSmall, option, there, "--structures", "power"}, {"power"});
     EXPECT_FALSE(std::filesystem::exists(directory / "new"));
   }

@@ -482,8 +482,8 @@ TEST(StabilityProgram, WritesRowsToFiles) {
   EXPECT_TRUE(json["version"].is_string());
   EXPECT_TRUE(json["machine"]["cpu"].is_string());
   EXPECT_EQ(json["holds"], true);
-  EXPECT_EQ(json["rows"].size(),
-            8U * 5U);  // two dimensions and degrees each; two of the three offsets are refused
+  // Two dimensions and degrees each; two of the three offsets are refused.
+  EXPECT_EQ(json["rows"].size(), 8U * 5U);
   for (const Json& row : json["rows"]) {
     for (const char* key :
          {"subject", "kind", "dimension", "degree", "function_degree", "extreme", "cases", "agree",

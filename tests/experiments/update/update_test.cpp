@@ -179,9 +179,8 @@ TEST(Update, OfATrajectoryWithPlots) {
   for (const char* plot : {"time / time to rebuild by stride", "events / changed cells by stride",
                            "% of certificates that fail by stride"})
     EXPECT_EQ(count_of(page, plot), 2U) << plot;
-  EXPECT_THAT(page,
-              testing::Not(HasSubstr(
-                  "class=\"curve")));  // marks without a line, because nothing is known between two strides
+  // Marks without a line, because nothing is known between two strides.
+  EXPECT_THAT(page, testing::Not(HasSubstr("class=\"curve")));
 }
 
 TEST(Update, BeadsThatHideOthers) {

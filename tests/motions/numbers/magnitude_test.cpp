@@ -82,8 +82,8 @@ TEST(MagnitudeTest, ConstantsAreExact) {
   EXPECT_EQ(three.power, 0);
   const Magnitude product = three * Magnitude::input_difference(2);
   EXPECT_EQ(product.power, 2);
-  EXPECT_GT(product.error,
-            3 * Magnitude::input_difference(2).error);  // includes the rounding of the product itself
+  // Includes the rounding of the product itself.
+  EXPECT_GT(product.error, 3 * Magnitude::input_difference(2).error);
 }
 
 TEST(MagnitudeTest, UnlikePowersAreRefused) {

@@ -158,8 +158,8 @@ TEST(PdbReader, NamesTheChainsThatAreNotRead) {
   EXPECT_THAT(warnings(a + pdb_residue(1, 'B') + pdb_residue(1, 'C')),
               testing::ElementsAre(testing::EndsWith(
                   "a.pdb: chains B, C not read; --chain B or --chain A,B reads them likewise")));
-  EXPECT_TRUE(warnings(a + pdb_residue(1, 'B'), {.chain = "A"})
-                  .empty());  // a user who names a chain knows of the others
+  // A user who names a chain knows of the others.
+  EXPECT_TRUE(warnings(a + pdb_residue(1, 'B'), {.chain = "A"}).empty());
   std::string many = a;
   for (char chain = 'B'; chain <= 'Z'; ++chain) many += pdb_residue(1, chain);
   EXPECT_THAT(warnings(many).front(), testing::HasSubstr("J, K and 15 more not read"));

@@ -73,8 +73,8 @@ TEST(NearPairs, OfTiesOnTheGrid) {
   std::vector<Eigen::Vector4d> numbers;
   for (int x = -2; x <= 2; ++x)
     for (int y = -2; y <= 2; ++y)
-      for (int z = -2; z <= 2; ++z)
-        numbers.emplace_back(x, y, z, 0.5);  // balls that touch and lie on cell walls
+      // Balls that touch and lie on cell walls.
+      for (int z = -2; z <= 2; ++z) numbers.emplace_back(x, y, z, 0.5);
   check(balls(numbers));
   for (auto& ball : numbers) ball.head<3>() *= std::nextafter(1.0, 2.0);
   check(balls(numbers));

@@ -117,8 +117,8 @@ void grow(Balls& balls, Random& random, std::size_t beads, int dimension, Sizes 
       double bond = reach * uniform(random, sizes == Sizes::wild || on_a_line ? 0.02 : 0.6, 0.999);
       if ((flaws & 1U) != 0 && random() % 3 == 0) bond = reach * uniform(random, 1.01, 2);
       Eigen::Vector3d direction = random_direction(random, dimension);
-      if (random() % 2 == 0)
-        direction = (direction - 0.5 * before).normalized();  // keep the beads close together
+      // Keep the beads close together.
+      if (random() % 2 == 0) direction = (direction - 0.5 * before).normalized();
       if (on_a_line) direction = Eigen::Vector3d(random() % 2 == 0 ? 1 : -1, 0, 0);
       c = before + bond * direction;
       if (sizes == Sizes::grid) {

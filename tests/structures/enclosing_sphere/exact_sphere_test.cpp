@@ -42,8 +42,8 @@ TEST(ExactSphereOf, BallsOfTwoSizesInThePlane) {
   EXPECT_EQ(sphere.center, Eigen::Vector3d(6, 0, 0));
   EXPECT_EQ(sphere.radius, 7);
   const std::vector<double> swallowed{1, 20};
-  const Sphere larger =
-      exact_sphere_of(first_beads(2), Balls<2>(centers, swallowed));  // one ball is superfluous
+  // One ball is superfluous.
+  const Sphere larger = exact_sphere_of(first_beads(2), Balls<2>(centers, swallowed));
   EXPECT_EQ(larger.center, Eigen::Vector3d(10, 0, 0));
   EXPECT_EQ(larger.radius, 20);
 }

@@ -38,8 +38,8 @@ void expect_resting_to_hold(double distance, double least_share) {
       for (int axis = 0; axis < dimension; ++axis) {
         const double x = motion.coordinate(b, 1, axis);
         motion.set_coordinate(b, 0, axis, x);
-        motion.set_coordinate(
-            b, 1, axis, x + distance * (1 + test::uniform(random)));  // the random part and a common drift
+        // The random part and a common drift.
+        motion.set_coordinate(b, 1, axis, x + distance * (1 + test::uniform(random)));
       }
     }
     slack.start_step(any.curves(), triangulation);

@@ -231,8 +231,8 @@ TEST(PowerDiagram, RefusesChangesThatCannotBe) {
 
 // A log may have been edited; the diagram must still be a triangulation.
 TEST(PowerDiagram, RefusesASecondEdgeBetweenTwoBeads) {
-  const Points points{
-      {3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 1}, {0, 0, -1}};  // three cells around edge 3-4
+  // Three cells around edge 3-4.
+  const Points points{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 1}, {0, 0, -1}};
   PowerRig rig(moving(points, points));
   rig.run();
   EXPECT_THROW(rig.structure.apply({PowerDiagram<3>::to_edge, 5, {0, 3, 4, 1, 2}}), std::invalid_argument);

@@ -245,8 +245,8 @@ TEST(BeadEdits, JustAfterAnEventAtAnIrrationalTime) {
   // Bead 0 is declared as changed but does not change.
   rig.simulator.change_motion(std::array<BeadId, 2>{0, 2}, [&] {
     for (int k = 0; k <= 2; ++k) {
-      rig.motion.set_coordinate(2, k, 0,
-                                1 - rig.motion.coordinate(0, k, 0));  // 1 - u^2, which is 1/2 at that time
+      // 1 - u^2, which is 1/2 at that time.
+      rig.motion.set_coordinate(2, k, 0, 1 - rig.motion.coordinate(0, k, 0));
     }
   });
   EXPECT_THAT(rig.structure.order(), testing::ElementsAre(2, 1, 0));

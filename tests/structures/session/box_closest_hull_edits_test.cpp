@@ -150,10 +150,8 @@ TEST(BoxClosestHullEdits, ABeadOfABoxCostsACertificateALevel) {
     rig.structure.erase(b);
     rig.structure.insert(b);
     rig.simulator.change_motion(Beads{b}, [] {});
-    EXPECT_LE(
-        created - before,
-        3 * 6 * 2 *
-            9U);  // three edits, six ends, nine levels of the tournament, at most two certificates at each
+    // Three edits, six ends, nine levels of the tournament, at most two certificates at each.
+    EXPECT_LE(created - before, 3 * 6 * 2 * 9U);
   }
   rig.simulator.leave_step();
 }

@@ -186,10 +186,10 @@ TEST(KineticRun, GoesBackByReplayWithItsEdits) {
     ASSERT_TRUE(run.next_event());  // at an irrational time
     run.erase(1, 7);
     run.insert(0, 3);
-    run.change_motion(
-        {4}, [](SceneMotion& motion) {  // a course that starts elsewhere and ends where the old course ends
-          for (int axis = 0; axis < 3; ++axis) motion.set_coordinate(4, 0, axis, 2.0);
-        });
+    // A course that starts elsewhere and ends where the old course ends.
+    run.change_motion({4}, [](SceneMotion& motion) {
+      for (int axis = 0; axis < 3; ++axis) motion.set_coordinate(4, 0, axis, 2.0);
+    });
   };
   KineticRun straight(scene, options);
   meddle(straight);

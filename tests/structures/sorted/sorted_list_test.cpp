@@ -70,8 +70,8 @@ TEST(SortedList, SmallAndSimple) {
   expect_all_crossings(moving_on_a_line({0, 1, 2, 3}, {3, 2, 1, 0}));
   expect_all_crossings(moving_on_a_line({0, 1, 2, 3, 4, 5, 6}, {6, 5, 4, 3, 2, 1, 0}));
   expect_all_crossings(moving_on_a_line({0, 1}, {1, 0}));
-  expect_all_crossings(
-      moving_on_a_line({0, 1}, {1, 1}));  // two beads meet at the end, which is not yet an event
+  // Two beads meet at the end, which is not yet an event.
+  expect_all_crossings(moving_on_a_line({0, 1}, {1, 1}));
   expect_all_crossings(moving_on_a_line({1, 1}, {1, 0}));        // two beads part at the start
   expect_all_crossings(moving_on_a_line({1, 1, 0}, {1, 1, 2}));  // one bead passes two that move together
   expect_all_crossings(moving_on_a_line({3}, {4}));

@@ -143,8 +143,8 @@ inline Scaled random_polynomial(Random& random) {
     p = product(p,
                 random_coefficients(random, pick(random, 1, 3), static_cast<unsigned>(pick(random, 1, 60))));
   }
-  while (degree_left() > 0 && random() % 4 == 0)
-    p = product(p, {1, 1});  // raises the degree without changing the polynomial
+  // Raises the degree without changing the polynomial.
+  while (degree_left() > 0 && random() % 4 == 0) p = product(p, {1, 1});
   if (random() % 8 == 0) {
     for (Integer& x : p) x <<= 1100;
   }

@@ -153,8 +153,8 @@ inline std::optional<std::pair<ExactSphere, std::vector<Rational>>> sphere_throu
     g[i][m] = dot(d[i], d[i]) / 2;
   }
   for (std::size_t k = 0; k < m; ++k) {
-    if (g[k][k] == 0)
-      return std::nullopt;  // G is positive semidefinite, so a zero pivot means dependent points
+    // G is positive semidefinite, so a zero pivot means dependent points.
+    if (g[k][k] == 0) return std::nullopt;
     for (std::size_t i = 0; i < m; ++i) {
       if (i == k) continue;
       const Rational factor = g[i][k] / g[k][k];

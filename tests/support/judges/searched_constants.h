@@ -70,8 +70,8 @@ void expect_judged_all_along(const CertificateSearch<Certificate>& search, Certi
     }
     for (const double time : {0.0, 0.125, 0.7, 1.0})
       EXPECT_EQ(search.sign_at(certificate, Dyadic(time)), function.sign_at(Dyadic(time)));
-    if (testing::Test::HasFailure() || failure.kind <= Failure::Kind::zero)
-      return;  // the certificate never fails, or its function is zero
+    // The certificate never fails, or its function is zero.
+    if (testing::Test::HasFailure() || failure.kind <= Failure::Kind::zero) return;
     if (failure.kind == Failure::Kind::later) {
       now = Instant(failure.time, functions, functions.add(function));
       judged_now = expected.time;
