@@ -47,7 +47,7 @@ Integer power_of_ten(unsigned long exponent) {
   return power;
 }
 
-/// A function with the root (p/q) 10^-places + sign 10^-more.
+/// Returns a function with the root p 10^-places + sign 10^-more.
 Scaled near(std::int64_t p, unsigned long places, unsigned long more, int sign) {
   return linear(Integer(p) * power_of_ten(more - places) + Integer(sign), power_of_ten(more));
 }

@@ -206,7 +206,7 @@ std::vector<NamedScene> made_scenes(const fs::path& dir, std::vector<std::string
     expect(points_of(scenes.back().scene.frames[k]) == plain[k], "dcd: coordinates");
   }
 
-  // The same beads among other atoms, in a file with unit cells.
+  // Beads among other atoms, in a file with unit cells.
   const auto decimal = random_motion(dice, 30, 3, true);
   std::vector<std::vector<Atom>> models;
   std::vector<Points> all_atoms;

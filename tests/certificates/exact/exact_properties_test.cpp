@@ -257,7 +257,7 @@ std::optional<OnAMotion<BezierMotion<2, 3>, AnyCurve<Degree>>> as_any_curve(cons
   for (BeadId b = 0; b < 3 + pieces; ++b) result.certificate.beads[b] = b;
   for (int axis = 0; axis < 2; ++axis) {
     result.motion.set_coordinate(1, 3 * axis, axis, 1);
-    // A third of the function, because the middle binomials are 3.
+    // This term is a third of the function, because the middle binomials are 3.
     result.motion.set_coordinate(2, 1 + axis, axis, 1);
   }
   for (std::size_t part = 0; part < pieces; ++part) {

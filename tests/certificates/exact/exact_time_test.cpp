@@ -81,7 +81,7 @@ TEST(ExactTime, ComparesAsSturmDoes) {
       Time b = times[random() % times.size()];
       const int expected = judge(a, b);
       EXPECT_EQ(ExactTime::compare(a.ours, b.ours), expected);
-      // With the interval narrowed by the comparison above.
+      // The comparison above has narrowed the interval.
       EXPECT_EQ(ExactTime::compare(b.ours, a.ours), -expected);
       expect_enclosed(a);
       expect_enclosed(b);

@@ -63,7 +63,7 @@ class FailureSearch : public testing::Test {
     for (int event = 0; event < 20; ++event) {
       JudgedTime judged_then;
       const Failure failure = expect_agreement(certificate, motion, now, judged_now, birth, judged_then);
-      // The certificate never fails, or its function is zero.
+      // Stops if the certificate never fails or its function is zero.
       if (testing::Test::HasFailure() || failure.kind <= Failure::Kind::zero) return;
       if (failure.kind == Failure::Kind::later) {
         now = Instant(failure.time, functions, functions.add(test::exact_function(certificate, motion)));

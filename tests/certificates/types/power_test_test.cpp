@@ -43,7 +43,7 @@ TEST(PowerTest, VanishesOnTheSphere) {
   EXPECT_EQ(power_test(with({0, 0, 1})), 0);  // a bead of the cell itself
   EXPECT_EQ(power_test(with({1, 1, std::nextafter(1.0, 2)})), 1);
   EXPECT_EQ(power_test(with({1, 1, std::nextafter(1.0, 0)})), -1);
-  // All beads in a plane.
+  // All beads are in one plane.
   EXPECT_EQ(power_test({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5, 0.5, 0}}), 0);
 }
 

@@ -36,11 +36,11 @@ M balls_near(test::Random& random, std::size_t count) {
 
 struct Seen {
   int relaxed = 0, between = 0,
-      outside = 0;  ///< between: outside of the sphere, but inside of the relaxed sphere
+      outside = 0;  ///< between: only in the relaxed sphere
 };
 
-/// Judges the certificate of the last ball by its definition, and checks the property for which the
-/// certificate exists.
+/// Judges the certificate of the last ball by its definition, and checks that a ball for which it holds lies
+/// in the sphere of radius (1 + share) R.
 template <class Certificate, Motion M>
 void judge(const Certificate& certificate, const M& motion, double u, Seen& seen) {
   constexpr std::size_t size = std::tuple_size_v<decltype(Certificate{}.beads)> - 1;

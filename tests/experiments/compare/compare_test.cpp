@@ -270,7 +270,7 @@ TEST(Compare, ManyRowsStayLegible) {
   ASSERT_EQ(run.code, 0) << run.err;
   const std::string page = content_of(scratch / "out/report.html");
   expect_sound(page);
-  // Changes per step, changes in all, and efficiency.
+  // The panels show changes per step, changes in all, and efficiency.
   EXPECT_EQ(count_of(page, "<div class=\"panels\">"), 3U);
   for (const char* structure : {"box", "wrapped", "power"})
     EXPECT_EQ(count_of(page, "<h3>" + std::string(structure) + "</h3>"), 3U);

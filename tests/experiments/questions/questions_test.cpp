@@ -165,7 +165,7 @@ TEST(Questions, EnergyOfTheFramesOfRuns) {
   ASSERT_EQ(run.code, 0) << run.err;
   const Json json = Json::parse(run.out);
   expect_energy(rows_of(json, "energy"));
-  // The same frames as in `kds run`, at strides 1 and 8.
+  // Compares with `kds run` on equal frames, at strides 1 and 8.
   for (const auto& [row, frames] : {std::pair<std::size_t, const char*>{0, "0:200"}, {3, "0:200:8"}}) {
     const ProgramRun by_run =
         run_program({"run", data_file("trajectories/villin_hp36_300K.dcd"), "--topology",

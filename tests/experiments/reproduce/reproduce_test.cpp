@@ -46,8 +46,8 @@ TEST(PaperMeasurements, SelfCollision) {
   const Subject spline = model_subject("spline", 50);
   const SelfCollision found = self_collision_of(spline, 0, 1);
   std::set<std::pair<BeadId, BeadId>> edges;
-  for (const auto& cell :
-       static_triangulation<3>(spline.frames[0], spline.radii).cells)  // radii are 1, so weights are 1 too
+  for (const auto& cell : static_triangulation<3>(spline.frames[0], spline.radii)
+                              .cells)  // the radii are 1, so the weights are 1 too
     for (const BeadId a : cell)
       for (const BeadId b : cell)
         if (a < b) edges.insert({a, b});
@@ -185,7 +185,7 @@ TEST(PaperReport, CountsEachClaimOnce) {
     return std::pair(claims.hold, claims.all);
   };
   PaperTable other = sample();
-  // Breaks the claim that bases are flat; the claim that cells grow still holds.
+  // This row breaks the claim that bases are flat; the claim that cells grow still holds.
   other.rows[0].ours = {2.0, 100.0};
   EXPECT_EQ(counts({sample()}), std::pair(2UL, 2UL));
   EXPECT_EQ(counts({other, sample()}), std::pair(1UL, 2UL));

@@ -482,7 +482,7 @@ TEST(StabilityProgram, WritesRowsToFiles) {
   EXPECT_TRUE(json["version"].is_string());
   EXPECT_TRUE(json["machine"]["cpu"].is_string());
   EXPECT_EQ(json["holds"], true);
-  // Two dimensions and degrees each; two of the three offsets are refused.
+  // Two subjects with two dimensions and two degrees each; three offsets and two refused extremes.
   EXPECT_EQ(json["rows"].size(), 8U * 5U);
   for (const Json& row : json["rows"]) {
     for (const char* key :

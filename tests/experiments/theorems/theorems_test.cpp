@@ -78,7 +78,7 @@ TEST(ClosestByDiagram, IsThatOfASearchAndTellsWhatItLookedAt) {
   const TheoremPoint& point = series.front().points.front();
   EXPECT_EQ(point.holds, true);
   EXPECT_GT(point.value, static_cast<double>(point.beads));
-  // Edges, and pairs of beads that are two apart in the chain.
+  // The search examines edges, and pairs of beads that are two apart in the chain.
   EXPECT_LT(point.value, 6 * static_cast<double>(point.beads));
   EXPECT_GT(point.seconds->median, 0);
 }

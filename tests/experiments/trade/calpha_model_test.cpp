@@ -32,7 +32,7 @@ TEST(CalphaModel, HasOneBeadAResidue) {
   EXPECT_EQ(model->residue[0], (BeadRange{0, 2}));
   EXPECT_EQ(model->residue[5], (BeadRange{10, 11}));
   EXPECT_EQ(model->ranges, (std::vector<BeadRange>{{0, 2}, {3, 5}}));
-  // The covered bead has radius 12 and is 1 away; the radius is rounded up to three decimals.
+  // The covered bead has radius 12 and distance 1; the sum is rounded up to three decimals.
   EXPECT_EQ(model->covering_radius, 13.1);
   EXPECT_EQ(model->radii, (std::vector<double>{2, 4, 5, 8, 10, 11}));
   EXPECT_EQ(model->necklaces[1].frames[1](0, 2), 8);

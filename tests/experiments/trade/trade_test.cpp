@@ -154,7 +154,7 @@ TEST(Trade, CalphaAloneIsAnotherModel) {
   EXPECT_EQ(covering.contacts_missed, 0.0);
   EXPECT_GT(covering.contacts_spurious.value(), 0);
   const TradeRow& diagram = row_of(rows, "power --select ca");
-  EXPECT_FALSE(diagram.errors.cells_wrong);  // the model has no such cells
+  EXPECT_FALSE(diagram.errors.cells_wrong);  // C-alpha cells are not cells of all beads
   EXPECT_FALSE(diagram.on_front);
   EXPECT_LT(diagram.cost.certificates, row_of(rows, "power").cost.certificates / 2);
   const TradeErrors& cages = row_of(rows, "wrapped --select ca").errors;

@@ -179,7 +179,7 @@ TEST(Update, OfATrajectoryWithPlots) {
   for (const char* plot : {"time / time to rebuild by stride", "events / changed cells by stride",
                            "% of certificates that fail by stride"})
     EXPECT_EQ(count_of(page, plot), 2U) << plot;
-  // Marks without a line, because nothing is known between two strides.
+  // The plot shows marks without a line, because nothing is known between two strides.
   EXPECT_THAT(page, testing::Not(HasSubstr("class=\"curve")));
 }
 

@@ -82,7 +82,7 @@ TEST(MagnitudeTest, ConstantsAreExact) {
   EXPECT_EQ(three.power, 0);
   const Magnitude product = three * Magnitude::input_difference(2);
   EXPECT_EQ(product.power, 2);
-  // Includes the rounding of the product itself.
+  // The error includes the rounding of the product itself.
   EXPECT_GT(product.error, 3 * Magnitude::input_difference(2).error);
 }
 

@@ -111,7 +111,7 @@ TEST(DcdReader, RecordThatDisagreesWithTheAtoms) {
   for (std::size_t k = 0; k < 7; ++k) bytes += maker.frame(k);
   bytes += fewer.frame(0) + maker.frame(8);
   refuse(bytes, {"a.dcd: frame 7: record holds 100 atoms, expected 108"});
-  // The same error is reported if the file size happens to fit.
+  // This error is also reported if the file size happens to fit.
   std::string flipped = maker.bytes();
   flipped[maker.header().size() + 2 * maker.frame(0).size()] = 12;
   refuse(flipped, {"a.dcd: frame 2: record holds 67 atoms, expected 108"});
@@ -373,18 +373,18 @@ TEST(DcdReader, TimesOfLammps) {
     double length;
     std::vector<double> times;
   };
-  for (const Case& one :
-       std::initializer_list<Case>{{0, 1000, 1, {0, 1, 2, 3, 4}},
-                                   {5000, 1000, 1, {5, 6, 7, 8, 9}},
-                                   {0, 1, 1, {0, 0.001, 0.002, 0.003, 0.004}},
-                                   {0, 100, 2, {0, 0.2, 0.4, 0.2 * 3, 0.8}},
-                                   {0, 500, 0.5, {0, 0.25, 0.5, 0.75, 1}},
-                                   {0, 100, 10, {0, 1, 2, 3, 4}},
-                                   {0, 1000, 0.001, {}},  // LAMMPS units "metal" or "electron"
-                                   {0, 1000, 0.005, {}},  // LAMMPS units "lj"
-                                   {0, 1000, 0.05, {}},
-                                   {0, 1000, 1e-8, {}},  // LAMMPS units "si"
-                                   {0, 1000, 100, {}}}) {
+  // metal, electron
+  for (const Case& one : std::initializer_list<Case>{{0, 1000, 1, {0, 1, 2, 3, 4}},
+                                                     {5000, 1000, 1, {5, 6, 7, 8, 9}},
+                                                     {0, 1, 1, {0, 0.001, 0.002, 0.003, 0.004}},
+                                                     {0, 100, 2, {0, 0.2, 0.4, 0.2 * 3, 0.8}},
+                                                     {0, 500, 0.5, {0, 0.25, 0.5, 0.75, 1}},
+                                                     {0, 100, 10, {0, 1, 2, 3, 4}},
+                                                     {0, 1000, 0.001, {}},  // lj
+                                                     {0, 1000, 0.005, {}},  // si
+                                                     {0, 1000, 0.05, {}},
+                                                     {0, 1000, 1e-8, {}},  // LAMMPS units "si"
+                                                     {0, 1000, 100, {}}}) {
     DcdMaker maker = DcdMaker::chain(6, 5);
     maker.title = "Written by LAMMPS";
     maker.first_step = one.first;

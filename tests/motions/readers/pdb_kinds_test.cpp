@@ -480,7 +480,7 @@ TEST(PdbKinds, FilesWithoutPolymer) {
   EXPECT_THAT(read(file.text, all).warnings,
               ElementsAre(HasSubstr("chain W not read; --chain W or --chain S,W")));
   EXPECT_EQ(read(file.text, {.selection = Selection::all, .chain = "W"}).bead_count(), 2U);
-  // The same holds beside a polymer.
+  // Reading works in this way beside a polymer, too.
   EXPECT_EQ(read(File().add(1, 2).text + file.text, {.selection = Selection::all, .chain = "W"}).bead_count(),
             2U);
   refuse(File().add(1, 2).text + file.text, {"--select", "'W'", "--select all reads its 2 residues"},

@@ -158,7 +158,7 @@ TEST(PdbReader, NamesTheChainsThatAreNotRead) {
   EXPECT_THAT(warnings(a + pdb_residue(1, 'B') + pdb_residue(1, 'C')),
               testing::ElementsAre(testing::EndsWith(
                   "a.pdb: chains B, C not read; --chain B or --chain A,B reads them likewise")));
-  // A user who names a chain knows of the others.
+  // A user that names a chain knows of the other chains.
   EXPECT_TRUE(warnings(a + pdb_residue(1, 'B'), {.chain = "A"}).empty());
   std::string many = a;
   for (char chain = 'B'; chain <= 'Z'; ++chain) many += pdb_residue(1, chain);

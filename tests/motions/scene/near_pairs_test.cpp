@@ -73,7 +73,7 @@ TEST(NearPairs, OfTiesOnTheGrid) {
   std::vector<Eigen::Vector4d> numbers;
   for (int x = -2; x <= 2; ++x)
     for (int y = -2; y <= 2; ++y)
-      // Balls that touch and lie on cell walls.
+      // These balls touch each other and lie on cell walls.
       for (int z = -2; z <= 2; ++z) numbers.emplace_back(x, y, z, 0.5);
   check(balls(numbers));
   for (auto& ball : numbers) ball.head<3>() *= std::nextafter(1.0, 2.0);

@@ -29,7 +29,7 @@ std::optional<Rational> least_radius(const M& motion, const BeadRange& range, co
   for (const BeadId b : found.basis) basis.push_back(ball_at(motion, b, time));
   if (basis.size() == 1) return basis[0].radius;
   const auto sphere = touching_sphere(basis);
-  // The basis of the rounded positions is not proper at the exact positions.
+  // Returns nothing if the basis of the rounded positions is not proper at the exact positions.
   if (!sphere || !sphere->is_proper()) return std::nullopt;
   return basis[0].radius + sphere->radius.lower;
 }

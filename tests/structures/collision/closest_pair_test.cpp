@@ -117,7 +117,7 @@ void grow(Balls& balls, Random& random, std::size_t beads, int dimension, Sizes 
       double bond = reach * uniform(random, sizes == Sizes::wild || on_a_line ? 0.02 : 0.6, 0.999);
       if ((flaws & 1U) != 0 && random() % 3 == 0) bond = reach * uniform(random, 1.01, 2);
       Eigen::Vector3d direction = random_direction(random, dimension);
-      // Keep the beads close together.
+      // Keeps the beads close together.
       if (random() % 2 == 0) direction = (direction - 0.5 * before).normalized();
       if (on_a_line) direction = Eigen::Vector3d(random() % 2 == 0 ? 1 : -1, 0, 0);
       c = before + bond * direction;
@@ -172,7 +172,7 @@ TEST(ClosestPair, OfRandomNecklacesInSpace) {
   EXPECT_GT(seen.disjoint, rounds(5000U));
   EXPECT_GT(seen.hidden, rounds(50U));
   EXPECT_GT(seen.no_edge, rounds(20U));
-  EXPECT_GT(seen.unconnected_only, rounds(5U, 0U));  // B_2 and B_(n-1) are needed
+  EXPECT_GT(seen.unconnected_only, rounds(5U, 0U));  // the theorem needs B_2 and B_(n-1)
 }
 
 TEST(ClosestPair, OfRandomNecklacesInThePlane) {

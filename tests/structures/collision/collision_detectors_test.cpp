@@ -109,7 +109,7 @@ void expect_right_when_stretched(Random& random, std::size_t& skipped, std::size
   BlockTree<Dimension> tree(scene.asked, BlockOrder::sequence);
   found += tree.pairs(balls).empty() ? 0 : 1;
   const std::size_t blocks = scene.radii.size() / 16;
-  // Pairs of blocks with themselves alone would be as many.
+  // Without skipping, the pairs of blocks with themselves alone would be as many.
   skipped += tree.counts().block_pairs < blocks ? 1 : 0;
 }
 

@@ -132,8 +132,8 @@ void swing_tail(bool gas, bool equal) {
     ASSERT_EQ(detector.pairs(balls), cells.pairs(balls)) << scene.name << ", frame " << k;
   }
   EXPECT_GE(detector.counts().repairs, gas ? 1 : frames / 2) << scene.name;
-  // Repairs of beads in spatial order pay only if the processor compares few beads at once, so the test
-  // requires nothing of the gas.
+  // Repairs in spatial order pay or not, depending on how many beads the processor compares at once. Only
+  // chains are checked.
   if (!gas) {
     EXPECT_LE(detector.counts().from_scratch + detector.counts().rebuilds, frames / 3) << scene.name;
   }

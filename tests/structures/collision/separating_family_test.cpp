@@ -49,7 +49,7 @@ TEST(SeparatingFamily, EachPairIsNeeded) {
     const BeadRange a = scene.family.spheres[pair.first].beads, b = scene.family.spheres[pair.second].beads;
     scene.family.pairs.erase(scene.family.pairs.begin() + static_cast<std::ptrdiff_t>(k));
     EXPECT_THAT(scene.fault(), HasSubstr("are not separated")) << a.first << " " << b.first;
-    scene.family.pairs.push_back(pair);  // the order of the two beads is reversed
+    scene.family.pairs.push_back(pair);  // the order of pairs is free
     EXPECT_EQ(scene.fault(), "none");
   }
 }
@@ -96,7 +96,7 @@ TEST(SeparatingFamily, CollisionsAreNoPartOfIt) {
   EXPECT_THAT(scene.fault(), HasSubstr("nobody asked"));
   scene = Scene();
   scene.pairs = {{20, 70}};
-  EXPECT_THAT(scene.fault(), HasSubstr("twice"));  // and the pair is disjoint
+  EXPECT_THAT(scene.fault(), HasSubstr("twice"));  // the pair is also separated
 }
 
 /// A disjoint pair is listed as a collision instead of being separated.

@@ -56,8 +56,7 @@ TEST(SampledContacts, AreFoundWhereAFrameLiesInThem) {
   EXPECT_THAT(found(sampled({-9, -2, -9})), ElementsAre(1, 0, 0));      // touches at frame 1
   EXPECT_THAT(found(sampled({-9, -9, -2, -9})), ElementsAre(1, 1, 0));  // touches at frame 2
   EXPECT_THAT(found(sampled({-9, -2, 0, -2, -9})), ElementsAre(1, 1, 0));  // begins and ends at frames
-  EXPECT_THAT(found(sampled({-9, 9, -9, 0, 9})),
-              ElementsAre(1, 0, 0));  // only the last of three contacts contains a frame
+  EXPECT_THAT(found(sampled({-9, 9, -9, 0, 9})), ElementsAre(1, 0, 0));    // the last of three
 }
 
 // The share of missed contacts grows with the stride, as in the trial in the design document (2.5 times the

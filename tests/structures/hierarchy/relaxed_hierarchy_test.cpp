@@ -184,7 +184,7 @@ TEST(RelaxedHierarchy, MotionsFullOfTies) {
     std::vector<Points> frames;
     for (int k = 0; k < 3; ++k)
       frames.push_back(k > 0 && random() % 4 == 0 ? frames.back() : random_grid_points(random, beads, 3));
-    // With these shares, enlarged spheres may pass through grid points.
+    // With these shares, enlarged spheres may pass exactly through grid points.
     const double share = round % 2 == 0 ? 0.125 : 0.5;
     SCOPED_TRACE(text_of("round ", round, ": ", testing::PrintToString(frames)));
     run_audited(through(frames), share);

@@ -163,10 +163,9 @@ TEST(WrappedHierarchy, ThreeBeads) {
   EXPECT_THAT(rig.structure.statistics.events_by_kind, testing::ElementsAre(1, 1, 0, 0));
   run_audited(steps);
   run_audited({moving({{-4, 0, 0}, {4, 0, 0}, {0, 0, 0}}, {{-4, 0, 0}, {4, 0, 0}, {0, 9, 0}})});
+  run_audited({moving({{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {0, 0, 0}, {-1, 0, 0}})});  // all meet
   run_audited(
-      {moving({{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}}, {{1, 0, 0}, {0, 0, 0}, {-1, 0, 0}})});  // all beads meet
-  run_audited({moving({{-1, 0, 0}, {1, 0, 0}, {0, 3, 0}},
-                      {{1, 0, 0}, {-1, 0, 0}, {0, 3, 0}})});  // two beads trade places
+      {moving({{-1, 0, 0}, {1, 0, 0}, {0, 3, 0}}, {{1, 0, 0}, {-1, 0, 0}, {0, 3, 0}})});  // two trade places
 }
 
 // A square bends through its plane. At that moment its four beads lie on one circle; before and after they
@@ -182,7 +181,7 @@ TEST(WrappedHierarchy, AFourBeadBasisPassesThroughAPlane) {
   run_audited({moving(bent(-1, {{1, 0, 0}, {0, 1, 1}}), bent(1, {{1, 0, 0}, {0, 1, 1}}))});
   run_audited(through({bent(-1, {{0, 0, 0}}), bent(0, {{0, 0, 0}}), bent(1, {{0, 0, 0}})}));
   run_audited<Kernel::exact>({moving(bent(-1, {{0, 0, 0}}), bent(1, {{0, 0, 0}}))}, {{0, 4}});
-  // The same motion, but not at the middle of the step and not in a coordinate plane.
+  // A similar motion, but not at the middle of the step and not in a coordinate plane.
   run_audited({moving(bent(-1, {{0, 0, 0}}), bent(4, {{0, 0, 0}}))});
 }
 

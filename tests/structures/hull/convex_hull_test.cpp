@@ -44,7 +44,8 @@ std::vector<BeadId> corners_by_cgal(const ExactPoints& at) {
 
 int differences;  // counts the audits at which the known corners differ from the exact corners of that moment
 
-/// Explains what is wrong with corners at a moment of ties; corners may lie on edges or coincide then.
+/// Explains what is wrong with the known corners at a moment of ties, or returns nothing. At such a moment
+/// known corners may lie on edges or coincide.
 std::optional<std::string> fault_at_ties(const std::vector<BeadId>& known, const std::vector<BeadId>& right,
                                          const ExactPoints& at) {
   std::vector<BeadId> places;  // the known beads that are at exact corners

@@ -482,7 +482,7 @@ TEST(SpherePath, SeesTheDipOfATurningBasis) {
     to.push_back({r * std::cos(a + turn), r * std::sin(a + turn), 0});
   }
   const double dip = r * (1 - std::cos(turn / 2));
-  // Share of the dip: the bead is inside of the full sphere, and may be outside during the dip.
+  // `share` of the dip: the bead is inside the full sphere, and for 0.5 it is outside during the dip.
   for (const double share : {0.5, 3.0}) {
     Points start = from, end = to;
     start.push_back({0, 0, r - share * dip});

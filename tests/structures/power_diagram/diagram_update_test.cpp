@@ -269,7 +269,7 @@ TEST(DiagramUpdateInPlane, HiddenBeadsWeightsThatMoveAndBeadsThatComeBack) {
     }
   }
   EXPECT_GT(hidden, 500U);
-  // Beads were removed and inserted, and not in all steps too many.
+  // Many steps removed and inserted beads; only some had too many such beads and rebuilt the diagram.
   EXPECT_GT(removed, 100U);
   EXPECT_LT(rebuilds, 60U);
 }

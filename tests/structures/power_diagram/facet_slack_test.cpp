@@ -38,7 +38,7 @@ void expect_resting_to_hold(double distance, double least_share) {
       for (int axis = 0; axis < dimension; ++axis) {
         const double x = motion.coordinate(b, 1, axis);
         motion.set_coordinate(b, 0, axis, x);
-        // The random part and a common drift.
+        // Each bead moves by a random part and a common drift.
         motion.set_coordinate(b, 1, axis, x + distance * (1 + test::uniform(random)));
       }
     }

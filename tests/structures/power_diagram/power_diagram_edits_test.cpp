@@ -105,8 +105,8 @@ void run(unsigned seed, Scene scene, Totals& totals) {
         } else if (random() % 2 == 0 && present.size() > M::dimension + 3) {
           try {
             diagram.erase(b);
-          } catch (const std::invalid_argument&
-                       refusal) {  // the beads left would stay in one plane, or on one line
+          } catch (const std::invalid_argument& refusal) {
+            // The beads left would stay in one plane, or on one line.
             EXPECT_TRUE(scene == Scene::grid || scene == Scene::grid_at_rest) << refusal.what();
             EXPECT_FALSE(diagram.is_absent(b));
           }
@@ -407,7 +407,7 @@ TEST(PowerDiagramEdits, CostFollowsTheDegree) {
     const std::uint64_t certificates_before = s.certificates.created, signs_before = signs_taken();
     constexpr int edits = 100;
     for (BeadId b = 0; b < edits; ++b) {
-      // A nearest bead serves as the hint for the search.
+      // The nearest bead serves as the hint for the search.
       rig.structure.erase(100 + b);
       BeadId near = no_bead;
       double least = 1e300;

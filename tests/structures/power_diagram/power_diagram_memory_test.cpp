@@ -41,7 +41,8 @@ double bytes_of_cgal(const Space& motion) {
   return bytes_allocated() - before;
 }
 
-/// Makes consecutive steps of evenly distributed beads.
+/// Replaces the motion by a step that starts where the present step ends. Each coordinate moves by at most
+/// `step`.
 void move_on(Space& motion, Random& random, double step) {
   for (BeadId b = 0; b < motion.bead_count(); ++b) {
     for (int axis = 0; axis < 3; ++axis) {

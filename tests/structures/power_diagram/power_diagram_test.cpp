@@ -56,9 +56,8 @@ TEST(PowerDiagram, AuditsPassBetweenAllEvents) {
     PowerRig rig(instance_motion<Space>(name), AuditMode::events);
     Witness witness(rig.simulator, definition(rig, stride));
     ASSERT_NO_THROW(rig.run()) << name;
-    EXPECT_EQ(rig.structure.statistics.audits_run,
-              rig.external_events() +
-                  3);  // one audit after each event, one before the first event, and one at each end
+    // One audit runs after each event, one before the first event, and one at each end.
+    EXPECT_EQ(rig.structure.statistics.audits_run, rig.external_events() + 3);
   }
 }
 
@@ -231,7 +230,7 @@ TEST(PowerDiagram, RefusesChangesThatCannotBe) {
 
 // A log may have been edited; the diagram must still be a triangulation.
 TEST(PowerDiagram, RefusesASecondEdgeBetweenTwoBeads) {
-  // Three cells around edge 3-4.
+  // Three cells lie around edge 3-4.
   const Points points{{3, 0, 0}, {-3, 3, 0}, {-3, -3, 0}, {0, 0, 1}, {0, 0, -1}};
   PowerRig rig(moving(points, points));
   rig.run();

@@ -126,8 +126,8 @@ class EditedRun {
       } else if (b < 4) {
         try {
           structure->erase(b);
-        } catch (
-            const std::invalid_argument& refusal) {  // the beads left would stay in one plane, or on one line
+        } catch (const std::invalid_argument& refusal) {
+          // The beads left would stay in one plane, or on one line.
           EXPECT_EQ(places_, Places::grid) << refusal.what();
           EXPECT_THAT(refusal.what(), HasSubstr("all beads stay"));
           EXPECT_FALSE(structure->is_absent(b));
@@ -245,7 +245,7 @@ TEST(BeadEdits, JustAfterAnEventAtAnIrrationalTime) {
   // Bead 0 is declared as changed but does not change.
   rig.simulator.change_motion(std::array<BeadId, 2>{0, 2}, [&] {
     for (int k = 0; k <= 2; ++k) {
-      // 1 - u^2, which is 1/2 at that time.
+      // The coordinate is 1 - u^2, which is 1/2 at that time.
       rig.motion.set_coordinate(2, k, 0, 1 - rig.motion.coordinate(0, k, 0));
     }
   });

@@ -150,7 +150,7 @@ TEST(BoxClosestHullEdits, ABeadOfABoxCostsACertificateALevel) {
     rig.structure.erase(b);
     rig.structure.insert(b);
     rig.simulator.change_motion(Beads{b}, [] {});
-    // Three edits, six ends, nine levels of the tournament, at most two certificates at each.
+    // The bound: three edits, six ends, nine levels of the tournament, and two certificates at each.
     EXPECT_LE(created - before, 3 * 6 * 2 * 9U);
   }
   rig.simulator.leave_step();

@@ -1,6 +1,8 @@
-// Tests the facade: pushed frames, a scene and a motion; structures by name and by type, some on a part of
-// the beads; running event by event, to a time and back; the events that listeners receive, and the files
-// that writers make of them.
+// Tests the facade:
+// - input: pushed frames, a scene, or a motion
+// - structures by name and by type, some of them on a part of the beads
+// - control: event by event, to a time, and back
+// - the events that listeners receive, and the files that writers make of the events
 
 #include "structures/session/kinetic_run.h"
 
@@ -186,7 +188,7 @@ TEST(KineticRun, GoesBackByReplayWithItsEdits) {
     ASSERT_TRUE(run.next_event());  // at an irrational time
     run.erase(1, 7);
     run.insert(0, 3);
-    // A course that starts elsewhere and ends where the old course ends.
+    // The new course starts elsewhere and ends where the old course ends.
     run.change_motion({4}, [](SceneMotion& motion) {
       for (int axis = 0; axis < 3; ++axis) motion.set_coordinate(4, 0, axis, 2.0);
     });

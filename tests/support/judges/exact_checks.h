@@ -133,8 +133,8 @@ struct ExactSphere {
   Rational square;  ///< square of the radius
 };
 
-/// Returns the smallest sphere through some points, and the barycentric coordinate of each point in its
-/// centre. Returns nothing if the points are affinely dependent.
+/// Returns the smallest sphere through some points, and the barycentric coordinates of its centre. Returns
+/// nothing if the points are affinely dependent.
 inline std::optional<std::pair<ExactSphere, std::vector<Rational>>> sphere_through(
     std::span<const ExactPoint> points, std::span<const BeadId> basis) {
   const std::size_t m = basis.size() - 1;

@@ -70,7 +70,7 @@ void expect_judged_all_along(const CertificateSearch<Certificate>& search, Certi
     }
     for (const double time : {0.0, 0.125, 0.7, 1.0})
       EXPECT_EQ(search.sign_at(certificate, Dyadic(time)), function.sign_at(Dyadic(time)));
-    // The certificate never fails, or its function is zero.
+    // Stops if the certificate never fails or its function is zero.
     if (testing::Test::HasFailure() || failure.kind <= Failure::Kind::zero) return;
     if (failure.kind == Failure::Kind::later) {
       now = Instant(failure.time, functions, functions.add(function));
