@@ -1,4 +1,4 @@
-// A certificate type, a structure, a motion and a reader, each in one file outside of the tree's libraries.
+// A certificate type, a structure, a motion and a reader, each in one file outside the tree's libraries.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

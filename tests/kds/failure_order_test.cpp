@@ -188,7 +188,7 @@ TEST_F(FailureOrderTest, PointTimes) {
   expect_before(at(0.3, 0.4, third), p);
   expect_before(at(0.3, 0.5, third), p);       // p is the upper end of the bracket
   expect_before(p, at(0.5, 0.75, near_half));  // p is the lower end of the bracket, but not the root
-  expect_before(at(0.3, 0.6, third), p);       // p is inside of the bracket
+  expect_before(at(0.3, 0.6, third), p);       // p is inside the bracket
   expect_before(p, at(0.3, 0.6, near_half));
   expect_tie(p, at(0.3, 0.6, also_half));  // p is the root itself
   expect_before(p, at(0.3, 0.6, also_half));

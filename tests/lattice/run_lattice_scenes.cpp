@@ -45,8 +45,8 @@ template <int Dimension>
 using Lifted = std::array<Rational, Dimension + 1>;
 
 /// Explains what is wrong with the cells of a plane diagram by the definition, or returns nothing: no bead
-/// lies inside of a cell's power circle, and three beads are a cell if all others are strictly outside of
-/// their power circle.
+/// lies inside a cell's power circle, and three beads are a cell if all others are strictly outside their
+/// power circle.
 std::optional<std::string> not_the_regular_one(const std::vector<Lifted<2>>& points,
                                                const std::vector<CellBeads<2>>& cells) {
   const auto beads = static_cast<BeadId>(points.size());

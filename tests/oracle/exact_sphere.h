@@ -33,8 +33,8 @@ struct ExactSphere {
 /// beads of cospherical sets.
 [[nodiscard]] ExactSphere cgal_sphere(const Frame& frame, const std::vector<unsigned>& beads);
 
-/// Returns whether a ball inside of the sphere touches it: the distance of the centres equals the difference
-/// of the radii.
+/// Returns whether a ball inside the sphere touches it: the distance of the centres equals the difference of
+/// the radii.
 [[nodiscard]] bool touches(const ExactSphere& sphere, const Ball& ball);
 
 struct Proof {
@@ -44,8 +44,8 @@ struct Proof {
 };
 
 /// Proves the sphere of a node with beads of equal radii. Three conditions are sufficient: the basis centres
-/// are affinely independent, the centre lies strictly inside of their hull, and no centre of the node lies
-/// outside of their circumsphere.
+/// are affinely independent, the centre lies strictly inside their hull, and no centre of the node lies
+/// outside their circumsphere.
 [[nodiscard]] Proof prove_sphere(const Frame& frame, const Node& node);
 
 }  // namespace oracle

@@ -378,7 +378,7 @@ TEST(RadicalSearch, ASphereThatShrinksIntoABallLosesIt) {
   EXPECT_EQ((agreed<BallInSphere<3, 2>>(motion, false).kind), Kind::at_birth);
 }
 
-// If the sphere lies inside of the ball, A + B sqrt(D) is positive too.
+// If the sphere lies inside the ball, A + B sqrt(D) is positive too.
 template <int Dimension, int Size>
 void expect_outside(const std::vector<Path>& basis) {
   for (const double radius : {4.0, 40.0}) {

@@ -81,7 +81,7 @@ void judge(const Certificate& certificate, const M& motion, double u, Seen& seen
     EXPECT_EQ(test::sign_just_after(Kernel::filtered, certificate, motion, Instant(u), stages), expected);
     const int inside = sphere->holds(basis[0], ball);
     EXPECT_TRUE(inside <= 0 || expected == 1);
-    if (expected > 0) {  // inside of the sphere of radius (1 + share) R
+    if (expected > 0) {  // inside the sphere of radius (1 + share) R
       const Enclosed reach = sphere->radius +
                              Enclosed(Rational(share)) * (sphere->radius + Enclosed(basis[0].radius)) -
                              Enclosed(Rational(ball.radius - basis[0].radius));

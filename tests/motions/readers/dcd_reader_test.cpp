@@ -373,17 +373,17 @@ TEST(DcdReader, TimesOfLammps) {
     double length;
     std::vector<double> times;
   };
-  // metal, electron
+  // The comments name the unit styles of LAMMPS.
   for (const Case& one : std::initializer_list<Case>{{0, 1000, 1, {0, 1, 2, 3, 4}},
                                                      {5000, 1000, 1, {5, 6, 7, 8, 9}},
                                                      {0, 1, 1, {0, 0.001, 0.002, 0.003, 0.004}},
                                                      {0, 100, 2, {0, 0.2, 0.4, 0.2 * 3, 0.8}},
                                                      {0, 500, 0.5, {0, 0.25, 0.5, 0.75, 1}},
                                                      {0, 100, 10, {0, 1, 2, 3, 4}},
-                                                     {0, 1000, 0.001, {}},  // lj
-                                                     {0, 1000, 0.005, {}},  // si
+                                                     {0, 1000, 0.001, {}},  // metal, electron
+                                                     {0, 1000, 0.005, {}},  // lj
                                                      {0, 1000, 0.05, {}},
-                                                     {0, 1000, 1e-8, {}},  // LAMMPS units "si"
+                                                     {0, 1000, 1e-8, {}},  // si
                                                      {0, 1000, 100, {}}}) {
     DcdMaker maker = DcdMaker::chain(6, 5);
     maker.title = "Written by LAMMPS";

@@ -120,7 +120,7 @@ TEST(Basis, ProperIffNoBeadIsToSpare) {
   EXPECT_TRUE(is_proper(basis_of({0, 1, 3}), signs));   // acute
   EXPECT_FALSE(is_proper(basis_of({0, 1, 4}), signs));  // obtuse
   EXPECT_TRUE(is_proper(basis_of({0, 1, 3, 5}), signs));
-  EXPECT_FALSE(is_proper(basis_of({0, 1, 4, 5}), signs));  // the centre is outside of the tetrahedron
+  EXPECT_FALSE(is_proper(basis_of({0, 1, 4, 5}), signs));  // the centre is outside the tetrahedron
 }
 
 TEST(Basis, AmongUpToFiveBeads) {

@@ -106,8 +106,8 @@ bool holds(const Sphere& outer, const Eigen::Vector3d& center, double radius) {
   return room >= 0 && square <= Rational(room * room);
 }
 
-// One ball contains the other, or almost does, up to some ulps. Some sizes have squares outside of the range
-// of doubles.
+// One ball contains the other, or almost does, up to some ulps. Some sizes have squares outside the range of
+// doubles.
 TEST(LayeredHierarchy, HoldsTwoBallsExactlyHoweverTheyLie) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> real(-1, 1);

@@ -263,7 +263,7 @@ TEST(RelaxedHierarchy, HoldsAllBeadsOfAProteinAtRandomTimes) {
       events += rig.history.events.size() - before;
     }
     EXPECT_GT(looked_at, static_cast<std::size_t>(rounds(4700)));
-    EXPECT_GE(cgal, rounds(5U) / 5);  // frequent checks find some bead outside of its basis' sphere
+    EXPECT_GE(cgal, rounds(5U) / 5);  // frequent checks find some bead outside its basis' sphere
     Rig<WrappedHierarchy<3>, Space> plain(steps.front(), AuditMode::none, Kernel::filtered,
                                           std::vector<BeadRange>{{0, 107}}, Radii::equal);
     plain.run(steps);

@@ -254,8 +254,8 @@ TEST(SpherePath, ScalesWithTheInput) {
   judge_scales<BezierMotion<3, 3>, Radii::equal>();
 }
 
-/// Places bead 4 just inside or outside of the chord's limit, at both ends in one direction. If the chord
-/// claims that the bead stays inside, the bead must stay inside.
+/// Places bead 4 just inside or outside the chord's limit, at both ends in one direction. If the chord claims
+/// that the bead stays inside, the bead must stay inside.
 template <Radii radii>
 void judge_next_to_limit(Space motion, const Basis& basis, const SphereChord<3>& chord,
                          const Eigen::Vector3d& way, double off, Tally& tally) {

@@ -144,7 +144,7 @@ TEST(SphereTolerance, NoneWhereTheBasisIsAboutToChange) {
   }
 }
 
-// A pair and two beads well inside of its sphere, one of which moves by `away` in the middle of the step. All
+// A pair and two beads well inside its sphere, one of which moves by `away` in the middle of the step. All
 // beads swing along x, in some cases so far that differences overflow.
 TEST(NodeSlack, ABeadThatGoesAwayAndBackWithinAStep) {
   const std::array y{-1.0, 1.0, 0.0, 0.0}, z{0.0, 0.0, 0.3, 0.2};

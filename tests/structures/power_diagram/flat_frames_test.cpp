@@ -101,7 +101,7 @@ TEST(PowerDiagram, BeadsThatMeet) {
     points.insert(points.end(), more);
     return points;
   };
-  // The beads meet inside of the step, at its end, at a frame where they turn back, at a frame that they pass
+  // The beads meet inside the step, at its end, at a frame where they turn back, at a frame that they pass
   // through, and at the start.
   EXPECT_FALSE(run_audited({moving(with({{1, 1, 1}, {3, 3, 3}}), with({{3, 3, 3}, {1, 1, 1}}))}));
   EXPECT_FALSE(run_audited({moving(with({{1, 1, 1}, {3, 3, 3}}), with({{2, 2, 2}, {2, 2, 2}}))}));

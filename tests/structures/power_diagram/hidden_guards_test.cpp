@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-/// Returns whether the bead is inside of its host cell now, by exact signs.
+/// Returns whether the bead is inside its host cell now, by exact signs.
 template <int dimension>
 bool is_in_host(const DiagramState<dimension>& state, BeadId bead) {
   const auto& v = state.beads_of(state.hidden.host(bead));

@@ -47,7 +47,7 @@ Rational hull_area(std::vector<Point> points) {
   return area;
 }
 
-/// Explains why these triangles are not a Delaunay triangulation of the points: a point lies inside of a
+/// Explains why these triangles are not a Delaunay triangulation of the points: a point lies inside a
 /// circumcircle, or the areas do not add up to the hull's area. Returns nothing if they are one.
 std::optional<std::string> not_delaunay(const std::vector<Point>& p, std::span<const CellBeads<2>> cells) {
   Rational area = 0;

@@ -28,8 +28,8 @@ Line moving_on_a_line(const std::vector<double>& from, const std::vector<double>
   return motion;
 }
 
-/// Returns the times at which pairs trade places strictly inside of the step. In linear motion each pair does
-/// so at most once.
+/// Returns the times at which pairs trade places strictly inside the step. In linear motion each pair does so
+/// at most once.
 std::map<std::pair<BeadId, BeadId>, Rational> crossings(const Line& motion) {
   std::map<std::pair<BeadId, BeadId>, Rational> times;
   for (BeadId a = 0; a < motion.bead_count(); ++a) {

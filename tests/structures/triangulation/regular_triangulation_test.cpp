@@ -50,7 +50,7 @@ TEST(RegularTriangulation, TellsDimensionAndHiddenBeads) {
   cloud = Cloud(6);
   cloud.centers.col(4) = cloud.centers.col(1);
   EXPECT_EQ(triangulation.build(cloud.centers, cloud.weights).hidden.size(), 1U);
-  // A small ball deep inside of a large ball.
+  // A small ball deep inside a large ball.
   cloud = Cloud(6);
   cloud.centers.col(0) = Eigen::Vector3d(-9, -9, -9);
   cloud.centers.col(1) = Eigen::Vector3d(9, 0, 0);

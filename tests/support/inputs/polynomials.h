@@ -52,7 +52,7 @@ inline Scaled random_linear(Random& random) {
       const int q = 2 * pick(random, 1, 20) + 1;
       return linear(pick(random, -q, 2 * q), q);
     }
-    case 6:  // a root outside of the step
+    case 6:  // a root outside the step
       return linear(pick(random, -30, 30), pick(random, 1, 9));
     default: {
       const int q = pick(random, 2, 1000);

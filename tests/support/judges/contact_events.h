@@ -108,8 +108,7 @@ PairHistory judged_history(const std::vector<M>& steps, const BeadPair& pair) {
   return history;
 }
 
-/// Returns whether the root lies strictly inside of the bracket, or equals it if the bracket is a single
-/// number.
+/// Returns whether the root lies strictly inside the bracket, or equals it if the bracket is a single number.
 inline bool is_in_bracket(const PairEvent& event, double lower, double upper) {
   const Rational low(lower), high(upper);
   sturm::Root root = event.root;
