@@ -19,7 +19,7 @@ class ScrewMotion {
   static constexpr int degree = 3;
 
   struct Bead {
-    double distance, phase, height;  ///< from the axis, angle about the axis, position along the axis
+    double distance, phase, height;  ///< distance from the axis, angle about the axis, height along the axis
     bool turns;                      ///< false: the bead rests
   };
 

@@ -1,5 +1,5 @@
 # Installs kds from its build tree into a prefix, moves the prefix elsewhere, and configures, builds and runs
-# three user's projects with it: one with the engine alone, the first example, and one with structures. Then
+# three users' projects with it: one with the engine alone, the first example, and one with structures. Then
 # compiles the last project by pkg-config, if pkg-config is available.
 # cmake -DKDS_BUILD=<build tree> -DGENERATOR=<generator> -DCOMPILER=<c++> -DBUILD_TYPE=<type> -DPLACE=<folder>
 #   -P use_installed.cmake

@@ -12,7 +12,7 @@
 
 namespace oracle {
 
-/// Tests made scenes, and `given` if present. Returns 0 if every dump was judged correctly, else 1.
+/// Tests generated scenes, and `given` if present. Returns 0 if every dump was judged correctly, else 1.
 [[nodiscard]] int self_test(const std::optional<Scene>& given);
 
 /// Random numbers that are equal on every machine, which the distributions of the standard library do not

@@ -35,8 +35,8 @@ M balls_near(test::Random& random, std::size_t count) {
 }
 
 struct Seen {
-  int relaxed = 0, between = 0,
-      outside = 0;  ///< between: only in the relaxed sphere
+  /// `between` counts balls in the relaxed sphere but not in the sphere itself.
+  int relaxed = 0, between = 0, outside = 0;
 };
 
 /// Judges the certificate of the last ball by its definition, and checks that a ball for which it holds lies

@@ -46,8 +46,8 @@ TEST(PaperMeasurements, SelfCollision) {
   const Subject spline = model_subject("spline", 50);
   const SelfCollision found = self_collision_of(spline, 0, 1);
   std::set<std::pair<BeadId, BeadId>> edges;
-  for (const auto& cell : static_triangulation<3>(spline.frames[0], spline.radii)
-                              .cells)  // the radii are 1, so the weights are 1 too
+  for (const auto& cell :
+       static_triangulation<3>(spline.frames[0], spline.radii).cells)  // weights are 1, too
     for (const BeadId a : cell)
       for (const BeadId b : cell)
         if (a < b) edges.insert({a, b});

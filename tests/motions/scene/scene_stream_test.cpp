@@ -169,7 +169,7 @@ TEST(SceneStream, TellsOfNearerImagesOfAnyEarlierNecklace) {
   EXPECT_TRUE(open({other, low}).warnings.empty());
 }
 
-// A chain of a later file is reported, although the chain beside it is near without an image.
+// A chain of a later file is reported even if another chain of that file needs no image.
 TEST(SceneStream, TellsOfNearerImagesOfEachChain) {
   const auto models = [](const std::string& name, const std::vector<double>& heights) {
     std::string text;

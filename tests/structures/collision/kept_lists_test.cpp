@@ -132,8 +132,8 @@ void swing_tail(bool gas, bool equal) {
     ASSERT_EQ(detector.pairs(balls), cells.pairs(balls)) << scene.name << ", frame " << k;
   }
   EXPECT_GE(detector.counts().repairs, gas ? 1 : frames / 2) << scene.name;
-  // Repairs in spatial order pay or not, depending on how many beads the processor compares at once. Only
-  // chains are checked.
+  // Whether repairs pay for beads in spatial order depends on the processor's vector width, so only chains
+  // are checked.
   if (!gas) {
     EXPECT_LE(detector.counts().from_scratch + detector.counts().rebuilds, frames / 3) << scene.name;
   }

@@ -1,6 +1,6 @@
 #pragma once
-// A failure source with handwritten polynomials as functions, which shows the engine what it sees of
-// certificates.
+// A failure source whose functions are handwritten polynomials. It gives the engine everything that
+// certificates give it.
 
 #include <algorithm>
 #include <cstdint>
