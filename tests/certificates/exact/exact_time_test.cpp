@@ -120,7 +120,7 @@ TEST(ExactTime, NarrowsWithoutChangingTheValue) {
   }
 }
 
-// The number of bisections that reveal a dyadic root varies over all budgets.
+// For each `bits` a different number of bisections reveals the dyadic root. The range covers every budget.
 TEST(ExactTime, EqualsTheDyadicThatItIs) {
   for (unsigned bits = 1; bits <= 60; ++bits) {
     const Dyadic u(Integer(1), bits);

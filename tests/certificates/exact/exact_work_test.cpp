@@ -17,7 +17,7 @@ struct Named {
   }
 };
 
-// (3u - 1)(3u - 2) and a similar factor.
+// (3u - 1)(3u - 2)
 ExactPolynomial some_polynomial() { return ExactPolynomial({Integer(2), Integer(-5), Integer(2)}); }
 
 std::uint64_t work_of_roots(ExactWork& account) {

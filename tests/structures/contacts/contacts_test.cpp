@@ -253,7 +253,7 @@ TEST(Contacts, OneBeadFarAway) {
   }
 }
 
-// Floats cannot decide these pairs. Bead numbers must not overflow past the end of the chain.
+// Floats cannot decide these pairs. Adding a large `apart` to a bead number must not overflow.
 TEST(Contacts, NoPairIsAskedForBeyondTheChain) {
   Points from, to;
   for (int i = 0; i < 24; ++i) {
