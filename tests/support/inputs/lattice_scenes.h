@@ -12,9 +12,8 @@
 namespace kds::test {
 
 enum class LatticeScene {
-  random,    ///< all control points are lattice points
-  crossing,  ///< the beads of a simplex rest, and all other beads pass through one of its lattice points at
-             ///< the same time
+  random,     ///< all control points are lattice points
+  crossing,   ///< a simplex rests, and all other beads pass through one of its lattice points together
   collapse,   ///< all beads pass through a point, line or plane at u = 1/2
   from_flat,  ///< all beads start in one point, line or plane
   into_flat,  ///< all beads end in one point, line or plane
