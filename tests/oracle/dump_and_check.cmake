@@ -1,6 +1,5 @@
 # Runs `kds run` with dumps and with audits at frames, then judges the dumps by check_dumps:
-#   cmake -DKDS=<program> -DCHECK=<check_dumps> -DSCRATCH=<directory of its own> "-DRUN=<arguments of kds
-#   run>"
+#   cmake -DKDS=<program> -DCHECK=<check_dumps> -DSCRATCH=<directory of its own> "-DRUN=<arguments of kds run>"
 #         "-DINPUT=<the same input in the words of check_dumps>" ["-DGENERATE=<arguments of kds generate>"]
 #         -P dump_and_check.cmake
 cmake_minimum_required(VERSION 3.25)

@@ -123,7 +123,8 @@ inline void check_mirror(const RegularTriangulation<3>& triangulation, std::size
   }
   sort_cells(finite);
   ASSERT_EQ(finite, triangulation.finite_cells());
-  // Counts the cells at each bead, and the facets at each bead that follow from the two cells of each facet.
+  // Counts the cells of each bead, and the facets with the bead in at least one of their two cells. The
+  // second count is 5/2 of the first.
   std::vector<std::uint32_t> cells_at(beads, 0), facets_with(beads, 0);
   for (const CellId cell : live) {
     for (int i = 0; i < 4; ++i) {
