@@ -1,4 +1,5 @@
-# The target kds::flint, for the build and for users of the package: FLINT 2 brings neither a CMake package nor a file of pkg-config.
+# Defines the target kds::flint for the build and for users of the package, because FLINT 2 has neither a CMake package
+# nor a pkg-config file.
 include(FindPackageHandleStandardArgs)
 find_path(KDS_FLINT_INCLUDE_DIR flint/fmpz_poly.h)
 find_library(KDS_FLINT_LIBRARY flint)

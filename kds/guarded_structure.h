@@ -2,6 +2,7 @@
 // A structure whose places have one certificate each, such as the pairs of neighbours of a sorted list. The
 // base creates the certificates, and calls the structure when one fails.
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -66,14 +67,18 @@ class GuardedStructure : public Base {
       if (guards_[place] == CertificateHandle::violated) change_at(place, KnownAtStart::unknown);
     }
   }
-  /// Inserts a place, which has no certificate yet. Later places are renumbered.
+  /// Inserts a place, which has no certificate yet. Later places are renumbered. No other place may be
+  /// waiting for a certificate.
   void insert_place(std::size_t place) {
+    assert(unguarded_.empty());
     guards_.insert(guards_.begin() + static_cast<std::ptrdiff_t>(place), CertificateHandle::violated);
     renumber_from(place + 1);
     unguarded_.push_back(place);
   }
-  /// Erases a place with its certificate. Later places are renumbered.
+  /// Erases a place with its certificate. Later places are renumbered. No place may be waiting for a
+  /// certificate.
   void erase_place(std::size_t place) {
+    assert(unguarded_.empty());
     table_.drop(guards_[place]);
     guards_.erase(guards_.begin() + static_cast<std::ptrdiff_t>(place));
     renumber_from(place);

@@ -48,7 +48,7 @@ class PresentBeads {
     if (is_absent(bead) == absent) return;
     absent_.resize(bead_count_, 0);
     absent_[bead] = absent ? 1 : 0;
-    absent_count_ += absent ? 1 : std::size_t(-1);
+    absent ? ++absent_count_ : --absent_count_;
   }
 
   /// Implements BeadEdits::leave_out. Throws once structure_is_built has been called.

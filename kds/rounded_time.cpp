@@ -43,7 +43,7 @@ struct Decimal {
 /// Returns the largest e with 10^e <= |value|.
 int magnitude(const Rational& value) {
   const Rational size = abs(value);
-  const auto bits = [](const Integer& x) { return static_cast<double>(mpz_sizeinbase(x.get_mpz_t(), 2)); };
+  const auto bits = [](const Integer& x) { return static_cast<double>(bit_length(x)); };
   constexpr double decimals_per_bit = 0.30102999566398120;
   int e = static_cast<int>((bits(numerator(size)) - bits(denominator(size))) * decimals_per_bit) + 1;
   while (in_units(size, e) < Rational(1)) --e;

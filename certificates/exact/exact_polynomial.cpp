@@ -69,7 +69,7 @@ std::size_t ExactPolynomial::largest_bit_length() const {
   if (wide_) return wide_->largest_bit_length();
   std::size_t bits = 0;
   for (const Integer& x : scaled_) {
-    if (x != 0) bits = std::max(bits, mpz_sizeinbase(x.get_mpz_t(), 2));
+    if (x != 0) bits = std::max(bits, bit_length(x));
   }
   return bits;
 }

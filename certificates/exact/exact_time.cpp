@@ -159,7 +159,7 @@ std::int64_t places_of(const ExactTime& time) {
   const unsigned exponent = std::max(time.lower().exponent(), time.upper().exponent());
   const Integer length = (time.upper().numerator() << (exponent - time.upper().exponent())) -
                          (time.lower().numerator() << (exponent - time.lower().exponent()));
-  return std::int64_t{exponent} - static_cast<std::int64_t>(mpz_sizeinbase(length.get_mpz_t(), 2));
+  return std::int64_t{exponent} - static_cast<std::int64_t>(bit_length(length));
 }
 
 // Refines both times, but not one that is far ahead of the other. A step gains one bit for some times and

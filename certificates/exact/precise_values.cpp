@@ -117,9 +117,8 @@ namespace {
 
 /// Returns how many binary digits both ends have in common, measured from 0 or 1, whichever is nearer.
 std::size_t digits_of(const detail::Ends& ends) {
-  const auto width_of = [](const Integer& x) { return mpz_sizeinbase(x.get_mpz_t(), 2); };
-  const std::size_t places = std::min(width_of(ends.upper), width_of(ends.above_lower));
-  return places - std::min(places, width_of(ends.upper - ends.lower));
+  const std::size_t places = std::min(bit_length(ends.upper), bit_length(ends.above_lower));
+  return places - std::min(places, bit_length(ends.upper - ends.lower));
 }
 
 }  // namespace

@@ -19,9 +19,8 @@ bool has_digits(const LongDigits& x, std::size_t digits) { return x.has_digits(d
 std::int64_t top_bit(const LeadingDigits& x) { return x.top_bit(); }
 std::int64_t top_bit(const LongDigits& x) {
   return x.exponent() +
-         static_cast<std::int64_t>(
-             std::max<std::size_t>(mpz_sizeinbase(x.number().get_mpz_t(), 2),
-                                   static_cast<std::size_t>(std::bit_width(x.error())))) +
+         static_cast<std::int64_t>(std::max<std::size_t>(
+             bit_length(x.number()), static_cast<std::size_t>(std::bit_width(x.error())))) +
          1;
 }
 
@@ -59,7 +58,7 @@ bool suffice(const std::vector<Number>& c, std::size_t digits) {
 LeadingDigits between(const Integer& low, const Integer& high) {
   LeadingDigits all = LeadingDigits::of(high);
   const Integer length = high - low;
-  const auto bits = static_cast<std::int64_t>(mpz_sizeinbase(length.get_mpz_t(), 2));
+  const auto bits = static_cast<std::int64_t>(bit_length(length));
   if (const std::int64_t down = bits - 60 - all.exponent; down > 0) {
     all.magnitude = down >= 128 ? 0 : all.magnitude >> static_cast<unsigned>(down);
     all.exponent += down;

@@ -22,7 +22,7 @@ using Stretches = decltype(WidePolynomial::Found::roots);
 /// Scales towards 1 are positive and mirror this.
 Level level_of(const Dyadic& u) {
   const auto power_of = [](const Integer& numerator, unsigned exponent) {
-    return static_cast<Level>(mpz_sizeinbase(numerator.get_mpz_t(), 2)) - 1 - static_cast<Level>(exponent);
+    return static_cast<Level>(bit_length(numerator)) - 1 - static_cast<Level>(exponent);
   };
   const Level power = power_of(u.numerator(), u.exponent());
   if (power < -1 || (u.numerator() == 1 && u.exponent() == 1)) return power + 1;
@@ -318,9 +318,8 @@ std::optional<RootsAround> known_roots_around(const WidePolynomial& square_free,
 
 bool has_digits(const RootInterval& root, unsigned digits) {
   const detail::Ends ends(root.lower, root.upper);
-  const auto length_of = [](const Integer& x) { return mpz_sizeinbase(x.get_mpz_t(), 2); };
-  return length_of(ends.upper - ends.lower) + digits <
-         std::min(length_of(ends.upper), length_of(ends.above_lower));
+  return bit_length(ends.upper - ends.lower) + digits <
+         std::min(bit_length(ends.upper), bit_length(ends.above_lower));
 }
 
 namespace {

@@ -49,7 +49,8 @@ std::vector<BenchRow> rows_of(const std::vector<bench::Subject>& subjects, std::
 }
 
 void check_folder(const std::filesystem::path& instances) {
-  if (!std::filesystem::is_directory(instances))
+  std::error_code error;
+  if (!std::filesystem::is_directory(instances, error))
     throw InputError("--instances: " + instances.string() + ": expected a folder of moving-point files");
 }
 

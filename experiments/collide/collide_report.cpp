@@ -147,9 +147,8 @@ std::string collide_page(const CollideReport& report, const std::string& input, 
       "<em>family</em>: pairs of spheres of a hierarchy that prove all other pairs disjoint, or the edges of "
       "the power diagram; <em>seconds</em>: the time to find the pairs in all frames, as the median of the "
       "rounds with the least and the most in brackets; <em>and for closest</em>: the time to find the "
-      "closest "
-      "pairs as well. The distance of two beads is the distance of their surfaces, below zero if they "
-      "overlap.";
+      "closest pairs as well. The distance of two beads is the distance of their surfaces, below zero if "
+      "they overlap.";
   std::string plots;
   if (!map.empty())
     plots += html_figure(map, "The pairs of beads that collide: the stronger the colour, the more often.");

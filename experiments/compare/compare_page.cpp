@@ -18,8 +18,7 @@ namespace {
 
 constexpr std::string_view kWords =
     "A row is one structure in the run of one input, at one stride, on one motion. The plots by kind, by "
-    "level "
-    "and along the chain show the smallest stride.";
+    "level and along the chain show the smallest stride.";
 
 std::vector<std::pair<std::string, std::string>> terms() {
   return {
@@ -29,14 +28,12 @@ std::vector<std::pair<std::string, std::string>> terms() {
       {"net change",
        "a difference between one frame and the next, whatever happened in between: a node of the wrapped "
        "hierarchy with another basis, a cell in the power diagram of one frame only, a pair that meets in "
-       "one "
-       "frame only, a rank of the sorted list with another bead"},
+       "one frame only, a rank of the sorted list with another bead"},
       {"efficiency",
        "events divided by net changes. If every change happens once, the efficiency is 1 for nodes and "
-       "pairs, "
-       "0.5 for interchanges, and for flips 0.2 in space and 0.25 in the plane, because a flip exchanges "
-       "five "
-       "or four cells. A larger efficiency means that changes were undone before the next frame"},
+       "pairs, 0.5 for interchanges, and for flips 0.2 in space and 0.25 in the plane, because a flip "
+       "exchanges five or four cells. A larger efficiency means that changes were undone before the next "
+       "frame"},
       {"compactness", "the most certificates at once"},
       {"locality", "the most certificates on one bead, at the start of a step"},
       {"us an event (responsiveness)",

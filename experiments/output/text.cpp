@@ -29,13 +29,6 @@ std::string with_thousands(std::uint64_t value) {
   return digits;
 }
 
-std::string value_or_empty(const std::optional<double>& value) {
-  return value ? fmt::format("{}", *value) : std::string();
-}
-std::string value_or_empty(const std::optional<std::uint64_t>& value) {
-  return value ? fmt::format("{}", *value) : std::string();
-}
-
 std::string short_decimal(double value) {
   if (!std::isfinite(value)) return "-";
   const double size = std::abs(value);

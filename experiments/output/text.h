@@ -12,10 +12,6 @@ namespace kds {
 /// Returns 1234567 as 1,234,567.
 [[nodiscard]] std::string with_thousands(std::uint64_t value);
 
-/// Returns a CSV field that reads back as the same value, or an empty field if there is no value.
-[[nodiscard]] std::string value_or_empty(const std::optional<double>& value);
-[[nodiscard]] std::string value_or_empty(const std::optional<std::uint64_t>& value);
-
 /// Returns seconds or a ratio with about four figures, never with an exponent.
 [[nodiscard]] std::string short_decimal(double value);
 

@@ -7,16 +7,21 @@
 //     using O = UpdateOptions;
 //     static const auto list =
 //         OptionList<O>()
-//             .with(&O::input, input_options())
+//             .with(input_options())  // UpdateOptions derives from InputOptions
 //             .with({whole_option({"--rounds", "N", "runs of each (default: 3)"}, &O::rounds, 1, 1000)})
-//             .with(&O::destinations, destination_options("write ...", "write the rows ..."));
+//             .with(destination_options("write update.json, update.csv and report.html there"));
 //     return list;
 //   }
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <concepts>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>

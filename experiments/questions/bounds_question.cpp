@@ -110,13 +110,10 @@ Question ask_about_bounds(const std::filesystem::path& data, std::uint64_t seed,
   question.words =
       "Pairs of beads at most the skin apart are found at one frame and serve until two beads may have come "
       "nearer by more than it: how often after the first frame they are found again. By speed: all that is "
-      "known is how "
-      "far "
-      "any bead moves in a frame at most. By displacement: the largest of any bead since the search is "
-      "measured. "
-      "Two largest: the sum of the two largest, for it takes two beads. Without drift: the same after the "
-      "mean displacement of all beads is taken away, which no distance notices. Plots lack what is never "
-      "repeated.";
+      "known is how far any bead moves in a frame at most. By displacement: the largest of any bead since "
+      "the search is measured. Two largest: the sum of the two largest, for it takes two beads. Without "
+      "drift: the same after the mean displacement of all beads is taken away, which no distance notices. "
+      "Plots lack what is never repeated.";
   for (std::size_t which = 0; which < moving_subject_count; ++which) {
     const auto [name, subject] = moving_subject(which, data, seed);
     const double speed = speed_of(subject), radius = subject.radii.front();
@@ -176,14 +173,10 @@ Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, 
   question.y_label = "how far beads may stick out, share of the radius";
   question.words =
       "The wrapped hierarchy is verified at one frame; so many frames later its spheres are taken from the "
-      "same "
-      "bases without any test. Beads may stick out of these; by how much at most follows from how far beads "
-      "have "
-      "moved, as a bound on speed or the largest measured displacement tells: mean over all nodes, as a "
-      "share of "
-      "their radii, and beside it how far beads really stick out. Times are medians of the rounds at one "
-      "frame, "
-      "with the least and the most.";
+      "same bases without any test. Beads may stick out of these; by how much at most follows from how far "
+      "beads have moved, as a bound on speed or the largest measured displacement tells: mean over all "
+      "nodes, as a share of their radii, and beside it how far beads really stick out. Times are medians of "
+      "the rounds at one frame, with the least and the most.";
   for (std::size_t which = 0; which < moving_subject_count; ++which) {
     const auto [name, subject] = moving_subject(which, data, seed);
     const double speed = speed_of(subject);
@@ -236,8 +229,7 @@ Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, 
     slack.push_back(by_displacement.points.front().second / really.points.front().second);
     question.findings.push_back(fmt::format(
         "{}: trusting for one frame is {} times as fast as verifying; beads may stick out by {} of a radius "
-        "as a "
-        "bound on speed tells, {} as measured displacements tell, and do by {} (means).",
+        "as a bound on speed tells, {} as measured displacements tell, and do by {} (means).",
         name, short_decimal(saved), short_decimal(by_speed.points.front().second),
         short_decimal(by_displacement.points.front().second), short_decimal(really.points.front().second)));
     for (QuestionCurve* curve : {&by_speed, &by_displacement, &really}) {
@@ -250,8 +242,7 @@ Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, 
   const Spread faster = spread_of(savings), beyond = spread_of(slack);
   question.answer = fmt::format(
       "Spheres of trusted bases are {} to {} times as fast as verified ones; how far beads stick out of them "
-      "after "
-      "a frame is proved no better than {} to {} times what it is.",
+      "after a frame is proved no better than {} to {} times what it is.",
       short_decimal(faster.least), short_decimal(faster.most), short_decimal(beyond.least),
       short_decimal(beyond.most));
   return question;

@@ -171,15 +171,11 @@ Question ask_about_combination(const std::filesystem::path& data, std::uint64_t 
       "Pairs that must be looked at to decide whether a chain collides with itself. Alone: the separating "
       "family of the wrapped hierarchy; of the power diagram of all beads the edges that join no neighbours "
       "along the chain, and the beads with a common neighbour, without which the edges do not decide "
-      "(Theorem "
-      "3.5, which holds of any set of balls; with them count a few pairs of a bead and that in whose cell "
-      "its "
-      "centre is). Together: the hierarchy is searched down to blocks of so many beads, and on to beads "
-      "where "
-      "two blocks are near along the chain; beads in blocks that still meet others are left to a power "
-      "diagram "
-      "of these beads alone, which decides likewise. Above 1 the two together look at fewer pairs than the "
-      "better of both alone.";
+      "(Theorem 3.5, which holds of any set of balls; with them count a few pairs of a bead and that in "
+      "whose cell its centre is). Together: the hierarchy is searched down to blocks of so many beads, and "
+      "on to beads where two blocks are near along the chain; beads in blocks that still meet others are "
+      "left to a power diagram of these beads alone, which decides likewise. Above 1 the two together look "
+      "at fewer pairs than the better of both alone.";
   std::vector<double> costs;
   for (std::size_t which = 0; which < kSubjects; ++which) {
     const Chain one = chain(which, data, seed);

@@ -116,19 +116,16 @@ class Measurement {
     question_.y_label = "changes a step";
     question_.words = fmt::format(
         "The energy of a step is half the sum of the squared changes of all bending angles and of all "
-        "torsion "
-        "angles of the chain, in radians, between two frames: springs of stiffness 1. Basis changes are "
-        "events "
-        "of the wrapped hierarchy, flips those of the power diagram, under linear motion, all exact. "
-        "Trajectories "
-        "are looked at frame by frame and over strides to {}; of the steps at stride 1 those of like energy "
-        "are "
-        "also taken together, eight groups of equal size. Random chains have {} beads, bending angles "
-        "between 0.4 and 0.8 pi, any torsion; in a step all angles of one kind, or of both, change by normal "
-        "random amounts of the amplitude given, drawn again where a bending angle would come within 0.05 pi "
-        "of 0 or pi. Conformations are drawn anew for each amplitude, {} at the largest to {} at the small "
-        "ones; intervals of their exponents are of the exponents without one of {} equal shares of them "
-        "(jackknife). Those of trajectories are of the line through few points, whose frames are the same.",
+        "torsion angles of the chain, in radians, between two frames: springs of stiffness 1. Basis changes "
+        "are events of the wrapped hierarchy, flips those of the power diagram, under linear motion, all "
+        "exact. Trajectories are looked at frame by frame and over strides to {}; of the steps at stride 1 "
+        "those of like energy are also taken together, eight groups of equal size. Random chains have {} "
+        "beads, bending angles between 0.4 and 0.8 pi, any torsion; in a step all angles of one kind, or of "
+        "both, change by normal random amounts of the amplitude given, drawn again where a bending angle "
+        "would come within 0.05 pi of 0 or pi. Conformations are drawn anew for each amplitude, {} at the "
+        "largest to {} at the small ones; intervals of their exponents are of the exponents without one of "
+        "{} equal shares of them (jackknife). Those of trajectories are of the line through few points, "
+        "whose frames are the same.",
         kStrides.back(), kChainBeads, kLeastConformations, kMostConformations, kShares);
     for (std::size_t which = 0; which < kProteins; ++which) ask(moving_subject(which, data_, seed_));
     for (const Angles angles : kAngles) ask(angles);

@@ -336,11 +336,10 @@ PaperTablePlan Planner::two_spirals() const {
        {"layered_per_full", "layered / full time", true},
        {"frontier", "average frontier"}},
       {},
-      "Two chains of 1000 beads roll up in 1000 frames, one above the other, as their planes come from "
-      "1.5 chain lengths to 1.05 diameters apart; how the paper's lie it does not say. Each time is that of "
-      "bringing the "
-      "hierarchy from the frame before and searching it: full verifies all nodes by the cascade, lazy "
-      "recomputes the cages that the search visits, layered builds all cages anew."};
+      "Two chains of 1000 beads roll up in 1000 frames, one above the other, as their planes come from 1.5 "
+      "chain lengths to 1.05 diameters apart; how the paper's lie it does not say. Each time is that of "
+      "bringing the hierarchy from the frame before and searching it: full verifies all nodes by the "
+      "cascade, lazy recomputes the cages that the search visits, layered builds all cages anew."};
   constexpr std::size_t frames = 1001;
   const Shared spirals = std::make_shared<Subject>(two_rolling_spirals(1000, frames));
   const auto row = [&](std::size_t frame, std::string at, double layered_pairs, double layered,

@@ -134,10 +134,9 @@ std::string paper_page(std::span<const PaperTable> tables, Page page) {
       claims.all, claims.hold, list);
   page.words =
       "The paper's values stand beside ours. Times are ratios within a row, because the paper's machine is "
-      "of "
-      "2004. Works that are compared take turns, round by round; the ratio is the median of the rounds, with "
-      "the least and the most in brackets. Work of more than a second is done once, whatever the number of "
-      "rounds, and is compared with all rounds of the other work.";
+      "of 2004. Works that are compared take turns, round by round; the ratio is the median of the rounds, "
+      "with the least and the most in brackets. Work of more than a second is done once, whatever the number "
+      "of rounds, and is compared with all rounds of the other work.";
   for (const PaperTable& table : tables)
     page.body +=
         html_section(fmt::format("Table {}: {}", table.number, table.title),

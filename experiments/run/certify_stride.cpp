@@ -83,8 +83,7 @@ void refuse_needless_certificate(const RunOptions& options) {
   if (options.certify && options.reading.frames.stride == 1 && !options.tolerance)
     throw InputError(
         "--certify: the run leaves out no frame; expected --frames FIRST:LAST:STRIDE with a stride above 1, "
-        "or "
-        "--tolerance");
+        "or --tolerance");
 }
 
 StrideCertificate certify_stride(const RunOptions& options, const Scene& scene) {

@@ -124,8 +124,7 @@ SceneStream open_frames(const InputOptions& options, const std::function<void(co
   if (options.reading.selection == Selection::all && options.radius == "auto")
     warn(
         "--select all with --radius auto: consecutive atoms need not be bonded, and the radius is half of "
-        "their longest "
-        "distance; --radius element takes van der Waals radii");
+        "their longest distance; --radius element takes van der Waals radii");
   if (options.obstacle) {
     ReadOptions reading = reading_of(options, options.inputs.size());
     reading.topology = std::nullopt;

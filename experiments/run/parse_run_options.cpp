@@ -25,12 +25,13 @@ constexpr CommandSpec kRunCommand{
     "kds run models.pdb --kernel exact --audit events --json -",
 };
 
-/// Returns the text FIRST:LAST, with LAST excluded, for the levels or beads from `first` to `last`.
-std::string range_text(std::uint64_t first, std::uint64_t last) {
-  return fmt::format("{}:{}", first, last + 1);
-}
-
 constexpr std::uint64_t most_ids = std::uint64_t{1} << 32U;
+
+/// Returns the text FIRST:LAST, with LAST excluded, for the levels or beads from `first` to `last`; FIRST: if
+/// the range has no end.
+std::string range_text(std::uint64_t first, std::uint64_t last) {
+  return last + 1 == most_ids ? fmt::format("{}:", first) : fmt::format("{}:{}", first, last + 1);
+}
 
 Option<RunOptions> levels_option() {
   return {

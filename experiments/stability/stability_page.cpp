@@ -141,15 +141,11 @@ std::string stability_page(std::span<const StabilityRow> rows, Page page) {
   page.found = findings(rows);
   page.words =
       "A row of the data is a certificate type or a structure in one extreme of its input. The tables group "
-      "the "
-      "rows by subject and by extreme, and list rows that do not hold one by one. <em>Differ</em>: cases in "
-      "which the kernels filtered and exact disagree, or one fails. <em>Missed</em> and <em>extra</em>: "
-      "events "
-      "of the kernel fast compared with the exact ones. Microseconds are those of a certificate's search or "
-      "of "
-      "a structure's run: each row has the median of its cases, and a table has the median of its rows "
-      "without "
-      "those that are refused.";
+      "the rows by subject and by extreme, and list rows that do not hold one by one. <em>Differ</em>: cases "
+      "in which the kernels filtered and exact disagree, or one fails. <em>Missed</em> and <em>extra</em>: "
+      "events of the kernel fast compared with the exact ones. Microseconds are those of a certificate's "
+      "search or of a structure's run: each row has the median of its cases, and a table has the median of "
+      "its rows without those that are refused.";
   page.body = html_section("Rows that do not hold", failing_rows(rows)) +
               html_section("Certificates, all extremes", subjects(rows, false)) +
               html_section("Structures, all extremes", subjects(rows, true)) +

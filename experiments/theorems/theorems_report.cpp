@@ -251,8 +251,7 @@ std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
       "The theorems are those of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for "
       "deforming necklaces</em> (2004). Powers are fitted by least squares of logarithms. Their intervals of "
       "95% confidence assume normal errors: a measurement proves no theorem. Seconds are processor times: "
-      "the "
-      "median of the rounds, with the least and the most in brackets.";
+      "the median of the rounds, with the least and the most in brackets.";
   return html_page(page);
 }
 

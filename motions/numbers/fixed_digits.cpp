@@ -47,7 +47,7 @@ template <int Most>
 FixedDigits<Most> FixedDigits<Most>::between(const Integer& low, const Integer& high) {
   FixedDigits all(high);
   const Integer length = high - low;
-  const auto bits = static_cast<std::int64_t>(mpz_sizeinbase(length.get_mpz_t(), 2));
+  const auto bits = static_cast<std::int64_t>(bit_length(length));
   const std::int64_t words = bits > error_bits - 2 ? (bits - (error_bits - 2) + 63) / 64 : 0;
   // Drop words until the length has few enough bits to be an error bound.
   if (all.size_ == 0) all.exponent_ = words;

@@ -82,15 +82,6 @@ LeadingDigits LeadingDigits::of(const Integer& x) {
 
 std::int64_t LeadingDigits::top_bit() const { return exponent + width_of(magnitude + error); }
 
-double LeadingDigits::rough_fraction(std::int64_t& power) const {
-  const int width = width_of(magnitude);
-  const int shift = std::max(0, width - 60);
-  power = exponent + shift;
-  const auto fraction =
-      static_cast<double>(static_cast<std::uint64_t>(magnitude >> static_cast<unsigned>(shift)));
-  return negative ? -fraction : fraction;
-}
-
 LeadingDigits operator*(const LeadingDigits& a, const LeadingDigits& b) {
   LeadingDigits result;
   if (a.is_zero() || b.is_zero()) return result;

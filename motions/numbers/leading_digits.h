@@ -28,8 +28,6 @@ struct LeadingDigits {
   [[nodiscard]] bool is_zero() const { return magnitude == 0 && error == 0; }
   /// Returns an exponent with |value| < 2^top_bit(). Not meaningful for zero.
   [[nodiscard]] std::int64_t top_bit() const;
-  /// Returns an approximate value divided by 2^power, and sets `power`.
-  [[nodiscard]] double rough_fraction(std::int64_t& power) const;
 
   LeadingDigits& operator+=(const LeadingDigits& other);
   LeadingDigits& operator-=(const LeadingDigits& other) { return *this += -other; }

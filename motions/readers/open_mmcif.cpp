@@ -86,10 +86,9 @@ std::optional<double> parse_cif_number(std::string_view text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
-// Says what gemmi complains of, "file:line:column: what is wrong", and shows the line as far as it is short.
-std::string explained(const std::string& file, std::string_view text, std::string complaint) {
-  std::size_t line =
-      std::strtoul(complaint.c_str() + std::min(complaint.size(), file.size() + 1), nullptr, 10);
+// Rewords a complaint of gemmi, "line:column: message", and shows the line as far as it is short.
+std::string explained(std::string_view text, std::string complaint) {
+  std::size_t line = std::strtoul(complaint.c_str(), nullptr, 10);
   const std::size_t unsaid = complaint.rfind("parse error");
   if (unsaid != std::string::npos)
     complaint.replace(unsaid, std::string::npos,
@@ -100,24 +99,36 @@ std::string explained(const std::string& file, std::string_view text, std::strin
   return fmt::format("{}, found {}", complaint, shown.empty() ? "the end of the file" : in_quotes(shown));
 }
 
-// Throws InputError naming file and line.
+// A bare word of CIF has ASCII characters only, and gemmi ends a loop where one begins otherwise.
+std::string hint_at_foreign_letters(std::string_view text) {
+  const auto foreign =
+      std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) > 0x7e; });
+  if (foreign == text.end()) return "";
+  return fmt::format("; line {} has a character that CIF allows only in quotes",
+                     1 + std::count(text.begin(), foreign, '\n'));
+}
+
+// Throws InputError naming file and line. Depends on the texts of gemmi's exceptions.
 gemmi::cif::Document read_cif(const std::string& file, std::string_view text) {
   gemmi::cif::Document document;
   const auto refuse = [&](const gemmi::cif::Item& item, const std::string& message) {
     throw InputError(fmt::format("{}:{}: {}", file, item.line_number, message));
   };
   try {
-    gemmi::cif::parse_input(document, tao::pegtl::memory_input<>(text.data(), text.size(), file));
+    gemmi::cif::parse_input(document, tao::pegtl::memory_input<>(text.data(), text.size(), ""));
   } catch (const tao::pegtl::parse_error& error) {
-    const std::string complaint = error.what();
-    if (complaint.find("Wrong number of values") != std::string::npos) {
+    std::string complaint = error.what();
+    if (complaint.starts_with(':')) complaint.erase(0, 1);
+    const bool is_in_loop = document.items_ != nullptr && !document.items_->empty() &&
+                            document.items_->back().type == gemmi::cif::ItemType::Loop;
+    if (is_in_loop && complaint.find("Wrong number of values") != std::string::npos) {
       const gemmi::cif::Item& item = document.items_->back();
       const std::size_t columns = item.loop.tags.size();
-      refuse(item,
-             fmt::format("the loop of {} ends inside a row ({}, {} a row)", in_quotes(item.loop.tags.front()),
-                         counted(item.loop.values.size(), "value"), columns));
+      refuse(item, fmt::format("the loop of {} ends inside a row ({}, {} a row){}",
+                               in_quotes(item.loop.tags.front()), counted(item.loop.values.size(), "value"),
+                               columns, hint_at_foreign_letters(text)));
     }
-    throw InputError(explained(file, text, complaint));
+    throw InputError(fmt::format("{}:{}{}", file, explained(text, complaint), hint_at_foreign_letters(text)));
   }
   if (document.blocks.empty())
     throw InputError(

@@ -18,6 +18,7 @@ constexpr std::array<BeadId, 2> no_pair{no_bead, no_bead};
 constexpr std::array<IdRole, 2> pair_was_is{{{"was", 2}, {"is", 2}}};
 constexpr auto pair_kinds = with_edits(std::array{EventKind{"overtake", false, false, pair_was_is},
                                                   EventKind{"replace", true, false, pair_was_is}});
+static_assert(pair_kinds.size() == KineticClosestPair<2>::changes + 1);
 
 }  // namespace
 

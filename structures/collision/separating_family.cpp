@@ -117,7 +117,8 @@ class Check {
       const BeadId last = is_run ? run->second : collision->second;
       if (first < next) return name_of(row, first) + " are named twice";
       if (last >= balls_.size()) return "the collisions are not of these beads";
-      if (!is_run && !asked_.asks({row, first})) return name_of(row, first) + " collide, but nobody asked";
+      if (!is_run && !asked_.asks({row, first}))
+        return name_of(row, first) + " collide, but the query does not ask for this pair";
       if (!is_run &&
           compare_distance(center(row), center(first), balls_.radius(row), balls_.radius(first)) > 0)
         return name_of(row, first) + " are disjoint, but not separated";

@@ -21,6 +21,7 @@ constexpr std::array<IdRole, 2> contact_pair{{{"first"}, {"second"}}};
 constexpr auto contact_kinds = with_edits(std::array{EventKind{"begin", true, false, contact_pair},
                                                      EventKind{"end", true, false, contact_pair},
                                                      EventKind{"touch", true, false, contact_pair}});
+static_assert(contact_kinds.size() == Contacts<2>::changes + 1);
 
 }  // namespace
 

@@ -20,6 +20,7 @@ constexpr std::array<IdRole, 2> beads_in_order{{{"first"}, {"second"}}};
 constexpr auto hull_kinds = with_edits(std::array{EventKind{"enter", true, false, corner_between},
                                                   EventKind{"leave", true, false, corner_between},
                                                   EventKind{"interchange", false, false, beads_in_order}});
+static_assert(hull_kinds.size() == ConvexHull::changes + 1);
 
 using Circle = std::vector<BeadId>;
 

@@ -126,7 +126,7 @@ void KineticRun::load() {
 
 void KineticRun::build() {
   if (built_) return;
-  if (!can_enter()) throw std::logic_error("a run is built, but its first step is not known");
+  if (!can_enter()) throw std::logic_error("build(): the first step is not known; push another frame first");
   load();
   simulator().build();
   built_ = true;
@@ -239,7 +239,7 @@ void KineticRun::finish() {
 }
 
 void KineticRun::audit_now() {
-  if (!built_) throw std::logic_error("a run is audited that has not begun: expected a step to be run first");
+  if (!built_) throw std::logic_error("audit_now(): run a step or call build() first");
   simulator().audit_now();
 }
 
@@ -275,7 +275,7 @@ void KineticRun::go_to(double time) {
 
 void KineticRun::run_to(std::size_t step) {
   while (simulator().step() < step)
-    if (!run_step()) throw std::logic_error(fmt::format("step {} does not come any more", step));
+    if (!run_step()) throw std::logic_error(fmt::format("step {} lies behind the last step", step));
 }
 
 /// Runs to time u of the step. Enters the step unless u is 0.

@@ -13,6 +13,7 @@ constexpr std::array<IdRole, 2> interchanged_beads{{{"first"}, {"second"}}};
 constexpr std::array<IdRole, 2> inserted_bead{{{"bead"}, {"after"}}};
 constexpr auto list_kinds =
     with_edits(std::array{EventKind{"interchange", true, false, interchanged_beads}}, inserted_bead);
+static_assert(list_kinds.size() == SortedList<1>::changes + 1);
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 //       ...
 //   }};
 
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <optional>

@@ -179,5 +179,24 @@ TEST(RunOptions, HelpHasALineForEachOption) {
   }
 }
 
+// The arguments that repeat a run are read again as the same options, also those of ranges without an end.
+TEST(RunOptions, RepeatingArgumentsAreReadAgain) {
+  for (const Arguments& arguments :
+       {Arguments{"/a.pdb", "--nodes", "3:"},
+        {"/a.pdb", "--nodes", ":"},
+        {"/a.pdb", "--nodes", "3:9"},
+        {"/a.pdb", "--levels", "2:"},
+        {"/a.pdb", "--levels", ":4", "--tolerance", "0.2r"},
+        {"/a.pdb", "--relax", "0.01", "--certify", "--frames", "::3", "--chain", "A", "--select", "ca"}}) {
+    const Arguments again = repeating_arguments(parse_run_options(arguments));
+    EXPECT_EQ(repeating_arguments(parse_run_options(again)), again);
+    const auto nodes = [](const Arguments& a) { return parse_run_options(a).nodes; };
+    EXPECT_EQ(nodes(again).first_level, nodes(arguments).first_level);
+    EXPECT_EQ(nodes(again).last_level, nodes(arguments).last_level);
+    ASSERT_EQ(nodes(again).beads.has_value(), nodes(arguments).beads.has_value());
+    if (nodes(again).beads) EXPECT_EQ(nodes(again).beads->last, nodes(arguments).beads->last);
+  }
+}
+
 }  // namespace
 }  // namespace kds::parse_run_options_test

@@ -308,6 +308,16 @@ TEST(MmcifReader, SyntaxOfCif) {
   refuse("data_X\nloop_ _a.b _a.c\n1 2 3\n",
          {"a.cif:2:", "the loop of '_a.b' ends inside a row (3 values, 2 a row)"});
   refuse("data_X\nsave_frame\n", {"a.cif:3:"});
+  refuse("data_X\nloop_\n_a.b\n_a.c\n1 \xC3\x84\n", {"a.cif:2:", "line 5", "only in quotes"});
+}
+
+// The name of a file may be what the parser complains of.
+TEST(MmcifReader, FilesNamedAsErrorsAre) {
+  for (const std::string name : {"Wrong number of values.cif", "parse error.cif", ":.cif"}) {
+    for (const std::string_view text :
+         {"data_a\n_a.b x y\n", "data_a\n_a.b \"x\n", "data_a\nloop_\n_a.b _a.c\n1\n"})
+      test::expect_refused([&] { (void)read_trajectory(test::write_file(name, text), {}); }, {name + ":2:"});
+  }
 }
 
 TEST(MmcifReader, CutFileOfTheRealWorld) {

@@ -93,7 +93,7 @@ TEST(SeparatingFamily, CollisionsAreNoPartOfIt) {
   EXPECT_THAT(scene.fault(), HasSubstr("collisions are not of these beads"));
   scene = sound;
   scene.pairs.insert(scene.pairs.begin(), BeadPair{0, 1});
-  EXPECT_THAT(scene.fault(), HasSubstr("nobody asked"));
+  EXPECT_THAT(scene.fault(), HasSubstr("the query does not ask"));
   scene = Scene();
   scene.pairs = {{20, 70}};
   EXPECT_THAT(scene.fault(), HasSubstr("twice"));  // the pair is also separated
