@@ -194,7 +194,9 @@ TEST(RunOptions, RepeatingArgumentsAreReadAgain) {
     EXPECT_EQ(nodes(again).first_level, nodes(arguments).first_level);
     EXPECT_EQ(nodes(again).last_level, nodes(arguments).last_level);
     ASSERT_EQ(nodes(again).beads.has_value(), nodes(arguments).beads.has_value());
-    if (nodes(again).beads) EXPECT_EQ(nodes(again).beads->last, nodes(arguments).beads->last);
+    if (nodes(again).beads) {
+      EXPECT_EQ(nodes(again).beads->last, nodes(arguments).beads->last);
+    }
   }
 }
 
