@@ -34,7 +34,7 @@ struct Command {
 
 constexpr std::array kCommands{
     Command{"run", "run kinetic structures over trajectories and report their events", run_command},
-    Command{"info", "describe trajectories and the conditions of a necklace that they violate", info_command},
+    Command{"info", "describe trajectories; list which conditions of a proper necklace fail", info_command},
     Command{"generate", "write a model necklace", generate_command},
     Command{"replay", "repeat a logged run and compare its events", replay_command},
     Command{"update", "compare techniques that update the power diagram from frame to frame", update_command},
@@ -43,11 +43,11 @@ constexpr std::array kCommands{
     Command{"missed", "measure which contacts are missed if only frames are examined", missed_command},
     Command{"reproduce", "measure the paper's tables again and compare them with the paper's",
             reproduce_command},
-    Command{"theorems", "measure what the paper's theorems bound, over sizes", theorems_command},
+    Command{"theorems", "measure what the paper's theorems bound, for growing sizes", theorems_command},
     Command{"questions", "measure what the paper leaves open", questions_command},
-    Command{"trade", "measure the gain in speed and loss of accuracy of each lever", trade_command},
+    Command{"trade", "measure what options that give up accuracy gain and lose", trade_command},
     Command{"bench", "compare the speed of kds with that of other libraries", bench_command},
-    Command{"stability", "compare the kernels where arithmetic is hardest", stability_command},
+    Command{"stability", "test the three arithmetics on hard inputs", stability_command},
 };
 
 std::string program_help() {
@@ -57,10 +57,12 @@ std::string program_help() {
   for (const Command& command : kCommands)
     text += fmt::format("  {:<10} {}\n", command.name, command.summary);
   return text +
-         "\n  help       print this text, or the options of a command: kds help run\n"
+         "\n"
+         "  help       print this text, or the options of a command: kds help run\n"
          "  --help     print the same: kds --help, kds run --help\n"
          "  --version  print the version\n\n"
-         "exit codes: 0 success, 1 internal failure or failed audit, 2 wrong usage or input\n";
+         "exit codes: 0 success, 1 internal failure, failed audit or results that differ\n"
+         "            (replay, the methods of collide, stability), 2 wrong usage or input\n";
 }
 
 // Returns a suggestion if a word is not a command but the name of a structure.

@@ -30,17 +30,17 @@ namespace {
 
 constexpr CommandSpec kBenchCommand{
     "kds bench",
-    "Compares the speed of kds with that of a peer in the same process. Runs of both alternate, and the "
-    "median of "
-    "their processor time counts.\n\n"
-    "  certificates  from beads to failure times, compared with CGAL's predicates and algebraic numbers\n"
-    "  engine        whole runs of moving points, compared with CGAL's static build\n"
-    "  hierarchies   wrapped and layered hierarchies, compared with CGAL at every node\n"
-    "  power         the power diagram from frame to frame, compared with CGAL's static build\n"
-    "  collision     the pairs of beads that meet, compared with a cell list, a Verlet list, FCL and Bullet, "
-    "and\n"
-    "                the times at which contacts begin and end, compared with a cell list\n"
-    "  trade         levers that trade accuracy for speed, compared with exact runs",
+    "Measures kds beside another library (the peer). The two alternate in one process; figures are medians "
+    "of\n"
+    "processor time.\n\n"
+    "  certificates  finding the time at which a certificate fails, beside CGAL's predicates and algebraic "
+    "numbers\n"
+    "  engine        whole runs of moving points, beside CGAL's static build\n"
+    "  hierarchies   wrapped and layered hierarchies, beside CGAL at every node\n"
+    "  power         the power diagram from frame to frame, beside CGAL's static build\n"
+    "  collision     the pairs of beads that meet, beside a cell list, a Verlet list, FCL and Bullet, and\n"
+    "                the times at which contacts begin and end, beside a cell list\n"
+    "  trade         options that trade accuracy for speed, beside exact runs of kds",
     "SUBJECT",
     "certificates, engine, hierarchies, power, collision or trade",
     "kds bench certificates\n"

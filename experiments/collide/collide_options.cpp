@@ -56,27 +56,27 @@ const OptionList<CollideOptions>& collide_options() {
   static const auto list =
       OptionList<O>()
           .with(input_options().with({obstacle_option()}))
-          .with({Option<O>(
-                     {"--method", "LIST", method_help},
-                     [](O& o, const std::string& text) {
-                       o.all_methods = text == "all";
-                       o.methods = o.all_methods ? method_names() : parse_methods(text);
-                     },
-                     [](const O& o) { return fmt::format("{}", fmt::join(o.methods, ",")); }, nullptr,
-                     [](const O& o) { return Json(o.methods); }),
-                 choice_option(
-                     {"--pairs", "NAME",
-                      "pairs to examine: within a necklace, between two necklaces, or all (default: all)"},
-                     &O::pairs, which_pairs_names),
-                 apart_option("pairs of beads of one necklace must be at least K apart along it (default: 2)",
-                              &O::apart),
-                 real_option({"--within", "X",
-                              "find pairs whose surfaces are at most X apart (default: 0, pairs that meet)"},
-                             &O::within, {0, std::numeric_limits<double>::max()}),
-                 whole_option({"--rounds", "N",
-                               "repeat each method N times and report the median time, with the least and "
-                               "most (default: 3 if methods are compared, else 1)"},
-                              &O::rounds, 1, 1000)})
+          .with(
+              {Option<O>(
+                   {"--method", "LIST", method_help},
+                   [](O& o, const std::string& text) {
+                     o.all_methods = text == "all";
+                     o.methods = o.all_methods ? method_names() : parse_methods(text);
+                   },
+                   [](const O& o) { return fmt::format("{}", fmt::join(o.methods, ",")); }, nullptr,
+                   [](const O& o) { return Json(o.methods); }),
+               choice_option({"--pairs", "NAME",
+                              "pairs to examine: within (one necklace), between (two) or all (default: all)"},
+                             &O::pairs, which_pairs_names),
+               apart_option("pairs of beads of one necklace must be at least K apart along it (default: 2)",
+                            &O::apart),
+               real_option({"--within", "X",
+                            "find pairs whose surfaces are at most X apart (default: 0, pairs that meet)"},
+                           &O::within, {0, std::numeric_limits<double>::max()}),
+               whole_option({"--rounds", "N",
+                             "repeat each method N times and report the median time, and the shortest and "
+                             "longest (default: 3 if methods are compared, else 1)"},
+                            &O::rounds, 1, 1000)})
           .with(&O::destinations,
                 destination_options("write collide.json, collide.csv, pairs.csv, frames.csv and report.html "
                                     "to DIR (default: none)"));

@@ -15,7 +15,8 @@ namespace {
 
 constexpr CommandSpec kMissedCommand{
     "kds missed",
-    "Measures which share of all contacts is missed if only every frame, every second, ... is examined.",
+    "Measures which share of all contacts you miss if you look only at the frames, or only at every second, "
+    "fourth ... frame.",
     kInputOperand, kTrajectoryHelp,
     "kds missed villin.dcd --topology villin.pdb --factors 2.2,2.5 --apart 5 --out report\n"
     "kds missed a.xyz b.xyz --radius 1.9 --strides 1,10,100 --json -"};
@@ -42,11 +43,11 @@ const OptionList<MissedTask>& missed_task_options() {
                                         "as far as at least two frames remain)"},
                                        &O::strides, parse_strides)),
                  list_option({"--factors", "LIST",
-                              "factors that multiply the radii, a run for each; if consecutive beads just "
-                              "touch, other beads meet from 2.2 to 2.5 on (default: 1)"},
+                              "multiply the radii by each factor, one run each. With --radius auto, contacts "
+                              "appear from 2.2 to 2.5 on (default: 1)"},
                              &O::factors, parse_factors),
                  apart_option("pairs of beads of one chain must be at least K apart along it; with factors "
-                              "above 2 closer ones are always near, and 5 leaves those out (default: 2)",
+                              "above 2 take 5, or near neighbours are always in contact (default: 2)",
                               &O::apart),
                  // Lifted motion is excluded because it has no radii between frames.
                  choice_option({"--motion", "NAME",

@@ -14,11 +14,13 @@ namespace {
 
 constexpr CommandSpec kCompareCommand{
     "kds compare",
-    "Compares how often structures change, by stride, motion and input. Each row belongs to a run of all "
-    "structures.\n\n"
-    "  net changes     differences between two consecutive frames: nodes with another basis (wrapped),\n"
-    "                  cells of only one of the two diagrams (power), pairs (contacts), ranks (sorted),\n"
-    "                  ends (box), corners (hull), the pair (closest)\n"
+    "Compares how often structures change, by stride, motion and input. Each row is one structure. The "
+    "structures of one\n"
+    "input run together.\n\n"
+    "  net changes     what differs between two consecutive frames: bases of nodes (wrapped), cells "
+    "(power),\n"
+    "                  pairs in contact (contacts), ranks (sorted), ends (box), corners (hull), the pair "
+    "(closest)\n"
     "  efficiency      events per net change\n"
     "  compactness     largest number of certificates at once\n"
     "  locality        largest number of certificates on one bead\n"
@@ -70,8 +72,8 @@ const OptionList<CompareOptions>& compare_options() {
                              &O::motions, parse_motions),
                  compare_apart_option(),
                  whole_option({"--rounds", "N",
-                               "repeat each run N times and report the median time, with the least and most "
-                               "(default: 3)"},
+                               "repeat each run N times and report the median time, and the shortest and "
+                               "longest (default: 3)"},
                               &O::rounds, 1, 1000)})
           .with(
               destination_options("write compare.json, compare.csv and report.html to DIR (default: none)"));

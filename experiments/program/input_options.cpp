@@ -82,7 +82,8 @@ const OptionList<InputOptions>& input_options() {
          return o.reading.topology ? std::filesystem::absolute(*o.reading.topology).string() : "";
        }},
       {{"--select", "NAME",
-        "atoms that become beads: backbone (N, CA, C), ca or all (default: backbone if residues are known)"},
+        "which atoms become beads: backbone (N, CA, C), ca, or all atoms of the residues read (default: "
+        "backbone, or all if the file names no residues)"},
        [](InputOptions& o, const std::string& text) { o.reading.selection = parse_selection(text); },
        [](const InputOptions& o) { return std::string(name_of(o.reading.selection)); },
        [](const InputOptions& o) {
@@ -90,17 +91,19 @@ const OptionList<InputOptions>& input_options() {
          return std::string(is_asked_for ? name_of(o.reading.selection) : "");
        }},
       {{"--chain", "IDS",
-        "chains to read, each of them a necklace, as in A,B; A,B/C gives each INPUT its own chains; A.2 is "
-        "molecule 2 of chain A, and 2 is molecule 2 of those without a chain (default: the first polymer "
-        "chain)"},
+        "chains to read, each one necklace: A,B. With several INPUTs separate their lists by /: A,B/C. A.2 "
+        "is the second molecule of chain A; 2 is the second molecule without a chain name (default: the "
+        "first polymer chain)"},
        [](InputOptions& o, const std::string& text) { o.reading.chain = text; },
        [](const InputOptions& o) { return o.reading.chain.value_or(""); }},
       {{"--frames", "RANGE",
-        "frames to read: FIRST:LAST:STRIDE, counted from 0, without LAST (default: all)"},
+        "frames to read: FIRST:LAST:STRIDE, counted from 0; frame LAST itself is not read (default: all)"},
        [](InputOptions& o, const std::string& text) { o.reading.frames = parse_frame_range(text); },
        [](const InputOptions& o) { return name_of(o.reading.frames); }},
       {{"--radius", "RULE",
-        "radii of the beads: auto, a number, element, element:fit or file:PATH (default: auto)"},
+        "radii of the beads: auto (half of the longest bond in the frames read), a number, element (van der "
+        "Waals), element:fit (element times a factor, at most 1, with which no beads but neighbours touch in "
+        "the first frame) or file:PATH (default: auto)"},
        [](InputOptions& o, const std::string& text) { o.radius = parse_radius(text); },
        [](const InputOptions& o) { return o.radius; },
        [](const InputOptions& o) {
@@ -114,8 +117,8 @@ const OptionList<InputOptions>& input_options() {
 const Option<InputOptions>& obstacle_option() {
   static const Option<InputOptions> option =
       path_option({"--obstacle", "FILE",
-                   "file of a necklace with one frame, which rests while the others move; its chain follows "
-                   "the last / of --chain, as in A,B/C (default: none)"},
+                   "file with a necklace of one frame that does not move. In --chain its list comes last, "
+                   "behind a / (default: none)"},
                   &InputOptions::obstacle);
   return option;
 }

@@ -25,9 +25,8 @@ constexpr CommandSpec kQuestionsCommand{
     "Measures what Agarwal et al. (2004) leave open, and gives exponents with confidence intervals.\n\n"
     "  energy       how basis changes and flips grow with the energy of bending and torsion of a step\n"
     "  bounds       how many searches for near pairs a bound on speed or displacement saves\n"
-    "  trust        how much time is saved if bases are kept for some frames, and how far beads then stick "
-    "out\n"
-    "  combination  the results of the diagram and the hierarchy used together",
+    "  trust        time saved by not checking spheres for some frames, and how far beads then stick out\n"
+    "  combination  whether diagram and hierarchy together do better than the better one",
     "[QUESTION]...",
     "energy, bounds, trust, combination (default: all)",
     "kds questions --out report\n"

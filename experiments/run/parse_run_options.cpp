@@ -34,36 +34,37 @@ std::string range_text(std::uint64_t first, std::uint64_t last) {
 }
 
 Option<RunOptions> levels_option() {
-  return {
-      {"--levels", "RANGE",
-       "levels of wrapped and layered to keep: FIRST:LAST, without LAST; roots are level 0 (default: all)"},
+  return {{"--levels", "RANGE",
+           "levels of wrapped and layered to keep: FIRST:LAST, counted from 0 at the roots; level LAST "
+           "itself is not kept (default: all)"},
 
-      [](RunOptions& o, const std::string& text) {
-        const auto [first, end] = parse_range("--levels", text, most_ids);
-        o.nodes.first_level = static_cast<std::uint32_t>(first);
-        o.nodes.last_level = static_cast<std::uint32_t>(end - 1);
-      },
+          [](RunOptions& o, const std::string& text) {
+            const auto [first, end] = parse_range("--levels", text, most_ids);
+            o.nodes.first_level = static_cast<std::uint32_t>(first);
+            o.nodes.last_level = static_cast<std::uint32_t>(end - 1);
+          },
 
-      [](const RunOptions& o) {
-        NodeSelection levels = o.nodes;
-        levels.beads.reset();
-        return levels.restricts() ? range_text(o.nodes.first_level, o.nodes.last_level) : "";
-      }};
+          [](const RunOptions& o) {
+            NodeSelection levels = o.nodes;
+            levels.beads.reset();
+            return levels.restricts() ? range_text(o.nodes.first_level, o.nodes.last_level) : "";
+          }};
 }
 
 Option<RunOptions> nodes_option() {
-  return {
-      {"--nodes", "RANGE",
-       "nodes of wrapped and layered to keep: those over the beads FIRST:LAST, without LAST (default: all)"},
+  return {{"--nodes", "RANGE",
+           "nodes of wrapped and layered to keep: those with all their beads in the range FIRST:LAST, "
+           "counted from 0; bead LAST itself is not in it (default: all)"},
 
-      [](RunOptions& o, const std::string& text) {
-        const auto [first, end] = parse_range("--nodes", text, text.ends_with(':') ? most_ids : most_ids - 1);
-        o.nodes.beads = BeadRange{static_cast<BeadId>(first), static_cast<BeadId>(end - 1)};
-      },
+          [](RunOptions& o, const std::string& text) {
+            const auto [first, end] =
+                parse_range("--nodes", text, text.ends_with(':') ? most_ids : most_ids - 1);
+            o.nodes.beads = BeadRange{static_cast<BeadId>(first), static_cast<BeadId>(end - 1)};
+          },
 
-      [](const RunOptions& o) {
-        return o.nodes.beads ? range_text(o.nodes.beads->first, o.nodes.beads->last) : "";
-      }};
+          [](const RunOptions& o) {
+            return o.nodes.beads ? range_text(o.nodes.beads->first, o.nodes.beads->last) : "";
+          }};
 }
 
 MotionTolerance parse_tolerance(const std::string& text, FrameMotion motion) {
@@ -87,8 +88,8 @@ MotionTolerance parse_tolerance(const std::string& text, FrameMotion motion) {
 
 Option<RunOptions> tolerance_option() {
   return {{"--tolerance", "DELTA",
-           "beads move straight on while they stay within DELTA of their positions in the frames; DELTA is a "
-           "length or, as in 0.2r, a multiple of the smallest radius (default: none)"},
+           "straighten paths: a bead keeps its direction as long as it stays within DELTA of its position in "
+           "every frame; a length or, as in 0.2r, a multiple of the smallest radius (default: none)"},
           [](RunOptions& o, const std::string& text) { o.tolerance = parse_tolerance(text, o.motion); },
           [](const RunOptions& o) { return o.tolerance ? o.tolerance->text() : ""; }};
 }
@@ -105,7 +106,7 @@ Option<RunOptions> structures_option() {
 Option<RunOptions> rounds_option() {
   auto option = whole_option(
       {"--rounds", "N",
-       "repeat the run N times and report the median time, with the least and most (default: 1)"},
+       "repeat the run N times and report the median time, and the shortest and longest (default: 1)"},
       &RunOptions::rounds, 1, 1000);
   option.text = [](const RunOptions& o) { return o.rounds > 1 ? std::to_string(o.rounds) : ""; };
   return option;
@@ -115,7 +116,8 @@ Option<RunOptions> rounds_option() {
 
 OptionList<Destinations> run_destination_options() {
   return destination_options(
-      "write summary.json, events.csv, report.html and, for contacts, contacts.csv to DIR (default: none)",
+      "write summary.json, events.csv, report.html and, for contacts, contacts.csv (with --certify also "
+      "possible_contacts.csv) to DIR (default: none)",
       "write the summary to FILE; - is standard output (default: none)");
 }
 
@@ -135,34 +137,34 @@ const OptionList<RunOptions>& run_options() {
               nodes_option(),
               choice_option(
                   {"--between", "NAME",
-                   "spheres of wrapped between frames: events keeps the smallest spheres at all times; chord "
-                   "interpolates those of the frames and has no events (default: events)"},
+                   "spheres of wrapped between frames. events: the smallest sphere at every moment; chord: "
+                   "interpolated between the frames, faster, without events (default: events)"},
                   &O::between, between_names),
               real_option({"--tightness", "EPS",
-                           "with --between chord: prove that radii stay within 1 + EPS times the smallest at "
-                           "all times, and halve the steps of nodes if this needs it (default: none)"},
+                           "with --between chord: keep radii within 1 + EPS times the smallest, splitting a "
+                           "node's step where needed (default: none)"},
                           &O::tightness, {1e-6, 1}),
               apart_option(
                   "contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",
                   &O::apart),
               real_option({"--relax", "EPS",
-                           "wrapped: a bead leaves a sphere only when it is outside by EPS times the radius; "
-                           "EPS is from 2^-20 to 1 (default: none)"},
+                           "wrapped: no event until a bead sticks out of its sphere by more than EPS times "
+                           "the radius, from 2^-20 to 1 (default: none)"},
                           &O::relax, {Relaxation::least_share, 1}),
               tolerance_option(),
               flag_option("--certify",
-                          "with a stride in --frames, or with --tolerance: read all frames and bound what "
-                          "the run may have missed",
+                          "with a stride in --frames, or with --tolerance: read all frames too, and report "
+                          "how wrong the run can be at most",
                           &O::certify),
               choice_option({"--audit", "WHEN",
-                             "when to compare with static builds: none, frames or events; events takes 10 to "
-                             "200 times as long as the run (default: none)"},
+                             "check against structures built from scratch: none, frames (at all frames) or "
+                             "events (also between all events; 10 to 200 times slower) (default: none)"},
                             &O::audit, audit_mode_names),
               rounds_option(),
-              of_output(whole_option({"--work", "LIMIT",
-                                      "stop the run if exact arithmetic takes more than LIMIT limb "
-                                      "operations (default: no limit)"},
-                                     &O::work, 0, ExactWork::no_limit - 1)),
+              of_output(whole_option(
+                  {"--work", "LIMIT",
+                   "stop after LIMIT units (limb operations) of exact arithmetic (default: no limit)"},
+                  &O::work, 0, ExactWork::no_limit - 1)),
               of_output(path_option(
                   {"--dump", "DIR",
                    "write the structures at every frame to DIR, in place of an earlier dump (default: none)"},

@@ -56,15 +56,16 @@ const OptionList<GenerateOptions>& generate_options() {
   using S = Settings;
   static const OptionList<O> list =
       OptionList<O>()
-          .with({of_output(path_option({"-o", "FILE",
-                                        "file to write: .xyz (exact) or .pdb, .ent (three decimals); "
-                                        "two-spirals writes FILE-1 and FILE-2"},
-                                       &O::file))})
+          .with({of_output(path_option(
+              {"-o", "FILE",
+               "file to write (required): .xyz (exact) or .pdb, .ent (three decimals). two-spirals writes "
+               "two files: for `-o two-spirals.xyz` they are two-spirals-1.xyz and two-spirals-2.xyz"},
+              &O::file))})
           .with(
               &O::settings,
               {{whole_option({"--beads", "N",
-                              "number of beads, at least 2 (required); beads of a grill overlap if there "
-                              "are 3 to 43, except 40, and those of a spline if there are 7"},
+                              "number of beads, at least 2 (required). A grill of 3 to 43 beads (except 40) "
+                              "and a spline of 7 overlap"},
                              &S::beads, 2, kMostBeads),
                 whole_option({"--frames", "F", "number of frames (default: 50)"}, &S::frames, 1, kMostFrames),
                 whole_option({"--seed", "S", "seed of the random numbers (default: 1)"}, &S::seed, 0,
@@ -97,9 +98,9 @@ const OptionList<GenerateOptions>& generate_options() {
                   real_option({"--gap", "X", "gap between the rows of a grid, in diameters (default: 0.05)"},
                               &S::gap, {0, 0.9})),
               of_models(Setting::dimension,
-                        whole_option(
-                            {"--dimension", "D", "dimension of a grid and its motion, 2 or 3 (default: 3)"},
-                            &S::dimension, 2, 3)),
+                        whole_option({"--dimension", "D",
+                                      "dimension of a grid and its motion: 2 or 3 (grid only; default: 3)"},
+                                     &S::dimension, 2, 3)),
               of_models(Setting::jitter,
                         real_option({"--jitter", "X",
                                      "random displacement of the beads of a grid, in radii (default: 0)"},
@@ -113,11 +114,12 @@ const OptionList<GenerateOptions>& generate_options() {
                                      "how far spirals are rolled up in the first and in the last frame: 0 is "
                                      "straight, 1 rolled up (default: 0:1)"},
                                     &S::rolled, {0, 1})),
-              of_models(Setting::distance,
-                        span_option({"--distance", "FROM:TO",
-                                     "distance between two spirals in the first and in the last frame, in "
-                                     "chain lengths (default: 1.5)"},
-                                    &S::distance, {0, 1e6})),
+              of_models(
+                  Setting::distance,
+                  span_option({"--distance", "FROM:TO",
+                               "two-spirals: distance between the centres of the two in the first and in the "
+                               "last frame, in chain lengths; a single number holds for both (default: 1.5)"},
+                              &S::distance, {0, 1e6})),
           })
           .with(destination_options("write generate.json and generate.csv to DIR (default: none)",
                                     "write a summary to FILE; - is standard output (default: none)"));

@@ -14,8 +14,27 @@ namespace {
 
 constexpr CommandSpec kStabilityCommand{
     "kds stability",
-    "Compares the three kernels where arithmetic is hardest. The kernels filtered and exact must agree "
-    "everywhere.",
+    "Compares the three kernels (--kernel) on inputs that are hard for rounding. filtered and exact must "
+    "agree.\n\n"
+    "  subjects\n"
+    "    certificates  precedes, orientation, power_test, contact, bead_in_sphere_1 (to _3),\n"
+    "                  ball_in_sphere_1 (to _4)\n"
+    "    structures    sorted, hull, box, closest, wrapped, power, wrapped:chord, wrapped:relax; with radii\n"
+    "                  contacts:balls, wrapped:balls, wrapped:balls:chord, wrapped:balls:relax, "
+    "layered:balls\n"
+    "    guarantees    tolerance, stride, contacts_of_tolerance, contacts_of_stride\n\n"
+    "  extremes (a family, or one member of it, as in offset:2^50)\n"
+    "    scale    coordinates times 2^-1000, 2^-300, 2^300 or 2^1000, or as large as doubles are (largest)\n"
+    "    offset   2^20, 2^35 or 2^50 radii from the origin\n"
+    "    step     subnormal, ulp or thousandfold motion, none (zero), or out and back (identical)\n"
+    "    radii    of ratio 10^3, 10^6 or 10^9\n"
+    "    beads    ulp-apart; coincident, collinear, coplanar or cospherical, or so at u = 1/2 "
+    "(coincident-mid ...)\n"
+    "    contact  balls that touch at u = 1/2: tangent (from outside) or inner\n"
+    "    ties     many certificates are zero at the start, middle or end\n"
+    "    basis    nearly degenerate spheres: a-near-0, flat\n"
+    "    degree   18: cubic motion that winds\n"
+    "    refused  nan, infinity: both kernels must refuse them",
     "",
     "",
     "kds stability --out stability\n"
@@ -73,19 +92,16 @@ const OptionList<StabilityOptions>& stability_options() {
   using O = StabilityOptions;
   static const auto list =
       OptionList<O>()
-          .with({names_option(
-                     {"--subjects", "LIST", "comma list of certificate types and structures (default: all)"},
-                     &O::subjects, subject_names),
+          .with({names_option({"--subjects", "LIST", "comma list of the subjects above (default: all)"},
+                              &O::subjects, subject_names),
                  names_option({"--extremes", "LIST",
-                               "comma list of extremes or of families of extremes (default: all)"},
+                               "comma list of the extremes above or of single members (default: all)"},
                               &O::extremes, extreme_names)})
-          .with(&O::cases,
-                {{whole_option({"--cases", "N",
-                                "random cases for each extreme; degrees above 6 and radicals get fewer, a "
-                                "structure one run for 50 cases, of cubic motion one for 100 (default: 200)"},
-                               &StabilityCases::cases, 1, 1'000'000),
-                  whole_option({"--seed", "N", "seed of the random cases (default: 1)"},
-                               &StabilityCases::seed, 0, ~std::uint64_t{0})}})
+          .with(&O::cases, {{whole_option({"--cases", "N",
+                                           "random cases per extreme; slow kinds get fewer (default: 200)"},
+                                          &StabilityCases::cases, 1, 1'000'000),
+                             whole_option({"--seed", "N", "seed of the random cases (default: 1)"},
+                                          &StabilityCases::seed, 0, ~std::uint64_t{0})}})
           .with(destination_options(
               "write stability.json, stability.csv and report.html to DIR (default: none)"));
   return list;

@@ -17,13 +17,12 @@ namespace {
 
 constexpr CommandSpec kTheoremsCommand{
     "kds theorems",
-    "Measures the quantities that the theorems of Agarwal et al. (2004) bound, over sizes, and fits "
-    "exponents.\n\n"
+    "Measures, for growing sizes, what the theorems of Agarwal et al. (2004) bound, and fits exponents.\n\n"
     "  2.3  radius of the layered root / radius of the wrapped root: at most sqrt(h + 1), h the tree's "
     "height\n"
     "  3.1  pairs in separating families of packed grids: n log n in the plane, n^(4/3) in space\n"
     "  3.2  time to find these families\n"
-    "  3.5  number of pairs that the power diagram and the chain name; the closest pair is one of them",
+    "  3.5  pairs that have to be looked at to find the closest one",
     "[THEOREM]...",
     "2.3, 3.1, 3.2 or 3.5 (default: all)",
     "kds theorems --out report\n"

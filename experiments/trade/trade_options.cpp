@@ -14,8 +14,26 @@ namespace {
 
 constexpr CommandSpec kTradeCommand{
     "kds trade",
-    "Measures what each lever on this trajectory gains in speed and loses in accuracy, compared with the "
-    "exact run.",
+    "Compares options that trade accuracy for speed with the exact run: time saved, errors made.\n\n"
+    "The table has a row for each setting and some of these columns. A group begins with its exact run. "
+    "Errors are\n"
+    "measured at frames and at random times between them. The truth is straight motion between all "
+    "frames.\n\n"
+    "  *                           no other row of the group is as quick and as right\n"
+    "  seconds                     processor time, median of the rounds, without reading and the first "
+    "build\n"
+    "  ratio                       seconds / seconds of the exact run for as many frames\n"
+    "  tests                       tests of two spheres by a search for contacts in the hierarchy, on "
+    "average\n"
+    "  radius, at most, at frames  how much larger spheres are than the smallest: on average, at most, at "
+    "most at frames\n"
+    "  outside                     beads outside their spheres, on average\n"
+    "  wrong, edges                cells that are not in the true diagram, short edges that are missed\n"
+    "  missed                      true events or contacts that the run does not have\n"
+    "  invented, spurious          events or contacts of the run that are not true\n"
+    "  unsure                      contacts that are possible but not certain\n"
+    "  time                        error of times, in frames\n"
+    "  closest, moved              error of the closest distance; distance of a bead from its true place",
     kInputOperand,
     kTrajectoryHelp,
     "kds trade villin.dcd --topology villin.pdb --frames 0:200 --out report\n"
@@ -37,7 +55,7 @@ std::vector<Want> parse_wants(const std::string& list) {
 Option<TradeTask> without_exact_option() {
   Option<TradeTask> option(
       {"--without-exact", "",
-       "leave out the exact kernel, which has the same events at a hundred to thousands of times the cost"},
+       "leave out --kernel exact, which is a hundred to thousands of times slower and has the same events"},
       [](TradeTask& task, const std::string&) { task.exact_kernel = false; },
       [](const TradeTask& task) { return task.exact_kernel ? "" : "yes"; }, nullptr,
       [](const TradeTask& task) { return Json(task.exact_kernel); });
@@ -50,10 +68,11 @@ const OptionList<TradeTask>& task_options() {
   using O = TradeTask;
   static const auto list =
       OptionList<O>()
-          .with({list_option({"--want", "LIST",
-                              "comma list of contacts, cages, diagram, events and scenes; scenes measures "
-                              "the cost of each part of the scene (default: contacts,cages,diagram)"},
-                             &O::wants, parse_wants),
+          .with({list_option(
+                     {"--want", "LIST",
+                      "comma list of what you need: contacts, cages (bounding spheres), diagram, events; "
+                      "scenes measures only what each structure costs (default: contacts,cages,diagram)"},
+                     &O::wants, parse_wants),
                  apart_option(
                      "contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",
                      &O::apart),
@@ -62,9 +81,10 @@ const OptionList<TradeTask>& task_options() {
                                         "4 times the largest radius)"},
                                        &O::cutoff, {0, 1e300, true})),
                  without_exact_option(),
-                 whole_option({"--rounds", "N",
-                               "run each setting N times, by turns, and report the median time (default: 5)"},
-                              &O::rounds, 1, 1000)})
+                 whole_option(
+                     {"--rounds", "N",
+                      "run each setting N times, alternating, and report the median time (default: 5)"},
+                     &O::rounds, 1, 1000)})
           .with(&O::sampling,
                 {{whole_option(
                       {"--times", "N",

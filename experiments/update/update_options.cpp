@@ -14,7 +14,18 @@ namespace {
 
 constexpr CommandSpec kUpdateCommand{
     "kds update",
-    "Compares techniques that update the power diagram from frame to frame: their work and their time.",
+    "Compares techniques that update the power diagram from frame to frame: their work and their time.\n\n"
+    "  rebuild   builds the diagram anew with CGAL; the others are compared with it\n"
+    "  reinsert  takes out one bead of each certificate (sign condition) that fails in the next frame, and "
+    "inserts\n"
+    "            these beads again at their new positions\n"
+    "  greedy    like reinsert, but takes out the beads of the most failed certificates first\n"
+    "  kinetic   moves all beads on straight lines and makes every change in order\n"
+    "  hermite   like kinetic, on cubic curves\n"
+    "  lifted    like kinetic, with radii that change between frames so that certificates have a lower "
+    "degree\n"
+    "  activate  moves only the beads of failed certificates, until no certificate fails\n"
+    "  auto      rebuilds, or moves all or some beads, by the share of certificates that fail in a sample",
     kInputOperand,
     kTrajectoryHelp,
     "kds update villin.dcd --topology villin.pdb --frames 0:200 --strides 1,2,4,8 --out report\n"
@@ -44,20 +55,20 @@ const OptionList<UpdateOptions>& update_options() {
   static const auto list =
       OptionList<O>()
           .with(input_options())
-          .with(
-              {list_option({"--techniques", "LIST",
-                            "comma list of rebuild, reinsert, greedy, kinetic, hermite, lifted, activate, "
-                            "auto; rebuild always runs (default: all)"},
-                           &O::techniques, parse_techniques),
-               list_option({"--strides", "LIST",
-                            "update the diagram at every frame, every second, ...: 1,2 (default: 1)"},
-                           &O::strides, parse_strides),
-               whole_option({"--rounds", "N",
-                             "run each technique N times, by turns, and report the median time (default: 3)"},
-                            &O::rounds, 1, 1000),
-               choice_option({"--audit", "WHEN",
-                              "when to compare with the static diagram: none or frames (default: none)"},
-                             &O::audit, std::span(audit_mode_names).first(2))})
+          .with({list_option({"--techniques", "LIST",
+                              "comma list of rebuild, reinsert, greedy, kinetic, hermite, lifted, activate, "
+                              "auto; rebuild always runs (default: all)"},
+                             &O::techniques, parse_techniques),
+                 list_option({"--strides", "LIST",
+                              "update the diagram at every frame, every second, ...: 1,2 (default: 1)"},
+                             &O::strides, parse_strides),
+                 whole_option(
+                     {"--rounds", "N",
+                      "run each technique N times, alternating, and report the median time (default: 3)"},
+                     &O::rounds, 1, 1000),
+                 choice_option({"--audit", "WHEN",
+                                "when to compare with the static diagram: none or frames (default: none)"},
+                               &O::audit, std::span(audit_mode_names).first(2))})
           .with(destination_options("write update.json, update.csv and report.html to DIR (default: none)"));
   return list;
 }
