@@ -8,7 +8,7 @@
 namespace extension {
 
 struct Farther {
-  static constexpr kds::CertificateType type{1001, "farther"};
+  static constexpr kds::CertificateType type{1003, "farther"};
 
   std::array<kds::BeadId, 3> beads{};  ///< a, b, c
   int sign = 1;
