@@ -23,9 +23,11 @@ constexpr std::string_view kWords =
     "<em>certificates</em> fails: sign conditions on a few beads that, while they hold, prove the structure "
     "right. Between two frames every bead moves by a known polynomial, so nothing that happens in between is "
     "missed; internal events are bookkeeping and not in the total. <em>Kinetic / static</em> compares the "
-    "time with building the same structure from nothing at every frame. Times are those of one run, and "
-    "wander, unless <code>--rounds</code> asks for several: then they are the median, and in brackets the "
-    "least and the most.";
+    "time with building the same structure from nothing at every frame. Times are "
+    "those of one run, and vary from run to run, unless <code>--rounds</code> asks for several: then they "
+    "are the median, "
+    "and "
+    "in brackets the least and the most.";
 
 std::string title(const RunReport& report) {
   std::string names;
