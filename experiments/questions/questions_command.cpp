@@ -26,7 +26,7 @@ constexpr CommandSpec kQuestionsCommand{
     "  energy       how basis changes and flips grow with the energy of bending and torsion of a step\n"
     "  bounds       how many searches for near pairs a bound on speed or displacement saves\n"
     "  trust        time saved by not checking spheres for some frames, and how far beads then stick out\n"
-    "  combination  whether diagram and hierarchy together do better than the better one",
+    "  combination  whether diagram and hierarchy together do better than the better of the two alone",
     "[QUESTION]...",
     "energy, bounds, trust, combination (default: all)",
     "kds questions --out report\n"

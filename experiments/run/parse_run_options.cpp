@@ -87,11 +87,12 @@ MotionTolerance parse_tolerance(const std::string& text, FrameMotion motion) {
 }
 
 Option<RunOptions> tolerance_option() {
-  return {{"--tolerance", "DELTA",
-           "straighten paths: a bead keeps its direction as long as it stays within DELTA of its position in "
-           "every frame; a length or, as in 0.2r, a multiple of the smallest radius (default: none)"},
-          [](RunOptions& o, const std::string& text) { o.tolerance = parse_tolerance(text, o.motion); },
-          [](const RunOptions& o) { return o.tolerance ? o.tolerance->text() : ""; }};
+  return {
+      {"--tolerance", "DELTA",
+       "straighten paths: beads move straight over several frames and stay within DELTA of their positions "
+       "in every frame; a length or, as in 0.2r, a multiple of the smallest radius (default: none)"},
+      [](RunOptions& o, const std::string& text) { o.tolerance = parse_tolerance(text, o.motion); },
+      [](const RunOptions& o) { return o.tolerance ? o.tolerance->text() : ""; }};
 }
 
 Option<RunOptions> structures_option() {

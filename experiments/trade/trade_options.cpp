@@ -32,8 +32,9 @@ constexpr CommandSpec kTradeCommand{
     "  missed                      true events or contacts that the run does not have\n"
     "  invented, spurious          events or contacts of the run that are not true\n"
     "  unsure                      contacts that are possible but not certain\n"
-    "  time                        error of times, in frames\n"
-    "  closest, moved              error of the closest distance; distance of a bead from its true place",
+    "  time, at most               error of times, in frames: on average, at most\n"
+    "  closest, moved              largest error of the closest distance; largest distance of a bead from "
+    "its true place",
     kInputOperand,
     kTrajectoryHelp,
     "kds trade villin.dcd --topology villin.pdb --frames 0:200 --out report\n"
