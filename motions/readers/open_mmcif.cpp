@@ -102,7 +102,7 @@ std::string explained(std::string_view text, std::string complaint) {
 // A bare word of CIF has ASCII characters only, and gemmi ends a loop where one begins otherwise.
 std::string hint_at_foreign_letters(std::string_view text) {
   const auto foreign =
-      std::ranges::find_if(text, [](char c) { return static_cast<unsigned char>(c) > 0x7e; });
+      std::find_if(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) > 0x7e; });
   if (foreign == text.end()) return "";
   return fmt::format("; line {} has a character that CIF allows only in quotes",
                      1 + std::count(text.begin(), foreign, '\n'));
@@ -118,7 +118,7 @@ gemmi::cif::Document read_cif(const std::string& file, std::string_view text) {
     gemmi::cif::parse_input(document, tao::pegtl::memory_input<>(text.data(), text.size(), ""));
   } catch (const tao::pegtl::parse_error& error) {
     std::string complaint = error.what();
-    if (complaint.starts_with(':')) complaint.erase(0, 1);
+    if (!complaint.empty() && complaint.front() == ':') complaint.erase(0, 1);
     const bool is_in_loop = document.items_ != nullptr && !document.items_->empty() &&
                             document.items_->back().type == gemmi::cif::ItemType::Loop;
     if (is_in_loop && complaint.find("Wrong number of values") != std::string::npos) {
