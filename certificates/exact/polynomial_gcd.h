@@ -13,14 +13,15 @@
 
 namespace kds {
 
-/// True only if the polynomials have no common factor. Leading coefficients not zero.
+/// Returns true only if the polynomials have no common factor. Leading coefficients must not be zero.
 [[nodiscard]] bool certainly_coprime(const std::vector<Integer>& a, const std::vector<Integer>& b);
-/// The same by their images, whose leading coefficients may be zero.
+/// Overload for images modulo the first prime, whose leading coefficients may be zero.
 [[nodiscard]] bool certainly_coprime(std::vector<Residue> a, std::vector<Residue> b);
 
-/// True only if the polynomial has no factor twice. Degree at least 1, leading coefficient not zero.
+/// Returns true only if the polynomial has no factor twice. Its degree must be at least 1 and its leading
+/// coefficient not zero.
 [[nodiscard]] bool certainly_square_free(const std::vector<Integer>& p);
-/// The same by its image, whose leading coefficient may be zero.
+/// Overload for an image modulo the first prime, whose leading coefficient may be zero.
 [[nodiscard]] bool certainly_square_free(std::vector<Residue> p);
 
 /// Modulo the first prime.

@@ -361,7 +361,7 @@ TEST(CertificateTables, OfTwoTypesOfOneNumberAreRefused) {
   const Line motion = sweeping();
   Simulator simulator;
   Owner owner(simulator, motion);
-  // The same type is allowed.
+  // Two tables of one type are allowed.
   EXPECT_NO_THROW(CertificateTable<Precedes>(simulator, owner, 0, 7, MotionRef<1>(motion)));
   Simulator other;
   Owner another(other, motion);
