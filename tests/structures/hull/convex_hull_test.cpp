@@ -161,7 +161,7 @@ TEST(ConvexHull, OfFewBeads) {
 
 TEST(ConvexHull, OnALineTheEndsAreTheCorners) {
   for (const auto& [x, y] : {std::pair{1.0, 0.0}, {0.0, 1.0}, {1.0, 2.0}, {-1.0, 1.0}}) {
-    const auto at = [x = x, y = y](double s) { return std::array{s * x, s * y, 0.0}; };
+    const auto at = [px = x, py = y](double s) { return std::array{s * px, s * py, 0.0}; };
     const auto history =
         expect_right<Plane>({flat({at(0), at(1), at(2), at(3), at(3)}, {at(0), at(5), at(2), at(3), at(3)})});
     EXPECT_THAT(told(history), testing::UnorderedElementsAre("leave 3 between 0 and 0 at 0.5",
