@@ -225,6 +225,20 @@ void InputFile::seek(std::uint64_t place) {
       return;
 }
 
+bool InputFile::read_at(std::uint64_t place, char* to, std::size_t size) try {
+  seek(place);
+  if (read_ != place) return false;
+  while (size > 0) {
+    const std::size_t got = read(to, size);
+    if (got == 0) return false;
+    to += got;
+    size -= got;
+  }
+  return true;
+} catch (const CutFile&) {
+  return false;
+}
+
 InputFile::Length InputFile::length() {
   if (!packed_) {
     rewind();

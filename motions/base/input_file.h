@@ -43,6 +43,9 @@ class InputFile {
   /// Continues at this byte of the unpacked file, or at its end. Fast for plain files. A gzipped file is
   /// unpacked up to that byte, from the start if the byte is before the present position.
   void seek(std::uint64_t place);
+  /// Reads `size` bytes from this byte on. Returns false if the file ends before them, also if a gzipped file
+  /// is cut off there.
+  [[nodiscard]] bool read_at(std::uint64_t place, char* to, std::size_t size);
   /// Returns the position of the next byte.
   [[nodiscard]] std::uint64_t place() const { return read_; }
   struct Length {

@@ -2,10 +2,13 @@
 // Selection of the frames of a file for a run.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "motions/base/input_error.h"
 
 namespace kds {
 
@@ -20,10 +23,22 @@ struct FrameRange {
 /// number is not allowed. Throws InputError naming the option.
 [[nodiscard]] FrameRange parse_frame_range(std::string_view text);
 
+/// A frame whose bytes are not what its format allows. The message names file, frame and byte.
+class DamagedFrame : public InputError {
+ public:
+  DamagedFrame(const std::string& file, std::size_t frame, std::uint64_t byte, const std::string& what);
+  [[nodiscard]] std::size_t frame() const { return frame_; }
+
+ private:
+  std::size_t frame_;
+};
+
 /// The frames that a file contains.
 struct FramesHeld {
   std::size_t whole = 0;
-  bool ends_inside = false;  ///< an incomplete frame follows the whole ones
+  bool ends_inside = false;  ///< the file ends inside the frame after the whole ones
+  std::uint64_t end = 0;     ///< if it does: the file's length in bytes, unpacked
+  std::optional<DamagedFrame> damage = {};  ///< of the frame after the whole ones
 };
 
 /// The numbers of the requested frames, ascending: first, first + stride, ...

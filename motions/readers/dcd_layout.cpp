@@ -21,7 +21,7 @@ class HeaderReader {
 
   void tell_byte_order_and_markers() {
     std::array<char, 12> start{};
-    (void)read_at(input_, 0, start.data(), std::min<std::uint64_t>(start.size(), layout.file_size));
+    (void)input_.read_at(0, start.data(), std::min<std::uint64_t>(start.size(), layout.file_size));
     input_.seek(0);
     for (const std::size_t marker_size : {4U, 8U})
       for (const bool swapped : {false, true}) {
@@ -78,7 +78,7 @@ class HeaderReader {
  private:
   void read(std::vector<char>& bytes, const char* what) {
     if (bytes.size() > layout.file_size - position() ||
-        !read_at(input_, position(), bytes.data(), bytes.size()))
+        !input_.read_at(position(), bytes.data(), bytes.size()))
       throw InputError(fmt::format("{}: the file ends inside its {} and holds no frame", file_, what));
   }
 
@@ -159,17 +159,6 @@ FramesHeld DcdLayout::frames_held() const {
   if (left < frame_size(0)) return {0, cut || left > 0};
   left -= frame_size(0);
   return {static_cast<std::size_t>(1 + left / frame_size(1)), cut || left % frame_size(1) != 0};
-}
-
-bool read_at(InputFile& input, std::uint64_t place, char* to, std::size_t size) {
-  input.seek(place);
-  while (size > 0) {
-    const std::size_t got = input.read(to, size);
-    if (got == 0) return false;
-    to += got;
-    size -= got;
-  }
-  return true;
 }
 
 DcdLayout read_dcd_layout(InputFile& input) {

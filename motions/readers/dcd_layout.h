@@ -75,7 +75,4 @@ struct DcdLayout {
 /// Reads the layout. Throws InputError naming the file.
 [[nodiscard]] DcdLayout read_dcd_layout(InputFile& input);
 
-/// Reads `size` bytes from offset `place`. Returns false if the file ends before them.
-[[nodiscard]] bool read_at(InputFile& input, std::uint64_t place, char* to, std::size_t size);
-
 }  // namespace kds

@@ -1,9 +1,11 @@
 #pragma once
-// The readers of trajectory formats. The file's ending selects the reader.
+// The readers of file formats. A reader is found by the first bytes of a file, otherwise by the file's ending.
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "motions/frames/frame_reader.h"
@@ -11,22 +13,40 @@
 namespace kds {
 
 struct ReadOptions;
+struct Topology;
 
+/// One file format. A format has frames (`open`), names atoms (`topology`), or both.
 struct ReaderSpec {
-  std::string name;
-  std::vector<std::string> endings;  ///< in lower case, each with its dot; ".pdb.gz" is an ending of its own
+  std::string name;                  ///< as --format takes it
+  std::vector<std::string> endings;  ///< in lower case, each with its dot; endings with .gz follow by themselves
   bool takes_topology = false;       ///< another file names the atoms
-  std::function<FramesOpened(const std::filesystem::path&, const ReadOptions&)> open;
+  std::function<FramesOpened(const std::filesystem::path&, const ReadOptions&)> open = {};
+  /// Returns whether a file of this format begins with these bytes (at most `bytes_seen`, unpacked). Must be
+  /// false in doubt. If empty, only the ending leads to this reader.
+  std::function<bool(std::string_view start)> recognises = {};
+  /// Reads the names of the atoms, for --topology. Empty if the format does not name atoms.
+  std::function<Topology(const std::filesystem::path&, const ReadOptions&)> topology = {};
 };
 
 class ReaderRegistry {
  public:
-  /// Adds a reader. Throws std::logic_error if another reader has one of its endings.
+  /// Adds a reader. Throws std::logic_error if another reader has its name or one of its endings.
   void add(ReaderSpec reader);
-  /// Returns the reader for the file's ending, or null.
-  [[nodiscard]] const ReaderSpec* find(const std::filesystem::path& path) const;
-  /// Returns ".pdb, .ent, ... or .xyz", for messages.
+  /// Returns the reader called `format`; without it, the one that recognises the file's first bytes, else the
+  /// one with the file's ending, else null. Throws InputError if the file cannot be opened, or if no reader is
+  /// called `format`.
+  [[nodiscard]] const ReaderSpec* find(const std::filesystem::path& path,
+                                       const std::optional<std::string>& format = {}) const;
+  /// Returns the reader with the file's ending, or null.
+  [[nodiscard]] const ReaderSpec* find_by_ending(const std::filesystem::path& path) const;
+  /// Returns the names of all formats.
+  [[nodiscard]] std::vector<std::string> names() const;
+  /// Returns ".pdb, .ent, ... or .xyz" of the formats that have frames, for messages.
   [[nodiscard]] std::string endings() const;
+  /// Returns the same of the formats that name atoms.
+  [[nodiscard]] std::string topology_endings() const;
+
+  static constexpr std::size_t bytes_seen = 4096;
 
  private:
   std::vector<ReaderSpec> readers_;

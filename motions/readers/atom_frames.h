@@ -1,0 +1,53 @@
+#pragma once
+// Trajectory formats whose frames are arrays of atoms without residues: DCD, XTC, TRR, AMBER NetCDF, LAMMPS
+// dumps, XYZ. A reader of such a format is one class derived from AtomFrames and one line of registration
+// (reader_registry.cpp). Which frames and atoms become frames of beads, and what a topology says about the
+// atoms, is decided here for all of them.
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "motions/frames/frame_reader.h"
+#include "motions/frames/frame_selection.h"
+#include "motions/readers/read_options.h"
+
+namespace kds {
+
+class AtomFrames {
+ public:
+  virtual ~AtomFrames() = default;
+
+  /// Returns the number of atoms in each frame.
+  [[nodiscard]] virtual std::size_t atom_count() const = 0;
+  /// Returns the frames of the file. They are counted when the file is opened, from the frames' headers where
+  /// the format allows it. A size in a header must not be believed before it is compared with the file's size.
+  [[nodiscard]] virtual FramesHeld held() const = 0;
+  /// Returns whether a frame may have a cell. If none can, frames between those asked for are not read.
+  [[nodiscard]] virtual bool may_have_cell() const = 0;
+  /// Reads frame k: its time, its cell, and the position of each of `atoms` (a column each, in angstrom).
+  /// Calls in ascending order of k are fast. `atoms` are places in the file, from 0, in any order. The
+  /// positions may be left out if `frame.asked` is false and the frame has no cell. Throws DamagedFrame if
+  /// the bytes of the frame are not what the format allows.
+  virtual void read(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) = 0;
+
+  /// Returns the van der Waals radius of each atom; empty if the file does not name elements. Adds lines
+  /// about elements that are guessed to `warnings`.
+  [[nodiscard]] virtual std::vector<double> element_radii(std::vector<std::string>& warnings) const {
+    static_cast<void>(warnings);
+    return {};
+  }
+  /// Returns lines about how the file is read, each without the file's name.
+  [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
+};
+
+/// Returns the frames of beads that `options` ask for: all atoms, or those that the selection takes from the
+/// topology. Throws InputError naming file and option if the topology has other atoms, or if an option needs
+/// the names of atoms and there is no topology.
+[[nodiscard]] FramesOpened open_atom_frames(const std::filesystem::path& path, const ReadOptions& options,
+                                            std::unique_ptr<AtomFrames> frames);
+
+}  // namespace kds
