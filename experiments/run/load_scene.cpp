@@ -55,7 +55,7 @@ InputAtoms atoms_of(const std::filesystem::path& file, const std::vector<Traject
 }
 
 bool takes_topology(const std::filesystem::path& file) {
-  const ReaderSpec* const reader = reader_registry().find(file);
+  const ReaderSpec* const reader = reader_registry().find_by_ending(file);
   return reader != nullptr && reader->takes_topology;
 }
 

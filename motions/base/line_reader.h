@@ -2,6 +2,7 @@
 // Reads the lines of a file of any length, one after the other. A byte order mark is skipped.
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -22,6 +23,8 @@ class LineReader {
   [[nodiscard]] std::size_t number() const { return number_; }
   /// Returns whether the line read last ended at the end of the file, without a line end.
   [[nodiscard]] bool cut() const { return cut_; }
+  /// Returns the position in the file of the next line, in bytes.
+  [[nodiscard]] std::uint64_t place() const { return file_.place() - (end_ - begin_); }
   /// Starts again at the first line.
   void rewind();
   [[nodiscard]] const std::string& name() const { return file_.name(); }

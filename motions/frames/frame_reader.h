@@ -52,6 +52,7 @@ struct FramesOpened {
   std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty if the file has no residues
   std::vector<std::string> warnings;    ///< one line each
   bool chain_like = true;               ///< consecutive beads are meant to be bonded
+  bool truncated = false;               ///< the file ends inside the frame after the last one
   std::unique_ptr<FrameReader> frames;
 };
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
 
@@ -9,12 +11,19 @@ namespace kds {
 
 namespace {
 
-std::string where_it_ends(const std::string& file, std::size_t whole) {
-  if (whole == 0) return fmt::format("{}: the file ends inside frame 0 and holds no whole frame", file);
-  return fmt::format("{}: the file ends inside frame {}, the last whole frame is {}", file, whole, whole - 1);
+std::string where_it_ends(const std::string& file, const FramesHeld& held) {
+  const std::string bytes = held.end > 0 ? fmt::format(" (after {} bytes)", held.end) : "";
+  if (held.whole == 0)
+    return fmt::format("{}: the file ends inside frame 0{} and holds no whole frame", file, bytes);
+  return fmt::format("{}: the file ends inside frame {}{}; the last whole frame is {}", file, held.whole,
+                     bytes, held.whole - 1);
 }
 
 }  // namespace
+
+DamagedFrame::DamagedFrame(const std::string& file, std::size_t frame, std::uint64_t byte,
+                           const std::string& what)
+    : InputError(fmt::format("{}: frame {}, byte {}: {}", file, frame, byte, what)), frame_(frame) {}
 
 FrameRange parse_frame_range(std::string_view text) {
   const auto refuse = [&](std::string_view why) {
@@ -44,30 +53,37 @@ FrameRange parse_frame_range(std::string_view text) {
   return range;
 }
 
+std::string warning_of(const DamagedFrame& damage) {
+  return fmt::format("{}; frames up to {} are read (--until-damage)", damage.what(), damage.frame() - 1);
+}
+
 FramesAsked select_frames(const std::string& file, const FrameRange& range, const FramesHeld& held,
-                          std::vector<std::string>& warnings) {
+                          bool until_damage, std::vector<std::string>& warnings) {
   if (range.stride == 0) throw InputError("--frames: the stride must be at least 1");
   if (range.last && *range.last <= range.first)
     throw InputError(fmt::format("--frames: no frame lies in {}:{}", range.first, *range.last));
   const std::size_t last = range.last.value_or(held.whole);
+  if (held.damage && (!range.last || last > held.whole)) {
+    if (held.whole == 0 || !until_damage) throw DamagedFrame(*held.damage);
+    warnings.push_back(warning_of(*held.damage));
+  }
   if (held.ends_inside) {
-    const std::string message = where_it_ends(file, held.whole);
+    const std::string message = where_it_ends(file, held);
     if (held.whole == 0) throw InputError(message);
-    if (!range.last || last > held.whole)
-      throw InputError(fmt::format("{} (--frames :{} reads the whole ones)", message, held.whole));
     warnings.push_back(message);
   }
   if (held.whole == 0) throw InputError(fmt::format("{}: the file holds no frame", file));
-  if (held.whole == 1 && !held.ends_inside) return {0, 1, 1};  // at rest, whatever the range
+  if (held.whole == 1) return {0, 1, 1};  // at rest, whatever the range
   if (range.first >= held.whole)
     throw InputError(fmt::format("--frames: frame {} is asked for, {} holds {}", range.first, file,
                                  counted(held.whole, "frame")));
-  if (last > held.whole)
+  if (last > held.whole && !(held.damage && until_damage))
     throw InputError(fmt::format("--frames: frames up to {} are asked for, {} holds {}", last - 1, file,
                                  counted(held.whole, "frame")));
-  const FramesAsked frames{range.first, range.stride, 1 + (last - 1 - range.first) / range.stride};
+  const std::size_t end = std::min(last, held.whole);
+  const FramesAsked frames{range.first, range.stride, 1 + (end - 1 - range.first) / range.stride};
   const std::size_t final = frames[frames.count - 1];
-  if (const std::size_t behind = last - 1 - final; behind > 0)
+  if (const std::size_t behind = end - 1 - final; behind > 0)
     warnings.push_back(fmt::format("{}: a stride of {} ends at frame {}; {} behind it {} left out", file,
                                    range.stride, final, counted(behind, "frame"),
                                    behind == 1 ? "is" : "are"));

@@ -33,11 +33,14 @@ class DamagedFrame : public InputError {
   std::size_t frame_;
 };
 
+/// Returns the warning that only the frames before the damaged one are read.
+[[nodiscard]] std::string warning_of(const DamagedFrame& damage);
+
 /// The frames that a file contains.
 struct FramesHeld {
   std::size_t whole = 0;
-  bool ends_inside = false;  ///< the file ends inside the frame after the whole ones
-  std::uint64_t end = 0;     ///< if it does: the file's length in bytes, unpacked
+  bool ends_inside = false;                 ///< the file ends inside the frame after the whole ones
+  std::uint64_t end = 0;                    ///< if it does: the file's length in bytes, unpacked
   std::optional<DamagedFrame> damage = {};  ///< of the frame after the whole ones
 };
 
@@ -72,11 +75,14 @@ class FrameWalk {
   bool begun_ = false;
 };
 
-/// The frames asked for. Throws InputError if they are not all there; a file that
-/// ends inside a frame is an error unless the range names its last frame, and is warned of then. Frames
-/// behind the last one that a stride meets are told of likewise. The one frame of a file of one is taken
-/// whatever the range: such a necklace is at rest.
+/// Returns the frames asked for. Throws InputError if they are not all there.
+///
+/// A file that ends inside its last frame gives the whole frames before it, with a warning. Throws
+/// DamagedFrame if a frame asked for, or any frame of an open range, is damaged; `until_damage` reads the
+/// frames before it instead, with a warning. Warns of frames behind the last one that a stride meets. The
+/// frame of a file of one is taken whatever the range: such a necklace is at rest.
 [[nodiscard]] FramesAsked select_frames(const std::string& file, const FrameRange& range,
-                                        const FramesHeld& held, std::vector<std::string>& warnings);
+                                        const FramesHeld& held, bool until_damage,
+                                        std::vector<std::string>& warnings);
 
 }  // namespace kds

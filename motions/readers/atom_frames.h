@@ -24,7 +24,8 @@ class AtomFrames {
   /// Returns the number of atoms in each frame.
   [[nodiscard]] virtual std::size_t atom_count() const = 0;
   /// Returns the frames of the file. They are counted when the file is opened, from the frames' headers where
-  /// the format allows it. A size in a header must not be believed before it is compared with the file's size.
+  /// the format allows it. A size in a header must not be believed before it is compared with the file's
+  /// size.
   [[nodiscard]] virtual FramesHeld held() const = 0;
   /// Returns whether a frame may have a cell. If none can, frames between those asked for are not read.
   [[nodiscard]] virtual bool may_have_cell() const = 0;
@@ -34,8 +35,8 @@ class AtomFrames {
   /// the bytes of the frame are not what the format allows.
   virtual void read(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) = 0;
 
-  /// Returns the van der Waals radius of each atom; empty if the file does not name elements. Adds lines
-  /// about elements that are guessed to `warnings`.
+  /// Returns the van der Waals radius of each atom; empty if the file does not name elements. A frame has
+  /// been read before. Adds lines about elements that are guessed to `warnings`, with the file's name.
   [[nodiscard]] virtual std::vector<double> element_radii(std::vector<std::string>& warnings) const {
     static_cast<void>(warnings);
     return {};

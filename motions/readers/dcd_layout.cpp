@@ -115,28 +115,26 @@ bool is_time(double picoseconds) { return picoseconds >= 1e-6 && picoseconds <= 
 // Reads the times of a LAMMPS file. LAMMPS writes the length of a step in the unit of its run without naming
 // the unit: femtoseconds (units real, steps of about 1), picoseconds (metal, about 0.001), reduced units (lj,
 // about 0.005) or another.
-void read_lammps_times(const std::string& file, std::int32_t first, std::int32_t steps, double length,
-                       DcdLayout& layout) {
+void read_lammps_times(std::int32_t first, std::int32_t steps, double length, DcdLayout& layout) {
   if (first < 0 || steps < 1 || !(length > 0)) return;
   const double picoseconds = steps * length * 1e-3;
   if (length >= 0.2 && length <= 20 && is_time(picoseconds)) {
     layout.times = times_of(first, steps, picoseconds);
     layout.times_note = fmt::format(
-        "{}: LAMMPS does not write its unit of time; its step of {:.6g} is taken for femtoseconds "
+        "LAMMPS does not write its unit of time; its step of {:.6g} is taken for femtoseconds "
         "(units real)",
-        file, length);
+        length);
   } else {
     layout.times_note = fmt::format(
-        "{}: LAMMPS does not write its unit of time, and its step of {:.6g} does not show it; "
+        "LAMMPS does not write its unit of time, and its step of {:.6g} does not show it; "
         "frames are told by their numbers",
-        file, length);
+        length);
   }
 }
 
 // Reads the times from the header, which holds the number of frame 0's step, the steps between frames and the
 // length of a step in CHARMM's unit (AKMA). Programs that do not know the times write zeros or ones.
-void read_times(const std::string& file, const HeaderReader& reader, const std::vector<char>& header,
-                DcdLayout& layout) {
+void read_times(const HeaderReader& reader, const std::vector<char>& header, DcdLayout& layout) {
   constexpr double akma = 0.04888821;  // picoseconds
   const std::int32_t first = reader.integer(header, 2), steps = reader.integer(header, 3);
   const char* const place = header.data() + std::size_t{4} * 10;
@@ -144,7 +142,7 @@ void read_times(const std::string& file, const HeaderReader& reader, const std::
   const double length = by_xplor ? reader.layout.number<double>(place)
                                  : static_cast<double>(reader.layout.number<float>(place));
   if (layout.title.find("LAMMPS") != std::string::npos) {
-    read_lammps_times(file, first, steps, length, layout);
+    read_lammps_times(first, steps, length, layout);
     return;
   }
   if (first < 0 || steps < 1 || (steps == 1 && length == 1)) return;
@@ -178,7 +176,7 @@ DcdLayout read_dcd_layout(InputFile& input) {
   layout.version = reader.integer(header, 20);
   const std::vector<char> title = reader.record("title", HeaderReader::most_title);
   if (title.size() > 4) layout.title.assign(title.begin() + 4, title.end());  // after the number of lines
-  read_times(file, reader, header, layout);
+  read_times(reader, header, layout);
 
   const std::int64_t atoms = reader.integer(reader.record_of("number of atoms", 4), 0);
   if (atoms <= 0)

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
+#include <array>
 #include <utility>
 
 #include "motions/base/input_error.h"
@@ -10,7 +10,6 @@
 #include "motions/base/text_input.h"
 #include "motions/readers/dcd_cell.h"
 #include "motions/readers/dcd_layout.h"
-#include "motions/readers/pdb_reader.h"
 
 namespace kds {
 
@@ -44,41 +43,31 @@ class DcdFile {
     return numbers && cell_form_.read(*numbers).cell;
   }
 
-  // Where records disagree with the header, a file ends where no frame does: tell of the first such record.
-  void check_all_markers() {
-    for (std::size_t k = 0; layout_.frame_begin(k) < layout_.file_size; ++k) {
-      std::uint64_t place = layout_.frame_begin(k);
-      for (const std::uint64_t size : record_sizes(k)) {
-        if (place + layout_.marker_size > layout_.file_size) return;
-        std::array<char, 8> marker{};
-        if (!read_at(input_, place, marker.data(), layout_.marker_size)) return;
-        check_marker(k, layout_.marker(marker.data()), size);
-        place += layout_.record_size(size);
+  // Returns the frames of the file. If it ends inside a frame, records that disagree with the header may be
+  // the reason: then the first frame with such a record is damaged.
+  FramesHeld held() {
+    FramesHeld held = layout_.frames_held();
+    for (std::size_t k = 0; held.ends_inside && k <= held.whole; ++k) {
+      try {
+        check_markers(k);
+      } catch (const DamagedFrame& damage) {
+        return {k, false, 0, damage};
       }
     }
-  }
-
-  // Checks the frame's layout before memory is allocated according to the header.
-  void check_markers(std::size_t k) {
-    std::uint64_t place = layout_.frame_begin(k);
-    for (const std::uint64_t size : record_sizes(k)) {
-      std::array<char, 8> marker{};
-      if (!read_at(input_, place, marker.data(), layout_.marker_size))
-        throw InputError(fmt::format("{}: frame {}: cannot read it", file_, k));
-      check_marker(k, layout_.marker(marker.data()), size);
-      place += layout_.record_size(size);
-    }
+    held.end = layout_.file_size;
+    return held;
   }
 
   void load(std::size_t k) {
     bytes_.resize(layout_.frame_size(k));
-    if (!read_at(input_, layout_.frame_begin(k), bytes_.data(), bytes_.size()))
+    if (!input_.read_at(layout_.frame_begin(k), bytes_.data(), bytes_.size()))
       throw InputError(fmt::format("{}: frame {}: cannot read it", file_, k));
     const char* record = bytes_.data();
     records_.clear();
     for (const std::uint64_t size : record_sizes(k)) {
-      check_marker(k, layout_.marker(record), size);
-      check_marker(k, layout_.marker(record + layout_.marker_size + size), size);
+      const std::uint64_t place = layout_.frame_begin(k) + static_cast<std::uint64_t>(record - bytes_.data());
+      check_marker(k, place, layout_.marker(record), size);
+      check_marker(k, place, layout_.marker(record + layout_.marker_size + size), size);
       records_.push_back(record + layout_.marker_size);
       record += layout_.record_size(size);
     }
@@ -95,7 +84,7 @@ class DcdFile {
  private:
   std::optional<DcdCellForm::Numbers> numbers_at(std::size_t k) {
     std::array<char, DcdLayout::cell_bytes> bytes;
-    if (!read_at(input_, layout_.frame_begin(k) + layout_.marker_size, bytes.data(), bytes.size()))
+    if (!input_.read_at(layout_.frame_begin(k) + layout_.marker_size, bytes.data(), bytes.size()))
       return std::nullopt;
     return cell_numbers(bytes.data());
   }
@@ -112,14 +101,25 @@ class DcdFile {
     return sizes;
   }
 
-  void check_marker(std::size_t k, std::uint64_t found, std::uint64_t expected) const {
+  // Checks the markers before the records of a frame, as far as the file reaches.
+  void check_markers(std::size_t k) {
+    std::uint64_t place = layout_.frame_begin(k);
+    for (const std::uint64_t size : record_sizes(k)) {
+      std::array<char, 8> marker{};
+      if (!input_.read_at(place, marker.data(), layout_.marker_size)) return;
+      check_marker(k, place, layout_.marker(marker.data()), size);
+      place += layout_.record_size(size);
+    }
+  }
+
+  void check_marker(std::size_t k, std::uint64_t place, std::uint64_t found, std::uint64_t expected) const {
     if (found == expected) return;
     const std::uint64_t atoms = layout_.atoms_in_frame(k);
     if (expected == 4 * atoms && found % 4 == 0)
-      throw InputError(fmt::format("{}: frame {}: record holds {}, expected {}", file_, k,
-                                   counted(found / 4, "atom"), atoms));
-    throw InputError(fmt::format("{}: frame {}: record holds {}, expected {}", file_, k,
-                                 counted(found, "byte"), expected));
+      throw DamagedFrame(file_, k, place,
+                         fmt::format("record holds {}, expected {}", counted(found / 4, "atom"), atoms));
+    throw DamagedFrame(file_, k, place,
+                       fmt::format("record holds {}, expected {}", counted(found, "byte"), expected));
   }
 
   std::string file_;
@@ -130,59 +130,11 @@ class DcdFile {
   std::vector<const char*> records_;
 };
 
-// The atoms of the DCD that are beads, and their radii.
-struct Beads {
-  std::vector<std::size_t> atoms;
-  std::vector<double> element_radii;
-  std::vector<std::string> names;
-  std::vector<ChainRead> chains;
-  std::vector<std::string> warnings;  ///< about the topology
-};
-
-Beads all_beads(std::uint64_t atom_count) {
-  Beads beads;
-  beads.atoms.resize(atom_count);
-  std::iota(beads.atoms.begin(), beads.atoms.end(), std::size_t{0});
-  return beads;
-}
-
-Beads choose_beads(const std::string& file, const ReadOptions& options, std::uint64_t atom_count) {
-  if (!options.topology) {
-    if (options.selection == Selection::backbone || options.selection == Selection::ca)
-      throw InputError(
-          fmt::format("--select: {} does not name its atoms; give the PDB or mmCIF file that does with "
-                      "--topology",
-                      file));
-    if (options.chain)
-      throw InputError(
-          fmt::format("--chain: {} does not name its chains; give the PDB or mmCIF file that does with "
-                      "--topology",
-                      file));
-    return all_beads(atom_count);
-  }
-  Topology topology = read_topology(*options.topology, options.selection, options.chain);
-  Beads beads;
-  if (topology.atom_count == atom_count) {
-    beads.atoms = std::move(topology.selected);
-    beads.warnings = std::move(topology.warnings);
-  } else if (topology.selected.size() == atom_count) {
-    beads = all_beads(atom_count);
-  } else {
-    throw InputError(fmt::format("{}: {} a frame, but {} names {} ({} of them selected)", file,
-                                 counted(atom_count, "atom"), options.topology->string(), topology.atom_count,
-                                 topology.selected.size()));
-  }
-  beads.element_radii = std::move(topology.element_radii);
-  beads.names = std::move(topology.bead_names);
-  beads.chains = std::move(topology.chains);
-  return beads;
-}
-
 // The positions of all atoms. They are kept up to date if frames hold only the free atoms.
 class Atoms {
  public:
-  explicit Atoms(DcdFile& dcd) : dcd_(dcd) {
-    if (dcd_.layout().free_atoms.empty()) return;
+  Atoms(DcdFile& dcd, const FramesHeld& held) : dcd_(dcd) {
+    if (dcd_.layout().free_atoms.empty() || held.whole == 0) return;
     dcd_.load(0);
     first_.resize(3, static_cast<Eigen::Index>(dcd_.layout().atom_count));
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -193,7 +145,7 @@ class Atoms {
       place_of_[dcd_.layout().free_atoms[i]] = i;
   }
 
-  void read_beads(std::size_t k, const std::vector<std::size_t>& atoms, Eigen::Matrix3Xd& frame) {
+  void read(std::size_t k, std::span<const std::size_t> atoms, Eigen::Matrix3Xd& frame) {
     dcd_.load(k);
     frame.resize(3, static_cast<Eigen::Index>(atoms.size()));
     for (std::size_t bead = 0; bead < atoms.size(); ++bead)
@@ -216,71 +168,54 @@ class Atoms {
   std::vector<std::size_t> place_of_;
 };
 
-class DcdFrames final : public FrameReader {
+class DcdFrames final : public AtomFrames {
  public:
-  DcdFrames(std::unique_ptr<DcdFile> dcd, std::vector<std::size_t> beads, const FramesAsked& asked)
-      : dcd_(std::move(dcd)),
-        atoms_(*dcd_),
-        beads_(std::move(beads)),
-        walk_(asked, dcd_->layout().has_cell) {}
-
-  bool next(FrameRead& frame) override {
-    if (!walk_.next()) return false;
-    const std::size_t k = walk_.frame();
-    frame.asked = walk_.is_asked();
-    if (!frame.asked && !dcd_->has_cell(k)) {
-      frame.cell.reset();
-      return true;
-    }
-    frame.stamp = {k, std::nullopt};
-    if (const auto& times = dcd_->layout().times)
-      frame.stamp.picoseconds = times->first + static_cast<double>(k) * times->step;
-    atoms_.read_beads(k, beads_, frame.positions);
-    CellRead cell = dcd_->cell();
-    frame.cell = cell.cell;
-    frame.cell_doubt = std::move(cell.doubt);
-    return true;
+  explicit DcdFrames(const std::filesystem::path& path)
+      : dcd_(path), held_(dcd_.held()), atoms_(dcd_, held_) {
+    dcd_.look_at_cells({0, 1, held_.whole});
   }
 
-  void rewind() override { walk_.rewind(); }
+  std::size_t atom_count() const override { return dcd_.layout().atom_count; }
+  FramesHeld held() const override { return held_; }
+  bool may_have_cell() const override { return dcd_.layout().has_cell; }
+
+  void read(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) override {
+    if (!frame.asked && !dcd_.has_cell(k)) return;
+    if (const auto& times = dcd_.layout().times)
+      frame.stamp.picoseconds = times->first + static_cast<double>(k) * times->step;
+    atoms_.read(k, atoms, frame.positions);
+    CellRead cell = dcd_.cell();
+    frame.cell = cell.cell;
+    frame.cell_doubt = std::move(cell.doubt);
+  }
+
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> notes;
+    const DcdLayout& layout = dcd_.layout();
+    if (!held_.ends_inside && !held_.damage &&
+        layout.frames_claimed != static_cast<std::int64_t>(held_.whole))
+      notes.push_back(
+          fmt::format("the header claims {} frames, the file holds {}", layout.frames_claimed, held_.whole));
+    if (!layout.times_note.empty()) notes.push_back(layout.times_note);
+    return notes;
+  }
 
  private:
-  std::unique_ptr<DcdFile> dcd_;
+  DcdFile dcd_;
+  FramesHeld held_;
   Atoms atoms_;
-  std::vector<std::size_t> beads_;
-  FrameWalk walk_;
 };
-
-void warn_of_false_count(const DcdLayout& layout, const FramesHeld& held, FramesOpened& opened) {
-  if (held.ends_inside || layout.frames_claimed == static_cast<std::int64_t>(held.whole)) return;
-  opened.warnings.push_back(fmt::format("{}: the header claims {} frames, the file holds {}", opened.file,
-                                        layout.frames_claimed, held.whole));
-}
 
 }  // namespace
 
-FramesOpened open_dcd(const std::filesystem::path& path, const ReadOptions& options) {
-  FramesOpened opened;
-  opened.file = path.string();
-  auto dcd = std::make_unique<DcdFile>(path);
-  const DcdLayout& layout = dcd->layout();
-  const FramesHeld held = layout.frames_held();
-  if (held.ends_inside && (!options.frames.last || *options.frames.last > held.whole))
-    dcd->check_all_markers();
-  const FramesAsked asked = select_frames(opened.file, options.frames, held, opened.warnings);
-  warn_of_false_count(layout, held, opened);
-  dcd->check_markers(asked[0]);
-  dcd->look_at_cells({0, 1, held.whole});
-  if (!layout.times_note.empty()) opened.warnings.push_back(layout.times_note);
+bool looks_like_dcd(std::string_view start) {
+  for (const std::size_t marker : {4U, 8U})
+    if (start.size() > marker + 4 && start.substr(marker, 4) == "CORD") return true;
+  return false;
+}
 
-  Beads beads = choose_beads(opened.file, options, layout.atom_count);
-  opened.element_radii = std::move(beads.element_radii);
-  opened.bead_names = std::move(beads.names);
-  for (std::string& warning : beads.warnings) opened.warnings.push_back(std::move(warning));
-  opened.chains = std::move(beads.chains);
-  opened.chain_like = !options.topology || options.selection != Selection::all;
-  opened.frames = std::make_unique<DcdFrames>(std::move(dcd), std::move(beads.atoms), asked);
-  return opened;
+std::unique_ptr<AtomFrames> open_dcd(const std::filesystem::path& path, const ReadOptions&) {
+  return std::make_unique<DcdFrames>(path);
 }
 
 }  // namespace kds

@@ -5,14 +5,15 @@
 // in the header is often wrong; then a warning says so.
 
 #include <filesystem>
+#include <memory>
+#include <string_view>
 
-#include "motions/frames/frame_reader.h"
-#include "motions/readers/read_options.h"
+#include "motions/readers/atom_frames.h"
 
 namespace kds {
 
-/// Opens a DCD file. The topology must either name all atoms of the DCD in their order, or its selected beads
-/// must be the DCD's atoms.
-[[nodiscard]] FramesOpened open_dcd(const std::filesystem::path& path, const ReadOptions& options);
+[[nodiscard]] bool looks_like_dcd(std::string_view start);
+[[nodiscard]] std::unique_ptr<AtomFrames> open_dcd(const std::filesystem::path& path,
+                                                   const ReadOptions& options);
 
 }  // namespace kds

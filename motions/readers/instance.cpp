@@ -100,7 +100,7 @@ Instance read_instance(const std::filesystem::path& path) {
 }
 
 bool is_instance_file(const std::filesystem::path& path) {
-  if (reader_registry().find(path) != nullptr) return false;
+  if (reader_registry().find_by_ending(path) != nullptr) return false;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
   std::array<char, 100> start{};

@@ -19,30 +19,45 @@ namespace kds {
 
 namespace {
 
+// Returns the reader of a file. Throws InputError if there is none.
+const ReaderSpec& reader_of(const std::filesystem::path& path,
+                            const std::optional<std::string>& format = {}) {
+  if (const ReaderSpec* const reader = reader_registry().find(path, format)) return *reader;
+  refuse_unread_format(path);
+  throw InputError(fmt::format("cannot tell the format of {} from its content or its ending; supported: {}",
+                               path.string(), reader_registry().endings()));
+}
+
 // A format that takes a topology names no atoms itself, so it cannot be one.
 void refuse_trajectory_as_topology(const std::filesystem::path& path, const std::filesystem::path& topology,
                                    bool path_takes_topology) {
-  const ReaderSpec* const reader = reader_registry().find(topology);
-  if (reader == nullptr || !reader->takes_topology) return;
+  const ReaderSpec& reader = reader_of(topology);
+  if (reader.topology || !reader.takes_topology) return;
   throw InputError(fmt::format(
       "--topology: {} names no atoms; {}", topology.string(),
       path_takes_topology
-          ? fmt::format("expected the PDB or mmCIF file with the atoms of {}", path.string())
+          ? fmt::format("expected the file with the atoms of {} ({})", path.string(),
+                        reader_registry().topology_endings())
           : fmt::format("the trajectory comes first: {} --topology {}", topology.string(), path.string())));
 }
 
 FramesOpened open_frames(const std::filesystem::path& path, const ReadOptions& options) {
   const FloatingPointGuard to_nearest;
-  if (options.topology) refuse_unread_format(*options.topology);
-  refuse_unread_format(path);
-  const ReaderSpec* const reader = reader_registry().find(path);
-  if (reader == nullptr)
-    throw InputError(fmt::format("cannot tell the format of {} from its ending; supported: {}", path.string(),
-                                 reader_registry().endings()));
-  if (options.topology) refuse_trajectory_as_topology(path, *options.topology, reader->takes_topology);
-  FramesOpened opened = reader->open(path, options);
-  if (options.topology && !reader->takes_topology)
-    opened.warnings.push_back(fmt::format("{}: --topology is left unread, it serves DCD files", opened.file));
+  const ReaderSpec& reader = reader_of(path, options.format);
+  if (options.topology) refuse_trajectory_as_topology(path, *options.topology, reader.takes_topology);
+  if (!reader.open)
+    throw InputError(fmt::format("{}: {} files have no frames; give it as --topology of a trajectory ({})",
+                                 path.string(), reader.name, reader_registry().endings()));
+  FramesOpened opened = reader.open(path, options);
+  if (options.topology && !reader.takes_topology)
+    opened.warnings.push_back(
+        fmt::format("{}: --topology is left unread, this file names its atoms itself", opened.file));
+  const ReaderSpec* const by_ending = reader_registry().find_by_ending(path);
+  if (!options.format && by_ending != nullptr && by_ending != &reader)
+    opened.warnings.push_back(
+        fmt::format("{}: its content is that of the format {}, not {} as its ending says; read as {} "
+                    "(--format overrides)",
+                    opened.file, reader.name, by_ending->name, reader.name));
   return opened;
 }
 
@@ -95,7 +110,11 @@ std::vector<Trajectory> heads_of(const FramesOpened& opened) {
 }  // namespace
 
 NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOptions& options)
-    : opened_(open_frames(path, options)), heads_(heads_of(opened_)), notes_(heads_.size()) {
+    : opened_(open_frames(path, options)),
+      time_step_(options.time_step),
+      until_damage_(options.until_damage),
+      heads_(heads_of(opened_)),
+      notes_(heads_.size()) {
   const FloatingPointGuard to_nearest;
   FrameRead first;
   if (!opened_.frames->next(first))
@@ -234,6 +253,18 @@ void NecklaceStream::follow(FrameRead& frame) {
 
 bool NecklaceStream::next(FrameRead& frame) {
   const FloatingPointGuard to_nearest;
+  if (ended_) return false;
+  try {
+    return read(frame);
+  } catch (const InputError& error) {
+    if (!until_damage_ || !last_read_) throw;
+    damage_ = fmt::format("{}; frames up to {} are read (--until-damage)", error.what(), *last_read_);
+    ended_ = true;
+    return false;
+  }
+}
+
+bool NecklaceStream::read(FrameRead& frame) {
   for (;;) {
     frame.cell_doubt.clear();
     frame.note.clear();
@@ -252,6 +283,11 @@ bool NecklaceStream::next(FrameRead& frame) {
     follow(frame);
     if (frame.asked) break;
   }
+  if (time_step_) {
+    if (frame.stamp.picoseconds) has_times_ = true;
+    frame.stamp.picoseconds = static_cast<double>(frame.stamp.number) * *time_step_;
+  }
+  last_read_ = frame.stamp.number;
   note_cell(frame);
   if (!frame.note.empty() && frames_noted_++ == 0)
     first_note_ = fmt::format("{}: frame {}: {}", opened_.file, frame.stamp.number, frame.note);
@@ -276,6 +312,8 @@ void NecklaceStream::rewind() {
   if (!surveyed_)
     for (Trajectory& head : heads_) head.later_breaks = {};
   bonds_joined_ = false;
+  ended_ = false;
+  last_read_.reset();
   cell_unsuited_.clear();
   cells_unused_ = frames_noted_ = frames_with_cell_ = frames_without_cell_ = 0;
 }
@@ -285,6 +323,10 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
   std::vector<std::string> lines;
   if (necklace == 0) {
     lines = opened_.warnings;
+    if (!damage_.empty()) lines.push_back(damage_);
+    if (has_times_)
+      lines.push_back(
+          fmt::format("{}: has times of its own, which --dt {} replaces", opened_.file, *time_step_));
     if (cells_unused_ > 0)
       lines.push_back(fmt::format("{} ({})", first_doubt_, counted(cells_unused_, "frame")));
     if (frames_with_cell_ > 0 && frames_without_cell_ > 0)

@@ -39,6 +39,9 @@ class NecklaceStream {
   [[nodiscard]] bool holds_one_frame();
   /// Returns the warnings about a necklace. They are complete once all frames have been read.
   [[nodiscard]] std::vector<std::string> warnings(std::size_t necklace) const;
+  /// Returns whether frames are missing at the end: the file ends inside a frame, or a damaged frame has
+  /// ended the reading. Complete once all frames have been read.
+  [[nodiscard]] bool is_truncated() const { return opened_.truncated || !damage_.empty(); }
 
  private:
   /// Findings about one necklace, for its warnings.
@@ -54,6 +57,8 @@ class NecklaceStream {
     std::optional<Eigen::Vector3d> apart_at_first;
     std::size_t frames_apart = 0, first_apart = 0;  ///< frames in which that shift differs
   };
+  /// Reads the next frame; `next` adds what --until-damage asks for.
+  [[nodiscard]] bool read(FrameRead& frame);
   void place_beside_earlier(std::size_t n, const ImageBeside& beside);
   /// Removes a cell that is not that of the coordinates.
   void judge_cell(FrameRead& frame);
@@ -64,12 +69,18 @@ class NecklaceStream {
   void note_breaks(std::size_t n, const Eigen::Ref<const Eigen::Matrix3Xd>& chain, std::size_t frame);
 
   FramesOpened opened_;
+  std::optional<double> time_step_;
+  bool until_damage_;
   std::vector<Trajectory> heads_;
   std::vector<WholeChain> whole_;          ///< of each necklace
   std::vector<Notes> notes_;               ///< likewise
   std::vector<Eigen::Index> bead_counts_;  ///< likewise
   bool bonds_joined_ = false;              ///< across the walls of a cell, in a frame so far
   std::string cell_unsuited_;              ///< why cells are used no more
+  std::optional<std::size_t> last_read_;   ///< number of the last frame read
+  bool ended_ = false;                     ///< a damaged frame has ended the reading
+  std::string damage_;                     ///< a warning about that frame
+  bool has_times_ = false;                 ///< the file has times, but --dt replaces them
   bool surveyed_ = false;                  ///< all frames have been searched for chain breaks
   std::size_t frames_with_cell_ = 0, frames_without_cell_ = 0;
   std::size_t first_with_cell_ = 0, first_without_cell_ = 0;

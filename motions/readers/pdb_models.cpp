@@ -153,7 +153,7 @@ void PdbModelReader::rewind() {
 
 FramesHeld PdbModelReader::held() const {
   const bool ends_inside = ended_ && models_ > 1 && closed_ + 1 == models_;
-  return {models_ - (ends_inside ? 1 : 0), ends_inside};
+  return {models_ - (ends_inside ? 1 : 0), ends_inside, lines_.place()};
 }
 
 }  // namespace kds

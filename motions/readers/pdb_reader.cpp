@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "motions/base/file_ending.h"
@@ -22,7 +23,7 @@ class FirstModel : public StructureModels {
  public:
   explicit FirstModel(std::unique_ptr<StructureModels> models) : models_(std::move(models)) {}
 
-  FramesHeld held() const override { return {1, false}; }
+  FramesHeld held() const override { return {1}; }
   StructureModel model(std::size_t k) override { return models_->model(k); }
   std::vector<std::string> notes() const override {
     std::vector<std::string> notes = models_->notes();
@@ -37,11 +38,10 @@ class FirstModel : public StructureModels {
   std::unique_ptr<StructureModels> models_;
 };
 
-std::unique_ptr<StructureModels> open_structure(const std::filesystem::path& path) {
-  std::string ending = file_ending(path);
-  if (ending == ".gz") ending = file_ending(path.stem());
-  if (ending == ".cif" || ending == ".mmcif") return open_mmcif(path);
-  std::unique_ptr<StructureModels> models = open_pdb(path);
+// Opens the models of a file, or the first one of a biological assembly.
+std::unique_ptr<StructureModels> open_frames(const std::filesystem::path& path, OpenModels open) {
+  std::unique_ptr<StructureModels> models = open(path);
+  const std::string ending = file_ending(file_ending(path) == ".gz" ? path.stem() : path);
   const FramesHeld held = models->held();
   if (!is_assembly_ending(ending) || held.whole + (held.ends_inside ? 1 : 0) == 1) return models;
   return std::make_unique<FirstModel>(std::move(models));
@@ -135,27 +135,27 @@ class StructureFrames final : public FrameReader {
   std::vector<std::string> names_;  // of the beads in the first frame
 };
 
-}  // namespace
-
-FramesOpened open_structure_frames(const std::filesystem::path& path, const ReadOptions& options) {
+FramesOpened open_models(const std::filesystem::path& path, const ReadOptions& options, OpenModels open) {
   FramesOpened opened;
   opened.file = path.string();
   opened.chain_like = options.selection != Selection::all;
-  std::unique_ptr<StructureModels> models = open_structure(path);
-  const FramesAsked asked = select_frames(opened.file, options.frames, models->held(), opened.warnings);
+  std::unique_ptr<StructureModels> models = open_frames(path, open);
+  const FramesHeld held = models->held();
+  const FramesAsked asked =
+      select_frames(opened.file, options.frames, held, options.until_damage, opened.warnings);
+  opened.truncated = held.ends_inside;
   auto frames = std::make_unique<StructureFrames>(opened.file, std::move(models), options, asked);
   frames->describe(opened);
   opened.frames = std::move(frames);
   return opened;
 }
 
-Topology read_topology(const std::filesystem::path& path, Selection selection,
-                       const std::optional<std::string>& chain) {
-  const std::unique_ptr<StructureModels> models = open_structure(path);
+Topology topology_of(const std::filesystem::path& path, const ReadOptions& options, OpenModels open) {
+  const std::unique_ptr<StructureModels> models = open_frames(path, open);
   const StructureModel model = models->model(0);
   Topology topology;
   topology.atom_count = model.atom_count;
-  SelectedChains selected = select_chains(path.string(), model, selection, chain);
+  SelectedChains selected = select_chains(path.string(), model, options.selection, options.chain);
   for (const SelectedAtom& atom : selected.atoms) topology.selected.push_back(atom.atom->place);
   topology.element_radii = element_radii_of(selected.atoms);
   topology.bead_names = names_of(selected.atoms);
@@ -164,6 +164,48 @@ Topology read_topology(const std::filesystem::path& path, Selection selection,
   warn(path.string(), selected.notes, topology.warnings);
   topology.chains = std::move(selected.chains);
   return topology;
+}
+
+}  // namespace
+
+ReaderSpec topology_format(std::string name, std::vector<std::string> endings,
+                           std::function<bool(std::string_view)> recognises, OpenModels open) {
+  ReaderSpec spec{std::move(name), std::move(endings)};
+  spec.recognises = std::move(recognises);
+  spec.topology = [open](const std::filesystem::path& path, const ReadOptions& options) {
+    return topology_of(path, options, open);
+  };
+  return spec;
+}
+
+ReaderSpec structure_format(std::string name, std::vector<std::string> endings,
+                            std::function<bool(std::string_view)> recognises, OpenModels open) {
+  ReaderSpec spec = topology_format(std::move(name), std::move(endings), std::move(recognises), open);
+  spec.open = [open](const std::filesystem::path& path, const ReadOptions& options) {
+    return open_models(path, options, open);
+  };
+  return spec;
+}
+
+bool looks_like_pdb(std::string_view start) {
+  std::string_view line;
+  do line = next_line(start);
+  while (!start.empty() && trimmed(line).empty());
+  constexpr std::array<std::string_view, 16> records{
+      "HEADER", "OBSLTE", "TITLE ", "SPLIT ", "CAVEAT", "COMPND", "SOURCE", "KEYWDS",
+      "EXPDTA", "AUTHOR", "REVDAT", "REMARK", "CRYST1", "MODEL ", "ATOM  ", "HETATM"};
+  return std::any_of(records.begin(), records.end(),
+                     [&](std::string_view record) { return line.starts_with(record); });
+}
+
+bool looks_like_mmcif(std::string_view start) {
+  std::string_view line;
+  do line = trimmed(next_line(start));
+  while (!start.empty() && (line.empty() || line.starts_with('#')));
+  constexpr std::string_view data = "data_";
+  return line.size() >= data.size() &&
+         std::equal(data.begin(), data.end(), line.begin(),
+                    [](char small, char c) { return c == small || c == small - 'a' + 'A'; });
 }
 
 }  // namespace kds

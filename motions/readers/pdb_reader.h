@@ -1,33 +1,38 @@
 #pragma once
-// PDB and mmCIF files, plain or gzipped; their models are the frames. The cell of a crystal is not a
-// simulation box. A cell is therefore used only if the file has several models, the space group is P 1, and
-// the lengths are above 1 angstrom.
+// Formats whose atoms have residues: PDB, mmCIF and their relatives, plain or gzipped. Their models are the
+// frames. The cell of a crystal is not a simulation box. A cell is therefore used only if the file has
+// several models, the space group is P 1, and the lengths are above 1 angstrom.
+//
+// A reader of such a format is one function that opens the models of a file (structure_models.h) and one line
+// of registration (reader_registry.cpp).
 
-#include <cstddef>
 #include <filesystem>
-#include <optional>
+#include <functional>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "motions/frames/frame_reader.h"
-#include "motions/readers/read_options.h"
+#include "motions/readers/reader_registry.h"
+#include "motions/readers/topology.h"
 
 namespace kds {
 
-[[nodiscard]] FramesOpened open_structure_frames(const std::filesystem::path& path,
-                                                 const ReadOptions& options);
+class StructureModels;
 
-/// The atoms of a structure's first model, by their place in the file.
-struct Topology {
-  std::size_t atom_count = 0;         ///< with all alternate locations, waters and ligands
-  std::vector<std::size_t> selected;  ///< places of the beads, in the order of the chains
-  std::vector<ChainRead> chains;      ///< the chains of the beads
-  std::vector<std::string> warnings;  ///< about parts left out or guessed, one line each
-  std::vector<double> element_radii;  ///< one per bead; empty if elements are unknown
-  std::vector<std::string> bead_names;
-};
+/// Opens the models of a file. Throws InputError if the file cannot be read or contains no atoms.
+using OpenModels = std::unique_ptr<StructureModels> (*)(const std::filesystem::path& path);
 
-[[nodiscard]] Topology read_topology(const std::filesystem::path& path, Selection selection,
-                                     const std::optional<std::string>& chain);
+/// Returns the specification of a format with residues: its models are frames, and it names atoms.
+[[nodiscard]] ReaderSpec structure_format(std::string name, std::vector<std::string> endings,
+                                          std::function<bool(std::string_view)> recognises, OpenModels open);
+/// Returns the specification of a format that names atoms but has no frames.
+[[nodiscard]] ReaderSpec topology_format(std::string name, std::vector<std::string> endings,
+                                         std::function<bool(std::string_view)> recognises, OpenModels open);
+
+[[nodiscard]] bool looks_like_pdb(std::string_view start);
+[[nodiscard]] bool looks_like_mmcif(std::string_view start);
+[[nodiscard]] std::unique_ptr<StructureModels> open_pdb(const std::filesystem::path& path);
+[[nodiscard]] std::unique_ptr<StructureModels> open_mmcif(const std::filesystem::path& path);
 
 }  // namespace kds

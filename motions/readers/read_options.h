@@ -25,10 +25,13 @@ inline constexpr std::array<std::string_view, 4> selection_names{"automatic", "b
 }
 
 struct ReadOptions {
-  std::optional<std::filesystem::path> topology = {};  ///< PDB or mmCIF file that names the atoms of a DCD
+  std::optional<std::filesystem::path> topology = {};  ///< file that names the atoms of a trajectory
   Selection selection = Selection::automatic;
   std::optional<std::string> chain = {};  ///< comma-separated; none: the first polymer chain
   FrameRange frames = {};
+  std::optional<std::string> format = {};  ///< name of a reader; none: told from the file
+  std::optional<double> time_step = {};    ///< picoseconds between frames; none: times as in the file
+  bool until_damage = false;               ///< reads the frames before a damaged one
 };
 
 }  // namespace kds

@@ -1,5 +1,6 @@
 #pragma once
-// The readers of file formats. A reader is found by the first bytes of a file, otherwise by the file's ending.
+// The readers of file formats. A reader is found by the first bytes of a file, otherwise by the file's
+// ending.
 
 #include <filesystem>
 #include <functional>
@@ -17,9 +18,10 @@ struct Topology;
 
 /// One file format. A format has frames (`open`), names atoms (`topology`), or both.
 struct ReaderSpec {
-  std::string name;                  ///< as --format takes it
-  std::vector<std::string> endings;  ///< in lower case, each with its dot; endings with .gz follow by themselves
-  bool takes_topology = false;       ///< another file names the atoms
+  std::string name;  ///< as --format takes it
+  std::vector<std::string>
+      endings;                  ///< in lower case, each with its dot; endings with .gz follow by themselves
+  bool takes_topology = false;  ///< another file names the atoms
   std::function<FramesOpened(const std::filesystem::path&, const ReadOptions&)> open = {};
   /// Returns whether a file of this format begins with these bytes (at most `bytes_seen`, unpacked). Must be
   /// false in doubt. If empty, only the ending leads to this reader.
@@ -33,8 +35,8 @@ class ReaderRegistry {
   /// Adds a reader. Throws std::logic_error if another reader has its name or one of its endings.
   void add(ReaderSpec reader);
   /// Returns the reader called `format`; without it, the one that recognises the file's first bytes, else the
-  /// one with the file's ending, else null. Throws InputError if the file cannot be opened, or if no reader is
-  /// called `format`.
+  /// one with the file's ending, else null. Throws InputError if the file cannot be opened, or if no reader
+  /// is called `format`.
   [[nodiscard]] const ReaderSpec* find(const std::filesystem::path& path,
                                        const std::optional<std::string>& format = {}) const;
   /// Returns the reader with the file's ending, or null.

@@ -57,8 +57,4 @@ class StructureModels {
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };
 
-/// Open a file. Throw InputError if the file cannot be read or contains no atoms.
-[[nodiscard]] std::unique_ptr<StructureModels> open_pdb(const std::filesystem::path& path);
-[[nodiscard]] std::unique_ptr<StructureModels> open_mmcif(const std::filesystem::path& path);
-
 }  // namespace kds

@@ -26,28 +26,14 @@ constexpr std::string_view to_topology =
     "save a PDB file of the atoms, as with cpptraj or VMD, and give that one";
 constexpr std::string_view to_unpacked = "unpack it, or pack it with gzip";
 constexpr std::array unread{
-    UnreadFormat{".xtc", "GROMACS",
-                 "convert it to PDB or DCD, as with gmx trjconv -f FILE -s TOPOLOGY -o traj.pdb or mdconvert "
-                 "-o traj.dcd FILE"},
-    UnreadFormat{".trr", "GROMACS",
-                 "convert it to PDB or DCD, as with gmx trjconv -f FILE -s TOPOLOGY -o traj.pdb or mdconvert "
-                 "-o traj.dcd FILE"},
     UnreadFormat{".tng", "GROMACS", "convert it to PDB, as with gmx trjconv -f FILE -s TOPOLOGY -o traj.pdb"},
-    UnreadFormat{".gro", "GROMACS", to_structure},
     UnreadFormat{".g96", "GROMACS", to_structure},
     UnreadFormat{".tpr", "GROMACS", to_structure},
-    UnreadFormat{".psf", "CHARMM, NAMD", to_topology},
-    UnreadFormat{".prmtop", "AMBER", to_topology},
-    UnreadFormat{".parm7", "AMBER", to_topology},
     UnreadFormat{".top", "AMBER, GROMACS", to_topology},
-    UnreadFormat{".nc", "AMBER", to_trajectory},
-    UnreadFormat{".ncdf", "AMBER", to_trajectory},
     UnreadFormat{".mdcrd", "AMBER", to_trajectory},
     UnreadFormat{".crd", "AMBER, CHARMM", to_topology},
     UnreadFormat{".rst7", "AMBER", to_topology},
     UnreadFormat{".inpcrd", "AMBER", to_topology},
-    UnreadFormat{".lammpstrj", "LAMMPS", "write it with dump dcd or dump xyz, or convert it with mdconvert"},
-    UnreadFormat{".lammpsdump", "LAMMPS", "write it with dump dcd or dump xyz, or convert it with mdconvert"},
     UnreadFormat{".h5md", "H5MD", "convert it to DCD, as with MDAnalysis"},
     UnreadFormat{".h5", "MDTraj", to_trajectory},
     UnreadFormat{".mol2", "Tripos", "convert it to PDB, as with obabel FILE -O out.pdb"},
@@ -64,7 +50,6 @@ constexpr std::array unread{
 }  // namespace
 
 void refuse_unread_format(const std::filesystem::path& path) {
-  if (reader_registry().find(path) != nullptr) return;
   std::string ending = file_ending(path);
   if (ending == ".gz") ending = file_ending(path.stem());
   const auto* const found = std::find_if(unread.begin(), unread.end(),

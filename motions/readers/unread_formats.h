@@ -5,8 +5,8 @@
 
 namespace kds {
 
-/// Throws InputError if the file's ending belongs to such a format and no reader is registered for it. The
-/// message names the program that converts the format.
+/// Throws InputError if the file's ending belongs to such a format. The message names the program that
+/// converts the format.
 void refuse_unread_format(const std::filesystem::path& path);
 
 }  // namespace kds

@@ -17,40 +17,92 @@ namespace kds {
 
 namespace {
 
-class XyzFile {
+// Returns the element of an amino acid's atom name in capitals. Some of these names are also symbols of
+// elements.
+std::optional<char> element_of_atom_name(std::string_view name) {
+  constexpr std::array<std::string_view, 12> heavy{"CA", "CB", "CG", "CD", "CE", "CZ",
+                                                   "NE", "NZ", "OG", "OH", "SD", "SG"};
+  constexpr std::array<std::string_view, 9> hydrogens{"HA", "HB", "HG", "HD", "HE", "HZ", "HH", "HN", "HO"};
+  if (name == "OXT" || std::find(heavy.begin(), heavy.end(), name) != heavy.end() ||
+      std::find(hydrogens.begin(), hydrogens.end(), name) != hydrogens.end())
+    return name[0];
+  // Names such as CG1, OD2, HB3 or HD11 consist of an element, a remoteness letter and digits.
+  const std::size_t digits = name.find_first_of("0123456789");
+  if (digits != 2 || name.size() > 4 ||
+      name.find_first_not_of("0123456789", digits) != std::string_view::npos)
+    return std::nullopt;
+  const bool is_element = std::string_view("CNOH").find(name[0]) != std::string_view::npos;
+  const bool is_remote = std::string_view("ABGDEZH").find(name[1]) != std::string_view::npos;
+  return is_element && is_remote ? std::optional(name[0]) : std::nullopt;
+}
+
+// Decides from the whole column whether it holds atom names or element symbols: names if some entries are not
+// symbols, or if CA occurs alone or with N.
+bool holds_atom_names(const std::vector<std::string>& symbols) {
+  bool has_alpha = false, has_nitrogen = false, all_alpha = true;
+  for (const std::string& symbol : symbols) {
+    if (element_of_atom_name(symbol) && !van_der_waals_radius(symbol)) return true;
+    if (symbol == "CA") has_alpha = true;
+    if (symbol == "N") has_nitrogen = true;
+    if (symbol != "CA") all_alpha = false;
+  }
+  return has_alpha && (has_nitrogen || all_alpha);
+}
+
+std::vector<double> element_radii_of(const std::string& file, const std::vector<std::string>& symbols,
+                                     std::vector<std::string>& warnings) {
+  const bool names = holds_atom_names(symbols);
+  std::vector<std::string> guessed;
+  std::vector<double> radii;
+  for (const std::string& symbol : symbols) {
+    const auto number = parse_count(symbol);
+    auto radius = number ? van_der_waals_radius(*number) : van_der_waals_radius(symbol);
+    if (const auto letter = element_of_atom_name(symbol)) {
+      if (radius && std::find(guessed.begin(), guessed.end(), symbol) == guessed.end())
+        guessed.push_back(symbol);
+      if (names) radius = van_der_waals_radius(std::string_view(&*letter, 1));
+    }
+    if (!radius) return {};
+    radii.push_back(*radius);
+  }
+  for (const std::string& symbol : guessed)
+    warnings.push_back(fmt::format("{}: {} is taken for {}", file, symbol,
+                                   names ? "an atom name of amino acids; the element is written as in Ca"
+                                         : "an element, as no atom name of amino acids stands beside it"));
+  return radii;
+}
+
+class XyzFrames final : public AtomFrames {
  public:
-  explicit XyzFile(const std::filesystem::path& path) : lines_(path) {
-    FramesHeld held;
+  explicit XyzFrames(const std::filesystem::path& path) : lines_(path) {
     try {
-      while (skip_frame(held)) {
+      while (skip_frame(held_)) {
       }
     } catch (const CutFile&) {
-      held.ends_inside = true;
+      held_.ends_inside = true;
+    } catch (const DamagedFrame& damage) {
+      held_.damage = damage;
     }
-    held_ = held;
+    held_.end = lines_.place();
     rewind();
   }
 
-  FramesHeld held() const { return held_; }
-
-  void rewind() {
-    lines_.rewind();
-    next_ = 0;
+  std::size_t atom_count() const override { return atoms_; }
+  FramesHeld held() const override { return held_; }
+  // A frame may have a cell if a comment names a lattice.
+  bool may_have_cell() const override { return may_have_cell_; }
+  std::vector<double> element_radii(std::vector<std::string>& warnings) const override {
+    return element_radii_of(lines_.name(), symbols_, warnings);
   }
 
-  // Whether a frame may have a cell: its comment names a lattice.
-  bool may_have_cell() const { return may_have_cell_; }
-
-  // Quick if frames are asked for in their order. All frames must have the atoms of the one read first.
-  // Leaves out the positions of a frame that has no cell and was not asked for.
-  void read_frame(std::size_t k, FrameRead& frame) {
+  // All frames must have the atoms of the one read first.
+  void read(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) override {
     if (k < next_) rewind();
-    FramesHeld held{next_, false};
+    FramesHeld held{next_};
     for (; next_ < k; ++next_)
       if (!skip_frame(held)) fail_gone(k);
     if (!read_count() || atoms_in_frame() != atoms_ || !read_line()) fail_gone(k);
     ++next_;
-    frame.stamp = {k, std::nullopt};
     XyzComment comment = comment_of(line_);
     frame.cell = comment.cell.cell;
     frame.cell_doubt = std::move(comment.cell.doubt);
@@ -62,22 +114,31 @@ class XyzFile {
     for (std::size_t i = 0; skipped && i < atoms_; ++i)
       if (!read_line()) fail_gone(k);
     if (skipped) return;
-    frame.positions.resize(3, static_cast<Eigen::Index>(atoms_));
-    for (Eigen::Index i = 0; i < frame.positions.cols(); ++i) {
+    positions_.resize(3, static_cast<Eigen::Index>(atoms_));
+    for (Eigen::Index i = 0; i < positions_.cols(); ++i) {
       if (!read_line()) fail_gone(k);
-      frame.positions.col(i) = atom(comment.columns, k, static_cast<std::size_t>(i));
+      positions_.col(i) = atom(comment.columns, k, static_cast<std::size_t>(i));
     }
     if (!first_frame_) first_frame_ = k;
+    frame.positions.resize(3, static_cast<Eigen::Index>(atoms.size()));
+    for (std::size_t i = 0; i < atoms.size(); ++i)
+      frame.positions.col(static_cast<Eigen::Index>(i)) = positions_.col(static_cast<Eigen::Index>(atoms[i]));
   }
 
-  // Returns the symbols in the frame that was read first, or an empty vector if the file has none.
-  const std::vector<std::string>& symbols() const { return symbols_; }
-
  private:
+  void rewind() {
+    lines_.rewind();
+    next_ = 0;
+  }
+
   bool read_line() { return lines_.next(line_); }
 
   [[noreturn]] void fail(const std::string& message) const {
     throw InputError(fmt::format("{}:{}: {}", lines_.name(), lines_.number(), message));
+  }
+
+  [[noreturn]] void fail_count(std::size_t k, const std::string& message) const {
+    throw DamagedFrame(fmt::format("{}:{}", lines_.name(), lines_.number()), k, lines_.place(), message);
   }
 
   [[noreturn]] void fail_gone(std::size_t k) const {
@@ -98,19 +159,21 @@ class XyzFile {
 
   // Skips a frame by counting lines. Contents are examined only in the requested frames.
   bool skip_frame(FramesHeld& held) {
+    const std::uint64_t frame_begin = lines_.place();
     if (!read_count()) return false;
     const auto count = atoms_in_frame();
     if (!count)
-      fail(fmt::format("expected the number of atoms of frame {}, found {}", held.whole, in_quotes(line_)));
-    if (*count == 0) fail("expected at least 1 atom, found 0");
+      fail_count(held.whole, fmt::format("expected the number of atoms of frame {}, found {}", held.whole,
+                                         in_quotes(line_)));
+    if (*count == 0) fail_count(held.whole, "expected at least 1 atom, found 0");
     if (held.whole == 0) atoms_ = *count;
     if (!skip_atoms(*count)) {
       held.ends_inside = true;
       return false;
     }
     if (*count != atoms_)
-      throw InputError(fmt::format("{}: frame {}: {}, expected {} as in frame 0", lines_.name(), held.whole,
-                                   counted(*count, "atom"), atoms_));
+      throw DamagedFrame(lines_.name(), held.whole, frame_begin,
+                         fmt::format("{}, expected {} as in frame 0", counted(*count, "atom"), atoms_));
     ++held.whole;
     return true;
   }
@@ -205,99 +268,22 @@ class XyzFile {
   std::size_t next_ = 0;  // frame that the next line begins
   std::optional<std::size_t> first_frame_;
   std::vector<std::string> symbols_, ids_;  // of the first frame
+  Eigen::Matrix3Xd positions_;              // of all atoms
 };
-
-class XyzFrames final : public FrameReader {
- public:
-  XyzFrames(XyzFile file, const FramesAsked& asked)
-      : file_(std::move(file)), walk_(asked, file_.may_have_cell()) {}
-
-  bool next(FrameRead& frame) override {
-    if (!walk_.next()) return false;
-    frame.asked = walk_.is_asked();
-    file_.read_frame(walk_.frame(), frame);
-    return true;
-  }
-  void rewind() override { walk_.rewind(); }
-
- private:
-  XyzFile file_;
-  FrameWalk walk_;
-};
-
-// Returns the element of an amino acid's atom name in capitals. Some of these names are also symbols of
-// elements.
-std::optional<char> element_of_atom_name(std::string_view name) {
-  constexpr std::array<std::string_view, 12> heavy{"CA", "CB", "CG", "CD", "CE", "CZ",
-                                                   "NE", "NZ", "OG", "OH", "SD", "SG"};
-  constexpr std::array<std::string_view, 9> hydrogens{"HA", "HB", "HG", "HD", "HE", "HZ", "HH", "HN", "HO"};
-  if (name == "OXT" || std::find(heavy.begin(), heavy.end(), name) != heavy.end() ||
-      std::find(hydrogens.begin(), hydrogens.end(), name) != hydrogens.end())
-    return name[0];
-  // Names such as CG1, OD2, HB3 or HD11 consist of an element, a remoteness letter and digits.
-  const std::size_t digits = name.find_first_of("0123456789");
-  if (digits != 2 || name.size() > 4 ||
-      name.find_first_not_of("0123456789", digits) != std::string_view::npos)
-    return std::nullopt;
-  const bool is_element = std::string_view("CNOH").find(name[0]) != std::string_view::npos;
-  const bool is_remote = std::string_view("ABGDEZH").find(name[1]) != std::string_view::npos;
-  return is_element && is_remote ? std::optional(name[0]) : std::nullopt;
-}
-
-// Decides from the whole column whether it holds atom names or element symbols: names if some entries are not
-// symbols, or if CA occurs alone or with N.
-bool holds_atom_names(const std::vector<std::string>& symbols) {
-  bool has_alpha = false, has_nitrogen = false, all_alpha = true;
-  for (const std::string& symbol : symbols) {
-    if (element_of_atom_name(symbol) && !van_der_waals_radius(symbol)) return true;
-    if (symbol == "CA") has_alpha = true;
-    if (symbol == "N") has_nitrogen = true;
-    if (symbol != "CA") all_alpha = false;
-  }
-  return has_alpha && (has_nitrogen || all_alpha);
-}
-
-std::vector<double> element_radii_of(const std::string& file, const std::vector<std::string>& symbols,
-                                     std::vector<std::string>& warnings) {
-  const bool names = holds_atom_names(symbols);
-  std::vector<std::string> guessed;
-  std::vector<double> radii;
-  for (const std::string& symbol : symbols) {
-    const auto number = parse_count(symbol);
-    auto radius = number ? van_der_waals_radius(*number) : van_der_waals_radius(symbol);
-    if (const auto letter = element_of_atom_name(symbol)) {
-      if (radius && std::find(guessed.begin(), guessed.end(), symbol) == guessed.end())
-        guessed.push_back(symbol);
-      if (names) radius = van_der_waals_radius(std::string_view(&*letter, 1));
-    }
-    if (!radius) return {};
-    radii.push_back(*radius);
-  }
-  for (const std::string& symbol : guessed)
-    warnings.push_back(fmt::format("{}: {} is taken for {}", file, symbol,
-                                   names ? "an atom name of amino acids; the element is written as in Ca"
-                                         : "an element, as no atom name of amino acids stands beside it"));
-  return radii;
-}
 
 }  // namespace
 
-FramesOpened open_xyz(const std::filesystem::path& path, const ReadOptions& options) {
-  if (options.selection == Selection::backbone || options.selection == Selection::ca)
-    throw InputError(fmt::format(
-        "--select: {} does not name residues; an XYZ file is read with all its atoms", path.string()));
-  if (options.chain)
-    throw InputError(fmt::format("--chain: {} does not name chains; an XYZ file is read with all its atoms",
-                                 path.string()));
-  FramesOpened opened;
-  opened.file = path.string();
-  XyzFile file(path);
-  const FramesAsked asked = select_frames(opened.file, options.frames, file.held(), opened.warnings);
-  FrameRead first;
-  file.read_frame(asked[0], first);
-  opened.element_radii = element_radii_of(opened.file, file.symbols(), opened.warnings);
-  opened.frames = std::make_unique<XyzFrames>(std::move(file), asked);
-  return opened;
+bool looks_like_xyz(std::string_view start) {
+  const std::string_view count = trimmed(next_line(start));
+  (void)next_line(start);
+  const auto fields = split_fields(next_line(start));
+  if (!parse_count(count) || start.empty() || fields.size() < 4) return false;
+  return std::all_of(fields.begin() + 1, fields.begin() + 4,
+                     [](std::string_view field) { return parse_fortran_double(field).has_value(); });
+}
+
+std::unique_ptr<AtomFrames> open_xyz(const std::filesystem::path& path, const ReadOptions&) {
+  return std::make_unique<XyzFrames>(path);
 }
 
 }  // namespace kds

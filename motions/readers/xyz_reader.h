@@ -4,12 +4,15 @@
 // cell (Lattice, pbc) and other columns (Properties). Atoms must keep their symbols and ids in all frames.
 
 #include <filesystem>
+#include <memory>
+#include <string_view>
 
-#include "motions/frames/frame_reader.h"
-#include "motions/readers/read_options.h"
+#include "motions/readers/atom_frames.h"
 
 namespace kds {
 
-[[nodiscard]] FramesOpened open_xyz(const std::filesystem::path& path, const ReadOptions& options);
+[[nodiscard]] bool looks_like_xyz(std::string_view start);
+[[nodiscard]] std::unique_ptr<AtomFrames> open_xyz(const std::filesystem::path& path,
+                                                   const ReadOptions& options);
 
 }  // namespace kds

@@ -1,0 +1,28 @@
+#pragma once
+// The atoms of a structure file, as they name the atoms of a trajectory.
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "motions/frames/frame_reader.h"
+#include "motions/readers/read_options.h"
+
+namespace kds {
+
+/// The atoms of a structure's first model, by their place in the file.
+struct Topology {
+  std::size_t atom_count = 0;         ///< with all alternate locations, waters and ligands
+  std::vector<std::size_t> selected;  ///< places of the beads, in the order of the chains
+  std::vector<ChainRead> chains;      ///< the chains of the beads
+  std::vector<std::string> warnings;  ///< about parts left out or guessed, one line each
+  std::vector<double> element_radii;  ///< one per bead; empty if elements are unknown
+  std::vector<std::string> bead_names;
+};
+
+/// Reads the names of the atoms that `options` select. Throws InputError naming the file if its format names
+/// no atoms.
+[[nodiscard]] Topology read_topology(const std::filesystem::path& path, const ReadOptions& options);
+
+}  // namespace kds
