@@ -9,6 +9,7 @@
 #include "experiments/program/option_values.h"
 #include "experiments/program/suggestion.h"
 #include "motions/base/input_file.h"
+#include "motions/readers/reader_registry.h"
 
 namespace kds {
 
@@ -74,8 +75,9 @@ void check_exists(const std::filesystem::path& path) {
 const OptionList<InputOptions>& input_options() {
   static const OptionList<InputOptions> list{{
       {{"--topology", "FILE",
-        "PDB or mmCIF file that names the atoms of a DCD file (default: every atom of the DCD file is a "
-        "bead)"},
+        "file that names the atoms of a trajectory that does not: PDB, mmCIF, GRO, PSF or prmtop (default: "
+        "every "
+        "atom of the trajectory is a bead)"},
        [](InputOptions& o, const std::string& text) { o.reading.topology = parse_path("--topology", text); },
        [](const InputOptions& o) { return o.reading.topology ? o.reading.topology->string() : ""; },
        [](const InputOptions& o) {
@@ -100,6 +102,27 @@ const OptionList<InputOptions>& input_options() {
         "frames to read: FIRST:LAST:STRIDE, counted from 0; frame LAST itself is not read (default: all)"},
        [](InputOptions& o, const std::string& text) { o.reading.frames = parse_frame_range(text); },
        [](const InputOptions& o) { return name_of(o.reading.frames); }},
+      {{"--format", "NAME",
+        "format of the inputs, as in dcd or pdb (default: told from the content, then from the ending)"},
+       [](InputOptions& o, const std::string& text) {
+         const std::vector<std::string> names = reader_registry().names();
+         const std::vector<std::string_view> views(names.begin(), names.end());
+         o.reading.format = names[place_among("--format", text, views)];
+       },
+       [](const InputOptions& o) { return o.reading.format.value_or(""); }},
+      {{"--dt", "PS",
+        "picoseconds from one frame of the file to the next (default: times as in the file, if it has any)"},
+       [](InputOptions& o, const std::string& text) {
+         o.reading.time_step = parse_real("--dt", text, {0, 1e12, true});
+       },
+       [](const InputOptions& o) {
+         return o.reading.time_step ? fmt::format("{}", *o.reading.time_step) : "";
+       }},
+      {{"--until-damage", "", "read the frames before a damaged frame instead of refusing the file"},
+       [](InputOptions& o, const std::string&) { o.reading.until_damage = true; },
+       [](const InputOptions& o) { return o.reading.until_damage ? "yes" : ""; },
+       nullptr,
+       [](const InputOptions& o) { return Json(o.reading.until_damage); }},
       {{"--radius", "RULE",
         "radii of the beads: auto (half of the longest bond in the frames read), a number, element (van der "
         "Waals), element:fit (element times a factor, at most 1, with which no beads but neighbours touch in "

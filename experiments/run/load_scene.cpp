@@ -29,6 +29,9 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   refuse(reading.chain.has_value(), "--chain");
   refuse(reading.selection != Selection::automatic, "--select");
   refuse(reading.frames.first != 0 || reading.frames.last || reading.frames.stride != 1, "--frames");
+  refuse(reading.format.has_value(), "--format");
+  refuse(reading.time_step.has_value(), "--dt");
+  refuse(reading.until_damage, "--until-damage");
   refuse(options.radius != "auto", "--radius");
   refuse(options.obstacle.has_value(), "--obstacle");
   return read_instance(*instance);

@@ -16,7 +16,7 @@ Frames numbers(const FramesAsked& asked) {
 
 Frames select(std::string_view range, FramesHeld held) {
   std::vector<std::string> warnings;
-  return numbers(select_frames("f", parse_frame_range(range), held, warnings));
+  return numbers(select_frames("f", parse_frame_range(range), held, false, warnings));
 }
 
 TEST(FrameRange, Parse) {
@@ -50,7 +50,7 @@ TEST(FrameRange, Select) {
 TEST(FrameRange, TellsOfFramesBehindTheLastOneThatAStrideMeets) {
   const auto warnings = [](std::string_view range, std::size_t whole) {
     std::vector<std::string> lines;
-    (void)select_frames("f", parse_frame_range(range), {whole, false}, lines);
+    (void)select_frames("f", parse_frame_range(range), {whole, false}, false, lines);
     return lines;
   };
   using Lines = std::vector<std::string>;
@@ -70,28 +70,48 @@ TEST(FrameRange, FramesThatAreNotThere) {
   std::vector<std::string> warnings;
   test::expect_refused(
       [&] {
-        (void)select_frames("f", FrameRange{0, std::nullopt, 0}, {3, false}, warnings);
+        (void)select_frames("f", FrameRange{0, std::nullopt, 0}, {3, false}, false, warnings);
       },
       {"stride"});
 }
 
 TEST(FrameRange, OneFrameIsAtRest) {
   EXPECT_EQ(select("10:60:2", {1, false}), Frames{0});
-  test::expect_refused([] { (void)select("10:60", {1, true}); }, {"inside frame 1"});
+  test::expect_refused(
+      [] {
+        (void)select("10:60", {1, true});
+      },
+      {"frame 10 is asked for", "f holds 1 frame"});
 }
 
 TEST(FrameRange, FileThatEndsInsideAFrame) {
-  test::expect_refused(
-      [] {
-        (void)select(":", {3, true});
-      },
-      {"f", "inside frame 3", "last whole frame is 2", "--frames :3"});
-  test::expect_refused([] { (void)select(":4", {3, true}); }, {"last whole frame is 2"});
+  test::expect_refused([] { (void)select(":4", {3, true}); }, {"frames up to 3", "f holds 3 frames"});
   test::expect_refused([] { (void)select(":1", {0, true}); }, {"inside frame 0"});
+  for (const char* range : {":", ":3"}) {
+    std::vector<std::string> warnings;
+    EXPECT_EQ(numbers(select_frames("f", parse_frame_range(range), {3, true, 1234}, false, warnings)),
+              (Frames{0, 1, 2}));
+    EXPECT_EQ(warnings, std::vector<std::string>{
+                            "f: the file ends inside frame 3 (after 1234 bytes); the last whole frame is 2"});
+  }
+}
+
+TEST(FrameRange, DamagedFrame) {
+  const DamagedFrame damage("f", 3, 1234, "expected 7 atoms, found 8");
+  const FramesHeld held{3, false, 0, damage};
+  test::expect_refused([&] { (void)select(":", held); },
+                       {"f: frame 3, byte 1234: expected 7 atoms, found 8"});
+  test::expect_refused([&] { (void)select(":4", held); }, {"f: frame 3"});
+  EXPECT_EQ(select(":3", held), (Frames{0, 1, 2}));
+  for (const char* range : {":", ":9"}) {
+    std::vector<std::string> warnings;
+    EXPECT_EQ(numbers(select_frames("f", parse_frame_range(range), held, true, warnings)), (Frames{0, 1, 2}));
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].find("frames up to 2 are read (--until-damage)"), std::string::npos);
+  }
+  const FramesHeld none{0, false, 0, DamagedFrame("f", 0, 8, "expected 7 atoms, found 8")};
   std::vector<std::string> warnings;
-  EXPECT_EQ(numbers(select_frames("f", parse_frame_range(":3"), {3, true}, warnings)), (Frames{0, 1, 2}));
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("ends inside frame 3"), std::string::npos);
+  test::expect_refused([&] { (void)select_frames("f", {}, none, true, warnings); }, {"f: frame 0, byte 8"});
 }
 
 }  // namespace
