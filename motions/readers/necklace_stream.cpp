@@ -31,8 +31,9 @@ const ReaderSpec& reader_of(const std::filesystem::path& path,
 // A format that takes a topology names no atoms itself, so it cannot be one.
 void refuse_trajectory_as_topology(const std::filesystem::path& path, const std::filesystem::path& topology,
                                    bool path_takes_topology) {
-  const ReaderSpec& reader = reader_of(topology);
-  if (reader.topology || !reader.takes_topology) return;
+  const ReaderSpec* const reader =
+      path_takes_topology ? &reader_of(topology) : reader_registry().find_by_ending(topology);
+  if (reader == nullptr || reader->topology || !reader->takes_topology) return;
   throw InputError(fmt::format(
       "--topology: {} names no atoms; {}", topology.string(),
       path_takes_topology

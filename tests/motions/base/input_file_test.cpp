@@ -142,12 +142,12 @@ TEST(InputFile, FramesBehindAMemberAreNotLost) {
   };
   EXPECT_EQ(read("a.xyz.gz", member(frame) + member(frame)), 2U);
   EXPECT_THROW((void)read("a.xyz.gz", member(frame) + frame), InputError);
-  EXPECT_THROW((void)read("a.xyz.gz", member(frame) + member(frame).substr(0, 1)), InputError);
+  EXPECT_EQ(read("a.xyz.gz", member(frame) + member(frame).substr(0, 1)), 1U);  // cut off, with a warning
   const test::DcdMaker maker = test::DcdMaker::chain(3, 4);
   const std::string start = maker.header() + maker.frame(0) + maker.frame(1), rest = maker.frame(2);
   EXPECT_EQ(read("a.dcd.gz", member(start) + member(rest)), 3U);
   EXPECT_THROW((void)read("a.dcd.gz", member(start) + rest), InputError);
-  EXPECT_THROW((void)read("a.dcd.gz", member(start) + member(rest).substr(0, 1)), InputError);
+  EXPECT_EQ(read("a.dcd.gz", member(start) + member(rest).substr(0, 1)), 2U);
 }
 
 }  // namespace

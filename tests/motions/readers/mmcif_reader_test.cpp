@@ -299,7 +299,7 @@ TEST(MmcifReader, SyntaxOfCif) {
   const std::string quoted = "data_X\n_a.b 'it's quoted' _a.c \"x\"\n_a.d\n;text\nloop_\n;\n";
   refuse(quoted, {"a.cif", "no atom"});
   refuse("", {"a.cif:1:", "data_"});
-  refuse("HEADER\n", {"a.cif:1:", "data_", "HEADER"});
+  refuse("HEADER\n", {"a.cif: no ATOM or HETATM line"});
   refuse("data_X\n_a.b\n", {"a.cif:2:", "'_a.b' has no value"});
   refuse("data_X\n_a.b 'open\n'", {"a.cif:2:", "unterminated 'string'", "_a.b 'open"});
   refuse("data_X\n_a.b\n;open\n", {"a.cif:4:", "unterminated text field"});

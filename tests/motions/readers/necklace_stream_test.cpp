@@ -120,7 +120,7 @@ TEST(NecklaceStream, RefusesATrajectoryAsTopology) {
                        {"--topology:", "a.dcd names no atoms; the trajectory comes first: " +
                                            frames.string() + " --topology " + structure.string()});
   test::expect_refused([&] { NecklaceStream(frames, {.topology = frames}); },
-                       {"--topology:", "names no atoms; expected the PDB or mmCIF file"});
+                       {"--topology:", "names no atoms; expected the file with the atoms of"});
   // If a structure has another structure as its topology, the topology is ignored.
   const NecklaceStream stream(structure, {.topology = structure});
   EXPECT_THAT(stream.warnings(0), ElementsAre(HasSubstr("--topology is left unread")));

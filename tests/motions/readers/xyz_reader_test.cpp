@@ -51,7 +51,7 @@ TEST(XyzReader, Refuses) {
   refuse("0\n\n", {"a.xyz:1:", "at least 1 atom"});
   refuse("2\n\nC 0 0\nC 0 0 0\n", {"a.xyz:3:", "3 fields"});
   refuse("1\n\nC 0 0 z\n1\n\nC 0 0 0\n", {"a.xyz:3:", "'z'"});
-  refuse("1\n\nC 0 0 0\n2\n\nC 0 0 0\nC 0 0 1\n", {"a.xyz: frame 1: 2 atoms, expected 1"});
+  refuse("1\n\nC 0 0 0\n2\n\nC 0 0 0\nC 0 0 1\n", {"a.xyz: frame 1, byte 11: 2 atoms, expected 1"});
   refuse("1\n\nC 0 0 0\n1\n\nC 0 nan 0\n", {"a.xyz: frame 1: bead 0 has y = nan"});
   refuse("1\n\nC inf 0 0\n", {"a.xyz: frame 0: bead 0 has x = inf"});
   refuse("99999999999999\n\nC 0 0 0\n", {"inside frame 0"});
@@ -72,11 +72,13 @@ TEST(XyzReader, ColumnsThatRunTogether) {
 
 TEST(XyzReader, FileThatEndsInsideAFrame) {
   const std::string cut(two_frames.substr(0, two_frames.size() - 12));
-  refuse(cut, {"inside frame 1", "last whole frame is 0"});
-  const Trajectory whole = read(cut, {.frames = {0, 1, 1}});
-  EXPECT_EQ(whole.frames.size(), 1U);
-  ASSERT_EQ(whole.warnings.size(), 1U);
-  EXPECT_NE(whole.warnings[0].find("ends inside frame 1"), std::string::npos);
+  for (const FrameRange& range : {FrameRange{}, FrameRange{0, 1, 1}}) {
+    const Trajectory whole = read(cut, {.frames = range});
+    EXPECT_EQ(whole.frames.size(), 1U);
+    ASSERT_EQ(whole.warnings.size(), 1U);
+    EXPECT_NE(whole.warnings[0].find("ends inside frame 1"), std::string::npos);
+    EXPECT_NE(whole.warnings[0].find("last whole frame is 0"), std::string::npos);
+  }
 }
 
 TEST(XyzReader, CutAnywhere) {
@@ -304,8 +306,10 @@ TEST(XyzReader, GzippedFileThatIsCutOff) {
     const auto path = test::write_file(
         "cut.xyz.gz", std::string_view(bytes).substr(
                           0, static_cast<std::size_t>(share * static_cast<double>(bytes.size()))));
-    test::expect_refused([&] { (void)read_trajectory(path); },
-                         {"cut.xyz.gz", "inside frame", "last whole frame"});
+    const Trajectory whole = read_trajectory(path);
+    EXPECT_GT(whole.frames.size(), 10U);
+    ASSERT_FALSE(whole.warnings.empty());
+    EXPECT_NE(whole.warnings[0].find("cut.xyz.gz: the file ends inside frame"), std::string::npos);
     EXPECT_EQ(read_trajectory(path, {.frames = {0, 10, 1}}).frames.size(), 10U);
   }
 }
@@ -328,14 +332,59 @@ TEST(XyzReader, ChainBreaks) {
 }
 
 TEST(ReadTrajectory, UnknownEnding) {
-  for (const std::string ending : {".xtc", ".trr", ".psf", ".gro", ".prmtop", ".parm7", ".nc", ".lammpstrj",
-                                   ".h5md", ".XTC", ".gro.gz", ".mol2", ".xyz.bz2"})
-    test::expect_refused([&] { (void)read_trajectory("a" + ending); },
+  for (const std::string ending :
+       {".tng", ".tpr", ".top", ".rst7", ".h5md", ".TNG", ".g96.gz", ".mol2", ".xyz.bz2"})
+    test::expect_refused([&] { (void)read_trajectory(test::write_file("a" + ending, "some bytes")); },
                          {"a" + ending, "not read yet; supported: .pdb", "; "});
   const auto pdb = test::write_file("a.pdb", test::pdb_residue(1));
-  test::expect_refused([&] { (void)read_trajectory(pdb, {.topology = "a.psf"}); }, {"a.psf", "not read yet"});
-  test::expect_refused([] { (void)read_trajectory("a"); },
-                       {"cannot tell the format of a from its ending", ".pdb", ".dcd"});
+  const auto dcd = test::write_file("a.dcd", test::DcdMaker::chain(3, 2).bytes());
+  test::expect_refused(
+      [&] { (void)read_trajectory(dcd, {.topology = test::write_file("a.tpr", "some bytes")}); },
+      {"a.tpr", "not read yet"});
+  const auto unknown = test::write_file("a", "some bytes");
+  test::expect_refused([&] { (void)read_trajectory(unknown); },
+                       {"cannot tell the format of", "a from its content or its ending", ".pdb", ".dcd"});
+}
+
+TEST(ReadTrajectory, TellsTheFormatFromTheContentFirst) {
+  const std::string pdb = test::pdb_residue(1), dcd = test::DcdMaker::chain(3, 2).bytes();
+  for (const char* name : {"a.xyz", "a.dcd", "a.cif", "a"}) {
+    const Trajectory trajectory = read_trajectory(test::write_file(name, pdb));
+    EXPECT_EQ(trajectory.bead_count(), 3U) << name;
+    EXPECT_EQ(trajectory.bead_names.size(), 3U) << name;
+    ASSERT_EQ(trajectory.warnings.size(), std::string(name) == "a" ? 0U : 1U) << name;
+    for (const std::string& line : trajectory.warnings)
+      EXPECT_NE(line.find("its content is that of the format pdb"), std::string::npos) << line;
+  }
+  EXPECT_EQ(read_trajectory(test::write_file("b.pdb", dcd)).frames.size(), 2U);
+  EXPECT_EQ(read_trajectory(test::write_file("c", std::string(two_frames))).frames.size(), 2U);
+  // --format overrides both.
+  EXPECT_EQ(read_trajectory(test::write_file("b.pdb", dcd), {.format = "dcd"}).warnings.size(), 0U);
+  test::expect_refused([&] { (void)read_trajectory(test::write_file("b.dcd", dcd), {.format = "xyz"}); },
+                       {"b.dcd:1:"});
+  test::expect_refused([&] { (void)read_trajectory(test::write_file("b.dcd", dcd), {.format = "zip"}); },
+                       {"--format", "zip", "pdb, mmcif"});
+}
+
+TEST(ReadTrajectory, ReadsUntilDamage) {
+  const std::string frame = "2\n\nC 0 0 0\nC 1 0 0\n", bad = "2\n\nC 0 0 0\nC one 0 0\n";
+  const auto path = test::write_file("a.xyz", frame + frame + bad + frame);
+  test::expect_refused([&] { (void)read_trajectory(path); }, {"a.xyz:12:", "one"});
+  const Trajectory before = read_trajectory(path, {.until_damage = true});
+  EXPECT_EQ(before.frames.size(), 2U);
+  ASSERT_EQ(before.warnings.size(), 1U);
+  EXPECT_NE(before.warnings[0].find("frames up to 1 are read (--until-damage)"), std::string::npos);
+  // The first frame cannot be missed.
+  const auto all_bad = test::write_file("b.xyz", bad + frame);
+  test::expect_refused([&] { (void)read_trajectory(all_bad, {.until_damage = true}); }, {"b.xyz:4:", "one"});
+}
+
+TEST(ReadTrajectory, TimesOfATimeStep) {
+  const auto path = test::write_file("a.xyz", std::string(two_frames) + std::string(two_frames));
+  EXPECT_TRUE(read_trajectory(path).times.empty());
+  EXPECT_EQ(read_trajectory(path, {.time_step = 2.5}).times, (std::vector<double>{0, 2.5, 5, 7.5}));
+  EXPECT_EQ(read_trajectory(path, {.frames = {1, std::nullopt, 2}, .time_step = 2.5}).times,
+            (std::vector<double>{2.5, 7.5}));
 }
 
 }  // namespace
