@@ -8,7 +8,7 @@
 
 #include "motions/base/input_error.h"
 #include "motions/curves/positions.h"
-#include "motions/frames/every_nth.h"
+#include "motions/frames/trajectory.h"
 #include "motions/scene/radii.h"
 #include "motions/scene/straightened_frames.h"
 #include "structures/collision/auto_detector.h"

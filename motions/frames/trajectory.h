@@ -1,5 +1,5 @@
 #pragma once
-// The sampled frames of one necklace, as read from a file.
+// The sampled frames of one necklace, as read from a file, and its chain breaks.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -36,5 +36,18 @@ struct Trajectory {
     return k < frame_numbers.size() ? frame_numbers[k] : k;
   }
 };
+
+/// Finds chain breaks: places where residues are missing, so that two consecutive beads are far apart.
+/// Returns b for each bond b to b+1 of this frame that is longer than 1.5 times the median bond. Needs three
+/// beads.
+[[nodiscard]] std::vector<std::size_t> find_chain_breaks(const Eigen::Ref<const Eigen::Matrix3Xd>& frame);
+
+/// Returns one line that names the first ten places.
+[[nodiscard]] std::string describe_chain_breaks(const std::string& file,
+                                                const std::vector<std::size_t>& breaks);
+
+/// Returns the frames 0, n, 2n ... with their numbers in the file. For n above 1 the times are dropped. A
+/// trajectory at rest is returned unchanged.
+[[nodiscard]] Trajectory every_nth(const Trajectory& trajectory, std::size_t n);
 
 }  // namespace kds

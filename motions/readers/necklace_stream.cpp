@@ -11,7 +11,7 @@
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
-#include "motions/frames/chain_breaks.h"
+#include "motions/frames/trajectory.h"
 #include "motions/readers/reader_registry.h"
 #include "motions/readers/unread_formats.h"
 

@@ -9,7 +9,7 @@
 #include "experiments/update/compare_updates.h"
 #include "experiments/update/update_report.h"
 #include "motions/base/input_error.h"
-#include "motions/frames/every_nth.h"
+#include "motions/frames/trajectory.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"

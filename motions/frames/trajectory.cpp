@@ -1,4 +1,4 @@
-#include "motions/frames/chain_breaks.h"
+#include "motions/frames/trajectory.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -44,6 +44,19 @@ std::string describe_chain_breaks(const std::string& file, const std::vector<std
                                  breaks.size() == 1 ? "bead" : "beads", fmt::join(breaks.begin(), end, ", "));
   if (breaks.size() > named) text += fmt::format(" and {} more", breaks.size() - named);
   return text + " (joined)";
+}
+
+Trajectory every_nth(const Trajectory& trajectory, std::size_t n) {
+  Trajectory some = trajectory;
+  if (n == 1 || trajectory.frames.size() == 1) return some;
+  some.frames.clear();
+  some.frame_numbers.clear();
+  some.times.clear();
+  for (std::size_t k = 0; k < trajectory.frames.size(); k += n) {
+    some.frames.push_back(trajectory.frames[k]);
+    some.frame_numbers.push_back(trajectory.frame_number(k));
+  }
+  return some;
 }
 
 }  // namespace kds
