@@ -2,13 +2,15 @@
 // The frames that `kds collide` examines. They are read one after the other, with one frame in memory.
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/program/input_options.h"
 #include "motions/base/bead_range.h"
-#include "motions/scene/scene_stream.h"
+#include "motions/frames/frame_source.h"
+#include "motions/scene/frame_survey.h"
 
 namespace kds {
 
@@ -34,7 +36,7 @@ class CollideFrames {
   }
 
  private:
-  SceneStream stream_;
+  std::unique_ptr<FrameSource> frames_;
   std::optional<AxisPlane> plane_;
   std::size_t frame_count_ = 0;
   std::vector<BeadRange> necklaces_;

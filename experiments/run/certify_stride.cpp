@@ -14,23 +14,24 @@
 #include "experiments/run/met_contacts.h"
 #include "experiments/run/run_steps.h"
 #include "motions/base/input_error.h"
+#include "motions/scene/straightened_frames.h"
 
 namespace kds {
 
 namespace {
 
-std::unique_ptr<SceneStream> frames_of(const RunOptions& options, std::size_t stride) {
+std::unique_ptr<FrameSource> frames_of(const RunOptions& options, std::size_t stride) {
   InputOptions input = options;
   input.reading.frames.stride = stride;
-  return std::make_unique<SceneStream>(open_frames(input, [](const std::string&) {}));
+  return open_frames(input, [](const std::string&) {});
 }
 
 /// Returns all contacts of the run with these radii.
-std::shared_ptr<const MetContacts> contacts_met(const RunOptions& options, const SceneSurvey& survey,
+std::shared_ptr<const MetContacts> contacts_met(const RunOptions& options, const FrameSurvey& survey,
                                                 std::vector<double> radii,
                                                 const std::optional<double>& tolerance) {
   auto frames = frames_of(options, options.reading.frames.stride);
-  if (tolerance) frames->straighten(*tolerance);
+  if (tolerance) frames = std::make_unique<StraightenedFrames>(std::move(frames), *tolerance);
   const Scene scene(std::move(frames), survey, std::move(radii), options.motion);
   RunOptions contacts;
   contacts.structures = {"contacts"};
@@ -57,8 +58,7 @@ PairsMet pairs_of(ContactSpan contacts) {
 
 void bound_contacts(const RunOptions& options, const Scene& scene, const std::optional<double>& tolerance,
                     StrideCertificate& certificate) {
-  const SceneSurvey survey =
-      frames_of(options, options.reading.frames.stride)->survey(false, [](const std::string&) {});
+  const FrameSurvey survey = survey_frames(*frames_of(options, options.reading.frames.stride), false);
   RadiiWithin radii;
   try {
     radii = radii_within(certificate.deviation, scene.radii());

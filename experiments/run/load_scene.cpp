@@ -10,6 +10,7 @@
 #include "motions/readers/pdb_reader.h"
 #include "motions/readers/reader_registry.h"
 #include "motions/scene/radii.h"
+#include "motions/scene/straightened_frames.h"
 #include "structures/necklace/necklace_tree.h"
 
 namespace kds {
@@ -112,8 +113,9 @@ void check_inputs_of_one_frame(const std::vector<InputAtoms>& inputs, const Inpu
 
 }  // namespace
 
-SceneStream open_frames(const InputOptions& options, const std::function<void(const std::string&)>& warn,
-                        std::size_t stride) {
+std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
+                                        const std::function<void(const std::string&)>& warn,
+                                        std::size_t stride) {
   std::vector<NecklaceStream> files;
   std::vector<InputAtoms> atoms;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
@@ -137,7 +139,7 @@ SceneStream open_frames(const InputOptions& options, const std::function<void(co
       throw InputError(
           fmt::format("--obstacle: {} has several frames, expected one", options.obstacle->string()));
   }
-  return SceneStream(std::move(files));
+  return std::make_unique<FileFrames>(std::move(files));
 }
 
 std::vector<Trajectory> read_necklaces(const InputOptions& options,
@@ -159,11 +161,11 @@ std::vector<Trajectory> read_necklaces(const InputOptions& options,
 Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
                      const std::function<void(const std::string&)>& warn,
                      const std::optional<MotionTolerance>& tolerance) {
-  auto frames = std::make_unique<SceneStream>(open_frames(input, warn));
-  const SceneSurvey survey = frames->survey(input.radius == "auto", warn);
-  std::vector<double> radii = bead_radii(input.radius, survey.necklaces, survey.bonds);
+  std::unique_ptr<FrameSource> frames = open_frames(input, warn);
+  const FrameSurvey survey = survey_frames(*frames, input.radius == "auto", warn);
+  std::vector<double> radii = bead_radii(input.radius, frames->necklaces(), survey);
   for (double& radius : radii) radius *= radius_factor;
-  if (tolerance) frames->straighten(tolerance->length(radii));
+  if (tolerance) frames = std::make_unique<StraightenedFrames>(std::move(frames), tolerance->length(radii));
   return {std::move(frames), survey, std::move(radii), motion};
 }
 

@@ -9,6 +9,7 @@
 
 #include "experiments/program/input_options.h"
 #include "experiments/run/run_options.h"
+#include "motions/scene/file_frames.h"
 #include "motions/scene/scene.h"
 #include "structures/session/kinetic_run.h"
 
@@ -24,9 +25,9 @@ namespace kds {
 /// Throws InputError if an input with one frame has the atoms of an input with more frames: an option must
 /// say whether that input names atoms or is an obstacle. Any other input with one frame is at rest, and a
 /// line to `warn` says so.
-[[nodiscard]] SceneStream open_frames(const InputOptions& options,
-                                      const std::function<void(const std::string&)>& warn,
-                                      std::size_t stride = 1);
+[[nodiscard]] std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
+                                                      const std::function<void(const std::string&)>& warn,
+                                                      std::size_t stride = 1);
 
 /// Reads all inputs, none of which is an instance file. Each warning goes to `warn` as one line. Throws
 /// InputError for inputs with one frame, as open_frames does.

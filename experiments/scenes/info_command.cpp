@@ -42,10 +42,10 @@ void describe(const Instance& instance, bool beads, const TableCommand& command)
 }
 
 void describe_beads(const InfoOptions& options, TableCommand& command) {
-  const SceneSurvey survey =
-      open_frames(options, command.warn()).survey(options.radius == "auto", command.warn());
+  const auto frames = open_frames(options, command.warn());
+  const FrameSurvey survey = survey_frames(*frames, options.radius == "auto", command.warn());
   const std::vector<BeadRow> rows =
-      bead_rows(survey.necklaces, bead_radii(options.radius, survey.necklaces, survey.bonds));
+      bead_rows(frames->heads(), bead_radii(options.radius, frames->necklaces(), survey));
   Json json;
   json["input"] = {{"files", files_json(options)}, {"beads", rows.size()}};
   json["settings"] = info_options().settings_json(options);
@@ -55,13 +55,11 @@ void describe_beads(const InfoOptions& options, TableCommand& command) {
 }
 
 void describe(const InfoOptions& options, TableCommand& command) {
-  SceneStream frames = open_frames(options, command.warn());
-  const SceneSurvey survey = frames.survey(options.radius == "auto", command.warn());
-  const std::vector<double> radii = bead_radii(options.radius, survey.necklaces, survey.bonds);
-  const SceneInfo info = describe_frames(
-      survey.necklaces, survey.frames_of_necklaces,
-      [&frames](FrameRead& frame) { return frames.next(frame); }, radii, options.validate,
-      command.progress());
+  const auto frames = open_frames(options, command.warn());
+  const FrameSurvey survey = survey_frames(*frames, options.radius == "auto", command.warn());
+  const std::vector<double> radii = bead_radii(options.radius, frames->necklaces(), survey);
+  const SceneInfo info = describe_frames(frames->heads(), frames->frame_counts(), *frames, radii,
+                                         options.validate, command.progress());
   Json json;
   add_scene(json, info);
   json["settings"] = info_options().settings_json(options);

@@ -1,11 +1,7 @@
 #include "experiments/scenes/scene_info.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-
-#include "motions/base/input_error.h"
 
 namespace kds {
 
@@ -110,13 +106,12 @@ bool SceneInfo::proper() const {
 }
 
 SceneInfo describe_frames(std::span<const Trajectory> necklaces,
-                          std::span<const std::size_t> frames_of_necklaces,
-                          const std::function<bool(FrameRead&)>& next, std::span<const double> radii,
-                          const ValidateOptions& options,
+                          std::span<const std::size_t> frames_of_necklaces, FrameSource& frames,
+                          std::span<const double> radii, const ValidateOptions& options,
                           const std::function<void(std::size_t, std::size_t)>& progress) {
   Description description(necklaces, frames_of_necklaces, radii);
   FrameRead frame;
-  for (std::size_t done = 0; next(frame); progress(++done, description.frames()))
+  for (std::size_t done = 0; frames.next(frame); progress(++done, description.frames()))
     description.add_frame(frame, options);
   return std::move(description).info();
 }
@@ -124,33 +119,10 @@ SceneInfo describe_frames(std::span<const Trajectory> necklaces,
 SceneInfo describe_scene(std::span<const Trajectory> necklaces, std::span<const double> radii,
                          const ValidateOptions& options,
                          const std::function<void(std::size_t, std::size_t)>& progress) {
-  const Trajectory* longest = nullptr;
+  MemoryFrames frames(necklaces);
   std::vector<std::size_t> frames_of_necklaces;
-  for (const Trajectory& necklace : necklaces) {
-    if (longest == nullptr || necklace.frames.size() > longest->frames.size()) longest = &necklace;
-    frames_of_necklaces.push_back(necklace.frames.size());
-  }
-  for (const Trajectory& t : necklaces)
-    if (t.frames.size() != longest->frames.size() && t.frames.size() != 1)
-      throw InputError(fmt::format(
-          "{}: {} frames, but {} has {}; necklaces of a scene need equal frame counts (or one frame: at "
-          "rest)",
-          t.file, t.frames.size(), longest->file, longest->frames.size()));
-  std::size_t at = 0;
-  const auto next = [&](FrameRead& frame) {
-    if (at == longest->frames.size()) return false;
-    frame.stamp.number = longest->frame_number(at);
-    frame.positions.resize(3, static_cast<Eigen::Index>(radii.size()));
-    Eigen::Index begin = 0;
-    for (const Trajectory& necklace : necklaces) {
-      const Eigen::Matrix3Xd& own = necklace.frames[necklace.frames.size() == 1 ? 0 : at];
-      frame.positions.middleCols(begin, own.cols()) = own;
-      begin += own.cols();
-    }
-    ++at;
-    return true;
-  };
-  return describe_frames(necklaces, frames_of_necklaces, next, radii, options, progress);
+  for (const Trajectory& necklace : necklaces) frames_of_necklaces.push_back(necklace.frames.size());
+  return describe_frames(necklaces, frames_of_necklaces, frames, radii, options, progress);
 }
 
 std::string_view about(Condition condition) {

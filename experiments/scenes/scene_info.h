@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/frames/frame_reader.h"
+#include "motions/frames/frame_source.h"
 #include "motions/frames/trajectory.h"
 #include "structures/necklace/necklace.h"
 
@@ -48,11 +48,10 @@ struct SceneInfo {
 };
 
 /// Checks the conditions at every frame, with one frame in memory. `necklaces` need only their first frames,
-/// and `next` reads the next frame of all beads. `radii` has one radius per bead in scene order. Throws
+/// and `frames` has all frames of all beads. `radii` has one radius per bead in scene order. Throws
 /// InputError if a number is not finite.
 [[nodiscard]] SceneInfo describe_frames(std::span<const Trajectory> necklaces,
-                                        std::span<const std::size_t> frames_of_necklaces,
-                                        const std::function<bool(FrameRead&)>& next,
+                                        std::span<const std::size_t> frames_of_necklaces, FrameSource& frames,
                                         std::span<const double> radii, const ValidateOptions& options,
                                         const std::function<void(std::size_t, std::size_t)>& progress);
 /// Checks the conditions at every frame, with all frames in memory. A necklace with one frame is at rest.

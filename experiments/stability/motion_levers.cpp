@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "experiments/stability/stability_subjects.h"
@@ -55,21 +57,13 @@ Scene scene_of(const Frames& frames, std::size_t stride, FrameMotion motion,
   return Scene(std::span(&some, 1), std::move(radii), motion);
 }
 
-class FramesInMemory final : public FrameReader {
- public:
-  explicit FramesInMemory(const Frames& frames) : frames_(frames) {}
-  [[nodiscard]] bool next(FrameRead& frame) override {
-    if (next_ == frames_.size()) return false;
-    frame.stamp.number = next_;
-    frame.positions = frames_[next_++];
-    return true;
-  }
-  void rewind() override { next_ = 0; }
-
- private:
-  const Frames& frames_;
-  std::size_t next_ = 0;
-};
+/// Makes a source of these frames.
+std::unique_ptr<MemoryFrames> source_of(const Frames& frames) {
+  Trajectory trajectory;
+  trajectory.file = "frames";
+  trajectory.frames = frames;
+  return std::make_unique<MemoryFrames>(std::span(&trajectory, 1));
+}
 
 ExactPoint exact_point(const Eigen::Matrix3Xd& frame, std::size_t bead) {
   const auto column = static_cast<Eigen::Index>(bead);
@@ -105,12 +99,10 @@ Looks look_at_tolerance(const Extreme& extreme, int dimension, SceneRandom& rand
   const Frames frames = frames_of(extreme, dimension, 12, random);
   static_cast<void>(scene_of(frames, 1, FrameMotion::linear));  // throws for numbers that readers refuse
   const double tolerance = any_tolerance(frames, random);
-  StraightenedFrames straight(tolerance);
-  FramesInMemory every(frames);
+  StraightenedFrames straight(source_of(frames), tolerance);
   Looks looks;
   std::size_t place = 0;
-  const auto read = [&](FrameRead& frame) { return every.next(frame); };
-  for (FrameRead frame; straight.next(frame, read); ++place)
+  for (FrameRead frame; straight.next(frame); ++place)
     for (std::size_t b = 0; b < bead_count; ++b)
       looks.look(is_within(exact_point(frame.positions, b), exact_point(frames[place], b), tolerance));
   looks.look(place == frames.size());
@@ -164,8 +156,7 @@ Looks look_at_stride(const Extreme& extreme, int dimension, int degree, SceneRan
   const FrameMotion kind = degree == 1 ? FrameMotion::linear : FrameMotion::hermite;
   static_cast<void>(scene_of(frames, 1, kind));
   const Scene scene = scene_of(frames, stride, kind);
-  FramesInMemory every(frames);
-  const StrideDeviation found = deviation_of_stride(scene, every, stride);
+  const StrideDeviation found = deviation_of_stride(scene, *source_of(frames), stride);
   Looks looks;
   if (scene.dimension() == 2) {
     degree == 1 ? look_at_steps<BezierMotion<2, 1>>(scene, frames, stride, found, looks)
@@ -255,16 +246,11 @@ Looks look_at_contacts(const Extreme& extreme, int dimension, bool straight, Sce
   std::optional<double> tolerance;
   if (straight) {
     tolerance = any_tolerance(frames, random);
-    StraightenedFrames straightened(*tolerance);
-    FramesInMemory every(frames);
-    const auto read = [&](FrameRead& frame) { return every.next(frame); };
-    moved.clear();
-    for (FrameRead frame; straightened.next(frame, read);) moved.push_back(frame.positions);
+    moved = straightened(frames, *tolerance);
   }
   static_cast<void>(scene_of(frames, 1, FrameMotion::linear));  // throws for numbers that readers refuse
   const Scene scene = scene_of(moved, stride, FrameMotion::linear, radii);
-  FramesInMemory every(frames);
-  const StrideDeviation found = deviation_of_stride(scene, every, stride, tolerance);
+  const StrideDeviation found = deviation_of_stride(scene, *source_of(frames), stride, tolerance);
   const RadiiWithin within = radii_within(found, radii);
   const Pairs possible = pairs_met(scene_of(moved, stride, FrameMotion::linear, within.larger));
   const Pairs sure = pairs_met(scene_of(moved, stride, FrameMotion::linear, within.smaller));

@@ -26,34 +26,6 @@ double length_of_tolerance(const TradeSetting& setting, const std::vector<double
   return setting.tolerance * *std::min_element(radii.begin(), radii.end());
 }
 
-/// Reads the frames of several necklaces together, as a scene has them.
-class SideBySide final : public FrameReader {
- public:
-  SideBySide(const std::vector<Trajectory>& necklaces, std::size_t frames)
-      : necklaces_(necklaces), frames_(frames) {}
-  bool next(FrameRead& frame) override {
-    if (place_ == frames_) return false;
-    Eigen::Index beads = 0;
-    for (const Trajectory& necklace : necklaces_) beads += necklace.frames.front().cols();
-    frame.positions.resize(3, beads);
-    Eigen::Index first = 0;
-    for (const Trajectory& necklace : necklaces_) {
-      const bool rests = necklace.frames.size() == 1;
-      const Eigen::Matrix3Xd& here = necklace.frames[rests ? 0 : place_];
-      frame.positions.middleCols(first, here.cols()) = here;
-      if (!rests) frame.stamp.number = necklace.frame_number(place_);
-      first += here.cols();
-    }
-    ++place_;
-    return true;
-  }
-  void rewind() override { place_ = 0; }
-
- private:
-  const std::vector<Trajectory>& necklaces_;
-  std::size_t frames_, place_ = 0;
-};
-
 }  // namespace
 
 FinestData::FinestData(std::vector<Trajectory> necklaces, std::vector<double> radii,
@@ -122,7 +94,7 @@ Scene FinestData::scene(const TradeSetting& setting, std::vector<double> radii) 
 }
 
 StrideDeviation FinestData::deviation(const TradeSetting& setting, const Scene& scene) const {
-  SideBySide every(necklaces_, frames_);
+  MemoryFrames every(necklaces_);
   std::optional<double> most;
   if (setting.tolerance > 0 && setting.stride == 1) most = length_of_tolerance(setting, radii_of(setting));
   return deviation_of_stride(scene, every, setting.stride, most);

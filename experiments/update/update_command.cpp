@@ -18,13 +18,14 @@ int update_command(const Arguments& arguments) {
 
   if (const auto instance = read_lone_instance(options))
     throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
-  std::map<std::size_t, SceneSurvey> surveys;  // by stride
-  surveys.emplace(1, open_frames(options, command.warn()).survey(options.radius == "auto", command.warn()));
-  const std::vector<double> radii = bead_radii(options.radius, surveys.at(1).necklaces, surveys.at(1).bonds);
+  std::map<std::size_t, FrameSurvey> surveys;  // by stride
+  const std::unique_ptr<FrameSource> all = open_frames(options, command.warn());
+  surveys.emplace(1, survey_frames(*all, options.radius == "auto", command.warn()));
+  const std::vector<double> radii = bead_radii(options.radius, all->necklaces(), surveys.at(1));
   const SceneAtStride scene_at = [&](std::size_t stride, FrameMotion motion) {
-    auto frames = std::make_unique<SceneStream>(open_frames(
-        options, [](const std::string&) {}, stride));
-    if (!surveys.contains(stride)) surveys.emplace(stride, frames->survey(false, [](const std::string&) {}));
+    auto frames = open_frames(
+        options, [](const std::string&) {}, stride);
+    if (!surveys.contains(stride)) surveys.emplace(stride, survey_frames(*frames, false));
     return Scene(std::move(frames), surveys.at(stride), radii, motion);
   };
   const std::vector<UpdateRow> rows = compare_updates(scene_at, options, command.progress());

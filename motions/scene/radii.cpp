@@ -4,41 +4,22 @@
 #include <filesystem>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
-#include "motions/numbers/exact_number.h"
-#include "motions/scene/fit_radii.h"
 
 namespace kds {
 
 namespace {
 
-std::size_t bead_count(std::span<const Trajectory> necklaces) {
-  std::size_t count = 0;
-  for (const Trajectory& necklace : necklaces) count += necklace.bead_count();
-  return count;
-}
+using Necklaces = std::span<const NecklaceBeads>;
 
-using Ends = std::array<Eigen::Vector3d, 2>;
-
-// Returns whether two balls of this radius meet, decided exactly.
-bool balls_meet(const Ends& centers, double radius) {
-  Rational rest = 4 * Dyadic(radius).rational() * Dyadic(radius).rational();
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const Rational d = Dyadic(centers[1][axis]).rational() - Dyadic(centers[0][axis]).rational();
-    rest -= d * d;
-  }
-  return rest >= 0;
-}
-
-std::vector<double> element_radii(const std::string& policy, std::span<const Trajectory> necklaces) {
+std::vector<double> element_radii(const std::string& policy, Necklaces necklaces) {
   std::vector<double> radii;
-  for (const Trajectory& necklace : necklaces) {
-    if (necklace.element_radii.size() != necklace.bead_count())
+  for (const NecklaceBeads& necklace : necklaces) {
+    if (necklace.element_radii.size() != necklace.count)
       throw InputError(fmt::format(
           "--radius: {} needs the elements of all beads, which {} does not tell; give "
           "--radius auto or a number{}",
@@ -71,13 +52,69 @@ std::vector<double> radii_from_file(const std::string& file, std::size_t beads) 
   return radii;
 }
 
-std::vector<double> radii_by(const std::string& policy, std::span<const Trajectory> necklaces,
-                             const LongestBond& bonds) {
-  const std::size_t beads = bead_count(necklaces);
+struct Ball {
+  Eigen::Vector3d centre;
+  double radius;
+  std::size_t necklace;
+  std::size_t bead;  // index within its necklace
+};
+
+// Returns the balls of the first frame, from left to right.
+std::vector<Ball> sorted_balls(const std::vector<double>& radii, Necklaces necklaces,
+                               const Eigen::Matrix3Xd& frame) {
+  std::vector<Ball> balls;
+  for (std::size_t n = 0; n < necklaces.size(); ++n)
+    for (std::size_t i = 0; i < necklaces[n].count; ++i)
+      balls.push_back({frame.col(static_cast<Eigen::Index>(balls.size())), radii[balls.size()], n, i});
+  std::stable_sort(balls.begin(), balls.end(),
+                   [](const Ball& a, const Ball& b) { return a.centre.x() < b.centre.x(); });
+  return balls;
+}
+
+bool adjacent(const Ball& a, const Ball& b) {
+  return a.necklace == b.necklace && (a.bead + 1 == b.bead || b.bead + 1 == a.bead);
+}
+
+[[noreturn]] void refuse_coincident(const Ball& a, const Ball& b, Necklaces necklaces) {
+  const auto name = [&](const Ball& ball) {
+    return fmt::format("bead {} of {}", ball.bead, necklaces[ball.necklace].file);
+  };
+  const bool in_order = std::pair(a.necklace, a.bead) < std::pair(b.necklace, b.bead);
+  throw InputError(
+      fmt::format("--radius: element:fit cannot part {} and {}, which lie in one place in the first frame",
+                  name(in_order ? a : b), name(in_order ? b : a)));
+}
+
+// Returns the radii times one factor, at most 1, such that in the first frame no two beads touch except
+// neighbours of one necklace. Throws InputError if two such beads have the same centre.
+std::vector<double> fit_radii(std::vector<double> radii, Necklaces necklaces, const Eigen::Matrix3Xd& frame) {
+  const std::vector<Ball> balls = sorted_balls(radii, necklaces, frame);
+  const double largest = radii.empty() ? 0 : *std::max_element(radii.begin(), radii.end());
+  double factor = 2;  // least ratio of distance to sum of radii, over all pairs that touch
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    for (std::size_t j = i + 1; j < balls.size(); ++j) {
+      if (balls[j].centre.x() - balls[i].centre.x() > 2 * largest) break;
+      if (adjacent(balls[i], balls[j])) continue;
+      const double distance = (balls[j].centre - balls[i].centre).stableNorm();
+      const double reach = balls[i].radius + balls[j].radius;
+      if (distance > reach) continue;
+      if (distance == 0) refuse_coincident(balls[i], balls[j], necklaces);
+      factor = std::min(factor, distance / reach);
+    }
+  if (factor > 1) return radii;
+  // Touching counts as contact, so shrink slightly more, well above the rounding of the distances.
+  factor *= 1 - 1e-12;
+  for (double& radius : radii) radius *= factor;
+  return radii;
+}
+
+std::vector<double> radii_by(const std::string& policy, Necklaces necklaces, const FrameSurvey& survey) {
+  const std::size_t beads = count_beads(necklaces);
   constexpr std::string_view from_file = "file:";
-  if (policy == "auto") return std::vector<double>(beads, bonds.radius());
+  if (policy == "auto") return std::vector<double>(beads, survey.bonds.radius());
   if (policy == "element") return element_radii(policy, necklaces);
-  if (policy == "element:fit") return fit_radii(element_radii(policy, necklaces), necklaces);
+  if (policy == "element:fit")
+    return fit_radii(element_radii(policy, necklaces), necklaces, survey.first_positions);
   if (policy.starts_with(from_file)) return radii_from_file(policy.substr(from_file.size()), beads);
   const auto radius = parse_double(policy);
   if (!radius)
@@ -90,37 +127,9 @@ std::vector<double> radii_by(const std::string& policy, std::span<const Trajecto
 
 }  // namespace
 
-void LongestBond::add(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
-                      const std::vector<std::size_t>& breaks) {
-  constexpr double rounding = 0x1p-48;  // well above the relative error of a length
-  for (Eigen::Index i = 0; i + 1 < frame.cols(); ++i) {
-    if (std::find(breaks.begin(), breaks.end(), static_cast<std::size_t>(i)) != breaks.end()) continue;
-    const Ends ends{frame.col(i), frame.col(i + 1)};
-    const double length = (ends[1] - ends[0]).stableNorm();
-    longest_ = std::isfinite(length) ? std::max(longest_, length) : std::numeric_limits<double>::infinity();
-    if (!std::isfinite(longest_)) return;
-    if (length / 2 < radius_ * (1 - rounding) || balls_meet(ends, radius_)) continue;
-    // Half of a rounded length may leave a gap of half an ulp.
-    radius_ = std::max(radius_, length / 2 * (1 - 4 * std::numeric_limits<double>::epsilon()));
-    while (!balls_meet(ends, radius_))
-      radius_ = std::nextafter(radius_, std::numeric_limits<double>::infinity());
-  }
-}
-
-double LongestBond::radius() const {
-  if (!(longest_ > 0))
-    throw InputError(
-        "--radius: auto is half the longest bond, and here no bond is longer than 0; give --radius NUMBER");
-  if (!std::isfinite(longest_))
-    throw InputError(
-        "--radius: auto is half the longest bond, and here that is beyond all numbers; "
-        "give --radius NUMBER");
-  return radius_;
-}
-
-std::vector<double> bead_radii(const std::string& policy, std::span<const Trajectory> necklaces,
-                               const LongestBond& bonds) {
-  std::vector<double> radii = radii_by(policy, necklaces, bonds);
+std::vector<double> bead_radii(const std::string& policy, std::span<const NecklaceBeads> necklaces,
+                               const FrameSurvey& survey) {
+  std::vector<double> radii = radii_by(policy, necklaces, survey);
   for (const double radius : radii)
     if (!std::isfinite(radius * radius))
       throw InputError(
@@ -130,12 +139,20 @@ std::vector<double> bead_radii(const std::string& policy, std::span<const Trajec
   return radii;
 }
 
-std::vector<double> bead_radii(const std::string& policy, std::span<const Trajectory> necklaces) {
-  LongestBond bonds;
-  if (policy == "auto")
-    for (const Trajectory& necklace : necklaces)
-      for (const Eigen::Matrix3Xd& frame : necklace.frames) bonds.add(frame, necklace.breaks);
-  return bead_radii(policy, necklaces, bonds);
+std::vector<double> bead_radii(const std::string& policy, std::span<const Trajectory> trajectories) {
+  std::vector<NecklaceBeads> necklaces;
+  for (const Trajectory& trajectory : trajectories) necklaces.push_back(beads_of(trajectory));
+  FrameSurvey survey;
+  survey.first_positions.resize(3, static_cast<Eigen::Index>(count_beads(necklaces)));
+  Eigen::Index first = 0;
+  for (const Trajectory& trajectory : trajectories) {
+    if (trajectory.frames.empty()) continue;
+    survey.first_positions.middleCols(first, trajectory.frames.front().cols()) = trajectory.frames.front();
+    first += trajectory.frames.front().cols();
+    if (policy != "auto") continue;
+    for (const Eigen::Matrix3Xd& frame : trajectory.frames) survey.bonds.add(frame, trajectory.breaks);
+  }
+  return bead_radii(policy, necklaces, survey);
 }
 
 }  // namespace kds

@@ -1,42 +1,32 @@
 #pragma once
-// All beads of a run on one clock, and the discrete-step adapter: Scene::load turns sampled frames into the
-// motion of a step. An instance file gives a single step. Beads are numbered necklace after necklace.
+// All beads of a run on one clock: names, radii, weights and frames. Beads are numbered necklace after
+// necklace. The motion of a step comes from the discrete-step adapter (discrete_step_adapter.h), or from an
+// instance file, which gives a single step.
+//
+// Functions that take a frame or a step may read files, although they do not change the scene. Therefore only
+// one thread at a time may use a scene.
 
 #include <Eigen/Core>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "motions/base/bead_range.h"
 #include "motions/base/require_index.h"
 #include "motions/curves/bezier_motion.h"
 #include "motions/curves/lifted_motion.h"
+#include "motions/frames/frame_source.h"
 #include "motions/frames/trajectory.h"
 #include "motions/readers/instance.h"
-#include "motions/scene/scene_stream.h"
+#include "motions/scene/discrete_step_adapter.h"
+#include "motions/scene/frame_survey.h"
+#include "motions/scene/step_source.h"
 
 namespace kds {
-
-/// How beads move between sampled frames.
-enum class FrameMotion {
-  linear,
-  /// Cubic Hermite curves. Velocities are central differences over frames, one-sided at the first and last
-  /// frame, so the motion is continuously differentiable up to rounding.
-  hermite,
-  /// Linear, with weights such that each sphere moves on a straight line in lifted space (lifted_motion.h).
-  lifted,
-};
-/// Names, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 3> frame_motion_names{"linear", "hermite", "lifted"};
-[[nodiscard]] constexpr std::string_view name_of(FrameMotion motion) {
-  return frame_motion_names[static_cast<std::size_t>(motion)];
-}
 
 /// The properties of a scene that are known before its first frame is pushed.
 struct PushedFrames {
@@ -49,16 +39,17 @@ struct PushedFrames {
 class Scene {
  public:
   /// Makes a scene of necklaces with equal numbers of frames; a necklace with a single frame is at rest.
-  /// `radii`: one per bead in scene order. Throws InputError if the numbers of frames differ, or if a number
-  /// is not finite. If all beads stay in one plane x, y or z = constant in all frames, the scene is planar:
-  /// two-dimensional, in that plane's coordinates. This requires at least four beads, because fewer beads
-  /// always lie in some plane.
+  /// `radii`: one per bead in scene order. Throws InputError if the numbers of frames differ, if there are
+  /// more or fewer radii than beads, or if a number is not finite. If all beads stay in one plane x, y or z =
+  /// constant in all frames, the scene is planar: two-dimensional, in that plane's coordinates. This requires
+  /// at least four beads, because fewer beads always lie in some plane.
   Scene(std::span<const Trajectory> necklaces, std::vector<double> radii,
         FrameMotion motion = FrameMotion::linear);
-  /// Makes a scene of files that are read frame by frame. Only the frames needed for the motion of one step
-  /// are in memory: two, or four for Hermite curves. Loading steps and accessing frames is fast in ascending
-  /// order; going back reads the files again from the start. `survey` must be that of the stream.
-  Scene(std::unique_ptr<SceneStream> frames, const SceneSurvey& survey, std::vector<double> radii,
+  /// Makes a scene of frames from any source. `survey` must be that of the source (frame_survey.h). Only the
+  /// frames that one step needs are in memory, unless the source itself keeps frames. Loading steps and
+  /// accessing frames is fast in ascending order; going back may read files again from the start. Throws
+  /// InputError like the first constructor.
+  Scene(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey, std::vector<double> radii,
         FrameMotion motion = FrameMotion::linear);
   /// Makes a scene of points, or of balls if `radii` has one radius per point. Throws InputError like the
   /// first constructor.
@@ -72,19 +63,19 @@ class Scene {
   /// Throws std::logic_error if the scene has frames of its own or has ended.
   void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt);
   /// Declares that no further frame follows.
-  void end_frames() { ended_ = true; }
+  void end_frames();
   /// Returns the number of steps whose motion is known. These are all steps, except in a scene of pushed
   /// frames. There, Hermite curves are known one frame later, or when the frames end.
-  [[nodiscard]] std::size_t known_steps() const;
+  [[nodiscard]] std::size_t known_steps() const { return steps_->known_steps(); }
 
-  [[nodiscard]] int dimension() const { return dimension_; }
-  [[nodiscard]] int degree() const { return degree_; }
-  [[nodiscard]] bool is_lifted() const { return is_lifted_; }
+  [[nodiscard]] int dimension() const { return steps_->dimension(); }
+  [[nodiscard]] int degree() const { return steps_->degree(); }
+  [[nodiscard]] bool is_lifted() const { return steps_->is_lifted(); }
   [[nodiscard]] std::size_t bead_count() const { return radii_.size(); }
   /// Returns the number of frames. An instance has two, u = 0 and u = 1. For pushed frames, returns how many
   /// have been pushed.
-  [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
-  [[nodiscard]] std::size_t step_count() const { return frame_count_ == 0 ? 0 : frame_count_ - 1; }
+  [[nodiscard]] std::size_t frame_count() const { return steps_->frame_count(); }
+  [[nodiscard]] std::size_t step_count() const { return frame_count() == 0 ? 0 : frame_count() - 1; }
 
   // Functions with an index of a frame, step or bead throw std::invalid_argument if it is too large. The
   // message gives the number of elements.
@@ -114,15 +105,9 @@ class Scene {
   template <Motion M>
   void load(std::size_t step, M& motion) const {
     require_index("step", step, step_count());
-    hold_for_step(step);
-    if (M::degree != 1 || !is_sampled()) {
-      for (BeadId b = 0; b < bead_count(); ++b) {
-        for (int k = 0; k <= degree_; ++k) set_control_point(step, b, k, motion);
-      }
-    } else if constexpr (M::degree == 1) {
-      motion.set_ends(frame(step).data(), frame(step + 1).data(), radii_.data());
-    }
-    if constexpr (lifted<M>) motion.set_drift(drift<M>(step));
+    steps_->go_to(step);
+    set_control_points(motion);
+    if constexpr (lifted<M>) motion.set_drift(drift<M>());
   }
   /// Returns centres and weights at a frame. Coordinates beyond the dimension are zero.
   [[nodiscard]] Eigen::Matrix3Xd centers(std::size_t frame) const;
@@ -132,35 +117,29 @@ class Scene {
   [[nodiscard]] Eigen::Vector3d in_input(const Eigen::Vector3d& point) const;
 
  private:
-  [[nodiscard]] bool is_sampled() const { return !instance_; }
-  void begin(FrameMotion motion, const std::vector<std::size_t>& bead_counts, const std::string& longest);
-  void set_necklaces(const std::vector<std::size_t>& bead_counts);
-  void name_beads(std::span<const Trajectory> necklaces);
-  void lay_in_plane(const std::optional<AxisPlane>& plane);
-  void lay_in_plane(Eigen::Matrix3Xd& frame) const;
-  /// Reads on, or again from the start, until these frames are in memory.
-  void hold(std::size_t first, std::size_t last) const;
-  void hold_for_step(std::size_t step) const;
-  /// Returns a frame that is in memory.
-  [[nodiscard]] const Eigen::Matrix3Xd& frame(std::size_t k) const {
-    return held_[k - first_held_].positions;
-  }
-  [[nodiscard]] double coordinate(std::size_t step, BeadId bead, int k, int axis) const;
-  /// Returns a third of a bead's velocity at a frame, per step.
-  [[nodiscard]] double third_of_velocity(std::size_t frame, BeadId bead, int axis) const;
+  void take(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey, FrameMotion motion);
   [[nodiscard]] double weight(BeadId bead, int k) const;
   template <Motion M>
-  void set_control_point(std::size_t step, BeadId b, int k, M& motion) const {
-    for (int axis = 0; axis < M::dimension; ++axis)
-      motion.set_coordinate(b, k, axis, coordinate(step, b, k, axis));
-    motion.set_weight(b, k, weight(b, k));
-    motion.set_radius(b, k, has_radii_ ? radii_[b] : 0);
+  void set_control_points(M& motion) const {
+    if constexpr (M::degree == 1) {
+      if (const std::optional<LinearEnds> ends = steps_->ends())
+        return motion.set_ends(ends->start, ends->end, radii_.data());
+    }
+    const int last = degree();
+    for (BeadId b = 0; b < bead_count(); ++b) {
+      for (int k = 0; k <= last; ++k) {
+        for (int axis = 0; axis < M::dimension; ++axis)
+          motion.set_coordinate(b, k, axis, steps_->coordinate(b, k, axis));
+        motion.set_weight(b, k, weight(b, k));
+        motion.set_radius(b, k, has_radii_ ? radii_[b] : 0);
+      }
+    }
   }
   /// Returns the drift: the mean displacement. Any vector gives a valid motion; this one lowers weights the
   /// least on average.
   template <Motion M>
-  [[nodiscard]] typename M::Vector drift(std::size_t step) const {
-    const Eigen::Vector3d mean = (frame(step + 1) - frame(step)).rowwise().mean();
+  [[nodiscard]] typename M::Vector drift() const {
+    const Eigen::Vector3d mean = steps_->mean_displacement();
     typename M::Vector drift{};
     for (std::size_t axis = 0; axis < drift.size(); ++axis) {
       const double x = mean[static_cast<Eigen::Index>(axis)];
@@ -169,22 +148,13 @@ class Scene {
     return drift;
   }
 
-  int dimension_ = 3;
-  int degree_ = 1;
-  bool is_lifted_ = false;
-  bool has_radii_ = true;
-  std::size_t frame_count_ = 0;
   std::vector<BeadRange> necklaces_;
   std::vector<std::string> bead_names_;  // empty, or one per bead
   std::vector<double> radii_;
-  std::optional<AxisPlane> plane_;       // none: the scene is in space
-  std::optional<Instance> instance_;     // none: sampled frames
-  FrameStamp first_, last_;              // of the sampled frames
-  std::unique_ptr<SceneStream> stream_;  // null if all frames are in memory
-  bool pushed_ = false, ended_ = false;  // frames are pushed by the caller
-  std::size_t most_held_ = 0;            // most frames of a stream, or pushed, that are in memory at once
-  mutable std::vector<FrameRead> held_;  // the consecutive frames in memory
-  mutable std::size_t first_held_ = 0;
+  bool has_radii_ = true;
+  AxisPlane plane_;  // the plane of a planar scene; else the input's own axes
+  std::unique_ptr<StepSource> steps_;
+  FrameQueue* pushed_ = nullptr;  // the source of frames that are pushed; owned by `steps_`
 };
 
 }  // namespace kds

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <stdexcept>
+#include <utility>
 
 #include "motions/base/floating_point_guard.h"
 
@@ -14,18 +17,42 @@ constexpr double smallest = std::numeric_limits<double>::denorm_min();
 
 }  // namespace
 
-StraightenedFrames::StraightenedFrames(double tolerance) : tolerance_(tolerance), most_square_(0) {
+StraightenedFrames::StraightenedFrames(std::unique_ptr<FrameSource> samples, double tolerance)
+    : source_(std::move(samples)), tolerance_(tolerance), most_square_(0) {
+  if (source_->is_open()) throw std::logic_error("frames are straightened before the last one has come");
   // Differences, squares and sums are rounded by less than 2^-49 in total, unless a number is close to
   // underflow.
   if (tolerance > 0x1p-400 && tolerance < 0x1p400) most_square_ = tolerance * tolerance * (1 - 0x1p-45);
 }
 
-void StraightenedFrames::rewind() {
-  samples_.clear();
-  begin_ = 0;
-  ready_.clear();
-  place_ = 0;
-  grid_ = 0;
+bool StraightenedFrames::next(FrameRead& frame) {
+  if (place_ == ready_.size()) fill();
+  if (place_ == ready_.size()) return false;
+  frame.stamp = ready_[place_].stamp;
+  frame.positions = ready_[place_++].positions;
+  frame.cell.reset();
+  ++next_;
+  return true;
+}
+
+void StraightenedFrames::seek(std::size_t k) {
+  if (k < next_) {
+    source_->seek(0);
+    samples_.clear();
+    ready_.clear();
+    begin_ = place_ = next_ = 0;
+    grid_ = 0;
+  }
+  FrameRead passed;
+  while (next_ < k && next(passed)) {
+  }
+}
+
+void StraightenedFrames::fill() {
+  go_to_next_block();
+  for (FrameRead frame; samples_.size() <= begin_ + block + reach && source_->next(frame);)
+    samples_.push_back({frame.stamp, std::move(frame.positions), {}});
+  straighten_block();
 }
 
 void StraightenedFrames::go_to_next_block() {
@@ -129,15 +156,13 @@ Eigen::Vector3d StraightenedFrames::knot(std::size_t sample, Eigen::Index bead) 
 }
 
 std::vector<Eigen::Matrix3Xd> straightened(std::vector<Eigen::Matrix3Xd> frames, double tolerance) {
-  StraightenedFrames straight(tolerance);
-  std::size_t read = 0, written = 0;
-  const auto read_next = [&](FrameRead& frame) {
-    if (read == frames.size()) return false;
-    frame.positions = frames[read++];
-    return true;
-  };
-  for (FrameRead frame; straight.next(frame, read_next);) frames[written++] = std::move(frame.positions);
-  return frames;
+  Trajectory samples;
+  samples.frames = std::move(frames);
+  auto source = std::make_unique<MemoryFrames>(std::span(&samples, 1));
+  StraightenedFrames straight(std::move(source), tolerance);
+  std::vector<Eigen::Matrix3Xd> straightened;
+  for (FrameRead frame; straight.next(frame);) straightened.push_back(std::move(frame.positions));
+  return straightened;
 }
 
 }  // namespace kds

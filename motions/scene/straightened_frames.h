@@ -18,42 +18,29 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <utility>
+#include <memory>
 #include <vector>
 
-#include "motions/frames/frame_reader.h"
+#include "motions/frames/frame_source.h"
 
 namespace kds {
 
-class StraightenedFrames {
+class StraightenedFrames final : public FrameSource {
  public:
   static constexpr std::size_t block = 16;
   /// The number of frames before and after a sample over which means are taken.
   static constexpr std::size_t reach = 5;
 
-  explicit StraightenedFrames(double tolerance);
+  /// Straightens all frames of `samples`. Throws std::logic_error if frames may still be added to them.
+  StraightenedFrames(std::unique_ptr<FrameSource> samples, double tolerance);
 
-  /// Returns the next straightened frame; `read(frame)` reads the samples. Returns false after the last
-  /// frame.
-  template <class Read>
-  [[nodiscard]] bool next(FrameRead& frame, Read read) {
-    if (place_ == ready_.size()) fill(read);
-    if (place_ == ready_.size()) return false;
-    frame.stamp = ready_[place_].stamp;
-    frame.positions = ready_[place_++].positions;
-    frame.cell.reset();
-    return true;
-  }
-  void rewind();
+  [[nodiscard]] const std::vector<NecklaceBeads>& necklaces() const override { return source_->necklaces(); }
+  [[nodiscard]] bool next(FrameRead& frame) override;
+  /// Straightens the frames again from the start to go back.
+  void seek(std::size_t k) override;
 
  private:
-  template <class Read>
-  void fill(Read read) {
-    go_to_next_block();
-    for (FrameRead frame; samples_.size() <= begin_ + block + reach && read(frame);)
-      samples_.push_back({frame.stamp, std::move(frame.positions), {}});
-    straighten_block();
-  }
+  void fill();
   void go_to_next_block();
   void straighten_block();
   void straighten_bead(Eigen::Index bead, std::size_t first, std::size_t length);
@@ -64,6 +51,7 @@ class StraightenedFrames {
   /// tolerance of the sample.
   [[nodiscard]] Eigen::Vector3d knot(std::size_t sample, Eigen::Index bead) const;
 
+  std::unique_ptr<FrameSource> source_;
   double tolerance_;
   double most_square_;  ///< largest squared distance within the tolerance; 0: squares may not be doubles
   double grid_ = 0;     ///< 0: not yet known
@@ -71,6 +59,7 @@ class StraightenedFrames {
   std::size_t begin_ = 0;           ///< first sample of the block
   std::vector<FrameRead> ready_;    ///< straightened frames of the present block
   std::size_t place_ = 0;           ///< index of the next frame in `ready_`
+  std::size_t next_ = 0;            ///< number of the next frame
 };
 
 /// Straightens all frames at once.

@@ -104,7 +104,7 @@ class DeviationSearch {
 
 }  // namespace
 
-StrideDeviation deviation_of_stride(const Scene& scene, FrameReader& every, std::size_t stride,
+StrideDeviation deviation_of_stride(const Scene& scene, FrameSource& every, std::size_t stride,
                                     std::optional<double> most) {
   const FloatingPointGuard to_nearest;
   DeviationSearch search(scene, stride, most.value_or(std::numeric_limits<double>::infinity()));

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "motions/base/bead.h"
-#include "motions/frames/frame_reader.h"
+#include "motions/frames/frame_source.h"
 #include "motions/scene/scene.h"
 
 namespace kds {
@@ -34,7 +34,7 @@ struct StrideDeviation {
 /// `most` is a proved bound on the deviation of any bead, if one is known, for example for frames
 /// straightened within a tolerance of which none is skipped (straightened_frames.h). No result exceeds it. It
 /// is sharper than the computed bound for beads far from the origin, where rounding is larger.
-[[nodiscard]] StrideDeviation deviation_of_stride(const Scene& scene, FrameReader& every, std::size_t stride,
+[[nodiscard]] StrideDeviation deviation_of_stride(const Scene& scene, FrameSource& every, std::size_t stride,
                                                   std::optional<double> most = {});
 
 /// Radii that bound contacts: the larger radii give a contact whenever the balls truly meet, the smaller ones

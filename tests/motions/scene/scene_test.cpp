@@ -192,6 +192,20 @@ TEST(Scene, RefusesWhatHasNoExactValue) {
     EXPECT_THROW(Scene(fine, std::vector<double>{1, wrong}), InputError);
 }
 
+TEST(Scene, RefusesTooManyOrTooFewRadii) {
+  std::mt19937_64 random(56);
+  const std::vector<Trajectory> necklaces{random_trajectory(random, "a.dcd", 3, 2),
+                                          random_trajectory(random, "b.dcd", 2, 1)};
+  for (const std::size_t count : {0U, 1U, 4U, 6U}) {
+    try {
+      const Scene scene(necklaces, std::vector<double>(count, 1));
+      ADD_FAILURE() << count << " radii were taken";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("a.dcd: 5 beads in all, expected as many radii, found"));
+    }
+  }
+}
+
 Instance instance(int columns, int degree, std::vector<double> control_points) {
   Instance made;
   made.columns = columns;

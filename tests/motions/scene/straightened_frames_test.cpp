@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <random>
+#include <span>
 
 #include "motions/numbers/exact_number.h"
 
@@ -15,19 +17,14 @@ namespace {
 using Frames = std::vector<Eigen::Matrix3Xd>;
 
 Frames straightened(const Frames& frames, double tolerance, int passes = 1) {
-  StraightenedFrames straight(tolerance);
+  Trajectory samples;
+  samples.frames = frames;
+  StraightenedFrames straight(std::make_unique<MemoryFrames>(std::span(&samples, 1)), tolerance);
   Frames all;
   for (int pass = 0; pass < passes; ++pass) {
     all.clear();
-    straight.rewind();
-    std::size_t place = 0;
-    const auto read = [&](FrameRead& frame) {
-      if (place == frames.size()) return false;
-      frame.stamp.number = place;
-      frame.positions = frames[place++];
-      return true;
-    };
-    for (FrameRead frame; straight.next(frame, read);) {
+    straight.seek(0);
+    for (FrameRead frame; straight.next(frame);) {
       EXPECT_EQ(frame.stamp.number, all.size());
       all.push_back(frame.positions);
     }
@@ -70,6 +67,14 @@ std::size_t steps_that_differ(const Frames& frames) {
 // Random walks of all kinds with any number of frames. No exact deviation exceeds the tolerance. At the first
 // and last frame beads are near their original places, or exactly there if they rest. Beads turn less often,
 // or not at all.
+TEST(StraightenedFrames, NeedAllSamples) {
+  auto open = std::make_unique<FrameQueue>(std::vector<NecklaceBeads>{{.count = 1}}, 3);
+  EXPECT_THROW(StraightenedFrames(std::move(open), 1), std::logic_error);
+  auto ended = std::make_unique<FrameQueue>(std::vector<NecklaceBeads>{{.count = 1}}, 3);
+  ended->end();
+  EXPECT_NO_THROW(StraightenedFrames(std::move(ended), 1));
+}
+
 TEST(StraightenedFrames, NeverExceedTheTolerance) {
   std::mt19937 random(61);
   std::uniform_real_distribution<double> uniform(-1, 1);

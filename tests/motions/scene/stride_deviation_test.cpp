@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <random>
+#include <span>
 #include <string>
 
 #include "motions/base/input_error.h"
@@ -12,22 +13,12 @@
 namespace kds::stride_deviation_test {
 namespace {
 
-class Frames final : public FrameReader {
- public:
-  explicit Frames(std::vector<Eigen::Matrix3Xd> frames) : frames_(std::move(frames)) {}
-
-  [[nodiscard]] bool next(FrameRead& frame) override {
-    if (next_ == frames_.size()) return false;
-    frame.stamp.number = next_;
-    frame.positions = frames_[next_++];
-    return true;
-  }
-  void rewind() override { next_ = 0; }
-
- private:
-  std::vector<Eigen::Matrix3Xd> frames_;
-  std::size_t next_ = 0;
-};
+/// Makes a source of these frames.
+MemoryFrames source_of(std::vector<Eigen::Matrix3Xd> frames) {
+  Trajectory trajectory;
+  trajectory.frames = std::move(frames);
+  return MemoryFrames(std::span(&trajectory, 1));
+}
 
 /// Makes beads that wander in space or in the plane y = 0.25.
 std::vector<Eigen::Matrix3Xd> wandering(unsigned seed, std::size_t frames, bool planar) {
@@ -85,7 +76,7 @@ void expect_bounds(bool planar, FrameMotion kind) {
     const auto frames = wandering(seed, 3 * stride + 1, planar);
     const Scene scene = every_so_many(frames, stride, kind);
     ASSERT_EQ(scene.dimension(), planar ? 2 : 3);
-    Frames every(frames);
+    MemoryFrames every = source_of(frames);
     const StrideDeviation found = deviation_of_stride(scene, every, stride);
     EXPECT_EQ(found.skipped, 3 * (stride - 1));
     std::vector<Rational> largest(5, 0);
@@ -131,7 +122,7 @@ TEST(StrideDeviation, IsNothingWhereTheMotionIsTheSame) {
   std::vector<Eigen::Matrix3Xd> frames;
   for (int k = 0; k <= 4; ++k) frames.push_back(Eigen::Matrix3Xd::Constant(3, 5, 0.25 * k));
   const Scene scene = every_so_many(frames, 2, FrameMotion::linear);
-  Frames every(frames);
+  MemoryFrames every = source_of(frames);
   EXPECT_LT(deviation_of_stride(scene, every, 2).largest, 1e-11);
 }
 
@@ -141,7 +132,7 @@ TEST(StrideDeviation, IsInfiniteWhereDoublesOverflow) {
     frames.push_back(Eigen::Matrix3Xd::Constant(3, 5, k % 2 == 0 ? 1e308 : -1e308));
   for (std::size_t k = 0; k < frames.size(); ++k) frames[k].col(1).setConstant(static_cast<double>(k));
   const Scene scene = every_so_many(frames, 4, FrameMotion::linear);
-  Frames every(frames);
+  MemoryFrames every = source_of(frames);
   const StrideDeviation found = deviation_of_stride(scene, every, 4);
   EXPECT_EQ(found.of_bead[0], std::numeric_limits<double>::infinity());
   EXPECT_LT(found.of_bead[1], 1e-11);
@@ -150,9 +141,9 @@ TEST(StrideDeviation, IsInfiniteWhereDoublesOverflow) {
 TEST(StrideDeviation, RefusesOtherFrames) {
   const auto frames = wandering(1, 9, false);
   const Scene scene = every_so_many(frames, 4, FrameMotion::linear);
-  Frames few(std::vector(frames.begin(), frames.begin() + 6));
+  MemoryFrames few = source_of({frames.begin(), frames.begin() + 6});
   EXPECT_THROW((void)deviation_of_stride(scene, few, 4), InputError);
-  Frames every(frames);
+  MemoryFrames every = source_of(frames);
   EXPECT_THROW((void)deviation_of_stride(scene, every, 3), InputError);
 }
 

@@ -1,6 +1,6 @@
 // A scene that reads its frames on demand equals the scene that holds all frames.
 
-#include "motions/scene/scene_stream.h"
+#include "motions/scene/file_frames.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,11 @@
 
 #include "motions/curves/any_degree_motion.h"
 #include "motions/readers/read_trajectory.h"
+#include "motions/scene/radii.h"
 #include "motions/scene/scene.h"
 #include "tests/motions/test_files.h"
 
-namespace kds::scene_stream_test {
+namespace kds::file_frames_test {
 namespace {
 
 std::string xyz_frames(std::mt19937& random, std::size_t frames, std::size_t beads, bool flat,
@@ -30,8 +31,8 @@ std::string xyz_frames(std::mt19937& random, std::size_t frames, std::size_t bea
 }
 
 struct Streamed {
-  std::unique_ptr<SceneStream> stream;
-  SceneSurvey survey;
+  std::unique_ptr<FileFrames> stream;
+  FrameSurvey survey;
   std::vector<std::string> warnings;
 };
 
@@ -39,9 +40,9 @@ Streamed open(const std::vector<std::filesystem::path>& paths, const ReadOptions
   std::vector<NecklaceStream> files;
   for (const auto& path : paths) files.emplace_back(path, options);
   Streamed streamed;
-  streamed.stream = std::make_unique<SceneStream>(std::move(files));
-  streamed.survey = streamed.stream->survey(
-      true, [&](const std::string& warning) { streamed.warnings.push_back(warning); });
+  streamed.stream = std::make_unique<FileFrames>(std::move(files));
+  streamed.survey = survey_frames(*streamed.stream, true,
+                                  [&](const std::string& warning) { streamed.warnings.push_back(warning); });
   return streamed;
 }
 
@@ -62,7 +63,7 @@ void expect_same_steps(const Scene& a, const Scene& b, const std::vector<std::si
   }
 }
 
-TEST(SceneStream, IsTheSceneOfAllFramesAtOnce) {
+TEST(FileFrames, IsTheSceneOfAllFramesAtOnce) {
   std::mt19937 random(17);
   for (const bool flat : {false, true}) {
     const auto moving =
@@ -76,8 +77,8 @@ TEST(SceneStream, IsTheSceneOfAllFramesAtOnce) {
         EXPECT_EQ(streamed.warnings, whole[0].warnings);
         EXPECT_FALSE(streamed.warnings.empty());
         const std::vector<double> radii = bead_radii("auto", whole);
-        EXPECT_EQ(bead_radii("auto", streamed.survey.necklaces, streamed.survey.bonds), radii);
-        EXPECT_EQ(bead_radii("element", streamed.survey.necklaces, streamed.survey.bonds),
+        EXPECT_EQ(bead_radii("auto", streamed.stream->necklaces(), streamed.survey), radii);
+        EXPECT_EQ(bead_radii("element", streamed.stream->necklaces(), streamed.survey),
                   bead_radii("element", whole));
         const Scene held(whole, radii, kind);
         const Scene read(std::move(streamed.stream), streamed.survey, radii, kind);
@@ -98,7 +99,7 @@ TEST(SceneStream, IsTheSceneOfAllFramesAtOnce) {
   }
 }
 
-TEST(SceneStream, RefusesUnlikeFrameCountsAndFramesThatAreNone) {
+TEST(FileFrames, RefusesUnlikeFrameCountsAndFramesThatAreNone) {
   std::mt19937 random(18);
   const auto three = test::write_file("three.xyz", xyz_frames(random, 3, 4, false));
   const auto two = test::write_file("two.xyz", xyz_frames(random, 2, 4, false));
@@ -114,7 +115,7 @@ TEST(SceneStream, RefusesUnlikeFrameCountsAndFramesThatAreNone) {
       {"one.xyz", "at least two frames"});
 }
 
-TEST(SceneStream, TellsOfAFileThatLosesFramesMeanwhile) {
+TEST(FileFrames, TellsOfAFileThatLosesFramesMeanwhile) {
   std::mt19937 random(19);
   const std::string text = xyz_frames(random, 4000, 10, false);
   const auto path = test::write_file("a.xyz", text);
@@ -125,7 +126,7 @@ TEST(SceneStream, TellsOfAFileThatLosesFramesMeanwhile) {
 }
 
 // Two files in one cell; the second chain is on the other side of a wall.
-TEST(SceneStream, TellsOfNearerImagesInOneCell) {
+TEST(FileFrames, TellsOfNearerImagesInOneCell) {
   const auto warnings = [](double y, std::string_view lattice) {
     const auto frame = [&](double height, std::string_view cell) {
       return "2\nLattice=\"" + std::string(cell) + "\"\nC 1 " + std::to_string(height) + " 0\nC 2 " +
@@ -136,9 +137,8 @@ TEST(SceneStream, TellsOfNearerImagesInOneCell) {
     std::vector<NecklaceStream> files;
     for (const auto& path : {first, other}) files.emplace_back(path, ReadOptions());
     std::vector<std::string> lines;
-    (void)SceneStream(std::move(files)).survey(false, [&](const std::string& line) {
-      lines.push_back(line);
-    });
+    FileFrames frames(std::move(files));
+    (void)survey_frames(frames, false, [&](const std::string& line) { lines.push_back(line); });
     return lines;
   };
   ASSERT_EQ(warnings(18, "20 20 20").size(), 1U);
@@ -148,7 +148,7 @@ TEST(SceneStream, TellsOfNearerImagesInOneCell) {
 }
 
 // Each later necklace is compared with all earlier ones, not only with the first file.
-TEST(SceneStream, TellsOfNearerImagesOfAnyEarlierNecklace) {
+TEST(FileFrames, TellsOfNearerImagesOfAnyEarlierNecklace) {
   const auto file = [](const std::string& name, double y, double box) {
     const std::string frame = "2\nLattice=\"" + std::to_string(box) + " 40 40\"\nC 1 " + std::to_string(y) +
                               " 0\nC 2 " + std::to_string(y) + " 0\n";
@@ -170,7 +170,7 @@ TEST(SceneStream, TellsOfNearerImagesOfAnyEarlierNecklace) {
 }
 
 // A chain of a later file is reported even if another chain of that file needs no image.
-TEST(SceneStream, TellsOfNearerImagesOfEachChain) {
+TEST(FileFrames, TellsOfNearerImagesOfEachChain) {
   const auto models = [](const std::string& name, const std::vector<double>& heights) {
     std::string text;
     for (int k = 0; k < 2; ++k) {
@@ -189,9 +189,8 @@ TEST(SceneStream, TellsOfNearerImagesOfEachChain) {
   files.emplace_back(models("a.pdb", {12, 2}), ReadOptions{.chain = "A,B"});
   files.emplace_back(models("b.pdb", {19, 37}), ReadOptions{.chain = "A,B"});
   std::vector<std::string> warnings;
-  (void)SceneStream(std::move(files)).survey(false, [&](const std::string& line) {
-    warnings.push_back(line);
-  });
+  FileFrames frames(std::move(files));
+  (void)survey_frames(frames, false, [&](const std::string& line) { warnings.push_back(line); });
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("b.pdb chain B: has a periodic image much nearer to the necklaces before it (5 "
                              "away, not 18)"),
@@ -200,4 +199,4 @@ TEST(SceneStream, TellsOfNearerImagesOfEachChain) {
 }
 
 }  // namespace
-}  // namespace kds::scene_stream_test
+}  // namespace kds::file_frames_test

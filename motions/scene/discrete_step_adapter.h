@@ -1,0 +1,95 @@
+#pragma once
+// The discrete-step adapter turns sampled frames into the motion of a step: it joins frames k and k+1 by a
+// curve for each bead.
+//
+// The adapter reads frames from a FrameSource (motions/frames/frame_source.h). It holds the window of frames
+// that one step needs: two, or four for Hermite curves. Steps are fast to reach in ascending order. To go
+// back, the source is read again from the start, or from anywhere if its frames are in memory.
+//
+// To add a way to join frames, add an enumerator to FrameMotion and its name, and extend degree(), reach()
+// and coordinate().
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "motions/frames/frame_source.h"
+#include "motions/scene/frame_survey.h"
+#include "motions/scene/step_source.h"
+
+namespace kds {
+
+/// How beads move between sampled frames.
+enum class FrameMotion {
+  linear,
+  /// Cubic Hermite curves. Velocities are central differences over frames, one-sided at the first and last
+  /// frame, so the motion is continuously differentiable up to rounding.
+  hermite,
+  /// Linear, with weights such that each sphere moves on a straight line in lifted space (lifted_motion.h).
+  lifted,
+};
+/// Names, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 3> frame_motion_names{"linear", "hermite", "lifted"};
+[[nodiscard]] constexpr std::string_view name_of(FrameMotion motion) {
+  return frame_motion_names[static_cast<std::size_t>(motion)];
+}
+
+class DiscreteStepAdapter final : public StepSource {
+ public:
+  /// Adapts frames that have been surveyed. `survey` must be that of the source, or of a source with the same
+  /// frames. If the survey found a plane, the motion is two-dimensional.
+  DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey, FrameMotion motion);
+  /// Adapts frames that are still to come. They have `dimension` coordinates.
+  DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, int dimension, FrameMotion motion);
+
+  [[nodiscard]] int dimension() const override { return dimension_; }
+  [[nodiscard]] int degree() const override { return motion_ == FrameMotion::hermite ? 3 : 1; }
+  [[nodiscard]] bool is_lifted() const override { return motion_ == FrameMotion::lifted; }
+  [[nodiscard]] std::size_t frame_count() const override { return frame_count_; }
+  /// As long as frames may be added, a Hermite step is known one frame later than a linear one.
+  [[nodiscard]] std::size_t known_steps() const override;
+
+  void read_on() override;
+  /// Throws InputError if the frame is gone, like go_to().
+  [[nodiscard]] FrameStamp stamp(std::size_t frame) override;
+  [[nodiscard]] Eigen::Matrix3Xd centers(std::size_t frame) override;
+
+  void go_to(std::size_t k) override;
+  [[nodiscard]] double coordinate(BeadId bead, int k, int axis) const override;
+  [[nodiscard]] std::optional<LinearEnds> ends() const override;
+  [[nodiscard]] Eigen::Vector3d mean_displacement() const override;
+
+ private:
+  /// Returns the number of frames beyond each end of a step that the step needs.
+  [[nodiscard]] std::size_t reach() const { return motion_ == FrameMotion::hermite ? 1 : 0; }
+  /// Reads frames until these are in the window.
+  void hold(std::size_t first, std::size_t last);
+  /// Reads the next frame into the window, in place of the oldest one if the window is full. Returns false if
+  /// the source has no frame.
+  [[nodiscard]] bool read_next();
+  /// Returns a frame in the window.
+  [[nodiscard]] const FrameRead& held(std::size_t frame) const { return window_[frame - first_held_]; }
+  [[nodiscard]] double position(std::size_t frame, BeadId bead, int axis) const {
+    return held(frame).positions(axis, static_cast<Eigen::Index>(bead));
+  }
+  /// Returns a third of a bead's velocity at a frame, per step.
+  [[nodiscard]] double third_of_velocity(std::size_t frame, BeadId bead, int axis) const;
+
+  std::unique_ptr<FrameSource> source_;
+  FrameMotion motion_;
+  std::optional<AxisPlane> plane_;  ///< none: frames are taken as they are
+  int dimension_;
+  std::size_t beads_;
+  std::size_t frame_count_ = 0;
+  FrameStamp first_, last_;        ///< of all frames
+  std::vector<FrameRead> window_;  ///< consecutive frames
+  FrameRead spare_;                ///< memory for the next frame
+  std::size_t first_held_ = 0;     ///< the first frame in the window
+  std::size_t step_ = 0;           ///< the present step
+};
+
+}  // namespace kds

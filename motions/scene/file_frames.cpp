@@ -1,0 +1,109 @@
+#include "motions/scene/file_frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "motions/base/input_error.h"
+#include "motions/frames/periodic.h"
+
+namespace kds {
+
+FileFrames::FileFrames(std::vector<NecklaceStream> files)
+    : files_(std::move(files)), present_(files_.size()), first_cells_(files_.size()), read_(files_.size()) {
+  for (const NecklaceStream& file : files_)
+    for (const Trajectory& head : file.heads()) necklaces_.push_back(beads_of(head));
+}
+
+bool FileFrames::next(FrameRead& frame) {
+  bool more = false;
+  std::size_t longest = 0;
+  for (std::size_t f = 0; f < files_.size(); ++f) {
+    if (files_[f].next(present_[f])) {
+      ++read_[f];
+      more = true;
+      if (next_ == 0) first_cells_[f] = present_[f].cell;
+    }
+    if (read_[f] > read_[longest]) longest = f;
+  }
+  if (!more) {
+    all_ = read_;
+    check_frame_counts();
+    return false;
+  }
+  ++next_;
+  frame.stamp = present_[longest].stamp;
+  frame.cell.reset();
+  frame.positions.resize(3, static_cast<Eigen::Index>(count_beads(necklaces_)));
+  Eigen::Index begin = 0;
+  for (const FrameRead& of_file : present_) {
+    frame.positions.middleCols(begin, of_file.positions.cols()) = of_file.positions;
+    begin += of_file.positions.cols();
+  }
+  return true;
+}
+
+void FileFrames::seek(std::size_t k) {
+  if (k < next_) {
+    for (NecklaceStream& file : files_) file.rewind();
+    std::fill(read_.begin(), read_.end(), 0);
+    next_ = 0;
+  }
+  FrameRead passed;
+  while (next_ < k && next(passed)) {
+  }
+}
+
+void FileFrames::check_frame_counts() const {
+  const auto longest = static_cast<std::size_t>(std::max_element(read_.begin(), read_.end()) - read_.begin());
+  for (std::size_t f = 0; f < files_.size(); ++f) {
+    if (read_[f] == read_[longest] || read_[f] == 1) continue;
+    throw InputError(fmt::format(
+        "{}: {} frames, but {} has {}; necklaces of a run need equal frame counts (or one frame: at rest)",
+        files_[f].heads().front().file, read_[f], files_[longest].heads().front().file, read_[longest]));
+  }
+}
+
+std::vector<std::string> FileFrames::warnings() const {
+  std::vector<std::string> lines;
+  add_nearer_images(lines);
+  for (const NecklaceStream& file : files_)
+    for (std::size_t n = 0; n < file.heads().size(); ++n)
+      for (std::string& line : file.warnings(n)) lines.push_back(std::move(line));
+  return lines;
+}
+
+void FileFrames::add_nearer_images(std::vector<std::string>& lines) const {
+  if (files_.size() == 1) return;
+  EarlierNecklaces earlier;
+  for (std::size_t f = 0; f < files_.size(); ++f) {
+    for (const Trajectory& head : files_[f].heads()) {
+      const Eigen::Matrix3Xd& chain = head.frames.front();
+      // The chains of the first file have been placed beside each other.
+      const auto beside = f == 0 ? std::nullopt : earlier.nearer_image(chain, first_cells_[f]);
+      if (beside && beside->is_much_nearer())
+        lines.push_back(
+            fmt::format("{}: has a periodic image much nearer to the necklaces before it ({:.4g} away, not "
+                        "{:.4g}), left where it is; contacts across the walls of the cell are not found",
+                        head.file, beside->distance, beside->present));
+      earlier.add(chain, first_cells_[f]);
+    }
+  }
+}
+
+std::vector<Trajectory> FileFrames::heads() const {
+  std::vector<Trajectory> heads;
+  for (const NecklaceStream& file : files_)
+    heads.insert(heads.end(), file.heads().begin(), file.heads().end());
+  return heads;
+}
+
+std::vector<std::size_t> FileFrames::frame_counts() const {
+  std::vector<std::size_t> counts;
+  for (std::size_t f = 0; f < files_.size(); ++f)
+    counts.insert(counts.end(), files_[f].heads().size(), all_.at(f));
+  return counts;
+}
+
+}  // namespace kds

@@ -1,0 +1,48 @@
+#pragma once
+// The frames of several files, which are read frame by frame. The necklaces of all files stand side by side.
+// One frame of each file is in memory.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "motions/frames/frame_source.h"
+#include "motions/readers/necklace_stream.h"
+
+namespace kds {
+
+class FileFrames final : public FrameSource {
+ public:
+  explicit FileFrames(std::vector<NecklaceStream> files);
+
+  [[nodiscard]] const std::vector<NecklaceBeads>& necklaces() const override { return necklaces_; }
+  /// Reads the next frame of each file that has one. After the last frame, returns false, or throws
+  /// InputError unless all files have the same number of frames, or one (at rest).
+  [[nodiscard]] bool next(FrameRead& frame) override;
+  /// Reads the files again from the start to go back.
+  void seek(std::size_t k) override;
+  /// Includes lines about necklaces whose periodic image in the first frame is much nearer to necklaces of
+  /// earlier files.
+  [[nodiscard]] std::vector<std::string> warnings() const override;
+
+  /// Returns what the files tell about each necklace, with its first frame alone. Complete once all frames
+  /// have been read.
+  [[nodiscard]] std::vector<Trajectory> heads() const;
+  /// Returns the number of frames of each necklace. Known once all frames have been read.
+  [[nodiscard]] std::vector<std::size_t> frame_counts() const;
+
+ private:
+  void check_frame_counts() const;
+  void add_nearer_images(std::vector<std::string>& lines) const;
+
+  std::vector<NecklaceStream> files_;
+  std::vector<NecklaceBeads> necklaces_;
+  std::vector<FrameRead> present_;                ///< one per file
+  std::vector<std::optional<Cell>> first_cells_;  ///< likewise, in the first frame
+  std::vector<std::size_t> read_;                 ///< number of frames read from each file
+  std::vector<std::size_t> all_;                  ///< likewise, once all have been read
+  std::size_t next_ = 0;                          ///< number of the next frame
+};
+
+}  // namespace kds
