@@ -55,6 +55,9 @@ class FrameSource {
   virtual void seek(std::size_t k) = 0;
   /// Returns whether frames may still be added.
   [[nodiscard]] virtual bool is_open() const { return false; }
+  /// Returns whether frames are missing at the end, because a file ends inside a frame or --until-damage has
+  /// left out damaged ones. Known once all frames have been read.
+  [[nodiscard]] virtual bool is_truncated() const { return false; }
   /// Returns lines about the frames. They are complete once all frames have been read.
   [[nodiscard]] virtual std::vector<std::string> warnings() const { return {}; }
 };

@@ -25,6 +25,7 @@ struct Trajectory {
   std::size_t residues_read = 0;  ///< those with beads
   std::vector<std::size_t>
       breaks;                ///< b: beads b and b+1 are joined across a chain break, in the first frame
+  bool truncated = false;    ///< frames are missing at the end, as FrameSource::is_truncated tells it
   LaterBreaks later_breaks;  ///< complete once all frames have been read
   std::vector<std::string> warnings;  ///< one line each, without trailing newline
 

@@ -28,6 +28,7 @@ std::vector<Trajectory> read_trajectories(const std::filesystem::path& path, con
   for (std::size_t n = 0; n < necklaces.size(); ++n) {
     necklaces[n].later_breaks = stream.heads()[n].later_breaks;
     necklaces[n].warnings = stream.warnings(n);
+    necklaces[n].truncated = stream.is_truncated();
   }
   return necklaces;
 }

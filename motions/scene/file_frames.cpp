@@ -74,6 +74,11 @@ std::vector<std::string> FileFrames::warnings() const {
   return lines;
 }
 
+bool FileFrames::is_truncated() const {
+  return std::any_of(files_.begin(), files_.end(),
+                     [](const NecklaceStream& file) { return file.is_truncated(); });
+}
+
 void FileFrames::add_nearer_images(std::vector<std::string>& lines) const {
   if (files_.size() == 1) return;
   EarlierNecklaces earlier;

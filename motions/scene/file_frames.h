@@ -26,6 +26,8 @@ class FileFrames final : public FrameSource {
   /// earlier files.
   [[nodiscard]] std::vector<std::string> warnings() const override;
 
+  [[nodiscard]] bool is_truncated() const override;
+
   /// Returns what the files tell about each necklace, with its first frame alone. Complete once all frames
   /// have been read.
   [[nodiscard]] std::vector<Trajectory> heads() const;

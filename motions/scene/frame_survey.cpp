@@ -93,6 +93,7 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
       begin += beads;
     }
   }
+  survey.truncated = frames.is_truncated();
   survey.plane = planes.plane();
   if (warn)
     for (const std::string& line : frames.warnings()) warn(line);

@@ -52,6 +52,7 @@ class LongestBond {
 struct FrameSurvey {
   std::size_t frame_count = 0;
   FrameStamp first, last;
+  bool truncated = false;  ///< as FrameSource::is_truncated
   Eigen::Matrix3Xd first_positions;
   std::optional<AxisPlane> plane;
   LongestBond bonds;  ///< empty unless requested

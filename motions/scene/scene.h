@@ -80,6 +80,8 @@ class Scene {
   // Functions with an index of a frame, step or bead throw std::invalid_argument if it is too large. The
   // message gives the number of elements.
 
+  /// Returns whether frames are missing at the end of the input, as FrameSource::is_truncated tells it.
+  [[nodiscard]] bool is_truncated() const { return truncated_; }
   /// Returns a frame's number in the file and its time, for messages and results.
   [[nodiscard]] FrameStamp stamp(std::size_t frame) const;
   [[nodiscard]] std::size_t frame_number(std::size_t frame) const { return stamp(frame).number; }
@@ -152,6 +154,7 @@ class Scene {
   std::vector<std::string> bead_names_;  // empty, or one per bead
   std::vector<double> radii_;
   bool has_radii_ = true;
+  bool truncated_ = false;
   AxisPlane plane_;  // the plane of a planar scene; else the input's own axes
   std::unique_ptr<StepSource> steps_;
   FrameQueue* pushed_ = nullptr;  // the source of frames that are pushed; owned by `steps_`
