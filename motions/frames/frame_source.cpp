@@ -75,6 +75,7 @@ MemoryFrames::MemoryFrames(std::span<const Trajectory> necklaces) {
   for (const Trajectory& necklace : necklaces) {
     check_frames(necklace, longest);
     necklaces_.push_back(beads_of(necklace));
+    truncated_ = truncated_ || necklace.truncated;
   }
   beads_ = static_cast<Eigen::Index>(count_beads(necklaces_));
   own_.reserve(3 * count_beads(necklaces_) * longest.frames.size());

@@ -78,6 +78,7 @@ class MemoryFrames final : public FrameSource {
   [[nodiscard]] const std::vector<NecklaceBeads>& necklaces() const override { return necklaces_; }
   [[nodiscard]] bool next(FrameRead& frame) override;
   void seek(std::size_t k) override { next_ = k; }
+  [[nodiscard]] bool is_truncated() const override { return truncated_; }
 
  private:
   void check_finite() const;
@@ -88,6 +89,7 @@ class MemoryFrames final : public FrameSource {
   std::span<const double> coordinates_;  // `own_` or the caller's array
   std::vector<FrameStamp> stamps_;
   std::size_t next_ = 0;
+  bool truncated_ = false;
 };
 
 /// Frames that the caller pushes. Each frame is handed out once and not kept.
