@@ -53,6 +53,29 @@ TEST(LineReader, LinesAreWholeAcrossPieces) {
   EXPECT_FALSE(plain.cut());
 }
 
+TEST(LineReader, GoesBackToALine) {
+  std::string text = "\xEF\xBB\xBF";
+  for (int i = 1; i <= 30000; ++i) text += "line " + std::to_string(i) + "\n";
+  const gzFile out = gzopen(test::temporary("b").c_str(), "wb1");
+  gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+  gzclose(out);
+  for (const auto& path : {test::write_file("a", text), test::temporary("b")}) {
+    LineReader reader(path);
+    std::vector<std::uint64_t> places;
+    std::string_view line;
+    do places.push_back(reader.place());
+    while (reader.next(line));
+    for (const std::size_t number : {1U, 2U, 30000U, 29999U, 15000U, 15001U, 1U}) {
+      reader.seek(places[number - 1], number);
+      ASSERT_TRUE(reader.next(line));
+      EXPECT_EQ(line, "line " + std::to_string(number));
+      EXPECT_EQ(reader.number(), number);
+    }
+    reader.seek(places[30000], 30001);
+    EXPECT_FALSE(reader.next(line));
+  }
+}
+
 TEST(LineReader, RefusesALineWithoutEnd) {
   const std::string zeros(1 << 20, '\0');
   for (const auto& path :
