@@ -50,7 +50,7 @@ set(gemmi "")
 if(KDS_GEMMI_LIBRARY)
   set(gemmi "${KDS_GEMMI_LIBRARY}")
 endif()
-kds_install_component(motions TARGETS kds_requirements kds_options kds_motions REQUIRES eigen3 fmt zlib gmpxx gmp
+kds_install_component(motions TARGETS kds_requirements kds_options kds_motions REQUIRES eigen3 fmt zlib netcdf gmpxx gmp
                       LIBRARIES ${gemmi})
 kds_install_component(certificates TARGETS kds_certificates REQUIRES kds-motions LIBRARIES "${KDS_FLINT_LIBRARY}")
 kds_install_component(engine TARGETS kds_engine REQUIRES kds-certificates)
@@ -61,7 +61,7 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDI
 
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/kdsConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 configure_file("${PROJECT_SOURCE_DIR}/cmake/kdsConfig.cmake" "${PROJECT_BINARY_DIR}/kdsConfig.cmake" COPYONLY)
-set(modules FindKdsFlint.cmake FindKdsGmp.cmake FindKdsMpfr.cmake)
+set(modules FindKdsFlint.cmake FindKdsGmp.cmake FindKdsMpfr.cmake FindKdsNetcdf.cmake)
 file(REMOVE "${PROJECT_BINARY_DIR}/FindKdsGemmi.cmake")
 if(KDS_GEMMI_LIBRARY)
   list(APPEND modules FindKdsGemmi.cmake)

@@ -21,6 +21,7 @@ find_dependency(ZLIB)
 find_dependency(fmt)
 list(PREPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")  # FindKdsGmp ...
 find_dependency(KdsGmp)
+find_dependency(KdsNetcdf)
 if(EXISTS "${CMAKE_CURRENT_LIST_DIR}/FindKdsGemmi.cmake")  # the library that the readers use
   find_dependency(KdsGemmi)
 endif()
