@@ -57,6 +57,8 @@ class InputFile {
   /// Starts again at the first byte.
   void rewind();
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Returns whether the file is unpacked while it is read.
+  [[nodiscard]] bool is_gzipped() const { return packed_ != nullptr; }
 
   static constexpr std::uint64_t most_unpacked = std::uint64_t{1} << 26U;
   static constexpr std::uint64_t most_ratio = 100;

@@ -10,6 +10,7 @@
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/radii.h"
 #include "tests/motions/test_files.h"
+#include "tests/support/inputs/netcdf_maker.h"
 
 namespace kds::reader_fuzz_test {
 namespace {
@@ -145,6 +146,15 @@ TEST(ReaderFuzz, Mmcif) {
   text = "data_X\n_cell.length_a 1\nloop_\n_entity.id\n_entity.type\n1 polymer\n" +
          text.substr(loop, end - loop + 1);
   EXPECT_GT(fuzz("a.cif", text, 1500, [](const auto& path) { read_and_check(path); }), 10);
+}
+
+TEST(ReaderFuzz, Netcdf) {
+  for (const int version : {1, 2, 5}) {
+    test::NetcdfMaker maker = test::NetcdfMaker::chain(4, 3);
+    maker.version = version;
+    maker.cell = {30, 40, 50, 90, 90, 90};
+    EXPECT_GT(fuzz("a.nc", maker.bytes(), 1000, [](const auto& path) { read_and_check(path); }), 10);
+  }
 }
 
 TEST(ReaderFuzz, Xyz) {

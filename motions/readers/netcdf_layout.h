@@ -1,0 +1,67 @@
+#pragma once
+// The layout of a classic NetCDF file, which libnetcdf does not tell. Attributes are skipped. Each size is
+// compared with the size of the file, so that libnetcdf never sees a header that promises what cannot be.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "motions/base/input_file.h"
+
+namespace kds {
+
+/// A variable as the header declares it. A variable with records has one part in each record. Any other
+/// variable is one part.
+struct NetcdfVariable {
+  std::string name;
+  int id = 0;                          ///< as libnetcdf numbers variables
+  std::vector<std::uint64_t> lengths;  ///< of its dimensions; 1 for the records
+  bool has_records = false;
+  std::uint64_t begin = 0;  ///< byte of the first part
+  std::uint64_t bytes = 0;  ///< in one part
+  int type = 0;             ///< as the NC_FLOAT of libnetcdf
+};
+
+class NetcdfLayout {
+ public:
+  /// Reads the header of a file in CDF-1, CDF-2 or CDF-5. Throws InputError naming file and byte.
+  explicit NetcdfLayout(InputFile& input);
+
+  /// Returns the variable, or null.
+  [[nodiscard]] const NetcdfVariable* find(std::string_view name) const;
+  [[nodiscard]] std::uint64_t file_size() const { return file_size_; }
+  [[nodiscard]] std::uint64_t record_size() const { return record_size_; }
+  /// Returns the number of records by the header; none if the file was written as a stream.
+  [[nodiscard]] std::optional<std::uint64_t> records_claimed() const { return records_claimed_; }
+  /// Returns the number of records that the file has all bytes of.
+  [[nodiscard]] std::uint64_t whole_records() const;
+  /// Returns the byte at which record k begins.
+  [[nodiscard]] std::uint64_t record_begin(std::uint64_t k) const;
+
+ private:
+  void read_header();
+  void read_variable(const std::vector<std::uint64_t>& dimensions);
+  void sum_records();
+  void skip_attributes();
+  [[nodiscard]] std::uint64_t number(std::size_t bytes);
+  [[nodiscard]] std::uint64_t size() { return number(version_ == 5 ? 8 : 4); }
+  [[nodiscard]] std::size_t list(std::uint64_t tag, const char* items);
+  [[nodiscard]] std::string_view padded_bytes(std::uint64_t bytes);
+  [[nodiscard]] int type();
+  [[noreturn]] void fail(const std::string& what) const;
+  [[noreturn]] void fail_end() const;
+
+  std::string file_;
+  std::uint64_t file_size_ = 0;
+  std::string header_;
+  std::size_t place_ = 0;  // in the header
+  std::uint64_t version_ = 0;
+  std::optional<std::uint64_t> records_claimed_;
+  std::uint64_t record_size_ = 0;
+  std::vector<NetcdfVariable> variables_;
+};
+
+}  // namespace kds

@@ -1,0 +1,349 @@
+#include "motions/readers/netcdf_reader.h"
+
+#include <fmt/format.h>
+#include <netcdf.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "motions/base/input_error.h"
+#include "motions/base/input_file.h"
+#include "motions/base/text_input.h"
+#include "motions/readers/netcdf_layout.h"
+
+namespace kds {
+
+namespace {
+
+// Throws unless libnetcdf may be asked to open the file.
+void require_classic(InputFile& input) {
+  if (input.is_gzipped())
+    throw InputError(fmt::format("{}: NetCDF is read unpacked only; unpack it with gunzip", input.name()));
+  constexpr std::string_view hdf5 = "\x89HDF\r\n\x1A\n";
+  std::array<char, hdf5.size()> bytes{};
+  const std::string_view start(bytes.data(), input.read(bytes.data(), bytes.size()));
+  input.rewind();
+  if (start == hdf5)
+    throw InputError(
+        fmt::format("{0}: this is HDF5 (netCDF-4), expected classic NetCDF; convert it, as with "
+                    "nccopy -k classic {0} out.nc",
+                    input.name()));
+  if (!looks_like_netcdf(start))
+    throw InputError(
+        fmt::format("{}: expected a NetCDF file (CDF-1, CDF-2 or CDF-5), which begins with CDF, found {}",
+                    input.name(), in_quotes(start)));
+}
+
+// A file that libnetcdf has opened.
+class NetcdfFile {
+ public:
+  explicit NetcdfFile(const std::string& name) : name_(name) {
+    // libnetcdf may take a relative path for an address, as in "https:".
+    const std::string path = std::filesystem::absolute(name).string();
+    std::size_t piece = std::size_t{1} << 20U;
+    check(nc__open(path.c_str(), NC_NOWRITE, &piece, &id_), "cannot open this file");
+  }
+  ~NetcdfFile() { nc_close(id_); }
+  NetcdfFile(const NetcdfFile&) = delete;
+  NetcdfFile& operator=(const NetcdfFile&) = delete;
+
+  int id() const { return id_; }
+
+  void check(int code, std::string_view what) const {
+    if (code != NC_NOERR)
+      throw InputError(fmt::format("{}: {} (libnetcdf: {})", name_, what, nc_strerror(code)));
+  }
+
+  // Returns an attribute of a variable, or of the file (NC_GLOBAL); empty if it is not there.
+  std::string text(int variable, const char* attribute) const {
+    nc_type type = NC_NAT;
+    std::size_t length = 0;
+    if (nc_inq_att(id_, variable, attribute, &type, &length) != NC_NOERR || type != NC_CHAR) return {};
+    std::string value(length, '\0');
+    check(nc_get_att_text(id_, variable, attribute, value.data()),
+          fmt::format("cannot read attribute {}", attribute));
+    return std::string(trimmed(std::string_view(value).substr(0, value.find('\0'))));
+  }
+
+  // Returns the attribute scale_factor of a variable; 1 if it is not there.
+  double scale(int variable) const {
+    std::size_t length = 0;
+    if (nc_inq_attlen(id_, variable, "scale_factor", &length) != NC_NOERR) return 1;
+    double value = 0;
+    const bool is_number =
+        length == 1 && nc_get_att_double(id_, variable, "scale_factor", &value) == NC_NOERR;
+    if (!is_number || !std::isfinite(value) || value == 0)
+      throw InputError(fmt::format("{}: expected the attribute scale_factor to be one number, not 0", name_));
+    return value;
+  }
+
+ private:
+  std::string name_;
+  int id_ = -1;
+};
+
+// A variable with values for each frame, or with the same values for all.
+struct NetcdfSeries {
+  const NetcdfVariable* layout = nullptr;
+  bool framed = false;
+  double scale = 1;
+  std::string units;
+};
+
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+// Returns the entry of `units` that has this name, with or without an s at its end.
+template <std::size_t n>
+std::optional<double> unit_of(std::string_view name,
+                              const std::array<std::pair<std::string_view, double>, n>& units) {
+  for (const auto& [unit, size] : units)
+    if (name == unit || (name.ends_with('s') && name.substr(0, name.size() - 1) == unit)) return size;
+  return std::nullopt;
+}
+
+constexpr std::array<std::pair<std::string_view, double>, 5> netcdf_lengths{
+    {{"angstrom", 1}, {"a", 1}, {"nanometer", 10}, {"nanometre", 10}, {"nm", 10}}};
+constexpr std::array<std::pair<std::string_view, double>, 6> netcdf_times{
+    {{"femtosecond", 1e-3}, {"fs", 1e-3}, {"picosecond", 1}, {"ps", 1}, {"nanosecond", 1e3}, {"ns", 1e3}}};
+constexpr std::array<std::pair<std::string_view, double>, 2> netcdf_angles{
+    {{"degree", 1}, {"radian", 180 / std::numbers::pi}}};
+
+class NetcdfFrames final : public AtomFrames {
+ public:
+  explicit NetcdfFrames(const std::filesystem::path& path)
+      : name_(path.string()), layout_(layout_of(path)), file_(name_) {
+    check_conventions();
+    const NetcdfVariable* const coordinates = layout_.find("coordinates");
+    if (coordinates == nullptr)
+      throw InputError(fmt::format("{}: expected a variable coordinates, found none", name_));
+    const std::size_t rank = coordinates->lengths.size();
+    if ((rank != 2 && rank != 3) || coordinates->lengths.back() != 3 ||
+        (rank == 2 && coordinates->has_records))
+      throw InputError(fmt::format(
+          "{}: expected coordinates of the dimensions frame (if several), atom and spatial, which is 3",
+          name_));
+    if (coordinates->type != NC_FLOAT && coordinates->type != NC_DOUBLE)
+      throw InputError(fmt::format("{}: expected coordinates of type float or double", name_));
+    atoms_ = static_cast<std::size_t>(coordinates->lengths[rank - 2]);
+    frames_ = rank == 2 ? 1 : coordinates->lengths[0];
+    if (coordinates->has_records) frames_ = layout_.records_claimed().value_or(layout_.whole_records());
+    coordinates_ = *series("coordinates", {atoms_, 3});
+    time_ = series("time", {});
+    lengths_ = series("cell_lengths", {3});
+    angles_ = series("cell_angles", {3});
+    read_units();
+    count_frames();
+  }
+
+  std::size_t atom_count() const override { return atoms_; }
+  FramesHeld held() const override { return held_; }
+  bool may_have_cell() const override { return lengths_ && angles_; }
+  std::vector<std::string> notes() const override { return notes_; }
+
+  void read(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) override {
+    frame.stamp.number = k;
+    frame.stamp.picoseconds = time(k);
+    CellRead cell = read_cell_of(k);
+    frame.cell = cell.cell;
+    frame.cell_doubt = std::move(cell.doubt);
+    if (!frame.asked && !frame.cell) return;
+    if (coordinates_.layout->type == NC_FLOAT)
+      read_positions(k, atoms, frame.positions, floats_, nc_get_vara_float);
+    else
+      read_positions(k, atoms, frame.positions, doubles_, nc_get_vara_double);
+  }
+
+ private:
+  static NetcdfLayout layout_of(const std::filesystem::path& path) {
+    InputFile input(path);
+    require_classic(input);
+    return NetcdfLayout(input);
+  }
+
+  void check_conventions() {
+    const std::string conventions = file_.text(NC_GLOBAL, "Conventions");
+    std::string words = conventions;
+    std::replace(words.begin(), words.end(), ',', ' ');
+    for (const std::string_view word : split_fields(words))
+      if (word == "AMBER" || word == "AMBERRESTART") return;
+    throw InputError(
+        fmt::format("{}: expected the attribute Conventions to be AMBER or AMBERRESTART, found {}", name_,
+                    conventions.empty() ? "none" : in_quotes(conventions)));
+  }
+
+  // Returns a variable that has `shape` in each frame or for all frames; none if it is not there.
+  std::optional<NetcdfSeries> series(const std::string& name, const std::vector<std::uint64_t>& shape) const {
+    const NetcdfVariable* const layout = layout_.find(name);
+    if (layout == nullptr) return std::nullopt;
+    const std::size_t rank = layout->lengths.size();
+    const bool framed = rank == shape.size() + 1;
+    const bool fits = (framed || rank == shape.size()) &&
+                      std::equal(shape.rbegin(), shape.rend(), layout->lengths.rbegin()) &&
+                      (layout->has_records ? framed : !framed || layout->lengths[0] == frames_);
+    if (!fits || layout->has_records != (framed && coordinates_has_records()))
+      throw InputError(fmt::format("{}: {} has other dimensions than coordinates", name_, name));
+    return NetcdfSeries{layout, framed, file_.scale(layout->id), lower_case(file_.text(layout->id, "units"))};
+  }
+  bool coordinates_has_records() const { return layout_.find("coordinates")->has_records; }
+
+  // Reads the units of all series. Lengths without units are in angstrom, as AMBER writes them.
+  void read_units() {
+    to_angstrom_ = length_unit(coordinates_, "coordinates");
+    if (may_have_cell()) {
+      cell_to_angstrom_ = length_unit(*lengths_, "cell_lengths");
+      if (const auto unit = unit_of(angles_->units.empty() ? "degree" : angles_->units, netcdf_angles))
+        to_degrees_ = *unit;
+      else
+        throw InputError(fmt::format("{}: expected cell_angles in degree or radian, found {}", name_,
+                                     in_quotes(angles_->units)));
+    }
+    if (!time_) return;
+    if (const auto unit = unit_of(time_->units.empty() ? "picosecond" : time_->units, netcdf_times)) {
+      to_picoseconds_ = *unit;
+      return;
+    }
+    notes_.push_back(
+        fmt::format("times are left unread: expected them in picosecond, femtosecond or nanosecond, found {}",
+                    in_quotes(time_->units)));
+    time_.reset();
+  }
+
+  double length_unit(const NetcdfSeries& series, const char* name) {
+    if (series.units.empty()) {
+      notes_.push_back(fmt::format("{} have no units and are taken as angstrom", name));
+      return 1;
+    }
+    const auto unit = unit_of(series.units, netcdf_lengths);
+    if (!unit)
+      throw InputError(fmt::format("{}: expected {} in angstrom or nanometer, found {}", name_, name,
+                                   in_quotes(series.units)));
+    return *unit;
+  }
+
+  // Counts the frames that are there with all their bytes.
+  void count_frames() {
+    held_.whole = static_cast<std::size_t>(frames_);
+    for (const NetcdfSeries* series : {&coordinates_, time_ ? &*time_ : nullptr,
+                                       lengths_ ? &*lengths_ : nullptr, angles_ ? &*angles_ : nullptr}) {
+      if (series == nullptr) continue;
+      const NetcdfVariable& variable = *series->layout;
+      const std::uint64_t bytes =
+          series->framed && !variable.has_records ? variable.bytes / frames_ : variable.bytes;
+      std::uint64_t whole = layout_.whole_records();
+      if (!variable.has_records) {
+        whole = layout_.file_size() < variable.begin ? 0 : (layout_.file_size() - variable.begin) / bytes;
+        if (!series->framed && whole > 0) whole = frames_;
+      }
+      held_.whole = std::min(held_.whole, static_cast<std::size_t>(whole));
+    }
+    held_.ends_inside = held_.whole < frames_;
+    if (coordinates_.layout->has_records) {
+      const std::uint64_t whole = layout_.whole_records();
+      if (!layout_.records_claimed())
+        held_.ends_inside = layout_.file_size() > layout_.record_begin(whole);
+      else if (whole > frames_)
+        notes_.push_back(
+            fmt::format("the header counts {}, the file has room for {}; only those of the header are read",
+                        counted(static_cast<std::size_t>(frames_), "frame"), whole));
+    }
+    if (held_.ends_inside) held_.end = layout_.file_size();
+  }
+
+  std::optional<double> time(std::size_t k) const {
+    if (!time_) return std::nullopt;
+    const std::size_t start = k;
+    double value = 0;
+    file_.check(nc_get_var1_double(file_.id(), time_->layout->id, &start, &value),
+                fmt::format("frame {}: cannot read its time", k));
+    value *= time_->scale;
+    value = to_picoseconds_ < 1 ? value / std::round(1 / to_picoseconds_) : value * to_picoseconds_;
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  }
+
+  CellRead read_cell_of(std::size_t k) const {
+    if (!may_have_cell()) return {};
+    return read_cell_from_angles(three(*lengths_, k) * cell_to_angstrom_, three(*angles_, k) * to_degrees_);
+  }
+
+  Eigen::Vector3d three(const NetcdfSeries& series, std::size_t k) const {
+    const std::array<std::size_t, 2> start{series.framed ? k : 0, 0}, count{series.framed ? 1U : 3U, 3};
+    Eigen::Vector3d values;
+    file_.check(nc_get_vara_double(file_.id(), series.layout->id, start.data(), count.data(), values.data()),
+                fmt::format("frame {}: cannot read its cell", k));
+    return values * series.scale;
+  }
+
+  // Reads from the first to the last of the wanted atoms at once. Floats are scaled and converted as floats,
+  // as other programs do.
+  template <class Number, class Read>
+  void read_positions(std::size_t k, std::span<const std::size_t> atoms, Eigen::Matrix3Xd& positions,
+                      std::vector<Number>& numbers, const Read& read) const {
+    positions.resize(3, static_cast<Eigen::Index>(atoms.size()));
+    if (atoms.empty()) return;
+    const auto [least, most] = std::minmax_element(atoms.begin(), atoms.end());
+    const std::size_t first = *least, span = *most - *least + 1;
+    numbers.resize(3 * span);
+    const std::array<std::size_t, 3> start{k, first, 0}, count{1, span, 3};
+    const std::size_t skipped = coordinates_.framed ? 0 : 1;
+    file_.check(read(file_.id(), coordinates_.layout->id, start.data() + skipped, count.data() + skipped,
+                     numbers.data()),
+                fmt::format("frame {}: cannot read its coordinates", k));
+    const auto scale = static_cast<Number>(coordinates_.scale);
+    const bool is_nanometres = to_angstrom_ != 1;
+    for (std::size_t bead = 0; bead < atoms.size(); ++bead)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        Number value = numbers[3 * (atoms[bead] - first) + axis];
+        if (value == static_cast<Number>(NC_FILL_FLOAT)) fail_unwritten(k, atoms[bead]);
+        if (scale != 1) value *= scale;
+        positions(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(bead)) =
+            is_nanometres ? 10.0F * static_cast<float>(value) : value;
+      }
+  }
+
+  [[noreturn]] void fail_unwritten(std::size_t k, std::size_t atom) const {
+    const NetcdfVariable& variable = *coordinates_.layout;
+    const std::uint64_t frame_bytes = variable.has_records ? layout_.record_size() : variable.bytes / frames_;
+    const std::uint64_t atom_bytes = variable.type == NC_FLOAT ? 12 : 24;
+    throw DamagedFrame(
+        name_, k, variable.begin + k * frame_bytes + atom * atom_bytes,
+        fmt::format("expected the coordinates of atom {}, found NetCDF's fill value: none were written",
+                    atom));
+  }
+
+  std::string name_;
+  NetcdfLayout layout_;
+  NetcdfFile file_;
+  std::size_t atoms_ = 0;
+  std::uint64_t frames_ = 0;  // by the header
+  NetcdfSeries coordinates_;
+  std::optional<NetcdfSeries> time_, lengths_, angles_;
+  double to_angstrom_ = 1, cell_to_angstrom_ = 1, to_degrees_ = 1, to_picoseconds_ = 1;
+  FramesHeld held_;
+  std::vector<std::string> notes_;
+  std::vector<float> floats_;
+  std::vector<double> doubles_;
+};
+
+}  // namespace
+
+bool looks_like_netcdf(std::string_view start) {
+  return start.size() >= 4 && start.starts_with("CDF") && (start[3] == 1 || start[3] == 2 || start[3] == 5);
+}
+
+std::unique_ptr<AtomFrames> open_netcdf(const std::filesystem::path& path, const ReadOptions&) {
+  return std::make_unique<NetcdfFrames>(path);
+}
+
+}  // namespace kds

@@ -1,0 +1,23 @@
+#pragma once
+// AMBER NetCDF trajectories and restart files in the classic formats CDF-1, CDF-2 and CDF-5. libnetcdf reads
+// the values. It returns zeros without an error where a file ends early, so the size that the header promises
+// is compared with the file's size first.
+
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "motions/readers/atom_frames.h"
+#include "motions/readers/read_options.h"
+
+namespace kds {
+
+/// Returns whether a classic NetCDF file begins with these bytes.
+[[nodiscard]] bool looks_like_netcdf(std::string_view start);
+
+/// Opens an AMBER NetCDF file. Throws InputError naming the file if the file is gzipped, is in another format
+/// than the classic ones, or does not follow AMBER's conventions.
+[[nodiscard]] std::unique_ptr<AtomFrames> open_netcdf(const std::filesystem::path& path,
+                                                      const ReadOptions& options);
+
+}  // namespace kds
