@@ -118,6 +118,13 @@ const OptionList<InputOptions>& input_options() {
        [](const InputOptions& o) {
          return o.reading.time_step ? fmt::format("{}", *o.reading.time_step) : "";
        }},
+      {{"--units", "NAME",
+        "unit style of LAMMPS dumps: real or metal (angstrom), lj (lengths as they are, no times) or nano "
+        "(nanometres) (default: as the dump says, otherwise angstrom)"},
+       [](InputOptions& o, const std::string& text) {
+         o.reading.units = choice_of("--units", text, lammps_units_names, LammpsUnits::real);
+       },
+       [](const InputOptions& o) { return std::string(o.reading.units ? name_of(*o.reading.units) : ""); }},
       {{"--until-damage", "", "read the frames before a damaged frame instead of refusing the file"},
        [](InputOptions& o, const std::string&) { o.reading.until_damage = true; },
        [](const InputOptions& o) { return o.reading.until_damage ? "yes" : ""; },

@@ -53,6 +53,9 @@ FramesOpened open_frames(const std::filesystem::path& path, const ReadOptions& o
   if (options.topology && !reader.takes_topology)
     opened.warnings.push_back(
         fmt::format("{}: --topology is left unread, this file names its atoms itself", opened.file));
+  if (options.units && reader.name != "lammps")
+    opened.warnings.push_back(
+        fmt::format("{}: --units is left unread, as only LAMMPS dumps take it", opened.file));
   const ReaderSpec* const by_ending = reader_registry().find_by_ending(path);
   if (!options.format && by_ending != nullptr && by_ending != &reader)
     opened.warnings.push_back(

@@ -24,6 +24,19 @@ inline constexpr std::array<std::string_view, 4> selection_names{"automatic", "b
   return selection_names[static_cast<std::size_t>(selection)];
 }
 
+/// The unit styles of LAMMPS that are read. They decide in which unit lengths and times are.
+enum class LammpsUnits {
+  real,   ///< angstrom, femtoseconds
+  metal,  ///< angstrom, picoseconds
+  lj,     ///< reduced units, read as they are, without times
+  nano,   ///< nanometres, nanoseconds
+};
+/// Names, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 4> lammps_units_names{"real", "metal", "lj", "nano"};
+[[nodiscard]] constexpr std::string_view name_of(LammpsUnits units) {
+  return lammps_units_names[static_cast<std::size_t>(units)];
+}
+
 struct ReadOptions {
   std::optional<std::filesystem::path> topology = {};  ///< file that names the atoms of a trajectory
   Selection selection = Selection::automatic;
@@ -32,6 +45,7 @@ struct ReadOptions {
   std::optional<std::string> format = {};  ///< name of a reader; none: told from the file
   std::optional<double> time_step = {};    ///< picoseconds between frames; none: times as in the file
   bool until_damage = false;               ///< reads the frames before a damaged one
+  std::optional<LammpsUnits> units = {};   ///< of a LAMMPS dump; none: as the file says, else angstrom
 };
 
 }  // namespace kds

@@ -13,6 +13,7 @@
 #include "motions/base/text_input.h"
 #include "motions/readers/atom_frames.h"
 #include "motions/readers/dcd_reader.h"
+#include "motions/readers/lammps_reader.h"
 #include "motions/readers/netcdf_reader.h"
 #include "motions/readers/pdb_reader.h"
 #include "motions/readers/read_options.h"
@@ -43,6 +44,7 @@ void add_own_readers(ReaderRegistry& own) {
   own.add(atom_format("dcd", {".dcd"}, looks_like_dcd, open_dcd));
   own.add(atom_format("xyz", {".xyz", ".extxyz"}, looks_like_xyz, open_xyz));
   own.add(atom_format("netcdf", {".nc", ".ncdf"}, looks_like_netcdf, open_netcdf));
+  own.add(atom_format("lammps", {".lammpstrj", ".dump", ".lammpsdump"}, looks_like_lammps, open_lammps));
 }
 
 bool has_ending(const ReaderSpec& reader, const std::string& ending) {

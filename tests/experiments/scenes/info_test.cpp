@@ -17,6 +17,7 @@
 namespace kds::test::info_test {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
@@ -51,6 +52,14 @@ TEST(InfoOptions, TakesTheInputOptionsOfRunAndItsOwn) {
   EXPECT_EQ(all.out, "there");
   EXPECT_EQ(all.json, "j.json");
   EXPECT_TRUE(all.quiet);
+}
+
+TEST(InfoOptions, TakesTheUnitsOfLammps) {
+  EXPECT_FALSE(parse_info_options({"a.dump"}).reading.units);
+  EXPECT_EQ(parse_info_options({"a.dump", "--units", "nano"}).reading.units, LammpsUnits::nano);
+  EXPECT_EQ(parse_info_options({"a.dump", "--units", "real"}).reading.units, LammpsUnits::real);
+  EXPECT_THAT(refusal({"a.dump", "--units", "si"}),
+              AllOf(HasSubstr("--units"), HasSubstr("'si'"), HasSubstr("nano")));
 }
 
 TEST(InfoOptions, RefusesWithTheOptionAndWhatItTakes) {

@@ -157,6 +157,16 @@ TEST(ReaderFuzz, Netcdf) {
   }
 }
 
+TEST(ReaderFuzz, Lammps) {
+  const std::string frame =
+      "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS xy xz yz pp pp ff\n-5 15 2\n0 30 1\n0 "
+      "40 1\n"
+      "ITEM: ATOMS id xs ys zs ix iy iz element \n3 0.3 0.1 0 0 0 0 C \n1 0.1 0.1 0 0 1 0 N \n2 0.2 0 0 0 0 "
+      "0 O \n";
+  const std::string text = "ITEM: UNITS\nreal\nITEM: TIME\n0.5\n" + frame + "ITEM: TIME\n1.5\n" + frame;
+  EXPECT_GT(fuzz("a.dump", text, 1500, [](const auto& path) { read_and_check(path); }), 10);
+}
+
 TEST(ReaderFuzz, Xyz) {
   const std::string text =
       "3\nLattice=\"10 0 0 0 10 0 0 0 10\"\nC 0 0 0\nN 1.5 0 0\nO 3 0 0\n3\nnext\nC 0 1 0\nN 1.5 1 0\nO 3 1 "
