@@ -20,6 +20,7 @@ struct ChosenAtoms {
   std::vector<double> element_radii;
   std::vector<std::string> names;
   std::vector<ChainRead> chains;
+  bool chain_like = true;
 };
 
 InputError needs_names(const char* option, const std::string& file, const char* what) {
@@ -35,8 +36,7 @@ ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, st
   chosen.places.resize(atom_count);
   std::iota(chosen.places.begin(), chosen.places.end(), std::size_t{0});
   if (!options.topology) {
-    if (options.selection == Selection::backbone || options.selection == Selection::ca)
-      throw needs_names("--select", file, "atoms");
+    if (options.selection.needs_names()) throw needs_names("--select", file, "atoms");
     if (options.chain) throw needs_names("--chain", file, "chains");
     return chosen;
   }
@@ -52,6 +52,7 @@ ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, st
   chosen.element_radii = std::move(topology.element_radii);
   chosen.names = std::move(topology.bead_names);
   chosen.chains = std::move(topology.chains);
+  chosen.chain_like = topology.chain_like;
   return chosen;
 }
 
@@ -99,7 +100,7 @@ FramesOpened open_atom_frames(const std::filesystem::path& path, const ReadOptio
   }
   opened.bead_names = std::move(atoms.names);
   opened.chains = std::move(atoms.chains);
-  opened.chain_like = !options.topology || options.selection != Selection::all;
+  opened.chain_like = atoms.chain_like;
   opened.frames = std::make_unique<ChosenFrames>(std::move(frames), std::move(atoms.places), asked);
   return opened;
 }

@@ -47,8 +47,9 @@ FramesOpened open_frames(const std::filesystem::path& path, const ReadOptions& o
   const ReaderSpec& reader = reader_of(path, options.format);
   if (options.topology) refuse_trajectory_as_topology(path, *options.topology, reader.takes_topology);
   if (!reader.open)
-    throw InputError(fmt::format("{}: {} files have no frames; give it as --topology of a trajectory ({})",
-                                 path.string(), reader.name, reader_registry().endings()));
+    throw InputError(
+        fmt::format("{0}: {1} files have no frames; give the trajectory ({2}) with --topology {0}",
+                    path.string(), reader.name, reader_registry().trajectory_endings()));
   FramesOpened opened = reader.open(path, options);
   if (options.topology && !reader.takes_topology)
     opened.warnings.push_back(

@@ -35,6 +35,8 @@ class NecklaceStream {
   /// InputError as the constructor does.
   [[nodiscard]] bool next(FrameRead& frame);
   void rewind();
+  /// Returns whether consecutive beads are meant to be bonded.
+  [[nodiscard]] bool chain_like() const { return opened_.chain_like; }
   /// Returns whether the file has only one frame. Starts again with the first frame.
   [[nodiscard]] bool holds_one_frame();
   /// Returns the warnings about a necklace. They are complete once all frames have been read.

@@ -262,7 +262,8 @@ std::vector<StructureModel> models_of(const Source& source, const gemmi::cif::Bl
                     insertion = column("pdbx_PDB_ins_code"), comp = column("auth_comp_id"),
                     label_comp = column("label_comp_id"), entity = column("label_entity_id"),
                     atom_id = column("auth_atom_id"), label_atom_id = column("label_atom_id"),
-                    alternate = column("label_alt_id"), symbol = column("type_symbol");
+                    alternate = column("label_alt_id"), symbol = column("type_symbol"),
+                    occupancy = column("occupancy"), b_factor = column("B_iso_or_equiv");
   std::vector<ModelRead> read;
   std::map<std::string, std::size_t> model_of;
   for (std::size_t row = 0; row < atoms.rows(); ++row) {
@@ -290,6 +291,8 @@ std::vector<StructureModel> models_of(const Source& source, const gemmi::cif::Bl
     atom.element = gemmi::Element(atoms.text(row, {symbol}));
     atom.element_is_given = atom.element != gemmi::El::X;
     atom.place = into.atoms++;
+    atom.occupancy = parse_cif_number(atoms.text(row, {occupancy}));
+    atom.b_factor = parse_cif_number(atoms.text(row, {b_factor}));
     atom.position = {atoms.number(row, x), atoms.number(row, y), atoms.number(row, z)};
     into.grouping.add(residue, std::move(atom));
   }

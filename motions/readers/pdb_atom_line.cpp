@@ -46,14 +46,17 @@ double coordinate(const std::string& file, std::size_t line_number, std::string_
   return *value;
 }
 
-void check_occupancy(const std::string& file, std::size_t line_number, std::string_view line) {
+std::optional<double> read_occupancy(const std::string& file, std::size_t line_number,
+                                     std::string_view line) {
   const std::string_view field = columns(line, 55, 60);
-  if (!field.empty() && !parse_double(field))
+  const std::optional<double> occupancy = parse_double(field);
+  if (!field.empty() && !occupancy)
     throw InputError(fmt::format("{}:{}: expected an occupancy in columns 55 to 60, found {}", file,
                                  line_number, in_quotes(field)));
   if (overflows(line, 55, 60, 58))
     throw InputError(fmt::format("{}:{}: the occupancy in columns 55 to 60 overflows them: {}", file,
                                  line_number, in_quotes(line.substr(54, 12))));
+  return occupancy;
 }
 
 // Returns the element in columns 77 and 78, or X if they give none.
@@ -116,7 +119,8 @@ PdbAtom read_atom_line(const std::string& file, std::size_t line_number, std::st
   PdbAtom read;
   read.atom.position = {coordinate(file, line_number, line, 31), coordinate(file, line_number, line, 39),
                         coordinate(file, line_number, line, 47)};
-  check_occupancy(file, line_number, line);
+  read.atom.occupancy = read_occupancy(file, line_number, line);
+  read.atom.b_factor = parse_double(columns(line, 61, 66));
   read.atom.name = columns(line, 13, 16);
   read.atom.alternate = line[16] == ' ' ? '\0' : line[16];
   read.atom.element = element_given_in(line);

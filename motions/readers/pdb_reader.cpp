@@ -91,7 +91,8 @@ class StructureFrames final : public FrameReader {
         chain_(options.chain),
         asked_(asked),
         alone_(models_->held().whole == 1),
-        walk_(asked, !alone_ && models_->may_have_cell()) {}
+        ignores_cell_(alone_ && models_->lone_cell_is_crystal()),
+        walk_(asked, !ignores_cell_ && models_->may_have_cell()) {}
 
   // Describes what the first frame determines for all frames.
   void describe(FramesOpened& opened) {
@@ -100,6 +101,7 @@ class StructureFrames final : public FrameReader {
     names_ = names_of(selected.atoms);
     opened.element_radii = element_radii_of(selected.atoms);
     opened.bead_names = names_;
+    opened.chain_like = selected.chain_like;
     warn(file_, models_->notes(), opened.warnings);
     warn(file_, model.notes, opened.warnings);
     warn(file_, selected.notes, opened.warnings);
@@ -113,10 +115,10 @@ class StructureFrames final : public FrameReader {
     const StructureModel read = models_->model(k);
     const SelectedChains selected = select_chains(place(k), read, selection_, chain_);
     check_same_atoms(file_, asked_[0], names_, k, selected.atoms);
-    frame.stamp = {k, std::nullopt};
+    frame.stamp = {k, read.picoseconds};
     frame.positions = positions(selected.atoms);
-    frame.cell = alone_ ? std::nullopt : read.cell.cell;
-    frame.cell_doubt = alone_ ? std::string() : read.cell.doubt;
+    frame.cell = ignores_cell_ ? std::nullopt : read.cell.cell;
+    frame.cell_doubt = ignores_cell_ ? std::string() : read.cell.doubt;
     return true;
   }
 
@@ -131,6 +133,7 @@ class StructureFrames final : public FrameReader {
   std::optional<std::string> chain_;
   FramesAsked asked_;
   bool alone_;
+  bool ignores_cell_;
   FrameWalk walk_;
   std::vector<std::string> names_;  // of the beads in the first frame
 };
@@ -138,7 +141,6 @@ class StructureFrames final : public FrameReader {
 FramesOpened open_models(const std::filesystem::path& path, const ReadOptions& options, OpenModels open) {
   FramesOpened opened;
   opened.file = path.string();
-  opened.chain_like = options.selection != Selection::all;
   std::unique_ptr<StructureModels> models = open_frames(path, open);
   const FramesHeld held = models->held();
   const FramesAsked asked =
@@ -163,6 +165,7 @@ Topology topology_of(const std::filesystem::path& path, const ReadOptions& optio
   warn(path.string(), model.notes, topology.warnings);
   warn(path.string(), selected.notes, topology.warnings);
   topology.chains = std::move(selected.chains);
+  topology.chain_like = selected.chain_like;
   return topology;
 }
 

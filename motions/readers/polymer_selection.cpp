@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <set>
 #include <utility>
 
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
+#include "motions/readers/atom_filter.h"
 #include "motions/readers/bead_name.h"
 #include "motions/readers/residue_kind.h"
 #include "motions/readers/vdw_radii.h"
@@ -43,6 +45,7 @@ struct PolymerPart {
   std::string label;
   std::string chain;
   std::optional<std::string> molecule;     // a molecule of the chain; none: all its molecules
+  bool rest = false;                       // only the residues of the chain that are in no molecule
   Residues polymer;                        // its residues, without alternates of a preceding residue
   std::vector<std::string> free_residues;  // amino acids of the chain that are treated as ligands
   bool protein = false;                    // true: protein; false: nucleic acid, if `polymer` is not empty
@@ -62,7 +65,7 @@ class Parts {
   explicit Parts(const StructureModel& model) : model_(model) {
     for (const StructureResidue& residue : model.residues) {
       if (find(chains_, residue.chain) == nullptr)
-        chains_.push_back(PolymerPart{residue.chain, residue.chain, {}, {}, {}});
+        chains_.push_back(PolymerPart{residue.chain, residue.chain, {}, false, {}, {}});
       const ResidueKind kind = kind_of(residue);
       PolymerPart& chain = *find(chains_, residue.chain);
       if (kind == ResidueKind::none && is_tabulated_monomer(residue.name) && has_backbone(residue))
@@ -117,16 +120,42 @@ class Parts {
     return parts;
   }
 
+  // Returns all residues of the model: by chain, and by molecule if a chain with several has no name.
+  std::vector<PolymerPart> whole_parts() const {
+    std::vector<PolymerPart> parts;
+    for (const PolymerPart& chain : chains_) {
+      PolymerPart rest = chain;
+      const std::vector<const PolymerPart*> molecules = molecules_of(chain);
+      if (chain.label.empty() && molecules.size() > 1) {
+        for (const PolymerPart* molecule : molecules) parts.push_back(*molecule);
+        rest.rest = true;
+      }
+      parts.push_back(std::move(rest));
+    }
+    return parts;
+  }
+
   bool has_polymer() const { return !molecules_.empty(); }
 
   // Returns the residues to select from.
-  Residues candidates(const PolymerPart& part, Selection selection) const {
-    if (!part.polymer.empty() || selection != Selection::all) return part.polymer;
+  Residues candidates(const PolymerPart& part, const Selection& selection) const {
+    const bool any_residue =
+        selection == Selection::atoms || (part.polymer.empty() && selection == Selection::all);
+    if (!any_residue) return part.polymer;
+    const std::vector<const PolymerPart*> molecules =
+        part.rest ? molecules_of(part) : std::vector<const PolymerPart*>{};
     Residues residues;
-    for (const StructureResidue& residue : model_.residues)
-      if (residue.chain == part.chain) residues.push_back(&residue);
+    for (const StructureResidue& residue : model_.residues) {
+      if (residue.chain != part.chain || (part.molecule && residue.molecule != *part.molecule)) continue;
+      if (std::any_of(molecules.begin(), molecules.end(),
+                      [&](const PolymerPart* molecule) { return residue.molecule == *molecule->molecule; }))
+        continue;
+      residues.push_back(&residue);
+    }
     return residues;
   }
+
+  const StructureModel& model() const { return model_; }
 
   // Describes the contents, as in "1,024 residues (HOH, NAG)", and says how many residues would be a polymer
   // if they were no HETATM records.
@@ -174,7 +203,7 @@ class Parts {
   PolymerPart& molecule_of(const StructureResidue& residue) {
     for (auto part = molecules_.rbegin(); part != molecules_.rend(); ++part)
       if (part->chain == residue.chain && part->molecule == residue.molecule) return *part;
-    return molecules_.emplace_back(PolymerPart{{}, residue.chain, residue.molecule, {}, {}});
+    return molecules_.emplace_back(PolymerPart{{}, residue.chain, residue.molecule, false, {}, {}});
   }
 
   const StructureModel& model_;
@@ -190,14 +219,28 @@ const PolymerPart& default_part(const std::vector<const PolymerPart*>& parts) {
   return *parts.front();
 }
 
-std::vector<const StructureAtom*> named_atoms(const StructureResidue& residue, Selection selection) {
-  const StructureAtom* ca = first_named(residue, "CA");
-  if (!ca) return {};
-  if (selection == Selection::ca) return {ca};
-  const StructureAtom* n = first_named(residue, "N");
-  const StructureAtom* c = first_named(residue, "C");
-  if (!n || !c) return {};
-  return {n, ca, c};
+// The names of the atoms that a selection takes from each residue that has them all.
+std::vector<std::string_view> atom_names_of(const Selection& selection) {
+  switch (selection.kind()) {
+    case Selection::ca:
+      return {"CA"};
+    case Selection::bb:
+      return {"BB"};
+    case Selection::p:
+      return {"P"};
+    default:
+      return {"N", "CA", "C"};
+  }
+}
+
+std::vector<const StructureAtom*> named_atoms(const StructureResidue& residue, const Selection& selection) {
+  std::vector<const StructureAtom*> atoms;
+  for (const std::string_view name : atom_names_of(selection)) {
+    const StructureAtom* const atom = first_named(residue, name);
+    if (atom == nullptr) return {};
+    atoms.push_back(atom);
+  }
+  return atoms;
 }
 
 // Returns the atoms without alternates, and the first of each group of alternates.
@@ -209,10 +252,39 @@ std::vector<const StructureAtom*> all_atoms(const StructureResidue& residue) {
   return atoms;
 }
 
-std::vector<const StructureAtom*> selected_atoms(const StructureResidue& residue, Selection selection) {
-  if (selection == Selection::all) return all_atoms(residue);
-  return named_atoms(residue, selection);
+bool is_hydrogen(const StructureAtom* atom) {
+  const gemmi::Element element = element_of(*atom);
+  return element == gemmi::El::H || element == gemmi::El::D;
 }
+
+// A selection, ready to be applied to residues.
+class AtomChoice {
+ public:
+  AtomChoice(std::string file, const Selection& selection) : file_(std::move(file)), selection_(selection) {
+    if (selection == Selection::atoms) filter_.emplace(selection.text());
+  }
+  // Uses the filter of another choice.
+  AtomChoice(const AtomChoice& other, const Selection& selection)
+      : file_(other.file_), selection_(selection), filter_(other.filter_) {}
+
+  const Selection& selection() const { return selection_; }
+  // Whether the selection takes atoms by their names from each residue, and a residue without them is missed.
+  bool is_by_name() const {
+    return selection_ != Selection::all && selection_ != Selection::heavy && selection_ != Selection::atoms;
+  }
+  std::vector<const StructureAtom*> atoms_of(const StructureResidue& residue) const {
+    if (filter_) return filter_->atoms_of(file_, residue);
+    if (is_by_name()) return named_atoms(residue, selection_);
+    std::vector<const StructureAtom*> atoms = all_atoms(residue);
+    if (selection_ == Selection::heavy) std::erase_if(atoms, is_hydrogen);
+    return atoms;
+  }
+
+ private:
+  std::string file_;
+  Selection selection_;
+  std::optional<AtomFilter> filter_;
+};
 
 bool holds_copies(const StructureResidue& residue, const std::vector<const StructureAtom*>& atoms) {
   return std::any_of(atoms.begin(), atoms.end(), [&](const StructureAtom* selected) {
@@ -220,20 +292,6 @@ bool holds_copies(const StructureResidue& residue, const std::vector<const Struc
              return atom.name == selected->name && atom.alternate == selected->alternate;
            }) > 1;
   });
-}
-
-// Returns the element that the file gives for the atom. If the file gives none, a name in the wrong column
-// would turn CA into calcium and HG into mercury. An atom of a chain whose element would be unusual there
-// therefore gets the element of its name's first letter.
-std::string element_of(const StructureAtom& atom) {
-  using gemmi::El;
-  if (atom.element_is_given) return atom.element.name();
-  for (const El usual : {El::C, El::N, El::O, El::S, El::H, El::D, El::P, El::Se})
-    if (atom.element == usual) return atom.element.name();
-  const std::size_t letter = atom.name.find_first_of("CNOSHDP");
-  if (letter == std::string::npos || atom.name.find_first_not_of("0123456789") != letter)
-    return atom.element.name();
-  return atom.name.substr(letter, 1);
 }
 
 struct PartRead {
@@ -245,33 +303,44 @@ struct PartRead {
   Selection selection = Selection::automatic;
 };
 
-PartRead read_part(const Parts& parts, const PolymerPart& part, Selection selection) {
+PartRead read_part(const Parts& parts, const PolymerPart& part, const AtomChoice& choice) {
+  const Selection& selection = choice.selection();
   PartRead read;
   read.chain.name = part.label;
   read.selection = selection;
   const Residues candidates = parts.candidates(part, selection);
   read.chain.residues = candidates.size();
+  const StructureResidue* last = nullptr;  // read
   for (const StructureResidue* residue : candidates) {
-    const std::vector<const StructureAtom*> atoms = selected_atoms(*residue, selection);
+    if (last != nullptr && selection == Selection::atoms && is_alternate_of(*residue, *last)) continue;
+    const std::vector<const StructureAtom*> atoms = choice.atoms_of(*residue);
+    if (!atoms.empty()) last = residue;
     if (atoms.empty()) {
-      read.lacking.push_back(name_of(*residue));
+      if (choice.is_by_name()) read.lacking.push_back(name_of(*residue));
       continue;
     }
     ++read.chain.residues_read;
     if (residue->repeated && !part.polymer.empty()) read.repeated.push_back(name_of(*residue));
-    if (selection != Selection::all && holds_copies(*residue, atoms))
-      read.copies.push_back(name_of(*residue));
+    if (choice.is_by_name() && holds_copies(*residue, atoms)) read.copies.push_back(name_of(*residue));
     for (const StructureAtom* atom : atoms)
-      read.atoms.push_back({atom, element_of(*atom),
+      read.atoms.push_back({atom, is_martini(*residue) ? "" : element_of(*atom).name(),
                             text_of({atom->name, residue->name, residue->number, shown(part.label)})});
   }
   read.chain.bead_count = read.atoms.size();
-  if (read.atoms.empty() && selection == Selection::automatic)
-    return read_part(parts, part, Selection::ca);  // a coarse-grained model
+  if (read.atoms.empty() && selection == Selection::automatic) {
+    // A coarse-grained model may have CA or Martini's BB.
+    for (const Selection::Kind kind : {Selection::ca, Selection::bb}) {
+      PartRead coarse = read_part(parts, part, AtomChoice(choice, kind));
+      if (!coarse.atoms.empty()) return coarse;
+    }
+  }
   return read;
 }
 
-const char* atoms_of(Selection selection) { return selection == Selection::ca ? "CA" : "N, CA and C"; }
+std::string atoms_of(const Selection& selection) {
+  const std::vector<std::string_view> names = atom_names_of(selection);
+  return names.size() == 1 ? std::string(names[0]) : "N, CA and C";
+}
 
 // For a molecule whose label is the name of a chain.
 std::string advice_to_rename(const PolymerPart& molecule) {
@@ -280,10 +349,13 @@ std::string advice_to_rename(const PolymerPart& molecule) {
 }
 
 // Adds notes about residues of a part that are left out or doubtful.
-void add_notes(const Parts& parts, const PolymerPart& part, const PartRead& read,
+void add_notes(const Parts& parts, const PolymerPart& part, const PartRead& read, const Selection& asked,
                std::vector<std::string>& notes) {
   constexpr std::size_t most = 5;
   const std::string label = shown(part.label);
+  if (asked == Selection::automatic && read.selection == Selection::bb)
+    notes.push_back(
+        fmt::format("chain {}: no residue has N, CA and C; the BB beads of Martini are read", label));
   if (!read.lacking.empty())
     notes.push_back(fmt::format("chain {}: {} of {} read; {} without {}: {}", label, read.chain.residues_read,
                                 counted(read.chain.residues, "residue"), read.lacking.size(),
@@ -318,7 +390,7 @@ void add_notes(const Parts& parts, const PolymerPart& part, const PartRead& read
 
 // Returns a note about the parts that are not read by default.
 std::optional<std::string> describe_unread(const Parts& parts, const PolymerPart& read, const PartRead& beads,
-                                           Selection selection) {
+                                           const AtomChoice& choice) {
   constexpr std::size_t most = 10;
   std::vector<const PolymerPart*> unread, readable, hidden;
   bool chains = !read.molecule;
@@ -327,7 +399,7 @@ std::optional<std::string> describe_unread(const Parts& parts, const PolymerPart
     if (part == &read) continue;
     unread.push_back(part);
     chains = chains || !part->molecule;
-    const PartRead other = read_part(parts, *part, selection);
+    const PartRead other = read_part(parts, *part, choice);
     residues += other.chain.residues;
     if (!other.atoms.empty()) (parts.can_be_named(*part) ? readable : hidden).push_back(part);
   }
@@ -356,8 +428,10 @@ InputError no_polymer_in(const std::string& file, const Parts& parts) {
 }
 
 std::vector<const PolymerPart*> parts_asked_for(const std::string& file, const Parts& parts,
-                                                Selection selection, const std::optional<std::string>& list) {
-  if (!parts.has_polymer() && selection != Selection::all && !list) throw no_polymer_in(file, parts);
+                                                const Selection& selection,
+                                                const std::optional<std::string>& list) {
+  const bool needs_polymer = selection != Selection::all && selection != Selection::atoms;
+  if (!parts.has_polymer() && needs_polymer && !list) throw no_polymer_in(file, parts);
   if (!list) return {&default_part(parts.default_parts())};
   std::vector<const PolymerPart*> wanted;
   for (std::string_view rest = *list;;) {
@@ -365,7 +439,7 @@ std::vector<const PolymerPart*> parts_asked_for(const std::string& file, const P
     const std::string name(trimmed(rest.substr(0, comma)));
     const PolymerPart* const part = parts.named(name);
     if (part == nullptr) {
-      if (!parts.has_polymer() && selection != Selection::all) throw no_polymer_in(file, parts);
+      if (!parts.has_polymer() && needs_polymer) throw no_polymer_in(file, parts);
       std::vector<std::string> expected;
       for (const PolymerPart* one : parts.default_parts()) {
         if (parts.can_be_named(*one)) expected.push_back(shown(one->label));
@@ -390,29 +464,97 @@ std::vector<const PolymerPart*> parts_asked_for(const std::string& file, const P
   }
 }
 
+// Returns the first few of the texts that differ.
+template <class Text>
+std::string first_few(const StructureModel& model, std::size_t most, const Text& text_of_residue) {
+  std::vector<std::string> texts;
+  for (const StructureResidue& residue : model.residues) {
+    const std::string text = text_of_residue(residue);
+    if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
+    if (texts.size() > most) {
+      texts.back() = "...";
+      break;
+    }
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+InputError nothing_selected(const std::string& file, const StructureModel& model, const Selection& selection,
+                            const std::optional<std::string>& list) {
+  constexpr std::size_t most = 6;
+  const StructureResidue& middle = model.residues[model.residues.size() / 2];
+  std::vector<std::string> atoms;
+  for (const StructureAtom& atom : middle.atoms) atoms.push_back(atom.name);
+  return InputError(fmt::format(
+      "--select: {} selects no atom of {}{}, which has the chains {}; residues {} to {} ({}); {} has the "
+      "atoms {}",
+      in_quotes(selection.text()), file, list ? fmt::format(" in --chain {}", *list) : "",
+      first_few(model, most, [](const StructureResidue& residue) { return shown(residue.chain); }),
+      name_of(model.residues.front()), name_of(model.residues.back()),
+      first_few(model, most, [](const StructureResidue& residue) { return residue.name; }), name_of(middle),
+      joined(atoms, most)));
+}
+
+// Explains why a chain that was asked for has no beads.
+InputError no_beads(const std::string& file, const Parts& parts, const PolymerPart& part,
+                    const Selection& selection) {
+  const bool has_p =
+      std::any_of(part.polymer.begin(), part.polymer.end(),
+                  [](const StructureResidue* residue) { return first_named(*residue, "P") != nullptr; });
+  const std::string names = atoms_of(selection);
+  return InputError(fmt::format(
+      "--select: chain {} of {} does not hold {} in any residue of a polymer; {}--select all reads its {}",
+      in_quotes(part.label), file,
+      selection == Selection::heavy          ? "an atom heavier than hydrogen"
+      : names.find(',') == std::string::npos ? "an atom " + names
+                                             : names,
+      has_p && selection != Selection::p ? "--select p reads its P atoms, " : "",
+      counted(parts.candidates(part, Selection::all).size(), "residue")));
+}
+
+// The atoms that the file shows as bonded to each other along a chain.
+bool is_chain_atom(const SelectedAtom& selected) {
+  constexpr std::array<std::string_view, 5> names{"N", "CA", "C", "BB", "P"};
+  return std::find(names.begin(), names.end(), selected.atom->name) != names.end();
+}
+
+bool is_chain_like(const Selection& selection, const std::vector<SelectedAtom>& atoms) {
+  if (selection == Selection::atoms) return std::all_of(atoms.begin(), atoms.end(), is_chain_atom);
+  return selection != Selection::all && selection != Selection::heavy;
+}
+
 }  // namespace
 
-SelectedChains select_chains(const std::string& file, const StructureModel& model, Selection selection,
+SelectedChains select_chains(const std::string& file, const StructureModel& model, const Selection& selection,
                              const std::optional<std::string>& list) {
   if (model.residues.empty()) throw InputError(fmt::format("{}: no atoms", file));
   const Parts parts(model);
+  const AtomChoice choice(file, selection);
   SelectedChains selected;
-  for (const PolymerPart* part : parts_asked_for(file, parts, selection, list)) {
-    PartRead read = read_part(parts, *part, selection);
-    if (read.atoms.empty())
-      throw InputError(
-          fmt::format("--select: chain {} of {} does not hold {} in any residue of a polymer; "
-                      "--select all reads its {}",
-                      in_quotes(part->label), file, selection == Selection::ca ? "an atom CA" : "N, CA and C",
-                      counted(parts.candidates(*part, Selection::all).size(), "residue")));
-    // A list of chains leaves out the others on purpose.
-    if (!list)
-      if (auto unread = describe_unread(parts, *part, read, selection))
-        selected.notes.push_back(std::move(*unread));
-    add_notes(parts, *part, read, selected.notes);
+  const auto take = [&](PartRead&& read) {
     selected.chains.push_back(std::move(read.chain));
     std::move(read.atoms.begin(), read.atoms.end(), std::back_inserter(selected.atoms));
+  };
+  if (selection == Selection::atoms && !list) {
+    for (const PolymerPart& part : parts.whole_parts())
+      if (PartRead read = read_part(parts, part, choice); !read.atoms.empty()) take(std::move(read));
+    if (selected.atoms.empty()) throw nothing_selected(file, model, selection, list);
+    selected.chain_like = is_chain_like(selection, selected.atoms);
+    return selected;
   }
+  for (const PolymerPart* part : parts_asked_for(file, parts, selection, list)) {
+    PartRead read = read_part(parts, *part, choice);
+    if (read.atoms.empty())
+      throw selection == Selection::atoms ? nothing_selected(file, model, selection, part->label)
+                                          : no_beads(file, parts, *part, selection);
+    // A list of chains leaves out the others on purpose.
+    if (!list)
+      if (auto unread = describe_unread(parts, *part, read, choice))
+        selected.notes.push_back(std::move(*unread));
+    add_notes(parts, *part, read, selection, selected.notes);
+    take(std::move(read));
+  }
+  selected.chain_like = is_chain_like(selection, selected.atoms);
   return selected;
 }
 

@@ -27,6 +27,7 @@ struct SelectedChains {
   std::vector<SelectedAtom> atoms;
   std::vector<ChainRead> chains;
   std::vector<std::string> notes;  ///< about residues and chains that are left out or guessed, one line each
+  bool chain_like = true;          ///< consecutive beads are meant to be bonded
 };
 
 /// Returns the beads of the chains in the comma-separated `list`, in its order. Without a list, returns the
@@ -36,10 +37,15 @@ struct SelectedChains {
 /// If a chain has only those, the selection `all` reads them. If an atom has alternate locations, the first
 /// one is used; if two residues are alternates, the first one is used.
 ///
+/// An atom selection (`Selection::atoms`) chooses from all residues, waters and ligands included. Without a
+/// list, each chain with selected atoms is read. A chain without a name is read as its molecules, and its
+/// other residues follow as one more chain. With a list, both must hold.
+///
 /// Throws InputError naming file and option if a name is not in the model or is listed twice, or if nothing
 /// is selected.
 [[nodiscard]] SelectedChains select_chains(const std::string& file, const StructureModel& model,
-                                           Selection selection, const std::optional<std::string>& list);
+                                           const Selection& selection,
+                                           const std::optional<std::string>& list);
 
 /// Returns the van der Waals radii of the atoms, or an empty vector if an element is unknown.
 [[nodiscard]] std::vector<double> element_radii_of(const std::vector<SelectedAtom>& atoms);

@@ -1,28 +1,14 @@
 #pragma once
 // Options that select which atoms and frames of a file are read.
 
-#include <array>
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "motions/frames/frame_selection.h"
+#include "motions/readers/selection.h"
 
 namespace kds {
-
-enum class Selection {
-  automatic,  ///< backbone if residues are known (CA if no residue has N and C), else all
-  backbone,   ///< N, CA, C of each residue that has all three
-  ca,
-  all,
-};
-/// Names, in the order of the enumerators.
-inline constexpr std::array<std::string_view, 4> selection_names{"automatic", "backbone", "ca", "all"};
-[[nodiscard]] constexpr std::string_view name_of(Selection selection) {
-  return selection_names[static_cast<std::size_t>(selection)];
-}
 
 /// The unit styles of LAMMPS that are read. They decide in which unit lengths and times are.
 enum class LammpsUnits {

@@ -13,9 +13,12 @@
 #include "motions/base/text_input.h"
 #include "motions/readers/atom_frames.h"
 #include "motions/readers/dcd_reader.h"
+#include "motions/readers/gro_reader.h"
 #include "motions/readers/lammps_reader.h"
 #include "motions/readers/netcdf_reader.h"
 #include "motions/readers/pdb_reader.h"
+#include "motions/readers/prmtop_reader.h"
+#include "motions/readers/psf_reader.h"
 #include "motions/readers/read_options.h"
 #include "motions/readers/topology.h"
 #include "motions/readers/xyz_reader.h"
@@ -41,6 +44,9 @@ ReaderSpec atom_format(std::string name, std::vector<std::string> endings,
 void add_own_readers(ReaderRegistry& own) {
   own.add(structure_format("pdb", {".pdb", ".ent", ".pdb1"}, looks_like_pdb, open_pdb));
   own.add(structure_format("mmcif", {".cif", ".mmcif"}, looks_like_mmcif, open_mmcif));
+  own.add(structure_format("gro", {".gro"}, looks_like_gro, open_gro));
+  own.add(topology_format("psf", {".psf"}, looks_like_psf, open_psf));
+  own.add(topology_format("prmtop", {".prmtop", ".parm7"}, looks_like_prmtop, open_prmtop));
   own.add(atom_format("dcd", {".dcd"}, looks_like_dcd, open_dcd));
   own.add(atom_format("xyz", {".xyz", ".extxyz"}, looks_like_xyz, open_xyz));
   own.add(atom_format("netcdf", {".nc", ".ncdf"}, looks_like_netcdf, open_netcdf));
@@ -122,6 +128,13 @@ std::string ReaderRegistry::endings() const {
   std::vector<std::string> all;
   for (const ReaderSpec& reader : readers_)
     if (reader.open) all.insert(all.end(), reader.endings.begin(), reader.endings.end());
+  return listed(all);
+}
+
+std::string ReaderRegistry::trajectory_endings() const {
+  std::vector<std::string> all;
+  for (const ReaderSpec& reader : readers_)
+    if (reader.takes_topology) all.insert(all.end(), reader.endings.begin(), reader.endings.end());
   return listed(all);
 }
 

@@ -45,6 +45,8 @@ class ReaderRegistry {
   [[nodiscard]] std::vector<std::string> names() const;
   /// Returns ".pdb, .ent, ... or .xyz" of the formats that have frames, for messages.
   [[nodiscard]] std::string endings() const;
+  /// Returns the same of the formats that take a topology.
+  [[nodiscard]] std::string trajectory_endings() const;
   /// Returns the same of the formats that name atoms.
   [[nodiscard]] std::string topology_endings() const;
 

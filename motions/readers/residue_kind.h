@@ -1,6 +1,7 @@
 #pragma once
 // Decides whether a residue belongs to a polymer, from what the file says and from its name and atoms.
 
+#include <string>
 #include <string_view>
 
 #include "motions/readers/structure_models.h"
@@ -22,7 +23,19 @@ enum class ResidueKind {
 /// Returns whether the residue has N, CA and C.
 [[nodiscard]] bool has_backbone(const StructureResidue& residue);
 
-/// Returns whether the name is that of an amino acid or a nucleotide in the table of residues.
+/// Returns whether the residue is a water, by its name in the PDB or in simulations (SOL, TIP3, W).
+[[nodiscard]] bool is_water(const std::string& name);
+
+/// Returns whether the residue is one of Martini's amino acids, whose beads have no element.
+[[nodiscard]] bool is_martini(const StructureResidue& residue);
+
+/// Returns the element that the file gives for the atom. If the file gives none, a name in the wrong column
+/// would turn CA into calcium and HG into mercury. An atom of a chain whose element would be unusual there
+/// therefore gets the element of its name's first letter.
+[[nodiscard]] gemmi::Element element_of(const StructureAtom& atom);
+
+/// Returns whether the name is that of an amino acid or a nucleotide in the table of residues, or their name
+/// in AMBER, CHARMM or GROMACS (HSD, CYX, DA5).
 [[nodiscard]] bool is_tabulated_monomer(const std::string& name);
 
 }  // namespace kds

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "motions/frames/frame_selection.h"
@@ -22,6 +23,7 @@ struct StructureAtom {
   gemmi::Element element{gemmi::El::X};
   bool element_is_given = false;  ///< given in its own column, not guessed from the name
   std::size_t place = 0;          ///< index among the model's atoms in the file, from 0
+  std::optional<double> occupancy = {}, b_factor = {};
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
@@ -42,6 +44,7 @@ struct StructureModel {
   std::vector<StructureResidue> residues;  ///< in the order of the file
   std::size_t atom_count = 0;
   CellRead cell;
+  std::optional<double> picoseconds = {};  ///< either all models of a file have a time, or none has one
   std::vector<std::string> notes;  ///< about how this model was read, one line each, without the file's name
 };
 
@@ -53,8 +56,21 @@ class StructureModels {
   [[nodiscard]] virtual StructureModel model(std::size_t k) = 0;
   /// Whether a model may have a cell.
   [[nodiscard]] virtual bool may_have_cell() const { return false; }
+  /// Whether the cell of a file with one model is that of a crystal, which is not used.
+  [[nodiscard]] virtual bool lone_cell_is_crystal() const { return true; }
   /// Lines about parts of the file that are not read, without the file's name.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
+};
+
+/// The one model of a file without frames.
+class LoneModel final : public StructureModels {
+ public:
+  explicit LoneModel(StructureModel model) : model_(std::move(model)) {}
+  [[nodiscard]] FramesHeld held() const override { return {1}; }
+  [[nodiscard]] StructureModel model(std::size_t) override { return model_; }
+
+ private:
+  StructureModel model_;
 };
 
 }  // namespace kds

@@ -1,0 +1,243 @@
+#include "motions/readers/prmtop_reader.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "motions/base/input_error.h"
+#include "motions/base/line_reader.h"
+#include "motions/base/text_input.h"
+#include "motions/readers/element_guess.h"
+#include "motions/readers/residue_grouping.h"
+#include "motions/readers/residue_kind.h"
+#include "motions/readers/structure_models.h"
+
+namespace kds {
+
+namespace {
+
+// The form of a section's lines, as in (20a4), (10I8) or (5E16.8): so many fields of this width in a line.
+struct FieldForm {
+  std::size_t fields = 0, width = 0;
+
+  static std::optional<FieldForm> of(std::string_view format) {
+    const std::size_t letter = format.find_first_of("aAiIeEfF");
+    if (letter == std::string_view::npos || !format.starts_with('(')) return std::nullopt;
+    const std::size_t end = format.find_first_of(".)", letter);
+    if (end == std::string_view::npos) return std::nullopt;
+    const auto fields =
+        letter == 1 ? std::optional<std::size_t>(1) : parse_count(format.substr(1, letter - 1));
+    const auto width = parse_count(format.substr(letter + 1, end - letter - 1));
+    constexpr std::size_t most = 1000;
+    if (!fields || !width || *fields == 0 || *width == 0 || *fields > most || *width > most)
+      return std::nullopt;
+    return FieldForm{*fields, *width};
+  }
+};
+
+struct Section {
+  std::size_t line = 0;  // of %FLAG
+  std::vector<std::string> fields;
+};
+
+constexpr std::array<std::string_view, 8> sections_read{
+    "POINTERS",      "ATOM_NAME", "RESIDUE_LABEL",          "RESIDUE_POINTER",
+    "ATOMIC_NUMBER", "MASS",      "BONDS_WITHOUT_HYDROGEN", "RESIDUE_CHAINID"};
+
+class Prmtop {
+ public:
+  explicit Prmtop(const std::filesystem::path& path) : lines_(path) {
+    Section* section = nullptr;
+    std::optional<FieldForm> form;
+    for (std::string_view line; lines_.next(line);) {
+      if (line.starts_with("%FLAG")) {
+        const std::string name(trimmed(line.substr(5)));
+        const bool is_read =
+            std::find(sections_read.begin(), sections_read.end(), name) != sections_read.end();
+        section = is_read ? &sections_[name] : nullptr;
+        form.reset();
+        if (section != nullptr && section->line != 0) throw refuse(fmt::format("{} once", name), line);
+        if (section != nullptr) section->line = lines_.number();
+      } else if (line.starts_with("%FORMAT")) {
+        form = FieldForm::of(trimmed(line.substr(7)));
+        if (section != nullptr && !form) throw refuse("a format as in %FORMAT(20a4)", line);
+      } else if (section != nullptr && !line.starts_with("%COMMENT")) {
+        if (!form) throw refuse("%FORMAT behind %FLAG", line);
+        take_fields(line, *form, section->fields);
+      }
+    }
+    if (sections_.empty())
+      throw InputError(
+          fmt::format("{}: no section POINTERS, expected a topology of AMBER 7 or later (%VERSION, %FLAG)",
+                      lines_.name()));
+  }
+
+  bool has(const std::string& name) const { return sections_.count(name) > 0; }
+
+  // Returns `count` fields of a section. Throws InputError if the section has another number of them.
+  const std::vector<std::string>& texts(const std::string& name, std::size_t count) {
+    Section& section = named(name);
+    std::vector<std::string>& fields = section.fields;
+    while (fields.size() > count && fields.back().empty()) fields.pop_back();
+    if (fields.size() != count)
+      throw InputError(fmt::format("{}:{}: section {} holds {}, expected {}", lines_.name(), section.line,
+                                   name, counted(fields.size(), "value"), count));
+    return fields;
+  }
+
+  // Returns a number of a section that `texts` has returned.
+  double number(const std::string& name, std::size_t i) const {
+    const Section& section = named(name);
+    const auto number = i < section.fields.size() ? parse_double(section.fields[i]) : std::nullopt;
+    if (!number)
+      throw InputError(fmt::format("{}:{}: expected a number as value {} of section {}, found {}",
+                                   lines_.name(), section.line, i + 1, name,
+                                   in_quotes(i < section.fields.size() ? section.fields[i] : "")));
+    return *number;
+  }
+  // Returns a whole number from `least` to `most`.
+  std::size_t count(const std::string& name, std::size_t i, std::size_t least, std::size_t most) const {
+    const double read = number(name, i);
+    const auto whole = parse_count(sections_.at(name).fields[i]);
+    if (!whole || *whole < least || *whole > most)
+      throw InputError(
+          fmt::format("{}:{}: expected a number from {} to {} as value {} of section {}, found {}",
+                      lines_.name(), sections_.at(name).line, least, most, i + 1, name, read));
+    return *whole;
+  }
+
+  const std::string& file() const { return lines_.name(); }
+
+ private:
+  InputError refuse(std::string_view expected, std::string_view found) const {
+    return InputError(fmt::format("{}:{}: expected {}, found {}", lines_.name(), lines_.number(), expected,
+                                  in_quotes(found)));
+  }
+
+  const Section& named(const std::string& name) const {
+    const auto found = sections_.find(name);
+    if (found == sections_.end())
+      throw InputError(fmt::format("{}: no section {}, expected %FLAG {} in a topology of AMBER",
+                                   lines_.name(), name, name));
+    return found->second;
+  }
+  Section& named(const std::string& name) { return const_cast<Section&>(std::as_const(*this).named(name)); }
+
+  // Fields need not have blanks between them. Lines may lack the blanks at their end.
+  static void take_fields(std::string_view line, const FieldForm& form, std::vector<std::string>& fields) {
+    // The line before this one was full, whatever blanks it lacks.
+    while (fields.size() % form.fields != 0) fields.emplace_back();
+    for (std::size_t i = 0; i < form.fields && i * form.width < line.size(); ++i)
+      fields.emplace_back(trimmed(line.substr(i * form.width, form.width)));
+  }
+
+  LineReader lines_;
+  std::map<std::string, Section> sections_;
+};
+
+// Returns for each residue whether a bond connects it with the residue before it.
+std::vector<bool> bonded_to_previous(Prmtop& prmtop, const std::vector<std::size_t>& residue_of,
+                                     std::size_t residues, std::size_t bonds) {
+  std::vector<bool> bonded(residues, false);
+  const std::string section = "BONDS_WITHOUT_HYDROGEN";
+  static_cast<void>(prmtop.texts(section, 3 * bonds));
+  for (std::size_t bond = 0; bond < bonds; ++bond) {
+    // Numbers of atoms are multiplied by 3.
+    const std::size_t most = 3 * (residue_of.size() - 1);
+    const std::size_t one = residue_of[prmtop.count(section, 3 * bond, 0, most) / 3];
+    const std::size_t other = residue_of[prmtop.count(section, 3 * bond + 1, 0, most) / 3];
+    if (one + 1 == other) bonded[other] = true;
+    if (other + 1 == one) bonded[one] = true;
+  }
+  return bonded;
+}
+
+// Counts caps (ACE, NME) to the polymer of their molecule.
+void tell_polymers(std::vector<StructureResidue>& residues) {
+  for (std::size_t begin = 0, end = 0; begin < residues.size(); begin = end) {
+    bool is_polymer = false;
+    for (end = begin; end < residues.size() && residues[end].molecule == residues[begin].molecule; ++end)
+      is_polymer = is_polymer || is_tabulated_monomer(residues[end].name);
+    for (std::size_t i = begin; is_polymer && i < end; ++i) residues[i].entity = Entity::polymer;
+  }
+}
+
+StructureModel read_prmtop(const std::filesystem::path& path) {
+  Prmtop prmtop(path);
+  constexpr std::size_t most = 2'000'000'000;
+  const std::size_t atoms = prmtop.count("POINTERS", 0, 1, most),
+                    residues = prmtop.count("POINTERS", 11, 1, atoms),
+                    bonds = prmtop.count("POINTERS", 12, 0, most);
+  const std::vector<std::string>& names = prmtop.texts("ATOM_NAME", atoms);
+  const std::vector<std::string>& labels = prmtop.texts("RESIDUE_LABEL", residues);
+  static_cast<void>(prmtop.texts("RESIDUE_POINTER", residues));
+  std::vector<std::size_t> begins;
+  for (std::size_t i = 0; i < residues; ++i) {
+    begins.push_back(prmtop.count("RESIDUE_POINTER", i, i == 0 ? 1 : begins.back() + 2, i == 0 ? 1 : atoms) -
+                     1);
+  }
+  begins.push_back(atoms);
+  std::vector<std::size_t> residue_of;
+  for (std::size_t i = 0; i < residues; ++i) residue_of.resize(begins[i + 1], i);
+
+  StructureModel model;
+  std::vector<bool> bonded(residues, true);
+  if (prmtop.has("BONDS_WITHOUT_HYDROGEN"))
+    bonded = bonded_to_previous(prmtop, residue_of, residues, bonds);
+  else
+    model.notes.emplace_back("no section BONDS_WITHOUT_HYDROGEN: molecules are not told apart");
+  const std::vector<std::string>* chains = nullptr;
+  if (prmtop.has("RESIDUE_CHAINID")) chains = &prmtop.texts("RESIDUE_CHAINID", residues);
+  ResidueGrouping grouping;
+  std::size_t molecule = 0;
+  for (std::size_t i = 0; i < residues; ++i) {
+    if (!bonded[i]) ++molecule;
+    StructureResidue residue;
+    if (chains != nullptr) residue.chain = (*chains)[i];
+    residue.number = std::to_string(i + 1);
+    residue.name = labels[i];
+    residue.molecule = std::to_string(molecule);
+    for (std::size_t place = begins[i]; place < begins[i + 1]; ++place) {
+      StructureAtom atom;
+      atom.name = names[place];
+      atom.place = place;
+      grouping.add(residue, std::move(atom));
+    }
+  }
+  model.atom_count = atoms;
+  model.residues = grouping.take();
+  tell_polymers(model.residues);
+  if (prmtop.has("ATOMIC_NUMBER")) {
+    static_cast<void>(prmtop.texts("ATOMIC_NUMBER", atoms));
+    for (StructureResidue& residue : model.residues)
+      for (StructureAtom& atom : residue.atoms) {
+        const double number = prmtop.number("ATOMIC_NUMBER", atom.place);
+        atom.element = number >= 1 && number < 104 ? gemmi::Element(static_cast<int>(number))
+                                                   : gemmi::Element(gemmi::El::X);
+        atom.element_is_given = true;
+      }
+  } else {
+    static_cast<void>(prmtop.texts("MASS", atoms));
+    std::vector<double> masses;
+    for (std::size_t i = 0; i < atoms; ++i) masses.push_back(prmtop.number("MASS", i));
+    if (const auto note = set_elements_by_mass(model.residues, masses)) model.notes.push_back(*note);
+  }
+  return model;
+}
+
+}  // namespace
+
+bool looks_like_prmtop(std::string_view start) {
+  return start.starts_with("%VERSION") || start.starts_with("%FLAG");
+}
+
+std::unique_ptr<StructureModels> open_prmtop(const std::filesystem::path& path) {
+  return std::make_unique<LoneModel>(read_prmtop(path));
+}
+
+}  // namespace kds
