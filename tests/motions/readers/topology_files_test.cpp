@@ -1,0 +1,283 @@
+// PSF files and AMBER topologies, which name the atoms of a trajectory.
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "motions/readers/prmtop_reader.h"
+#include "motions/readers/psf_reader.h"
+#include "motions/readers/read_trajectory.h"
+#include "tests/motions/test_files.h"
+
+namespace kds::topology_files_test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+struct Atom {
+  std::string segment, number, residue, name;
+  double mass = 12.011;
+};
+
+std::vector<Atom> residue(const std::string& number, const std::string& name = "ALA",
+                          const std::string& segment = "P1") {
+  return {{segment, number, name, "N", 14.007},
+          {segment, number, name, "HN", 1.008},
+          {segment, number, name, "CA", 12.011},
+          {segment, number, name, "C", 12.011}};
+}
+
+std::vector<Atom> joined(const std::vector<std::vector<Atom>>& parts) {
+  std::vector<Atom> atoms;
+  for (const std::vector<Atom>& part : parts) atoms.insert(atoms.end(), part.begin(), part.end());
+  return atoms;
+}
+
+enum class Form { standard, extended, namd };
+
+std::string psf(const std::vector<Atom>& atoms, Form form = Form::standard) {
+  constexpr const char* starts[] = {"PSF CMAP", "PSF EXT CMAP XPLOR", "PSF NAMD"};
+  std::string text =
+      fmt::format("{}\n\n       1 !NTITLE\n REMARKS made by a test\n\n", starts[static_cast<int>(form)]);
+  text += fmt::format("{:>8} !NATOM\n", atoms.size());
+  for (std::size_t i = 0; i < atoms.size(); ++i) {
+    const Atom& a = atoms[i];
+    if (form == Form::standard)
+      text += fmt::format("{:>8} {:<4} {:<4} {:<4} {:<4} {:>4} {:14.6g}{:14.6g}{:>8}\n", i + 1, a.segment,
+                          a.number, a.residue, a.name, 22, -0.47, a.mass, 0);
+    else if (form == Form::extended)
+      text +=
+          fmt::format("{:>10} {:<8} {:<8} {:<8} {:<8} {:<6} {:14.6g}{:14.6g}{:>8}   0.00000 -0.301140E-02\n",
+                      i + 1, a.segment, a.number, a.residue, a.name, "CT1", -0.47, a.mass, 0);
+    else
+      text += fmt::format("{} {} {} {} {} CT1 {} {} 0\n", i + 1, a.segment, a.number, a.residue, a.name,
+                          -0.47, a.mass);
+  }
+  return text + "\n       0 !NBOND: bonds\n\n";
+}
+
+std::vector<Trajectory> read(const std::string& file, const std::string& topology, std::size_t atoms,
+                             ReadOptions options = {}) {
+  options.topology = test::write_file(file, topology);
+  return read_trajectories(
+      test::write_file("t.dcd", test::DcdMaker::chain(static_cast<int>(atoms), 2).bytes()), options);
+}
+
+TEST(Psf, FormsNameTheSameAtoms) {
+  const std::vector<Atom> atoms =
+      joined({residue("1"),
+              residue("2", "HSD"),
+              residue("3", "GLY", "P2"),
+              {{"W", "1", "TIP3", "OH2", 15.9994}, {"W", "1", "TIP3", "H1", 1.008}}});
+  for (const Form form : {Form::standard, Form::extended, Form::namd}) {
+    const auto necklaces = read("a.psf", psf(atoms, form), atoms.size(), {.chain = "P1,P2"});
+    ASSERT_EQ(necklaces.size(), 2U);
+    EXPECT_THAT(necklaces[0].bead_names,
+                ElementsAre("N of ALA 1 in chain P1", "CA of ALA 1 in chain P1", "C of ALA 1 in chain P1",
+                            "N of HSD 2 in chain P1", "CA of HSD 2 in chain P1", "C of HSD 2 in chain P1"));
+    EXPECT_THAT(necklaces[0].element_radii, ElementsAre(1.55, 1.7, 1.7, 1.55, 1.7, 1.7));
+    EXPECT_THAT(necklaces[0].warnings, testing::Each(HasSubstr("chain break")));
+    EXPECT_EQ(read("a.psf", psf(atoms, form), atoms.size(), {.selection = *Selection::parse("//W//[O]")})[0]
+                  .bead_count(),
+              1U);
+  }
+}
+
+TEST(Psf, ColumnsMayTouchOrBeBlankOrTooNarrow) {
+  // Fields fill their columns.
+  const std::vector<Atom> full = {{"PROA", "1234", "TP3M", "HG11", 1.008},
+                                  {"PROA", "1234", "TP3M", "CA", 12.011}};
+  EXPECT_EQ(read("a.psf", psf(full), 2, {.selection = *Selection::parse("//PROA/1234(TP3M)/HG11,CA")})[0]
+                .bead_count(),
+            2U);
+  // A segment without a name: its column is blank.
+  const std::vector<Atom> blank = joined({residue("1", "ALA", ""), residue("2", "ALA", "")});
+  EXPECT_EQ(read("a.psf", psf(blank), 8)[0].bead_names[3], "N of ALA 2 in chain ' '");
+  // VMD writes numbers that are too wide for their columns.
+  const std::vector<Atom> wide = joined({residue("12345"), residue("12346")});
+  EXPECT_EQ(read("a.psf", psf(wide), 8)[0].bead_names[3], "N of ALA 12346 in chain P1");
+  // Insertion codes.
+  EXPECT_EQ(read("a.psf", psf(joined({residue("52"), residue("52A")})), 8)[0].bead_names[3],
+            "N of ALA 52A in chain P1");
+}
+
+TEST(Psf, ElementsFollowFromMasses) {
+  std::vector<Atom> atoms = residue("1");
+  atoms.push_back({"P1", "1", "ALA", "CB", 15.035});  // a united atom, CH3
+  atoms.push_back({"P1", "1", "ALA", "CG", 14.027});  // CH2, near nitrogen
+  atoms.push_back({"P1", "1", "ALA", "HB1", 3.024});  // a hydrogen made heavier
+  atoms.push_back({"P1", "1", "ALA", "LP1", 0});      // a virtual site
+  const auto all = read("a.psf", psf(atoms), 8, {.selection = Selection::heavy});
+  EXPECT_THAT(all[0].bead_names, testing::SizeIs(6)) << "LP1 has no element and is no hydrogen";
+  EXPECT_THAT(all[0].warnings, Contains(HasSubstr("the mass of 3 atoms suits no element of its name")));
+  EXPECT_THAT(all[0].warnings, Contains(HasSubstr("CB of ALA 1, 15.035")));
+  const std::vector<Atom> ions = {{"ION", "1", "SOD", "SOD", 22.98977}, {"ION", "2", "CLA", "CLA", 35.45}};
+  EXPECT_EQ(read("a.psf", psf(ions), 2, {.selection = *Selection::parse("[NA]")})[0].bead_count(), 1U);
+}
+
+TEST(Psf, DamageIsRefusedInOneLine) {
+  const std::string text = psf(joined({residue("1"), residue("2")}));
+  const auto refuse = [&](const std::string& damaged, std::initializer_list<std::string_view> parts) {
+    test::expect_refused([&] { static_cast<void>(read("a.psf", damaged, 8)); }, parts);
+  };
+  refuse(text.substr(0, text.find("       5 P1")), {"a.psf", "ends behind atom 4 of 8"});
+  refuse("PSF\n\n", {"a.psf", "!NATOM"});
+  std::string wrong = text;
+  refuse(wrong.replace(wrong.find("14.007"), 6, "x4.007"), {"a.psf:7", "atom 1 of 8"});
+  wrong = text;
+  refuse(wrong.replace(wrong.find("       8 !NATOM"), 8, "99999999"), {"a.psf:"});
+  wrong = text;
+  refuse(wrong.replace(wrong.find("       8 !NATOM"), 8, "       x"),
+         {"a.psf:6", "number of atoms before !NATOM"});
+  test::expect_refused([&] { static_cast<void>(read("a.psf", text, 9)); }, {"9 atoms a frame", "names 8"});
+}
+
+TEST(Psf, AloneItIsRefused) {
+  const auto path = test::write_file("a.psf", psf(residue("1")));
+  test::expect_refused([&] { static_cast<void>(read_trajectory(path)); },
+                       {"a.psf: psf files have no frames", ".dcd", "--topology"});
+}
+
+TEST(Psf, MutationsAreReadOrRefused) {
+  const std::string text = psf(residue("1"), Form::extended);
+  for (std::size_t place = 0; place < text.size(); ++place)
+    for (const char c : {' ', '\n', '9', 'x', '\xff'}) {
+      std::string mutated = text;
+      mutated[place] = c;
+      try {
+        static_cast<void>(read("a.psf", mutated, 4));
+      } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), testing::Not(HasSubstr("\n")));
+      }
+    }
+}
+
+// An AMBER topology of residues of the atoms N, H, CA, C, with the bonds of `links`.
+struct Prmtop {
+  std::vector<std::string> labels = {"ACE", "ALA", "HIE", "NME"};
+  std::vector<std::pair<int, int>> links = {{0, 1}, {1, 2}, {2, 3}};  // residues that a bond connects
+  bool numbers = true;                                                // ATOMIC_NUMBER, otherwise MASS
+  std::string names_format = "20a4";
+  std::size_t per_line = 20;
+
+  static std::string lines(const std::vector<std::string>& fields, std::size_t per_line) {
+    std::string text;
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      text += fields[i] + ((i + 1) % per_line == 0 || i + 1 == fields.size() ? "\n" : "");
+    return fields.empty() ? "\n" : text;
+  }
+  static std::string section(const std::string& name, const std::string& format, const std::string& lines) {
+    return fmt::format("%FLAG {:<75}\n%FORMAT({}){:>10}\n{}", name, format, "", lines);
+  }
+  std::string text() const {
+    std::vector<std::string> names, pointers(31, fmt::format("{:>8}", 0)), begins, atomic, masses, labels4,
+        bonds;
+    for (std::size_t r = 0; r < labels.size(); ++r) {
+      labels4.push_back(fmt::format("{:<4}", labels[r]));
+      begins.push_back(fmt::format("{:>8}", 4 * r + 1));
+      for (const auto& [name, number, mass] :
+           {std::tuple("N", 7, 14.01), {"HA12", 1, 1.008}, {"CA", 6, 12.01}, {"C", 6, 12.01}}) {
+        names.push_back(fmt::format("{:<4}", name));
+        atomic.push_back(fmt::format("{:>8}", number));
+        masses.push_back(fmt::format("{:16.8E}", mass));
+      }
+    }
+    for (const auto& [one, other] : links)
+      for (const int value : {3 * (4 * one + 3), 3 * 4 * other, 1})
+        bonds.push_back(fmt::format("{:>8}", value));
+    pointers[0] = fmt::format("{:>8}", names.size());
+    pointers[11] = fmt::format("{:>8}", labels.size());
+    pointers[12] = fmt::format("{:>8}", links.size());
+    return "%VERSION  VERSION_STAMP = V0001.000  DATE = 01/01/26  00:00:00\n" +
+           section("TITLE", "20a4", "made by a test\n") + section("POINTERS", "10I8", lines(pointers, 10)) +
+           section("ATOM_NAME", names_format, lines(names, per_line)) +
+           (numbers ? section("ATOMIC_NUMBER", "10I8", lines(atomic, 10))
+                    : section("MASS", "5E16.8", lines(masses, 5))) +
+           section("RESIDUE_LABEL", "20a4", lines(labels4, 20)) +
+           section("RESIDUE_POINTER", "10I8", lines(begins, 10)) +
+           section("BONDS_WITHOUT_HYDROGEN", "10I8", lines(bonds, 10));
+  }
+};
+
+TEST(Prmtop, NamesTheAtomsOfATrajectory) {
+  for (const bool numbers : {true, false}) {
+    const auto necklaces = read("a.prmtop", Prmtop{.numbers = numbers}.text(), 16,
+                                {.selection = *Selection::parse("//*/(ALA,HIE)")});
+    ASSERT_EQ(necklaces.size(), 1U);
+    EXPECT_EQ(necklaces[0].bead_names[1], "HA12 of ALA 2 in chain ' '");
+    EXPECT_THAT(necklaces[0].element_radii, ElementsAre(1.55, 1.2, 1.7, 1.7, 1.55, 1.2, 1.7, 1.7));
+    EXPECT_EQ(read("a.parm7", Prmtop{.numbers = numbers}.text(), 16)[0].bead_count(), 12U)
+        << "caps have N, CA and C here";
+  }
+}
+
+TEST(Prmtop, FieldsFollowTheFormat) {
+  Prmtop prmtop;
+  prmtop.names_format = "3a4";
+  prmtop.per_line = 3;
+  EXPECT_EQ(read("a.prmtop", prmtop.text(), 16)[0].bead_names[4], "CA of ALA 2 in chain ' '");
+  // A line that lacks the blanks at its end.
+  std::string text = prmtop.text();
+  const std::size_t line = text.find("C   N   HA12\n");
+  ASSERT_NE(line, std::string::npos);
+  text = Prmtop().text();
+  const std::size_t last = text.find("C   \n%FLAG ATOMIC");
+  ASSERT_NE(last, std::string::npos);
+  text.erase(last + 1, 3);
+  EXPECT_EQ(read("a.prmtop", text, 16)[0].bead_names[11], "C of NME 4 in chain ' '");
+}
+
+TEST(Prmtop, BondsTellMoleculesApart) {
+  Prmtop prmtop{.labels = {"ALA", "CYX", "CYX", "ALA", "WAT"}, .links = {{0, 1}, {2, 3}, {0, 3}}};
+  const auto two = read("a.prmtop", prmtop.text(), 20, {.chain = "1,2"});
+  ASSERT_EQ(two.size(), 2U);
+  EXPECT_EQ(two[0].bead_count(), 6U);
+  EXPECT_EQ(two[1].bead_names[0], "N of CYX 3 in chain 2");
+  // Bonds between other residues, as disulfide bridges, do not join molecules.
+  std::string text = prmtop.text();
+  text.erase(text.find("%FLAG BONDS"));
+  const auto one = read("a.prmtop", text, 20);
+  EXPECT_EQ(one[0].bead_count(), 12U);
+  EXPECT_THAT(one[0].warnings, Contains(HasSubstr("molecules are not told apart")));
+}
+
+TEST(Prmtop, DamageIsRefusedInOneLine) {
+  const std::string text = Prmtop().text();
+  const auto refuse = [&](std::string_view from, const std::string& to,
+                          std::initializer_list<std::string_view> parts) {
+    std::string damaged = text;
+    const std::size_t place = damaged.find(from);
+    ASSERT_NE(place, std::string::npos) << from;
+    damaged.replace(place, from.size(), to);
+    test::expect_refused([&] { static_cast<void>(read("a.prmtop", damaged, 16)); }, parts);
+  };
+  refuse("%FLAG ATOM_NAME", "%FLAG ATOM_NAMES", {"a.prmtop: no section ATOM_NAME"});
+  refuse("%FLAG POINTERS", "%FLAG POINTER", {"a.prmtop", "POINTERS"});
+  refuse("%FORMAT(10I8)", "%FORMAT(10I)", {"a.prmtop:6", "a format as in %FORMAT(20a4)"});
+  refuse("      16", "      17", {"section ATOM_NAME holds 16 values, expected 17"});
+  refuse("      16", "99999999", {"section ATOM_NAME holds 16 values, expected 99999999"});
+  refuse("       1       5       9", "       1       9       5", {"RESIDUE_POINTER", "found 5"});
+  refuse("       1       5       9", "       1       5      99", {"RESIDUE_POINTER", "found 99"});
+  refuse("       9      12", "       9     480", {"BONDS_WITHOUT_HYDROGEN"});
+  refuse("       7       1", "       x       1", {"ATOMIC_NUMBER", "'x'"});
+  for (std::size_t size = 0; size < text.size(); size += 7)
+    test::expect_refused([&] { static_cast<void>(read("a.prmtop", text.substr(0, size), 17)); }, {""});
+}
+
+TEST(Prmtop, AloneItIsRefused) {
+  test::expect_refused(
+      [&] { static_cast<void>(read_trajectory(test::write_file("a.parm7", Prmtop().text()))); },
+      {"prmtop files have no frames", "--topology"});
+}
+
+TEST(TopologyFiles, FormatsAreToldByContent) {
+  EXPECT_TRUE(looks_like_psf(psf(residue("1"))));
+  EXPECT_FALSE(looks_like_psf("PSFX\n"));
+  EXPECT_TRUE(looks_like_prmtop(Prmtop().text()));
+  EXPECT_EQ(read("a.top", Prmtop().text(), 16)[0].bead_count(), 12U);
+}
+
+}  // namespace
+}  // namespace kds::topology_files_test
