@@ -34,14 +34,13 @@ std::string parse_radius(const std::string& rule) {
                   suggestion(nearest_name(rule, van_der_waals) ? "element" : rule, names)));
 }
 
-// Accepts capitals, since atom names such as CA are written in capitals. The user cannot ask for `automatic`.
-Selection parse_selection(const std::string& word) {
-  std::string lower = word;
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+// The user cannot ask for `automatic`.
+Selection parse_selection(const std::string& text) {
+  if (const std::optional<Selection> selection = Selection::parse(text)) return *selection;
   const auto names = std::span(selection_names).subspan(1);
-  const bool known = std::find(names.begin(), names.end(), lower) != names.end();
-  return choice_of("--select", known ? lower : word, names, Selection::backbone);
+  refuse_unknown(
+      "--select", text, names,
+      fmt::format("one of {}, and no atom selection as in {}", fmt::join(names, ", "), selection_example));
 }
 
 // --chain has one list for all inputs, or one list per input and optionally one more for the obstacle.
@@ -83,14 +82,16 @@ const OptionList<InputOptions>& input_options() {
        [](const InputOptions& o) {
          return o.reading.topology ? std::filesystem::absolute(*o.reading.topology).string() : "";
        }},
-      {{"--select", "NAME",
-        "which atoms become beads: backbone (N, CA, C), ca, or all atoms of the residues read (default: "
+      {{"--select", "ATOMS",
+        "which atoms become beads: backbone (N, CA, C), ca, bb (Martini), p (nucleic acids), heavy (all but "
+        "hydrogens) or all atoms of the residues read; or an atom selection as in '//A/10-40/CA,CB' "
+        "(default: "
         "backbone, or all if the file names no residues)"},
        [](InputOptions& o, const std::string& text) { o.reading.selection = parse_selection(text); },
-       [](const InputOptions& o) { return std::string(name_of(o.reading.selection)); },
+       [](const InputOptions& o) { return o.reading.selection.text(); },
        [](const InputOptions& o) {
          const bool is_asked_for = o.reading.selection != Selection::automatic;
-         return std::string(is_asked_for ? name_of(o.reading.selection) : "");
+         return is_asked_for ? o.reading.selection.text() : "";
        }},
       {{"--chain", "IDS",
         "chains to read, each one necklace: A,B. With several INPUTs separate their lists by /: A,B/C. A.2 "

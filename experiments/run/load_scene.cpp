@@ -69,7 +69,7 @@ bool has_atoms_of(const InputAtoms& one, const InputAtoms& other, const ReadOpti
   if (one.names.empty()) return false;
   if (!other.names.empty()) return one.names == other.names;
   return one.beads == other.beads ||
-         read_topology(one.file, reading.selection, reading.chain).atom_count == other.beads;
+         read_topology(one.file, reading).atom_count == other.beads;
 }
 
 // Throws InputError if a structure file with several models accompanies a trajectory of its atoms that has no
@@ -111,6 +111,13 @@ void check_inputs_of_one_frame(const std::vector<InputAtoms>& inputs, const Inpu
   }
 }
 
+// Returns whether the selection takes atoms that are not bonded to the ones before them.
+bool takes_side_chains(const std::vector<NecklaceStream>& files, const Selection& selection) {
+  return selection == Selection::all ||
+         std::any_of(files.begin(), files.end(),
+                     [](const NecklaceStream& file) { return !file.chain_like(); });
+}
+
 }  // namespace
 
 std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
@@ -126,10 +133,11 @@ std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
       atoms.push_back(atoms_of(options.inputs[i], file.heads(), file.holds_one_frame()));
   }
   check_inputs_of_one_frame(atoms, options, warn);
-  if (options.reading.selection == Selection::all && options.radius == "auto")
-    warn(
-        "--select all with --radius auto: consecutive atoms need not be bonded, and the radius is half of "
-        "their longest distance; --radius element takes van der Waals radii");
+  if (takes_side_chains(files, options.reading.selection) && options.radius == "auto")
+    warn(fmt::format(
+        "--select {} with --radius auto: consecutive atoms need not be bonded, and the radius is half of "
+        "their longest distance; --radius element takes van der Waals radii",
+        options.reading.selection.text()));
   if (options.obstacle) {
     ReadOptions reading = reading_of(options, options.inputs.size());
     reading.topology = std::nullopt;

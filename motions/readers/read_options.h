@@ -1,9 +1,12 @@
 #pragma once
 // Options that select which atoms and frames of a file are read.
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "motions/frames/frame_selection.h"
 #include "motions/readers/selection.h"
