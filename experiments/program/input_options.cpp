@@ -40,7 +40,7 @@ Selection parse_selection(const std::string& text) {
   const auto names = std::span(selection_names).subspan(1);
   refuse_unknown(
       "--select", text, names,
-      fmt::format("one of {}, and no atom selection as in {}", fmt::join(names, ", "), selection_example));
+      fmt::format("one of {}, nor an atom selection as in {}", fmt::join(names, ", "), selection_example));
 }
 
 // --chain has one list for all inputs, or one list per input and optionally one more for the obstacle.

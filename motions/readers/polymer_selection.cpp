@@ -211,9 +211,10 @@ class Parts {
 };
 
 // Returns the first part with amino acids, otherwise the first with nucleotides, otherwise the first part.
-const PolymerPart& default_part(const std::vector<const PolymerPart*>& parts) {
+// The selection `p` asks for nucleotides first.
+const PolymerPart& default_part(const std::vector<const PolymerPart*>& parts, const Selection& selection) {
   for (const PolymerPart* part : parts)
-    if (part->protein) return *part;
+    if (!part->polymer.empty() && part->protein != (selection == Selection::p)) return *part;
   for (const PolymerPart* part : parts)
     if (!part->polymer.empty()) return *part;
   return *parts.front();
@@ -320,10 +321,11 @@ PartRead read_part(const Parts& parts, const PolymerPart& part, const AtomChoice
       continue;
     }
     ++read.chain.residues_read;
+    const bool is_coarse = is_martini(*residue);
     if (residue->repeated && !part.polymer.empty()) read.repeated.push_back(name_of(*residue));
     if (choice.is_by_name() && holds_copies(*residue, atoms)) read.copies.push_back(name_of(*residue));
     for (const StructureAtom* atom : atoms)
-      read.atoms.push_back({atom, is_martini(*residue) ? "" : element_of(*atom).name(),
+      read.atoms.push_back({atom, is_coarse ? "" : element_of(*atom).name(),
                             text_of({atom->name, residue->name, residue->number, shown(part.label)})});
   }
   read.chain.bead_count = read.atoms.size();
@@ -432,7 +434,7 @@ std::vector<const PolymerPart*> parts_asked_for(const std::string& file, const P
                                                 const std::optional<std::string>& list) {
   const bool needs_polymer = selection != Selection::all && selection != Selection::atoms;
   if (!parts.has_polymer() && needs_polymer && !list) throw no_polymer_in(file, parts);
-  if (!list) return {&default_part(parts.default_parts())};
+  if (!list) return {&default_part(parts.default_parts(), selection)};
   std::vector<const PolymerPart*> wanted;
   for (std::string_view rest = *list;;) {
     const std::size_t comma = rest.find(',');

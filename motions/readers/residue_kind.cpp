@@ -88,7 +88,7 @@ ResidueKind kind_of(const StructureResidue& residue) {
   if (residue.entity == Entity::other) return ResidueKind::none;
   const bool said_to_be = residue.entity == Entity::polymer;
   const gemmi::ResidueInfo info = gemmi::find_tabulated_residue(residue.name);
-  if (is_water(residue.name)) return ResidueKind::none;
+  if (info.is_water() || is_among(waters, residue.name)) return ResidueKind::none;
   // A standard residue as HETATM is a free molecule in the buffer, unless the file says otherwise.
   if (!said_to_be && info.found() && info.is_standard() && residue.het) return ResidueKind::none;
   if (info.found() && info.is_amino_acid()) return ResidueKind::protein;

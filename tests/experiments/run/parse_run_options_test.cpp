@@ -71,7 +71,12 @@ TEST(RunOptions, TakesEveryNamedValue) {
     EXPECT_EQ(parse_run_options({"a", "--select", name}).reading.selection, Selection::ca);
   EXPECT_EQ(parse_run_options({"a", "--select", "BackBone"}).reading.selection, Selection::backbone);
   EXPECT_THAT(refusal({"a", "--select", "Automatic"}),
-              HasSubstr("'Automatic' is not one of backbone, ca, all"));
+              HasSubstr("'Automatic' is not one of backbone, ca, bb, p, heavy, all"));
+  for (const char* atoms : {"//A/10-40/CA,CB", "(ALA)/[!H];q>0.5", "-5--1"}) {
+    const RunOptions options = parse_run_options({"a", "--select", atoms});
+    EXPECT_EQ(options.reading.selection, Selection::atoms);
+    EXPECT_EQ(options.reading.selection.text(), atoms);
+  }
   for (const char* rule : {"auto", "element", "element:fit", "file:radii.txt", "2", "1e-3"})
     EXPECT_EQ(parse_run_options({"a", "--radius", rule}).radius, rule);
 }
@@ -128,7 +133,11 @@ TEST(RunOptions, RefusesUnknownNamesAndListsTheKnown) {
   EXPECT_THAT(refusal({"a", "--motion", "cubic"}), HasSubstr("'cubic' is not one of linear, hermite"));
   EXPECT_THAT(refusal({"a", "--kernel", "Exact"}), HasSubstr("'Exact' is not one of fast, filtered, exact"));
   EXPECT_THAT(refusal({"a", "--audit", "{}"}), HasSubstr("'{}' is not one of none, frames, events"));
-  EXPECT_THAT(refusal({"a", "--select", "cb"}), HasSubstr("'cb' is not one of backbone, ca, all"));
+  EXPECT_THAT(
+      refusal({"a", "--select", "cb"}),
+      HasSubstr("'cb' is not one of backbone, ca, bb, p, heavy, all, nor an atom selection as in //A/"));
+  EXPECT_THAT(refusal({"a", "--select", "//A/10-x"}),
+              HasSubstr("--select: '//A/10-x' has the residues '10-x'"));
 }
 
 TEST(RunOptions, NodesOfTheHierarchy) {
@@ -187,7 +196,9 @@ TEST(RunOptions, RepeatingArgumentsAreReadAgain) {
         {"/a.pdb", "--nodes", "3:9"},
         {"/a.pdb", "--levels", "2:"},
         {"/a.pdb", "--levels", ":4", "--tolerance", "0.2r"},
-        {"/a.pdb", "--relax", "0.01", "--certify", "--frames", "::3", "--chain", "A", "--select", "ca"}}) {
+        {"/a.pdb", "--relax", "0.01", "--certify", "--frames", "::3", "--chain", "A", "--select", "ca"},
+        {"/a.pdb", "--select", "//A/-5-40/CA,CB;q>0.5"},
+        {"/a.pdb", "--select", "-5--1"}}) {
     const Arguments again = repeating_arguments(parse_run_options(arguments));
     EXPECT_EQ(repeating_arguments(parse_run_options(again)), again);
     const auto nodes = [](const Arguments& a) { return parse_run_options(a).nodes; };

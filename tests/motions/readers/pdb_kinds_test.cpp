@@ -484,8 +484,7 @@ TEST(PdbKinds, FilesWithoutPolymer) {
             2U);
   refuse(File().add(1, 2).text + file.text, {"--select", "'W'", "--select all reads its 2 residues"},
          {.chain = "W"});
-  // A model with coarse-grained beads.
-  refuse(File().add({.atoms = {"BB", "SC1"}}).text, {"--select", "--select all reads its 1 residue"});
+  refuse(File().add({.atoms = {"X1", "SC1"}}).text, {"--select", "--select all reads its 1 residue"});
 }
 
 TEST(PdbKinds, PolymersOfHetatmRecordsAreToldOf) {

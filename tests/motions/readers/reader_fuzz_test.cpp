@@ -11,6 +11,7 @@
 #include "motions/scene/radii.h"
 #include "tests/motions/test_files.h"
 #include "tests/support/inputs/netcdf_maker.h"
+#include "tests/support/inputs/gro_text.h"
 
 namespace kds::reader_fuzz_test {
 namespace {
@@ -134,6 +135,18 @@ TEST(ReaderFuzz, Pdb) {
   for (const Selection selection : {Selection::automatic, Selection::all})
     EXPECT_GT(
         fuzz("a.pdb", text, 1500, [&](const auto& path) { read_and_check(path, {.selection = selection}); }),
+        10);
+}
+
+TEST(ReaderFuzz, Gro) {
+  test::GroText first, second;
+  first.title = "t= 0.0";
+  second.title = "t= 1.0";
+  const std::string text = first.residues(1, 2).residue(1, "SOL", {"OW"}).text() +
+                           second.residues(1, 2).residue(1, "SOL", {"OW"}).text();
+  for (const Selection& selection : {Selection(), *Selection::parse("/")})
+    EXPECT_GT(
+        fuzz("a.gro", text, 1500, [&](const auto& path) { read_and_check(path, {.selection = selection}); }),
         10);
 }
 

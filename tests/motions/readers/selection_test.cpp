@@ -249,6 +249,8 @@ TEST(Selection, NucleicAcidsByTheirPhosphorus) {
       [&] { static_cast<void>(read_trajectories(test::write_file("a.pdb", dna), {})); },
       {"does not hold N, CA and C", "--select p reads its P atoms", "--select all reads its 4 residues"});
   EXPECT_EQ(beads(dna, "heavy"), beads(dna, "all"));
+  // A protein that comes first is not asked for.
+  EXPECT_EQ(beads(residue(1, 'B') + dna, "p"), "A: P2 P3 P4");
 }
 
 TEST(Selection, FilesWithoutNamesAreRefused) {
