@@ -1,0 +1,25 @@
+#pragma once
+// Reads TRR files, the full-precision trajectories of GROMACS.
+//
+// Numbers are big-endian. A frame holds the magic number 1993 and the text GMX_trn_file, 13 integers (the
+// sizes of what follows in bytes, the number of atoms, the step), time (ps) and lambda, then the box (nm),
+// two tensors, positions (nm), velocities and forces, each unless its size is 0. All reals have single or
+// double precision, which follows from the sizes. Doubles are rounded to floats, as mdtraj and MDAnalysis do.
+//
+// Frames without positions hold velocities or forces only. They are left out with a note.
+
+#include <filesystem>
+#include <string_view>
+
+#include "motions/frames/frame_reader.h"
+#include "motions/readers/read_options.h"
+
+namespace kds {
+
+/// Returns whether a file that begins with these bytes is a TRR file.
+[[nodiscard]] bool looks_like_trr(std::string_view start);
+
+/// Opens a TRR file. Its frames are counted by their headers. Throws InputError naming the file.
+[[nodiscard]] FramesOpened open_trr(const std::filesystem::path& path, const ReadOptions& options);
+
+}  // namespace kds
