@@ -21,6 +21,8 @@
 #include "motions/readers/psf_reader.h"
 #include "motions/readers/read_options.h"
 #include "motions/readers/topology.h"
+#include "motions/readers/trr_reader.h"
+#include "motions/readers/xtc_reader.h"
 #include "motions/readers/xyz_reader.h"
 
 namespace kds {
@@ -51,6 +53,8 @@ void add_own_readers(ReaderRegistry& own) {
   own.add(atom_format("xyz", {".xyz", ".extxyz"}, looks_like_xyz, open_xyz));
   own.add(atom_format("netcdf", {".nc", ".ncdf"}, looks_like_netcdf, open_netcdf));
   own.add(atom_format("lammps", {".lammpstrj", ".dump", ".lammpsdump"}, looks_like_lammps, open_lammps));
+  own.add(atom_format("xtc", {".xtc"}, looks_like_xtc, open_xtc));
+  own.add(atom_format("trr", {".trr"}, looks_like_trr, open_trr));
 }
 
 bool has_ending(const ReaderSpec& reader, const std::string& ending) {

@@ -12,7 +12,6 @@
 
 #include "motions/base/input_file.h"
 #include "motions/base/text_input.h"
-#include "motions/readers/atom_frames.h"
 #include "motions/readers/xdr.h"
 
 namespace kds {
@@ -208,8 +207,8 @@ class TrrFrames final : public AtomFrames {
 
 bool looks_like_trr(std::string_view start) { return start.starts_with(trr_start); }
 
-FramesOpened open_trr(const std::filesystem::path& path, const ReadOptions& options) {
-  return open_atom_frames(path, options, std::make_unique<TrrFrames>(path));
+std::unique_ptr<AtomFrames> open_trr(const std::filesystem::path& path, const ReadOptions&) {
+  return std::make_unique<TrrFrames>(path);
 }
 
 }  // namespace kds

@@ -9,9 +9,10 @@
 // Frames without positions hold velocities or forces only. They are left out with a note.
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
-#include "motions/frames/frame_reader.h"
+#include "motions/readers/atom_frames.h"
 #include "motions/readers/read_options.h"
 
 namespace kds {
@@ -20,6 +21,7 @@ namespace kds {
 [[nodiscard]] bool looks_like_trr(std::string_view start);
 
 /// Opens a TRR file. Its frames are counted by their headers. Throws InputError naming the file.
-[[nodiscard]] FramesOpened open_trr(const std::filesystem::path& path, const ReadOptions& options);
+[[nodiscard]] std::unique_ptr<AtomFrames> open_trr(const std::filesystem::path& path,
+                                                   const ReadOptions& options);
 
 }  // namespace kds

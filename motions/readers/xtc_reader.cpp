@@ -14,7 +14,6 @@
 
 #include "motions/base/input_file.h"
 #include "motions/base/text_input.h"
-#include "motions/readers/atom_frames.h"
 #include "motions/readers/xdr.h"
 
 namespace kds {
@@ -258,10 +257,8 @@ class XtcCoordinates {
           for (std::size_t axis = 0; axis < 3; ++axis)
             next[axis] = last[axis] + static_cast<std::uint32_t>(steps[axis]) - size / 2;
           put(next);
-          if (k == 0)
-            put(first);
-          else
-            last = next;
+          if (k == 0) put(first);
+          last = next;
         }
         i += run;
       }
@@ -437,8 +434,8 @@ bool looks_like_xtc(std::string_view start) {
          integer(4) == integer(52);
 }
 
-FramesOpened open_xtc(const std::filesystem::path& path, const ReadOptions& options) {
-  return open_atom_frames(path, options, std::make_unique<XtcFrames>(path));
+std::unique_ptr<AtomFrames> open_xtc(const std::filesystem::path& path, const ReadOptions&) {
+  return std::make_unique<XtcFrames>(path);
 }
 
 }  // namespace kds

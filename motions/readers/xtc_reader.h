@@ -12,9 +12,10 @@
 // two atoms of a group with a run are exchanged, which suits water.
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
-#include "motions/frames/frame_reader.h"
+#include "motions/readers/atom_frames.h"
 #include "motions/readers/read_options.h"
 
 namespace kds {
@@ -23,6 +24,7 @@ namespace kds {
 [[nodiscard]] bool looks_like_xtc(std::string_view start);
 
 /// Opens an XTC file. Its frames are counted by their headers. Throws InputError naming the file.
-[[nodiscard]] FramesOpened open_xtc(const std::filesystem::path& path, const ReadOptions& options);
+[[nodiscard]] std::unique_ptr<AtomFrames> open_xtc(const std::filesystem::path& path,
+                                                   const ReadOptions& options);
 
 }  // namespace kds
