@@ -1,0 +1,104 @@
+// Fuzzes the reader of one format with libFuzzer: kds_fuzz_readers --format=NAME CORPUS... Whatever the bytes
+// of a file are, reading it must give valid frames, the same ones twice, or an InputError in one line.
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "motions/base/input_error.h"
+#include "motions/readers/necklace_stream.h"
+#include "motions/readers/reader_registry.h"
+#include "motions/readers/topology.h"
+
+namespace {
+
+using namespace kds;
+
+const ReaderSpec* reader = nullptr;
+
+[[noreturn]] void fail(const std::string& what) {
+  std::fprintf(stderr, "%s\n", what.c_str());
+  std::abort();
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) fail(what);
+}
+
+// Writes the bytes to a file in memory and returns its path.
+std::string write_in_memory(const std::uint8_t* bytes, std::size_t size) {
+  static const int file = memfd_create("fuzzed", MFD_CLOEXEC);
+  require(file >= 0 && ftruncate(file, 0) == 0 && pwrite(file, bytes, size, 0) == static_cast<ssize_t>(size),
+          "cannot write a file in memory");
+  return "/proc/self/fd/" + std::to_string(file);
+}
+
+struct Frame {
+  std::size_t number;
+  std::optional<double> time;
+  Eigen::Matrix3Xd positions;
+
+  bool operator==(const Frame&) const = default;
+};
+
+std::vector<Frame> read_all(NecklaceStream& stream) {
+  std::vector<Frame> frames;
+  for (FrameRead frame; stream.next(frame);) {
+    require(frame.positions.allFinite(), "a coordinate is not finite");
+    require(frames.empty() || frame.positions.cols() == frames.back().positions.cols(),
+            "frames differ in their numbers of beads");
+    frames.push_back({frame.stamp.number, frame.stamp.picoseconds, frame.positions});
+  }
+  return frames;
+}
+
+void read_frames(const std::string& path, bool until_damage) {
+  NecklaceStream stream(path, {.format = reader->name, .until_damage = until_damage});
+  const std::vector<Frame> first = read_all(stream);
+  require(!first.empty(), "no frame, and no InputError");
+  stream.rewind();
+  require(read_all(stream) == first, "a second reading gives other frames");
+}
+
+void read_topology_of(const std::string& path) {
+  const Topology topology = reader->topology(path, {.selection = Selection::all});
+  for (const std::size_t place : topology.selected)
+    require(place < topology.atom_count, "a bead is not one of the atoms");
+}
+
+template <class Read>
+void expect_sound(const Read& read) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    require(std::string_view(error.what()).find('\n') == std::string_view::npos, "a message of two lines");
+  } catch (const std::exception& error) {
+    fail(std::string("not an InputError: ") + error.what());
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
+  constexpr std::string_view option = "--format=";
+  for (int i = 1; i < *count; ++i)
+    if (const std::string_view argument = (*arguments)[i]; argument.starts_with(option))
+      reader = reader_registry().find({}, std::string(argument.substr(option.size())));
+  require(reader != nullptr, "expected --format=NAME");
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  const std::string path = write_in_memory(bytes, size);
+  const bool until_damage = size % 2 == 0;
+  if (reader->open) expect_sound([&] { read_frames(path, until_damage); });
+  if (reader->topology) expect_sound([&] { read_topology_of(path); });
+  return 0;
+}
