@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "motions/numbers/exact_number.h"
-#include "structures/necklace/exact_total.h"
 
 namespace kds {
 
@@ -43,6 +42,13 @@ std::optional<int> sign_told(double left, double right) {
   return std::nullopt;
 }
 
+// Returns the sign of e - f sqrt(q), where q is not negative.
+int sign_of_difference(const Rational& e, const Rational& f, const Rational& q) {
+  const int s = sign_of(e), t = sign_of(f) * sign_of(q);
+  if (s != t || s == 0) return s > t ? 1 : s < t ? -1 : 0;
+  return s * sign_of(e * e - f * f * q);
+}
+
 }  // namespace
 
 int compare_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s) {
@@ -65,17 +71,6 @@ int compare_lengths(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double f
   const Rational exact_factor(factor);
   return sign_of(square_in_rationals(a, b) * exact_factor * exact_factor - square_in_rationals(c, d));
 }
-
-namespace {
-
-// Returns the sign of e - f sqrt(q), where q is not negative.
-int sign_of_difference(const Rational& e, const Rational& f, const Rational& q) {
-  const int s = sign_of(e), t = sign_of(f) * sign_of(q);
-  if (s != t || s == 0) return s > t ? 1 : s < t ? -1 : 0;
-  return s * sign_of(e * e - f * f * q);
-}
-
-}  // namespace
 
 int compare_gaps(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const ExactSum& r,
                  const Eigen::Vector3d& c, const Eigen::Vector3d& d, const ExactSum& s) {

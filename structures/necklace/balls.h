@@ -1,7 +1,6 @@
 #pragma once
-// The balls of a scene at one time as a structure of arrays, coordinate by coordinate, for the fast loops
-// over consecutive beads. Memory beyond the last bead is readable. In the plane the third coordinate is
-// absent.
+// The balls of a scene at one time, for fast loops over beads, as an array of structures (BallRows) and also
+// as a structure of arrays (Balls). Memory beyond the last bead is readable.
 
 #include <Eigen/Core>
 #include <array>
@@ -11,12 +10,75 @@
 #include <vector>
 
 #include "motions/base/bead.h"
+#include "motions/base/bead_range.h"
 #include "motions/base/input_error.h"
 #include "motions/curves/curves.h"
-#include "structures/necklace/ball_rows.h"
 
 namespace kds {
 
+/// A sphere in rounded numbers, for output. In the plane it is a circle whose third coordinate is 0.
+struct Sphere {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double radius = 0;
+};
+
+/// A node of a hierarchy with its sphere, for output.
+struct NodeSphere {
+  BeadRange range;
+  Sphere sphere;
+};
+
+/// A centre and a radius in a row of four doubles, the layout that vector loads take. In the plane the fourth
+/// double is unused.
+template <int Dimension>
+struct alignas(32) BallRow {
+  std::array<double, static_cast<std::size_t>(Dimension)> center{};
+  double radius = 0;
+};
+
+/// Balls as an array of structures.
+template <int Dimension>
+class BallRows {
+  static_assert(Dimension == 2 || Dimension == 3);
+
+ public:
+  /// Number of rows that are readable beyond the last ball.
+  static constexpr std::size_t padding = 8;
+
+  BallRows() = default;
+  /// Constructs the balls of a motion at its k-th control points. Throws InputError naming the bead if a
+  /// coordinate or radius is not finite, or if a radius is negative.
+  BallRows(const Curves<Dimension>& curves, int k) { (void)move_to(curves, k); }
+
+  /// Moves the balls to the k-th control points of a motion and reuses their memory. Returns whether any
+  /// radius, or the number of radii, differs from before. If this throws, the object holds no balls any more.
+  bool move_to(const Curves<Dimension>& curves, int k) { return copy(curves, k, nullptr).others_radii; }
+  /// Moves the balls to the first control points after the start. Returns whether `start` equals the balls at
+  /// the start, bit for bit. The comparison takes place in the same pass.
+  [[nodiscard]] bool move_on_from(const BallRows& start, const Curves<Dimension>& curves) {
+    return copy(curves, 1, &start).start_is_known;
+  }
+
+  [[nodiscard]] std::size_t size() const { return rows_.empty() ? 0 : rows_.size() - padding; }
+  [[nodiscard]] bool equal_radii() const { return equal_radii_; }
+  /// Returns true if all radii are known to equal `radius`, else false.
+  [[nodiscard]] bool all_have(double radius) const {
+    return equal_radii_ && size() > 0 && rows_[0].radius == radius;
+  }
+  [[nodiscard]] const BallRow<Dimension>* rows() const { return rows_.data(); }
+
+ protected:
+  struct Copied {
+    bool others_radii, start_is_known;
+  };
+  Copied copy(const Curves<Dimension>& curves, int k, const BallRows* start);
+
+  std::vector<BallRow<Dimension>> rows_;
+  bool equal_radii_ = true;
+};
+
+/// Balls also as a structure of arrays, coordinate by coordinate, for loops over consecutive beads. In the
+/// plane the third coordinate is absent.
 template <int Dimension>
 class Balls : public BallRows<Dimension> {
  public:

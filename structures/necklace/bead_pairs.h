@@ -1,11 +1,10 @@
 #pragma once
-// A symmetric set of pairs of beads as flat adjacency lists: the neighbours of each bead in ascending order.
-// The set holds the edges of a diagram or the family of beads that may meet. No bead is its own neighbour.
+// Pairs of beads: those that a query asks about, and symmetric sets of pairs.
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +13,47 @@
 
 namespace kds {
 
+/// Formats beads for messages, for example "3, 7, infinity".
+[[nodiscard]] inline std::string bead_names(std::span<const BeadId> beads) {
+  std::string names;
+  for (const BeadId b : beads) {
+    if (!names.empty()) names += ", ";
+    names += b == no_bead ? "infinity" : std::to_string(b);
+  }
+  return names;
+}
+
+/// Two beads of the scene, first < second.
+struct BeadPair {
+  BeadId first = 0, second = 0;
+  friend auto operator<=>(const BeadPair&, const BeadPair&) = default;
+};
+
+/// Selects the pairs of beads a query is about: pairs within one necklace that are far enough apart along it,
+/// pairs of two necklaces, or both. Pairs near along the chain meet by construction.
+struct PairsAsked {
+  std::vector<BeadRange> necklaces;  ///< one after the other, from bead 0 to the scene's last bead
+  bool within = true;                ///< pairs within one necklace
+  BeadId apart = 2;                  ///< least distance in sequence for these pairs, at least 1
+  bool between = true;               ///< pairs of two necklaces
+
+  /// Returns the index of the bead's necklace.
+  [[nodiscard]] std::size_t necklace_of(BeadId bead) const {
+    const auto after = std::upper_bound(necklaces.begin(), necklaces.end(), bead,
+                                        [](BeadId b, const BeadRange& range) { return b < range.first; });
+    return static_cast<std::size_t>(after - necklaces.begin()) - 1;
+  }
+
+  /// Takes log(necklaces) time, which suits single pairs. Loops over many pairs should look up the necklaces
+  /// themselves.
+  [[nodiscard]] bool asks(const BeadPair& pair) const {
+    if (necklace_of(pair.first) != necklace_of(pair.second)) return between;
+    return within && pair.second - pair.first >= apart;
+  }
+};
+
+/// A symmetric set of pairs of beads as flat adjacency lists: the neighbours of each bead in ascending order.
+/// The set holds the edges of a diagram or the family of beads that may meet. No bead is its own neighbour.
 class BeadPairs {
  public:
   using Pair = std::pair<BeadId, BeadId>;

@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,6 +15,8 @@
 #include "motions/base/bead_range.h"
 
 namespace kds {
+
+struct Sphere;
 
 using NodeId = std::uint32_t;
 
@@ -67,5 +71,37 @@ class NecklaceTree {
   std::vector<BeadRange> ranges_;
   std::vector<NodeId> left_, right_;
 };
+
+/// Selects the nodes of a hierarchy that a scene requires, by level and by beads. Selects all nodes by
+/// default.
+struct NodeSelection {
+  std::uint32_t first_level = 0;  ///< roots are level 0
+  std::uint32_t last_level = std::numeric_limits<std::uint32_t>::max();
+  std::optional<BeadRange> beads;  ///< selects nodes whose beads all lie in this range
+
+  [[nodiscard]] bool restricts() const {
+    return first_level > 0 || last_level < std::numeric_limits<std::uint32_t>::max() || beads;
+  }
+};
+
+[[nodiscard]] inline std::vector<std::uint8_t> select_nodes(const NecklaceTree& tree,
+                                                            const NodeSelection& selection) {
+  std::vector<std::uint32_t> level(tree.node_count(), 0);
+  std::vector<std::uint8_t> selected(tree.node_count(), 0);
+  for (NodeId node = 0; node < tree.node_count(); ++node) {  // visits children after their parents
+    for (const NodeId child : {tree.left(node), tree.right(node)}) {
+      if (child != NecklaceTree::leaf) level[child] = level[node] + 1;
+    }
+    const BeadRange& range = tree.range(node);
+    const bool among =
+        !selection.beads || (selection.beads->first <= range.first && range.last <= selection.beads->last);
+    selected[node] = among && selection.first_level <= level[node] && level[node] <= selection.last_level;
+  }
+  return selected;
+}
+
+/// A callback that runs at the start of each step. The callback requests the spheres of the nodes it needs,
+/// and these spheres are maintained during the step.
+using NodeQuery = std::function<void(const std::function<Sphere(NodeId)>&)>;
 
 }  // namespace kds
