@@ -1,7 +1,9 @@
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 
+#include <algorithm>
+
 #include "structures/enclosing_sphere/pivot_sphere.h"
-#include "structures/enclosing_sphere/scan_targets.h"
+#include "structures/enclosing_sphere/sphere_scan.h"
 
 namespace kds {
 

@@ -9,9 +9,8 @@
 #include <span>
 
 #include "structures/enclosing_sphere/basis.h"
-#include "structures/enclosing_sphere/exact_enclosing_sphere.h"
+#include "structures/enclosing_sphere/exact_sphere.h"
 #include "structures/necklace/balls.h"
-#include "structures/necklace/sphere.h"
 
 namespace kds {
 

@@ -19,8 +19,8 @@
 #include "motions/numbers/exact_number.h"
 #include "motions/numbers/tracked_double.h"
 #include "structures/enclosing_sphere/basis.h"
+#include "structures/enclosing_sphere/cage.h"
 #include "structures/necklace/balls.h"
-#include "structures/necklace/sphere.h"
 
 namespace kds {
 
@@ -86,5 +86,17 @@ template <int Dimension>
 /// beads may be superfluous.
 template <int Dimension>
 [[nodiscard]] Sphere exact_sphere_of(const Basis& basis, const Balls<Dimension>& balls);
+
+/// Selects whether doubles may sort out the beads that are clearly inside, so that only the others are
+/// decided exactly.
+enum class ExactUse { where_needed, everywhere };
+
+/// Computes the minimum enclosing sphere of beads first..last; filters fall back on this function. Replaces
+/// `basis`, at most Dimension + 1 arbitrary beads of the range, by their basis. Returns their sphere,
+/// rounded. If `of_points`, it is the sphere of their centres, which requires equal radii. Always terminates,
+/// because the sphere grows with every pivot.
+template <int Dimension>
+Cage<Dimension> enclosing_sphere_exactly(const Balls<Dimension>& balls, BeadId first, BeadId last,
+                                         Basis& basis, bool of_points, ExactUse use = ExactUse::where_needed);
 
 }  // namespace kds

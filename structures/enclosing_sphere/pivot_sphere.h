@@ -1,12 +1,12 @@
 #pragma once
 // Steps of the search for a minimum enclosing sphere from a likely basis: compute the basis' sphere in
 // double, scan the beads, and pivot with the bead that sticks out most, until a scan proves the basis. If
-// doubles cannot decide or the pivots are too many, exact arithmetic takes over (exact_enclosing_sphere.h).
+// doubles cannot decide or the pivots are too many, exact arithmetic takes over (enclosing_sphere_exactly).
 
-#include <cstdint>
+#include <span>
 
-#include "structures/enclosing_sphere/exact_enclosing_sphere.h"
-#include "structures/enclosing_sphere/sphere_forms.h"
+#include "structures/enclosing_sphere/exact_sphere.h"
+#include "structures/enclosing_sphere/sphere_scan.h"
 
 namespace kds::detail {
 

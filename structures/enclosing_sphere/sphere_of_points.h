@@ -6,9 +6,9 @@
 // The centre z~ may be any doubles near the true centre z = c_0 + Q y, where Q = [d_1 .. d_m], d_i = c_i -
 // c_0. The residuals of z~ bound its error. Let t_i = |c_i - z~|^2, each rounded to within 6u of its size,
 // and S the spread of the t_i including that rounding. |c_i - z| is equal for all i, so 2 d_i.(z - z~) =
-// t_i - t_0. The part of z - z~ in the span of Q is therefore at most E' = sqrt(m) S / (2 sigma), where sigma
-// is the least singular value of Q. This value satisfies sigma^2 >= det G / (tr G / (m-1))^(m-1) for G = Q^T
-// Q.
+// t_i - t_0. The part of z - z~ in the span of Q is therefore at most E' = sqrt(m) S / (2 sigma), where
+// sigma is the least singular value of Q. This value satisfies sigma^2 >= det G / (tr G / (m-1))^(m-1) for G
+// = Q^T Q.
 //
 // If the basis spans all of space, this is the whole error. Otherwise z~ was computed from weights in [0,1]
 // and leaves the span by no more than its rounding, O = 2u max|z~_k| + 64u R. A midpoint has the error O
@@ -17,24 +17,56 @@
 //   |p - z~| <= R~ - 2E   implies   |p - z| <= |p - z~| + E <= |c_i - z~| - E <= |c_i - z|:   p is inside,
 //
 // and likewise for outside. R~ is the greatest of the computed |c_i - z~|. R~ equals R to within the spread
-// and (E/R)^2: the squared radius of any sphere that holds the basis is at least the weighted mean of the t_i
-// less the squared distance of the weighted mean of the points from z~. The weights have errors of at most 2
-// (E + O) / sigma. The basis has no superfluous bead if all weights are greater.
+// and (E/R)^2: the squared radius of any sphere that holds the basis is at least the weighted mean of the
+// t_i less the squared distance of the weighted mean of the points from z~. The weights have errors of at
+// most 2 (E + O) / sigma. The basis has no superfluous bead if all weights are greater.
 //
 // Determinants of rounded differences have errors of 16u (tr G)^2 for m = 2; the root of the determinant for
 // m = 3 has an error of 16u (tr G)^(3/2). The code requires values 200 times as large as these errors. All
 // bounds hold for 2^-300 <= tr G <= 2^300, so that nothing overflows and underflow is far below the bounds.
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 
-#include "structures/enclosing_sphere/basis_edit.h"
-#include "structures/enclosing_sphere/numbers_in_lanes.h"
+#include "motions/numbers/lanes.h"
+#include "structures/enclosing_sphere/basis.h"
 #include "structures/necklace/balls.h"
 
 namespace kds {
+
+template <class N>
+concept LanesOrDouble = std::same_as<N, double> || std::same_as<N, Lanes>;
+
+/// Operations beyond arithmetic that formulas need, for a single double and for four in lanes.
+template <LanesOrDouble N>
+struct NumberTraits;
+
+template <>
+struct NumberTraits<double> {
+  using Flag = bool;
+  [[gnu::always_inline]] static double choose(bool flag, double a, double b) { return flag ? a : b; }
+  [[gnu::always_inline]] static double max(double a, double b) { return a < b ? b : a; }
+  [[gnu::always_inline]] static double min(double a, double b) { return b < a ? b : a; }
+  [[gnu::always_inline]] static double abs(double a) { return std::abs(a); }
+  [[gnu::always_inline]] static double sqrt(double a) { return std::sqrt(a); }
+};
+
+template <>
+struct NumberTraits<Lanes> {
+  using Flag = Lanes::Mask;
+  [[gnu::always_inline]] static Lanes choose(const Flag& flag, const Lanes& a, const Lanes& b) {
+    return Lanes::choose(flag, a, b);
+  }
+  [[gnu::always_inline]] static Lanes max(const Lanes& a, const Lanes& b) { return Lanes::max(a, b); }
+  [[gnu::always_inline]] static Lanes min(const Lanes& a, const Lanes& b) { return Lanes::min(a, b); }
+  [[gnu::always_inline]] static Lanes abs(const Lanes& a) { return Lanes::abs(a); }
+  [[gnu::always_inline]] static Lanes sqrt(const Lanes& a) {
+    // Built from all lanes at once, which compiles to a single instruction if the target allows it.
+    return Lanes::Vector{std::sqrt(a.v[0]), std::sqrt(a.v[1]), std::sqrt(a.v[2]), std::sqrt(a.v[3])};
+  }
+};
 
 template <int Dimension>
 using Point = std::array<double, static_cast<std::size_t>(Dimension)>;

@@ -1,6 +1,7 @@
-#include "structures/enclosing_sphere/rounded_up.h"
+#include "structures/enclosing_sphere/cage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace kds {
