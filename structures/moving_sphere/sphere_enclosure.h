@@ -40,7 +40,7 @@ struct SphereEnclosure {
   Four scale;                                         ///< bounds all input lengths
   std::array<Four, Dimension> q;                      ///< at the start
   Four q_error;                                       ///< in the whole period
-  Four other_root;                                    ///< f of gap_bounds.h
+  Four other_root;                                    ///< f of gap_root.h
   unsigned proved;                                    ///< one bit per part
 };
 
