@@ -11,6 +11,9 @@
 
 namespace kds {
 
+/// Number of threads of a computation. Results do not depend on it.
+enum class Threads : std::uint8_t { one, all };
+
 class BottomUpOrder {
  public:
   explicit BottomUpOrder(const NecklaceTree& tree);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "structures/enclosing_sphere/pivot_sphere.h"
-#include "structures/enclosing_sphere/scan_targets.h"
+#include "structures/enclosing_sphere/sphere_scan.h"
 #include "structures/hierarchy/lane_nodes.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
 
@@ -43,7 +43,7 @@ Cage<Form::Dimension> trusted_cage(const Balls<Form::Dimension>& balls, Basis ba
 }
 
 /// Computes spheres of nodes from the nodes below or from old bases. Loops over beads and over the spheres of
-/// many nodes are separate functions, compiled for each vector target (scan_targets.h). The control flow
+/// many nodes are separate functions, compiled for each vector target (KDS_SCAN_TARGETS). The control flow
 /// between them is compiled once.
 template <class Form>
 class NodeWrapper {

@@ -8,16 +8,16 @@
 // its beads, exactly. Radii are rounded up, at each level by less than 2^-48 of the radius and 2^-50 of the
 // centre's coordinates.
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "structures/enclosing_sphere/cage.h"
-#include "structures/enclosing_sphere/four_balls.h"
+#include "structures/enclosing_sphere/sphere_of_points.h"
 #include "structures/hierarchy/bottom_up_order.h"
-#include "structures/hierarchy/threads.h"
-#include "structures/necklace/ball_rows.h"
+#include "structures/hierarchy/static_wrapped_hierarchy.h"
+#include "structures/necklace/balls.h"
 #include "structures/necklace/necklace_tree.h"
 
 namespace kds {
@@ -64,5 +64,27 @@ class LayeredHierarchy {
   std::vector<Height> heights_;  // of each group of the order
   std::vector<Cage<Dimension>> cages_;
 };
+
+/// Compares the wrapped hierarchy with the layered one: rho = wrapped radius / layered radius at a node, at
+/// most 1. Computes its mean and minimum over all internal nodes (Table 1 of Agarwal et al.).
+struct Tightness {
+  double average = 1, least = 1;
+};
+
+/// Both hierarchies must be built over the same necklaces and balls. Nodes of radius 0 count as 1.
+template <int Dimension>
+[[nodiscard]] Tightness tightness_of(const StaticWrappedHierarchy<Dimension>& wrapped,
+                                     const LayeredHierarchy<Dimension>& layered) {
+  const std::size_t nodes = wrapped.tree().node_count();
+  if (nodes == 0) return {};
+  Tightness ratios{0, 1};
+  for (NodeId node = 0; node < nodes; ++node) {
+    const double outer = layered.sphere(node).radius;
+    const double rho = outer > 0 ? wrapped.sphere(node).radius / outer : 1;
+    ratios.average += rho / static_cast<double>(nodes);
+    ratios.least = std::min(ratios.least, rho);
+  }
+  return ratios;
+}
 
 }  // namespace kds

@@ -1,10 +1,9 @@
 #include "structures/hierarchy/node_guards.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
-#include "structures/enclosing_sphere/basis_edit.h"
+#include "structures/enclosing_sphere/basis.h"
 
 namespace kds {
 

@@ -12,7 +12,6 @@
 
 #include "certificates/base/relaxation.h"
 #include "kds/kinetic_structure.h"
-#include "structures/hierarchy/membership_tables.h"
 #include "structures/hierarchy/node_proofs.h"
 #include "structures/hierarchy/signs_just_after.h"
 #include "structures/necklace/necklace_tree.h"

@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "motions/numbers/lanes.h"
-#include "structures/enclosing_sphere/basis_edit.h"
+#include "structures/enclosing_sphere/basis.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/moving_sphere/beads_beyond.h"
 

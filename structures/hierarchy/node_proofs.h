@@ -4,6 +4,7 @@
 // (sphere_chord.h). All proofs run in double. The exact kernel, and motions whose degree exceeds that of
 // paths, have no proofs.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -15,7 +16,6 @@
 #include "motions/curves/curves.h"
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/hierarchy/node_slack.h"
-#include "structures/hierarchy/relaxed_allowance.h"
 #include "structures/moving_sphere/bead_paths.h"
 #include "structures/moving_sphere/gap_root.h"
 #include "structures/moving_sphere/sphere_chord.h"

@@ -3,10 +3,10 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <vector>
 
 #include "motions/base/floating_point_guard.h"
 #include "structures/hierarchy/bottom_up_order.h"
-#include "structures/hierarchy/threads.h"
 
 namespace kds {
 

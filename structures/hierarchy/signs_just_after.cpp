@@ -1,6 +1,11 @@
 #include "structures/hierarchy/signs_just_after.h"
 
-#include "structures/enclosing_sphere/membership_signs.h"
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "structures/enclosing_sphere/basis.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 
@@ -41,5 +46,72 @@ int SignsJustAfter<Dimension>::orientation(const Basis& basis) const {
 
 template class SignsJustAfter<2>;
 template class SignsJustAfter<3>;
+
+template <int Dimension>
+std::optional<Basis> BasisRepair<Dimension>::basis_just_after(std::span<const BeadId> among, const Basis& old,
+                                                              BeadId escaped) {
+  if (radii_ == Radii::any) return BasisOfBalls(among, signs_).find();
+  BasisHint hint{std::max<std::size_t>(1, old.size - 1U)};
+  if (escaped != no_bead) hint = {old.size, escaped};  // it is outside the sphere of all others
+  auto basis = basis_of_points(among, signs_, hint);
+  return basis || escaped == no_bead ? basis : basis_of_points(among, signs_);
+}
+
+/// Returns the next basis when the bead's certificate fails now, if the sphere's path proves it.
+template <int Dimension>
+std::optional<Basis> BasisRepair<Dimension>::proved_next_basis(const Basis& old, BeadId bead) {
+  if (old.contains(bead)) {  // it is inside the sphere of the other basis beads now
+    const Basis rest = without(old, bead);
+    return proofs_.proved_bases({&rest, 1}, no_bead) == 0 ? std::nullopt : std::optional(rest);
+  }
+  // The bead is outside the sphere of the others now. If their barycentric coordinates are positive and the
+  // path's other conditions are proved, the bead's own coordinate is positive too.
+  std::array<Basis, full> next;
+  if (old.size < full) {
+    next[0] = old;
+    insert_bead(next[0], bead);
+    return proofs_.proved_bases({next.data(), 1}, bead) == 0 ? std::nullopt : std::optional(next[0]);
+  }
+  for (std::size_t place = 0; place < full; ++place) {
+    next[place] = old;
+    erase_place(next[place], place);
+    insert_bead(next[place], bead);
+  }
+  const unsigned proved = proofs_.proved_bases(next, no_bead);
+  for (std::size_t place = 0; place < full; ++place) {
+    if ((proved >> place & 1U) != 0 &&
+        is_inside(next[place], old.beads[place], orientation_of(next[place], signs_), signs_))
+      return next[place];
+  }
+  return std::nullopt;
+}
+
+template <int Dimension>
+std::optional<Basis> BasisRepair<Dimension>::next_basis(const Basis& old, BeadId bead, bool failed) {
+  std::array<BeadId, Basis::max_size + 1> all{};
+  std::copy(old.begin(), old.end(), all.begin());
+  std::size_t count = old.size;
+  const bool escaped = bead != no_bead && !old.contains(bead);
+  if (escaped) {
+    std::size_t place = count++;
+    for (; place > 0 && all[place - 1] > bead; --place) all[place] = all[place - 1];
+    all[place] = bead;
+  }
+  const auto among = std::span(all).first(count);
+  std::optional<Basis> next;
+  if (proofs_.proves_bases()) {
+    if (relaxed_ && escaped) {
+      next = proofs_.proved_basis_with(old, bead);
+    } else if (failed) {
+      next = proved_next_basis(old, bead);
+    }
+  }
+  if (!next) next = basis_just_after(among, old, escaped ? bead : no_bead);
+  if (!next && kernel_ != Kernel::fast) throw std::logic_error("no basis among beads " + bead_names(among));
+  return next;
+}
+
+template class BasisRepair<2>;
+template class BasisRepair<3>;
 
 }  // namespace kds

@@ -1,18 +1,100 @@
 #pragma once
 // Decides by certificates which bead lies in which sphere just after the present time (SphereSigns of
-// basis.h). While a failure is handled, the sign of its certificate is known, and so is the sign of its
-// function in other certificates.
+// basis.h), and repairs the basis of a node with these signs. While a failure is handled, the sign of its
+// certificate is known, and so is the sign of its function in other certificates.
 
+#include <algorithm>
+#include <concepts>
+#include <memory>
 #include <optional>
+#include <span>
+#include <utility>
 
+#include "certificates/search/ball_in_sphere_search.h"
+#include "certificates/search/relaxed_ball_in_sphere_search.h"
+#include "certificates/types/membership.h"
 #include "certificates/types/orientation.h"
+#include "certificates/types/radii.h"
+#include "certificates/types/relaxed_membership.h"
+#include "kds/certificate_tables.h"
 #include "kds/simulator.h"
 #include "motions/curves/curves.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/enclosing_sphere/basis.h"
-#include "structures/hierarchy/membership_tables.h"
+#include "structures/hierarchy/node_proofs.h"
 
 namespace kds {
+
+/// Decides by certificates which bead lies in which sphere (SphereSigns of basis.h). `sign(certificate)`
+/// returns 1, 0 or -1 for any membership or orientation certificate.
+template <int Dimension, class Sign>
+class MembershipSigns {
+ public:
+  static constexpr int dimension = Dimension;
+
+  MembershipSigns(const Curves<Dimension>& curves, Radii radii, Sign sign)
+      : curves_(curves), radii_(radii), sign_(std::move(sign)) {}
+
+  [[nodiscard]] int membership(const Basis& basis, BeadId bead, bool inside, int orientation) const {
+    return visit_membership(radii_, curves_, std::span(basis.begin(), basis.end()), bead, inside, orientation,
+                            sign_);
+  }
+  [[nodiscard]] int orientation(const Basis& basis) const {
+    Orientation<dimension> certificate;
+    std::copy_n(basis.begin(), dimension + 1, certificate.beads.begin());
+    return sign_(certificate);
+  }
+
+ private:
+  Curves<Dimension> curves_;
+  Radii radii_;
+  Sign sign_;
+};
+
+namespace detail {
+
+template <int Dimension>
+struct TablesOfMembership;
+template <>
+struct TablesOfMembership<2> {
+  using Type = CertificateTables<BeadInSphere<1>, BeadInSphere<2>, PowerTest<2>, BallInSphere<2, 1>,
+                                 BallInSphere<2, 2>, BallInSphere<2, 3>, RelaxedBeadInSphere<2>,
+                                 RelaxedBeadInSphere<3>, BallInSphere<2, 1, true>, BallInSphere<2, 2, true>,
+                                 BallInSphere<2, 3, true>>;
+};
+template <>
+struct TablesOfMembership<3> {
+  using Type =
+      CertificateTables<BeadInSphere<1>, BeadInSphere<2>, BeadInSphere<3>, PowerTest<3>, BallInSphere<3, 1>,
+                        BallInSphere<3, 2>, BallInSphere<3, 3>, BallInSphere<3, 4>, RelaxedBeadInSphere<2>,
+                        RelaxedBeadInSphere<3>, RelaxedBeadInSphere<4>, BallInSphere<3, 1, true>,
+                        BallInSphere<3, 2, true>, BallInSphere<3, 3, true>, BallInSphere<3, 4, true>>;
+};
+
+}  // namespace detail
+
+/// Tells whether a certificate belongs to a relaxed sphere. Only a relaxed hierarchy holds such certificates.
+template <class Certificate>
+inline constexpr bool is_relaxed = requires(const Certificate& c) {
+  c.beads.relaxation;
+};
+
+/// The tables of membership certificates (certificates/types/membership.h), one for each type: equal radii
+/// first, by the size of the basis from 1 on, then unequal radii, then relaxed spheres. The tables of unequal
+/// radii stay empty if radii are promised to be equal.
+template <int Dimension>
+using MembershipTables = typename detail::TablesOfMembership<Dimension>::Type;
+
+/// Returns the subject of the certificate of a node with this basis.
+template <class Certificate>
+[[nodiscard]] BeadId bead_of(const Certificate& certificate, const Basis&) {
+  return certificate.beads.back();
+}
+template <int Dimension>
+[[nodiscard]] BeadId bead_of(const PowerTest<Dimension>& certificate, const Basis& basis) {
+  return *std::find_if(certificate.beads.begin(), certificate.beads.end(),
+                       [&](BeadId b) { return !basis.contains(b); });
+}
 
 /// The certificate that fails now.
 template <int Dimension>
@@ -82,6 +164,36 @@ class SignsJustAfter {
   MembershipTables<Dimension>& tables_;
   std::unique_ptr<CertificateSearch<Orientation<Dimension>>> orientations_;
   StageCounts& stages_;
+};
+
+/// Finds the next basis of a node of a wrapped hierarchy when one of its certificates has failed. Uses proofs
+/// from the sphere's path or, if they do not decide, the signs just after the event.
+template <int Dimension>
+class BasisRepair {
+ public:
+  /// If `relaxed`, a bead escapes only when it is out by a share of the radius.
+  BasisRepair(Kernel kernel, Radii radii, bool relaxed, NodeProofs<Dimension>& proofs,
+              SignsJustAfter<Dimension>& signs)
+      : kernel_(kernel), radii_(radii), relaxed_(relaxed), proofs_(proofs), signs_(signs) {}
+
+  /// Returns the basis, just after now, of the beads of `old`, one of which may be superfluous, and of
+  /// `bead`. `bead` has escaped from the sphere of `old`, or is no_bead. `failed` tells that `bead` is the
+  /// bead whose certificate fails now. Returns none only if doubles contradict themselves, which the kernel
+  /// `fast` may do.
+  [[nodiscard]] std::optional<Basis> next_basis(const Basis& old, BeadId bead, bool failed);
+
+ private:
+  static constexpr std::size_t full = Dimension + 1;
+
+  [[nodiscard]] std::optional<Basis> proved_next_basis(const Basis& old, BeadId bead);
+  [[nodiscard]] std::optional<Basis> basis_just_after(std::span<const BeadId> among, const Basis& old,
+                                                      BeadId escaped);
+
+  Kernel kernel_;
+  Radii radii_;
+  bool relaxed_;
+  NodeProofs<Dimension>& proofs_;
+  SignsJustAfter<Dimension>& signs_;
 };
 
 }  // namespace kds

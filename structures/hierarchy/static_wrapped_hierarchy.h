@@ -16,7 +16,6 @@
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/enclosing_sphere/cage.h"
 #include "structures/hierarchy/bottom_up_order.h"
-#include "structures/hierarchy/threads.h"
 #include "structures/necklace/balls.h"
 #include "structures/necklace/necklace_tree.h"
 

@@ -1,6 +1,7 @@
 #include "structures/hierarchy/wrapped_hierarchy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -11,10 +12,10 @@
 #include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/enclosing_sphere/integer_balls.h"
-#include "structures/hierarchy/basis_repair.h"
 #include "structures/hierarchy/node_guards.h"
 #include "structures/hierarchy/node_proofs.h"
-#include "structures/necklace/bead_names.h"
+#include "structures/hierarchy/signs_just_after.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 

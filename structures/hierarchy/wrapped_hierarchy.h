@@ -15,14 +15,14 @@
 // inserted or erased, because the tree depends on the necklaces.
 //
 // The class has three parts, each in its own file: proofs that replace certificates (node_proofs.h), the
-// certificates held (node_guards.h), and the repair of a basis (basis_repair.h).
+// certificates held (node_guards.h), and the repair of a basis (signs_just_after.h).
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "certificates/base/relaxation.h"
@@ -33,7 +33,6 @@
 #include "motions/curves/motion_ref.h"
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/necklace/necklace_tree.h"
-#include "structures/necklace/node_selection.h"
 
 namespace kds {
 
