@@ -1,6 +1,7 @@
 #include "structures/chord_cages/chord_hierarchy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <type_traits>
@@ -9,8 +10,9 @@
 
 #include "kds/simulator.h"
 #include "motions/base/floating_point_guard.h"
-#include "structures/chord_cages/cage_audit.h"
+#include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/integer_balls.h"
+#include "structures/necklace/ball_distance.h"
 
 namespace kds {
 
@@ -85,6 +87,89 @@ Sphere blended(std::vector<Cage<D>> cages, double u) {
   Sphere sphere = sphere_of(cages.front(), 0.0);
   sphere.radius += rounding;
   return sphere;
+}
+
+std::string fault(const BeadRange& range, BeadId bead) {
+  return "node " + std::to_string(range.first) + "-" + std::to_string(range.last) + ": bead " +
+         std::to_string(bead) + " sticks out of its cage";
+}
+
+template <int Dimension>
+Eigen::Vector3d in_space(const double* point) {
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  for (Eigen::Index axis = 0; axis < Dimension; ++axis) p[axis] = point[axis];
+  return p;
+}
+
+// A ball or cage at one time, with its radius last.
+template <int Dimension>
+using ExactBall = std::array<Rational, static_cast<std::size_t>(Dimension) + 1>;
+
+// Evaluates the Bernstein form with these control points at u by de Casteljau's algorithm.
+Rational blended(std::vector<Rational> points, const Rational& u) {
+  for (std::size_t left = points.size(); left > 1; --left)
+    for (std::size_t k = 0; k + 1 < left; ++k) points[k] += u * (points[k + 1] - points[k]);
+  return points.front();
+}
+
+// Returns the node and bead of the first ball that sticks out of a cage at the k-th control point, or none,
+// in exact arithmetic. A cage whose radius has overflowed holds all balls.
+template <int Dimension>
+std::optional<std::string> ball_outside(const NecklaceTree& tree, OutwardCages<Dimension> cages,
+                                        const Curves<Dimension>& curves, int k) {
+  for (NodeId node = 0; node < cages.size(); ++node) {
+    const Cage<Dimension> cage = cages[node];
+    if (std::isinf(cage.radius)) continue;
+    const Eigen::Vector3d center = in_space<Dimension>(cage.center.data());
+    const BeadRange& range = tree.range(node);
+    for (BeadId b = range.first; b <= range.last; ++b) {
+      const double r = curves.radius(b, k);
+      const bool inside =
+          cage.radius >= r &&
+          compare_distance(in_space<Dimension>(curves.control_point(b, k)), center, cage.radius, -r) <= 0;
+      if (!inside) return fault(range, b);
+    }
+  }
+  return std::nullopt;
+}
+
+// Does the check at time `time` for cages blended from the cages of all control points. `cages[k]` are those
+// of control point k.
+template <int Dimension>
+std::optional<std::string> ball_outside_at(const NecklaceTree& tree,
+                                           std::span<const OutwardCages<Dimension>> cages,
+                                           const Curves<Dimension>& curves, const Dyadic& time) {
+  const Rational u = time.rational();
+  std::vector<ExactBall<Dimension>> balls(curves.bead_count());
+  for (BeadId b = 0; b < balls.size(); ++b) {
+    balls[b] = exact_position(curves, b, time);  // the last number is the weight
+    balls[b].back() = exact_radius(curves, b, time);
+  }
+  std::vector<Rational> points(cages.size());
+  for (NodeId node = 0; node < tree.node_count(); ++node) {
+    const auto blend = [&](const auto& number) {
+      for (std::size_t k = 0; k < cages.size(); ++k) points[k] = Rational(number(cages[k][node]));
+      return blended(points, u);
+    };
+    bool overflowed = false;
+    for (const auto& at_control : cages) overflowed |= std::isinf(at_control[node].radius);
+    if (overflowed) continue;
+    ExactBall<Dimension> cage;
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+      cage[axis] = blend([axis](const Cage<Dimension>& c) { return c.center[axis]; });
+    cage.back() = blend([](const Cage<Dimension>& c) { return c.radius; });
+    const BeadRange& range = tree.range(node);
+    for (BeadId b = range.first; b <= range.last; ++b) {
+      const Rational room = cage.back() - balls[b].back();
+      Rational square = 0;
+      for (std::size_t axis = 0; axis < Dimension; ++axis) {
+        const Rational d = balls[b][axis] - cage[axis];
+        square += d * d;
+      }
+      if (room < 0 || square > room * room) return fault(range, b);
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace

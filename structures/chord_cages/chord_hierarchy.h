@@ -2,17 +2,20 @@
 // A hierarchy of chord cages in a run. The structure shares the clock of the others but has no certificates
 // and no events. Nothing tells when a basis changes, and there is nothing to log or to replay.
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "kds/kinetic_structure.h"
 #include "motions/base/bead_range.h"
+#include "motions/curves/curves.h"
 #include "motions/curves/motion_ref.h"
+#include "motions/numbers/exact_number.h"
 #include "structures/chord_cages/chord_cages.h"
 #include "structures/chord_cages/tight_cages.h"
+#include "structures/necklace/necklace_tree.h"
 
 namespace kds {
 

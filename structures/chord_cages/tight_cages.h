@@ -4,15 +4,27 @@
 // proved. The parts hold all beads just like the whole: the rounding error of a curve's part is added to
 // their radii.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "motions/curves/curves.h"
 #include "structures/chord_cages/chord_cages.h"
-#include "structures/chord_cages/radius_bound.h"
+#include "structures/enclosing_sphere/basis.h"
+#include "structures/necklace/balls.h"
+#include "structures/necklace/necklace_tree.h"
 
 namespace kds {
+
+/// The moving sphere of a node over a part of a step.
+template <int Dimension>
+struct CagePiece {
+  double from = 0, to = 1;             ///< whole multiples of 2^-25
+  std::vector<Cage<Dimension>> cages;  ///< at the control points of the part
+  std::array<Basis, 2> bases;          ///< of the smallest spheres at its ends
+};
 
 template <int Dimension>
 class TightCages {
