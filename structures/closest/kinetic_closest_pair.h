@@ -1,6 +1,6 @@
 #pragma once
 // The closest pair of beads, by their centres, while they move. It is kept by a kinetic tournament among the
-// pairs that may be the closest at some time of the step (candidate_pairs.h). If pairs are equally close for
+// pairs that may be the closest at some time of the step. If pairs are equally close for
 // the rest of the step, the first by ids wins. Radii are ignored; for pairs of balls that meet, see the
 // structure `contacts`.
 //
@@ -13,14 +13,25 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "certificates/types/closer.h"
 #include "kds/structure_base.h"
+#include "motions/curves/curves.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/tournament/tournament.h"
 
 namespace kds {
+
+/// Returns the pairs of beads that may be the closest at some time of a step, in ascending order, each pair
+/// ascending too. Every other pair is always farther apart than the largest distance of some candidate pair.
+/// Proved from control points in doubles, including rounding. The candidates are few if beads move little
+/// compared with their distances; they are all pairs if all beads meet. Uses only beads that are not marked
+/// in `absent`. Throws InputError if there are more than 10^8 pairs, which are too many to store.
+template <int Dimension>
+[[nodiscard]] std::vector<std::array<BeadId, 2>> candidate_pairs(const Curves<Dimension>& curves,
+                                                                 std::span<const char> absent = {});
 
 template <int Dimension>
 class KineticClosestPair final : public EditableBase {

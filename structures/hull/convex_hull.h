@@ -13,13 +13,15 @@
 // it also costs the certificates of its neighbours there and of the beads under its edges.
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kds/structure_base.h"
+#include "motions/base/bead.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/hull/half_hull.h"
-#include "structures/hull/hull_guards.h"
 
 namespace kds {
 
