@@ -2,6 +2,7 @@
 // The cells of a regular triangulation in the plane or in space: their names and data, and static
 // triangulations as lists of cells.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -49,5 +50,12 @@ struct StaticTriangulation {
   std::vector<BeadId> hidden;               ///< ascending
   int dimension = Dimension;                ///< of the points' affine hull; no cells if below Dimension
 };
+
+/// A canonical form of lists of cells: each cell's beads ascending, cells in lexicographic order.
+template <class CellOfBeads>
+void sort_cells(std::vector<CellOfBeads>& cells) {
+  for (auto& cell : cells) std::sort(cell.begin(), cell.end());
+  std::sort(cells.begin(), cells.end());
+}
 
 }  // namespace kds

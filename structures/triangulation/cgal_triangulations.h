@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "structures/triangulation/cells.h"
 #include "structures/triangulation/regular_triangulation.h"
-#include "structures/triangulation/sorted_cells.h"
 
 namespace kds {
 

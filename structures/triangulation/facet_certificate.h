@@ -1,9 +1,15 @@
 #pragma once
 // The certificate of a facet of a regular triangulation: the power test of its two cells' beads or, if the
-// infinite vertex is among them, the orientation of the other beads (the hull is locally convex there).
+// infinite vertex is among them, the orientation of the other beads (the hull is locally convex there). Also
+// the faces of the hull.
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <utility>
 
+#include "certificates/types/coplanar.h"
 #include "certificates/types/orientation.h"
 #include "certificates/types/power_test.h"
 #include "structures/triangulation/regular_triangulation.h"
@@ -66,6 +72,29 @@ template <std::size_t N, class Use>
 [[gnu::always_inline]] inline decltype(auto) with_facet_certificate(const std::array<BeadId, N>& cell,
                                                                     BeadId apex, Use use) {
   return FacetCertificates(cell).to(apex, use);
+}
+
+/// Returns the face of the hull that is the finite facet of an infinite cell, positively oriented seen from
+/// outside. Returns nothing for a finite cell.
+template <int Dimension>
+[[nodiscard]] std::optional<std::array<BeadId, Dimension>> hull_face(const CellBeads<Dimension>& v) {
+  const auto place = static_cast<std::size_t>(std::find(v.begin(), v.end(), infinite_bead) - v.begin());
+  if (place > Dimension) return std::nullopt;
+  std::array<BeadId, Dimension> face{};
+  std::copy(v.begin(), v.end() - 1, face.begin());
+  if (place != Dimension) {
+    face[place] = v[Dimension];
+    std::swap(face[0], face[1]);  // a second exchange restores the orientation
+  }
+  return face;
+}
+
+template <int Dimension>
+[[nodiscard]] SameTurn<Dimension> same_turn(const std::array<BeadId, Dimension>& a,
+                                            const std::array<BeadId, Dimension>& b) {
+  SameTurn<Dimension> turn;
+  std::copy(b.begin(), b.end(), std::copy(a.begin(), a.end(), turn.beads.begin()));
+  return turn;
 }
 
 }  // namespace kds

@@ -8,7 +8,6 @@
 
 #include "motions/numbers/lanes.h"
 #include "structures/triangulation/facet_certificate.h"
-#include "structures/triangulation/hull_faces.h"
 
 namespace kds {
 
