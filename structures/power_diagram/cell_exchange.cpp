@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "structures/power_diagram/static_diagrams.h"
+#include "structures/power_diagram/diagram_state.h"
 
 namespace kds {
 

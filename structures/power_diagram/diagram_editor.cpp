@@ -1,7 +1,6 @@
 #include "structures/power_diagram/diagram_editor.h"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <string>
 #include <unordered_set>
@@ -9,7 +8,7 @@
 
 #include "certificates/exact/exact_time.h"
 #include "motions/curves/positions.h"
-#include "structures/power_diagram/static_diagrams.h"
+#include "structures/power_diagram/diagram_state.h"
 
 namespace kds {
 

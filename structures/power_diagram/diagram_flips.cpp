@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "structures/triangulation/hull_faces.h"
+#include "structures/triangulation/facet_certificate.h"
 
 namespace kds {
 

@@ -9,8 +9,7 @@
 #include "motions/base/input_error.h"
 #include "motions/curves/positions.h"
 #include "structures/power_diagram/diagram_checks.h"
-#include "structures/power_diagram/hull_winding.h"
-#include "structures/power_diagram/static_diagrams.h"
+#include "structures/power_diagram/diagram_state.h"
 
 namespace kds {
 

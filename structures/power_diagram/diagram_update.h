@@ -20,16 +20,27 @@
 // plane.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
-#include "structures/power_diagram/update_technique.h"
+#include "motions/curves/snapshot.h"
 #include "structures/triangulation/regular_triangulation.h"
+#include "structures/triangulation/regularity_fault.h"
 
 namespace kds {
+
+enum class UpdateTechnique : std::uint8_t { rebuild, reinsert, greedy, kinetic, lifted, activate, automatic };
+/// Names of the techniques, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 7> update_technique_names{
+    "rebuild", "reinsert", "greedy", "kinetic", "lifted", "activate", "auto"};
+[[nodiscard]] constexpr std::string_view name_of(UpdateTechnique technique) {
+  return update_technique_names[static_cast<std::size_t>(technique)];
+}
 
 /// Counts the work of an update.
 struct UpdateCounts {

@@ -3,23 +3,85 @@
 // that filters prove to hold over the whole step have no certificate of their own and are only counted.
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
-#include <utility>
+#include <unordered_map>
 #include <vector>
 
+#include "certificates/base/certificate.h"
+#include "certificates/base/failure_time.h"
 #include "certificates/filters/cell_filter.h"
 #include "kds/certificate_table.h"
 #include "motions/views/length_unit.h"
 #include "structures/power_diagram/diagram_state.h"
 #include "structures/power_diagram/facet_filter.h"
 #include "structures/power_diagram/facet_foresight.h"
-#include "structures/power_diagram/facet_guard.h"
 #include "structures/power_diagram/facet_slack.h"
-#include "structures/power_diagram/known_failures.h"
 
 namespace kds {
+
+/// The guard of a facet of a kinetic power diagram, stored in the 32 bits that its cell keeps for it.
+struct FacetGuard {
+  /// The function of the certificate: a power test, an orientation on the hull, or the orientation of a cell.
+  /// If a power test is zero for the whole step (all its beads stay on one sphere), it would not notice that
+  /// the facet's cells turn over. Each side then guards the orientation of its own cell.
+  enum class About : std::uint8_t { power, hull, cell };
+
+  CertificateHandle guard = CertificateHandle::violated;
+  About about = About::power;
+
+  /// Returns the guard as the cell stores it. A new cell stores 0, which means `violated`.
+  [[nodiscard]] constexpr std::uint32_t packed() const {
+    return static_cast<std::uint32_t>(about) << 30U |
+           ((static_cast<std::uint32_t>(guard) - first_name) & mask);
+  }
+  [[nodiscard]] static constexpr FacetGuard of(std::uint32_t note) {
+    const std::uint32_t low = note & mask;  // violated, zero, never, then the slots
+    return {static_cast<CertificateHandle>(low < names ? first_name + low : low - names),
+            static_cast<About>(note >> 30U)};
+  }
+
+ private:
+  static constexpr std::uint32_t mask = (1U << 30U) - 1, names = 3;
+  static constexpr auto first_name = static_cast<std::uint32_t>(CertificateHandle::violated);
+};
+
+/// Search results at one moment, stored by certificate. A rebuild builds the diagram at several times until
+/// one is correct, and most facets are the same each time. If their functions would be zero but for the
+/// rounding of coordinates, each search needs exact integers, so reusing its result pays.
+class KnownFailures {
+ public:
+  template <NamedCertificate Certificate>
+  void add(const Certificate& certificate, const Failure& failure) {
+    failures_.insert_or_assign(Key{certificate.identity(), certificate.side()}, failure);
+  }
+  /// Returns null if the result was never added.
+  template <NamedCertificate Certificate>
+  [[nodiscard]] const Failure* of(const Certificate& certificate) const {
+    const auto found = failures_.find(Key{certificate.identity(), certificate.side()});
+    return found == failures_.end() ? nullptr : &found->second;
+  }
+
+ private:
+  struct Key {
+    Identity identity;
+    bool side;
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  struct Hash {
+    std::size_t operator()(const Key& key) const {
+      constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;
+      std::uint64_t hash = key.identity.type * 2 + (key.side ? 1 : 0);
+      for (const BeadId bead : key.identity.beads) hash = (hash ^ hash >> 29U ^ bead) * odd;
+      return static_cast<std::size_t>(hash ^ hash >> 32U);
+    }
+  };
+
+  std::unordered_map<Key, Failure, Hash> failures_;
+};
 
 template <int Dimension>
 class FacetGuards {

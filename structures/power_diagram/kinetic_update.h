@@ -13,7 +13,7 @@
 #include "motions/curves/snapshot.h"
 #include "structures/power_diagram/diagram_update.h"
 #include "structures/triangulation/regular_triangulation.h"
-#include "structures/triangulation/snapshot_faults.h"
+#include "structures/triangulation/regularity_fault.h"
 
 namespace kds {
 

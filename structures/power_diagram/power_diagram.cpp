@@ -9,9 +9,8 @@
 #include "structures/power_diagram/diagram_editor.h"
 #include "structures/power_diagram/diagram_flips.h"
 #include "structures/power_diagram/diagram_rebuilder.h"
-#include "structures/power_diagram/hull_winding.h"
-#include "structures/power_diagram/static_diagrams.h"
-#include "structures/triangulation/snapshot_faults.h"
+#include "structures/power_diagram/diagram_state.h"
+#include "structures/triangulation/regularity_fault.h"
 
 namespace kds {
 

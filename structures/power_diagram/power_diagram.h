@@ -12,7 +12,7 @@
 //
 // Guarantee (kernels filtered and exact): just after every time at which an event happens, the triangulation
 // is regular. This is so if finite cells are positive, facets are regular, hidden beads are hidden and the
-// hull winds once (hull_winding.h). In general position one function vanishes at a time, and its flip
+// hull winds once (diagram_checks.h). In general position one function vanishes at a time, and its flip
 // preserves all four conditions. Any other case raises a doubt, and the four conditions are checked after the
 // last event of that time. A diagram that fails the check is repaired, or rebuilt at a time before the next
 // event.
@@ -21,7 +21,6 @@
 // (failure_order.h), so every kernel makes the same flips. If one flip blocks another, the blocked one is
 // left to the repair.
 
-#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>

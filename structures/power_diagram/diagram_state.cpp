@@ -1,4 +1,4 @@
-#include "structures/power_diagram/static_diagrams.h"
+#include "structures/power_diagram/diagram_state.h"
 
 #include <algorithm>
 
