@@ -8,10 +8,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-
-#include "structures/blocks/vector_target.h"
+#include <string_view>
 
 namespace kds {
+
+/// Selects the vector instructions of collision detection's inner loops. The choice is made when a detector
+/// is constructed. All targets give the same results.
+enum class VectorTarget { plain, avx2, avx512 };
+/// Names of the targets, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 3> vector_target_names{"plain", "AVX2", "AVX-512"};
+
+/// Returns whether both this processor and this build support the target.
+[[nodiscard]] bool is_available(VectorTarget target);
+[[nodiscard]] VectorTarget widest_vector_target();
 
 inline constexpr std::size_t beads_in_block = 16;
 inline constexpr std::size_t children_of_node = 16;

@@ -160,4 +160,11 @@ template <int Dimension>
   return frame;
 }
 
+/// Returns axes that most bonds of a chain lie along, estimated from a sample of the bonds. Returns none if
+/// the coordinate axes are about as good. If a chain is packed on a lattice or stretched along few
+/// directions, the boxes of its pieces are small only if their sides lie along these directions. `scale` is a
+/// power of two; coordinates times `scale` are of moderate size.
+template <int Dimension>
+[[nodiscard]] std::optional<Axes<Dimension>> bond_axes(const Balls<Dimension>& balls, double scale);
+
 }  // namespace kds

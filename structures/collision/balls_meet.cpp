@@ -1,15 +1,23 @@
 #include "structures/collision/balls_meet.h"
 
+#include <algorithm>
+
+#include "structures/necklace/ball_distance.h"
+
 namespace kds {
+
+int compare_separation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s,
+                       double distance) {
+  if (distance == 0) return compare_distance(a, b, r, s);
+  const Eigen::Vector3d origin = Eigen::Vector3d::Zero(), beyond(distance, 0, 0);
+  return compare_gaps(a, b, {r, s}, origin, beyond, {});
+}
 
 namespace detail {
 
 template <int Dimension>
 bool balls_meet_exactly(const Balls<Dimension>& balls, BeadId a, BeadId b) {
-  const auto center = [&balls](BeadId bead) {
-    return Eigen::Vector3d(balls.coordinate(bead, 0), balls.coordinate(bead, 1),
-                           Dimension == 3 ? balls.coordinate(bead, Dimension - 1) : 0.0);
-  };
+  const auto center = [&balls](BeadId bead) { return in_space<Dimension>(detail::center_of(balls, bead)); };
   return compare_distance(center(a), center(b), balls.radius(a), balls.radius(b)) <= 0;
 }
 

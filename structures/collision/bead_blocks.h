@@ -5,7 +5,6 @@
 // spatial order, a block holds consecutive beads along a Morton curve. Lanes without a bead are NaN, which is
 // near nothing.
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -13,12 +12,31 @@
 #include <span>
 #include <vector>
 
+#include "motions/base/bead.h"
 #include "structures/blocks/block_loops.h"
 #include "structures/blocks/float_frame.h"
-#include "structures/collision/morton_order.h"
-#include "structures/collision/pairs_asked.h"
+#include "structures/necklace/balls.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds {
+
+// Sorts beads along a Morton curve (Z-order). Beads near in this order are mostly near in space.
+
+/// Reuses its memory from one sort to the next.
+template <int Dimension>
+class MortonOrder {
+ public:
+  /// Writes all beads to `order`, sorted by the cell that holds their centre, and by number within a cell. If
+  /// the beads were evenly spread, a cell would hold about a fourth of a bead. If the scene is so small that
+  /// cells cannot be told apart, beads are sorted by number.
+  void sort(const Balls<Dimension>& balls, std::vector<BeadId>& order);
+
+ private:
+  void make_keys(const Balls<Dimension>& balls, int bits);
+  void sort_keys(int key_bits);
+
+  std::vector<std::uint64_t> keys_, more_keys_;  // cell in the upper bits, bead in the lower 32 bits
+};
 
 enum class BlockOrder { sequence, spatial };
 

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 #include <span>
 #include <stdexcept>
 
 #include "motions/base/floating_point_guard.h"
-#include "structures/blocks/bond_axes.h"
+#include "structures/blocks/float_frame.h"
 
 namespace kds {
 

@@ -10,7 +10,7 @@
 // next block. Each bead there lies so far ahead of the bead before it in one direction that no pair asked
 // about can meet.
 //
-// If blocks of consecutive beads meet many others, the boxes are turned to the chain's bonds (bond_axes.h),
+// If blocks of consecutive beads meet many others, the boxes are turned to the chain's bonds (float_frame.h),
 // provided that the bonds lie along few directions. If turned boxes still meet many others, or if the bonds
 // have no such directions, the beads are sorted along a Morton curve, which costs time, and blocks are made
 // in this spatial order. Both decisions are made after an eighth of the work.
@@ -19,7 +19,6 @@
 // distances and radii (10^5 times and more) make the filter less effective, and widely different radii make
 // the boxes less effective. In the worst case all pairs are tested.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -29,7 +28,7 @@
 #include "structures/blocks/block_loops.h"
 #include "structures/collision/balls_meet.h"
 #include "structures/collision/bead_blocks.h"
-#include "structures/collision/pairs_asked.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 

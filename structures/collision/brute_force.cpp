@@ -6,7 +6,6 @@
 
 #include "motions/base/floating_point_guard.h"
 #include "structures/collision/balls_meet.h"
-#include "structures/enclosing_sphere/scan_targets.h"
 #include "structures/enclosing_sphere/sphere_scan.h"
 
 namespace kds {

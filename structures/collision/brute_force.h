@@ -2,11 +2,12 @@
 // Finds collisions by testing all pairs of beads. This method is the simple reference for the other
 // detectors. Tests eight beads at a time in double, and exactly if doubles do not decide. Takes n^2 time.
 
+#include <optional>
 #include <vector>
 
-#include "structures/collision/closest_so_far.h"
-#include "structures/collision/pairs_asked.h"
+#include "structures/collision/closest_pair.h"
 #include "structures/necklace/balls.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "structures/collision/block_tree.h"
-#include "structures/collision/closest_so_far.h"
+#include "structures/collision/closest_pair.h"
 
 namespace kds {
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "motions/base/floating_point_guard.h"
-#include "structures/enclosing_sphere/scan_targets.h"
 #include "structures/enclosing_sphere/sphere_scan.h"
 
 namespace kds {
