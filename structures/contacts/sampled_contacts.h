@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "kds/event_log.h"
-#include "structures/collision/pairs_asked.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 

@@ -8,12 +8,11 @@
 // trade`).
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "motions/curves/curves.h"
-#include "structures/chord_cages/outward_cages.h"
-#include "structures/collision/pairs_asked.h"
+#include "structures/chord_cages/chord_cages.h"
+#include "structures/necklace/bead_pairs.h"
 #include "structures/necklace/necklace_tree.h"
 
 namespace kds {
