@@ -1,16 +1,15 @@
 #include "structures/session/kinetic_run.h"
 
 #include <fmt/format.h>
+#include <string>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "certificates/exact/exact_time.h"
 #include "kds/bead_edits.h"
 #include "motions/base/input_error.h"
-#include "structures/session/new_courses.h"
+#include "structures/session/scene_motion.h"
 
 namespace kds {
 

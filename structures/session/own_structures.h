@@ -1,7 +1,20 @@
 #pragma once
-// The specifications of the framework's own structures.
+// The specifications of the framework's own structures, and what they share: reasons for refusals, the
+// construction for each dimension, and the files of --dump.
 
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "structures/enclosing_sphere/basis.h"
+#include "structures/necklace/balls.h"
+#include "structures/necklace/necklace_tree.h"
 #include "structures/session/structure_spec.h"
+#include "structures/triangulation/regular_triangulation.h"
 
 namespace kds {
 
@@ -31,5 +44,49 @@ inline constexpr const char* fictitious_radii =
 [[nodiscard]] StructureSpec wrapped_structure();
 [[nodiscard]] StructureSpec power_structure();
 [[nodiscard]] StructureSpec contacts_structure();
+
+/// Returns a specification's `make`, which calls make(simulator, scene, motion, settings) for motions of at
+/// least LeastDimension dimensions. The specification must refuse scenes of fewer dimensions beforehand.
+template <int LeastDimension, class Make>
+[[nodiscard]] auto make_of_motion(Make make) {
+  return [make = std::move(make)](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
+                                  const StructureSettings& settings) {
+    return std::visit(
+        [&]<int D>(const MotionRef<D>& ref) -> std::unique_ptr<RunningStructure> {
+          if constexpr (D < LeastDimension) {
+            return nullptr;
+          } else {
+            return make(simulator, scene, ref, settings);
+          }
+        },
+        motion);
+  };
+}
+
+/// Same for a structure without settings, constructed by InRun<D>(simulator, scene, motion).
+template <template <int> class InRun, int LeastDimension>
+[[nodiscard]] auto make_of_motion() {
+  return make_of_motion<LeastDimension>(
+      []<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& motion,
+                const StructureSettings&) { return std::make_unique<InRun<D>>(simulator, scene, motion); });
+}
+
+struct WrappedNode {
+  BeadRange range;
+  Basis basis;
+  Sphere sphere;
+};
+
+// The files written by --dump. Doubles are printed with enough digits to read back the same double.
+
+[[nodiscard]] DumpFile dump_wrapped(std::span<const WrappedNode> nodes);  ///< first,last,basis,x,y,z,radius
+[[nodiscard]] DumpFile dump_layered(std::span<const NodeSphere> nodes);   ///< first,last,x,y,z,radius
+[[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<2>> cells);   ///< a,b,c
+[[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<3>> cells);   ///< a,b,c,d
+[[nodiscard]] DumpFile dump_hidden(std::span<const BeadId> hidden);       ///< bead
+[[nodiscard]] DumpFile dump_sorted(std::span<const BeadId> order);        ///< bead
+[[nodiscard]] DumpFile dump_box(std::span<const BeadId> ends);            ///< axis,min,max
+[[nodiscard]] DumpFile dump_hull(std::span<const BeadId> corners);        ///< bead
+[[nodiscard]] DumpFile dump_closest(const std::optional<std::array<BeadId, 2>>& pair);  ///< i,j
 
 }  // namespace kds

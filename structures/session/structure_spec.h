@@ -15,8 +15,8 @@
 #include "certificates/base/relaxation.h"
 #include "kds/simulator.h"
 #include "motions/scene/scene.h"
-#include "structures/necklace/node_selection.h"
-#include "structures/necklace/node_sphere.h"
+#include "structures/necklace/balls.h"
+#include "structures/necklace/necklace_tree.h"
 #include "structures/session/scene_motion.h"
 
 namespace kds {

@@ -1,16 +1,74 @@
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "kds/seconds.h"
 #include "motions/numbers/exact_number.h"
+#include "structures/chord_cages/chord_hierarchy.h"
 #include "structures/enclosing_sphere/exact_sphere.h"
 #include "structures/enclosing_sphere/integer_balls.h"
 #include "structures/hierarchy/wrapped_hierarchy.h"
-#include "structures/session/chords_in_run.h"
-#include "structures/session/dump_files.h"
-#include "structures/session/make_of_motion.h"
 #include "structures/session/own_structures.h"
 #include "structures/triangulation/static_build.h"
 
 namespace kds {
 
 namespace {
+
+// A hierarchy of chord cages in a run: the common part of wrapped and layered hierarchies.
+template <class Hierarchy>
+class ChordsInRun : public RunningStructure {
+ public:
+  static constexpr int dimension = Hierarchy::dimension;
+
+  ChordsInRun(Simulator& simulator, const Scene& scene, const MotionRef<dimension>& motion,
+              const NodeSelection& nodes, std::optional<double> tightness)
+      : scene_(scene),
+        hierarchy_(simulator, motion, scene.necklaces(), tightness),
+        keeps_(select_nodes(hierarchy_.cages().tree(), nodes)) {}
+
+  [[nodiscard]] KineticStructure& kinetic() override { return hierarchy_; }
+  [[nodiscard]] std::vector<NodeSphere> spheres_at(const Dyadic& u) const override {
+    std::vector<NodeSphere> nodes;
+    for (NodeId id = 0; id < keeps_.size(); ++id) {
+      if (keeps(id)) nodes.push_back({cages().tree().range(id), hierarchy_.sphere_at(id, u.round_down())});
+    }
+    return nodes;
+  }
+
+ protected:
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const ChordCages<Hierarchy>& cages() const { return hierarchy_.cages(); }
+  [[nodiscard]] bool keeps(NodeId node) const { return keeps_[node] != 0; }
+
+ private:
+  const Scene& scene_;
+  ChordHierarchy<Hierarchy> hierarchy_;
+  std::vector<std::uint8_t> keeps_;
+};
+
+template <int Dimension>
+class LayeredInRun final : public ChordsInRun<LayeredHierarchy<Dimension>> {
+ public:
+  using ChordsInRun<LayeredHierarchy<Dimension>>::ChordsInRun;
+
+  [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override {
+    const auto& cages = this->cages();
+    std::vector<NodeSphere> nodes;
+    for (NodeId id = 0; id < cages.tree().node_count(); ++id) {
+      if (!this->keeps(id)) continue;
+      Sphere sphere = sphere_of(cages.cages(cages.last())[id], 0);
+      sphere.center = this->scene().in_input(sphere.center);
+      nodes.push_back({cages.tree().range(id), sphere});
+    }
+    return {dump_layered(nodes)};
+  }
+  [[nodiscard]] double static_seconds(std::size_t frame) const override {
+    const Balls<Dimension> balls(this->scene().centers(frame), this->scene().radii());
+    return seconds_of([&] { LayeredHierarchy<Dimension>(this->scene().necklaces()).build(balls); }).clock;
+  }
+};
 
 template <int Dimension>
 class WrappedInRun final : public RunningStructure {
@@ -109,6 +167,20 @@ class WrappedChordsInRun final : public ChordsInRun<StaticWrappedHierarchy<Dimen
 };
 
 }  // namespace
+
+StructureSpec layered_structure() {
+  StructureSpec spec;
+  spec.name = "layered";
+  spec.order = 25;
+  spec.refusal = refusal_of_spheres;
+  spec.has_events = [](const StructureSettings&) { return false; };
+  spec.make =
+      make_of_motion<2>([]<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
+                                  const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
+        return std::make_unique<LayeredInRun<D>>(simulator, scene, ref, settings.nodes, std::nullopt);
+      });
+  return spec;
+}
 
 StructureSpec wrapped_structure() {
   StructureSpec spec;

@@ -1,8 +1,6 @@
-#include "structures/session/dump_files.h"
+#include "structures/session/own_structures.h"
 
 #include <fmt/format.h>
-
-#include <iterator>
 #include <string_view>
 
 namespace kds {
