@@ -20,7 +20,7 @@
 #include "motions/models/model.h"
 #include "motions/models/random.h"
 #include "structures/collision/auto_detector.h"
-#include "structures/collision/verlet_list.h"
+#include "structures/collision/cell_list.h"
 
 namespace kds {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "structures/collision/pairs_asked.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 

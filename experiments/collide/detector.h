@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "structures/collision/closest_pair.h"
-#include "structures/collision/pairs_asked.h"
 #include "structures/necklace/balls.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "experiments/collide/collide_frames.h"
-#include "structures/collision/pairs_asked.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 

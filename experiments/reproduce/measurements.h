@@ -7,7 +7,7 @@
 
 #include "experiments/program/timing.h"
 #include "experiments/reproduce/subjects.h"
-#include "structures/hierarchy/tightness.h"
+#include "structures/hierarchy/layered_hierarchy.h"
 
 namespace kds {
 

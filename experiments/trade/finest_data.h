@@ -14,8 +14,8 @@
 #include "motions/frames/trajectory.h"
 #include "motions/scene/scene.h"
 #include "motions/scene/stride_deviation.h"
-#include "structures/collision/pairs_asked.h"
-#include "structures/necklace/node_sphere.h"
+#include "structures/necklace/balls.h"
+#include "structures/necklace/bead_pairs.h"
 #include "structures/session/structure_spec.h"
 
 namespace kds {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiments/trade/match_events.h"
-#include "structures/collision/pairs_asked.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 

@@ -11,7 +11,7 @@
 #include "motions/base/input_error.h"
 #include "structures/power_diagram/diagram_update.h"
 #include "structures/session/kinetic_run.h"
-#include "structures/triangulation/snapshot_faults.h"
+#include "structures/triangulation/regularity_fault.h"
 
 namespace kds {
 

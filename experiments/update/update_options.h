@@ -9,7 +9,7 @@
 #include "experiments/output/destinations.h"
 #include "experiments/program/input_options.h"
 #include "kds/audit.h"
-#include "structures/power_diagram/update_technique.h"
+#include "structures/power_diagram/diagram_update.h"
 
 namespace kds {
 

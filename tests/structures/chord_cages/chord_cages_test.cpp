@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "structures/chord_cages/chord_hierarchy.h"
+#include "structures/enclosing_sphere/cage.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
-#include "structures/enclosing_sphere/rounded_up.h"
 #include "tests/support/inputs/ball_sets.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"

@@ -8,7 +8,6 @@
 #include "structures/collision/auto_detector.h"
 #include "structures/collision/block_tree.h"
 #include "structures/collision/cell_list.h"
-#include "structures/collision/verlet_list.h"
 #include "tests/structures/collision/collision_scenes.h"
 #include "tests/support/rounds.h"
 

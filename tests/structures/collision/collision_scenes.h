@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "structures/blocks/float_frame.h"
-#include "structures/collision/pairs_asked.h"
 #include "structures/necklace/ball_distance.h"
 #include "structures/necklace/balls.h"
+#include "structures/necklace/bead_pairs.h"
 #include "tests/support/inputs/random.h"
 
 namespace kds::test {

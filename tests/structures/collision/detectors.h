@@ -7,12 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "structures/collision/balls_meet.h"
 #include "structures/collision/brute_force.h"
 #include "structures/collision/diagram_collision.h"
 #include "structures/collision/hierarchy_search.h"
-#include "structures/collision/neighbor_walk.h"
-#include "structures/collision/separating_family.h"
-#include "structures/collision/separation.h"
 
 namespace kds {
 

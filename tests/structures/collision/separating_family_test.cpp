@@ -1,6 +1,6 @@
 // Separating families: a damaged family is detected, and the sizes agree with the theorem.
 
-#include "structures/collision/separating_family.h"
+#include "structures/collision/hierarchy_search.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "motions/models/shapes.h"
-#include "structures/collision/hierarchy_search.h"
 
 namespace kds::separating_family_test {
 namespace {

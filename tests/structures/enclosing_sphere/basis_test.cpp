@@ -5,8 +5,8 @@
 #include "motions/views/integer_view.h"
 
 #include "structures/enclosing_sphere/exact_sphere.h"
-#include "structures/enclosing_sphere/membership_signs.h"
-#include "structures/necklace/bead_names.h"
+#include "structures/hierarchy/signs_just_after.h"
+#include "structures/necklace/bead_pairs.h"
 #include "tests/support/inputs/ball_sets.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/judges/exact_checks.h"

@@ -7,7 +7,7 @@
 #include "motions/curves/any_degree_motion.h"
 #include "motions/curves/lifted_motion.h"
 #include "structures/hierarchy/wrapped_hierarchy.h"
-#include "structures/necklace/sphere.h"
+#include "structures/necklace/balls.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/enclosing_ball.h"

@@ -6,9 +6,9 @@
 
 #include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
-#include "structures/hierarchy/basis_repair.h"
 #include "structures/hierarchy/node_guards.h"
 #include "structures/hierarchy/node_proofs.h"
+#include "structures/hierarchy/signs_just_after.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 

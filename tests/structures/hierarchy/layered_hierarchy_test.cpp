@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "structures/enclosing_sphere/rounded_up.h"
+#include "structures/enclosing_sphere/cage.h"
 #include "structures/necklace/balls.h"
 #include "tests/support/inputs/ball_sets.h"
 

@@ -15,7 +15,6 @@
 #include "certificates/types/orientation.h"
 #include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
-#include "structures/moving_sphere/gap_bounds.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/polynomial_source.h"
 #include "tests/support/inputs/random_motion.h"

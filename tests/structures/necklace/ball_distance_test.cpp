@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "structures/necklace/exact_total.h"
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/ball_gaps.h"
 #include "tests/support/rounds.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "motions/base/input_error.h"
-#include "structures/power_diagram/static_diagrams.h"
+#include "structures/power_diagram/diagram_state.h"
 #include "tests/structures/power_diagram/bare_diagram.h"
 
 namespace kds::diagram_rebuilder_test {

@@ -10,7 +10,6 @@
 #include <numeric>
 #include <random>
 
-#include "structures/triangulation/whole_power_test.h"
 #include "tests/support/judges/cgal_triangulation.h"
 #include "tests/support/judges/exact_checks.h"
 

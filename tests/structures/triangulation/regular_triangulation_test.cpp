@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "structures/triangulation/snapshot_faults.h"
+#include "structures/triangulation/regularity_fault.h"
 #include "tests/support/judges/triangulation_checks.h"
 
 namespace kds::regular_triangulation_test {

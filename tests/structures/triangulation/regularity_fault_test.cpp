@@ -7,7 +7,6 @@
 #include <random>
 
 #include "certificates/search/snapshot_sign.h"
-#include "structures/triangulation/snapshot_faults.h"
 
 namespace kds::regularity_fault_test {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "motions/numbers/exact_number.h"
-#include "structures/collision/pairs_asked.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds::test {
 

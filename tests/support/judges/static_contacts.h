@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "motions/scene/near_pairs.h"
-#include "structures/collision/pairs_asked.h"
 #include "structures/necklace/ball_distance.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds::test {
 

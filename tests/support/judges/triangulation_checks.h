@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "structures/triangulation/cells.h"
 #include "structures/triangulation/exact_triangulation.h"
 #include "structures/triangulation/regular_triangulation.h"
-#include "structures/triangulation/sorted_cells.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/judges/exact_checks.h"
 
