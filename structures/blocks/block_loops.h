@@ -148,8 +148,6 @@ namespace detail {
 /// Returns the loops of one target, each defined in a file of its own. Null if the build lacks these
 /// instructions.
 template <int Dimension>
-[[nodiscard]] const BlockLoops<Dimension>* plain_block_loops();
-template <int Dimension>
 [[nodiscard]] const BlockLoops<Dimension>* avx2_block_loops();
 template <int Dimension>
 [[nodiscard]] const BlockLoops<Dimension>* avx512_block_loops();

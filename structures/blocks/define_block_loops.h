@@ -1,7 +1,7 @@
 #pragma once
-// Defines the loops of block_loops.h. Each file that instantiates them, one per vector target, includes
-// this header. Before the include, the file defines KDS_BLOCK_TARGET, the attribute of all these functions.
-// The file itself also defines:
+// Defines the loops of block_loops.h. Each file that instantiates them, one per vector target, includes this
+// header. Before the include, the file defines KDS_BLOCK_TARGET, the attribute of all these functions: an
+// attribute cannot depend on a template argument. The file passes its operations as the struct `Target`:
 //
 //   meeting_children(node, box)       a bit for each child of the node that meets the box
 //   spread_groups(a)                  the boxes of groups in the layout that meeting_groups takes
@@ -174,7 +174,7 @@ template <int Dimension>
   }
 }
 
-template <int Dimension>
+template <class Target, int Dimension>
 [[KDS_BLOCK_TARGET, gnu::noinline]] void stretch(const Blocks<Dimension>& blocks, std::size_t first,
                                                  std::size_t last, float least, std::uint16_t* stretched) {
   constexpr std::size_t steps = 2 * beads_in_block - 1;
@@ -189,8 +189,9 @@ template <int Dimension>
     }
     const float its_least = least * __builtin_sqrtf(square);
     // Bit 15 is the step into the block after these two, so it is ignored.
-    const bool is = square > shortest_square && steps_ahead(blocks, bead, along, its_least) == 0xffff &&
-                    (steps_ahead(blocks, bead + beads_in_block, along, its_least) | 0x8000) == 0xffff;
+    const bool is = square > shortest_square &&
+                    Target::steps_ahead(blocks, bead, along, its_least) == 0xffff &&
+                    (Target::steps_ahead(blocks, bead + beads_in_block, along, its_least) | 0x8000) == 0xffff;
     std::uint16_t& bits = stretched[b / children_of_node];
     const unsigned bit = 1U << b % children_of_node;
     bits = static_cast<std::uint16_t>(is ? bits | bit : bits & ~bit);
@@ -228,7 +229,7 @@ KDS_BLOCK_INLINE void write_sixteen(std::uint32_t* out, std::uint32_t number) {
   for (std::size_t k = 0; k < 16; ++k) out[k] = number;
 }
 
-template <int Dimension>
+template <class Target, int Dimension>
 [[KDS_BLOCK_TARGET, gnu::noinline]] std::size_t expand(const BlockNode<Dimension>* nodes, std::uint32_t a,
                                                        std::uint32_t b, unsigned stretched, NodePairs found) {
   constexpr auto children = static_cast<std::uint32_t>(children_of_node);
@@ -238,16 +239,16 @@ template <int Dimension>
   // Bits of the children of b that meet a's box, and of the children of a that meet b's box.
   unsigned others = 0xffff, ours = 0xffff;
   if (a != b) {
-    ours = meeting_children(first, box_of(second));
+    ours = Target::meeting_children(first, box_of(second));
     if (ours == 0) return 0;
-    others = meeting_children(second, box_of(first));
+    others = Target::meeting_children(second, box_of(first));
   }
   for (; ours != 0; ours &= ours - 1) {
     const auto child = static_cast<std::uint32_t>(__builtin_ctz(ours));
-    unsigned meeting = meeting_children(second, child_box(first, child)) & others;
+    unsigned meeting = Target::meeting_children(second, child_box(first, child)) & others;
     if (a == b) meeting &= (0xffffU ^ (stretched >> child & 1) * 3) << child;
     write_sixteen(found.first + count, children * a + child);
-    count += append_bits(found.second + count, children * b, meeting);
+    count += Target::append_bits(found.second + count, children * b, meeting);
   }
   return count;
 }
@@ -305,7 +306,7 @@ struct ComparedPair {
   const LanesApart* lanes;
 };
 
-template <int Dimension, bool Equal>
+template <class Target, int Dimension, bool Equal>
 [[KDS_BLOCK_TARGET, gnu::noinline]] std::size_t compare(const Blocks<Dimension>& blocks,
                                                         const NodePairs& pairs, std::size_t count,
                                                         const LanesAsked& asked, float limit,
@@ -325,7 +326,7 @@ template <int Dimension, bool Equal>
   for (std::size_t p = 0; p < count;) {
     const std::uint32_t a = firsts[p];
     const std::uint32_t necklace = necklaces[a];
-    const auto ours = spread_groups(here.boxes[a]);
+    const auto ours = Target::spread_groups(here.boxes[a]);
     do {
       fetch_boxes(here, seconds[std::min(p + fetched_ahead, count - 1)]);
       const std::uint32_t b = seconds[p];
@@ -338,8 +339,9 @@ template <int Dimension, bool Equal>
       const std::uint32_t blocks_apart = std::min((same ? b - a : 2) | never_along, 2U);
       compared[p] = {16 * a, 16 * b, lanes};
       const unsigned near =
-          meeting_groups(ours, here.boxes[b]) & lanes->groups & groups_not_along[blocks_apart];
-      if (near != 0) meeting += append_bits(groups + meeting, static_cast<std::uint32_t>(16 * p), near);
+          Target::meeting_groups(ours, here.boxes[b]) & lanes->groups & groups_not_along[blocks_apart];
+      if (near != 0)
+        meeting += Target::append_bits(groups + meeting, static_cast<std::uint32_t>(16 * p), near);
       ++p;
     } while (p < count && firsts[p] == a);
   }
@@ -351,9 +353,10 @@ template <int Dimension, bool Equal>
     const std::uint32_t group = groups[k];
     const ComparedPair& pair = compared[group / 16];
     fetch_beads<Equal>(here, compared[groups[std::min(k + fetched_ahead, meeting - 1)] / 16].second);
-    const unsigned bits = near_beads<Equal>(here, std::size_t{pair.first} + (group & 12),
-                                            std::size_t{pair.second} + 4 * (group & 3), limit) &
-                          pair.lanes->beads[group % 16];
+    const unsigned bits =
+        Target::template near_beads<Equal>(here, std::size_t{pair.first} + (group & 12),
+                                           std::size_t{pair.second} + 4 * (group & 3), limit) &
+        pair.lanes->beads[group % 16];
     near_groups[near] = group;
     near_bits[near] = static_cast<std::uint16_t>(bits);
     near += bits != 0 ? 1 : 0;
@@ -361,7 +364,7 @@ template <int Dimension, bool Equal>
   return near;
 }
 
-template <int Dimension, bool Equal>
+template <class Target, int Dimension, bool Equal>
 [[KDS_BLOCK_TARGET, gnu::noinline]] std::size_t compare_along(const Blocks<Dimension>& blocks,
                                                               std::size_t first, std::size_t last,
                                                               const std::uint16_t* stretched,
@@ -374,7 +377,7 @@ template <int Dimension, bool Equal>
     std::array<unsigned, farthest_along + 1> bits;
     unsigned any = 0;
     for (std::uint32_t k = apart; k <= farthest_along; ++k) {
-      bits[k] = near_along<Equal>(here, beads_in_block * b, k, limit) & firsts_along[k];
+      bits[k] = Target::template near_along<Equal>(here, beads_in_block * b, k, limit) & firsts_along[k];
       any |= bits[k];
     }
     if (any == 0) continue;
@@ -387,17 +390,17 @@ template <int Dimension, bool Equal>
   return near;
 }
 
-template <int Dimension>
-inline constexpr BlockLoops<Dimension> loops_here{fill<Dimension, true>,
-                                                  fill<Dimension, false>,
-                                                  stray<Dimension>,
-                                                  unite<Dimension>,
-                                                  stretch<Dimension>,
-                                                  expand<Dimension>,
-                                                  compare<Dimension, true>,
-                                                  compare<Dimension, false>,
-                                                  compare_along<Dimension, true>,
-                                                  compare_along<Dimension, false>};
+template <class Target, int Dimension>
+inline constexpr BlockLoops<Dimension> loops_of{fill<Dimension, true>,
+                                                fill<Dimension, false>,
+                                                stray<Dimension>,
+                                                unite<Dimension>,
+                                                stretch<Target, Dimension>,
+                                                expand<Target, Dimension>,
+                                                compare<Target, Dimension, true>,
+                                                compare<Target, Dimension, false>,
+                                                compare_along<Target, Dimension, true>,
+                                                compare_along<Target, Dimension, false>};
 
 }  // namespace
 
