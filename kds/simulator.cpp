@@ -276,7 +276,7 @@ void Simulator::replay_step(std::span<const Replayed> events) {
       throw std::invalid_argument(event.where + ": " + reason.what());
     }
     record(event.structure, event.change);
-    watch_.charge(nobody);
+    watch_.charge(engine_lane);
   }
   finish_step();
 }
@@ -286,7 +286,7 @@ bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
   MutationScope mutation(*this);
   [[maybe_unused]] bool any = false;
   const bool alone = structures_.size() == 1;  // then the engine's time is charged to the structure
-  watch_.charge(alone ? lane_of(0) : nobody);
+  watch_.charge(alone ? lane_of(0) : engine_lane);
   while (true) {
     if ((audits_ == AuditMode::events || must_settle()) && is_batch_over()) {
       settle_batch();
@@ -317,7 +317,7 @@ bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
     now_ = Instant(present_.time, source, present_.slot);
     if (!alone) watch_.charge(lane_of(source.structure()));
     source.fail(present_.slot);
-    if (!alone) watch_.charge(nobody);
+    if (!alone) watch_.charge(engine_lane);
   }
 }
 
@@ -413,7 +413,7 @@ void Simulator::record(std::size_t structure, const Change& change) {
 }
 
 void Simulator::MutationScope::tell(Simulator& simulator, std::size_t structure, const Change& change) {
-  const std::size_t before = simulator.watch_.charge(listening);
+  const std::size_t before = simulator.watch_.charge(listener_lane);
   const KineticStructure& s = *simulator.structures_[structure];
   Event event{simulator.step_, simulator.now_.lower(), simulator.now_.upper(), structure,     change,
               s.name(),        s.kinds()[change.kind], simulator.from_,        simulator.to_, {}};

@@ -131,14 +131,14 @@ class Simulator {
 
   [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_.value(); }
   [[nodiscard]] const ComparisonCounts& comparisons() const { return order_.counts(); }
-  [[nodiscard]] double seconds() const { return watch_.seconds(nobody); }
+  [[nodiscard]] double seconds() const { return watch_.seconds(engine_lane); }
   /// Throws std::invalid_argument if there is no such structure.
   [[nodiscard]] double seconds_of(std::size_t structure) const {
     require_index("structure", structure, structures_.size());
     return watch_.seconds(lane_of(structure));
   }
   /// Returns the seconds that listeners took. They count for no structure and not for the engine.
-  [[nodiscard]] double seconds_of_listeners() const { return watch_.seconds(listening); }
+  [[nodiscard]] double seconds_of_listeners() const { return watch_.seconds(listener_lane); }
 
  private:
   /// Keeps the function of an irrational present time, whatever becomes of the certificate that failed.
@@ -150,7 +150,7 @@ class Simulator {
 
   enum class Phase : std::uint8_t { new_run, between_steps, within_step };
   // Lanes of the stopwatch: engine, listeners, then structures.
-  static constexpr std::size_t nobody = 0, listening = 1;
+  static constexpr std::size_t engine_lane = 0, listener_lane = 1;
   [[nodiscard]] static constexpr std::size_t lane_of(std::size_t structure) { return structure + 2; }
 
   class MutationScope;

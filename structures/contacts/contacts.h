@@ -38,13 +38,13 @@ class ContactSet {
  public:
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool contains(const BeadPair& pair) const {
-    return size_ > 0 && places_[place_of(key_of(pair))] != nobody;
+    return size_ > 0 && places_[place_of(key_of(pair))] != empty;
   }
   /// Returns false if the pair was in the set already.
   bool insert(const BeadPair& pair) {
     if (2 * (size_ + 1) > places_.size()) grow();
     std::uint64_t& place = places_[place_of(key_of(pair))];
-    if (place != nobody) return false;
+    if (place != empty) return false;
     place = key_of(pair);
     ++size_;
     return true;
@@ -54,18 +54,18 @@ class ContactSet {
     if (!contains(pair)) return false;
     std::size_t gap = place_of(key_of(pair));
     // Moves later entries into the gap if the gap lies between their home place and their present place.
-    for (std::size_t at = next(gap); places_[at] != nobody; at = next(at)) {
+    for (std::size_t at = next(gap); places_[at] != empty; at = next(at)) {
       const std::size_t home = home_of(places_[at]);
       if (((at - home) & mask()) < ((at - gap) & mask())) continue;
       places_[gap] = places_[at];
       gap = at;
     }
-    places_[gap] = nobody;
+    places_[gap] = empty;
     --size_;
     return true;
   }
   void clear() {
-    std::fill(places_.begin(), places_.end(), nobody);
+    std::fill(places_.begin(), places_.end(), empty);
     size_ = 0;
   }
   /// Returns all pairs, ascending.
@@ -73,13 +73,13 @@ class ContactSet {
     std::vector<BeadPair> all;
     all.reserve(size_);
     for (const std::uint64_t key : places_)
-      if (key != nobody) all.push_back({static_cast<BeadId>(key >> 32U), static_cast<BeadId>(key)});
+      if (key != empty) all.push_back({static_cast<BeadId>(key >> 32U), static_cast<BeadId>(key)});
     std::sort(all.begin(), all.end());
     return all;
   }
 
  private:
-  static constexpr std::uint64_t nobody = ~std::uint64_t{0};  // no pair has this key, because first < second
+  static constexpr std::uint64_t empty = ~std::uint64_t{0};  // no pair has this key, because first < second
 
   static std::uint64_t key_of(const BeadPair& pair) {
     return (static_cast<std::uint64_t>(pair.first) << 32U) | pair.second;
@@ -92,14 +92,14 @@ class ContactSet {
   /// Returns the place that holds the key, or the place to insert it.
   [[nodiscard]] std::size_t place_of(std::uint64_t key) const {
     std::size_t place = home_of(key);
-    while (places_[place] != key && places_[place] != nobody) place = next(place);
+    while (places_[place] != key && places_[place] != empty) place = next(place);
     return place;
   }
   void grow() {
-    std::vector<std::uint64_t> old(std::max<std::size_t>(64, 2 * places_.size()), nobody);
+    std::vector<std::uint64_t> old(std::max<std::size_t>(64, 2 * places_.size()), empty);
     old.swap(places_);
     for (const std::uint64_t key : old)
-      if (key != nobody) places_[place_of(key)] = key;
+      if (key != empty) places_[place_of(key)] = key;
   }
 
   std::vector<std::uint64_t> places_;  // size is a power of two

@@ -32,7 +32,7 @@ class Tournament {
  public:
   using Certificate = std::invoke_result_t<const Ahead&, std::uint32_t, std::uint32_t>;
 
-  static constexpr std::uint32_t nobody = 0xffffffffU;
+  static constexpr std::uint32_t none = 0xffffffffU;
 
   /// Several tournaments may share a table: the places of this one are `which`, `which` + `of`, ...
   Tournament(CertificateTable<Certificate>& table, Ahead ahead, std::uint32_t which = 0, std::uint32_t of = 1)
@@ -50,7 +50,7 @@ class Tournament {
       hold_contests(first, std::min(2 * first, contestants));
   }
 
-  /// Returns the winner, or `nobody` if all contestants are absent. There must be at least one contestant.
+  /// Returns the winner, or `none` if all contestants are absent. There must be at least one contestant.
   [[nodiscard]] std::uint32_t winner() const { return winner_[1]; }
 
   /// The contest at a place of the table.
@@ -90,7 +90,7 @@ class Tournament {
     for (std::uint32_t node = 1; node < contestants_; ++node) drop(node);
   }
   void set_present(std::uint32_t contestant, bool present) {
-    winner_[contestants_ + contestant] = present ? contestant : nobody;
+    winner_[contestants_ + contestant] = present ? contestant : none;
   }
   void hold_again() {
     std::make_heap(given_up_.begin(), given_up_.end());
@@ -113,7 +113,7 @@ class Tournament {
   template <std::invocable<std::uint32_t, std::uint32_t> Visit>
   void each_contest(Visit visit) const {
     for (std::uint32_t node = 1; node < contestants_; ++node)
-      if (loser(node) != nobody) visit(left(node), right(node));
+      if (loser(node) != none) visit(left(node), right(node));
   }
 
  private:
@@ -121,15 +121,15 @@ class Tournament {
 
   [[nodiscard]] std::uint32_t left(std::uint32_t node) const { return winner_[2 * std::size_t{node}]; }
   [[nodiscard]] std::uint32_t right(std::uint32_t node) const { return winner_[2 * std::size_t{node} + 1]; }
-  /// Returns the loser, or `nobody` if the winner is unopposed.
+  /// Returns the loser, or `none` if the winner is unopposed.
   [[nodiscard]] std::uint32_t loser(std::uint32_t node) const {
     return winner_[node] == left(node) ? right(node) : left(node);
   }
 
   /// Chooses one of the children's winners: the previous winner of this node, if possible.
   void enter_contest(std::uint32_t node) {
-    if (winner_[node] == right(node) && right(node) != nobody) return;
-    winner_[node] = left(node) != nobody ? left(node) : right(node);
+    if (winner_[node] == right(node) && right(node) != none) return;
+    winner_[node] = left(node) != none ? left(node) : right(node);
   }
 
   [[nodiscard]] bool stands(std::uint32_t node) const {
@@ -149,7 +149,7 @@ class Tournament {
   void hold_contest(std::uint32_t node) {
     drop(node);
     enter_contest(node);
-    if (loser(node) == nobody) return;
+    if (loser(node) == none) return;
     guards_[node] = watch(node, KnownAtStart::unknown);
     if (!stands(node)) turn(node);
   }
@@ -165,13 +165,13 @@ class Tournament {
   void hold_contests(std::uint32_t first, std::uint32_t end) {
     for (std::uint32_t node = first; node < end; ++node) {
       enter_contest(node);
-      if (const std::uint32_t second = loser(node); second != nobody)
+      if (const std::uint32_t second = loser(node); second != none)
         table_.enqueue_one_of_many(ahead_(winner_[node], second), node * of_ + which_, KnownAtStart::unknown);
     }
     table_.watch_enqueued(
         [&](std::uint32_t place, CertificateHandle guard) { guards_[place / of_] = guard; });
     for (std::uint32_t node = first; node < end; ++node)
-      if (!stands(node) && loser(node) != nobody) turn(node);
+      if (!stands(node) && loser(node) != none) turn(node);
   }
 
   CertificateTable<Certificate>& table_;
