@@ -1,13 +1,16 @@
 #pragma once
 // Counts that a structure keeps in a run.
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "certificates/base/stage_counts.h"
+#include "motions/base/bead.h"
 
 namespace kds {
 
@@ -20,6 +23,23 @@ struct CertificateCounts {
   std::uint64_t alive = 0;
   std::uint64_t peak = 0;          ///< most alive at once (compactness)
   std::uint64_t per_bead_max = 0;  ///< most that name one bead, at the starts of steps (locality)
+};
+
+/// Counts the certificates that name each bead, and keeps the greatest of all counts in per_bead_max.
+class CertificatesPerBead {
+ public:
+  CertificatesPerBead(CertificateCounts& counts, std::size_t bead_count)
+      : counts_(counts), named_(bead_count) {}
+
+  /// Counts one certificate of the bead.
+  void add(BeadId bead) {
+    counts_.per_bead_max = std::max<std::uint64_t>(counts_.per_bead_max, ++named_[bead]);
+  }
+  void reset(BeadId bead) { named_[bead] = 0; }
+
+ private:
+  CertificateCounts& counts_;
+  std::vector<std::uint32_t> named_;
 };
 
 /// The role of some of an event's ids. The ids of the first role come first.

@@ -50,7 +50,7 @@ template <int Dimension>
 class EnclosingBox<Dimension>::Ends {
  public:
   virtual ~Ends() = default;
-  virtual void start(std::span<const char> absent, std::vector<std::uint32_t>& certificates_of) = 0;
+  virtual void start(std::size_t beads, std::span<const char> absent, CertificatesPerBead& per_bead) = 0;
   /// Returns no_bead if all beads are absent.
   [[nodiscard]] virtual BeadId at(bool high) const = 0;
   /// The overtaking that a failure means; `behind` and `ahead` are the first two ids of the recorded change.
@@ -76,12 +76,12 @@ class EnclosingBox<Dimension>::EndsAlong final : public Ends {
         low_(table_, {false}, 0, 2),
         high_(table_, {true}, 1, 2) {}
 
-  void start(std::span<const char> absent, std::vector<std::uint32_t>& certificates_of) override {
+  void start(std::size_t beads, std::span<const char> absent, CertificatesPerBead& per_bead) override {
     for (auto* end : {&low_, &high_}) {
-      end->start(static_cast<std::uint32_t>(certificates_of.size()), absent);
+      end->start(static_cast<std::uint32_t>(beads), absent);
       end->each_contest([&](BeadId a, BeadId b) {
-        ++certificates_of[a];
-        ++certificates_of[b];
+        per_bead.add(a);
+        per_bead.add(b);
       });
     }
   }
@@ -137,10 +137,8 @@ void EnclosingBox<Dimension>::build() {
 
 template <int Dimension>
 void EnclosingBox<Dimension>::start_step() {
-  std::vector<std::uint32_t> certificates_of(bead_count(), 0);
-  for (const auto& axis : axes_) axis->start(present().absent(), certificates_of);
-  auto& most = statistics.certificates.per_bead_max;
-  for (const std::uint32_t count : certificates_of) most = std::max<std::uint64_t>(most, count);
+  CertificatesPerBead per_bead(statistics.certificates, bead_count());
+  for (const auto& axis : axes_) axis->start(bead_count(), present().absent(), per_bead);
   needs_after_batch = true;
 }
 

@@ -143,11 +143,10 @@ void KineticClosestPair<Dimension>::start_step() {
   candidates_ = candidate_pairs(motion_.curves(), present().absent());
   tournament_.start(static_cast<std::uint32_t>(candidates_.size()));
   needs_after_batch = true;
-  std::vector<std::uint32_t> certificates_of(bead_count(), 0);
-  auto& most = statistics.certificates.per_bead_max;
+  CertificatesPerBead per_bead(statistics.certificates, bead_count());
   tournament_.each_contest([&](std::uint32_t a, std::uint32_t b) {
     for (const Pair& pair : {candidates_[a], candidates_[b]})
-      for (const BeadId bead : pair) most = std::max<std::uint64_t>(most, ++certificates_of[bead]);
+      for (const BeadId bead : pair) per_bead.add(bead);
   });
 }
 

@@ -86,7 +86,8 @@ Contacts<D>::Contacts(Simulator& simulator, const MotionRef<D>& motion, PairsAsk
       motion_(motion),
       family_(std::move(asked), motion.degree()),
       disjoint_(simulator, *this, index(), 0, motion, TouchPolicy::reported),
-      overlapping_(simulator, *this, index(), 1, motion) {}
+      overlapping_(simulator, *this, index(), 1, motion),
+      per_bead_(statistics.certificates, motion.bead_count()) {}
 
 template <int D>
 void Contacts<D>::find_pairs(typename MovingFamily<D>::Resting resting, bool list_overlapping,
@@ -165,7 +166,7 @@ template <int D>
 void Contacts<D>::settle_now() {
   std::sort(at_once_.begin(), at_once_.end());
   for (const Happens& event : at_once_) {
-    record(event.kind, event.pair);
+    record_contact(event.kind, event.pair);
     if (event.place == no_place) continue;
     if (event.kind == begin) {
       (void)overlapping_.watch(overlapping(event.pair), event.place);
@@ -181,14 +182,14 @@ template <int D>
 void Contacts<D>::edit(std::uint8_t kind, BeadId bead) {
   if (kind == inserts) {
     present().set_absent(bead, false);
-    EditableBase::record(inserts, {bead});
+    record(inserts, {bead});
     find_of({&bead, 1});
   } else {
     drop_of({&bead, 1});
     for (const BeadPair& pair : contacts_.pairs())
-      if (pair.first == bead || pair.second == bead) record(end, pair);
+      if (pair.first == bead || pair.second == bead) record_contact(end, pair);
     present().set_absent(bead, true);
-    EditableBase::record(erases, {bead});
+    record(erases, {bead});
   }
 }
 
@@ -241,22 +242,22 @@ void Contacts<D>::fail(unsigned table, std::uint32_t slot) {
   const std::uint32_t place = (ends ? overlapping_ : disjoint_).place_in_structure(slot);
   const BeadPair pair = pair_at(place);
   if (ends) {
-    record(end, pair);
+    record_contact(end, pair);
     (void)disjoint_.watch(disjoint(pair), place, KnownAtStart::at_own_root);
   } else if (disjoint_.touches(slot)) {
-    record(touch, pair);
+    record_contact(touch, pair);
     (void)disjoint_.watch(disjoint(pair), place);
   } else {
-    record(begin, pair);
+    record_contact(begin, pair);
     (void)overlapping_.watch(overlapping(pair), place, KnownAtStart::at_own_root);
   }
 }
 
 template <int D>
-void Contacts<D>::record(Kind kind, const BeadPair& pair) {
+void Contacts<D>::record_contact(Kind kind, const BeadPair& pair) {
   if (kind == begin) contacts_.insert(pair);
   if (kind == end) contacts_.erase(pair);
-  EditableBase::record(kind, {pair.first, pair.second});
+  record(kind, {pair.first, pair.second});
 }
 
 // Decides in double if that is certain: the sum has an error below 2^-48 of its terms unless these underflow.
@@ -278,14 +279,10 @@ bool Contacts<D>::is_zero_at_start(const Curves<D>& curves, const BeadPair& pair
 
 template <int D>
 void Contacts<D>::count_per_bead() {
-  certificates_of_bead_.resize(bead_count());
-  std::uint64_t& most = statistics.certificates.per_bead_max;
-  for (const BeadPair& pair : pairs_.unclear) {
-    most = std::max<std::uint64_t>(most, ++certificates_of_bead_[pair.first]);
-    most = std::max<std::uint64_t>(most, ++certificates_of_bead_[pair.second]);
-  }
   for (const BeadPair& pair : pairs_.unclear)
-    certificates_of_bead_[pair.first] = certificates_of_bead_[pair.second] = 0;
+    for (const BeadId bead : {pair.first, pair.second}) per_bead_.add(bead);
+  for (const BeadPair& pair : pairs_.unclear)
+    for (const BeadId bead : {pair.first, pair.second}) per_bead_.reset(bead);
 }
 
 template <int D>

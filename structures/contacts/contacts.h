@@ -146,7 +146,8 @@ class Contacts final : public EditableBase {
   void watch_from(std::uint32_t place, bool at_start);
   [[nodiscard]] const BeadPair& pair_at(std::uint32_t place) const { return pairs_.unclear[place]; }
   [[nodiscard]] bool is_zero_at_start(const Curves<Dimension>& curves, const BeadPair& pair);
-  void record(Kind kind, const BeadPair& pair);
+  /// Changes the set of contacts and records the change.
+  void record_contact(Kind kind, const BeadPair& pair);
   void settle_now();
   void count_per_bead();
 
@@ -156,7 +157,7 @@ class Contacts final : public EditableBase {
   ContactSet contacts_;
   PairsOfBlocks pairs_;  // of the step
   std::vector<Happens> at_once_;
-  std::vector<std::uint32_t> certificates_of_bead_;
+  CertificatesPerBead per_bead_;  // all zero between steps
 };
 
 static_assert(EditableStructure<Contacts<2>>);

@@ -37,7 +37,8 @@ NodeGuards<Dimension>::NodeGuards(Simulator& simulator, KineticStructure& owner,
                 return C{}.beads.size() == full ? TouchPolicy::reported : TouchPolicy::ignored;
               }),
       signs_(simulator, motion, curves, radii, tables_, owner.statistics.stages),
-      held_by_(nodes) {}
+      held_by_(nodes),
+      per_bead_(owner.statistics.certificates, motion.bead_count()) {}
 
 template <int Dimension>
 void NodeGuards<Dimension>::start_step() {
@@ -202,10 +203,8 @@ typename NodeGuards<Dimension>::Failed NodeGuards<Dimension>::take_failed(unsign
 
 template <int Dimension>
 void NodeGuards<Dimension>::count_per_bead() {
-  per_bead_.resize(curves_.bead_count());  // all zero between calls
-  std::uint64_t& most = owner_.statistics.certificates.per_bead_max;
-  for (const NamedBead& one : named_) most = std::max<std::uint64_t>(most, ++per_bead_[one.bead]);
-  for (const NamedBead& one : named_) per_bead_[one.bead] = 0;
+  for (const NamedBead& one : named_) per_bead_.add(one.bead);
+  for (const NamedBead& one : named_) per_bead_.reset(one.bead);
 }
 
 template class NodeGuards<2>;

@@ -113,8 +113,8 @@ class NodeGuards {
   std::vector<std::uint32_t> free_;
   std::array<std::vector<BeadId>, Tables::count + 1> watched_;  // enqueued subjects, per table
   std::vector<NamedBead> violated_, named_;
-  std::vector<std::uint32_t> per_bead_;  // number of certificates per bead while they are counted
-  std::optional<BeadId> failed_again_;   // bead whose certificate failed and would be watched again
+  CertificatesPerBead per_bead_;        // all zero between calls
+  std::optional<BeadId> failed_again_;  // bead whose certificate failed and would be watched again
 };
 
 }  // namespace kds

@@ -115,10 +115,8 @@ void ConvexHull::start_step() {
   lower_.start();
   upper_.start();
   needs_after_batch = true;
-  std::vector<std::uint32_t> certificates_of(bead_count(), 0);
-  for (const HalfHull* half : {&lower_, &upper_}) half->count_certificates(certificates_of);
-  auto& most = statistics.certificates.per_bead_max;
-  for (const std::uint32_t count : certificates_of) most = std::max<std::uint64_t>(most, count);
+  CertificatesPerBead per_bead(statistics.certificates, bead_count());
+  for (const HalfHull* half : {&lower_, &upper_}) half->count_certificates(per_bead);
 }
 
 void ConvexHull::fail(unsigned table, std::uint32_t slot) {

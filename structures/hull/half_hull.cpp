@@ -251,9 +251,9 @@ std::vector<BeadId> HalfHull::chain() const {
   return chain;
 }
 
-void HalfHull::count_certificates(std::vector<std::uint32_t>& of_bead) const {
+void HalfHull::count_certificates(CertificatesPerBead& per_bead) const {
   const auto count = [&](std::initializer_list<BeadId> named) {
-    for (const BeadId b : named) ++of_bead[b];
+    for (const BeadId b : named) per_bead.add(b);
   };
   for (BeadId b = 0; b < beads_.size(); ++b) {
     const Bead& bead = beads_[b];

@@ -156,8 +156,7 @@ class HalfHull {
   [[nodiscard]] std::vector<BeadId> chain() const;
   /// Returns whether beads entered or left the chain since the last call.
   [[nodiscard]] bool take_changed() { return std::exchange(changed_, false); }
-  /// Adds to each bead's entry the number of certificates that name it.
-  void count_certificates(std::vector<std::uint32_t>& of_bead) const;
+  void count_certificates(CertificatesPerBead& per_bead) const;
 
  private:
   static constexpr std::uint32_t not_under = 0xffffffffU;
