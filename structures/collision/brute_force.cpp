@@ -46,8 +46,8 @@ std::array<Run, 2> asked_of(BeadId bead, std::size_t necklace, const PairsAsked&
   return {Run{first, asked.within ? end : first}, Run{end, asked.between ? beads : end}};
 }
 
-// Calls visit(i, j) for pairs that are not surely_apart, ascending, until it returns false. Reads
-// `distance()` anew for each run of beads.
+// Calls visit(i, j) for pairs that are not surely_apart, ascending. Reads `distance()` anew for each run of
+// beads.
 template <int Dimension, class Distance, class Visit>
 void visit_near(const Balls<Dimension>& balls, const PairsAsked& asked, const Distance& distance,
                 const Visit& visit) {
@@ -59,8 +59,7 @@ void visit_near(const Balls<Dimension>& balls, const PairsAsked& asked, const Di
         for (BeadId first = run.first; first < run.end;) {
           const BeadId end = first + std::min(beads_at_a_time, run.end - first);
           const std::size_t count = find_near(balls, i, distance(), first, end, found);
-          for (std::size_t k = 0; k < count; ++k)
-            if (!visit(i, found[k])) return;
+          for (std::size_t k = 0; k < count; ++k) visit(i, found[k]);
           first = end;
         }
       }
@@ -78,22 +77,8 @@ std::vector<BeadPair> pairs_by_force(const Balls<Dimension>& balls, const PairsA
       balls, asked, [distance] { return distance; },
       [&](BeadId i, BeadId j) {
         if (balls_within(balls, i, j, distance)) pairs.push_back({i, j});
-        return true;
       });
   return pairs;
-}
-
-template <int Dimension>
-std::optional<BeadPair> first_pair_by_force(const Balls<Dimension>& balls, const PairsAsked& asked,
-                                            double distance) {
-  std::optional<BeadPair> first;
-  visit_near(
-      balls, asked, [distance] { return distance; },
-      [&](BeadId i, BeadId j) {
-        if (balls_within(balls, i, j, distance)) first = BeadPair{i, j};
-        return !first;
-      });
-  return first;
 }
 
 template <int Dimension>
@@ -101,17 +86,12 @@ std::optional<ClosestPair> closest_pair_by_force(const Balls<Dimension>& balls, 
   ClosestSoFar<Dimension> closest(balls);
   visit_near(
       balls, asked, [&] { return std::max(0.0, closest.at_most()); },
-      [&](BeadId i, BeadId j) {
-        closest.offer(i, j);
-        return true;
-      });
+      [&](BeadId i, BeadId j) { closest.offer(i, j); });
   return closest.result();
 }
 
 template std::vector<BeadPair> pairs_by_force(const Balls<2>&, const PairsAsked&, double);
 template std::vector<BeadPair> pairs_by_force(const Balls<3>&, const PairsAsked&, double);
-template std::optional<BeadPair> first_pair_by_force(const Balls<2>&, const PairsAsked&, double);
-template std::optional<BeadPair> first_pair_by_force(const Balls<3>&, const PairsAsked&, double);
 template std::optional<ClosestPair> closest_pair_by_force(const Balls<2>&, const PairsAsked&);
 template std::optional<ClosestPair> closest_pair_by_force(const Balls<3>&, const PairsAsked&);
 

@@ -17,11 +17,6 @@ template <int Dimension>
 [[nodiscard]] std::vector<BeadPair> pairs_by_force(const Balls<Dimension>& balls, const PairsAsked& asked,
                                                    double distance = 0);
 
-/// Returns the first pair of pairs_by_force, or none.
-template <int Dimension>
-[[nodiscard]] std::optional<BeadPair> first_pair_by_force(const Balls<Dimension>& balls,
-                                                          const PairsAsked& asked, double distance = 0);
-
 /// Returns the closest of the pairs asked for, or none if no pairs are asked for. If several are equally
 /// close, returns the first.
 template <int Dimension>

@@ -173,18 +173,23 @@ template <int Dimension, class Search>
 void for_each_root(const SphereTree<Dimension>& tree, const PairsAsked& asked, const Search& search) {
   const auto roots = tree.roots();
   for (std::size_t n = 0; n < roots.size(); ++n) {
-    if (asked.within && !search(NodePair{roots[n], roots[n]}, asked.apart)) return;
+    if (asked.within) search(NodePair{roots[n], roots[n]}, asked.apart);
     for (std::size_t m = n + 1; asked.between && m < roots.size(); ++m)
-      if (!search(NodePair{roots[n], roots[m]}, 0)) return;
+      search(NodePair{roots[n], roots[m]}, 0);
   }
 }
 
-// Calls apart(pair) for pairs of nodes that are farther apart, and near(pair) for pairs of beads that are
-// not, until near returns false.
-template <int Dimension, class Apart, class Near>
-void search_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked, double distance,
-                  const Apart& apart, const Near& near) {
+// Finds the pairs of beads that are at most `distance` apart, and calls apart(pair) for the pairs of nodes
+// that are farther apart.
+template <int Dimension, class Apart>
+PairsFound search(const SphereTree<Dimension>& tree, const PairsAsked& asked, double distance,
+                  const Apart& apart) {
   const FloatingPointGuard to_nearest;
+  PairsFound found;
+  const auto leave = [&](const NodePair& pair) {
+    ++found.family;
+    apart(pair);
+  };
   const TreeSphere<Dimension>* const spheres = tree.spheres().data();
   for_each_root(tree, asked, [&](const NodePair& roots, BeadId least_apart) {
     Stack<NodePair> stack;
@@ -202,15 +207,15 @@ void search_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked, do
       const Point<Dimension> d = detail::minus(a.center, b.center);
       const double square = detail::dot(d, d), reach = a.radius + b.radius + distance;
       if (surely_apart(square, reach)) {
-        apart(pair);
+        leave(pair);
       } else if (a.is_bead() && b.is_bead()) {
         const bool is_near = surely_within(square, reach) ||
                              compare_separation(in_space<Dimension>(a.center), in_space<Dimension>(b.center),
                                                 a.radius, b.radius, distance) <= 0;
-        if (!is_near) {
-          apart(pair);
-        } else if (!near(BeadPair{a.first, b.first})) {
-          return false;
+        if (is_near) {
+          found.pairs.push_back({a.first, b.first});
+        } else {
+          leave(pair);
         }
       } else if (splits_first(a, b)) {
         stack.push({a.right, pair.second});
@@ -220,24 +225,7 @@ void search_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked, do
         stack.push({pair.first, b.left});
       }
     }
-    return true;
   });
-}
-
-template <int Dimension, class Apart>
-PairsFound search(const SphereTree<Dimension>& tree, const PairsAsked& asked, double distance,
-                  const Apart& apart) {
-  PairsFound found;
-  search_pairs(
-      tree, asked, distance,
-      [&](const NodePair& pair) {
-        ++found.family;
-        apart(pair);
-      },
-      [&](const BeadPair& pair) {
-        found.pairs.push_back(pair);
-        return true;
-      });
   std::sort(found.pairs.begin(), found.pairs.end());
   return found;
 }
@@ -289,19 +277,6 @@ PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked
 }
 
 template <int Dimension>
-std::optional<BeadPair> find_any_pair(const SphereTree<Dimension>& tree, const PairsAsked& asked,
-                                      double distance) {
-  std::optional<BeadPair> any;
-  search_pairs(
-      tree, asked, distance, [](const NodePair&) {},
-      [&](const BeadPair& pair) {
-        any = pair;
-        return false;
-      });
-  return any;
-}
-
-template <int Dimension>
 std::optional<ClosestPair> find_closest_pair(const SphereTree<Dimension>& tree, const Balls<Dimension>& balls,
                                              const PairsAsked& asked) {
   const FloatingPointGuard to_nearest;
@@ -332,7 +307,6 @@ std::optional<ClosestPair> find_closest_pair(const SphereTree<Dimension>& tree, 
         stack.push(near);
       }
     }
-    return true;
   });
   return closest.result();
 }
@@ -341,8 +315,6 @@ template PairsFound find_pairs(const SphereTree<2>&, const PairsAsked&, double);
 template PairsFound find_pairs(const SphereTree<3>&, const PairsAsked&, double);
 template PairsFound find_pairs(const SphereTree<2>&, const PairsAsked&, SeparatingFamily&);
 template PairsFound find_pairs(const SphereTree<3>&, const PairsAsked&, SeparatingFamily&);
-template std::optional<BeadPair> find_any_pair(const SphereTree<2>&, const PairsAsked&, double);
-template std::optional<BeadPair> find_any_pair(const SphereTree<3>&, const PairsAsked&, double);
 template std::optional<ClosestPair> find_closest_pair(const SphereTree<2>&, const Balls<2>&,
                                                       const PairsAsked&);
 template std::optional<ClosestPair> find_closest_pair(const SphereTree<3>&, const Balls<3>&,

@@ -72,12 +72,6 @@ template <int Dimension>
 [[nodiscard]] PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked,
                                     SeparatingFamily& family);
 
-/// Returns some pair asked for that is at most `distance` apart, or none. The search stops at the first such
-/// pair.
-template <int Dimension>
-[[nodiscard]] std::optional<BeadPair> find_any_pair(const SphereTree<Dimension>& tree,
-                                                    const PairsAsked& asked, double distance = 0);
-
 /// Returns the closest of the pairs asked for, or none if no pairs are asked for. If several are equally
 /// close, returns the first. Searches by branch and bound.
 template <int Dimension>
