@@ -230,22 +230,6 @@ void find_slack(const BeadPaths<D>& paths, std::span<const BeadRange> nodes, std
   }
 }
 
-}  // namespace
-
-template <int Dimension>
-void sphere_slack(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
-                  std::span<const Basis> bases, std::span<const double> wanted, std::span<double> slack) {
-  return paths.equal_radii() ? find_slack<Dimension, true>(paths, nodes, bases, wanted, slack)
-                             : find_slack<Dimension, false>(paths, nodes, bases, wanted, slack);
-}
-
-template void sphere_slack(const BeadPaths<2>&, std::span<const BeadRange>, std::span<const Basis>,
-                           std::span<const double>, std::span<double>);
-template void sphere_slack(const BeadPaths<3>&, std::span<const BeadRange>, std::span<const Basis>,
-                           std::span<const double>, std::span<double>);
-
-namespace {
-
 /// Columns of the present and the earlier coordinates of beads.
 template <int D>
 struct Moved {
@@ -287,6 +271,18 @@ template <int D>
 }
 
 }  // namespace
+
+template <int Dimension>
+void sphere_slack(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
+                  std::span<const Basis> bases, std::span<const double> wanted, std::span<double> slack) {
+  return paths.equal_radii() ? find_slack<Dimension, true>(paths, nodes, bases, wanted, slack)
+                             : find_slack<Dimension, false>(paths, nodes, bases, wanted, slack);
+}
+
+template void sphere_slack(const BeadPaths<2>&, std::span<const BeadRange>, std::span<const Basis>,
+                           std::span<const double>, std::span<double>);
+template void sphere_slack(const BeadPaths<3>&, std::span<const BeadRange>, std::span<const Basis>,
+                           std::span<const double>, std::span<double>);
 
 template <int Dimension>
 NodeSlack<Dimension>::NodeSlack(const NecklaceTree& tree)

@@ -1,6 +1,6 @@
 // The slack of spheres, compared with the bases of balls that have moved that far, computed in integers.
 
-#include "structures/moving_sphere/sphere_slack.h"
+#include "structures/hierarchy/node_slack.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include <numeric>
 
 #include "structures/enclosing_sphere/enclosing_sphere.h"
-#include "structures/hierarchy/node_slack.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/rounds.h"
