@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
 #include "motions/base/grow_little.h"
 
@@ -14,39 +13,25 @@ FacetGuards<Dimension>::FacetGuards(State& state)
       power_tests_(state.simulator, state.owner, state.index, powers, state.motion, TouchPolicy::reported),
       orientations_(state.simulator, state.owner, state.index, orientations, state.motion,
                     TouchPolicy::reported),
-      filter_(cell_filter_over(state.motion)),
-      filter_ahead_(cell_filter_over<Dimension>(foresight_.ahead(), FilterOf::parts)) {}
+      proofs_(state) {}
 
 template <int Dimension>
 void FacetGuards<Dimension>::start_step() {
-  // Slack is computed as if weights were constant.
-  if (state_.simulator.kernel() != Kernel::exact && !state_.motion.is_lifted() && all_move())
-    slack_.start_step(state_.curves, state_.triangulation);
-  if (state_.simulator.kernel() == Kernel::exact || state_.motion.is_lifted() ||
-      state_.motion.degree() != 1 || !all_move() || slack_.any()) {
-    foresight_.forget_all();
-  } else {
-    foresight_.start_step(state_.curves, state_.triangulation);
-  }
+  proofs_.start_step(all_move());
   guarded_ = false;
-  ends_positive_.clear();
 }
 
 template <int Dimension>
 void FacetGuards<Dimension>::move_only(std::vector<char> moving) {
   moving_ = std::move(moving);
   flipped_.clear();
-  ends_positive_.clear();  // steps of other beads end at other positions
-  if (all_move()) return;
-  slack_.forget_all();
-  foresight_.forget_all();
+  proofs_.forget_ends();  // steps of other beads end at other positions
+  if (!all_move()) proofs_.forget_all();
 }
 
 template <int Dimension>
 void FacetGuards<Dimension>::forget_cells() {
-  slack_.forget_all();
-  foresight_.forget_all();
-  ends_positive_.clear();
+  proofs_.forget_all();
   notes_ = Notes::any;
 }
 
@@ -113,8 +98,7 @@ void FacetGuards<Dimension>::remember(const CertificateTable<Certificate>& table
 template <int Dimension>
 void FacetGuards<Dimension>::watch_all() {
   guarded_ = true;
-  ends_positive_.assign(all_move() ? state_.triangulation.cells().size() : 0, 0);
-  unit_ = LengthUnit(exponent_of_length(state_.curves, state_.triangulation.cells()));
+  proofs_.start_facets(all_move());
   if (!all_move()) {
     watch_marked();
   } else if (state_.simulator.kernel() == Kernel::exact) {
@@ -128,125 +112,17 @@ void FacetGuards<Dimension>::watch_all() {
 template <int Dimension>
 template <bool in_lanes>
 void FacetGuards<Dimension>::watch_all_moving() {
-  const auto found = taking_doubts();
-  FacetFilter<Dimension> positive(*filter_, unit_, rounding_of(state_.simulator.kernel()));
-  RegularTriangulation<Dimension>& triangulation = state_.triangulation;
-  const auto cells = triangulation.cells();
-  const auto look_at = [&](CellId cell, unsigned facets, unsigned finite) {
-    if constexpr (in_lanes)
-      if (finite != 0) positive.look_at(cells[cell], cell, facets & finite, found);
-    for (unsigned left = facets & ~finite; left != 0; left &= left - 1) enqueue(cell, std::countr_zero(left));
-  };
-  const auto finite_of = [&](CellId cell) { return in_lanes ? finite_facets(cells[cell]) : 0; };
-  std::uint64_t at_rest = 0;
-  if (foresight_.any()) {
-    at_rest = watch_with_foresight(positive);
-  } else if (slack_.any()) {
+  if (proofs_.has_slack()) {
     note_resting();
-    std::uint64_t others = 0;
-    slack_.for_the_others(triangulation, [&](CellId cell, unsigned facets) {
-      others += count_of<Dimension>(facets);
-      look_at(cell, facets, finite_of(cell));
-    });
-    at_rest = triangulation.live_count() * (Dimension + 1) / 2 - others;
   } else {
-    constexpr std::size_t ahead = 12;
     notes_ = Notes::any;
-    cover_.start(cells.size());
-    for (CellId cell = 0; cell < cells.size(); ++cell) {
-      if (!triangulation.is_live(cell)) continue;
-      __builtin_prefetch(&cells[cell] + ahead);
-      triangulation.note_all(cell, resting_note);
-      const unsigned finite = finite_of(cell);
-      look_at(cell, cover_.facets_of(cells[cell], cell, finite == all_facets<Dimension>), finite);
-    }
   }
-  if constexpr (in_lanes) positive.finish(found);
-  power_tests_.hold_never(at_rest + positive.count());
-  state_.owner.statistics.stages.coefficients += positive.count();
-  state_.owner.statistics.stages.slack += at_rest;
-}
-
-/// Gives certificates to facets that are not found positive.
-template <int Dimension>
-auto FacetGuards<Dimension>::taking_doubts() {
-  return [this](CellId cell, unsigned wanted, unsigned positive) {
-    for (unsigned doubts = wanted & ~positive; doubts != 0; doubts &= doubts - 1)
-      enqueue(cell, std::countr_zero(doubts));
-    ends_positive_[cell] = (positive & positive_at_end<Dimension>) != 0 ? 1 : 0;
-  };
-}
-
-template <int Dimension>
-std::uint64_t FacetGuards<Dimension>::watch_with_foresight(FacetFilter<Dimension>& positive) {
-  RegularTriangulation<Dimension>& triangulation = state_.triangulation;
-  const auto cells = triangulation.cells();
-  notes_ = Notes::any;
-  std::uint64_t others = 0;
-  const auto found = taking_doubts();
-  const bool all_known = foresight_.ahead().all_known();
-  const auto found_ahead = [&](CellId cell, unsigned wanted, unsigned positive_parts_of_step) {
-    foresight_.proved(cell, wanted, positive_parts_of_step);
-    unsigned doubts = wanted & ~in_some_part(positive_parts_of_step);
-    if (doubts == 0) return;
-    others += count_of<Dimension>(doubts);
-    if (!all_known) return positive.look_at(cells[cell], cell, doubts, found);
-    for (; doubts != 0; doubts &= doubts - 1) enqueue(cell, std::countr_zero(doubts));
-  };
-  FacetFilter<Dimension> ahead(*filter_ahead_, unit_, rounding_of(state_.simulator.kernel()));
-  on_hull_.clear();
-  const auto rests = [&](CellId cell) { triangulation.note_all(cell, resting_note); };
-  foresight_.for_the_others(triangulation, rests, [&](CellId cell, unsigned facets) {
-    const unsigned finite = finite_facets(cells[cell]);
-    for (unsigned left = facets & ~finite; left != 0; left &= left - 1)
-      on_hull_.push_back(facet_id(cell, std::countr_zero(left)));
-    if (finite == 0 && state_.is_infinite(cell)) {
-      foresight_.stays_positive_ahead(cell);
-    } else {
-      ahead.look_at(cells[cell], cell, facets & finite, found_ahead);
-    }
-  });
-  ahead.finish(found_ahead);
-  others += watch_hull_ahead();
-  for (CellId cell = 0; cell < ends_positive_.size(); ++cell)
-    if (foresight_.stays_positive(cell)) ends_positive_[cell] = 1;
-  return triangulation.live_count() * (Dimension + 1) / 2 - others;
-}
-
-/// Facets of the hull are guarded by an orientation, like cells. Returns the number of facets not found to
-/// hold.
-template <int Dimension>
-std::uint64_t FacetGuards<Dimension>::watch_hull_ahead() {
-  std::uint64_t doubts = 0;
-  for (std::size_t first = 0; first < on_hull_.size(); first += cells_in_batch) {
-    const std::size_t count = std::min(cells_in_batch, on_hull_.size() - first);
-    CellsInLanes<Dimension> beads;
-    for (std::size_t lane = 0; lane < cells_in_batch; ++lane) {
-      const FacetId facet = on_hull_[first + (lane < count ? lane : 0)];
-      Orientation<Dimension> orientation;
-      FacetCertificates(state_.beads_of(cell_of(facet)))
-          .make(state_.apex(cell_of(facet), index_of(facet)), orientation);
-      std::copy(orientation.beads.begin(), orientation.beads.end(), beads[lane].begin());
-      if (!orientation.side()) std::swap(beads[lane][0], beads[lane][1]);
-    }
-    PositiveBits positive;
-    filter_ahead_->positive_cells(beads, 0, unit_, rounding_of(state_.simulator.kernel()), positive);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const CellId cell = cell_of(on_hull_[first + lane]);
-      const int i = index_of(on_hull_[first + lane]);
-      int part = 0;
-      while (part <= positive_parts &&
-             (positive[lane] >> (part * bits_of_part) & positive_throughout<Dimension>) == 0)
-        ++part;
-      if (part > positive_parts) {
-        ++doubts;
-        enqueue(cell, i);
-      } else {
-        foresight_.proved(cell, i, static_cast<int>(MotionAhead<Dimension>::steps) >> part);
-      }
-    }
-  }
-  return doubts;
+  const auto proved = proofs_.template prove_all<in_lanes>(
+      [this](CellId cell) { state_.triangulation.note_all(cell, resting_note); },
+      [this](CellId cell, int i) { enqueue(cell, i); });
+  power_tests_.hold_never(proved.at_rest + proved.positive);
+  state_.owner.statistics.stages.coefficients += proved.positive;
+  state_.owner.statistics.stages.slack += proved.at_rest;
 }
 
 /// Marks all facets as resting. Skips cells whose notes say so already.
@@ -328,23 +204,6 @@ void FacetGuards<Dimension>::watch_cell(CellId cell, int i) {
   if (guard == CertificateHandle::violated) state_.suspect_at(cell, state_.neighbor(cell, i));
 }
 
-/// Returns for each of at most four new cells what the filters find: facets whose power test is positive over
-/// the whole step, as it is for most facets to older cells, and over some steps ahead if looking ahead pays.
-template <int Dimension>
-auto FacetGuards<Dimension>::found_around(std::span<const CellId> cells) -> std::array<unsigned, few_cells> {
-  const Kernel kernel = state_.simulator.kernel();
-  std::array<unsigned, few_cells> found{};
-  const bool ahead = looks_ahead();
-  if (kernel != Kernel::exact)
-    found = filter_few_cells(ahead ? *filter_ahead_ : *filter_, unit_, rounding_of(kernel),
-                             state_.triangulation.cells(), cells);
-  grow_little(ends_positive_, state_.triangulation.cells().size());
-  const unsigned is_positive = ahead ? positive_throughout<Dimension> : positive_at_end<Dimension>;
-  for (std::size_t c = 0; c < cells.size(); ++c)
-    ends_positive_[cells[c]] = (in_some_part(found[c]) & is_positive) != 0 ? 1 : 0;
-  return found;
-}
-
 template <int Dimension>
 void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
   if (!all_move()) flipped_.insert(flipped_.end(), cells.begin(), cells.end());
@@ -358,15 +217,14 @@ void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
   std::array<unsigned, few_cells> found{};
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const CellId cell = cells[c];
-    if (c % few_cells == 0) found = found_around(cells.subspan(c, std::min(few_cells, cells.size() - c)));
+    if (c % few_cells == 0)
+      found = proofs_.found_around(cells.subspan(c, std::min(few_cells, cells.size() - c)));
     const unsigned hold = in_some_part(found[c % few_cells]);
     unsigned outer = 0;
     const FacetCertificates certificates(state_.beads_of(cell));
     for (int i = 0; i <= Dimension; ++i) {
       const auto [other, k] = state_.across(cell, i);
-      slack_.forget(cell, i);
-      slack_.forget(other, k);
-      foresight_.forget(cell, i, other, k);
+      proofs_.forget(cell, i, other, k);
       const auto at = std::find(cells.begin(), cells.end(), other) - cells.begin();
       if (at == static_cast<std::ptrdiff_t>(cells.size())) {
         outer |= 1U << i;
@@ -386,7 +244,7 @@ void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
         enqueue(certificates, cell, i, known);
       }
     }
-    if (looks_ahead()) foresight_.proved(cell, outer, found[c % few_cells]);
+    proofs_.proved_around(cell, outer, found[c % few_cells]);
   }
   power_tests_.hold_never(positive);
   stages.coefficients += positive;

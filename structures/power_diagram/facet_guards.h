@@ -1,11 +1,10 @@
 #pragma once
 // The certificates of a power diagram's facets (facet_certificate.h), created and dropped together. Facets
-// that filters prove to hold over the whole step have no certificate of their own and are only counted.
+// that are proved to hold over the whole step (facet_proofs.h) have no certificate and are only counted.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -13,13 +12,9 @@
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/failure_time.h"
-#include "certificates/filters/cell_filter.h"
 #include "kds/certificate_table.h"
-#include "motions/views/length_unit.h"
 #include "structures/power_diagram/diagram_state.h"
-#include "structures/power_diagram/facet_filter.h"
-#include "structures/power_diagram/facet_foresight.h"
-#include "structures/power_diagram/facet_slack.h"
+#include "structures/power_diagram/facet_proofs.h"
 
 namespace kds {
 
@@ -132,7 +127,7 @@ class FacetGuards {
   /// facets unguarded.
   void forget_cells();
   /// Called when beads are about to get other curves.
-  void forget_courses() { foresight_.forget_all(); }
+  void forget_courses() { proofs_.forget_courses(); }
 
   /// A certificate that fails or touches zero, and calls for a flip.
   struct Failed {
@@ -188,10 +183,11 @@ class FacetGuards {
   /// already.
   [[nodiscard]] std::span<const CellId> flipped() const { return flipped_; }
 
-  /// Returns for each cell whether it is known to be positive at the end of the step. The span may be shorter
-  /// than the list of cells, or empty.
-  [[nodiscard]] std::span<const std::uint8_t> known_positive_at_end() const { return ends_positive_; }
-  void forget_ends() { ends_positive_.clear(); }
+  /// See FacetProofs.
+  [[nodiscard]] std::span<const std::uint8_t> known_positive_at_end() const {
+    return proofs_.known_positive_at_end();
+  }
+  void forget_ends() { proofs_.forget_ends(); }
 
   /// Prefetches data for a flip that comes near: first the cell, then, if `next`, the data it refers to.
   void fetch(CellId cell, bool next) const;
@@ -234,22 +230,14 @@ class FacetGuards {
   void enqueue_in(CertificateTable<Certificate>& table, FacetId place, KnownAtStart birth, Make make);
   template <class Certificate>
   void remember(const CertificateTable<Certificate>& table, FacetId facet, CertificateHandle guard);
-  /// Guards all facets, using the filter or, if `in_lanes` is false, one facet at a time.
+  /// Guards all facets that are not proved to hold. Without `in_lanes` no filter is used.
   template <bool in_lanes>
   void watch_all_moving();
-  [[nodiscard]] auto taking_doubts();
-  /// Looks ahead for facets not known from previous steps, and examines the remaining ones for this step
-  /// only. Returns the number of facets known to hold.
-  std::uint64_t watch_with_foresight(FacetFilter<Dimension>& positive);
-  [[nodiscard]] std::uint64_t watch_hull_ahead();
-  /// Returns whether facets are searched for some steps ahead: only if all beads are known ahead.
-  [[nodiscard]] bool looks_ahead() const { return foresight_.any() && foresight_.ahead().all_known(); }
   void watch_marked();
   void note_resting();
   void hold_inner(CellId cell, int i);
   void watch_cells_beside(CellId cell, int i);
   void watch_cell(CellId cell, int i);
-  [[nodiscard]] std::array<unsigned, few_cells> found_around(std::span<const CellId> cells);
   /// Prefetches the queue entries that a flip will cancel.
   void fetch_scheduled(CellId cell) const {
     for (int i = 0; i <= Dimension; ++i) {
@@ -261,22 +249,15 @@ class FacetGuards {
   State& state_;
   CertificateTable<PowerTest<Dimension>> power_tests_;
   CertificateTable<Orientation<Dimension>> orientations_;
-  std::unique_ptr<CellFilter<Dimension>> filter_;
+  FacetProofs<Dimension> proofs_;
   bool guarded_ = false;
   /// The meaning of the notes in cells: `any` makes no promise; with `resting`, all facets rest except
   /// perhaps those of the cells in `noted_`.
   enum class Notes : std::uint8_t { any, resting };
   Notes notes_ = Notes::any;
   std::vector<CellId> noted_;
-  FacetCover cover_;
-  LengthUnit unit_;  // close to the cells' lengths in this step
-  std::vector<std::uint8_t> ends_positive_;
-  FacetSlack<Dimension> slack_;
   std::optional<KnownFailures> known_;
-  FacetForesight<Dimension> foresight_;
-  std::unique_ptr<CellFilter<Dimension>> filter_ahead_;
-  std::vector<FacetId> on_hull_;  // facets of the hull to be examined ahead
-  std::vector<char> moving_;      // for each bead; empty: all move
+  std::vector<char> moving_;  // for each bead; empty: all move
   std::vector<CellId> flipped_;
 };
 
