@@ -20,9 +20,8 @@
 
 namespace kds {
 
-// Sorts beads along a Morton curve (Z-order). Beads near in this order are mostly near in space.
-
-/// Reuses its memory from one sort to the next.
+/// Sorts beads along a Morton curve (Z-order). Beads near in this order are mostly near in space. Reuses its
+/// memory from one sort to the next.
 template <int Dimension>
 class MortonOrder {
  public:
