@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/output/destinations.h"
+#include "experiments/output/output_files.h"
 #include "experiments/output/provenance.h"
 #include "experiments/output/text.h"
 #include "experiments/program/command_line.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/output/destinations.h"
+#include "experiments/output/output_files.h"
 #include "experiments/program/input_options.h"
 #include "motions/base/bead.h"
 

@@ -1,9 +1,7 @@
 #include "experiments/collide/collide_results.h"
 
-#include <array>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/staged.h"
 
 namespace kds {
 
@@ -49,9 +47,9 @@ void CollideResults::deliver(const CollideReport& report, const Json& json, cons
     files_->write("report.html",
                   collide_page(report, input, contacts_->empty() ? "" : contacts_->plot(), *course_, page));
   }
-  std::optional<AtomicFile> json_file;
-  if (destinations_.json && !json_on_stdout) write_to(json_file.emplace(*destinations_.json).stream());
-  commit_together(std::array<Staged*, 2>{files_ ? &*files_ : nullptr, json_file ? &*json_file : nullptr});
+  AtomicFiles json_file;
+  if (destinations_.json && !json_on_stdout) write_to(json_file.open(*destinations_.json));
+  commit_together({files_ ? &*files_ : nullptr, &json_file});
   if (json_on_stdout)
     frames_->write_within(json, "frames", [](std::string_view text) { print_to_stdout(std::string(text)); });
   if (table_on_stdout) print_to_stdout(collide_table(report));

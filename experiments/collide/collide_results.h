@@ -10,8 +10,7 @@
 #include "experiments/collide/collide_report.h"
 #include "experiments/collide/contact_map.h"
 #include "experiments/collide/pairs_csv.h"
-#include "experiments/output/destinations.h"
-#include "experiments/output/staged_files.h"
+#include "experiments/output/output_files.h"
 
 namespace kds {
 
@@ -29,7 +28,7 @@ class CollideResults {
 
  private:
   Destinations destinations_;
-  std::optional<StagedFiles> files_;
+  std::optional<AtomicFiles> files_;
   std::optional<PairsCsv> pairs_;
   std::ostream* frames_csv_ = nullptr;
   std::optional<JsonItems> frames_;  // empty if no JSON is requested

@@ -2,7 +2,7 @@
 // The options of `kds missed`.
 
 #include "experiments/collide/missed_contacts.h"
-#include "experiments/output/destinations.h"
+#include "experiments/output/output_files.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/option.h"
 

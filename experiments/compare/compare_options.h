@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/output/destinations.h"
+#include "experiments/output/output_files.h"
 #include "experiments/program/input_options.h"
 #include "motions/base/bead.h"
 #include "motions/scene/scene.h"

@@ -7,7 +7,7 @@
 #include <ostream>
 #include <vector>
 
-#include "experiments/output/staged_files.h"
+#include "experiments/output/output_files.h"
 #include "structures/session/structure_spec.h"
 
 namespace kds {
@@ -25,10 +25,10 @@ class DumpedFrames {
   /// Writes the files of a frame. Call it in the order of the frames, from 0.
   void write(std::size_t frame, const std::vector<DumpFile>& files);
   /// Taking their places, the files replace an earlier dump: its remaining files are removed.
-  [[nodiscard]] Staged& staged() { return files_; }
+  [[nodiscard]] AtomicFiles& files() { return files_; }
 
  private:
-  StagedFiles files_;
+  AtomicFiles files_;
 };
 
 }  // namespace kds

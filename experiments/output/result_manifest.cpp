@@ -25,14 +25,6 @@ ResultManifest::ResultManifest(fs::path directory, std::string_view command, std
       key_(fmt::format("{}-{}", command, option.substr(option.find_first_not_of('-')))),
       option_(option),
       writer_(fmt::format("kds {} {}", command, option)) {
-  read();
-}
-
-std::string ResultManifest::heading() const {
-  return fmt::format("files that {} wrote, with checksum and size", writer_);
-}
-
-void ResultManifest::read() {
   std::error_code error;
   if (!fs::exists(path(), error)) return;
   std::ifstream file(path(), std::ios::binary);
@@ -50,6 +42,10 @@ void ResultManifest::read() {
     const std::string name(rest + 1, end);
     if (!name.empty() && name.find('/') == std::string::npos) files_.emplace(name, content);
   }
+}
+
+std::string ResultManifest::heading() const {
+  return fmt::format("files that {} wrote, with checksum and size", writer_);
 }
 
 ResultManifest::Content ResultManifest::content_of(const fs::path& path) {

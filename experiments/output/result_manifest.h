@@ -44,7 +44,6 @@ class ResultManifest {
   };
   static Content content_of(const std::filesystem::path& path);
   static std::string line(const Content& content, std::string_view name);
-  void read();
   /// Returns the command and option whose manifest lists the file in its present state, as in "kds run
   /// --out". Returns "" if no manifest does.
   [[nodiscard]] std::string author_of(const std::string& name) const;

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <functional>
 #include <memory>
 #include <string_view>
 #include <type_traits>
+
+#include "experiments/output/output_files.h"
 
 namespace kds {
 
@@ -19,15 +22,31 @@ using TextSink = std::function<void(std::string_view)>;
 class Spool {
  public:
   /// Throws OutputError if the system provides no temporary file.
-  Spool();
+  Spool() : file_(std::tmpfile()) {
+    if (!file_) fail();
+  }
 
   /// Throws OutputError if the disk is full.
-  void add(std::string_view text);
+  void add(std::string_view text) {
+    if (text.empty()) return;
+    empty_ = false;
+    if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail();
+  }
   [[nodiscard]] bool empty() const { return empty_; }
   /// Passes the whole text to `sink` in order. More text can be added afterwards.
-  void read(const TextSink& sink) const;
+  void read(const TextSink& sink) const {
+    if (std::fflush(file_.get()) != 0) fail();
+    std::rewind(file_.get());
+    std::array<char, 1 << 16> bytes;
+    for (std::size_t count = 0; (count = std::fread(bytes.data(), 1, bytes.size(), file_.get())) > 0;)
+      sink({bytes.data(), count});
+    if (std::ferror(file_.get()) != 0) throw OutputError("a temporary file: cannot read");
+    std::fseek(file_.get(), 0, SEEK_END);
+  }
 
  private:
+  [[noreturn]] static void fail() { fail_to_write("a temporary file: cannot write", errno); }
+
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };

@@ -28,7 +28,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/output/destinations.h"
+#include "experiments/output/output_files.h"
 #include "experiments/output/result_json.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/option_values.h"

@@ -1,13 +1,10 @@
 #include "experiments/program/table_command.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/result_page.h"
-#include "experiments/output/staged.h"
-#include "experiments/output/staged_files.h"
 #include "experiments/output/text.h"
 
 namespace kds {
@@ -84,7 +81,7 @@ void TableCommand::deliver_text(const std::string& json, const Json& settings, c
                                 const std::string& table, const PageOf& page_of) const {
   const auto& [out, json_path, quiet] = destinations_;
   const bool json_on_stdout = json_path == "-";
-  std::optional<StagedFiles> files;
+  std::optional<AtomicFiles> files;
   if (out) {
     std::vector<std::string> data{name_ + ".json"};
     files.emplace(*out, name_, "--out");
@@ -95,9 +92,9 @@ void TableCommand::deliver_text(const std::string& json, const Json& settings, c
     }
     if (page_of) files->write(std::string(kReport), page_of(page(settings, std::move(data))));
   }
-  std::optional<AtomicFile> json_file;
-  if (json_path && !json_on_stdout) json_file.emplace(*json_path, json);
-  commit_together(std::array<Staged*, 2>{files ? &*files : nullptr, json_file ? &*json_file : nullptr});
+  AtomicFiles json_file;
+  if (json_path && !json_on_stdout) json_file.write(*json_path, json);
+  commit_together({files ? &*files : nullptr, &json_file});
   if (json_on_stdout) print_to_stdout(json);
   if (!quiet && !json_on_stdout) print_to_stdout(table);
 }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/output/destinations.h"
+#include "experiments/output/output_files.h"
 #include "experiments/program/input_options.h"
 
 namespace kds {

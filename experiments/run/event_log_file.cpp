@@ -91,14 +91,14 @@ std::uint64_t read_hash(Fields& fields, std::string_view line, std::string_view 
 
 EventLogWriter::EventLogWriter(const std::filesystem::path& path, const RunOptions& options,
                                const Scene& scene)
-    : file_(path) {
+    : stream_(file_.open(path)) {
   const std::optional<std::string> header = line_of({{"version", program_version()},
                                                      {"arguments", repeating_arguments(options)},
                                                      {"beads", scene.bead_count()},
                                                      {"steps", scene.step_count()}});
   if (!header)
     throw InputError("--log: a name among the arguments is not UTF-8, so that no log can tell of it");
-  file_.stream() << first_line << '\n' << *header << '\n';
+  stream_ << first_line << '\n' << *header << '\n';
 }
 
 void EventLogWriter::on_event(const Event& event) {
@@ -109,7 +109,7 @@ void EventLogWriter::on_event(const Event& event) {
       fmt::format("{} {} {} {} {} {}", event.step, event.structure, event.kind.name, event.lower, event.upper,
                   fmt::join(change.ids.begin(), change.ids.begin() + change.size, " "));
   add_line(step_hash_, line);
-  file_.stream() << line << '\n';
+  stream_ << line << '\n';
   file_.check();
   ++events_;
   ++step_events_;
@@ -117,14 +117,14 @@ void EventLogWriter::on_event(const Event& event) {
 
 void EventLogWriter::end_step() {
   if (step_events_ > 0)
-    file_.stream() << fmt::format("step {} {} {:016x}\n", step_, step_events_, step_hash_.value());
+    stream_ << fmt::format("step {} {} {:016x}\n", step_, step_events_, step_hash_.value());
   step_events_ = 0;
   step_hash_ = {};
 }
 
 void EventLogWriter::end(std::uint64_t fingerprint) {
   end_step();
-  file_.stream() << fmt::format("end {} {:016x}\n", events_, fingerprint);
+  stream_ << fmt::format("end {} {:016x}\n", events_, fingerprint);
 }
 
 EventLogReader::EventLogReader(const std::filesystem::path& path) : lines_(path) {

@@ -32,12 +32,13 @@ class EventLogWriter final : public EventListener {
   void on_event(const Event& event) override;
   /// Writes the last line of the log.
   void end(std::uint64_t fingerprint);
-  [[nodiscard]] Staged& staged() { return file_; }
+  [[nodiscard]] AtomicFiles& file() { return file_; }
 
  private:
   void end_step();
 
-  AtomicFile file_;
+  AtomicFiles file_;
+  std::ostream& stream_;
   std::uint64_t events_ = 0;
   std::size_t step_ = 0;           ///< step of the events counted in step_events_
   std::uint64_t step_events_ = 0;  ///< 0 before the step's first event

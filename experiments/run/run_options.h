@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "certificates/base/kernel.h"
-#include "experiments/output/destinations.h"
+#include "experiments/output/output_files.h"
 #include "experiments/program/input_options.h"
 #include "kds/audit.h"
 #include "motions/scene/scene.h"

@@ -4,10 +4,8 @@
 #include <array>
 #include <filesystem>
 
-#include "experiments/output/output_error.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/result_page.h"
-#include "experiments/output/staged.h"
 #include "experiments/run/html_report.h"
 #include "structures/session/event_writers.h"
 
@@ -33,8 +31,7 @@ void check_destinations(const Destinations& destinations, std::string_view comma
 
 void RunResults::begin(const Scene& scene, Session& session, bool certified) {
   if (events_path_) {
-    every_event_file_.emplace(*events_path_);
-    every_event_ = make_event_writer(*events_path_, every_event_file_->stream(), scene);
+    every_event_ = make_event_writer(*events_path_, every_event_file_.emplace().open(*events_path_), scene);
     session.simulator().listen(*every_event_);
   }
   if (!destinations_.out) return;
@@ -106,12 +103,11 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
     data.insert(data.end(), contacts_files_.begin(), contacts_files_.end());
     files_->write("report.html", html_report(report, data));
   }
-  std::optional<AtomicFile> json_file;
-  if (destinations_.json && !json_on_stdout) json_file.emplace(*destinations_.json, json);
+  AtomicFiles json_file;
+  if (destinations_.json && !json_on_stdout) json_file.write(*destinations_.json, json);
   if (log_) log_->end(report.fingerprint);
-  commit_together(std::array<Staged*, 5>{
-      every_event_file_ ? &*every_event_file_ : nullptr, dumps_ ? &dumps_->staged() : nullptr,
-      log_ ? &log_->staged() : nullptr, files_ ? &*files_ : nullptr, json_file ? &*json_file : nullptr});
+  commit_together({every_event_file_ ? &*every_event_file_ : nullptr, dumps_ ? &dumps_->files() : nullptr,
+                   log_ ? &log_->file() : nullptr, files_ ? &*files_ : nullptr, &json_file});
   if (json_on_stdout) print_to_stdout(json);
   if (table_on_stdout) print_to_stdout(table);
   if (files_ && table_on_stdout)

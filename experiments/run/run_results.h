@@ -13,9 +13,7 @@
 #include "experiments/events/dumped_frames.h"
 #include "experiments/events/event_places.h"
 #include "experiments/events/events_csv.h"
-#include "experiments/output/destinations.h"
 #include "experiments/output/output_files.h"
-#include "experiments/output/staged_files.h"
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
@@ -59,7 +57,7 @@ class RunResults {
   std::string command_;
   Destinations destinations_;
   std::optional<std::filesystem::path> events_path_;
-  std::optional<StagedFiles> files_;
+  std::optional<AtomicFiles> files_;
   const Scene* scene_ = nullptr;
   std::optional<EventsCsv> events_;
   std::optional<EventPlaces> places_;
@@ -67,7 +65,7 @@ class RunResults {
   std::vector<std::string> bead_names_;
   std::optional<ContactsTable> contacts_;
   std::vector<std::string> contacts_files_;
-  std::optional<AtomicFile> every_event_file_;
+  std::optional<AtomicFiles> every_event_file_;
   std::unique_ptr<EventListener> every_event_;
   std::optional<DumpedFrames> dumps_;
   std::optional<ContactsDump> dumped_contacts_;

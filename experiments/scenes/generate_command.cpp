@@ -54,18 +54,16 @@ void refuse_unnamed(const GenerateOptions& options, const fs::path& file) {
 
 // Completes all files before the first takes its place.
 void write_files(const GenerateOptions& options, const std::vector<Trajectory>& necklaces) {
-  std::vector<std::unique_ptr<AtomicFile>> files;
+  AtomicFiles files;
   for (const Trajectory& necklace : necklaces) {
-    files.push_back(std::make_unique<AtomicFile>(necklace.file));
+    std::ostream& file = files.open(necklace.file);
     if (options.is_pdb()) {
-      write_pdb(files.back()->stream(), necklace, command_line(options));
+      write_pdb(file, necklace, command_line(options));
     } else {
-      write_xyz(files.back()->stream(), necklace, command_line(options));
+      write_xyz(file, necklace, command_line(options));
     }
   }
-  std::vector<Staged*> staged;
-  for (const auto& file : files) staged.push_back(file.get());
-  commit_together(staged);
+  commit_together({&files});
 }
 
 // Returns the necklaces as a reader of the files will get them.

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/output/destinations.h"
+#include "experiments/output/output_files.h"
 #include "experiments/program/command_line.h"
 #include "motions/models/model.h"
 

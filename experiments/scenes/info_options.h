@@ -1,7 +1,7 @@
 #pragma once
 // The options of `kds info` and their parser.
 
-#include "experiments/output/destinations.h"
+#include "experiments/output/output_files.h"
 #include "experiments/program/input_options.h"
 #include "structures/necklace/necklace.h"
 

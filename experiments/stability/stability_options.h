@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/output/destinations.h"
+#include "experiments/output/output_files.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/option.h"
 #include "experiments/stability/stability_subjects.h"

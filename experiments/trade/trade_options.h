@@ -1,7 +1,7 @@
 #pragma once
 // The options of `kds trade`.
 
-#include "experiments/output/destinations.h"
+#include "experiments/output/output_files.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/output/destinations.h"
+#include "experiments/output/output_files.h"
 #include "experiments/program/input_options.h"
 #include "kds/audit.h"
 #include "structures/power_diagram/diagram_update.h"

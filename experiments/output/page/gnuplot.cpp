@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "experiments/output/output_error.h"
+#include "experiments/output/output_files.h"
 #include "experiments/output/text.h"
 #include "motions/base/input_error.h"
 

@@ -2,14 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <fstream>
 #include <stdexcept>
 
-#include "experiments/output/made_directories.h"
-#include "experiments/output/output_error.h"
-#include "experiments/output/staged.h"
-#include "experiments/output/staged_files.h"
 #include "motions/base/input_error.h"
 #include "tests/experiments/scratch_directory.h"
 
@@ -20,10 +15,10 @@ namespace fs = std::filesystem;
 using test::content_of;
 using test::ScratchDirectory;
 
-void commit(Staged& staged) { commit_together(std::array<Staged*, 1>{&staged}); }
 void write(const fs::path& path, std::string_view content) {
-  AtomicFile file(path, content);
-  commit(file);
+  AtomicFiles files;
+  files.write(path, content);
+  commit_together({&files});
 }
 
 TEST(OutputFiles, WritesAndReplacesWholeFiles) {
@@ -41,8 +36,8 @@ TEST(OutputFiles, WithoutCommitNothingChanges) {
   const fs::path path = directory / "events.csv";
   write(path, "old");
   try {
-    AtomicFile file(path);
-    file.stream() << "half of the new";
+    AtomicFiles files;
+    files.open(path) << "half of the new";
     throw std::runtime_error("the run failed");
   } catch (const std::runtime_error&) {
   }
@@ -78,27 +73,27 @@ TEST(OutputFiles, AFullDiskIsNoSuccess) {
 
 TEST(OutputFiles, TellsOfAFullDiskBeforeTheEnd) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  AtomicFile file("/dev/full");
-  file.stream() << std::string(1 << 20, 'x');
-  EXPECT_THROW(file.check(), OutputError);
+  AtomicFiles files;
+  files.open("/dev/full") << std::string(1 << 20, 'x');
+  EXPECT_THROW(files.check(), OutputError);
 }
 
-TEST(MadeDirectories, AreMadeWithTheirParentsAndGoIfEmpty) {
+TEST(AtomicFiles, MakeTheirDirectoryWithItsParentsAndRemoveItIfEmpty) {
   const ScratchDirectory directory;
   fs::create_directory(directory / "there");
   {
-    const MadeDirectories made(directory / "there/a/b/", "--out");
-    const MadeDirectories again(directory / "there/a/b", "--out");
+    const AtomicFiles made(directory / "there/a/b/", "run", "--out");
+    const AtomicFiles again(directory / "there/a/b", "run", "--out");
     EXPECT_TRUE(fs::is_directory(directory / "there/a/b"));
   }
   EXPECT_TRUE(fs::is_empty(directory / "there"));
   {
-    const MadeDirectories made(directory / "there/a/b/c", "--out");
+    const AtomicFiles made(directory / "there/a/b/c", "run", "--out");
     directory.file("there/a/kept", "x");
   }
   EXPECT_FALSE(fs::exists(directory / "there/a/b"));
   EXPECT_TRUE(fs::exists(directory / "there/a/kept"));
-  EXPECT_THROW(MadeDirectories(directory / "there/a/kept/below", "--out"), InputError);
+  EXPECT_THROW(AtomicFiles(directory / "there/a/kept/below", "run", "--out"), InputError);
 }
 
 TEST(OutputFiles, ChecksDirectoriesBeforeTheyAreMade) {
@@ -111,39 +106,43 @@ TEST(OutputFiles, ChecksDirectoriesBeforeTheyAreMade) {
   EXPECT_THROW(check_directory(directory / std::string(300, 'x'), "run", "--out"), InputError);
 }
 
-TEST(StagedFiles, AppearTogetherOrNotAtAll) {
+TEST(AtomicFiles, AppearTogetherOrNotAtAll) {
   const ScratchDirectory directory;
   const auto entries_of = [&](const char* name) {
     return std::distance(fs::directory_iterator(directory / name), {});
   };
   {
-    StagedFiles files(directory / "made/dump", "run", "--dump");
+    AtomicFiles files(directory / "made/dump", "run", "--dump");
     files.write("frame-0", "zero");
     EXPECT_EQ(entries_of("made/dump"), 1);  // a hidden entry
     EXPECT_FALSE(fs::exists(directory / "made/dump/frame-0"));
   }
   EXPECT_EQ(directory.entries(), 0U);
   {
-    StagedFiles files(directory / "dump", "run", "--dump");
+    AtomicFiles files(directory / "dump", "run", "--dump");
     files.write("frame-0", "zero");
     files.write("frame-1", "one");
-    commit(files);
+    commit_together({&files});
   }
   EXPECT_EQ(entries_of("dump"), 3);  // including the manifest
   EXPECT_EQ(content_of(directory / "dump/frame-1"), "one");
 }
 
-TEST(Parts, OfKilledProgramsAreCleared) {
+TEST(AtomicFiles, ClearTheFoldersOfKilledPrograms) {
   const ScratchDirectory directory;
   directory.file(".kds-1-0.part", "left behind");
   fs::create_directory(directory / ".kds-1-1.part");
   directory.file(".kds-1-1.part/frame-0", "left behind");
   directory.file(".kds-notes", "not ours");
   directory.file(".kds-a-b.part", "not ours");
-  const Part file(directory.path(), Part::Kind::file, "x"), folder(directory.path(), Part::Kind::folder, "x");
-  clear_stale_parts(directory.path());
-  EXPECT_TRUE(fs::exists(file.path()) && fs::exists(folder.path()));  // their program is still running
+  AtomicFiles single, second;
+  single.write(directory / "single", "x");
+  second.write(directory / "second", "x");
   EXPECT_EQ(directory.entries(), 4U);
+  EXPECT_FALSE(fs::exists(directory / ".kds-1-0.part") || fs::exists(directory / ".kds-1-1.part"));
+  EXPECT_TRUE(fs::exists(directory / ".kds-notes"));
+  commit_together({&single, &second});  // fails if either folder was cleared
+  EXPECT_EQ(content_of(directory / "single"), "x");
   EXPECT_TRUE(fs::exists(directory / ".kds-a-b.part"));
 }
 

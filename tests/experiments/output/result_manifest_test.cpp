@@ -3,12 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <fstream>
 
+#include "experiments/output/output_files.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/spool.h"
-#include "experiments/output/staged_files.h"
 #include "motions/base/input_error.h"
 #include "tests/experiments/scratch_directory.h"
 
@@ -22,9 +21,9 @@ using testing::HasSubstr;
 
 void write_result(const ScratchDirectory& directory, std::initializer_list<const char*> names,
                   const std::string& content = "x") {
-  StagedFiles files(directory.path(), "collide", "--out");
+  AtomicFiles files(directory.path(), "collide", "--out");
   for (const char* name : names) files.write(name, content);
-  commit_together(std::array<Staged*, 1>{&files});
+  commit_together({&files});
 }
 
 std::string refusal(const ScratchDirectory& directory, const char* command, const std::string& name) {

@@ -1,4 +1,4 @@
-#include "experiments/output/replace_file.h"
+#include "experiments/output/output_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,24 +6,17 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
-#include <memory>
 #include <string>
 #include <thread>
-#include <vector>
 
-#include "experiments/output/output_files.h"
 #include "experiments/output/result_manifest.h"
-#include "experiments/output/staged.h"
-#include "experiments/output/staged_files.h"
-#include "experiments/output/unfinished_file.h"
 #include "motions/base/input_error.h"
 #include "tests/experiments/scratch_directory.h"
 
-namespace kds::replace_file_test {
+namespace kds::atomic_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -44,12 +37,11 @@ std::size_t visible_entries(const ScratchDirectory& directory) {
   return count;
 }
 
-void commit(Staged& staged) { commit_together(std::array<Staged*, 1>{&staged}); }
-
-// Writes one result with each of the two classes that move results to their places.
+// Writes one result in each of the two ways.
 void write_alone(const fs::path& path, const std::string& content) {
-  AtomicFile file(path, content);
-  commit(file);
+  AtomicFiles files;
+  files.write(path, content);
+  commit_together({&files});
 }
 // Lists the file in a manifest, as if an earlier result had written it.
 void claim(const fs::path& path) {
@@ -59,9 +51,9 @@ void claim(const fs::path& path) {
 }
 void write_staged(const fs::path& path, const std::string& content) {
   claim(path);
-  StagedFiles files(path.parent_path(), "run", "--dump");
+  AtomicFiles files(path.parent_path(), "run", "--dump");
   files.write(path.filename().string(), content);
-  commit(files);
+  commit_together({&files});
 }
 constexpr auto kWays = {write_alone, write_staged};
 
@@ -112,32 +104,33 @@ TEST(ReplaceFile, HardLinksStay) {
 }
 
 // One of the places is a directory, so nothing is replaced.
-TEST(StagedFiles, ARefusedPlaceLeavesTheOthersAlone) {
+TEST(AtomicFiles, ARefusedPlaceLeavesTheOthersAlone) {
   const ScratchDirectory directory;
   directory.file("a", "old");
   fs::create_directory(directory / "b");
   claim(directory / "a");
-  StagedFiles files(directory.path(), "run", "--dump");
+  AtomicFiles files(directory.path(), "run", "--dump");
   files.write("a", "new");
   files.write("b", "new");
-  EXPECT_THROW(commit(files), InputError);
+  EXPECT_THROW(commit_together({&files}), InputError);
   EXPECT_EQ(content_of(directory / "a"), "old");
 }
 
 // Results of one command: if one cannot be moved to its place, none is.
-TEST(Staged, AllOrNone) {
+TEST(AtomicFiles, AllOrNone) {
   const ScratchDirectory directory;
   const fs::path kept = directory.file("kept", "old"), circle = directory / "circle",
                  nowhere = directory / "nowhere";
   fs::create_symlink("circle", circle);
   fs::create_symlink("missing/file", nowhere);
   for (const char* place : {"circle", "nowhere"}) {
-    AtomicFile alone(kept, "new");
-    StagedFiles files(directory.path(), "run", "--dump");
+    AtomicFiles alone;
+    alone.write(kept, "new");
+    AtomicFiles files(directory.path(), "run", "--dump");
     files.write("a", "new");
     files.write(place, "new");
     try {
-      commit_together(std::array<Staged*, 3>{&alone, nullptr, &files});
+      commit_together({&alone, nullptr, &files});
       FAIL() << place;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr((directory / place).string() + ": cannot write"));
@@ -150,19 +143,21 @@ TEST(Staged, AllOrNone) {
 
 // A file that even its owner may not replace (immutable) is detected before other files are replaced. Some
 // file systems lack such files, and some users may not create them.
-TEST(Staged, ImmutableFilesAreFoundOutBeforehand) {
+TEST(AtomicFiles, ImmutableFilesAreFoundOutBeforehand) {
   const ScratchDirectory directory;
   const fs::path immutable = directory.file("immutable", "old"), kept = directory.file("kept", "old");
   if (std::system(("chattr +i '" + immutable.string() + "' 2>/dev/null").c_str()) != 0)
     GTEST_SKIP() << "no immutable files here";
-  AtomicFile first(kept, "new"), second(immutable, "new");
-  EXPECT_THROW(commit_together(std::array<Staged*, 2>{&first, &second}), InputError);
+  AtomicFiles files;
+  files.write(kept, "new");
+  files.write(immutable, "new");
+  EXPECT_THROW(commit_together({&files}), InputError);
   EXPECT_EQ(std::system(("chattr -i '" + immutable.string() + "'").c_str()), 0);
   EXPECT_EQ(content_of(kept), "old");
 }
 
 // Clearing needs no file descriptor.
-TEST(StagedFiles, NothingIsLeftWhereFilesRunOut) {
+TEST(AtomicFiles, NothingIsLeftWhereFilesRunOut) {
   const ScratchDirectory directory;
   EXPECT_EXIT(
       {
@@ -170,10 +165,9 @@ TEST(StagedFiles, NothingIsLeftWhereFilesRunOut) {
         few.rlim_cur = few.rlim_max = 8;
         ::setrlimit(RLIMIT_NOFILE, &few);
         try {
-          StagedFiles files(directory / "made", "run", "--dump");
-          std::vector<std::unique_ptr<AtomicFile>> more;
-          for (int k = 0; k < 10; ++k)
-            more.push_back(std::make_unique<AtomicFile>(directory / ("file-" + std::to_string(k))));
+          AtomicFiles files(directory / "made", "run", "--dump");
+          AtomicFiles more;
+          for (int k = 0; k < 10; ++k) more.open(directory / ("file-" + std::to_string(k))) << k;
         } catch (const std::exception&) {
           ::_exit(7);
         }
@@ -182,21 +176,21 @@ TEST(StagedFiles, NothingIsLeftWhereFilesRunOut) {
   EXPECT_EQ(directory.entries(), 0U);
 }
 
-TEST(StagedFiles, AFileMayGrowUntilTheEnd) {
+TEST(AtomicFiles, AFileMayGrowUntilTheEnd) {
   const ScratchDirectory directory;
   {
-    StagedFiles earlier(directory.path(), "run", "--out");
+    AtomicFiles earlier(directory.path(), "run", "--out");
     earlier.write("stale", "of an earlier result");
-    commit(earlier);
+    commit_together({&earlier});
   }
   directory.file("mine", "the user's");
   {
-    StagedFiles files(directory.path(), "run", "--out");
+    AtomicFiles files(directory.path(), "run", "--out");
     std::ostream& growing = files.open("growing");
     for (int k = 0; k < 10000; ++k) growing << k << '\n';
     files.write("other", "x");
     files.check();
-    commit(files);
+    commit_together({&files});
   }
   EXPECT_EQ(content_of(directory / "growing").substr(0, 4), "0\n1\n");
   EXPECT_EQ(content_of(directory / "growing").size(), 48890U);
@@ -205,7 +199,7 @@ TEST(StagedFiles, AFileMayGrowUntilTheEnd) {
 }
 
 // A signal at any moment, also between creating a file and finishing it, leaves no file behind.
-TEST(UnfinishedFile, EverySignalThatCanBeCaughtClearsTheFolder) {
+TEST(UnfinishedFolder, EverySignalThatCanBeCaughtClearsTheFolder) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1,
                            SIGUSR2, SIGXCPU, SIGABRT, SIGSEGV, SIGFPE, SIGRTMIN, SIGRTMAX}) {
 #ifdef KDS_SANITIZED
@@ -214,10 +208,10 @@ TEST(UnfinishedFile, EverySignalThatCanBeCaughtClearsTheFolder) {
     const ScratchDirectory directory;
     EXPECT_EXIT(
         {
-          StagedFiles files(directory / "made/dump", "run", "--dump");
+          AtomicFiles files(directory / "made/dump", "run", "--dump");
           for (int k = 0; k < 30; ++k) files.write("frame-" + std::to_string(k), "x");
-          AtomicFile single(directory / "single");
-          single.stream() << "half";
+          AtomicFiles single;
+          single.open(directory / "single") << "half";
           ::raise(signal);
         },
         testing::KilledBySignal(signal), "");
@@ -227,12 +221,12 @@ TEST(UnfinishedFile, EverySignalThatCanBeCaughtClearsTheFolder) {
 
 // Two signals of one kind: the second arrives during the cleanup after the first. A program with one thread
 // has this state only for a moment, so another thread sends the second signal while the cleanup runs.
-TEST(UnfinishedFile, ASecondSignalEndsNothingBeforeAllIsCleared) {
+TEST(UnfinishedFolder, ASecondSignalEndsNothingBeforeAllIsCleared) {
   const ScratchDirectory directory;
   EXPECT_EXIT(
       {
         constexpr int files = 3000;
-        StagedFiles staged(directory / "made", "run", "--dump");
+        AtomicFiles staged(directory / "made", "run", "--dump");
         for (int k = 0; k < files; ++k) staged.write("frame-" + std::to_string(k), "x");
         const auto part = *fs::directory_iterator(directory / "made");
         const fs::path last = part.path() / std::to_string(files);  // the first file to be removed
@@ -248,10 +242,11 @@ TEST(UnfinishedFile, ASecondSignalEndsNothingBeforeAllIsCleared) {
   EXPECT_EQ(directory.entries(), 0U);
 }
 
-TEST(UnfinishedFile, SignalsThatDoNotEndAProgramDoNot) {
+TEST(UnfinishedFolder, SignalsThatDoNotEndAProgramDoNot) {
+  const ScratchDirectory directory;
   EXPECT_EXIT(
       {
-        const UnfinishedFile unfinished("no/such/file");
+        const UnfinishedFolder unfinished((directory / "made").string(), 0700);
         for (const int signal : {SIGCHLD, SIGURG, SIGWINCH, SIGCONT}) ::raise(signal);
         ::_exit(7);
       },
@@ -259,4 +254,4 @@ TEST(UnfinishedFile, SignalsThatDoNotEndAProgramDoNot) {
 }
 
 }  // namespace
-}  // namespace kds::replace_file_test
+}  // namespace kds::atomic_files_test

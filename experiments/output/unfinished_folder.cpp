@@ -1,50 +1,48 @@
-#include "experiments/output/unfinished_file.h"
+#include "experiments/output/unfinished_folder.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstring>
 #include <mutex>
+#include <system_error>
 #include <utility>
-#include <vector>
 
 namespace kds {
 
-// An entry in the list that the signal handler walks. Entries are never freed, so the handler may walk the
-// list at any moment. An entry with a null path is unused.
-struct UnfinishedFile::Entry {
+// Entries are never freed, so the signal handler may walk the list at any moment. An entry with a null path
+// is unused.
+struct UnfinishedFolder::Entry {
   std::atomic<const char*> path{nullptr};
-  std::atomic<std::uint64_t> files{0};  ///< number of files in a folder
+  std::atomic<std::uint64_t> files{0};
   Entry* next = nullptr;
 };
 
 namespace {
 
-using Entry = UnfinishedFile::Entry;
+using Entry = UnfinishedFolder::Entry;
 
 std::atomic<Entry*> all_entries{nullptr};
 static_assert(std::atomic<Entry*>::is_always_lock_free && std::atomic<const char*>::is_always_lock_free);
 
-// Removes the file with this number in the folder. Calls only functions that are safe in a signal handler.
-void remove_numbered(const char* folder, std::uint64_t number) {
+// Removes the files 0, 1, ... in the folder. Calls only functions that are safe in a signal handler.
+void remove_files(const Entry& entry, const char* folder) {
   constexpr std::size_t longest = 4096, digits = 20;
   const std::size_t length = std::strlen(folder);
-  if (length + digits + 2 > longest) return;
-  std::array<char, longest> path;
+  if (length > longest) return;
+  std::array<char, longest + digits + 2> path;
   std::memcpy(path.data(), folder, length);
-  char* end = path.data() + longest - 1;
-  *end = 0;
-  char* begin = end;
-  do {
-    *--begin = static_cast<char>('0' + number % 10);
-    number /= 10;
-  } while (number > 0);
   path[length] = '/';
-  std::memmove(path.data() + length + 1, begin, static_cast<std::size_t>(end - begin) + 1);
-  ::unlink(path.data());
+  for (std::uint64_t number = entry.files.load(); number-- > 0;) {
+    *std::to_chars(path.data() + length + 1, path.data() + path.size() - 1, number).ptr = 0;
+    ::unlink(path.data());
+  }
 }
 
 std::atomic_flag is_clearing = ATOMIC_FLAG_INIT;
@@ -52,10 +50,7 @@ std::atomic_flag is_clearing = ATOMIC_FLAG_INIT;
 extern "C" void remove_unfinished_and_end(int signal) {
   while (is_clearing.test_and_set()) ::pause();  // another thread is clearing and then ends the program
   for (const Entry* entry = all_entries.load(); entry != nullptr; entry = entry->next)
-    if (const char* path = entry->path.load()) {
-      for (std::uint64_t number = entry->files.load(); number-- > 0;) remove_numbered(path, number);
-      ::unlink(path);
-    }
+    if (const char* path = entry->path.load()) remove_files(*entry, path);
   for (bool removed = true; removed;) {  // a folder can be removed once its subfolders are gone
     removed = false;
     for (const Entry* entry = all_entries.load(); entry != nullptr; entry = entry->next) {
@@ -97,37 +92,46 @@ void handle_signals() {
   }
 }
 
-std::mutex free_entries_mutex;
-std::vector<Entry*> free_entries;
-
 Entry* take_entry(const char* path) {
-  const std::lock_guard lock(free_entries_mutex);
-  if (free_entries.empty()) {
-    Entry* const entry = new Entry;
-    entry->next = all_entries.load();
-    all_entries.store(entry);
-    free_entries.push_back(entry);
+  for (Entry* entry = all_entries.load(); entry != nullptr; entry = entry->next) {
+    const char* unused = nullptr;
+    if (entry->path.compare_exchange_strong(unused, path)) return entry;
   }
-  Entry* const entry = free_entries.back();
-  free_entries.pop_back();
-  entry->files.store(0);
+  Entry* const entry = new Entry;
   entry->path.store(path);
+  entry->next = all_entries.load();
+  while (!all_entries.compare_exchange_weak(entry->next, entry)) {
+  }
   return entry;
 }
 
 }  // namespace
 
-UnfinishedFile::UnfinishedFile(std::string path) : path_(std::move(path)), entry_(take_entry(path_.c_str())) {
+UnfinishedFolder::UnfinishedFolder(std::string path, unsigned permissions)
+    : path_(std::move(path)), entry_(take_entry(path_.c_str())) {
   static std::once_flag once;
   std::call_once(once, handle_signals);
+  if (::mkdir(path_.c_str(), permissions) == 0) return;
+  const int error = errno;
+  release();
+  throw std::system_error(error, std::generic_category());
 }
 
-void UnfinishedFile::hold_files(std::uint64_t count) { entry_->files.store(count); }
+std::string UnfinishedFolder::add_file() {
+  entry_->files.store(++files_);
+  return file(files_ - 1);
+}
 
-UnfinishedFile::~UnfinishedFile() {
-  const std::lock_guard lock(free_entries_mutex);
+void UnfinishedFolder::release() {
+  entry_->files.store(0);
   entry_->path.store(nullptr);
-  free_entries.push_back(entry_);
+}
+
+// Removes files by name: to list a folder takes a descriptor, and none may be left.
+UnfinishedFolder::~UnfinishedFolder() {
+  remove_files(*entry_, path_.c_str());
+  ::rmdir(path_.c_str());
+  release();
 }
 
 }  // namespace kds
