@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/provenance.h"
+#include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/commands.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/output/page/html_text.h"
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/page/table.h"
 #include "experiments/output/text.h"

@@ -11,7 +11,6 @@
 #include "experiments/compare/compare_report.h"
 #include "experiments/events/event_places.h"
 #include "experiments/output/page/html_page.h"
-#include "experiments/output/page/rows_plot.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 

@@ -1,6 +1,5 @@
 #pragma once
-// JSON for results and logs. Only this header's source file includes the JSON library, which takes long to
-// compile.
+// Provenance of a result: each report states the version and the machine.
 
 #include <concepts>
 #include <cstdint>
@@ -15,6 +14,22 @@
 #include "experiments/output/spool.h"
 
 namespace kds {
+
+/// Returns release and commit, as in 0.1.0+1a2b3c4d5e6f.
+[[nodiscard]] std::string program_version();
+
+struct Machine {
+  std::string cpu;
+  unsigned cores = 0;
+  std::string os;
+  std::string compiler;
+};
+
+/// Returns the description of this machine. A property that cannot be determined is "unknown".
+[[nodiscard]] Machine this_machine();
+
+// JSON for results and logs. Only this header's source file includes the JSON library, which takes long to
+// compile.
 
 /// A JSON value. The members of an object keep their order. {{"name", value}, ...} is an object, a vector is
 /// an array.

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/result_page.h"
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/text.h"
 
 namespace kds {

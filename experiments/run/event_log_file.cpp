@@ -7,7 +7,6 @@
 #include <optional>
 #include <string_view>
 
-#include "experiments/output/provenance.h"
 #include "experiments/output/result_json.h"
 #include "experiments/run/parse_run_options.h"
 #include "motions/base/input_error.h"

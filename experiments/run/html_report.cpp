@@ -10,7 +10,6 @@
 #include "experiments/events/event_bins.h"
 #include "experiments/events/event_places.h"
 #include "experiments/output/page/html_page.h"
-#include "experiments/output/page/rows_plot.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/run/summary_rows.h"

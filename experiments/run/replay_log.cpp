@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "certificates/exact/exact_time.h"
-#include "experiments/output/provenance.h"
+#include "experiments/output/result_json.h"
 #include "experiments/program/warnings.h"
 #include "experiments/run/certify_stride.h"
 #include "experiments/run/event_log_file.h"

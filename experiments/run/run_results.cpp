@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/result_page.h"
+#include "experiments/output/page/html_page.h"
 #include "experiments/run/html_report.h"
 #include "structures/session/event_writers.h"
 

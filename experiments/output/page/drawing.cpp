@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "experiments/output/page/gnuplot.h"
-#include "experiments/output/page/html_text.h"
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/text.h"
 
 namespace kds {

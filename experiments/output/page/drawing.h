@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/output/page/page_svg.h"
+#include "experiments/output/page/gnuplot.h"
 
 namespace kds {
 

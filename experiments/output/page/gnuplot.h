@@ -1,8 +1,11 @@
 #pragma once
 // Runs gnuplot as a function that takes a script and returns its output.
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace kds {
 
@@ -12,5 +15,34 @@ void require_gnuplot(std::string_view option);
 
 /// Throws std::runtime_error with gnuplot's message.
 [[nodiscard]] std::string run_gnuplot(const std::string& script);
+
+// Converts a gnuplot drawing into an element of a page: with the page's colours and font, with texts under
+// the pointer, and without ids, which could clash between two drawings.
+
+/// The size of a drawing and the margins around its axes, in pixels.
+struct DrawingSize {
+  double width, height, left, right, top, bottom;
+};
+
+/// The kind of element to which the texts of a drawing belong.
+enum class TextsOf {
+  marks,   ///< text K belongs to hypertext label K, which has a point
+  strips,  ///< as `marks`, but over the full height and halfway to both neighbours
+  squares  ///< the K-th filled polygon
+};
+
+/// The page's style variables that stand for colour #0000KK of a script.
+inline constexpr std::array<std::string_view, 10> page_colours{"s0", "s1", "s2", "s3",   "s4",
+                                                               "s5", "s6", "s7", "soft", "line"};
+inline constexpr std::size_t series_colours = 8;
+
+/// The format of numbers in a script. The page shows such a number as tick_label() does.
+inline constexpr std::string_view number_format = "\x02%.12g";
+
+/// Returns the SVG element. `drawing` is one SVG document of gnuplot up to its </svg>. `attributes` are the
+/// attributes of the element. Throws std::runtime_error if `drawing` is not such a document or if texts are
+/// left over.
+[[nodiscard]] std::string page_svg(std::string_view drawing, const DrawingSize& size, TextsOf of,
+                                   const std::vector<std::string>& texts, std::string_view attributes);
 
 }  // namespace kds

@@ -2,14 +2,47 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
 #include <string_view>
 #include <utility>
 
-#include "experiments/output/provenance.h"
+#include "experiments/output/output_files.h"
+#include "experiments/output/page/gnuplot.h"
+#include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
 
 namespace kds {
+
+std::string html_escaped(std::string_view text) {
+  std::string html;
+  for (const char c : one_line(text)) {
+    switch (c) {
+      case '&':
+        html += "&amp;";
+        break;
+      case '<':
+        html += "&lt;";
+        break;
+      case '>':
+        html += "&gt;";
+        break;
+      case '"':
+        html += "&quot;";
+        break;
+      case '\'':
+        html += "&#39;";
+        break;
+      default:
+        html += c;
+    }
+  }
+  return html;
+}
+
+std::string html_escaped_lines(std::string_view text) {
+  std::string html;
+  for (const std::string& line : split(text, '\n')) html += (html.empty() ? "" : "\n") + html_escaped(line);
+  return html;
+}
 
 namespace {
 
@@ -184,6 +217,11 @@ std::string html_page(const Page& page) {
       "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n{2}</main>\n</body>\n"
       "</html>\n",
       html_escaped(page.title), kStyle, body);
+}
+
+void check_page(const std::filesystem::path& directory, std::string_view command) {
+  check_directory(directory, command, "--out", {"report.html"});
+  require_gnuplot("--out");
 }
 
 }  // namespace kds

@@ -1,6 +1,6 @@
 // Rows of bars along the chain: values under the pointer, names if they fit, and bins for long chains.
 
-#include "experiments/output/page/rows_plot.h"
+#include "experiments/output/page/svg_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/output/page/page_svg.h"
+#include "experiments/output/page/gnuplot.h"
 #include "tests/experiments/sound_page.h"
 
 namespace kds::svg_plot_test {
