@@ -18,7 +18,7 @@
 #include "experiments/output/text.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/commands.h"
-#include "experiments/program/suggestion.h"
+#include "experiments/program/option_values.h"
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
 #include "motions/numbers/processor.h"

@@ -17,10 +17,9 @@
 #include "experiments/bench/bench_trade.h"
 #include "experiments/bench/collision_peers.h"
 #include "experiments/output/text.h"
-#include "experiments/program/data_folder.h"
+#include "experiments/program/input_options.h"
 #include "experiments/program/option.h"
 #include "experiments/program/option_values.h"
-#include "experiments/program/suggestion.h"
 #include "experiments/program/table_command.h"
 #include "motions/base/input_error.h"
 

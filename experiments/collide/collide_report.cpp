@@ -7,7 +7,7 @@
 #include "experiments/events/event_bins.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
-#include "experiments/program/spread_columns.h"
+#include "experiments/program/timing.h"
 
 namespace kds {
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "experiments/output/text.h"
-#include "experiments/program/option_lists.h"
 #include "experiments/program/option_values.h"
 
 namespace kds {

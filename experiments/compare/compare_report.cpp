@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "experiments/output/text.h"
-#include "experiments/program/spread_columns.h"
+#include "experiments/program/timing.h"
 
 namespace kds {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "experiments/output/text.h"
-#include "experiments/program/suggestion.h"
+#include "experiments/program/option_values.h"
 #include "motions/base/input_error.h"
 
 namespace kds {

@@ -2,11 +2,59 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
+#include <fmt/format.h>
 #include <optional>
+#include <string_view>
 
-#include "experiments/program/suggestion.h"
+#include "experiments/output/text.h"
+#include "motions/base/edit_distance.h"
+#include "motions/base/input_error.h"
+#include "structures/session/structure_spec.h"
 
 namespace kds {
+
+namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::ranges::transform(result, result.begin(), [](char c) { return lower(c); });
+  return result;
+}
+
+}  // namespace
+
+std::optional<std::string_view> nearest_name(std::string_view word, std::span<const std::string_view> names) {
+  constexpr std::size_t longest = 64, letters_for_a_part = 3;
+  if (word.empty() || word.size() > longest) return std::nullopt;
+  const std::string typed = lower(word);
+  const std::size_t dashes = std::min(typed.find_first_not_of('-'), typed.size());
+  const std::string_view bare = std::string_view(typed).substr(dashes);
+  std::optional<std::string_view> nearest;
+  std::size_t least = 0;
+  for (const std::string_view name : names) {
+    const std::string known = lower(name);
+    const std::size_t distance = edit_distance(typed, known);
+    const std::size_t letters =
+        std::max(bare.size(), known.size() - std::min(known.find_first_not_of('-'), known.size()));
+    const bool is_part = bare.size() >= letters_for_a_part &&
+                         (known.ends_with(bare) || (bare.size() < known.size() && known.starts_with(typed)));
+    const bool is_near = distance <= std::max<std::size_t>(1, letters / 3) && distance < known.size();
+    if (!is_part && !is_near) continue;
+    const std::size_t rank = is_near ? distance : longest + distance;
+    if (nearest && rank >= least) continue;
+    nearest = name;
+    least = rank;
+  }
+  return nearest;
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string_view> names) {
+  const auto name = nearest_name(word, names);
+  return name ? fmt::format(", did you mean {}?", *name) : "";
+}
 
 namespace {
 
@@ -65,6 +113,33 @@ double parse_real(std::string_view option, std::string_view text, const RealRang
   if (enough && *number <= range.most) return *number == 0 ? 0 : *number;  // also turns -0 into 0
   throw InputError(fmt::format("{}: '{}' is not a number {} {}, at most {}", option, text,
                                range.least_excluded ? "above" : "from", range.least, range.most));
+}
+
+std::vector<std::string> parse_structures(const std::string& list) {
+  const std::vector<std::string> names = split(list, ',');
+  std::vector<std::string_view> known;
+  std::vector<std::string> ordered;
+  for (const StructureSpec& spec : structure_registry().all()) {
+    known.push_back(spec.name);
+    if (std::find(names.begin(), names.end(), spec.name) != names.end()) ordered.push_back(spec.name);
+  }
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      refuse_unknown("--structures", name, known);
+    if (std::count(names.begin(), names.end(), name) > 1)
+      throw InputError(fmt::format("--structures: {} is listed twice", name));
+  }
+  return ordered;
+}
+
+std::vector<std::size_t> parse_strides(const std::string& list) {
+  std::vector<std::size_t> strides;
+  for (const std::string& text : split(list, ','))
+    strides.push_back(parse_whole_number("--strides", text, 1, 1'000'000'000));
+  std::sort(strides.begin(), strides.end());
+  if (const auto twice = std::adjacent_find(strides.begin(), strides.end()); twice != strides.end())
+    throw InputError(fmt::format("--strides: {} is listed twice", *twice));
+  return strides;
 }
 
 }  // namespace kds

@@ -1,12 +1,12 @@
 #pragma once
-// Parses the values of options. Each function throws an InputError that names the option, the text found and
-// the expected form.
+// Suggests the name that a mistyped word probably stands for.
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +16,18 @@
 #include "motions/base/input_error.h"
 
 namespace kds {
+
+/// Returns the nearest of the names by edit distance, without regard to case. The distance counts insertions,
+/// deletions, substitutions and exchanges of neighbours. If no name is near, returns a name that begins or
+/// ends with the word, or nothing.
+[[nodiscard]] std::optional<std::string_view> nearest_name(std::string_view word,
+                                                           std::span<const std::string_view> names);
+
+/// Returns ", did you mean NAME?", or "" if no name is near.
+[[nodiscard]] std::string suggestion(std::string_view word, std::span<const std::string_view> names);
+
+// Parses the values of options. Each function throws an InputError that names the option, the text found and
+// the expected form.
 
 /// Throws an InputError which says that the word is not one of `names`, and suggests the nearest name. By
 /// default the message lists the names; `expected`, if given, replaces that list as the end of the sentence
@@ -52,5 +64,14 @@ struct RealRange {
   bool least_excluded = false;
 };
 [[nodiscard]] double parse_real(std::string_view option, std::string_view text, const RealRange& range);
+
+// Parses options whose values are comma-separated lists.
+
+/// Returns the names of structures in the order of the registry, whatever the order in `list`. A set of
+/// structures therefore always gives the same run. Throws InputError.
+[[nodiscard]] std::vector<std::string> parse_structures(const std::string& list);
+
+/// Returns the strides in ascending order. Throws InputError.
+[[nodiscard]] std::vector<std::size_t> parse_strides(const std::string& list);
 
 }  // namespace kds

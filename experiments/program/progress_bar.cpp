@@ -1,14 +1,15 @@
 #include "experiments/program/progress_bar.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
+#include <cstdio>
+#include <fmt/format.h>
 #include <string>
+#include <unistd.h>
 
 #include "experiments/output/text.h"
 
 namespace kds {
+
 namespace {
 
 constexpr std::size_t kWidth = 32;
@@ -53,6 +54,11 @@ void ProgressBar::erase() {
   std::fputs("\r\033[K", stream_);
   std::fflush(stream_);
   visible_ = false;
+}
+
+void print_warning(ProgressBar& bar, const std::string& warning) {
+  bar.erase();
+  std::fputs(fmt::format("kds: warning: {}\n", one_line(warning)).c_str(), stderr);
 }
 
 }  // namespace kds

@@ -1,14 +1,9 @@
 #pragma once
-// The common part of every command whose result is a table: destinations, progress bar, warnings and output.
-// It writes results as NAME.json, NAME.csv and report.html in --out, to --json and to standard output.
-//
-//   TableCommand command("update", arguments, options, "round");
-//   command.check_destinations(taken);          // before any input is read
-//   const auto rows = measure(command.warn(), command.progress());
-//   Json json{{"settings", ...}, {"rows", ...}, {"warnings", command.warnings()}};
-//   command.deliver(json, csv, table, [&](Page page) { return update_page(rows, page); });
+// Refuses outputs that would replace an input or another output of the same command.
 
+#include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,11 +13,46 @@
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
 #include "experiments/program/command_line.h"
+#include "experiments/program/input_options.h"
 #include "experiments/program/progress_bar.h"
-#include "experiments/program/taken_paths.h"
-#include "experiments/program/warnings.h"
 
 namespace kds {
+
+class TakenPaths {
+ public:
+  /// Registers a file that is read, or that another part of the program writes. `owner` names it in messages.
+  void add(std::string owner, const std::filesystem::path& path) {
+    taken_.emplace_back(std::move(owner), path);
+  }
+  /// Registers the files that are read.
+  void read(const InputOptions& options);
+  /// Registers all files in a folder from which some are read.
+  void read_folder(const std::string& owner, const std::filesystem::path& folder);
+  /// Registers the destination of --json: a file, as `write` does, or - for standard output, which may itself
+  /// be redirected to a file.
+  void write_json(const std::string& destination);
+  /// Registers a file that will be written. Throws InputError if the file is already registered or must be a
+  /// directory for another result. Devices may be shared.
+  void write(const std::string& option, const std::filesystem::path& path);
+  /// Registers a directory and files with these names that will be written in it. Throws InputError as
+  /// `write` does, and also if the directory or one of its parents is registered as a file.
+  void write_into(const std::string& option, const std::filesystem::path& directory,
+                  std::initializer_list<std::string_view> names = {});
+  /// Registers the files that `deliver` writes.
+  void write(const Destinations& destinations);
+
+ private:
+  std::vector<std::pair<std::string, std::filesystem::path>> taken_, directories_;
+};
+
+// The common part of every command whose result is a table: destinations, progress bar, warnings and output.
+// It writes results as NAME.json, NAME.csv and report.html in --out, to --json and to standard output.
+//
+//   TableCommand command("update", arguments, options, "round");
+//   command.check_destinations(taken);          // before any input is read
+//   const auto rows = measure(command.warn(), command.progress());
+//   Json json{{"settings", ...}, {"rows", ...}, {"warnings", command.warnings()}};
+//   command.deliver(json, csv, table, [&](Page page) { return update_page(rows, page); });
 
 class TableCommand {
  public:

@@ -1,7 +1,6 @@
 #include "experiments/program/timing.h"
 
 #include <fmt/format.h>
-
 #include <utility>
 
 #include "experiments/output/text.h"

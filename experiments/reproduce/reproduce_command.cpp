@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "experiments/program/data_folder.h"
+#include "experiments/program/input_options.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 #include "experiments/reproduce/paper_tables.h"

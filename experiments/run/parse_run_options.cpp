@@ -8,7 +8,6 @@
 #include "certificates/base/relaxation.h"
 #include "certificates/exact/exact_work.h"
 #include "experiments/program/input_options.h"
-#include "experiments/program/option_lists.h"
 #include "experiments/program/option_values.h"
 #include "experiments/run/certify_stride.h"
 #include "motions/base/input_error.h"

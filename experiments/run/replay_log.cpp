@@ -7,7 +7,7 @@
 
 #include "certificates/exact/exact_time.h"
 #include "experiments/output/result_json.h"
-#include "experiments/program/warnings.h"
+#include "experiments/program/progress_bar.h"
 #include "experiments/run/certify_stride.h"
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/load_scene.h"

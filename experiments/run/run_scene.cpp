@@ -1,6 +1,6 @@
 #include "experiments/run/run_scene.h"
 
-#include "experiments/program/warnings.h"
+#include "experiments/program/progress_bar.h"
 #include "experiments/run/certify_stride.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/radius_hint.h"

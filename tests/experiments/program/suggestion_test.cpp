@@ -1,4 +1,4 @@
-#include "experiments/program/suggestion.h"
+#include "experiments/program/option_values.h"
 
 #include <gtest/gtest.h>
 
