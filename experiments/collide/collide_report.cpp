@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "experiments/events/event_bins.h"
+#include "experiments/events/event_places.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/program/timing.h"

@@ -1,11 +1,39 @@
 #include "experiments/events/event_places.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <fmt/format.h>
 #include <span>
+#include <utility>
 
 namespace kds {
+
+std::size_t bin_width(std::size_t steps, std::size_t most) {
+  return std::max<std::size_t>(1, (steps + most - 1) / most);
+}
+
+void EventCourse::add(std::uint64_t events, std::size_t frame) {
+  const std::uint64_t before = bins_.empty() ? 0 : bins_.back().cumulative;
+  if (steps_ % width_ == 0) bins_.push_back({steps_, 0, frame, 0, 0});
+  EventBin& bin = bins_.back();
+  ++bin.steps;
+  ++steps_;
+  bin.events += events;
+  bin.cumulative = before + events;
+}
+
+void Displacements::add_frame(Eigen::Matrix3Xd centers, std::size_t number) {
+  if (last_.cols() > 0) {
+    if (steps_ % width_ == 0) bins_.push_back({number_, 0, 0, 0});
+    Bin& bin = bins_.back();
+    const Eigen::VectorXd moved = (centers - last_).colwise().norm();
+    ++steps_;
+    ++bin.steps;
+    bin.sum_of_means += moved.mean();
+    bin.most = std::max(bin.most, moved.maxCoeff());
+  }
+  last_ = std::move(centers);
+  number_ = number;
+}
 
 EventPlaces::EventPlaces(const Session& session, const Scene& scene)
     : tree_(scene.necklaces()), levels_(tree_.node_count(), 0) {

@@ -1,6 +1,9 @@
 #pragma once
-// Records where along the chain, and at which depth of its tree, a structure changes.
+// Counts events in bins of neighbouring steps. Long runs have more frames than a plot has pixels, and more
+// than a report should keep.
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,6 +14,66 @@
 #include "structures/session/session.h"
 
 namespace kds {
+
+struct EventBin {
+  std::size_t first_step = 0, steps = 0;
+  std::size_t first_frame = 0;   ///< number in the file of the bin's first frame
+  std::uint64_t events = 0;      ///< in the bin
+  std::uint64_t cumulative = 0;  ///< up to the end of the bin
+};
+
+/// Returns the number of steps per bin such that there are at most `most` bins.
+[[nodiscard]] std::size_t bin_width(std::size_t steps, std::size_t most);
+
+/// The number of events of a structure over the course of a run.
+class EventCourse {
+ public:
+  static constexpr std::size_t most_bins = 600;  ///< a plot is about this many pixels wide
+
+  /// `width` is the number of steps in a bin.
+  explicit EventCourse(std::size_t width = 1) : width_(width) {}
+
+  /// Adds the next step, which begins at the frame with this number in the file.
+  void add(std::uint64_t events, std::size_t frame);
+  [[nodiscard]] std::size_t steps() const { return steps_; }
+  [[nodiscard]] std::size_t width() const { return width_; }
+  [[nodiscard]] const std::vector<EventBin>& bins() const { return bins_; }
+
+ private:
+  std::size_t width_;
+  std::size_t steps_ = 0;
+  std::vector<EventBin> bins_;
+};
+
+// Records how far beads move from frame to frame during a run.
+
+class Displacements {
+ public:
+  struct Bin {
+    std::size_t first_frame = 0;  ///< number in the file of the bin's first frame
+    std::size_t steps = 0;
+    double sum_of_means = 0;  ///< sum over the steps of the beads' mean displacement
+    double most = 0;          ///< largest displacement of a bead in a step
+    [[nodiscard]] double mean() const { return sum_of_means / static_cast<double>(steps); }
+  };
+
+  Displacements() = default;
+  /// `width` is the number of steps in a bin.
+  explicit Displacements(std::size_t width) : width_(width) {}
+
+  /// Adds the next frame and its number in the file. Each frame has the same number of beads.
+  void add_frame(Eigen::Matrix3Xd centers, std::size_t number);
+  [[nodiscard]] std::size_t width() const { return width_; }
+  [[nodiscard]] const std::vector<Bin>& bins() const { return bins_; }
+
+ private:
+  std::size_t width_ = 1;
+  std::size_t steps_ = 0, number_ = 0;
+  Eigen::Matrix3Xd last_;
+  std::vector<Bin> bins_;
+};
+
+// Records where along the chain, and at which depth of its tree, a structure changes.
 
 /// The places of a structure's external events: along the chain, and by depth in its tree.
 struct PlacesOfEvents {

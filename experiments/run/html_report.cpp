@@ -7,7 +7,6 @@
 #include <iterator>
 #include <vector>
 
-#include "experiments/events/event_bins.h"
 #include "experiments/events/event_places.h"
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"

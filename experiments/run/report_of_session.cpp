@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "experiments/events/contacts_csv.h"
+#include "experiments/events/event_files.h"
 #include "experiments/output/text.h"
 #include "experiments/run/parse_run_options.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "experiments/events/contacts_csv.h"
+#include "experiments/events/event_files.h"
 #include "experiments/output/output_files.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/progress_bar.h"

@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "experiments/events/closest_approach.h"
-#include "experiments/events/displacements.h"
-#include "experiments/events/event_bins.h"
 #include "experiments/events/event_places.h"
 #include "experiments/program/timing.h"
 #include "experiments/run/certify_stride.h"

@@ -8,11 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "experiments/events/contacts_csv.h"
-#include "experiments/events/displacements.h"
-#include "experiments/events/dumped_frames.h"
+#include "experiments/events/event_files.h"
 #include "experiments/events/event_places.h"
-#include "experiments/events/events_csv.h"
 #include "experiments/output/output_files.h"
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/run_options.h"

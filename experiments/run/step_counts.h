@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "experiments/events/event_bins.h"
+#include "experiments/events/event_places.h"
 #include "experiments/run/run_results.h"
 #include "motions/scene/scene.h"
 #include "structures/session/session.h"

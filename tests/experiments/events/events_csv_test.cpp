@@ -1,4 +1,4 @@
-#include "experiments/events/events_csv.h"
+#include "experiments/events/event_files.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/events/event_bins.h"
+#include "experiments/events/event_places.h"
 
 namespace kds::events_csv_test {
 namespace {

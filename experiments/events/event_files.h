@@ -1,15 +1,23 @@
 #pragma once
 // Writes contacts.csv during the run: which beads began to meet, parted or touched, and when.
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <ostream>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "experiments/output/output_files.h"
 #include "kds/event_log.h"
+#include "motions/frames/frame_reader.h"
 #include "motions/scene/scene.h"
 #include "structures/session/session.h"
+#include "structures/session/structure_spec.h"
 
 namespace kds {
 
@@ -76,6 +84,45 @@ class ContactsTable final : public ContactsCsv {
   const Scene& scene_;
   Column column_;
   bool timed_;
+};
+
+// Writes how often each structure changed, frame by frame, during the run. Other programs can plot the file.
+
+/// Writes the header `frame,structure,events,cumulative`, then one line per frame and structure. Only
+/// external events count. A line with frame k (its number in the file) covers the time from frame k to the
+/// next frame of the run. If the file has times, the column `picoseconds` follows with the time of frame k.
+class EventsCsv {
+ public:
+  /// Writes the header.
+  EventsCsv(std::ostream& stream, bool timed);
+  void add(const FrameStamp& frame, std::string_view structure, std::uint64_t events);
+
+ private:
+  std::ostream& stream_;
+  bool timed_;
+  std::map<std::string, std::uint64_t, std::less<>> cumulative_;  ///< per structure
+};
+
+// The files of --dump. Either the files of all frames of a run appear, or none. Files of an earlier dump are
+// removed.
+
+class DumpedFrames {
+ public:
+  /// Throws an InputError or OutputError that names the option and the path. Throws also if the directory has
+  /// frames that no earlier dump wrote.
+  explicit DumpedFrames(std::filesystem::path directory);
+  DumpedFrames(const DumpedFrames&) = delete;
+  DumpedFrames& operator=(const DumpedFrames&) = delete;
+
+  /// Opens the file of contacts, which covers the whole run.
+  [[nodiscard]] std::ostream& open_contacts();
+  /// Writes the files of a frame. Call it in the order of the frames, from 0.
+  void write(std::size_t frame, const std::vector<DumpFile>& files);
+  /// Taking their places, the files replace an earlier dump: its remaining files are removed.
+  [[nodiscard]] AtomicFiles& files() { return files_; }
+
+ private:
+  AtomicFiles files_;
 };
 
 }  // namespace kds

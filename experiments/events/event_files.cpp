@@ -1,8 +1,9 @@
-#include "experiments/events/contacts_csv.h"
-
-#include <fmt/format.h>
+#include "experiments/events/event_files.h"
 
 #include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+#include <utility>
 
 #include "experiments/output/text.h"
 #include "motions/base/csv_field.h"
@@ -73,6 +74,49 @@ void ContactsTable::add_cells(const Event& event, std::string_view kind) {
                          csv_field(scene_.bead_name(j)), event.frame());
   const auto picoseconds = event.picoseconds();
   if (timed_) stream_ << (picoseconds ? fmt::format(",{:.12g}", *picoseconds) : ",");
+}
+
+EventsCsv::EventsCsv(std::ostream& stream, bool timed) : stream_(stream), timed_(timed) {
+  stream_ << "frame,structure,events,cumulative" << (timed_ ? ",picoseconds\n" : "\n");
+}
+
+void EventsCsv::add(const FrameStamp& frame, std::string_view structure, std::uint64_t events) {
+  auto so_far = cumulative_.find(structure);
+  if (so_far == cumulative_.end()) so_far = cumulative_.emplace(structure, 0).first;
+  so_far->second += events;
+  stream_ << fmt::format("{},{},{},{}", frame.number, structure, events, so_far->second);
+  if (timed_) stream_ << fmt::format(",{:.10g}", frame.picoseconds.value_or(0));
+  stream_ << '\n';
+}
+
+namespace {
+
+// Returns whether the name has the form frame-NUMBER.WORD.csv.
+bool is_frame(std::string_view name) {
+  constexpr std::string_view start = "frame-", end = ".csv";
+  if (!name.starts_with(start) || !name.ends_with(end)) return false;
+  name.remove_prefix(start.size());
+  std::size_t frame = 0;
+  const auto [after, error] = std::from_chars(name.data(), name.data() + name.size(), frame);
+  const auto digits = static_cast<std::size_t>(after - name.data());
+  if (error != std::errc() || name.substr(0, digits) != std::to_string(frame)) return false;
+  if (digits == name.size() || name[digits] != '.') return false;
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz_";
+  name.remove_prefix(digits + 1);
+  return name.find_first_not_of(letters) == name.size() - end.size();
+}
+
+}  // namespace
+
+DumpedFrames::DumpedFrames(std::filesystem::path directory) : files_(std::move(directory), "run", "--dump") {
+  files_.refuse_others(is_frame);  // frames of two dumps would look like one dump
+}
+
+std::ostream& DumpedFrames::open_contacts() { return files_.open(std::string(contacts_file)); }
+
+void DumpedFrames::write(std::size_t frame, const std::vector<DumpFile>& files) {
+  for (const DumpFile& file : files) files_.write(fmt::format("frame-{}.{}", frame, file.ending), file.text);
+  files_.check();
 }
 
 }  // namespace kds
