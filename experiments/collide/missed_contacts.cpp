@@ -6,7 +6,7 @@
 
 #include "experiments/run/load_scene.h"
 #include "experiments/run/radius_hint.h"
-#include "experiments/run/run_steps.h"
+#include "experiments/run/run_scene.h"
 #include "motions/base/input_error.h"
 #include "structures/contacts/sampled_contacts.h"
 

@@ -7,8 +7,8 @@
 #include "experiments/compare/net_changes.h"
 #include "experiments/events/event_places.h"
 #include "experiments/run/load_scene.h"
-#include "experiments/run/report_of_session.h"
-#include "experiments/run/run_steps.h"
+#include "experiments/run/run_report.h"
+#include "experiments/run/run_scene.h"
 #include "motions/base/input_error.h"
 
 namespace kds {

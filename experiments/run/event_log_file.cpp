@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "experiments/output/result_json.h"
-#include "experiments/run/parse_run_options.h"
+#include "experiments/run/run_options.h"
 #include "motions/base/input_error.h"
 
 namespace kds {

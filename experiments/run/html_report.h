@@ -1,12 +1,33 @@
 #pragma once
-// Writes report.html: one self-contained page with the table and the plots.
+// The rows that compare a run's structures, for the terminal and for the page.
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/run/run_report.h"
 
 namespace kds {
+
+struct SummaryRow {
+  std::string label;
+  bool detail = false;             ///< details the nearest row above that is not a detail
+  std::vector<std::string> cells;  ///< one per structure; empty for a heading
+};
+
+[[nodiscard]] std::vector<SummaryRow> summary_rows(const RunReport& report);
+
+/// Returns the text that shows a kind of event. Internal kinds, which the total excludes, are marked as
+/// internal.
+[[nodiscard]] std::string kind_label(const RunReport& report, const std::string& kind);
+
+/// Returns the lines that describe the input, as pairs of label and value.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> input_lines(const RunReport& report);
+
+/// Returns the number of motion steps, which is one less than the number of frames.
+[[nodiscard]] std::size_t step_count(const RunReport& report);
+
+// Writes report.html: one self-contained page with the table and the plots.
 
 /// `data` has the names of the files that lie beside the page.
 [[nodiscard]] std::string html_report(const RunReport& report, const std::vector<std::string>& data = {});

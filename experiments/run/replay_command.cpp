@@ -1,25 +1,156 @@
-#include "experiments/program/commands.h"
+#include "experiments/run/replay_command.h"
 
 #include <fmt/format.h>
-
+#include <fmt/ranges.h>
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
+#include "certificates/exact/exact_time.h"
 #include "experiments/output/output_files.h"
+#include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
+#include "experiments/program/commands.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/table_command.h"
+#include "experiments/run/certify_stride.h"
+#include "experiments/run/event_log_file.h"
 #include "experiments/run/load_scene.h"
-#include "experiments/run/parse_run_options.h"
-#include "experiments/run/replay_log.h"
-#include "experiments/run/report_json.h"
+#include "experiments/run/run_options.h"
+#include "experiments/run/run_report.h"
 #include "experiments/run/run_results.h"
-#include "experiments/run/table.h"
 #include "motions/base/input_error.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
+
+namespace {
+
+RunOptions options_of(const EventLogHeader& header, const std::filesystem::path& path) {
+  const std::string where = path.string() + ":2: the run's arguments: ";
+  try {
+    return parse_run_options(header.arguments);
+  } catch (const InputError& error) {
+    throw InputError(where + error.what());
+  } catch (const HelpRequest&) {
+    throw InputError(where + "they ask for help, not for a run");
+  }
+}
+
+// Listens to the events of the run and compares each with the next event of the log.
+class LogComparison final : public EventListener {
+ public:
+  LogComparison(EventLogReader& log, const std::string& name, const Simulator& simulator)
+      : log_(log),
+        name_(name),
+        simulator_(simulator),
+        own_version_(log.header().version == program_version()) {}
+
+  void on_event(const Event& event) override {
+    if (difference_) return;
+    const EventLogReader::Entry* const entry = log_.next();
+    if (entry == nullptr) {
+      part(fmt::format("{}: ends before an event of {} in step {}", name_, event.structure, event.step));
+    } else if (!is_event(*entry, event)) {
+      part(fmt::format("{}:{}: an event of {} in step {}, but what happens is {} {} {} in step {}", name_,
+                       entry->line, entry->structure, entry->step, event.structure, event.kind.name,
+                       fmt::join(event.change.ids.begin(), event.change.ids.begin() + event.change.size, " "),
+                       event.step));
+    } else if (!is_time(*entry, event)) {
+      part(fmt::format("{}:{}: a time between {} and {}, but it happens between {} and {}", name_,
+                       entry->line, entry->lower, entry->upper, event.lower, event.upper));
+    }
+  }
+
+  // Called after the last event of the run: the log must have no further event either.
+  std::optional<std::string> finish() {
+    if (!difference_)
+      if (const EventLogReader::Entry* const entry = log_.next())
+        part(fmt::format("{}:{}: an event of {} in step {} that does not happen", name_, entry->line,
+                         entry->structure, entry->step));
+    return std::move(difference_);
+  }
+
+ private:
+  static bool is_event(const EventLogReader::Entry& entry, const Event& event) {
+    const Change& change = event.change;
+    return entry.step == event.step && entry.structure == event.structure && entry.kind == event.kind.name &&
+           std::equal(entry.ids.begin(), entry.ids.end(), change.ids.begin(),
+                      change.ids.begin() + change.size);
+  }
+
+  bool is_time(const EventLogReader::Entry& entry, const Event& event) const {
+    if (entry.lower == event.lower && entry.upper == event.upper) return true;
+    if (own_version_ || simulator_.kernel() == Kernel::fast) return false;
+    ExactTime& now = simulator_.now().exact();
+    ExactTime lower{Dyadic(entry.lower)}, upper{Dyadic(entry.upper)};
+    const int after_lower = ExactTime::compare(lower, now), before_upper = ExactTime::compare(now, upper);
+    return entry.lower == entry.upper ? after_lower == 0 : after_lower < 0 && before_upper < 0;
+  }
+
+  // Records the first difference. Reads the rest of the log, which is refused if a run did not write it.
+  void part(std::string difference) {
+    difference_ = std::move(difference);
+    while (log_.next() != nullptr) {
+    }
+  }
+
+  EventLogReader& log_;
+  const std::string& name_;
+  const Simulator& simulator_;
+  bool own_version_;
+  std::optional<std::string> difference_;
+};
+
+}  // namespace
+
+RunOptions logged_run(const std::filesystem::path& log) {
+  return options_of(EventLogReader(log).header(), log);
+}
+
+ReplayReport replay_log(const std::filesystem::path& path, const Progress& progress,
+                        const std::function<void(const std::string&)>& warn, RunResults* results) {
+  const std::string name = path.string();
+  EventLogReader log(path);
+  const RunOptions options = options_of(log.header(), path);
+  HeldWarnings warnings;
+  const Scene scene = load_scene(options, warnings.hold());
+  if (scene.bead_count() != log.header().beads || scene.step_count() != log.header().steps) {
+    throw InputError(fmt::format("{}: the inputs have {} beads and {} steps, the log tells of {} and {}",
+                                 name, scene.bead_count(), scene.step_count(), log.header().beads,
+                                 log.header().steps));
+  }
+  const auto run = open_run(options, scene, options.audit);
+  LogComparison comparison(log, name, run->simulator());
+  run->listen(comparison);
+  ProgressWithinSteps within(progress, scene.step_count());
+  if (options.audit == AuditMode::events) run->listen(within);
+  StepCounts counts(run->session(), scene);
+  if (results != nullptr) results->begin(scene, run->session(), options.certify);
+  run_steps(*run, options, [&](std::size_t frame) {
+    if (results != nullptr) results->add_frame(frame, run->session());
+    if (frame == 0) {
+      counts.begin();
+      return warnings.release(warn);
+    }
+    counts.end_step(frame - 1, results);
+    progress(frame, 0, scene.step_count());
+  });
+
+  ReplayReport replay;
+  replay.difference = comparison.finish();
+  replay.run = report_of(run->session(), scene, options, counts);
+  if (options.certify) {
+    replay.run.stride = certify_stride(options, scene);
+    if (results != nullptr) results->add_certificate(*replay.run.stride, scene);
+  }
+  replay.logged_fingerprint = log.fingerprint();
+  replay.events = log.events();
+  return replay;
+}
+
 namespace {
 
 struct ReplayOptions : Destinations {

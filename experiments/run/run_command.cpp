@@ -11,11 +11,10 @@
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
-#include "experiments/run/parse_run_options.h"
-#include "experiments/run/report_json.h"
+#include "experiments/run/run_options.h"
+#include "experiments/run/run_report.h"
 #include "experiments/run/run_results.h"
 #include "experiments/run/run_scene.h"
-#include "experiments/run/table.h"
 #include "motions/base/input_error.h"
 
 namespace kds {

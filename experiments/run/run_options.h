@@ -1,11 +1,10 @@
 #pragma once
 // The options of `kds run`. parse_run_options.cpp declares them.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <fmt/format.h>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +13,7 @@
 #include "certificates/base/kernel.h"
 #include "experiments/output/output_files.h"
 #include "experiments/program/input_options.h"
+#include "experiments/program/option.h"
 #include "kds/audit.h"
 #include "motions/scene/scene.h"
 #include "structures/session/structure_spec.h"
@@ -51,5 +51,20 @@ struct RunOptions : InputOptions, Destinations {
   std::size_t rounds = 1;                       ///< number of rounds that are timed
   std::optional<std::uint64_t> work;            ///< limit on the limb operations of exact arithmetic
 };
+
+// The options of `kds run` and the values that each accepts.
+
+/// Returns the options --out, --json and --quiet of a run. The replay of a run has the same options.
+[[nodiscard]] OptionList<Destinations> run_destination_options();
+
+/// Returns all options of `kds run`.
+[[nodiscard]] const OptionList<RunOptions>& run_options();
+
+/// Parses the arguments of `kds run`. Throws an InputError that names the option and what it takes. Throws
+/// HelpRequest for --help. Opens no file.
+[[nodiscard]] RunOptions parse_run_options(const Arguments& arguments);
+
+/// Returns the arguments that ask for the same run, without its outputs, from any directory.
+[[nodiscard]] Arguments repeating_arguments(const RunOptions& options);
 
 }  // namespace kds

@@ -1,11 +1,212 @@
 #include "experiments/run/run_report.h"
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "experiments/events/event_files.h"
+#include "experiments/output/result_json.h"
+#include "experiments/output/text.h"
+#include "experiments/run/html_report.h"
+#include "experiments/run/run_options.h"
 
 namespace kds {
 
 std::string StructureReport::label_of(const std::string& kind) const {
   return std::ranges::find(internal_kinds, kind) == internal_kinds.end() ? kind : kind + " (internal)";
+}
+
+namespace {
+
+StructureReport report_of(const KineticStructure& structure, double seconds, const EventCourse& course) {
+  const StructureStatistics& s = structure.statistics;
+  StructureReport report;
+  report.name = structure.name();
+  for (const bool external : {true, false}) {
+    for (std::size_t k = 0; k < structure.kinds().size(); ++k) {
+      const EventKind& kind = structure.kinds()[k];
+      if (kind.external != external || kind.counted_apart) continue;
+      report.events_by_kind.emplace_back(std::string(kind.name), s.events_by_kind[k]);
+      if (external)
+        report.events_total += s.events_by_kind[k];
+      else
+        report.internal_kinds.emplace_back(kind.name);
+    }
+  }
+  report.course = course;
+  report.created = s.certificates.created;
+  report.never_failing = s.certificates.never_failing;
+  report.cancelled = s.certificates.cancelled;
+  report.failed = s.certificates.failed;
+  report.touched = s.certificates.touched;
+  report.peak = s.certificates.peak;
+  report.per_bead_max = s.certificates.per_bead_max;
+  for (const Stage& stage : stage_table) report.stages.emplace_back(stage.name, s.stages.*stage.count);
+  report.seconds = seconds;
+  report.build_seconds = s.build_seconds;
+  report.rebuilds = s.rebuilds;
+  report.audits_run = s.audits_run;
+  report.audits_failed = s.audits_failed;
+  return report;
+}
+
+}  // namespace
+
+RunReport report_of(Session& session, const Scene& scene, const RunOptions& options,
+                    const StepCounts& counts) {
+  RunReport report;
+  for (const auto& input : options.inputs) report.files.push_back(input.string());
+  if (options.obstacle) report.files.push_back(options.obstacle->string());
+  report.beads = scene.bead_count();
+  report.frames = scene.frame_count();
+  report.first_frame = scene.stamp(0);
+  report.last_frame = scene.stamp(scene.frame_count() - 1);
+  report.dimension = scene.dimension();
+  const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
+  report.radius_min = *least;
+  report.radius_max = *most;
+  report.settings = run_options().settings(options);
+  report.command_line = "kds run " + shell_words(repeating_arguments(options));
+  for (std::size_t s = 0; s < session.structures().size(); ++s) {
+    report.structures.push_back(
+        report_of(*session.structures()[s], session.simulator().seconds_of(s), counts.courses()[s]));
+    if (report.structures.back().name != "contacts") continue;
+    report.structures.back().contacts_at_start = counts.contacts_at_start();
+    report.structures.back().contacts_at_end = contacts_at(session, scene.frame_count() - 1);
+  }
+  report.engine_seconds = session.simulator().seconds();
+  report.listeners_seconds = session.simulator().seconds_of_listeners();
+  const ComparisonCounts& comparisons = session.simulator().comparisons();
+  report.comparisons = {
+      {"same_function", comparisons.by_identity}, {"exact", comparisons.exact}, {"ties", comparisons.ties}};
+  report.exact_work = session.simulator().exact_work().done();
+  report.fingerprint = session.simulator().fingerprint();
+  return report;
+}
+
+namespace {
+
+void add_counts(Json& object, const NamedCounts& counts) {
+  for (const auto& [name, value] : counts) object[name] = value;
+}
+
+Json structure_json(const StructureReport& structure, std::size_t rounds) {
+  Json events{{"total", structure.events_total}};
+  add_counts(events, structure.events_by_kind);
+  Json stages = Json::object();
+  add_counts(stages, structure.stages);
+  Json json{{"events", events},
+            {"certificates",
+             {{"created", structure.created},
+              {"never_failing", structure.never_failing},
+              {"cancelled", structure.cancelled},
+              {"failed", structure.failed},
+              {"touched", structure.touched},
+              {"peak", structure.peak},
+              {"per_bead_max", structure.per_bead_max}}},
+            {"stages", stages},
+            {"seconds", structure.seconds},
+            {"build_seconds", structure.build_seconds},
+            {"static_seconds", structure.static_seconds},
+            {"rebuilds", structure.rebuilds},
+            {"audits", {{"run", structure.audits_run}, {"failed", structure.audits_failed}}}};
+  if (structure.contacts_at_start && structure.contacts_at_end)
+    json["contacts"] = {{"at_start", *structure.contacts_at_start}, {"at_end", *structure.contacts_at_end}};
+  if (rounds > 1) {
+    json["seconds_least"] = structure.of_seconds.least;
+    json["seconds_most"] = structure.of_seconds.most;
+    json["static_seconds_least"] = structure.of_static_seconds.least;
+    json["static_seconds_most"] = structure.of_static_seconds.most;
+  }
+  return json;
+}
+
+Json stride_json(const StrideCertificate& stride) {
+  const StrideDeviation& deviation = stride.deviation;
+  Json json{
+      {"skipped", deviation.skipped},
+      {"deviation", {{"largest", deviation.largest}, {"frame", deviation.frame}, {"bead", deviation.bead}}}};
+  if (stride.contacts)
+    json["contacts"] = {{"found", stride.contacts->found.size()},
+                        {"sure", stride.contacts->sure.size()},
+                        {"possible", stride.contacts->possible.size()}};
+  return json;
+}
+
+std::vector<double> json_of(const DistanceRange& range) { return {range.lower, range.upper}; }
+
+Json approach_json(const RunReport& report) {
+  const ClosestApproach& approach = *report.approach;
+  Json json{{"beads", std::vector<BeadId>(approach.beads.begin(), approach.beads.end())},
+            {"frame", approach.frame},
+            {"u", approach.u},
+            {"distance", json_of(approach.distance)}};
+  if (const auto& range = report.approach_in_all_frames) json["distance_in_all_frames"] = json_of(*range);
+  return json;
+}
+
+Json run_json(const RunReport& report) {
+  Json json;
+  json["input"] = {{"files", report.files},           {"beads", report.beads},
+                   {"frames", report.frames},         {"dimension", report.dimension},
+                   {"radius_min", report.radius_min}, {"radius_max", report.radius_max}};
+  if (report.first_frame && report.last_frame) {
+    const auto& [first, first_time] = *report.first_frame;
+    const auto& [last, last_time] = *report.last_frame;
+    json["input"]["first_frame"] = first;
+    json["input"]["last_frame"] = last;
+    if (first_time && last_time) json["input"]["picoseconds"] = std::vector<double>{*first_time, *last_time};
+  }
+  json["settings"] = Json::object();
+  for (const auto& [name, value] : report.settings) json["settings"][name] = value;
+  json["structures"] = Json::object();
+  for (const StructureReport& structure : report.structures)
+    json["structures"][structure.name] = structure_json(structure, report.rounds);
+  Json comparisons = Json::object();
+  add_counts(comparisons, report.comparisons);
+  json["engine"] = {{"seconds", report.engine_seconds},
+                    {"listeners_seconds", report.listeners_seconds},
+                    {"close_comparisons", comparisons},
+                    {"exact_work", report.exact_work}};
+  json["fingerprint"] = hex_digits(report.fingerprint);
+  if (report.stride) json["stride"] = stride_json(*report.stride);
+  if (report.approach) json["closest_approach"] = approach_json(report);
+  add_provenance(json, report.command_line);
+  return json;
+}
+
+}  // namespace
+
+std::string report_json(const RunReport& report) { return text_of(run_json(report)); }
+
+std::string replay_json(const ReplayReport& replay, const std::filesystem::path& log) {
+  Json json = run_json(replay.run);
+  json["replay"] = {{"log", log.string()},
+                    {"events", replay.events},
+                    {"logged_fingerprint", hex_digits(replay.logged_fingerprint)},
+                    {"same", replay.same()},
+                    {"difference", replay.difference ? Json(*replay.difference) : Json()}};
+  return text_of(json);
+}
+
+std::string comparison_table(const RunReport& report) {
+  std::string text;
+  for (const auto& [label, value] : input_lines(report))
+    text += one_line(fmt::format("{:<10}{}", label, value)) + "\n";
+  text += "\n";
+
+  std::vector<std::vector<std::string>> lines(1, {""});
+  for (const StructureReport& structure : report.structures) lines[0].push_back(structure.name);
+  for (const SummaryRow& row : summary_rows(report)) {
+    std::vector<std::string>& line = lines.emplace_back(1, (row.detail ? "  " : "") + row.label);
+    line.insert(line.end(), row.cells.begin(), row.cells.end());
+    line.resize(lines[0].size());
+  }
+  for (const std::string& line : in_columns(lines, "<>")) text += line + "\n";
+  text += fmt::format("\nengine {} s\nfingerprint {}\n", short_decimal(report.engine_seconds),
+                      hex_digits(report.fingerprint));
+  return text;
 }
 
 }  // namespace kds

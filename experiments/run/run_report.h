@@ -2,6 +2,7 @@
 // The findings of one run: the numbers behind the table, summary.json, events.csv and the plots.
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,7 +12,11 @@
 #include "experiments/events/event_places.h"
 #include "experiments/program/timing.h"
 #include "experiments/run/certify_stride.h"
+#include "experiments/run/replay_command.h"
+#include "experiments/run/run_options.h"
+#include "experiments/run/run_scene.h"
 #include "motions/frames/frame_reader.h"
+#include "structures/session/session.h"
 
 namespace kds {
 
@@ -64,5 +69,25 @@ struct RunReport {
   Displacements displacement;           ///< empty if not recorded
   std::vector<std::string> bead_names;  ///< empty if not recorded; an unknown name is an empty text
 };
+
+// Collects the counts of a session's structures.
+
+[[nodiscard]] RunReport report_of(Session& session, const Scene& scene, const RunOptions& options,
+                                  const StepCounts& counts);
+
+// Writes a run as JSON, for summary.json and --json.
+
+/// Returns JSON text that ends with a newline.
+[[nodiscard]] std::string report_json(const RunReport& report);
+
+/// Returns the JSON of report_json with an additional object `replay`. Its members are log, events,
+/// logged_fingerprint, same and difference (null if there is no difference).
+[[nodiscard]] std::string replay_json(const ReplayReport& replay, const std::filesystem::path& log);
+
+// The text that a run prints on a terminal.
+
+/// Returns a table with one column per structure and one row per figure. The fingerprint comes last. The text
+/// ends with a newline.
+[[nodiscard]] std::string comparison_table(const RunReport& report);
 
 }  // namespace kds

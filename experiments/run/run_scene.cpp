@@ -1,14 +1,130 @@
 #include "experiments/run/run_scene.h"
 
+#include <algorithm>
+#include <fmt/format.h>
+#include <string_view>
+#include <utility>
+
+#include "experiments/output/text.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/run/certify_stride.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/radius_hint.h"
-#include "experiments/run/report_of_session.h"
-#include "experiments/run/watch_exact_work.h"
+#include "experiments/run/run_options.h"
+#include "experiments/run/run_report.h"
+#include "kds/audit.h"
+#include "motions/base/input_error.h"
 #include "structures/session/kinetic_run.h"
 
 namespace kds {
+
+namespace {
+
+class WorkWatcher {
+ public:
+  WorkWatcher(Simulator& simulator, const Scene& scene, std::function<void(const std::string&)> warn,
+              std::uint64_t extraordinary)
+      : simulator_(simulator), scene_(scene), warn_(std::move(warn)), extraordinary_(extraordinary) {}
+
+  void operator()() {
+    ExactWork& work = simulator_.exact_work();
+    if (simulator_.moment() != moment_) {
+      moment_ = simulator_.moment();
+      before_ = work.done();
+    }
+    if (work.done() - before_ < extraordinary_ || work.done() < next_) return;
+    next_ = 2 * work.done();
+    const std::size_t step = std::min(simulator_.step(), scene_.step_count() - 1);
+    warn_(fmt::format(
+        "step {} (from frame {} to frame {}) has taken {} limb operations of exact arithmetic "
+        "at one time near u = {}, now on {}; --work LIMIT ends a run that takes too many",
+        step, scene_.frame_number(step), scene_.frame_number(step + 1), with_thousands(work.done() - before_),
+        simulator_.now().lower(), simulator_.name_of_work(work.subject())));
+  }
+
+ private:
+  Simulator& simulator_;
+  const Scene& scene_;
+  std::function<void(const std::string&)> warn_;
+  std::uint64_t extraordinary_;
+  std::uint64_t moment_ = 0, before_ = 0, next_ = 0;
+};
+
+}  // namespace
+
+void watch_exact_work(Simulator& simulator, const Scene& scene,
+                      const std::function<void(const std::string&)>& warn, std::uint64_t extraordinary) {
+  simulator.exact_work().set_watcher(WorkWatcher(simulator, scene, warn, extraordinary),
+                                     extraordinary / 16 + 1);
+}
+
+StepCounts::StepCounts(Session& session, const Scene& scene)
+    : session_(session),
+      scene_(scene),
+      courses_(session.structures().size(),
+               EventCourse(bin_width(scene.step_count(), EventCourse::most_bins))) {}
+
+void StepCounts::begin() { contacts_at_start_ = contacts_at(session_, 0); }
+
+void StepCounts::end_step(std::size_t step, RunResults* results) {
+  const FrameStamp stamp = scene_.stamp(step);
+  for (std::size_t s = 0; s < courses_.size(); ++s) {
+    KineticStructure& structure = *session_.structures()[s];
+    std::vector<std::uint64_t>& events_per_step = structure.statistics.events_per_step;
+    const std::uint64_t events = events_per_step.empty() ? 0 : events_per_step.back();
+    events_per_step.clear();
+    courses_[s].add(events, stamp.number);
+    if (results != nullptr) results->add_step(stamp, structure.name(), events);
+  }
+}
+
+namespace {
+
+// Runs `work`. Turns WorkLimitReached into an InputError that names the computation which used the last of
+// the allowed work.
+template <class Work>
+void with_limit(KineticRun& run, const RunOptions& options, Work work) {
+  try {
+    work();
+  } catch (const WorkLimitReached& limit) {
+    throw InputError(
+        fmt::format("--work {}: exact arithmetic takes more limb operations than that, the last on {}",
+                    options.work.value_or(0), run.simulator().name_of_work(limit.subject())));
+  }
+}
+
+// Runs `work`, which belongs to a step. Structures count steps from 0, so the message of an exception is
+// extended by the step's frame numbers in the file.
+template <class Work>
+void in_step(KineticRun& run, std::size_t step, const RunOptions& options, Work work) {
+  const auto named = [&](std::string_view message) {
+    return fmt::format("{} (step {} leads from frame {} to frame {})", message, step,
+                       run.scene().frame_number(step), run.scene().frame_number(step + 1));
+  };
+  try {
+    with_limit(run, options, work);
+  } catch (const AuditError& error) {
+    throw AuditError(fmt::format("{}\nto see it again: kds run {}", named(error.what()),
+                                 shell_words(repeating_arguments(options))));
+  } catch (const InputError& error) {
+    throw InputError(named(error.what()));
+  }
+}
+
+}  // namespace
+
+void run_steps(KineticRun& run, const RunOptions& options,
+               const std::function<void(std::size_t frame)>& at_frame) {
+  if (options.work) run.limit_work(*options.work);
+  with_limit(run, options, [&] { run.build(); });
+  at_frame(0);
+  for (std::size_t step = 0; run.load_step(); ++step) {
+    in_step(run, step, options, [&] { run.run_step(); });
+    at_frame(step + 1);
+  }
+  // An error that can occur only after all steps is reported for the last step.
+  in_step(run, run.scene().step_count() - 1, options, [&] { run.finish(); });
+}
 
 namespace {
 

@@ -1,14 +1,82 @@
 #pragma once
-// Runs the kinetic structures over the inputs of one `kds run` and reports what happened.
+// Warns during a run if its exact arithmetic takes unusually long.
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "experiments/events/event_places.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
 #include "experiments/run/run_results.h"
-#include "experiments/run/run_steps.h"
+#include "kds/event_log.h"
+#include "kds/simulator.h"
+#include "motions/scene/scene.h"
+#include "structures/session/kinetic_run.h"
+#include "structures/session/session.h"
 
 namespace kds {
+
+/// Number of limb operations at one time of the run that triggers a warning. They take seconds.
+inline constexpr std::uint64_t extraordinary_work = 300'000'000;
+
+/// Passes one line to `warn` if the run spends `extraordinary` limb operations at one time: it says where and
+/// on what. Warns again only when the total work of the run has doubled.
+void watch_exact_work(Simulator& simulator, const Scene& scene,
+                      const std::function<void(const std::string&)>& warn,
+                      std::uint64_t extraordinary = extraordinary_work);
+
+// Moves the counts of each step out of the structures, so that memory does not grow with the number of steps.
+
+class StepCounts {
+ public:
+  /// `session` and `scene` must outlive this object.
+  StepCounts(Session& session, const Scene& scene);
+
+  /// Counts the contacts at the first frame. Call it once the structures have been built.
+  void begin();
+  /// Folds the events of a finished step, and writes them to `results` if a file takes them.
+  void end_step(std::size_t step, RunResults* results);
+  /// In the order of the session's structures.
+  [[nodiscard]] const std::vector<EventCourse>& courses() const { return courses_; }
+  /// Returns the number of pairs in contact at the first frame, or nothing if the session has no contacts.
+  [[nodiscard]] std::optional<std::uint64_t> contacts_at_start() const { return contacts_at_start_; }
+
+ private:
+  Session& session_;
+  const Scene& scene_;
+  std::vector<EventCourse> courses_;
+  std::optional<std::uint64_t> contacts_at_start_;
+};
+
+// Runs all steps over a scene, with the error messages of the program's commands.
+
+/// Called with the number of motion steps done, the completed share of the current step, and the total number
+/// of steps.
+using Progress = std::function<void(std::size_t done, double within, std::size_t total)>;
+
+/// Reports the progress within a step. A step takes long if the structures are audited between all events.
+class ProgressWithinSteps final : public EventListener {
+ public:
+  ProgressWithinSteps(Progress progress, std::size_t total) : progress_(std::move(progress)), total_(total) {}
+  void on_event(const Event& event) override { progress_(event.step, event.lower, total_); }
+
+ private:
+  Progress progress_;
+  std::size_t total_;
+};
+
+/// Builds the structures, runs all steps and finishes the run. Calls `at_frame` at each frame reached,
+/// including the first. The message of an exception thrown in a step names the two frames of the file around
+/// the step.
+void run_steps(KineticRun& run, const RunOptions& options,
+               const std::function<void(std::size_t frame)>& at_frame);
+
+// Runs the kinetic structures over the inputs of one `kds run` and reports what happened.
 
 /// Runs the structures. Each warning about the input goes to `warn` as one line. The output goes to
 /// `results`, which the caller delivers. Throws InputError for errors that the user can fix. Throws

@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "experiments/run/load_scene.h"
-#include "experiments/run/parse_run_options.h"
-#include "experiments/run/run_steps.h"
-#include "experiments/run/watch_exact_work.h"
+#include "experiments/run/run_options.h"
+#include "experiments/run/run_scene.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 

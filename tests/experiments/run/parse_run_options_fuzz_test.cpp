@@ -7,7 +7,7 @@
 #include <string>
 
 #include "experiments/output/text.h"
-#include "experiments/run/parse_run_options.h"
+#include "experiments/run/run_options.h"
 #include "motions/base/input_error.h"
 
 namespace kds::parse_run_options_fuzz_test {

@@ -1,6 +1,6 @@
 // Tests every option of `kds run` and every refusal.
 
-#include "experiments/run/parse_run_options.h"
+#include "experiments/run/run_options.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

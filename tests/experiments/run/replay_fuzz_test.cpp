@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "experiments/output/text.h"
-#include "experiments/run/parse_run_options.h"
-#include "experiments/run/replay_log.h"
+#include "experiments/run/replay_command.h"
+#include "experiments/run/run_options.h"
 #include "experiments/run/run_results.h"
 #include "experiments/run/run_scene.h"
 #include "kds/fingerprint.h"

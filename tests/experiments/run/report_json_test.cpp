@@ -1,4 +1,4 @@
-#include "experiments/run/report_json.h"
+#include "experiments/run/run_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

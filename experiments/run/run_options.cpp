@@ -1,8 +1,7 @@
-#include "experiments/run/parse_run_options.h"
+#include "experiments/run/run_options.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
 #include <string_view>
 
 #include "certificates/base/relaxation.h"
@@ -13,6 +12,7 @@
 #include "motions/base/input_error.h"
 
 namespace kds {
+
 namespace {
 
 constexpr CommandSpec kRunCommand{

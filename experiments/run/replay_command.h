@@ -11,7 +11,7 @@
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
 #include "experiments/run/run_results.h"
-#include "experiments/run/run_steps.h"
+#include "experiments/run/run_scene.h"
 
 namespace kds {
 
