@@ -1,20 +1,95 @@
-#include "experiments/program/commands.h"
+#include "experiments/scenes/info_command.h"
 
 #include <fmt/format.h>
-
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "experiments/output/text.h"
+#include "experiments/program/commands.h"
+#include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
-#include "experiments/scenes/bead_rows.h"
-#include "experiments/scenes/info_options.h"
-#include "experiments/scenes/info_report.h"
+#include "experiments/scenes/scene_info.h"
 #include "motions/base/input_error.h"
 #include "motions/scene/radii.h"
 
 namespace kds {
+
+namespace {
+
+constexpr CommandSpec kInfoCommand{
+    "kds info",
+    "Describes trajectories, and decides exactly which conditions of a proper necklace they violate.",
+    kInputOperand,
+    kInputHelp,
+    "kds info villin.dcd --topology villin.pdb --frames ::10\n"
+    "kds info 1a4y.pdb --radius element:fit --rho 2 --json -\n"
+    "kds info 1a4y.pdb --beads",
+};
+
+}  // namespace
+
+const OptionList<InfoOptions>& info_options() {
+  using O = InfoOptions;
+  static const auto list =
+      OptionList<O>()
+          .with(input_options())
+          .with(&O::validate,
+                {{real_option(
+                      {"--rho", "NUMBER",
+                       "largest ratio of two radii, or of two bonds, that counts as uniform (default: any)"},
+                      &ValidateOptions::rho, {1, std::numeric_limits<double>::max()}),
+                  of_output(whole_option(
+                      {"--list", "N", "number of violations to list for each condition (default: 5)"},
+                      &ValidateOptions::most_listed, 0, 1'000'000))}})
+          .with({of_output(flag_option(
+              "--beads", "list the beads instead, one in a row: necklace, chain, residue, atom and radius",
+              &O::beads))})
+          .with(destination_options("write info.json and info.csv to DIR (default: none)",
+                                    "write all of it to FILE; - is standard output (default: none)"));
+  return list;
+}
+
+InfoOptions parse_info_options(const Arguments& arguments) {
+  InfoOptions options;
+  const ParsedArguments parsed = read_arguments(kInfoCommand, info_options(), arguments, options);
+  take_inputs(parsed, kInfoCommand.name, options);
+  if (options.beads && (parsed.has("--rho") || parsed.has("--list")))
+    throw InputError("--beads: it judges no conditions, which --rho and --list are about");
+  return options;
+}
+
+std::vector<BeadRow> bead_rows(std::span<const Trajectory> necklaces, std::span<const double> radii) {
+  std::vector<BeadRow> rows;
+  for (std::size_t n = 0; n < necklaces.size(); ++n) {
+    const std::vector<std::string>& names = necklaces[n].bead_names;
+    for (std::size_t b = 0; b < necklaces[n].bead_count(); ++b) {
+      const auto bead = static_cast<BeadId>(rows.size());
+      BeadRow& row = rows.emplace_back(BeadRow{bead, n, {}, radii[bead]});
+      if (b < names.size()) row.name = bead_name_of(names[b]).value_or(BeadName());
+    }
+  }
+  return rows;
+}
+
+const Table<BeadRow>& bead_columns() {
+  using Row = BeadRow;
+  const auto digits = [](const Field& number) { return number.csv(); };
+  const auto part = [](const char* key, std::string BeadName::*name) {
+    return Column<Row>{key, key, [name](const Row& r) { return text_or_nothing(r.name.*name); }};
+  };
+  static const Table<Row> table{{
+      {"bead", "bead", [](const Row& r) { return Field(r.bead); }, digits},
+      {"necklace", "necklace", [](const Row& r) { return Field(r.necklace); }, digits},
+      part("chain", &BeadName::chain),
+      part("residue", &BeadName::residue),
+      part("number", &BeadName::number),
+      part("atom", &BeadName::atom),
+      {"radius", "radius", [](const Row& r) { return Field(r.radius); }, with_figures(6)},
+  }};
+  return table;
+}
 
 namespace {
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/output/result_json.h"
+#include "motions/frames/frame_reader.h"
 #include "motions/frames/frame_source.h"
 #include "motions/frames/trajectory.h"
 #include "structures/necklace/necklace.h"
@@ -62,5 +64,16 @@ struct SceneInfo {
 
 /// Returns a short description for tables, such as "beads that follow each other touch".
 [[nodiscard]] std::string_view about(Condition condition);
+
+// Text describing a scene. `kds info` and `kds generate` share it.
+
+/// Adds `input`, `necklaces`, `rows` (one per condition) and `proper`.
+void add_scene(Json& json, const SceneInfo& info);
+
+/// Returns a header and one line per condition.
+[[nodiscard]] std::string conditions_csv(const SceneInfo& info);
+
+/// Returns the scene, its necklaces, and a table of the conditions.
+[[nodiscard]] std::string scene_table(const SceneInfo& info);
 
 }  // namespace kds

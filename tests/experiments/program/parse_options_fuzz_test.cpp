@@ -10,8 +10,8 @@
 
 #include "experiments/collide/collide_options.h"
 #include "experiments/output/text.h"
-#include "experiments/scenes/generate_options.h"
-#include "experiments/scenes/info_options.h"
+#include "experiments/scenes/generate_command.h"
+#include "experiments/scenes/info_command.h"
 #include "experiments/update/update_options.h"
 #include "motions/base/input_error.h"
 

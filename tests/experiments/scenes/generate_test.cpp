@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "experiments/scenes/generate_options.h"
+#include "experiments/scenes/generate_command.h"
 #include "motions/base/input_error.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/readers/write_trajectory.h"

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/scenes/info_options.h"
-#include "experiments/scenes/info_report.h"
+#include "experiments/scenes/info_command.h"
 #include "experiments/scenes/scene_info.h"
 #include "motions/base/input_error.h"
 #include "tests/experiments/run_program.h"

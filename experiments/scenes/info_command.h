@@ -1,16 +1,32 @@
 #pragma once
-// The residue and atom of each bead. They identify the beads that results name by number.
+// The options of `kds info` and their parser.
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "experiments/output/output_files.h"
 #include "experiments/output/page/table.h"
+#include "experiments/program/input_options.h"
 #include "motions/base/bead.h"
 #include "motions/frames/trajectory.h"
 #include "motions/readers/bead_name.h"
+#include "structures/necklace/necklace.h"
 
 namespace kds {
+
+struct InfoOptions : InputOptions, Destinations {  // results: info.json and info.csv
+  ValidateOptions validate{.most_listed = 5};
+  bool beads = false;  ///< report only which residue each bead is
+};
+
+[[nodiscard]] const OptionList<InfoOptions>& info_options();
+
+/// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
+/// --help. Opens no file.
+[[nodiscard]] InfoOptions parse_info_options(const Arguments& arguments);
+
+// The residue and atom of each bead. They identify the beads that results name by number.
 
 struct BeadRow {
   BeadId bead = 0;
