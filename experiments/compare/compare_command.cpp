@@ -1,12 +1,93 @@
-#include "experiments/program/commands.h"
+#include "experiments/compare/compare_command.h"
 
-#include "experiments/compare/compare_options.h"
-#include "experiments/compare/compare_page.h"
+#include <fmt/format.h>
+#include <algorithm>
+
 #include "experiments/compare/compare_report.h"
 #include "experiments/compare/compare_runs.h"
+#include "experiments/output/text.h"
+#include "experiments/program/commands.h"
+#include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 
 namespace kds {
+
+namespace {
+
+constexpr CommandSpec kCompareCommand{
+    "kds compare",
+    "Compares how often structures change, by stride, motion and input. Each row is one structure. The "
+    "structures of one\n"
+    "input run together.\n\n"
+    "  net changes     what differs between two consecutive frames: bases of nodes (wrapped), cells "
+    "(power),\n"
+    "                  pairs in contact (contacts), ranks (sorted), ends (box), corners (hull), the pair "
+    "(closest)\n"
+    "  efficiency      events per net change\n"
+    "  compactness     largest number of certificates at once\n"
+    "  locality        largest number of certificates on one bead\n"
+    "  responsiveness  seconds per event",
+    kInputOperand,
+    "necklaces, each a run of its own: .pdb .ent .cif .mmcif .dcd .xyz .extxyz (also .gz)",
+    "kds compare villin.dcd --topology villin.pdb --strides 1,2,4,8,16,32 --out report\n"
+    "kds compare 300K.dcd 400K.dcd --topology villin.pdb --structures wrapped,contacts --motions "
+    "linear,hermite",
+};
+
+std::vector<FrameMotion> parse_motions(const std::string& list) {
+  std::vector<FrameMotion> motions;
+  for (const std::string& name : split(list, ',')) {
+    motions.push_back(choice_of<FrameMotion>("--motions", name, frame_motion_names));
+    if (std::count(motions.begin(), motions.end(), motions.back()) > 1)
+      throw InputError(fmt::format("--motions: {} is listed twice", name));
+  }
+  std::sort(motions.begin(), motions.end());
+  return motions;
+}
+
+/// JSON has the distance as text, which is empty if the option is not given.
+Option<CompareOptions> compare_apart_option() {
+  auto option =
+      apart_option("contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",
+                   &CompareOptions::apart);
+  option.json = nullptr;
+  return option;
+}
+
+}  // namespace
+
+const OptionList<CompareOptions>& compare_options() {
+  using O = CompareOptions;
+  static const auto list =
+      OptionList<O>()
+          .with(input_options())
+          .with({list_option({"--structures", "LIST",
+                              "comma list of sorted, box, hull, closest, wrapped, power, contacts (default: "
+                              "wrapped,power)"},
+                             &O::structures, parse_structures),
+                 list_option({"--strides", "LIST",
+                              "run over every frame, every second, every fourth: 1,2,4 (default: 1)"},
+                             &O::strides, parse_strides),
+                 list_option({"--motions", "LIST",
+                              "motion of beads between frames: comma list of linear, hermite, lifted "
+                              "(default: linear)"},
+                             &O::motions, parse_motions),
+                 compare_apart_option(),
+                 whole_option({"--rounds", "N",
+                               "repeat each run N times and report the median time, and the shortest and "
+                               "longest (default: 3)"},
+                              &O::rounds, 1, 1000)})
+          .with(
+              destination_options("write compare.json, compare.csv and report.html to DIR (default: none)"));
+  return list;
+}
+
+CompareOptions parse_compare_options(const Arguments& arguments) {
+  CompareOptions options;
+  const ParsedArguments parsed = read_arguments(kCompareCommand, compare_options(), arguments, options);
+  take_inputs(parsed, kCompareCommand.name, options);
+  return options;
+}
 
 int compare_command(const Arguments& arguments) {
   const CompareOptions options = parse_compare_options(arguments);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "experiments/compare/compare_runs.h"
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/page/table.h"
 #include "experiments/output/result_json.h"
 
@@ -19,5 +20,10 @@ namespace kds {
 
 /// Returns the motion and input of a row if rows differ in them, otherwise an empty text.
 [[nodiscard]] std::string distinction(const Comparison& comparison, const CompareRow& row);
+
+// Writes the page of `kds compare` with findings, plots and figures.
+
+/// `page` says how the results were made.
+[[nodiscard]] std::string compare_page(const Comparison& comparison, Page page);
 
 }  // namespace kds

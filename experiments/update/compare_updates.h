@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "experiments/program/timing.h"
-#include "experiments/update/update_options.h"
+#include "experiments/update/update_command.h"
 #include "motions/scene/scene.h"
 #include "structures/triangulation/regular_triangulation.h"
 

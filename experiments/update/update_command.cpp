@@ -1,15 +1,249 @@
-#include "experiments/program/commands.h"
+#include "experiments/update/update_command.h"
 
+#include <algorithm>
+#include <fmt/format.h>
 #include <map>
 #include <memory>
+#include <optional>
 
+#include "experiments/output/page/svg_plot.h"
+#include "experiments/output/text.h"
+#include "experiments/program/commands.h"
+#include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
-#include "experiments/update/update_report.h"
 #include "motions/base/input_error.h"
 #include "motions/scene/radii.h"
 
 namespace kds {
+
+namespace {
+
+constexpr CommandSpec kUpdateCommand{
+    "kds update",
+    "Compares techniques that update the power diagram from frame to frame: their work and their time.\n\n"
+    "  rebuild   builds the diagram anew with CGAL; the others are compared with it\n"
+    "  reinsert  takes out one bead of each certificate (sign condition) that fails in the next frame, and "
+    "inserts\n"
+    "            these beads again at their new positions\n"
+    "  greedy    like reinsert, but takes out the beads of the most failed certificates first\n"
+    "  kinetic   moves all beads on straight lines and makes every change in order\n"
+    "  hermite   like kinetic, on cubic curves\n"
+    "  lifted    like kinetic, with radii that change between frames so that certificates have a lower "
+    "degree\n"
+    "  activate  moves only the beads of failed certificates, until no certificate fails\n"
+    "  auto      rebuilds, or moves all or some beads, by the share of certificates that fail in a sample",
+    kInputOperand,
+    kTrajectoryHelp,
+    "kds update villin.dcd --topology villin.pdb --frames 0:200 --strides 1,2,4,8 --out report\n"
+    "kds update 1l2y.pdb --select all --radius element --techniques kinetic,lifted --audit frames --json -",
+};
+
+std::vector<std::string> parse_techniques(const std::string& list) {
+  const std::vector<std::string> names = split(list, ',');
+  for (const std::string& name : names) {
+    if (std::find(kTechniques.begin(), kTechniques.end(), name) == kTechniques.end())
+      refuse_unknown("--techniques", name, kTechniques);
+    if (std::count(names.begin(), names.end(), name) > 1)
+      throw InputError(fmt::format("--techniques: {} is listed twice", name));
+  }
+  std::vector<std::string> ordered;
+  for (const std::string_view name : kTechniques) {
+    if (name == kTechniques.front() || std::find(names.begin(), names.end(), name) != names.end())
+      ordered.emplace_back(name);
+  }
+  return ordered;
+}
+
+}  // namespace
+
+const OptionList<UpdateOptions>& update_options() {
+  using O = UpdateOptions;
+  static const auto list =
+      OptionList<O>()
+          .with(input_options())
+          .with({list_option({"--techniques", "LIST",
+                              "comma list of rebuild, reinsert, greedy, kinetic, hermite, lifted, activate, "
+                              "auto; rebuild always runs (default: all)"},
+                             &O::techniques, parse_techniques),
+                 list_option({"--strides", "LIST",
+                              "update the diagram at every frame, every second, ...: 1,2 (default: 1)"},
+                             &O::strides, parse_strides),
+                 whole_option(
+                     {"--rounds", "N",
+                      "run each technique N times, alternating, and report the median time (default: 3)"},
+                     &O::rounds, 1, 1000),
+                 choice_option({"--audit", "WHEN",
+                                "when to compare with the static diagram: none or frames (default: none)"},
+                               &O::audit, std::span(audit_mode_names).first(2))})
+          .with(destination_options("write update.json, update.csv and report.html to DIR (default: none)"));
+  return list;
+}
+
+UpdateOptions parse_update_options(const Arguments& arguments) {
+  UpdateOptions options;
+  const ParsedArguments parsed = read_arguments(kUpdateCommand, update_options(), arguments, options);
+  take_inputs(parsed, kUpdateCommand.name, options);
+  return options;
+}
+
+namespace {
+
+double per_step(const UpdateRow& row, double sum) {
+  return row.task.steps == 0 ? 0 : sum / static_cast<double>(row.task.steps);
+}
+
+std::string task_line(const UpdateTask& task) {
+  const double steps = static_cast<double>(std::max<std::size_t>(1, task.steps));
+  return fmt::format(
+      "stride {}: {} step{}, {:.1f} cells, {:.1f} of them changed a step, {:.3g}% of {:.1f} certificates "
+      "failed, {:.1f} beads hidden",
+      task.stride, with_thousands(task.steps), task.steps == 1 ? "" : "s",
+      static_cast<double>(task.cells) / steps, static_cast<double>(task.cells_changed) / steps,
+      100 * task.failed_share(), static_cast<double>(task.certificates) / steps,
+      static_cast<double>(task.hidden) / steps);
+}
+
+/// Returns a plot with a mark at each stride for each technique that has a value.
+template <class Value>
+LinePlot over_strides(std::span<const UpdateRow> rows, const char* label, Value value) {
+  LinePlot plot{"stride", label, Drawn::points, {}};
+  for (const UpdateRow& row : rows) {
+    const std::optional<double> y = value(row);
+    if (!y) continue;
+    auto curve = std::find_if(plot.curves.begin(), plot.curves.end(),
+                              [&](const Curve& c) { return c.name == row.technique; });
+    if (curve == plot.curves.end()) curve = plot.curves.insert(curve, {row.technique, {}});
+    curve->points.emplace_back(static_cast<double>(row.task.stride), *y);
+  }
+  return plot;
+}
+
+std::string plots(std::span<const UpdateRow> rows) {
+  const bool several = rows.front().task.stride != rows.back().task.stride;
+  if (!several) {
+    BarPlot plot{"microseconds a step", {}};
+    for (const UpdateRow& row : rows)
+      plot.bars.push_back({row.technique, 1e6 * per_step(row, row.seconds.median)});
+    return html_figure(svg_plot(plot), "Time of each technique from one frame to the next.");
+  }
+  std::string html =
+      html_figure(svg_plot(over_strides(rows, "time / time to rebuild",
+                                        [](const UpdateRow& row) { return std::optional(row.ratio); })),
+                  "Time of each technique as a multiple of rebuilding with CGAL, by stride.");
+  const LinePlot efficiency = over_strides(rows, "events / changed cells", [](const UpdateRow& row) {
+    const bool in_order =
+        row.technique == "kinetic" || row.technique == "hermite" || row.technique == "lifted";
+    return in_order ? row.efficiency() : std::nullopt;
+  });
+  if (!efficiency.curves.empty())
+    html += html_figure(svg_plot(efficiency),
+                        "Events a changed cell, by stride: <em>kinetic</em> is linear motion.");
+  LinePlot failed{"stride", "% of certificates that fail", Drawn::points, {{"failed", {}}}};
+  for (const UpdateRow& row : rows) {
+    if (row.technique == "rebuild")
+      failed.curves.front().points.emplace_back(static_cast<double>(row.task.stride),
+                                                100 * row.task.failed_share());
+  }
+  return html + html_figure(svg_plot(failed),
+                            "Certificates of a frame's diagram that fail at the next frame, by stride.");
+}
+
+/// Groups the rows by stride. Rows of one stride are adjacent.
+std::vector<std::span<const UpdateRow>> by_stride(std::span<const UpdateRow> rows) {
+  std::vector<std::span<const UpdateRow>> groups;
+  while (!rows.empty()) {
+    const auto end = std::ranges::find_if(
+        rows, [&](const UpdateRow& row) { return row.task.stride != rows.front().task.stride; });
+    groups.push_back(rows.first(static_cast<std::size_t>(end - rows.begin())));
+    rows = rows.subspan(groups.back().size());
+  }
+  return groups;
+}
+
+std::string tables(std::span<const UpdateRow> rows) {
+  std::string html;
+  for (const auto& group : by_stride(rows))
+    html += fmt::format("<p>{}.</p>\n", html_escaped(task_line(group.front().task))) +
+            update_columns().html(group);
+  return html;
+}
+
+// Names the fastest technique for each stride.
+std::string findings(std::span<const UpdateRow> rows) {
+  std::string html;
+  for (const auto& group : by_stride(rows)) {
+    const UpdateRow& best = *std::ranges::min_element(group, {}, &UpdateRow::ratio);
+    html += fmt::format(
+        "<p>At stride {} <strong>{}</strong> was the fastest, {} of rebuilding's time; {:.3g}% of the "
+        "certificates failed from one frame to the next.</p>\n",
+        best.task.stride, html_escaped(best.technique), short_decimal(best.ratio),
+        100 * best.task.failed_share());
+  }
+  return html;
+}
+
+}  // namespace
+
+const Table<UpdateRow>& update_columns() {
+  using Row = UpdateRow;
+  const auto micros = [](const char* heading, double Spread::*seconds, Shown shown) {
+    return Column<Row>{.heading = heading,
+                       .value = [=](const Row& r) { return Field(1e6 * per_step(r, r.seconds.*seconds)); },
+                       .format = shortly,
+                       .shown = shown};
+  };
+  static const Table<Row> table{{
+      {.key = "stride", .value = [](const Row& r) { return Field(r.task.stride); }},
+      {"technique", "technique", [](const Row& r) { return Field(r.technique); }},
+      {.key = "steps", .value = [](const Row& r) { return Field(r.task.steps); }},
+      {.key = "cells", .value = [](const Row& r) { return Field(r.task.cells); }},
+      {.key = "hidden", .value = [](const Row& r) { return Field(r.task.hidden); }},
+      {.key = "cells_changed", .value = [](const Row& r) { return Field(r.task.cells_changed); }},
+      {.key = "certificates", .value = [](const Row& r) { return Field(r.task.certificates); }},
+      {.key = "certificates_failed", .value = [](const Row& r) { return Field(r.task.failed); }},
+      {"activated", "activated", [](const Row& r) { return Field(r.activated); }},
+      {"removed", "removed", [](const Row& r) { return Field(r.removed); }},
+      {"events", "events", [](const Row& r) { return Field(r.events); }},
+      {"efficiency", "a change", [](const Row& r) { return Field(r.efficiency()); }, with_decimals(3)},
+      {"rebuilds", "rebuilds", [](const Row& r) { return Field(r.rebuilds); }},
+      {.key = "audits", .value = [](const Row& r) { return Field(r.audits); }},
+      micros("us a step", &Spread::median, Shown::everywhere),
+      micros("least", &Spread::least, Shown::on_pages),
+      micros("most", &Spread::most, Shown::on_pages),
+      {.key = "seconds", .value = [](const Row& r) { return Field(r.seconds.median); }},
+      {"ratio", "ratio", [](const Row& r) { return Field(r.ratio); }, with_decimals(3)},
+      {.key = "seconds_least", .value = [](const Row& r) { return Field(r.seconds.least); }},
+      {.key = "seconds_most", .value = [](const Row& r) { return Field(r.seconds.most); }},
+  }};
+  return table;
+}
+
+std::string update_table(std::span<const UpdateRow> rows) {
+  std::string text;
+  for (const auto& group : by_stride(rows))
+    text += fmt::format("{}{}\n{}", text.empty() ? "" : "\n", task_line(group.front().task),
+                        update_columns().text(group, "  "));
+  std::uint64_t audits = 0;  // a failed audit ends the program
+  for (const UpdateRow& row : rows) audits += row.audits;
+  if (audits > 0)
+    text += fmt::format("\n{} audits against the static diagram, none failed\n", with_thousands(audits));
+  return text;
+}
+
+std::string update_page(std::span<const UpdateRow> rows, const std::string& input, Page page) {
+  page.title = "kds update: " + input;
+  page.found = findings(rows);
+  page.words =
+      "Each <em>technique</em> brings the power diagram from one frame to the next and ends in the same "
+      "diagram. <em>Activated</em>: beads that moved along a path in time; <em>removed</em>: beads taken out "
+      "and put in again; <em>events</em>: flips, and beads that vanish from the diagram or come back; <em>a "
+      "change</em>: events divided by the number of cells that are in only one of the two frames' diagrams; "
+      "<em>ratio</em>: time as a multiple of building the diagram anew with CGAL; <em>us a step</em>: the "
+      "median of the rounds, with the <em>least</em> and the <em>most</em>.";
+  page.body = html_section("Plots", plots(rows)) + html_section("Figures", tables(rows));
+  return html_page(page);
+}
 
 int update_command(const Arguments& arguments) {
   const UpdateOptions options = parse_update_options(arguments);

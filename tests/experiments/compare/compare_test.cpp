@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/compare/compare_options.h"
+#include "experiments/compare/compare_command.h"
 #include "experiments/compare/compare_report.h"
-#include "experiments/compare/net_changes.h"
+#include "experiments/compare/compare_runs.h"
 #include "experiments/output/text.h"
 #include "motions/base/input_error.h"
 #include "tests/experiments/run_program.h"

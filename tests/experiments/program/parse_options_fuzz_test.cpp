@@ -12,7 +12,7 @@
 #include "experiments/output/text.h"
 #include "experiments/scenes/generate_command.h"
 #include "experiments/scenes/info_command.h"
-#include "experiments/update/update_options.h"
+#include "experiments/update/update_command.h"
 #include "motions/base/input_error.h"
 
 namespace kds::parse_options_fuzz_test {

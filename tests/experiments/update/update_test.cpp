@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/update/compare_updates.h"
-#include "experiments/update/update_report.h"
+#include "experiments/update/update_command.h"
 #include "motions/base/input_error.h"
 #include "motions/frames/trajectory.h"
 #include "tests/experiments/run_program.h"

@@ -2,12 +2,16 @@
 // The options of `kds update` and their parser.
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "experiments/output/output_files.h"
+#include "experiments/output/page/html_page.h"
+#include "experiments/output/page/table.h"
 #include "experiments/program/input_options.h"
+#include "experiments/update/compare_updates.h"
 #include "kds/audit.h"
 #include "structures/power_diagram/diagram_update.h"
 
@@ -38,5 +42,14 @@ struct UpdateOptions : InputOptions, Destinations {  // results: update.json, up
 /// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
 /// --help. Opens no file.
 [[nodiscard]] UpdateOptions parse_update_options(const Arguments& arguments);
+
+// Reports the results of `kds update` to programs and people.
+
+/// Returns the columns of update.json and update.csv, of the terminal and of the page.
+[[nodiscard]] const Table<UpdateRow>& update_columns();
+/// Returns a line for each stride, followed by a line for each technique.
+[[nodiscard]] std::string update_table(std::span<const UpdateRow> rows);
+/// Completes a page that already says how the results were made.
+[[nodiscard]] std::string update_page(std::span<const UpdateRow> rows, const std::string& input, Page page);
 
 }  // namespace kds
