@@ -1,10 +1,10 @@
 #include "experiments/collide/collide_report.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "experiments/events/event_places.h"
+#include "experiments/output/output_files.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/program/timing.h"
@@ -155,6 +155,113 @@ std::string collide_page(const CollideReport& report, const std::string& input, 
   plots += course.figure();
   page.body = html_section("Plots", plots) + html_section("Figures", collide_columns().html(report.rows));
   return html_page(page);
+}
+
+ContactMap::ContactMap(std::size_t beads)
+    : beads_(beads),
+      in_group_((beads + most_groups - 1) / most_groups),
+      groups_((beads + in_group_ - 1) / in_group_),
+      counts_(groups_ * groups_, 0) {}
+
+void ContactMap::add_frame(std::span<const BeadPair> pairs) {
+  ++frames_;
+  pairs_ += pairs.size();
+  for (const auto& [i, j] : pairs) ++counts_[i / in_group_ * groups_ + j / in_group_];
+}
+
+std::string ContactMap::plot() const {
+  const auto side = static_cast<double>(in_group_);
+  MapPlot map{
+      "bead", in_group_ == 1 ? "share of frames" : fmt::format("pairs a frame of {} beads each", in_group_),
+      -0.5,   static_cast<double>(beads_) - 0.5,
+      side,   {}};
+  const auto middle = [&](std::size_t group) { return side * (static_cast<double>(group) + 0.5) - 0.5; };
+  for (std::size_t i = 0; i < groups_; ++i) {
+    for (std::size_t j = i; j < groups_; ++j) {
+      const std::uint64_t count = counts_[i * groups_ + j];
+      if (count == 0) continue;
+      const double value = static_cast<double>(count) / static_cast<double>(frames_);
+      map.squares.push_back({middle(i), middle(j), value});
+      if (i != j) map.squares.push_back({middle(j), middle(i), value});
+    }
+  }
+  return svg_plot(map);
+}
+
+namespace {
+
+std::string quoted(const std::string& name) {
+  std::string text = "\"";
+  for (const char c : name) text += c == '"' ? "\"\"" : std::string(1, c);
+  return text + "\"";
+}
+
+}  // namespace
+
+PairsCsv::PairsCsv(std::ostream& stream, const CollideFrames& scene) : stream_(stream), scene_(scene) {
+  stream_ << "frame,i,j,distance,name_i,name_j\n";
+}
+
+void PairsCsv::add(const FrameRead& frame, std::span<const BeadPair> pairs) {
+  const auto center = [&](BeadId b) -> Eigen::Vector3d { return frame.positions.col(Eigen::Index{b}); };
+  const std::vector<double>& radii = scene_.radii();
+  for (const auto& [i, j] : pairs) {
+    const double distance = (center(i) - center(j)).stableNorm() - (radii[i] + radii[j]);
+    stream_ << fmt::format("{},{},{},{},{},{}\n", frame.stamp.number, i, j, distance,
+                           quoted(scene_.bead_name(i)), quoted(scene_.bead_name(j)));
+  }
+}
+
+namespace {
+
+constexpr std::string_view kCommand = "collide";
+
+}  // namespace
+
+void CollideResults::begin(const CollideFrames& scene) {
+  if (destinations_.out || destinations_.json) frames_.emplace();
+  if (!destinations_.out) return;
+  files_.emplace(*destinations_.out, kCommand, "--out");
+  pairs_.emplace(files_->open("pairs.csv"), scene);
+  frames_csv_ = &files_->open("frames.csv");
+  *frames_csv_ << collide_frame_columns().csv_header();
+  course_.emplace(scene.frame_count());
+  contacts_.emplace(scene.radii().size());
+}
+
+void CollideResults::add_frame(const FrameRead& frame, const FrameFound& found,
+                               std::optional<std::span<const BeadPair>> pairs) {
+  if (frames_) frames_->add(collide_frame_columns().json(found));
+  if (!files_) return;
+  *frames_csv_ << collide_frame_columns().csv_line(found);
+  course_->add(found);
+  if (pairs) pairs_->add(frame, *pairs);
+  if (pairs) contacts_->add_frame(*pairs);
+  files_->check();
+}
+
+void CollideResults::deliver(const CollideReport& report, const Json& json, const std::string& input,
+                             Page page) {
+  const auto write_to = [&](std::ostream& stream) {
+    frames_->write_within(json, "frames", [&stream](std::string_view text) { stream << text; });
+  };
+  const bool json_on_stdout = destinations_.json == "-";
+  const bool table_on_stdout = !destinations_.quiet && !json_on_stdout;
+  if (files_) {
+    write_to(files_->open("collide.json"));
+    files_->write("collide.csv", collide_columns().csv(report.rows));
+    page.data = {"collide.json", "collide.csv", "pairs.csv", "frames.csv"};
+    files_->write("report.html",
+                  collide_page(report, input, contacts_->empty() ? "" : contacts_->plot(), *course_, page));
+  }
+  AtomicFiles json_file;
+  if (destinations_.json && !json_on_stdout) write_to(json_file.open(*destinations_.json));
+  commit_together({files_ ? &*files_ : nullptr, &json_file});
+  if (json_on_stdout)
+    frames_->write_within(json, "frames", [](std::string_view text) { print_to_stdout(std::string(text)); });
+  if (table_on_stdout) print_to_stdout(collide_table(report));
+  if (files_ && table_on_stdout)
+    print_to_stdout("report " + (*destinations_.out / "report.html").string() + "\n");
 }
 
 }  // namespace kds

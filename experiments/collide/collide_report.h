@@ -1,13 +1,21 @@
 #pragma once
 // Reports the results of `kds collide`.
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <ostream>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "experiments/collide/compare_detectors.h"
+#include "experiments/output/output_files.h"
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/table.h"
+#include "structures/collision/pairs_asked.h"
 
 namespace kds {
 
@@ -35,5 +43,67 @@ class ClosestCourse {
 /// `map` is the plot of the contacts, or empty. `page` already says how the results were made.
 [[nodiscard]] std::string collide_page(const CollideReport& report, const std::string& input,
                                        const std::string& map, const ClosestCourse& course, Page page);
+
+// Counts how often each pair of beads collides, as a contact map shows it. If there are many beads, counts
+// pairs of groups of consecutive beads. Memory does not grow with frames or pairs.
+
+class ContactMap {
+ public:
+  explicit ContactMap(std::size_t beads);
+
+  void add_frame(std::span<const BeadPair> pairs);
+  [[nodiscard]] bool empty() const { return pairs_ == 0; }
+  /// Returns the map as an SVG element.
+  [[nodiscard]] std::string plot() const;
+
+ private:
+  static constexpr std::size_t most_groups = 240;
+  std::size_t beads_, in_group_, groups_;
+  std::size_t frames_ = 0;
+  std::uint64_t pairs_ = 0;
+  std::vector<std::uint64_t> counts_;  // of the groups i <= j, at index i * groups_ + j
+};
+
+// Writes the colliding pairs of each frame for other programs, frame by frame during the run.
+
+/// The header is `frame,i,j,distance,name_i,name_j`, followed by one line per pair. `frame` is the frame's
+/// number in the file. `i` and `j` are the beads' numbers in the scene. `name_i` and `name_j` are the names
+/// in the file, in quotes, or empty if it has none. `distance` is the rounded distance between the surfaces,
+/// printed so that it reads back exactly. It is negative if the balls overlap.
+class PairsCsv {
+ public:
+  /// Writes the header. Stream and scene must outlive this object.
+  PairsCsv(std::ostream& stream, const CollideFrames& scene);
+  void add(const FrameRead& frame, std::span<const BeadPair> pairs);
+
+ private:
+  std::ostream& stream_;
+  const CollideFrames& scene_;
+};
+
+// Writes the results of `kds collide`: collide.json, collide.csv, pairs.csv, frames.csv and report.html in
+// --out, and the destinations --json and standard output.
+
+class CollideResults {
+ public:
+  explicit CollideResults(Destinations destinations) : destinations_(std::move(destinations)) {}
+
+  /// Starts the output files once the input is accepted. `scene` must outlive this object.
+  void begin(const CollideFrames& scene);
+  void add_frame(const FrameRead& frame, const FrameFound& found,
+                 std::optional<std::span<const BeadPair>> pairs);
+  /// Delivers all results. The files in --out appear together and replace the files of an earlier result.
+  /// `json` does not contain the frames.
+  void deliver(const CollideReport& report, const Json& json, const std::string& input, Page page);
+
+ private:
+  Destinations destinations_;
+  std::optional<AtomicFiles> files_;
+  std::optional<PairsCsv> pairs_;
+  std::ostream* frames_csv_ = nullptr;
+  std::optional<JsonItems> frames_;  // empty if no JSON is requested
+  std::optional<ClosestCourse> course_;
+  std::optional<ContactMap> contacts_;
+};
 
 }  // namespace kds

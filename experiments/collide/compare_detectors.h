@@ -1,18 +1,108 @@
 #pragma once
-// Runs every method over every frame, checks that the methods agree, and measures their times.
+// The common interface of the methods of collision detection.
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "experiments/collide/collide_frames.h"
-#include "experiments/collide/methods.h"
+#include "experiments/program/input_options.h"
 #include "experiments/program/timing.h"
+#include "motions/base/bead_range.h"
+#include "motions/scene/scene_stream.h"
+#include "structures/collision/closest_pair.h"
+#include "structures/collision/pairs_asked.h"
+#include "structures/necklace/balls.h"
 
 namespace kds {
+
+struct CollisionQuery {
+  PairsAsked asked;
+  double distance = 0;  ///< pairs with at most this distance count as colliding
+};
+
+/// The results of a method for one frame. All methods that report a result report the same one, except for
+/// `family`.
+struct Detection {
+  bool collide = false;
+  std::optional<std::vector<BeadPair>> pairs;  ///< all colliding pairs, ascending
+  std::optional<ClosestPair> closest;          ///< of all pairs asked for
+  std::optional<std::uint64_t> family;  ///< number of pairs of bead groups that prove the other pairs apart
+};
+
+template <int Dimension>
+class Detector {
+ public:
+  virtual ~Detector() = default;
+  /// Returns a sentence that says why the method cannot handle these balls, or nothing if it can.
+  [[nodiscard]] virtual std::optional<std::string> refusal(const Balls<Dimension>&) const {
+    return std::nullopt;
+  }
+  /// Finds the collisions of the next frame. The method may keep data from one frame to the next.
+  virtual void detect(const Balls<Dimension>& balls, Detection& found) = 0;
+  /// Finds the closest pair, if that needs a separate search. Call `detect` with these balls first.
+  virtual void find_closest(const Balls<Dimension>&, Detection&) {}
+};
+
+// The frames that `kds collide` examines. They are read one after the other, with one frame in memory.
+
+class CollideFrames {
+ public:
+  /// Reads all frames once. Each warning goes to `warn` as one line. Throws InputError for any fault of an
+  /// input.
+  CollideFrames(const InputOptions& options, const std::function<void(const std::string&)>& warn);
+
+  /// Reads the next frame. Returns false after the last frame. For a planar scene, the positions are in the
+  /// plane's coordinates and the third coordinate is zero.
+  [[nodiscard]] bool next(FrameRead& frame);
+
+  /// Returns 2 if all beads stay in one plane x, y or z = constant in all frames, else 3.
+  [[nodiscard]] int dimension() const { return plane_ ? 2 : 3; }
+  [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
+  [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
+  [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
+  /// Returns the bead's name in the file, or an empty text if the file has no names.
+  [[nodiscard]] const std::string& bead_name(BeadId bead) const {
+    static const std::string unnamed;
+    return bead < bead_names_.size() ? bead_names_[bead] : unnamed;
+  }
+
+ private:
+  SceneStream stream_;
+  std::optional<AxisPlane> plane_;
+  std::size_t frame_count_ = 0;
+  std::vector<BeadRange> necklaces_;
+  std::vector<double> radii_;
+  std::vector<std::string> bead_names_;  // empty, or a name for every bead
+};
+
+// The methods of `kds collide` by name.
+
+struct Method {
+  std::string_view name;
+  std::string_view about;  ///< a short description
+  std::unique_ptr<Detector<2>> (*in_plane)(const CollisionQuery&);
+  std::unique_ptr<Detector<3>> (*in_space)(const CollisionQuery&);
+
+  template <int Dimension>
+  [[nodiscard]] std::unique_ptr<Detector<Dimension>> make(const CollisionQuery& query) const {
+    if constexpr (Dimension == 2) {
+      return in_plane(query);
+    } else {
+      return in_space(query);
+    }
+  }
+};
+
+/// Returns the methods in the order in which they run and are listed.
+[[nodiscard]] std::span<const Method> collision_methods();
+
+// Runs every method over every frame, checks that the methods agree, and measures their times.
 
 struct ClosestInFrame {
   FrameStamp frame;

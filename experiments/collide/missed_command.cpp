@@ -1,12 +1,167 @@
-#include "experiments/program/commands.h"
+#include "experiments/collide/missed_command.h"
 
-#include "experiments/collide/missed_options.h"
-#include "experiments/collide/missed_report.h"
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
+
+#include "experiments/output/page/svg_plot.h"
+#include "experiments/output/text.h"
+#include "experiments/program/commands.h"
+#include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
+
+namespace {
+
+constexpr CommandSpec kMissedCommand{
+    "kds missed",
+    "Measures which share of all contacts you miss if you look only at the frames, or only at every second, "
+    "fourth ... frame.",
+    kInputOperand, kTrajectoryHelp,
+    "kds missed villin.dcd --topology villin.pdb --factors 2.2,2.5 --apart 5 --out report\n"
+    "kds missed a.xyz b.xyz --radius 1.9 --strides 1,10,100 --json -"};
+
+std::vector<double> parse_factors(const std::string& list) {
+  std::vector<double> factors;
+  for (const std::string& text : split(list, ','))
+    factors.push_back(parse_real("--factors", text, {0, 1e6, true}));
+  std::sort(factors.begin(), factors.end());
+  if (const auto twice = std::adjacent_find(factors.begin(), factors.end()); twice != factors.end())
+    throw InputError(fmt::format("--factors: {} is listed twice", *twice));
+  return factors;
+}
+
+}  // namespace
+
+const OptionList<MissedTask>& missed_task_options() {
+  using O = MissedTask;
+  static const auto list =
+      OptionList<O>()
+          .with(input_options().with({obstacle_option()}))
+          .with({of_output(list_option({"--strides", "LIST",
+                                        "examine every frame, every second, ... (default: 1,2,4,8,16,32,64, "
+                                        "as far as at least two frames remain)"},
+                                       &O::strides, parse_strides)),
+                 list_option({"--factors", "LIST",
+                              "multiply the radii by each factor, one run each. With --radius auto, contacts "
+                              "appear from 2.2 to 2.5 on (default: 1)"},
+                             &O::factors, parse_factors),
+                 apart_option("pairs of beads of one chain must be at least K apart along it; with factors "
+                              "above 2 take 5, or near neighbours are always in contact (default: 2)",
+                              &O::apart),
+                 // Lifted motion is excluded because it has no radii between frames.
+                 choice_option({"--motion", "NAME",
+                                "motion of beads between frames: linear or hermite (default: linear)"},
+                               &O::motion, std::span(frame_motion_names).first(2))});
+  return list;
+}
+
+MissedOptions parse_missed_options(const Arguments& arguments) {
+  using O = MissedOptions;
+  static const auto list =
+      OptionList<O>()
+          .with(&O::task, missed_task_options())
+          .with(&O::destinations,
+                destination_options("write missed.json, missed.csv and report.html to DIR (default: none)"));
+  O options;
+  const ParsedArguments parsed = read_arguments(kMissedCommand, list, arguments, options);
+  take_inputs(parsed, kMissedCommand.name, options.task);
+  return options;
+}
+
+namespace {
+
+/// Returns no value if there are no contacts.
+std::optional<double> missed_fraction(const MissedRow& row) {
+  if (row.contacts == 0) return std::nullopt;
+  return static_cast<double>(row.missed()) / static_cast<double>(row.contacts);
+}
+
+/// Returns a plot with a curve over strides for each factor that has contacts.
+std::string plot_of(std::span<const MissedRow> rows) {
+  LinePlot plot{"stride", "% of contacts missed", Drawn::points, {}};
+  for (const MissedRow& row : rows) {
+    const auto fraction = missed_fraction(row);
+    if (!fraction) continue;
+    const std::string name = fmt::format("radii times {}", row.factor);
+    if (plot.curves.empty() || plot.curves.back().name != name) plot.curves.push_back({name, {}});
+    plot.curves.back().points.emplace_back(static_cast<double>(row.stride), 100 * *fraction);
+  }
+  const bool has_line = !plot.curves.empty() && plot.curves.front().points.size() > 1;
+  return has_line ? svg_plot(plot) : "";
+}
+
+std::string percent_text(const MissedRow& row) {
+  const auto fraction = missed_fraction(row);
+  return fraction ? fmt::format("{:.1f}%", 100 * *fraction) : "-";
+}
+
+std::string frames_at(std::size_t stride) {
+  return stride == 1 ? "every frame" : fmt::format("one frame in {}", stride);
+}
+
+// Returns a sentence for each factor about its smallest and its largest stride.
+std::string findings(std::span<const MissedRow> rows) {
+  std::string html;
+  for (std::size_t first = 0; first < rows.size();) {
+    std::size_t end = first;
+    while (end < rows.size() && rows[end].factor == rows[first].factor) ++end;
+    const MissedRow &least = rows[first], &most = rows[end - 1];
+    if (least.contacts == 0) {
+      html += fmt::format("<p>With radii times {} there are no contacts to miss.</p>\n", least.factor);
+      first = end;
+      continue;
+    }
+    html += fmt::format(
+        "<p>With radii times {0}, <strong>{2}</strong> of {1} contacts are missed if only {3} is examined",
+        least.factor, with_thousands(least.contacts), percent_text(least), frames_at(least.stride));
+    if (end - first > 1)
+      html += fmt::format(", <strong>{}</strong> if only {} is", percent_text(most), frames_at(most.stride));
+    html += ".</p>\n";
+    first = end;
+  }
+  return html;
+}
+
+}  // namespace
+
+const Table<MissedRow>& missed_columns() {
+  using Row = MissedRow;
+  static const Table<Row> table{{
+      {"factor", "radii times", [](const Row& r) { return Field(r.factor); }},
+      {"stride", "stride", [](const Row& r) { return Field(r.stride); }},
+      {"frames", "frames", [](const Row& r) { return Field(r.frames); }},
+      {"contacts", "contacts", [](const Row& r) { return Field(r.contacts); }},
+      {"found", "found", [](const Row& r) { return Field(r.found); }},
+      {"missed", "missed", [](const Row& r) { return Field(r.missed()); }},
+      {.key = "missed_fraction",
+       .heading = "missed %",
+       .value = [](const Row& r) { return Field(missed_fraction(r)); },
+       .words = percent_text},
+  }};
+  return table;
+}
+
+std::string missed_page(std::span<const MissedRow> rows, const std::string& input, Page page) {
+  page.title = "kds missed: " + input;
+  page.found = findings(rows);
+  page.words =
+      "A <em>contact</em> of two beads lasts from the moment at which their closed balls begin to meet to "
+      "the moment at which they part. A touch is a contact too, and so is a contact that lasts at the first "
+      "or the last frame. The times are exact for the motion between frames that the run was asked for. One "
+      "frame in <em>stride</em> is examined, beginning with the first; <em>frames</em> is their number. A "
+      "contact is <em>found</em> if an examined frame lies in it, its ends included, and <em>missed</em> "
+      "otherwise.";
+  if (const std::string plot = plot_of(rows); !plot.empty())
+    page.body = html_section(
+        "By stride",
+        html_figure(plot, "Contacts that are missed if one frame in <em>stride</em> is examined."));
+  page.body += html_section("Figures", missed_columns().html(rows));
+  return html_page(page);
+}
 
 int missed_command(const Arguments& arguments) {
   const MissedOptions options = parse_missed_options(arguments);

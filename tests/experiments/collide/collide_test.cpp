@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "experiments/collide/collide_options.h"
+#include "experiments/collide/collide_command.h"
 #include "experiments/collide/compare_detectors.h"
 #include "motions/base/input_error.h"
 #include "tests/experiments/run_program.h"

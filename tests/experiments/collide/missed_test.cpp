@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "experiments/collide/missed_options.h"
+#include "experiments/collide/missed_command.h"
 #include "motions/base/input_error.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"

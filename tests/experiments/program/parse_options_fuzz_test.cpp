@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/collide/collide_options.h"
+#include "experiments/collide/collide_command.h"
 #include "experiments/output/text.h"
 #include "experiments/scenes/generate_command.h"
 #include "experiments/scenes/info_command.h"
