@@ -1,4 +1,4 @@
-#include "experiments/questions/bounds_question.h"
+#include "experiments/questions/question.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 
 #include "experiments/output/text.h"
 #include "experiments/program/timing.h"
-#include "experiments/questions/moving_subjects.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
 
 namespace kds {

@@ -1,4 +1,4 @@
-#include "experiments/questions/combination_question.h"
+#include "experiments/questions/question.h"
 
 #include <fmt/format.h>
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/questions/deformation.h"
+#include "experiments/questions/question.h"
 #include "tests/experiments/expect_refused.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"

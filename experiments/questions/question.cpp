@@ -1,4 +1,4 @@
-#include "experiments/questions/moving_subjects.h"
+#include "experiments/questions/question.h"
 
 #include <algorithm>
 
