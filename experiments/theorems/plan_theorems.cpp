@@ -1,17 +1,163 @@
 #include "experiments/theorems/plan_theorems.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <fmt/format.h>
+#include <limits>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-#include "experiments/theorems/closest_by_diagram.h"
-#include "experiments/theorems/family_sizes.h"
-#include "experiments/theorems/root_ratio.h"
 #include "motions/models/model.h"
+#include "motions/models/shape.h"
 #include "motions/models/shapes.h"
 #include "motions/models/tightness_points.h"
+#include "structures/collision/closest_pair.h"
+#include "structures/collision/hierarchy_search.h"
+#include "structures/hierarchy/layered_hierarchy.h"
+#include "structures/hierarchy/static_wrapped_hierarchy.h"
 
 namespace kds {
+
+std::string_view quantity_of(Theorem theorem) {
+  switch (theorem) {
+    case Theorem::tightness:
+      return "layered / wrapped radius of the root";
+    case Theorem::family:
+      return "pairs in the separating family";
+    case Theorem::search:
+      return "seconds of the search";
+    case Theorem::closest_pair:
+      return "pairs looked at";
+  }
+  return "";
+}
+
+std::optional<PowerFit> TheoremSeries::fit() const {
+  const bool per_level = dimension == 2 && (theorem == Theorem::family || theorem == Theorem::search);
+  std::vector<std::pair<double, double>> logarithmic;
+  for (const TheoremPoint& point : points) {
+    const auto n = static_cast<double>(point.beads);
+    const double x = theorem == Theorem::tightness ? static_cast<double>(tree_height(point.beads)) : n;
+    logarithmic.emplace_back(x, per_level ? point.value / std::log2(n) : point.value);
+  }
+  return fit_power(logarithmic);
+}
+
+std::string name_of(const TheoremSeries& series) {
+  return fmt::format("{} in {}{}{}", series.model, series.dimension == 2 ? "the plane" : "space",
+                     series.hierarchy.empty() ? "" : ", ", series.hierarchy);
+}
+
+namespace {
+
+template <int Dimension>
+double ratio(const Eigen::Matrix3Xd& centers, std::span<const double> radii) {
+  const std::array necklaces{BeadRange{0, static_cast<BeadId>(radii.size() - 1)}};
+  const Balls<Dimension> balls(centers, radii);
+  StaticWrappedHierarchy<Dimension> wrapped(necklaces);
+  LayeredHierarchy<Dimension> layered(necklaces);
+  wrapped.build(balls);
+  layered.build(balls);
+  const double inner = wrapped.sphere(0).radius;
+  return inner > 0 ? layered.sphere(0).radius / inner : 1;
+}
+
+}  // namespace
+
+double root_ratio(const Eigen::Matrix3Xd& centers, std::span<const double> radii, int dimension) {
+  return dimension == 2 ? ratio<2>(centers, radii) : ratio<3>(centers, radii);
+}
+
+std::size_t tree_height(std::size_t beads) { return static_cast<std::size_t>(std::bit_width(beads - 1)); }
+
+namespace {
+
+template <int Dimension>
+ClosestByDiagram measure(const Eigen::Matrix3Xd& centers, std::size_t rounds) {
+  const auto beads = static_cast<std::size_t>(centers.cols());
+  const std::vector<double> radii(beads, models::radius);
+  const PairsAsked asked{{{0, static_cast<BeadId>(beads - 1)}}, true, 2, true};
+  const BeadPairs neighbors = BeadPairs::along(beads, asked.necklaces);
+  ClosestPairReport report;
+  ClosestByDiagram result;
+  result.seconds = repeated_seconds(
+      rounds,
+      [&] {
+        return processor_seconds_of([&] { report = closest_pair<Dimension>(centers, radii, neighbors); });
+      },
+      std::numeric_limits<double>::infinity());
+  const PairsLookedAt& pairs = report.looked_at;
+  result.looked_at = pairs.edges + pairs.common_neighbors + pairs.unconnected + pairs.centers + pairs.near;
+
+  const Balls<Dimension> balls(centers, radii);
+  SphereTree<Dimension> tree(Hierarchy::wrapped, asked.necklaces);
+  tree.build(balls);
+  const auto by_search = find_closest_pair(tree, balls, asked);
+  result.same = by_search && report.pair && by_search->first == report.pair->first &&
+                by_search->second == report.pair->second;
+  return result;
+}
+
+}  // namespace
+
+ClosestByDiagram closest_by_diagram(const Eigen::Matrix3Xd& centers, int dimension, std::size_t rounds) {
+  return dimension == 2 ? measure<2>(centers, rounds) : measure<3>(centers, rounds);
+}
+
+namespace {
+
+template <int Dimension>
+FamilySize measure(const Eigen::Matrix3Xd& centers, Hierarchy hierarchy, std::size_t rounds) {
+  const auto beads = static_cast<std::size_t>(centers.cols());
+  const Balls<Dimension> balls(centers, std::vector<double>(beads, models::radius));
+  const PairsAsked asked{{{0, static_cast<BeadId>(beads - 1)}}, true, 2, true};
+  SphereTree<Dimension> tree(hierarchy, asked.necklaces);
+  tree.build(balls);
+  FamilySize size;
+  const auto search = [&] {
+    return processor_seconds_of([&] { size.family = find_pairs(tree, asked).family; });
+  };
+  if (rounds == 0)
+    search();
+  else
+    size.seconds = repeated_seconds(rounds, search, std::numeric_limits<double>::infinity());
+  return size;
+}
+
+}  // namespace
+
+FamilySize measure_family(const Eigen::Matrix3Xd& centers, int dimension, Hierarchy hierarchy,
+                          std::size_t rounds) {
+  return dimension == 2 ? measure<2>(centers, hierarchy, rounds) : measure<3>(centers, hierarchy, rounds);
+}
+
+std::size_t beads_of_grid(int dimension, std::size_t side) {
+  const std::size_t rows = dimension == 2 ? side : side * side;
+  return rows * side + rows - 1;
+}
+
+std::vector<std::size_t> sides_of_grids(int dimension, std::size_t most_beads) {
+  constexpr std::size_t least_beads = 1000;
+  const double factor = dimension == 2 ? 1.34 : 1.22;  // n grows by a factor of about 1.8
+  std::vector<std::size_t> sides;
+  std::size_t side = 3;
+  while (beads_of_grid(dimension, side + 2) <= most_beads) side += 2;
+  for (auto next = static_cast<double>(side); beads_of_grid(dimension, side) >= least_beads;) {
+    sides.push_back(side);
+    next /= factor;
+    side = std::min(side - 2, 2 * static_cast<std::size_t>(next / 2) + 1);
+  }
+  std::reverse(sides.begin(), sides.end());
+  return sides;
+}
+
+double family_bound(int dimension, std::size_t beads) {
+  const auto n = static_cast<double>(beads);
+  return dimension == 2 ? n * std::log2(n) : std::pow(n, 4.0 / 3);
+}
 
 namespace {
 

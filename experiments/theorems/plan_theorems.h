@@ -1,14 +1,114 @@
 #pragma once
-// Plans the necklaces and sizes on which each theorem is measured.
+// A quantity that a theorem bounds, measured on one family of necklaces over a range of sizes.
 
+#include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "experiments/theorems/theorem_series.h"
+#include "experiments/program/power_fit.h"
+#include "experiments/program/timing.h"
+#include "structures/collision/sphere_tree.h"
 
 namespace kds {
+
+/// The theorems of Agarwal et al. (2004) about the growth of a quantity.
+enum class Theorem : std::uint8_t {
+  tightness,    ///< 2.3: layered root at most sqrt(h + 1) times the wrapped root, almost tight
+  family,       ///< 3.1: a separating family of O(n log n) pairs in the plane, O(n^(4/3)) in space
+  search,       ///< 3.2: collisions decided within the time of 3.1
+  closest_pair  ///< 3.5: the closest pair is among the pairs that the power diagram and the chain give
+};
+/// The names of the enumerators in order.
+inline constexpr std::array<std::string_view, 4> theorem_names{"2.3", "3.1", "3.2", "3.5"};
+[[nodiscard]] constexpr std::string_view name_of(Theorem theorem) {
+  return theorem_names[static_cast<std::size_t>(theorem)];
+}
+
+/// Returns the measured quantity in words, with its unit.
+[[nodiscard]] std::string_view quantity_of(Theorem theorem);
+
+struct TheoremPoint {
+  std::size_t beads = 0;
+  double value = 0;             ///< quantity_of the theorem
+  std::optional<double> bound;  ///< the theorem's bound, without its constant if that is unspecified
+  std::optional<Spread> seconds;
+  std::optional<bool> holds;  ///< empty if one size cannot decide it
+};
+
+struct TheoremSeries {
+  Theorem theorem = Theorem::tightness;
+  std::string model;
+  int dimension = 3;
+  std::string hierarchy;           ///< empty if none
+  std::optional<double> expected;  ///< exponent in the theorem; empty if it says nothing about this model
+  std::vector<TheoremPoint> points;
+
+  /// Fits the growth with the number of beads n. For 2.3, fits the growth with the tree's height. For 3.1 and
+  /// 3.2 in the plane, fits the growth of value / log2 n.
+  [[nodiscard]] std::optional<PowerFit> fit() const;
+};
+
+/// Returns a name such as "grid in space, wrapped".
+[[nodiscard]] std::string name_of(const TheoremSeries& series);
+
+// Compares the radii of the layered and the wrapped hierarchy's roots (Theorem 2.3).
+
+/// Returns layered radius / wrapped radius of the root over all balls of a necklace with at least two beads.
+/// Returns 1 if both radii are 0.
+[[nodiscard]] double root_ratio(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
+                                int dimension);
+
+/// Returns the height of the balanced tree over this many beads: the depth of its deepest leaf.
+[[nodiscard]] std::size_t tree_height(std::size_t beads);
+
+// Compares the closest pair by power diagram (Theorem 3.5) with the closest pair by a search of the
+// hierarchy.
+
+struct ClosestByDiagram {
+  std::uint64_t looked_at = 0;  ///< pairs that the diagram and the chain give
+  Spread seconds;               ///< time, diagram included
+  bool same = false;  ///< whether the hierarchy search, which considers all pairs, finds the same pair
+};
+
+/// Requires at least three beads of radius 1, of which consecutive beads meet and no others.
+[[nodiscard]] ClosestByDiagram closest_by_diagram(const Eigen::Matrix3Xd& centers, int dimension,
+                                                  std::size_t rounds);
+
+// Separating families of tightly packed grids: their sizes (Theorem 3.1) and the time to find them (Theorem
+// 3.2). The bounds are O(n log n) in the plane and O(n^(4/3)) in space.
+//
+// All grids have odd sides. If a side is a power of two, tree nodes end where rows end, and results for a
+// mixture of such sizes oscillate.
+
+struct FamilySize {
+  std::uint64_t family = 0;       ///< pairs of spheres
+  std::optional<Spread> seconds;  ///< of the search, without building the hierarchy
+};
+
+/// Measures the family of beads with radius 1. No two beads may collide except neighbours along the chain. If
+/// `rounds` is 0, no time is measured.
+[[nodiscard]] FamilySize measure_family(const Eigen::Matrix3Xd& centers, int dimension, Hierarchy hierarchy,
+                                        std::size_t rounds);
+
+/// Returns the number of beads in a grid: all rows, and a bead beside each row except the last that joins it
+/// to the next row.
+[[nodiscard]] std::size_t beads_of_grid(int dimension, std::size_t side);
+
+/// Returns odd sides of grids with 1000 to `most_beads` beads. The number of beads grows by a roughly
+/// constant factor, and the last side is the largest possible.
+[[nodiscard]] std::vector<std::size_t> sides_of_grids(int dimension, std::size_t most_beads);
+
+/// Returns n log2 n in the plane, n^(4/3) in space.
+[[nodiscard]] double family_bound(int dimension, std::size_t beads);
+
+// Plans the necklaces and sizes on which each theorem is measured.
 
 struct TheoremOptions {
   std::vector<Theorem> theorems;     ///< ascending

@@ -1,17 +1,264 @@
-#include "experiments/program/commands.h"
-
-#include <fmt/format.h>
+#include "experiments/theorems/theorems_command.h"
 
 #include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
 
+#include "experiments/output/page/svg_plot.h"
+#include "experiments/output/text.h"
+#include "experiments/program/commands.h"
 #include "experiments/program/option.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
+#include "experiments/program/timing.h"
 #include "experiments/theorems/plan_theorems.h"
-#include "experiments/theorems/theorems_report.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
+
+namespace {
+
+std::optional<double> ratio_to_bound(const TheoremPoint& point) {
+  if (!point.bound) return std::nullopt;
+  return point.value / *point.bound;
+}
+
+// Counts are written in full.
+std::string value_text(Theorem theorem, double value) {
+  const bool is_count = theorem == Theorem::family || theorem == Theorem::closest_pair;
+  return is_count ? with_thousands(static_cast<std::uint64_t>(value)) : short_decimal(value);
+}
+
+/// One necklace, which is a row in all forms of the report.
+struct PlacedPoint {
+  const TheoremSeries* series;
+  const TheoremPoint* point;
+};
+std::vector<PlacedPoint> points_of(std::span<const TheoremSeries> group) {
+  std::vector<PlacedPoint> points;
+  for (const TheoremSeries& series : group)
+    for (const TheoremPoint& point : series.points) points.push_back({&series, &point});
+  return points;
+}
+
+/// Returns the columns that identify the series. `series_of` returns the series of a row.
+template <class Row, class SeriesOf>
+std::vector<Column<Row>> series_columns(SeriesOf series_of) {
+  return {
+      {.key = "theorem", .value = [=](const Row& r) { return Field(name_of(series_of(r).theorem)); }},
+      {.key = "model", .value = [=](const Row& r) { return Field(series_of(r).model); }},
+      {.key = "dimension", .value = [=](const Row& r) { return Field(series_of(r).dimension); }},
+      {.key = "hierarchy", .value = [=](const Row& r) { return text_or_nothing(series_of(r).hierarchy); }},
+  };
+}
+
+Table<PlacedPoint> point_columns(std::string_view value_heading = "value") {
+  using Row = PlacedPoint;
+  Table<Row> table(series_columns<Row>([](const Row& r) -> const TheoremSeries& { return *r.series; }));
+  table.add({
+      {.heading = "necklaces", .value = [](const Row& r) { return Field(name_of(*r.series)); }},
+      {"n", "n", [](const Row& r) { return Field(r.point->beads); }},
+      {.key = "quantity", .json = [](const Row& r) { return Json(quantity_of(r.series->theorem)); }},
+      {.key = "value",
+       .heading = std::string(value_heading),
+       .value = [](const Row& r) { return Field(r.point->value); },
+       .words = [](const Row& r) { return value_text(r.series->theorem, r.point->value); }},
+      {"bound", "bound", [](const Row& r) { return Field(r.point->bound); }, shortly},
+      {"ratio", "ratio", [](const Row& r) { return Field(ratio_to_bound(*r.point)); }, shortly},
+  });
+  table.add(spread_columns<Row>("seconds", "seconds", [](const Row& r) { return r.point->seconds; }));
+  return table.add({{.key = "holds",
+                     .heading = "holds",
+                     .value = [](const Row& r) { return Field(r.point->holds); },
+                     .words = [](const Row& r) { return *r.point->holds ? "yes" : "NO"; }}});
+}
+
+struct FittedSeries {
+  const TheoremSeries* series;
+  PowerFit fit;
+};
+std::vector<FittedSeries> fits_of(std::span<const TheoremSeries> series) {
+  std::vector<FittedSeries> fits;
+  for (const TheoremSeries& one : series)
+    if (const auto fit = one.fit()) fits.push_back({&one, *fit});
+  return fits;
+}
+
+Table<FittedSeries> fit_columns() {
+  using Row = FittedSeries;
+  Table<Row> table(series_columns<Row>([](const Row& r) -> const TheoremSeries& { return *r.series; }));
+  return table.add({
+      {.heading = "necklaces",
+       .value =
+           [](const Row& r) {
+             return Field(fmt::format("{}, {}", name_of(r.series->theorem), name_of(*r.series)));
+           }},
+      {.key = "sizes", .value = [](const Row& r) { return Field(r.fit.points); }},
+      {"exponent", "exponent", [](const Row& r) { return Field(r.fit.exponent); }, with_decimals(3)},
+      {.key = "lower",
+       .heading = "95%",
+       .value = [](const Row& r) { return Field(r.fit.lower); },
+       .words = [](const Row& r) { return fmt::format("{:.3f} to {:.3f}", r.fit.lower, r.fit.upper); }},
+      {.key = "upper", .value = [](const Row& r) { return Field(r.fit.upper); }},
+      {.key = "factor", .value = [](const Row& r) { return Field(r.fit.factor); }},
+      {"expected", "theorem", [](const Row& r) { return Field(r.series->expected); }, with_decimals(3)},
+  });
+}
+
+/// Groups the series by theorem.
+std::vector<std::span<const TheoremSeries>> by_theorem(std::span<const TheoremSeries> series) {
+  std::vector<std::span<const TheoremSeries>> groups;
+  for (const Theorem theorem :
+       {Theorem::tightness, Theorem::family, Theorem::search, Theorem::closest_pair}) {
+    const auto of_it = std::ranges::find_if(series, [&](const auto& s) { return s.theorem == theorem; });
+    if (of_it == series.end()) continue;
+    const auto after = std::find_if(of_it, series.end(), [&](const auto& s) { return s.theorem != theorem; });
+    groups.emplace_back(of_it, after);
+  }
+  return groups;
+}
+
+std::string growing(const TheoremSeries& series) {
+  switch (series.theorem) {
+    case Theorem::tightness:
+      return "the ratio grows as h^";
+    case Theorem::family:
+      return series.dimension == 2 ? "family / log2 n grows as n^" : "the family grows as n^";
+    case Theorem::search:
+      return series.dimension == 2 ? "time / log2 n grows as n^" : "the time grows as n^";
+    case Theorem::closest_pair:
+      return "the pairs looked at grow as n^";
+  }
+  return "";
+}
+
+std::string_view theorem_says(Theorem theorem) {
+  switch (theorem) {
+    case Theorem::tightness:
+      return "the layered root is at most sqrt(h + 1) times the wrapped one, h the height of the tree, and "
+             "on some points sqrt(h) times";
+    case Theorem::family:
+      return "the wrapped hierarchy has a separating family of O(n log n) pairs in the plane, O(n^(4/3)) in "
+             "space; tight on grids";
+    case Theorem::search:
+      return "collisions are decided in O(n log n) time in the plane, O(n^(4/3)) in space";
+    case Theorem::closest_pair:
+      return "the closest pair is an edge of the power diagram, or has a common neighbour, or a bead beside "
+             "an end of the chain";
+  }
+  return "";
+}
+
+// Counts the necklaces that can decide whether a theorem holds.
+struct Judged {
+  std::size_t all = 0, held = 0;
+};
+Judged judged_of(std::span<const TheoremSeries> some) {
+  Judged judged;
+  for (const TheoremSeries& series : some)
+    for (const TheoremPoint& point : series.points) {
+      judged.all += point.holds ? 1 : 0;
+      judged.held += point.holds.value_or(false) ? 1 : 0;
+    }
+  return judged;
+}
+
+// Returns the findings as sentences.
+std::vector<std::string> findings_of(std::span<const TheoremSeries> group) {
+  std::vector<std::string> findings;
+  for (const TheoremSeries& series : group) {
+    if (series.points.empty()) continue;
+    const TheoremPoint& last = series.points.back();
+    std::string text = fmt::format("{}: {} at {} beads", name_of(series),
+                                   value_text(series.theorem, last.value), with_thousands(last.beads));
+    if (const auto ratio = ratio_to_bound(last);
+        ratio && (series.theorem == Theorem::family || series.theorem == Theorem::tightness))
+      text += fmt::format(", {} of the bound", short_decimal(*ratio));
+    if (const auto fit = series.fit()) {
+      text += fmt::format("; {}{}", growing(series), exponent_text(*fit));
+      if (series.expected) text += fmt::format(", theorem {:.3f}", *series.expected);
+    }
+    findings.push_back(text + ".");
+  }
+  if (const Judged judged = judged_of(group); judged.all > 0)
+    findings.insert(findings.begin(), fmt::format("{} in {} of {} necklaces.",
+                                                  group.front().theorem == Theorem::tightness
+                                                      ? "The bound holds"
+                                                      : "The closest pair is among them",
+                                                  judged.held, judged.all));
+  return findings;
+}
+
+PointPlot plot_of(std::span<const TheoremSeries> group) {
+  const Theorem theorem = group.front().theorem;
+  PointPlot plot{"beads n", std::string(quantity_of(theorem)), {}, {}};
+  for (const TheoremSeries& series : group) {
+    for (const TheoremPoint& point : series.points)
+      plot.points.push_back({"", static_cast<double>(point.beads), point.value, plot.series.size()});
+    plot.series.push_back(name_of(series));
+  }
+  return plot;
+}
+
+std::string findings_html(std::span<const TheoremSeries> series) {
+  const Judged judged = judged_of(series);
+  std::string html = "<p>";
+  if (judged.all > 0)
+    html +=
+        fmt::format("Theorems 2.3 and 3.5, which judge single necklaces, held in <strong>{} of {}</strong>. ",
+                    judged.held, judged.all);
+  html += "The quantities that the theorems bound grow with these exponents:</p>\n";
+  std::vector<FittedSeries> fits = fits_of(series);
+  std::erase_if(fits, [](const FittedSeries& fitted) { return !fitted.series->expected; });
+  return html + fit_columns().html(fits);
+}
+
+}  // namespace
+
+Json theorem_rows_json(std::span<const TheoremSeries> series) {
+  return point_columns().json(points_of(series));
+}
+
+Json theorem_fits_json(std::span<const TheoremSeries> series) { return fit_columns().json(fits_of(series)); }
+
+std::string theorems_csv(std::span<const TheoremSeries> series) {
+  return point_columns().csv(points_of(series));
+}
+
+std::string theorems_table(std::span<const TheoremSeries> series) {
+  std::string text;
+  for (const auto& group : by_theorem(series)) {
+    const Theorem theorem = group.front().theorem;
+    text +=
+        fmt::format("{}theorem {}: {}\n{}", text.empty() ? "" : "\n", name_of(theorem), theorem_says(theorem),
+                    point_columns(quantity_of(theorem)).text(points_of(group), "  "));
+    for (const std::string& finding : findings_of(group)) text += "  " + finding + "\n";
+  }
+  return text;
+}
+
+std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
+  page.title = "kds theorems";
+  page.found = findings_html(series);
+  for (const auto& group : by_theorem(series)) {
+    const Theorem theorem = group.front().theorem;
+    std::string section = fmt::format("<p>It says: {}.</p>\n<ul>\n", html_escaped(theorem_says(theorem)));
+    for (const std::string& finding : findings_of(group))
+      section += fmt::format("<li>{}</li>\n", html_escaped(finding));
+    section += "</ul>\n" +
+               html_figure(svg_plot(plot_of(group)),
+                           fmt::format("Theorem {}: {} by the number of beads, both axes logarithmic.",
+                                       name_of(theorem), quantity_of(theorem))) +
+               point_columns().html(points_of(group));
+    page.body += html_section(fmt::format("Theorem {}", name_of(theorem)), section);
+  }
+  page.words =
+      "The theorems are those of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for "
+      "deforming necklaces</em> (2004). Powers are fitted by least squares of logarithms. Their intervals of "
+      "95% confidence assume normal errors: a measurement proves no theorem. Seconds are processor times: "
+      "the median of the rounds, with the least and the most in brackets.";
+  return html_page(page);
+}
 
 namespace {
 

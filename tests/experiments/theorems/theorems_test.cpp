@@ -10,10 +10,7 @@
 #include <vector>
 
 #include "experiments/program/timing.h"
-#include "experiments/theorems/closest_by_diagram.h"
-#include "experiments/theorems/family_sizes.h"
 #include "experiments/theorems/plan_theorems.h"
-#include "experiments/theorems/root_ratio.h"
 #include "motions/models/tightness_points.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"

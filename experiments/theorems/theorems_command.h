@@ -6,7 +6,7 @@
 
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
-#include "experiments/theorems/theorem_series.h"
+#include "experiments/theorems/plan_theorems.h"
 
 namespace kds {
 
