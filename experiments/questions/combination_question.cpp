@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "experiments/output/text.h"
-#include "experiments/reproduce/subjects.h"
+#include "experiments/reproduce/measurements.h"
 #include "motions/models/model.h"
 #include "motions/models/shape.h"
 #include "structures/collision/closest_pair.h"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "experiments/program/power_fit.h"
-#include "experiments/reproduce/subjects.h"
+#include "experiments/reproduce/measurements.h"
 
 namespace kds {
 

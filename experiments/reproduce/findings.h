@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/reproduce/paper_table.h"
+#include "experiments/reproduce/paper_tables.h"
 
 namespace kds {
 

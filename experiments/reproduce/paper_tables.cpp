@@ -1,12 +1,10 @@
 #include "experiments/reproduce/paper_tables.h"
 
 #include <fmt/format.h>
-
 #include <memory>
 #include <stdexcept>
 
 #include "experiments/reproduce/measurements.h"
-#include "experiments/reproduce/subjects.h"
 
 namespace kds {
 

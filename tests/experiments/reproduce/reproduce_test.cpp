@@ -13,7 +13,7 @@
 #include "experiments/reproduce/findings.h"
 #include "experiments/reproduce/measurements.h"
 #include "experiments/reproduce/paper_tables.h"
-#include "experiments/reproduce/reproduce_report.h"
+#include "experiments/reproduce/reproduce_command.h"
 #include "structures/collision/hierarchy_search.h"
 #include "structures/triangulation/regular_triangulation.h"
 #include "tests/experiments/run_program.h"

@@ -6,7 +6,7 @@
 
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
-#include "experiments/reproduce/paper_table.h"
+#include "experiments/reproduce/paper_tables.h"
 
 namespace kds {
 
