@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "experiments/trade/finest_data.h"
-#include "experiments/trade/match_contacts.h"
 #include "experiments/trade/match_events.h"
 #include "experiments/trade/trade_setting.h"
 

@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "kds/change.h"
+#include "structures/collision/pairs_asked.h"
 
 namespace kds {
 
@@ -25,5 +27,32 @@ struct EventMatch {
 /// time.
 [[nodiscard]] EventMatch match_events(std::span<const TimedEvent> expected, std::span<const TimedEvent> found,
                                       double reach);
+
+// Compares the contacts of two runs. A contact is the interval from the time at which a pair begins to touch
+// to the time at which it parts.
+
+struct ContactTime {
+  BeadPair pair;
+  double from, to;  ///< in frames of the finest data
+};
+
+/// Returns the contacts, sorted by pair and then by time. `built` has the pairs in contact at the first
+/// frame, which has the time `first`. `events` are the events of the structure `contacts` in their order.
+/// Contacts that last to the end get the end time `last`.
+[[nodiscard]] std::vector<ContactTime> contact_times(std::span<const BeadPair> built,
+                                                     std::span<const TimedEvent> events, double first,
+                                                     double last);
+
+struct ContactMatch {
+  std::uint64_t expected = 0, missed = 0, spurious = 0;
+  std::uint64_t timed = 0;                        ///< number of contact pairs whose ends are compared
+  double time_error_sum = 0, time_error_max = 0;  ///< errors of both ends, in frames
+};
+
+/// Matches contacts. An expected contact is missed if no found contact of the same pair overlaps it to within
+/// `slack` frames. A found contact is spurious if no expected contact overlaps it likewise. Both lists must
+/// be sorted as contact_times sorts them.
+[[nodiscard]] ContactMatch match_contacts(std::span<const ContactTime> expected,
+                                          std::span<const ContactTime> found, double slack);
 
 }  // namespace kds

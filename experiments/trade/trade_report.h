@@ -18,4 +18,13 @@ namespace kds {
 /// `page` says how the results were made.
 [[nodiscard]] std::string trade_page(std::span<const TradeRow> rows, const std::string& input, Page page);
 
+// Turns the measured rows into a recommendation in words.
+
+/// Returns one or two sentences per group: the quickest setting whose main errors are small, its errors and
+/// its gain. `rows` are in the order of measure_trade.
+[[nodiscard]] std::string recommendation(std::span<const TradeRow> rows);
+
+/// Returns the errors in words: "radii 0.02% larger on average, 0.5% at most".
+[[nodiscard]] std::string losses_of(const TradeRow& row);
+
 }  // namespace kds

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "experiments/trade/match_contacts.h"
 #include "experiments/trade/match_events.h"
 
 namespace kds::matching_test {

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "experiments/trade/measure_trade.h"
-#include "experiments/trade/recommend.h"
+#include "experiments/trade/trade_report.h"
 #include "motions/readers/read_trajectory.h"
 #include "tests/experiments/expect_refused.h"
 #include "tests/experiments/run_program.h"
