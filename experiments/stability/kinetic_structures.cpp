@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "experiments/stability/stability_radii.h"
+#include "experiments/stability/stability_scenes.h"
 #include "experiments/stability/stability_subjects.h"
 #include "kds/event_log.h"
 #include "motions/base/input_error.h"

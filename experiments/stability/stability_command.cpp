@@ -1,15 +1,148 @@
-#include "experiments/program/commands.h"
+#include "experiments/stability/stability_command.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
 
+#include "experiments/output/text.h"
+#include "experiments/program/commands.h"
+#include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
-#include "experiments/stability/run_stability.h"
-#include "experiments/stability/stability_options.h"
-#include "experiments/stability/stability_page.h"
 #include "experiments/stability/stability_report.h"
-#include "experiments/stability/stability_table.h"
+#include "motions/base/input_error.h"
 
 namespace kds {
+
+namespace {
+
+constexpr CommandSpec kStabilityCommand{
+    "kds stability",
+    "Compares the three kernels (--kernel) on inputs that are hard for rounding. filtered and exact must "
+    "agree.\n\n"
+    "  subjects\n"
+    "    certificates  precedes, orientation, power_test, contact, bead_in_sphere_1 (to _3),\n"
+    "                  ball_in_sphere_1 (to _4)\n"
+    "    structures    sorted, hull, box, closest, wrapped, power, wrapped:chord, wrapped:relax; with radii\n"
+    "                  contacts:balls, wrapped:balls, wrapped:balls:chord, wrapped:balls:relax, "
+    "layered:balls\n"
+    "    guarantees    tolerance, stride, contacts_of_tolerance, contacts_of_stride\n\n"
+    "  extremes (a family, or one member of it, as in offset:2^50)\n"
+    "    scale    coordinates times 2^-1000, 2^-300, 2^300 or 2^1000, or as large as doubles are (largest)\n"
+    "    offset   2^20, 2^35 or 2^50 radii from the origin\n"
+    "    step     subnormal, ulp or thousandfold motion, none (zero), or out and back (identical)\n"
+    "    radii    of ratio 10^3, 10^6 or 10^9\n"
+    "    beads    ulp-apart; coincident, collinear, coplanar or cospherical, or so at u = 1/2 "
+    "(coincident-mid ...)\n"
+    "    contact  balls that touch at u = 1/2: tangent (from outside) or inner\n"
+    "    ties     many certificates are zero at the start, middle or end\n"
+    "    basis    nearly degenerate spheres: a-near-0, flat\n"
+    "    degree   18: cubic motion that winds\n"
+    "    refused  nan, infinity: both kernels must refuse them",
+    "",
+    "",
+    "kds stability --out stability\n"
+    "kds stability --subjects power_test,power --extremes scale,offset:2^50 --cases 1000",
+};
+
+std::string family(std::string_view extreme) { return std::string(extreme.substr(0, extreme.find(':'))); }
+
+template <class Names>
+bool among(const Names& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<std::string> parse_names(std::string_view option, const std::string& list,
+                                     const std::vector<std::string>& known) {
+  const std::vector<std::string> names = split(list, ',');
+  for (const std::string& name : names) {
+    if (!among(known, name))
+      refuse_unknown(option, name, std::vector<std::string_view>(known.begin(), known.end()));
+    if (std::count(names.begin(), names.end(), name) > 1)
+      throw InputError(fmt::format("{}: {} is listed twice", option, name));
+  }
+  return names;
+}
+
+std::vector<std::string> subject_names() {
+  std::vector<std::string> names;
+  for (const StabilitySubject& subject : all_subjects())
+    if (!among(names, subject.name)) names.push_back(subject.name);
+  return names;
+}
+
+std::vector<std::string> extreme_names() {
+  std::vector<std::string> names;
+  for (const Extreme& extreme : all_extremes()) {
+    if (!among(names, family(extreme.name))) names.push_back(family(extreme.name));
+    names.emplace_back(extreme.name);
+  }
+  return names;
+}
+
+/// Returns an option that takes some of the names in `known`. The default is all names.
+Option<StabilityOptions> names_option(OptionSpec spec, std::vector<std::string> StabilityOptions::*member,
+                                      std::vector<std::string> (*known)()) {
+  return value_option(
+      spec, member, [=](const std::string& list) { return parse_names(spec.name, list, known()); },
+      [](const std::vector<std::string>& names) {
+        return names.empty() ? "all" : fmt::format("{}", fmt::join(names, ","));
+      });
+}
+
+}  // namespace
+
+const OptionList<StabilityOptions>& stability_options() {
+  using O = StabilityOptions;
+  static const auto list =
+      OptionList<O>()
+          .with({names_option({"--subjects", "LIST", "comma list of the subjects above (default: all)"},
+                              &O::subjects, subject_names),
+                 names_option({"--extremes", "LIST",
+                               "comma list of the extremes above or of single members (default: all)"},
+                              &O::extremes, extreme_names)})
+          .with(&O::cases, {{whole_option({"--cases", "N",
+                                           "random cases per extreme; slow kinds get fewer (default: 200)"},
+                                          &StabilityCases::cases, 1, 1'000'000),
+                             whole_option({"--seed", "N", "seed of the random cases (default: 1)"},
+                                          &StabilityCases::seed, 0, ~std::uint64_t{0})}})
+          .with(destination_options(
+              "write stability.json, stability.csv and report.html to DIR (default: none)"));
+  return list;
+}
+
+bool StabilityOptions::wants(const StabilitySubject& subject) const {
+  return subjects.empty() || among(subjects, subject.name);
+}
+
+bool StabilityOptions::wants(const Extreme& extreme) const {
+  return extremes.empty() || among(extremes, extreme.name) || among(extremes, family(extreme.name));
+}
+
+StabilityOptions parse_stability_options(const Arguments& arguments) {
+  StabilityOptions options;
+  read_arguments(kStabilityCommand, stability_options(), arguments, options);
+  return options;
+}
+
+std::vector<StabilityRow> run_stability(const StabilityOptions& options,
+                                        const std::function<void(std::size_t, std::size_t)>& progress) {
+  const std::vector<StabilitySubject> subjects = all_subjects();
+  std::vector<std::pair<const StabilitySubject*, const Extreme*>> pairs;
+  for (const StabilitySubject& subject : subjects) {
+    for (const Extreme& extreme : all_extremes())
+      if (options.wants(subject) && options.wants(extreme) && subject.meets(extreme))
+        pairs.emplace_back(&subject, &extreme);
+  }
+  if (pairs.empty()) throw InputError("none of the --extremes applies to any of the --subjects");
+  std::vector<StabilityRow> rows;
+  for (const auto& [subject, extreme] : pairs) {
+    rows.push_back(subject->run(*extreme, options.cases));
+    progress(rows.size(), pairs.size());
+  }
+  return rows;
+}
 
 int stability_command(const Arguments& arguments) {
   const StabilityOptions options = parse_stability_options(arguments);

@@ -1,13 +1,19 @@
 #include "experiments/stability/stability_report.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <optional>
+#include <utility>
+#include <vector>
 
-#include <algorithm>
-
+#include "experiments/output/page/svg_plot.h"
+#include "experiments/output/page/table.h"
 #include "experiments/output/result_json.h"
+#include "experiments/output/text.h"
 
 namespace kds {
+
 namespace {
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
@@ -106,6 +112,266 @@ std::string stability_csv(std::span<const StabilityRow> rows) {
     text += line(&NamedValue::second);
   }
   return text;
+}
+
+namespace {
+
+struct TextColumn {
+  std::string_view heading;
+  int width;
+  std::string (*cell)(const StabilityRow&);
+};
+
+std::string count(std::uint64_t value) { return fmt::format("{}", value); }
+std::string microseconds(double seconds) {
+  const double value = seconds * 1e6;
+  return fmt::format("{:.{}f}", value, value < 10 ? 2 : value < 100 ? 1 : 0);
+}
+std::string error(double value) { return value == 0 ? "0" : fmt::format("{:.0e}", value); }
+
+constexpr TextColumn kCases{"cases", 6, [](const StabilityRow& row) { return count(row.cases); }};
+constexpr TextColumn kEvents{"events", 7, [](const StabilityRow& row) { return count(row.events); }};
+constexpr TextColumn kDiffer{"differ", 7,
+                             [](const StabilityRow& row) { return count(row.disagreements + row.failed); }};
+constexpr TextColumn kSigns{"signs", 6, [](const StabilityRow& row) { return count(row.wrong_signs); }};
+constexpr TextColumn kMissed{"missed", 7, [](const StabilityRow& row) { return count(row.fast.missed); }};
+constexpr TextColumn kExtra{"extra", 6, [](const StabilityRow& row) { return count(row.fast.extra); }};
+constexpr TextColumn kError{"error", 6,
+                            [](const StabilityRow& row) { return error(row.fast.worst_time_error); }};
+constexpr TextColumn kDouble{"double", 7, [](const StabilityRow& row) {
+                               return count(row.stages.coefficients + row.stages.isolation);
+                             }};
+constexpr TextColumn kTracked{"tracked", 8,
+                              [](const StabilityRow& row) { return count(row.stages.refined); }};
+constexpr TextColumn kIntegers{"integer", 8, [](const StabilityRow& row) {
+                                 return count(row.stages.exact + row.stages.identically_zero);
+                               }};
+constexpr TextColumn kBits{"bits", 5, [](const StabilityRow& row) { return count(row.stages.largest_bits); }};
+constexpr TextColumn kFastTime{"fast", 6,
+                               [](const StabilityRow& row) { return microseconds(row.seconds.fast); }};
+constexpr TextColumn kFilteredTime{
+    "filtered", 9, [](const StabilityRow& row) { return microseconds(row.seconds.filtered); }};
+constexpr TextColumn kExactTime{"exact", 8,
+                                [](const StabilityRow& row) { return microseconds(row.seconds.exact); }};
+constexpr TextColumn kAudits{"audits", 7, [](const StabilityRow& row) { return count(row.audits_run); }};
+
+struct Group {
+  std::string_view heading;
+  std::vector<TextColumn> columns;
+};
+
+const std::vector<Group>& groups(bool structure) {
+  static const std::vector<Group> certificate{{"", {kCases, kEvents, kDiffer}},
+                                              {"wrong in fast", {kSigns, kMissed, kExtra, kError}},
+                                              {"settled by", {kDouble, kTracked, kIntegers, kBits}},
+                                              {"us a search", {kFastTime, kFilteredTime, kExactTime}}};
+  static const std::vector<Group> kinetic{{"", {kCases, kEvents, kDiffer, kAudits}},
+                                          {"wrong in fast", {kMissed, kExtra, kError}},
+                                          {"settled by", {kDouble, kTracked, kIntegers, kBits}},
+                                          {"us a run", {kFastTime, kFilteredTime, kExactTime}}};
+  return structure ? kinetic : certificate;
+}
+
+constexpr int kWidth = 119;
+constexpr int kNameWidth = 23;
+
+std::string heading_of(const StabilityRow& row) {
+  std::string text = fmt::format("{}, {}D, motion of degree {}", row.subject, row.dimension, row.degree);
+  if (!row.structure) text += fmt::format(", function of degree {}", row.function_degree);
+  std::string upper(kNameWidth, ' '), lower(kNameWidth, ' ');
+  for (const Group& group : groups(row.structure)) {
+    int width = 0;
+    for (const TextColumn& column : group.columns) {
+      lower += fmt::format("{:>{}}", column.heading, column.width);
+      width += column.width;
+    }
+    upper += group.heading.empty() ? std::string(static_cast<std::size_t>(width), ' ')
+                                   : fmt::format("  {:-^{}}", fmt::format(" {} ", group.heading), width - 2);
+  }
+  return text + "\n" + upper + "\n" + lower + "\n";
+}
+
+std::string line_of(const StabilityRow& row) {
+  std::string text = fmt::format("  {:<{}}", row.extreme, kNameWidth - 2);
+  if (row.refused == row.cases)
+    return text +
+           fmt::format("{:>6} refused: {}", row.cases, one_line(row.reason)).substr(0, kWidth - kNameWidth) +
+           "\n";
+  for (const Group& group : groups(row.structure))
+    for (const TextColumn& column : group.columns)
+      text += fmt::format("{:>{}}", column.cell(row), column.width);
+  if (row.refused > 0) text += fmt::format("\n{:{}} {} of these refused", "", kNameWidth, row.refused);
+  if (row.fast_gave_up > 0)
+    text += fmt::format("\n{:{}} fast gave up in {}", "", kNameWidth, row.fast_gave_up);
+  if (!row.holds()) text += fmt::format("\n  DOES NOT HOLD: {}", one_line(row.reason));
+  return text + "\n";
+}
+
+bool same_block(const StabilityRow& a, const StabilityRow& b) {
+  return a.subject == b.subject && a.dimension == b.dimension && a.degree == b.degree;
+}
+
+}  // namespace
+
+std::string stability_table(std::span<const StabilityRow> rows) {
+  std::string text;
+  std::uint64_t cases = 0, differing = 0, refused = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool first = i == 0 || !same_block(rows[i - 1], rows[i]);
+    if (first && i > 0) text += '\n';
+    if (first) text += heading_of(rows[i]);
+    text += line_of(rows[i]);
+    cases += rows[i].cases;
+    differing += rows[i].disagreements + rows[i].failed;
+    refused += rows[i].refused;
+  }
+  const auto failing = std::ranges::count_if(rows, [](const StabilityRow& row) { return !row.holds(); });
+  text += fmt::format("\n{} rows, {} cases ({} refused); filtered differs from exact in {}: {}\n",
+                      rows.size(), with_thousands(cases), with_thousands(refused), with_thousands(differing),
+                      failing == 0 ? "all rows hold" : fmt::format("{} rows do not hold", failing));
+  for (const StabilityRow& row : rows)
+    if (!row.holds()) text += fmt::format("  {}: {}\n", name_of(row), one_line(row.reason));
+  return text;
+}
+
+namespace {
+
+std::string findings(std::span<const StabilityRow> rows) {
+  std::uint64_t cases = 0, refused = 0, differing = 0, missed = 0, extra = 0, audits = 0, failed_audits = 0;
+  for (const StabilityRow& row : rows) {
+    cases += row.cases;
+    refused += row.refused;
+    differing += row.disagreements + row.failed;
+    missed += row.fast.missed;
+    extra += row.fast.extra;
+    audits += row.audits_run;
+    failed_audits += row.audits_failed;
+  }
+  return fmt::format(
+      "<p>In {0} cases of {1} rows, of which both kernels refuse {2}, <strong>filtered differs from exact in "
+      "{3}</strong>.</p>\n<p><strong>{5} of {4} audits failed</strong>. The kernel fast, which promises "
+      "nothing, missed {6} events and invented {7}.</p>\n",
+      with_thousands(cases), with_thousands(rows.size()), with_thousands(refused), with_thousands(differing),
+      with_thousands(audits), with_thousands(failed_audits), with_thousands(missed), with_thousands(extra));
+}
+
+// Rows with one name: the sums of their cases, and their times.
+struct RowGroup {
+  std::string name;
+  std::size_t rows = 0, failing = 0;
+  StabilityRow sum = {};
+  std::vector<KernelSeconds> seconds = {};  ///< without refused rows
+
+  void add(const StabilityRow& row) {
+    ++rows;
+    sum.cases += row.cases;
+    sum.events += row.events;
+    sum.disagreements += row.disagreements + row.failed;
+    sum.refused += row.refused;
+    kds::add(sum.fast, row.fast);
+    if (row.refused < row.cases) seconds.push_back(row.seconds);
+    if (!row.holds()) ++failing;
+  }
+
+  /// Returns the median over the rows, or nothing if all rows are refused.
+  [[nodiscard]] std::optional<double> microseconds(double KernelSeconds::*kernel) const {
+    std::vector<double> values;
+    for (const KernelSeconds& one : seconds) values.push_back(1e6 * (one.*kernel));
+    return values.empty() ? std::nullopt : std::optional(median(std::move(values)));
+  }
+};
+
+// Returns a group for each name, in the order of first appearance. Omits rows with an empty name.
+template <class Name>
+std::vector<RowGroup> grouped(std::span<const StabilityRow> rows, const Name& name) {
+  std::vector<RowGroup> groups;
+  for (const StabilityRow& row : rows) {
+    const std::string group = name(row);
+    if (group.empty()) continue;
+    auto place = std::ranges::find(groups, group, &RowGroup::name);
+    if (place == groups.end()) place = groups.insert(place, {group});
+    place->add(row);
+  }
+  return groups;
+}
+
+std::string table(std::span<const RowGroup> groups) {
+  using Row = RowGroup;
+  const auto count = [](const char* heading, auto value) {
+    return Column<Row>{.heading = heading, .value = [value](const Row& g) { return Field(value(g)); }};
+  };
+  const auto micros = [](const char* heading, double KernelSeconds::*kernel) {
+    return Column<Row>{.heading = heading,
+                       .value = [kernel](const Row& g) { return Field(g.microseconds(kernel)); },
+                       .format = shortly};
+  };
+  const Table<Row> columns{{
+      {.heading = "name", .value = [](const Row& g) { return Field(g.name); }},
+      count("rows", [](const Row& g) { return g.rows; }),
+      count("cases", [](const Row& g) { return g.sum.cases; }),
+      count("events", [](const Row& g) { return g.sum.events; }),
+      count("differ", [](const Row& g) { return g.sum.disagreements; }),
+      count("refused", [](const Row& g) { return g.sum.refused; }),
+      count("fast missed", [](const Row& g) { return g.sum.fast.missed; }),
+      count("fast extra", [](const Row& g) { return g.sum.fast.extra; }),
+      micros("us fast", &KernelSeconds::fast),
+      micros("us filtered", &KernelSeconds::filtered),
+      micros("us exact", &KernelSeconds::exact),
+      {.heading = "holds", .value = [](const Row& g) { return Field(g.failing == 0 ? "yes" : "NO"); }},
+  }};
+  return groups.empty() ? "" : columns.html(groups);
+}
+
+std::string subject_of(const StabilityRow& row) {
+  return fmt::format("{} {}D, degree {}", row.subject, row.dimension, row.degree);
+}
+
+std::string subjects(std::span<const StabilityRow> rows, bool structures) {
+  const auto name = [&](const StabilityRow& row) {
+    return row.structure == structures ? subject_of(row) : "";
+  };
+  PointPlot plot{"us exact", "us", {"filtered", "fast"}, {}};
+  const std::vector<RowGroup> groups = grouped(rows, name);
+  for (const RowGroup& group : groups) {
+    const auto exact = group.microseconds(&KernelSeconds::exact),
+               filtered = group.microseconds(&KernelSeconds::filtered),
+               fast = group.microseconds(&KernelSeconds::fast);
+    if (!exact || !(*exact > 0)) continue;
+    plot.points.push_back({group.name, *exact, *filtered, 0});
+    plot.points.push_back({group.name, *exact, *fast, 1});
+  }
+  const std::string figure =
+      plot.points.size() < 4
+          ? ""
+          : html_figure(svg_plot(plot),
+                        fmt::format("Microseconds of {} in the kernels filtered and fast, compared with "
+                                    "the kernel exact. Both axes are logarithmic.",
+                                    structures ? "a run" : "a search"));
+  return figure + table(groups);
+}
+
+std::string failing_rows(std::span<const StabilityRow> rows) {
+  return table(grouped(rows, [](const StabilityRow& row) { return row.holds() ? "" : name_of(row); }));
+}
+
+}  // namespace
+
+std::string stability_page(std::span<const StabilityRow> rows, Page page) {
+  page.title = "kds stability";
+  page.found = findings(rows);
+  page.words =
+      "A row of the data is a certificate type or a structure in one extreme of its input. The tables group "
+      "the rows by subject and by extreme, and list rows that do not hold one by one. <em>Differ</em>: cases "
+      "in which the kernels filtered and exact disagree, or one fails. <em>Missed</em> and <em>extra</em>: "
+      "events of the kernel fast compared with the exact ones. Microseconds are those of a certificate's "
+      "search or of a structure's run: each row has the median of its cases, and a table has the median of "
+      "its rows without those that are refused.";
+  page.body = html_section("Rows that do not hold", failing_rows(rows)) +
+              html_section("Certificates, all extremes", subjects(rows, false)) +
+              html_section("Structures, all extremes", subjects(rows, true)) +
+              html_section("Extremes, all subjects",
+                           table(grouped(rows, [](const StabilityRow& row) { return row.extreme; })));
+  return html_page(page);
 }
 
 }  // namespace kds

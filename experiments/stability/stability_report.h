@@ -5,8 +5,9 @@
 #include <span>
 #include <string>
 
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
-#include "experiments/stability/stability_options.h"
+#include "experiments/stability/stability_command.h"
 #include "experiments/stability/stability_row.h"
 
 namespace kds {
@@ -26,5 +27,15 @@ namespace kds {
 
 /// Returns a name such as "power_test 3D degree 1, scale:2^300".
 [[nodiscard]] std::string name_of(const StabilityRow& row);
+
+// Shows the rows of `kds stability` on a terminal: a block per subject, a line per extreme.
+
+/// Returns the table. Lines have at most 120 columns, reasons excepted. The text ends with a newline.
+[[nodiscard]] std::string stability_table(std::span<const StabilityRow> rows);
+
+// The page of `kds stability`. It says whether the kernels agree, and where the arithmetic was hardest.
+
+/// `page` says how the results were made.
+[[nodiscard]] std::string stability_page(std::span<const StabilityRow> rows, Page page);
 
 }  // namespace kds

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "certificates/base/stage_counts.h"
-#include "experiments/stability/event_difference.h"
+#include "experiments/stability/compare_answers.h"
 
 namespace kds {
 

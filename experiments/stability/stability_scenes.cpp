@@ -3,11 +3,36 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace kds {
+
+Instance BeadCurves::instance(std::string name) const {
+  bool weighted = false;
+  for (std::size_t bead = 0; bead < beads_; ++bead)
+    for (int k = 0; k <= degree_; ++k) weighted |= dimension_ == 3 && weight(bead, k) != 0;
+  Instance instance;
+  instance.file = std::move(name);
+  instance.columns = dimension_ + (weighted ? 1 : 0);
+  instance.degree = degree_;
+  for (std::size_t bead = 0; bead < beads_; ++bead)
+    for (int column = 0; column < instance.columns; ++column)
+      for (int k = 0; k <= degree_; ++k) instance.control_points.push_back(numbers_[at(bead, k, column)]);
+  return instance;
+}
+
+std::string instance_text(const Instance& instance) {
+  std::string text = fmt::format("{} {} {}\n", instance.point_count(), instance.columns, instance.degree);
+  const auto a_line = static_cast<std::size_t>(instance.columns * (instance.degree + 1));
+  for (std::size_t i = 0; i < instance.control_points.size(); ++i)
+    text += fmt::format("{}{}", instance.control_points[i], (i + 1) % a_line == 0 ? '\n' : ' ');
+  return text;
+}
+
 namespace {
 
 // The distributions of the standard library differ between implementations, hence this function.
@@ -421,6 +446,44 @@ SceneRandom scene_random(std::uint64_t seed, std::string_view extreme, std::size
   std::uint64_t hash = 0xcbf29ce484222325ULL ^ seed;
   for (const char c : extreme) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
   return SceneRandom(hash + number * 0x9e3779b97f4a7c15ULL);
+}
+
+namespace {
+
+bool has_radii(const BeadCurves& beads) {
+  for (std::size_t b = 0; b < beads.bead_count(); ++b)
+    for (int k = 0; k <= beads.degree(); ++k)
+      if (beads.radius(b, k) != 0) return true;
+  return false;
+}
+
+// Returns a power of two that is at most an eighth of the distance between beads at the start.
+double unit_of(const BeadCurves& beads) {
+  double apart = 0;
+  for (std::size_t b = 1; b < beads.bead_count(); ++b)
+    for (int axis = 0; axis < beads.dimension(); ++axis)
+      apart = std::max(apart, std::abs(beads.coordinate(b, 0, axis) - beads.coordinate(0, 0, axis)));
+  if (apart == 0) return 1;
+  const int exponent = std::isfinite(apart) ? std::ilogb(apart) : 1023;
+  return std::max(std::ldexp(1.0, exponent - 3), std::numeric_limits<double>::denorm_min());
+}
+
+}  // namespace
+
+void give_radii(BeadCurves& beads, SceneRandom& random) {
+  if (has_radii(beads)) return;
+  const double unit = unit_of(beads);
+  const auto kind = random() % 4;
+  const bool equal = kind == 0, changing = kind >= 2, any = kind == 3;
+  const auto draw = [&] {
+    return unit *
+           (any ? 8 * static_cast<double>(random() >> 11U) * 0x1p-53 : static_cast<double>(random() % 9));
+  };
+  const double common = draw();
+  for (std::size_t b = 0; b < beads.bead_count(); ++b) {
+    const double radius = equal ? common : draw();
+    for (int k = 0; k <= beads.degree(); ++k) beads.radius(b, k) = changing && k > 0 ? draw() : radius;
+  }
 }
 
 }  // namespace kds

@@ -1,6 +1,8 @@
 #pragma once
 // The options of `kds stability`.
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,5 +27,12 @@ struct StabilityOptions : Destinations {  // results: stability.json, stability.
 /// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
 /// --help.
 [[nodiscard]] StabilityOptions parse_stability_options(const Arguments& arguments);
+
+// Runs all requested subjects in all requested extremes.
+
+/// `progress` gets the number of rows done and of all rows. Throws InputError if no extreme applies to any
+/// subject.
+[[nodiscard]] std::vector<StabilityRow> run_stability(
+    const StabilityOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
 
 }  // namespace kds
