@@ -1,4 +1,4 @@
-#include "experiments/bench/bench_power.h"
+#include "experiments/bench/benches.h"
 
 #include <fmt/format.h>
 

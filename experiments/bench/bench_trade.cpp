@@ -1,4 +1,4 @@
-#include "experiments/bench/bench_trade.h"
+#include "experiments/bench/benches.h"
 
 #include <algorithm>
 #include <map>
@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "experiments/bench/bench_chains.h"
-#include "experiments/bench/bench_kinetic.h"
 #include "experiments/program/timing.h"
 #include "motions/scene/straightened_frames.h"
 #include "structures/chord_cages/chord_cages.h"

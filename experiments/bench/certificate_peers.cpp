@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "experiments/bench/turns.h"
+#include "experiments/bench/subject.h"
 
 namespace kds::bench {
 

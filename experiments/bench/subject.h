@@ -1,14 +1,81 @@
 #pragma once
-// The measurements of certificates and whole runs. Each is a subject of kds_benchmarks and of `kds bench`.
+// Times kds and a peer in turn. Google Benchmark in kds_benchmarks or `kds bench` determines the number of
+// turns. Because the speed of a machine drifts, only the ratio is reliable. Times are processor times.
 
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "experiments/bench/turns.h"
+#include "experiments/program/timing.h"
+
+namespace kds::bench {
+
+/// Forces the compiler to compute `value`.
+template <class T>
+void keep(const T& value) {
+  asm volatile("" : : "r,m"(value) : "memory");
+}
+
+inline constexpr double no_peer = std::numeric_limits<double>::quiet_NaN();
+
+class Turns {
+ public:
+  virtual ~Turns() = default;
+
+  /// Returns whether to take another turn.
+  [[nodiscard]] virtual bool another() = 0;
+  /// Records our time in this turn.
+  virtual void took(double seconds) = 0;
+  virtual void note(std::string_view figure, double value) = 0;
+  /// Returns the allocations of this process so far, or 0 if they are not counted.
+  [[nodiscard]] virtual std::uint64_t allocations() const { return 0; }
+
+  /// Notes the median as NAME, and the extremes as NAME_least and NAME_most. All values are multiplied by
+  /// `units`.
+  void note_spread(const std::string& name, const std::vector<double>& values, double units) {
+    const Spread spread = spread_of(values);
+    note(name, spread.median * units);
+    note(name + "_least", spread.least * units);
+    note(name + "_most", spread.most * units);
+  }
+
+  /// Measures `items` items per turn. `ours` processes all of them; `peer` returns the seconds that the peer
+  /// took for as many items (or no_peer). Notes medians: `ns` per item with its spread, `peer_ns` per item,
+  /// and `ratio` = ours / peer. Also notes `items` and our `allocations` per item.
+  template <class Ours, class Peer>
+  void take(std::size_t items, const Ours& ours, const Peer& peer) {
+    std::vector<double> our_seconds, peer_seconds, ratios;
+    std::uint64_t allocated = 0;
+    ours();  // warms up
+    while (another()) {
+      const std::uint64_t before = allocations();
+      const double seconds = processor_seconds_of(ours);
+      allocated += allocations() - before;
+      took(seconds);
+      our_seconds.push_back(seconds);
+      peer_seconds.push_back(peer());
+      ratios.push_back(our_seconds.back() / peer_seconds.back());
+    }
+    const auto n = static_cast<double>(items);
+    note("items", n);
+    note_spread("ns", our_seconds, 1e9 / n);
+    note("allocations", static_cast<double>(allocated) / (n * static_cast<double>(our_seconds.size())));
+    if (std::isnan(ratios.front())) return;
+    note("peer_ns", median_of(peer_seconds) / n * 1e9);
+    note("ratio", median_of(ratios));
+  }
+};
+
+}  // namespace kds::bench
+
+// The measurements of certificates and whole runs. Each is a subject of kds_benchmarks and of `kds bench`.
 
 namespace kds::bench {
 
