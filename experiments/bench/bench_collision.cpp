@@ -1,7 +1,8 @@
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <functional>
 #include <optional>
 #include <span>

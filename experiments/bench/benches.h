@@ -1,7 +1,5 @@
 #pragma once
-// The rows of `kds bench hierarchies` about the kinetic wrapped hierarchy. They compare a step with exact
-// event times with CGAL's Min_sphere_of_spheres_d at every node. They also compare the number of events with
-// the number of bases that differ from frame to frame.
+// The subjects of `kds bench`, each measured beside a peer in the same process.
 
 #include <cstddef>
 #include <cstdint>

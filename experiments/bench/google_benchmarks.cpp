@@ -3,15 +3,36 @@
 // certificates` and `kds bench engine` print the same measures as rows.
 
 #include <benchmark/benchmark.h>
+#include <gmp.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <new>
 
-#include "experiments/bench/allocations.h"
 #include "experiments/bench/subject.h"
 
 namespace {
+
+std::uint64_t allocations_so_far = 0;  // through operator new and GMP; not atomic: benchmarks use one thread
+
+void* counted(std::size_t size) {
+  ++allocations_so_far;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+
+void* counted(void* memory, std::size_t, std::size_t size) {
+  ++allocations_so_far;
+  if (void* longer = std::realloc(memory, size)) return longer;
+  throw std::bad_alloc();
+}
+
+[[maybe_unused]] const bool gmp_is_counted = [] {
+  mp_set_memory_functions(counted, counted, [](void* memory, std::size_t) { std::free(memory); });
+  return true;
+}();
 
 class GoogleTurns final : public kds::bench::Turns {
  public:
@@ -20,7 +41,7 @@ class GoogleTurns final : public kds::bench::Turns {
   bool another() override { return state_.KeepRunning(); }
   void took(double seconds) override { state_.SetIterationTime(seconds); }
   void note(std::string_view figure, double value) override { state_.counters[std::string(figure)] = value; }
-  std::uint64_t allocations() const override { return kds::bench::allocations(); }
+  std::uint64_t allocations() const override { return allocations_so_far; }
 
  private:
   benchmark::State& state_;
@@ -40,6 +61,13 @@ void add(const std::vector<kds::bench::Subject>& subjects, benchmark::IterationC
 }
 
 }  // namespace
+
+void* operator new(std::size_t size) { return counted(size); }
+void* operator new[](std::size_t size) { return counted(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
 int main(int argc, char** argv) try {
   const char* named = std::getenv("KDS_INSTANCES");

@@ -1,5 +1,6 @@
 #pragma once
-// Times kds and a peer in turn. Google Benchmark in kds_benchmarks or `kds bench` determines the number of
+// The subjects of kds_benchmarks and of `kds bench`: measurements of certificates and of whole runs. They
+// time kds and a peer in turn. Google Benchmark in kds_benchmarks or `kds bench` determines the number of
 // turns. Because the speed of a machine drifts, only the ratio is reliable. Times are processor times.
 
 #include <cmath>
@@ -73,12 +74,7 @@ class Turns {
   }
 };
 
-}  // namespace kds::bench
-
-// The measurements of certificates and whole runs. Each is a subject of kds_benchmarks and of `kds bench`.
-
-namespace kds::bench {
-
+/// A measurement of certificates or of a whole run.
 struct Subject {
   std::string name;   ///< such as settle/facet/linear
   std::string input;  ///< the data it runs on

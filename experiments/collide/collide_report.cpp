@@ -1,12 +1,14 @@
 #include "experiments/collide/collide_report.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "experiments/events/event_places.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
+#include "experiments/program/spread_columns.h"
 #include "experiments/program/timing.h"
 
 namespace kds {

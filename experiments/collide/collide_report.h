@@ -1,5 +1,6 @@
 #pragma once
-// Reports the results of `kds collide`.
+// Reports the results of `kds collide` and writes them: collide.json, collide.csv, pairs.csv, frames.csv and
+// report.html in --out, and the destinations --json and standard output.
 
 #include <cstddef>
 #include <cstdint>
@@ -44,9 +45,8 @@ class ClosestCourse {
 [[nodiscard]] std::string collide_page(const CollideReport& report, const std::string& input,
                                        const std::string& map, const ClosestCourse& course, Page page);
 
-// Counts how often each pair of beads collides, as a contact map shows it. If there are many beads, counts
-// pairs of groups of consecutive beads. Memory does not grow with frames or pairs.
-
+/// Counts how often each pair of beads collides, as a contact map shows it. If there are many beads, counts
+/// pairs of groups of consecutive beads. Memory does not grow with frames or pairs.
 class ContactMap {
  public:
   explicit ContactMap(std::size_t beads);
@@ -64,8 +64,7 @@ class ContactMap {
   std::vector<std::uint64_t> counts_;  // of the groups i <= j, at index i * groups_ + j
 };
 
-// Writes the colliding pairs of each frame for other programs, frame by frame during the run.
-
+/// Writes the colliding pairs of each frame for other programs, frame by frame during the run.
 /// The header is `frame,i,j,distance,name_i,name_j`, followed by one line per pair. `frame` is the frame's
 /// number in the file. `i` and `j` are the beads' numbers in the scene. `name_i` and `name_j` are the names
 /// in the file, in quotes, or empty if it has none. `distance` is the rounded distance between the surfaces,
@@ -80,9 +79,6 @@ class PairsCsv {
   std::ostream& stream_;
   const CollideFrames& scene_;
 };
-
-// Writes the results of `kds collide`: collide.json, collide.csv, pairs.csv, frames.csv and report.html in
-// --out, and the destinations --json and standard output.
 
 class CollideResults {
  public:

@@ -1,8 +1,9 @@
 #include "experiments/collide/compare_detectors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <stdexcept>
 
 #include "experiments/run/load_scene.h"

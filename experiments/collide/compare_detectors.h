@@ -1,5 +1,6 @@
 #pragma once
-// The common interface of the methods of collision detection.
+// The experiment behind `kds collide`: runs every method of collision detection over every frame, checks that
+// the methods agree, and measures their times.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -49,8 +50,7 @@ class Detector {
   virtual void find_closest(const Balls<Dimension>&, Detection&) {}
 };
 
-// The frames that `kds collide` examines. They are read one after the other, with one frame in memory.
-
+/// The frames that `kds collide` examines. They are read one after the other, with one frame in memory.
 class CollideFrames {
  public:
   /// Reads all frames once. Each warning goes to `warn` as one line. Throws InputError for any fault of an
@@ -101,8 +101,6 @@ struct Method {
 
 /// Returns the methods in the order in which they run and are listed.
 [[nodiscard]] std::span<const Method> collision_methods();
-
-// Runs every method over every frame, checks that the methods agree, and measures their times.
 
 struct ClosestInFrame {
   FrameStamp frame;

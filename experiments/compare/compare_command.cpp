@@ -1,6 +1,7 @@
 #include "experiments/compare/compare_command.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 
 #include "experiments/compare/compare_report.h"

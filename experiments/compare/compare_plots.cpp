@@ -1,4 +1,4 @@
-#include "experiments/compare/compare_plots.h"
+#include "experiments/compare/compare_report.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include <numeric>
 #include <span>
 
-#include "experiments/compare/compare_report.h"
 #include "experiments/events/event_places.h"
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"

@@ -1,14 +1,15 @@
 #include "experiments/compare/compare_report.h"
 
-#include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <iterator>
 
-#include "experiments/compare/compare_plots.h"
 #include "experiments/output/text.h"
+#include "experiments/program/spread_columns.h"
 #include "experiments/program/timing.h"
 
 namespace kds {

@@ -1,8 +1,9 @@
 #include "experiments/compare/compare_runs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <compare>
-#include <fmt/format.h>
 #include <utility>
 
 #include "experiments/events/event_places.h"

@@ -1,5 +1,6 @@
 #pragma once
-// Counts how a structure differs from one frame to the next, whatever happened in between.
+// The experiment behind `kds compare`. It runs the same structures over the same inputs at several strides
+// and with several motions. It also counts the net changes between frames, whatever happened in between.
 
 #include <cstdint>
 #include <functional>
@@ -39,9 +40,6 @@ class NetChanges {
   std::optional<CombinatorialElements> last_;
   std::uint64_t count_ = 0;
 };
-
-// The experiment behind `kds compare`. It runs the same structures over the same inputs at several strides
-// and with several motions. It also counts the net changes between frames, whatever happened in between.
 
 /// The results of one structure in one run.
 struct CompareRow {

@@ -1,8 +1,9 @@
 #include "experiments/events/event_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
-#include <fmt/format.h>
 #include <utility>
 
 #include "experiments/output/text.h"

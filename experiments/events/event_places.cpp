@@ -1,7 +1,8 @@
 #include "experiments/events/event_places.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <span>
 #include <utility>
 

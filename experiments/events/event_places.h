@@ -1,6 +1,6 @@
 #pragma once
-// Counts events in bins of neighbouring steps. Long runs have more frames than a plot has pixels, and more
-// than a report should keep.
+// Where and when the events of a run happen: in bins of neighbouring steps, along the chain, and beside the
+// displacements of beads from frame to frame.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -45,8 +45,7 @@ class EventCourse {
   std::vector<EventBin> bins_;
 };
 
-// Records how far beads move from frame to frame during a run.
-
+/// Records how far beads move from frame to frame during a run.
 class Displacements {
  public:
   struct Bin {
@@ -73,8 +72,7 @@ class Displacements {
   std::vector<Bin> bins_;
 };
 
-// Records where along the chain, and at which depth of its tree, a structure changes.
-
+/// Records where along the chain, and at which depth of its tree, a structure changes.
 /// The places of a structure's external events: along the chain, and by depth in its tree.
 struct PlacesOfEvents {
   /// Number of events that name each bead. A node's event names the beads of its new basis. An event counts

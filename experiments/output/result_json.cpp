@@ -1,9 +1,10 @@
 #include "experiments/output/result_json.h"
 
+#include <sys/utsname.h>
+
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sys/utsname.h>
 #include <thread>
 
 #include "version.h"

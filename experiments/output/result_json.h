@@ -1,5 +1,6 @@
 #pragma once
-// Provenance of a result: each report states the version and the machine.
+// JSON for results and logs, and the provenance that every result states. Only the source file of this header
+// includes the JSON library, which takes long to compile.
 
 #include <concepts>
 #include <cstdint>
@@ -27,9 +28,6 @@ struct Machine {
 
 /// Returns the description of this machine. A property that cannot be determined is "unknown".
 [[nodiscard]] Machine this_machine();
-
-// JSON for results and logs. Only this header's source file includes the JSON library, which takes long to
-// compile.
 
 /// A JSON value. The members of an object keep their order. {{"name", value}, ...} is an object, a vector is
 /// an array.

@@ -1,6 +1,7 @@
 #include "experiments/program/input_options.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>

@@ -1,5 +1,6 @@
 #pragma once
-// Locates the project's data folder, from which some commands take their inputs.
+// The options that all trajectory-reading commands share: input files, selected beads, selected frames and
+// radii. Also the option for the project's data folder, from which some commands take their inputs.
 
 #include <filesystem>
 #include <optional>
@@ -30,9 +31,6 @@ template <class Options>
 /// names an option that gives the inputs directly.
 std::filesystem::path folder_in_data(const std::filesystem::path& data, const char* name,
                                      std::string_view instead = "");
-
-// The options that all trajectory-reading commands share: input files, selected beads, selected frames and
-// radii.
 
 struct InputOptions {
   std::vector<std::filesystem::path> inputs;

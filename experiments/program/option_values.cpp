@@ -1,9 +1,10 @@
 #include "experiments/program/option_values.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
-#include <fmt/format.h>
 #include <optional>
 #include <string_view>
 

@@ -1,11 +1,13 @@
 #pragma once
-// Suggests the name that a mistyped word probably stands for.
+// Parses the values of options. Each function throws an InputError that names the option, the text found and
+// the expected form, and suggests the name that a mistyped word probably stands for.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,9 +27,6 @@ namespace kds {
 
 /// Returns ", did you mean NAME?", or "" if no name is near.
 [[nodiscard]] std::string suggestion(std::string_view word, std::span<const std::string_view> names);
-
-// Parses the values of options. Each function throws an InputError that names the option, the text found and
-// the expected form.
 
 /// Throws an InputError which says that the word is not one of `names`, and suggests the nearest name. By
 /// default the message lists the names; `expected`, if given, replaces that list as the end of the sentence
@@ -64,8 +63,6 @@ struct RealRange {
   bool least_excluded = false;
 };
 [[nodiscard]] double parse_real(std::string_view option, std::string_view text, const RealRange& range);
-
-// Parses options whose values are comma-separated lists.
 
 /// Returns the names of structures in the order of the registry, whatever the order in `list`. A set of
 /// structures therefore always gives the same run. Throws InputError.

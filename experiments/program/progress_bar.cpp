@@ -1,10 +1,11 @@
 #include "experiments/program/progress_bar.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
-#include <fmt/format.h>
 #include <string>
-#include <unistd.h>
 
 #include "experiments/output/text.h"
 

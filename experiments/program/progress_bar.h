@@ -1,6 +1,5 @@
 #pragma once
-// Shows on a terminal how far the run is and how long the rest may take. Prints nothing if the stream is not
-// a terminal.
+// Prints on standard error: the progress of a run if it is a terminal, and warnings.
 
 #include <chrono>
 #include <cstddef>
@@ -39,9 +38,6 @@ class ProgressBar {
   Clock::time_point start_ = Clock::now(), drawn_ = start_;
   bool visible_ = false;
 };
-
-// Prints warnings, which share standard error with the progress bar. Warnings about the input are held back
-// until the input can no longer be refused.
 
 /// Prints one line. The progress bar is erased first.
 void print_warning(ProgressBar& bar, const std::string& warning);

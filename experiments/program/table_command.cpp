@@ -1,7 +1,8 @@
 #include "experiments/program/table_command.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <optional>
 
 #include "experiments/output/output_files.h"

@@ -1,5 +1,12 @@
 #pragma once
-// Refuses outputs that would replace an input or another output of the same command.
+// The common part of every command whose result is a table: destinations, progress bar, warnings and output.
+// It writes results as NAME.json, NAME.csv and report.html in --out, to --json and to standard output.
+//
+//   TableCommand command("update", arguments, options, "round");
+//   command.check_destinations(taken);          // before any input is read
+//   const auto rows = measure(command.warn(), command.progress());
+//   Json json{{"settings", ...}, {"rows", ...}, {"warnings", command.warnings()}};
+//   command.deliver(json, csv, table, [&](Page page) { return update_page(rows, page); });
 
 #include <filesystem>
 #include <functional>
@@ -18,6 +25,7 @@
 
 namespace kds {
 
+/// Refuses outputs that would replace an input or another output of the same command.
 class TakenPaths {
  public:
   /// Registers a file that is read, or that another part of the program writes. `owner` names it in messages.
@@ -44,15 +52,6 @@ class TakenPaths {
  private:
   std::vector<std::pair<std::string, std::filesystem::path>> taken_, directories_;
 };
-
-// The common part of every command whose result is a table: destinations, progress bar, warnings and output.
-// It writes results as NAME.json, NAME.csv and report.html in --out, to --json and to standard output.
-//
-//   TableCommand command("update", arguments, options, "round");
-//   command.check_destinations(taken);          // before any input is read
-//   const auto rows = measure(command.warn(), command.progress());
-//   Json json{{"settings", ...}, {"rows", ...}, {"warnings", command.warnings()}};
-//   command.deliver(json, csv, table, [&](Page page) { return update_page(rows, page); });
 
 class TableCommand {
  public:

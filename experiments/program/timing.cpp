@@ -1,6 +1,7 @@
 #include "experiments/program/timing.h"
 
 #include <fmt/format.h>
+
 #include <utility>
 
 #include "experiments/output/text.h"

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/output/page/table.h"
 #include "kds/seconds.h"
 
 namespace kds {
@@ -49,26 +47,5 @@ inline Spread spread_of(const std::vector<double>& values) {
 /// Returns the ratio of `seconds` to `others`, round by round. A work that was called only once is compared
 /// with every round of the other.
 [[nodiscard]] Spread ratios_by_round(const std::vector<double>& seconds, const std::vector<double>& others);
-
-// Table columns for a quantity that was measured in several rounds.
-
-/// Returns the columns KEY, KEY_least and KEY_most for JSON and CSV. Tables for people show "median (least to
-/// most)" in one column.
-template <class Row>
-std::vector<Column<Row>> spread_columns(const std::string& key, const std::string& heading,
-                                        const std::function<std::optional<Spread>(const Row&)>& spread) {
-  const auto part = [&](double Spread::*which) {
-    return [spread, which](const Row& row) {
-      const std::optional<Spread> found = spread(row);
-      return found ? Field((*found).*which) : Field();
-    };
-  };
-  return {{.key = key,
-           .heading = heading,
-           .value = part(&Spread::median),
-           .words = [spread](const Row& row) { return spread_text(*spread(row)); }},
-          {.key = key + "_least", .value = part(&Spread::least)},
-          {.key = key + "_most", .value = part(&Spread::most)}};
-}
 
 }  // namespace kds

@@ -1,5 +1,5 @@
 #pragma once
-// An open question of the paper with the measured answer: a table, the fits to it, and the conclusions.
+// The open questions of the paper with their measured answers: a table, the fits to it, and the conclusions.
 
 #include <Eigen/Core>
 #include <cstddef>

@@ -1,14 +1,18 @@
-#include "experiments/questions/questions_command.h"
+#include "experiments/program/commands.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
+#include <span>
+#include <string>
 
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/page/table.h"
+#include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
-#include "experiments/program/commands.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
@@ -80,8 +84,6 @@ std::string plots_of(const Question& question) {
   return html;
 }
 
-}  // namespace
-
 Json question_rows_json(std::span<const Question> questions) {
   Json json = Json::array();
   for (const Question& question : questions) {
@@ -92,6 +94,7 @@ Json question_rows_json(std::span<const Question> questions) {
   return json;
 }
 
+// Returns the title, fits and findings of each question.
 Json questions_json(std::span<const Question> questions) {
   Json json = Json::array();
   for (const Question& question : questions) {
@@ -114,6 +117,7 @@ Json questions_json(std::span<const Question> questions) {
   return json;
 }
 
+// Returns a header and a line per row. Columns of other questions are empty.
 std::string questions_csv(std::span<const Question> questions) {
   return columns_of(questions).csv(rows_of(questions));
 }
@@ -129,6 +133,7 @@ std::string questions_text(std::span<const Question> questions) {
   return text;
 }
 
+// `page` says how the results were made.
 std::string questions_page(std::span<const Question> questions, Page page) {
   page.title = "kds questions";
   for (const Question& question : questions)
@@ -145,8 +150,6 @@ std::string questions_page(std::span<const Question> questions, Page page) {
   }
   return html_page(page);
 }
-
-namespace {
 
 constexpr std::array<std::string_view, 4> kQuestions{"energy", "bounds", "trust", "combination"};
 

@@ -1,5 +1,7 @@
 #pragma once
-// The subjects that the paper measures: its own models, and proteins from the project's data.
+// The subjects that the paper measures, its own models and proteins from the project's data, and the figures
+// of its tables for one frame of a subject, or for the step between two frames. Times are given as ratios of
+// works that run in turn, round by round.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -39,9 +41,6 @@ struct Subject {
 /// For a DCD file `topology` names the atoms, otherwise it is empty. Throws InputError.
 [[nodiscard]] Subject protein(const std::filesystem::path& data, std::string_view file,
                               std::string_view topology = {});
-
-// The figures of the paper's tables for one frame of a subject, or for the step between two frames. Times are
-// given as ratios of works that run in turn, round by round.
 
 /// Table 1: times to build each structure.
 struct Construction {

@@ -1,6 +1,7 @@
 #include "experiments/reproduce/paper_tables.h"
 
 #include <fmt/format.h>
+
 #include <memory>
 #include <stdexcept>
 

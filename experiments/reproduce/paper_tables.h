@@ -1,6 +1,6 @@
 #pragma once
-// A table of the paper, measured again: Agarwal, Guibas, Nguyen, Russel, Zhang, Collision detection for
-// deforming necklaces (2004), section 4.
+// The seven tables of the paper, measured again: Agarwal, Guibas, Nguyen, Russel, Zhang, Collision detection
+// for deforming necklaces (2004), section 4.
 
 #include <cstddef>
 #include <filesystem>

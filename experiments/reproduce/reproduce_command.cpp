@@ -1,9 +1,10 @@
 #include "experiments/reproduce/reproduce_command.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fmt/format.h>
 
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/page/table.h"

@@ -1,6 +1,7 @@
 #include "experiments/run/certify_stride.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 #include <span>

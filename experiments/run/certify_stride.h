@@ -1,11 +1,14 @@
 #pragma once
-// Records the contacts of a run. Each contact is an interval of time from its begin to its end. `holding`
-// then tells which contacts contain a contact of the same beads in another run of the same motion with
-// smaller balls.
+// Bounds the contacts that a run with a stride may have missed or invented. The frames left out are read only
+// for the deviation of each bead (motions/scene/stride_deviation.h). Contacts are then computed again with
+// each ball enlarged, and again with each ball shrunk, by its bead's deviation.
 //
-// Smaller balls meet only while the larger balls meet, so a contact of the smaller balls lies within exactly
-// one contact of the larger balls. Times are known only as brackets. If the brackets leave several
-// candidates, no candidate is reported as the container.
+// The truth is the linear motion between all frames up to the run's last one. At any time the true position
+// of a bead lies within its deviation of its position in the run, so the distance of two beads changes by at
+// most the sum of their deviations. A pair that truly comes within the sum of its radii is therefore in
+// contact in the run with enlarged balls: the pair is *possible*. A pair in contact in the run with shrunk
+// balls is truly in contact at that time: the pair is *sure*. The argument holds for each single contact of a
+// pair too (MetContacts). Deviations are rounded up and radii outward.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +29,13 @@
 
 namespace kds {
 
+/// Records the contacts of a run. Each contact is an interval of time from its begin to its end. `holding`
+/// then tells which contacts contain a contact of the same beads in another run of the same motion with
+/// smaller balls.
+///
+/// Smaller balls meet only while the larger balls meet, so a contact of the smaller balls lies within exactly
+/// one contact of the larger balls. Times are known only as brackets. If the brackets leave several
+/// candidates, no candidate is reported as the container.
 class MetContacts final : public EventListener {
  public:
   using Pair = std::pair<BeadId, BeadId>;
@@ -62,17 +72,6 @@ class MetContacts final : public EventListener {
 /// Returns for each element of `contacts` whether it certainly contains an element of `within`.
 [[nodiscard]] std::vector<std::uint8_t> holding(std::span<const MetContacts::Contact> contacts,
                                                 std::span<const MetContacts::Contact> within);
-
-// Bounds the contacts that a run with a stride may have missed or invented. The frames left out are read only
-// for the deviation of each bead (motions/scene/stride_deviation.h). Contacts are then computed again with
-// each ball enlarged, and again with each ball shrunk, by its bead's deviation.
-//
-// The truth is the linear motion between all frames up to the run's last one. At any time the true position
-// of a bead lies within its deviation of its position in the run, so the distance of two beads changes by at
-// most the sum of their deviations. A pair that truly comes within the sum of its radii is therefore in
-// contact in the run with enlarged balls: the pair is *possible*. A pair in contact in the run with shrunk
-// balls is truly in contact at that time: the pair is *sure*. The argument holds for each single contact of a
-// pair too (met_contacts.h). Deviations are rounded up and radii outward.
 
 /// Pairs of beads that are in contact at some time. The lower bead comes first.
 using PairsMet = std::set<std::pair<BeadId, BeadId>>;

@@ -1,9 +1,10 @@
 #include "experiments/run/html_report.h"
 
-#include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <string_view>

@@ -1,5 +1,5 @@
 #pragma once
-// The rows that compare a run's structures, for the terminal and for the page.
+// The page report.html of a run, with the rows that compare the structures on the page and on the terminal.
 
 #include <string>
 #include <utility>
@@ -26,8 +26,6 @@ struct SummaryRow {
 
 /// Returns the number of motion steps, which is one less than the number of frames.
 [[nodiscard]] std::size_t step_count(const RunReport& report);
-
-// Writes report.html: one self-contained page with the table and the plots.
 
 /// `data` has the names of the files that lie beside the page.
 [[nodiscard]] std::string html_report(const RunReport& report, const std::vector<std::string>& data = {});

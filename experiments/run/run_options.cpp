@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
 #include <string_view>
 
 #include "certificates/base/relaxation.h"

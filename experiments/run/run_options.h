@@ -1,10 +1,11 @@
 #pragma once
-// The options of `kds run`. parse_run_options.cpp declares them.
+// The options of `kds run` and the values that each accepts.
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fmt/format.h>
 #include <optional>
 #include <span>
 #include <string>
@@ -51,8 +52,6 @@ struct RunOptions : InputOptions, Destinations {
   std::size_t rounds = 1;                       ///< number of rounds that are timed
   std::optional<std::uint64_t> work;            ///< limit on the limb operations of exact arithmetic
 };
-
-// The options of `kds run` and the values that each accepts.
 
 /// Returns the options --out, --json and --quiet of a run. The replay of a run has the same options.
 [[nodiscard]] OptionList<Destinations> run_destination_options();

@@ -1,6 +1,7 @@
 #include "experiments/run/run_report.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <vector>

@@ -70,12 +70,8 @@ struct RunReport {
   std::vector<std::string> bead_names;  ///< empty if not recorded; an unknown name is an empty text
 };
 
-// Collects the counts of a session's structures.
-
 [[nodiscard]] RunReport report_of(Session& session, const Scene& scene, const RunOptions& options,
                                   const StepCounts& counts);
-
-// Writes a run as JSON, for summary.json and --json.
 
 /// Returns JSON text that ends with a newline.
 [[nodiscard]] std::string report_json(const RunReport& report);
@@ -83,8 +79,6 @@ struct RunReport {
 /// Returns the JSON of report_json with an additional object `replay`. Its members are log, events,
 /// logged_fingerprint, same and difference (null if there is no difference).
 [[nodiscard]] std::string replay_json(const ReplayReport& replay, const std::filesystem::path& log);
-
-// The text that a run prints on a terminal.
 
 /// Returns a table with one column per structure and one row per figure. The fingerprint comes last. The text
 /// ends with a newline.

@@ -1,7 +1,8 @@
 #include "experiments/run/run_scene.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <string_view>
 #include <utility>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Warns during a run if its exact arithmetic takes unusually long.
+// Runs the kinetic structures over the inputs of one `kds run` and reports what happened.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,8 +30,8 @@ void watch_exact_work(Simulator& simulator, const Scene& scene,
                       const std::function<void(const std::string&)>& warn,
                       std::uint64_t extraordinary = extraordinary_work);
 
-// Moves the counts of each step out of the structures, so that memory does not grow with the number of steps.
-
+/// Moves the counts of each step out of the structures, so that memory does not grow with the number of
+/// steps.
 class StepCounts {
  public:
   /// `session` and `scene` must outlive this object.
@@ -53,8 +53,6 @@ class StepCounts {
   std::optional<std::uint64_t> contacts_at_start_;
 };
 
-// Runs all steps over a scene, with the error messages of the program's commands.
-
 /// Called with the number of motion steps done, the completed share of the current step, and the total number
 /// of steps.
 using Progress = std::function<void(std::size_t done, double within, std::size_t total)>;
@@ -75,8 +73,6 @@ class ProgressWithinSteps final : public EventListener {
 /// the step.
 void run_steps(KineticRun& run, const RunOptions& options,
                const std::function<void(std::size_t frame)>& at_frame);
-
-// Runs the kinetic structures over the inputs of one `kds run` and reports what happened.
 
 /// Runs the structures. Each warning about the input goes to `warn` as one line. The output goes to
 /// `results`, which the caller delivers. Throws InputError for errors that the user can fix. Throws

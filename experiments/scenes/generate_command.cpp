@@ -1,6 +1,7 @@
 #include "experiments/scenes/generate_command.h"
 
 #include <fmt/format.h>
+
 #include <fstream>
 #include <memory>
 #include <optional>

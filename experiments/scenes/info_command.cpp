@@ -1,6 +1,7 @@
 #include "experiments/scenes/info_command.h"
 
 #include <fmt/format.h>
+
 #include <limits>
 #include <optional>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// The options of `kds info` and their parser.
+// The options of `kds info`, and the beads that it lists.
 
 #include <span>
 #include <string>
@@ -26,8 +26,7 @@ struct InfoOptions : InputOptions, Destinations {  // results: info.json and inf
 /// --help. Opens no file.
 [[nodiscard]] InfoOptions parse_info_options(const Arguments& arguments);
 
-// The residue and atom of each bead. They identify the beads that results name by number.
-
+/// The residue and atom of a bead. They identify the beads that results name by number.
 struct BeadRow {
   BeadId bead = 0;
   std::size_t necklace = 0;  ///< from 0, in the order of the scene

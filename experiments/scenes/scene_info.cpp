@@ -1,8 +1,9 @@
 #include "experiments/scenes/scene_info.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <vector>
 
 #include "experiments/output/page/table.h"

@@ -1,8 +1,10 @@
 #pragma once
-// Follows one certificate over a whole step. At each failure the opposite certificate takes over, as after a
-// flip.
+// Tests one certificate type on one extreme of `kds stability`: follows each certificate over a whole step
+// with the kernels `filtered`, `fast` and `exact`, and compares the answers. At each failure the opposite
+// certificate takes over, as after a flip.
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -85,8 +87,6 @@ template <class C>
   }
   return answers;
 }
-
-// Tests one certificate type on one extreme: compares the kernels `filtered` and `fast` with `exact`.
 
 /// The bead data (channels) that a certificate type needs, over all of its polynomials.
 template <class C>

@@ -1,4 +1,4 @@
-// Makes each certificate type of beads a subject of `kds stability`, with one line per type.
+// Makes each certificate type a subject of `kds stability`, with one line per type.
 
 #include "certificates/types/ball_in_sphere.h"
 #include "certificates/types/bead_in_sphere.h"
@@ -23,8 +23,6 @@ std::vector<StabilitySubject> bead_certificates(int degree) {
       certificate_subject<BeadInSphere<3>, 3>("bead_in_sphere_3", degree),
   };
 }
-
-// Makes each certificate type of balls a subject of `kds stability`, with one line per type.
 
 std::vector<StabilitySubject> ball_certificates(int degree) {
   return {

@@ -1,7 +1,8 @@
 #include "experiments/stability/compare_answers.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <vector>

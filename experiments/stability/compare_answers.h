@@ -1,5 +1,6 @@
 #pragma once
-// Counts the errors of an approximate history against the exact history.
+// Counts the errors of an approximate history, and of the answers for one certificate, against the exact
+// kernel.
 
 #include <cstdint>
 #include <functional>
@@ -29,8 +30,6 @@ struct EventDifference {
 /// then minimizes the errors. Both histories are in order of time.
 [[nodiscard]] EventDifference event_difference(std::span<const TimedChange> exact,
                                                std::span<const TimedChange> other);
-
-// Compares the answers of two kernels for one certificate, and counts the errors of the approximate kernel.
 
 /// Returns the exact function of the certificate (false) or of its opposite (true).
 using FunctionOfSide = std::function<ExactPolynomial(bool opposite)>;

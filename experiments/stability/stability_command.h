@@ -1,5 +1,5 @@
 #pragma once
-// The options of `kds stability`.
+// `kds stability`: its options, and the run of all requested subjects in all requested extremes.
 
 #include <cstddef>
 #include <functional>
@@ -27,8 +27,6 @@ struct StabilityOptions : Destinations {  // results: stability.json, stability.
 /// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
 /// --help.
 [[nodiscard]] StabilityOptions parse_stability_options(const Arguments& arguments);
-
-// Runs all requested subjects in all requested extremes.
 
 /// `progress` gets the number of rows done and of all rows. Throws InputError if no extreme applies to any
 /// subject.

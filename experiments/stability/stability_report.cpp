@@ -1,8 +1,9 @@
 #include "experiments/stability/stability_report.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>

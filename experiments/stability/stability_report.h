@@ -1,5 +1,6 @@
 #pragma once
-// Reports the rows of `kds stability` to programs as JSON and CSV. stability_table.h reports them to people.
+// Reports the rows of `kds stability`: JSON, CSV, a table, and a page that says whether the kernels agree and
+// where the arithmetic was hardest.
 
 #include <optional>
 #include <span>
@@ -28,12 +29,8 @@ namespace kds {
 /// Returns a name such as "power_test 3D degree 1, scale:2^300".
 [[nodiscard]] std::string name_of(const StabilityRow& row);
 
-// Shows the rows of `kds stability` on a terminal: a block per subject, a line per extreme.
-
 /// Returns the table. Lines have at most 120 columns, reasons excepted. The text ends with a newline.
 [[nodiscard]] std::string stability_table(std::span<const StabilityRow> rows);
-
-// The page of `kds stability`. It says whether the kernels agree, and where the arithmetic was hardest.
 
 /// `page` says how the results were made.
 [[nodiscard]] std::string stability_page(std::span<const StabilityRow> rows, Page page);

@@ -1,9 +1,10 @@
 #include "experiments/stability/stability_scenes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 #include <iterator>
 #include <limits>
 #include <numeric>

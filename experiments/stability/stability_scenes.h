@@ -1,5 +1,6 @@
 #pragma once
-// A few beads over one step, of any dimension and degree. The scenes of `kds stability` consist of them.
+// The extremes of `kds stability`: motions of a few beads over one step, random within each extreme. A seed
+// gives the same motions on every machine.
 
 #include <cstddef>
 #include <cstdint>
@@ -71,9 +72,6 @@ class BeadCurves {
 /// Returns the text of an instance file that reads back exactly.
 [[nodiscard]] std::string instance_text(const Instance& instance);
 
-// The extremes of `kds stability`: motions of a few beads, random within each extreme. A seed gives the same
-// motions on every machine.
-
 using SceneRandom = std::mt19937_64;
 
 /// The requirements for a scene.
@@ -102,8 +100,6 @@ struct Extreme {
 /// Returns the random generator for one case of an extreme. The result depends neither on the other extremes
 /// nor on the other cases.
 [[nodiscard]] SceneRandom scene_random(std::uint64_t seed, std::string_view extreme, std::size_t number);
-
-// Provides radii for scenes without radii.
 
 /// Sets radii unless there are any. The radii are equal or unequal, constant or changing, and no larger than
 /// the distance between beads. Mostly they take few different values, so that balls touch and radii tie.

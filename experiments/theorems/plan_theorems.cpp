@@ -1,10 +1,11 @@
 #include "experiments/theorems/plan_theorems.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <string_view>
 #include <utility>

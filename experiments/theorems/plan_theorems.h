@@ -1,5 +1,6 @@
 #pragma once
-// A quantity that a theorem bounds, measured on one family of necklaces over a range of sizes.
+// The quantities that the paper's theorems bound, each measured on families of necklaces over a range of
+// sizes.
 
 #include <Eigen/Core>
 #include <array>
@@ -107,8 +108,6 @@ struct FamilySize {
 
 /// Returns n log2 n in the plane, n^(4/3) in space.
 [[nodiscard]] double family_bound(int dimension, std::size_t beads);
-
-// Plans the necklaces and sizes on which each theorem is measured.
 
 struct TheoremOptions {
   std::vector<Theorem> theorems;     ///< ascending

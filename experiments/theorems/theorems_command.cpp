@@ -1,14 +1,19 @@
-#include "experiments/theorems/theorems_command.h"
+#include "experiments/program/commands.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
+#include <span>
+#include <string>
 
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"
+#include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
-#include "experiments/program/commands.h"
 #include "experiments/program/option.h"
 #include "experiments/program/option_values.h"
+#include "experiments/program/spread_columns.h"
 #include "experiments/program/table_command.h"
 #include "experiments/program/timing.h"
 #include "experiments/theorems/plan_theorems.h"
@@ -213,8 +218,6 @@ std::string findings_html(std::span<const TheoremSeries> series) {
   return html + fit_columns().html(fits);
 }
 
-}  // namespace
-
 Json theorem_rows_json(std::span<const TheoremSeries> series) {
   return point_columns().json(points_of(series));
 }
@@ -237,6 +240,7 @@ std::string theorems_table(std::span<const TheoremSeries> series) {
   return text;
 }
 
+// `page` says how the results were made.
 std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
   page.title = "kds theorems";
   page.found = findings_html(series);
@@ -259,8 +263,6 @@ std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
       "the median of the rounds, with the least and the most in brackets.";
   return html_page(page);
 }
-
-namespace {
 
 constexpr CommandSpec kTheoremsCommand{
     "kds theorems",

@@ -1,4 +1,4 @@
-#include "experiments/trade/follow_run.h"
+#include "experiments/trade/measure_trade.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
-// Compares the events of two runs of one structure: which events the second run missed, which it invented,
-// and how far apart in time the common events are.
+// Compares the events, and the contacts, of two runs of one structure: which the second run missed, which it
+// invented, and how far apart in time the common ones are.
 
 #include <cstdint>
 #include <span>
@@ -28,8 +28,7 @@ struct EventMatch {
 [[nodiscard]] EventMatch match_events(std::span<const TimedEvent> expected, std::span<const TimedEvent> found,
                                       double reach);
 
-// Compares the contacts of two runs. A contact is the interval from the time at which a pair begins to touch
-// to the time at which it parts.
+// A contact is the interval from the time at which a pair begins to touch to the time at which it parts.
 
 struct ContactTime {
   BeadPair pair;

@@ -1,19 +1,73 @@
 #pragma once
 // The experiment behind `kds trade`. It measures the cost of every setting, running the settings in turn, and
-// the error of each against the truth.
+// the error of each against the truth at frames and between them.
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/trade/finest_data.h"
-#include "experiments/trade/follow_run.h"
+#include "experiments/trade/match_events.h"
 #include "experiments/trade/trade_setting.h"
 
 namespace kds {
+
+/// The errors of a run. An error that does not apply is empty. Lengths are in the input's unit, times in
+/// finest frames.
+struct TradeErrors {
+  std::optional<double> displacement;  ///< largest distance of a bead from its true position
+  /// Relative difference of a node's radius from the smallest radius.
+  std::optional<double> radius_mean, radius_max;
+  std::optional<double> radius_frames_mean, radius_frames_max;  ///< the same at frames only
+  std::optional<double> beads_outside;  ///< beads outside their nodes' spheres, mean over the times examined
+  std::optional<double> cells_wrong;    ///< share of cells that the true diagram does not have
+  std::optional<double> edges_missed;   ///< share of the true edges shorter than the cutoff
+  std::optional<double> events_missed, events_invented;  ///< shares of the exact run's events
+  std::optional<double> event_time_mean, event_time_max;
+  /// Shares of the true contacts. Empty for the model with one bead per residue if no residues are truly in
+  /// contact.
+  std::optional<double> contacts_missed, contacts_spurious;
+  std::optional<double> contacts_unsure;  ///< share of the true contacts; only for certified runs
+  /// Number of contacts that are called sure but are not true; only for certified runs.
+  std::optional<double> sure_wrong;
+  /// Error of the times at which contacts begin and end.
+  std::optional<double> contact_time_mean, contact_time_max;
+  std::optional<double> closest_distance;  ///< largest error of the closest pair's distance
+};
+/// Returns the errors with their names, in the order of the members.
+[[nodiscard]] std::vector<std::pair<std::string, std::optional<double>>> by_name(const TradeErrors& errors);
+
+/// The output of a run.
+struct RunHistory {
+  double end = 0;  ///< time at which the run stops, in frames of the finest data
+  std::vector<TimedEvent> events;
+  std::vector<ContactTime> contacts;  ///< contacts of the run; for a certified run all possible contacts
+  std::vector<ContactTime> sure;      ///< only for a certified run
+};
+
+struct SamplingOfTimes {
+  std::size_t times = 200;  ///< number of random times between frames, and at most as many frames
+  std::uint64_t seed = 1;
+};
+
+struct FollowedRun {
+  RunHistory history;
+  TradeErrors errors;  ///< all errors except those of events and contacts
+  /// Sphere pairs tested by a contact search in the hierarchy, mean over the times examined.
+  std::optional<double> tests;
+};
+
+/// `cutoff` is the length limit for edges_missed.
+[[nodiscard]] FollowedRun follow_run(const FinestData& finest, const TradeSetting& setting, Truth& truth,
+                                     const SamplingOfTimes& sampling, double cutoff);
+
+/// Adds the errors of events and contacts, computed from the history of the exact run.
+void compare_histories(const RunHistory& exact, FollowedRun& run, const FinestData& finest,
+                       const TradeSetting& setting);
 
 struct TradeTask {
   std::vector<Want> wants{Want::contacts, Want::cages, Want::diagram};

@@ -1,14 +1,19 @@
-#include "experiments/trade/trade_command.h"
+#include "experiments/program/commands.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 
+#include "experiments/output/output_files.h"
 #include "experiments/output/text.h"
-#include "experiments/program/commands.h"
+#include "experiments/program/command_line.h"
+#include "experiments/program/input_options.h"
+#include "experiments/program/option.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/radius_hint.h"
+#include "experiments/trade/measure_trade.h"
 #include "experiments/trade/trade_report.h"
 #include "kds/seconds.h"
 #include "motions/base/input_error.h"
@@ -17,6 +22,10 @@
 namespace kds {
 
 namespace {
+
+struct TradeOptions : InputOptions, Destinations {
+  TradeTask task;
+};
 
 constexpr CommandSpec kTradeCommand{
     "kds trade",
@@ -116,8 +125,6 @@ void refuse_needless_options(const ParsedArguments& parsed, const std::vector<Wa
         "--cutoff: it is about edges of the power diagram; expected diagram or events in --want");
 }
 
-}  // namespace
-
 const OptionList<TradeOptions>& trade_options() {
   using O = TradeOptions;
   static const auto list =
@@ -131,6 +138,8 @@ const OptionList<TradeOptions>& trade_options() {
   return list;
 }
 
+// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
+// --help. Opens no file.
 TradeOptions parse_trade_options(const Arguments& arguments) {
   TradeOptions options;
   const ParsedArguments parsed = read_arguments(kTradeCommand, trade_options(), arguments, options);
@@ -138,8 +147,6 @@ TradeOptions parse_trade_options(const Arguments& arguments) {
   refuse_needless_options(parsed, options.task.wants);
   return options;
 }
-
-namespace {
 
 // The decision depends only on the numbers of beads and frames, so that every machine has the same rows.
 bool leave_out_exact_kernel(const FinestData& finest, const TradeTask& task,

@@ -1,10 +1,11 @@
 #include "experiments/trade/trade_report.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <vector>
 
 #include "experiments/output/page/svg_plot.h"

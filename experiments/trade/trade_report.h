@@ -1,5 +1,5 @@
 #pragma once
-// Reports the results of `kds trade` to programs and people.
+// Reports the results of `kds trade` to programs and people, with a recommendation in words.
 
 #include <span>
 #include <string>
@@ -17,8 +17,6 @@ namespace kds {
 [[nodiscard]] std::string trade_table(std::span<const TradeRow> rows);
 /// `page` says how the results were made.
 [[nodiscard]] std::string trade_page(std::span<const TradeRow> rows, const std::string& input, Page page);
-
-// Turns the measured rows into a recommendation in words.
 
 /// Returns one or two sentences per group: the quickest setting whose main errors are small, its errors and
 /// its gain. `rows` are in the order of measure_trade.

@@ -1,7 +1,8 @@
 #include "experiments/update/update_command.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>

@@ -1,5 +1,5 @@
 #pragma once
-// The options of `kds update` and their parser.
+// The options and the report of `kds update`.
 
 #include <array>
 #include <span>
@@ -42,8 +42,6 @@ struct UpdateOptions : InputOptions, Destinations {  // results: update.json, up
 /// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
 /// --help. Opens no file.
 [[nodiscard]] UpdateOptions parse_update_options(const Arguments& arguments);
-
-// Reports the results of `kds update` to programs and people.
 
 /// Returns the columns of update.json and update.csv, of the terminal and of the page.
 [[nodiscard]] const Table<UpdateRow>& update_columns();

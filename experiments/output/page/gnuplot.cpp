@@ -1,18 +1,19 @@
 #include "experiments/output/page/gnuplot.h"
 
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
-#include <fmt/format.h>
 #include <memory>
-#include <spawn.h>
 #include <stdexcept>
-#include <sys/mman.h>
-#include <sys/wait.h>
 #include <system_error>
-#include <unistd.h>
 #include <utility>
 
 #include "experiments/output/output_files.h"

@@ -1,5 +1,6 @@
 #pragma once
-// Runs gnuplot as a function that takes a script and returns its output.
+// Runs gnuplot, and converts its drawings into elements of a page: with the page's colours and font, with
+// texts under the pointer, and without ids, which could clash between two drawings.
 
 #include <array>
 #include <cstddef>
@@ -15,9 +16,6 @@ void require_gnuplot(std::string_view option);
 
 /// Throws std::runtime_error with gnuplot's message.
 [[nodiscard]] std::string run_gnuplot(const std::string& script);
-
-// Converts a gnuplot drawing into an element of a page: with the page's colours and font, with texts under
-// the pointer, and without ids, which could clash between two drawings.
 
 /// The size of a drawing and the margins around its axes, in pixels.
 struct DrawingSize {

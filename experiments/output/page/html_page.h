@@ -1,5 +1,7 @@
 #pragma once
-// Escapes text for HTML.
+// The report page of every command, report.html: one style, self-contained, without scripts and without
+// network access. It begins with the findings and ends with how the page was made and where its data are. It
+// is light or dark as the reader's system, and legible down to the width of a telephone.
 
 #include <filesystem>
 #include <string>
@@ -15,10 +17,6 @@ namespace kds {
 [[nodiscard]] std::string html_escaped(std::string_view text);
 /// Returns the text with its line breaks.
 [[nodiscard]] std::string html_escaped_lines(std::string_view text);
-
-// The report page of every command: one style, self-contained, without scripts and without network access. It
-// begins with the findings and ends with how the page was made and where its data are. It is light or dark as
-// the reader's system, and legible down to the width of a telephone.
 
 struct Page {
   std::string title;
@@ -48,8 +46,6 @@ struct HtmlRow {
 
 /// Returns a list of terms with their values, given as pairs of label and value.
 [[nodiscard]] std::string html_terms(const std::vector<std::pair<std::string, std::string>>& terms);
-
-// Checks for report.html, the one result file that can fail because gnuplot is missing.
 
 /// Checks before work begins that the page can be written. Throws InputError if gnuplot, which draws its
 /// plots, is missing. Throws InputError also if the directory has a report.html that this command did not

@@ -83,9 +83,8 @@ struct MapPlot {
 [[nodiscard]] std::string svg_plot(const BarPlot& plot);
 [[nodiscard]] std::string svg_plot(const MapPlot& plot);
 
-// Rows of bars over one axis, each with its own scale. They show where along the chain several quantities
-// occur.
-
+/// Rows of bars over one axis, each with its own scale. They show where along the chain several quantities
+/// occur.
 struct RowsPlot {
   struct Row {
     std::string name;
