@@ -53,7 +53,6 @@ std::vector<std::string> parse_methods(const std::string& list) {
   return ordered;
 }
 
-}  // namespace
 
 const OptionList<CollideOptions>& collide_options() {
   using O = CollideOptions;
@@ -87,6 +86,8 @@ const OptionList<CollideOptions>& collide_options() {
                                     "to DIR (default: none)"));
   return list;
 }
+
+}  // namespace
 
 CollideOptions parse_collide_options(const Arguments& arguments) {
   CollideOptions options;

@@ -30,8 +30,6 @@ struct CollideOptions : InputOptions {
   Destinations destinations;
 };
 
-[[nodiscard]] const OptionList<CollideOptions>& collide_options();
-
 /// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
 /// --help. Opens no file.
 [[nodiscard]] CollideOptions parse_collide_options(const Arguments& arguments);

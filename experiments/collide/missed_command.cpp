@@ -20,6 +20,28 @@ namespace kds {
 
 namespace {
 
+/// The result of one stride of one run.
+struct MissedRow {
+  double factor = 1;
+  std::size_t stride = 1;
+  std::size_t frames = 0;  ///< number of frames examined
+  std::uint64_t contacts = 0, found = 0;
+
+  [[nodiscard]] std::uint64_t missed() const { return contacts - found; }
+};
+
+/// Description of the input. Radii are those of the radius policy, without the factor.
+struct MissedInput {
+  std::size_t beads = 0, necklaces = 0, frames = 0;
+  int dimension = 3;
+  double radius_min = 0, radius_max = 0;
+};
+
+struct MissedReport {
+  MissedInput input;
+  std::vector<MissedRow> rows;  ///< ordered by factor, then by stride
+};
+
 std::size_t frames_looked_at(std::size_t frames, std::size_t stride) { return (frames - 1) / stride + 1; }
 
 std::vector<std::size_t> strides_for(const MissedTask& task, std::size_t frames) {
@@ -64,8 +86,9 @@ std::vector<SampledContacts::Sampling> samplings_of(const MissedTask& task, cons
   return sampled.samplings();
 }
 
-}  // namespace
 
+// Counts the missed contacts. Each warning about the input goes to `warn` as one line. Throws InputError for
+// any fault of the input, and if a requested stride examines only one frame.
 MissedReport count_missed(const MissedTask& task, const std::function<void(const std::string&)>& warn,
                           const std::function<void(std::size_t, std::size_t)>& progress) {
   MissedReport report;
@@ -87,7 +110,6 @@ MissedReport count_missed(const MissedTask& task, const std::function<void(const
   return report;
 }
 
-namespace {
 
 constexpr CommandSpec kMissedCommand{
     "kds missed",
@@ -107,8 +129,8 @@ std::vector<double> parse_factors(const std::string& list) {
   return factors;
 }
 
-}  // namespace
 
+// Returns the options that appear as settings in the JSON.
 const OptionList<MissedTask>& missed_task_options() {
   using O = MissedTask;
   static const auto list =
@@ -131,6 +153,8 @@ const OptionList<MissedTask>& missed_task_options() {
                                &O::motion, std::span(frame_motion_names).first(2))});
   return list;
 }
+
+}  // namespace
 
 MissedOptions parse_missed_options(const Arguments& arguments) {
   using O = MissedOptions;
@@ -199,8 +223,8 @@ std::string findings(std::span<const MissedRow> rows) {
   return html;
 }
 
-}  // namespace
 
+// Returns the columns of missed.json and missed.csv, of the terminal and of the page.
 const Table<MissedRow>& missed_columns() {
   using Row = MissedRow;
   static const Table<Row> table{{
@@ -218,6 +242,8 @@ const Table<MissedRow>& missed_columns() {
   return table;
 }
 
+
+// `page` says how the results were made.
 std::string missed_page(std::span<const MissedRow> rows, const std::string& input, Page page) {
   page.title = "kds missed: " + input;
   page.found = findings(rows);
@@ -235,6 +261,8 @@ std::string missed_page(std::span<const MissedRow> rows, const std::string& inpu
   page.body += html_section("Figures", missed_columns().html(rows));
   return html_page(page);
 }
+
+}  // namespace
 
 int missed_command(const Arguments& arguments) {
   const MissedOptions options = parse_missed_options(arguments);

@@ -55,7 +55,6 @@ Option<CompareOptions> compare_apart_option() {
   return option;
 }
 
-}  // namespace
 
 const OptionList<CompareOptions>& compare_options() {
   using O = CompareOptions;
@@ -82,6 +81,8 @@ const OptionList<CompareOptions>& compare_options() {
               destination_options("write compare.json, compare.csv and report.html to DIR (default: none)"));
   return list;
 }
+
+}  // namespace
 
 CompareOptions parse_compare_options(const Arguments& arguments) {
   CompareOptions options;

@@ -22,8 +22,6 @@ struct CompareOptions : InputOptions, Destinations {
   std::optional<BeadId> apart;  ///< --apart
 };
 
-[[nodiscard]] const OptionList<CompareOptions>& compare_options();
-
 /// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
 /// --help. Opens no file.
 [[nodiscard]] CompareOptions parse_compare_options(const Arguments& arguments);

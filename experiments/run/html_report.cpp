@@ -20,6 +20,14 @@ namespace kds {
 
 namespace {
 
+// Returns the text that shows a kind of event. Internal kinds, which the total excludes, are marked as
+// internal.
+std::string kind_label(const RunReport& report, const std::string& kind) {
+  for (const StructureReport& structure : report.structures)
+    if (const std::string label = structure.label_of(kind); label != kind) return label;
+  return kind;
+}
+
 using Figure = std::function<std::string(const StructureReport&)>;
 
 SummaryRow row(const RunReport& report, std::string label, bool detail, const Figure& figure) {
@@ -161,12 +169,6 @@ void add_approach(std::vector<std::pair<std::string, std::string>>& lines, const
 }
 
 }  // namespace
-
-std::string kind_label(const RunReport& report, const std::string& kind) {
-  for (const StructureReport& structure : report.structures)
-    if (const std::string label = structure.label_of(kind); label != kind) return label;
-  return kind;
-}
 
 std::vector<SummaryRow> summary_rows(const RunReport& report) {
   std::vector<SummaryRow> rows;

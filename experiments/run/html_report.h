@@ -17,10 +17,6 @@ struct SummaryRow {
 
 [[nodiscard]] std::vector<SummaryRow> summary_rows(const RunReport& report);
 
-/// Returns the text that shows a kind of event. Internal kinds, which the total excludes, are marked as
-/// internal.
-[[nodiscard]] std::string kind_label(const RunReport& report, const std::string& kind);
-
 /// Returns the lines that describe the input, as pairs of label and value.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> input_lines(const RunReport& report);
 

@@ -105,11 +105,12 @@ class LogComparison final : public EventListener {
   std::optional<std::string> difference_;
 };
 
-}  // namespace
-
+// Returns the options of the logged run. Throws an InputError that names the file if it is not a log.
 RunOptions logged_run(const std::filesystem::path& log) {
   return options_of(EventLogReader(log).header(), log);
 }
+
+}  // namespace
 
 ReplayReport replay_log(const std::filesystem::path& path, const Progress& progress,
                         const std::function<void(const std::string&)>& warn, RunResults* results) {

@@ -2,10 +2,8 @@
 // Runs a logged run again and compares its events one by one with the log. Keeps neither list of events in
 // memory.
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "experiments/run/run_options.h"
@@ -14,20 +12,6 @@
 #include "experiments/run/run_scene.h"
 
 namespace kds {
-
-struct ReplayReport {
-  RunReport run;                         ///< the result of the new run
-  std::uint64_t logged_fingerprint = 0;  ///< from the last line of the log
-  std::uint64_t events = 0;              ///< number of events in the log
-  /// A sentence that describes the first difference between log and run. Empty if every event is in both at
-  /// the same time.
-  std::optional<std::string> difference = {};
-
-  [[nodiscard]] bool same() const { return !difference && run.fingerprint == logged_fingerprint; }
-};
-
-/// Returns the options of the logged run. Throws an InputError that names the file if it is not a log.
-[[nodiscard]] RunOptions logged_run(const std::filesystem::path& log);
 
 /// Replays the log. Throws an InputError that names the log or its inputs if they cannot be used, or if a
 /// line of the log was not written by the run.

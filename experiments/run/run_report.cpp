@@ -11,6 +11,7 @@
 #include "experiments/output/text.h"
 #include "experiments/run/html_report.h"
 #include "experiments/run/run_options.h"
+#include "experiments/run/run_scene.h"
 
 namespace kds {
 

@@ -12,9 +12,7 @@
 #include "experiments/events/event_places.h"
 #include "experiments/program/timing.h"
 #include "experiments/run/certify_stride.h"
-#include "experiments/run/replay_command.h"
 #include "experiments/run/run_options.h"
-#include "experiments/run/run_scene.h"
 #include "motions/frames/frame_reader.h"
 #include "structures/session/session.h"
 
@@ -70,6 +68,20 @@ struct RunReport {
   std::vector<std::string> bead_names;  ///< empty if not recorded; an unknown name is an empty text
 };
 
+/// The result of a replay.
+struct ReplayReport {
+  RunReport run;                         ///< the result of the new run
+  std::uint64_t logged_fingerprint = 0;  ///< from the last line of the log
+  std::uint64_t events = 0;              ///< number of events in the log
+  /// A sentence that describes the first difference between log and run. Empty if every event is in both at
+  /// the same time.
+  std::optional<std::string> difference = {};
+
+  [[nodiscard]] bool same() const { return !difference && run.fingerprint == logged_fingerprint; }
+};
+
+class StepCounts;  // run_scene.h
+/// Collects the counts of the structures of a session.
 [[nodiscard]] RunReport report_of(Session& session, const Scene& scene, const RunOptions& options,
                                   const StepCounts& counts);
 
@@ -80,8 +92,8 @@ struct RunReport {
 /// logged_fingerprint, same and difference (null if there is no difference).
 [[nodiscard]] std::string replay_json(const ReplayReport& replay, const std::filesystem::path& log);
 
-/// Returns a table with one column per structure and one row per figure. The fingerprint comes last. The text
-/// ends with a newline.
+/// Returns a table with one column per structure and one row per figure. The fingerprint comes last. The
+/// text ends with a newline.
 [[nodiscard]] std::string comparison_table(const RunReport& report);
 
 }  // namespace kds

@@ -19,6 +19,14 @@ namespace kds {
 
 namespace {
 
+/// The residue and atom of a bead. They identify the beads that results name by number.
+struct BeadRow {
+  BeadId bead = 0;
+  std::size_t necklace = 0;  ///< from 0, in the order of the scene
+  BeadName name;             ///< empty if the file has no names
+  double radius = 0;
+};
+
 constexpr CommandSpec kInfoCommand{
     "kds info",
     "Describes trajectories, and decides exactly which conditions of a proper necklace they violate.",
@@ -29,7 +37,6 @@ constexpr CommandSpec kInfoCommand{
     "kds info 1a4y.pdb --beads",
 };
 
-}  // namespace
 
 const OptionList<InfoOptions>& info_options() {
   using O = InfoOptions;
@@ -52,6 +59,8 @@ const OptionList<InfoOptions>& info_options() {
   return list;
 }
 
+}  // namespace
+
 InfoOptions parse_info_options(const Arguments& arguments) {
   InfoOptions options;
   const ParsedArguments parsed = read_arguments(kInfoCommand, info_options(), arguments, options);
@@ -61,6 +70,9 @@ InfoOptions parse_info_options(const Arguments& arguments) {
   return options;
 }
 
+namespace {
+
+// Returns the rows. `radii` has one radius per bead in scene order.
 std::vector<BeadRow> bead_rows(std::span<const Trajectory> necklaces, std::span<const double> radii) {
   std::vector<BeadRow> rows;
   for (std::size_t n = 0; n < necklaces.size(); ++n) {
@@ -74,6 +86,8 @@ std::vector<BeadRow> bead_rows(std::span<const Trajectory> necklaces, std::span<
   return rows;
 }
 
+
+// Returns the columns of JSON, CSV and the terminal.
 const Table<BeadRow>& bead_columns() {
   using Row = BeadRow;
   const auto digits = [](const Field& number) { return number.csv(); };
@@ -92,7 +106,6 @@ const Table<BeadRow>& bead_columns() {
   return table;
 }
 
-namespace {
 
 // An instance file has weighted points rather than balls in a chain, so there are no conditions to check.
 void describe(const Instance& instance, bool beads, const TableCommand& command) {

@@ -20,24 +20,8 @@ struct InfoOptions : InputOptions, Destinations {  // results: info.json and inf
   bool beads = false;  ///< report only which residue each bead is
 };
 
-[[nodiscard]] const OptionList<InfoOptions>& info_options();
-
 /// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
 /// --help. Opens no file.
 [[nodiscard]] InfoOptions parse_info_options(const Arguments& arguments);
-
-/// The residue and atom of a bead. They identify the beads that results name by number.
-struct BeadRow {
-  BeadId bead = 0;
-  std::size_t necklace = 0;  ///< from 0, in the order of the scene
-  BeadName name;             ///< empty if the file has no names
-  double radius = 0;
-};
-
-/// Returns the rows. `radii` has one radius per bead in scene order.
-[[nodiscard]] std::vector<BeadRow> bead_rows(std::span<const Trajectory> necklaces,
-                                             std::span<const double> radii);
-/// Returns the columns of JSON, CSV and the terminal.
-[[nodiscard]] const Table<BeadRow>& bead_columns();
 
 }  // namespace kds

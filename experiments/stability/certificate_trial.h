@@ -54,12 +54,6 @@ class BothSides final : public CertificateSource {
   const CertificateSearch<C>& search_;
 };
 
-/// One answer of a kernel.
-struct Answer {
-  Failure failure;
-  bool opposite = false;  ///< whether the opposite certificate gave the answer
-};
-
 /// A bound that exceeds the number of roots of every function here.
 inline constexpr std::size_t most_answers = 64;
 

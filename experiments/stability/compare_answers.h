@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "certificates/exact/exact_time.h"
-#include "experiments/stability/certificate_trial.h"
+#include "certificates/search/certificate_search.h"
 #include "kds/change.h"
 
 namespace kds {
@@ -30,6 +30,12 @@ struct EventDifference {
 /// then minimizes the errors. Both histories are in order of time.
 [[nodiscard]] EventDifference event_difference(std::span<const TimedChange> exact,
                                                std::span<const TimedChange> other);
+
+/// One answer of a kernel.
+struct Answer {
+  Failure failure;
+  bool opposite = false;  ///< whether the opposite certificate gave the answer
+};
 
 /// Returns the exact function of the certificate (false) or of its opposite (true).
 using FunctionOfSide = std::function<ExactPolynomial(bool opposite)>;

@@ -80,12 +80,16 @@ std::optional<std::string> complaint_about(std::span<const StabilityRow> rows) {
   return fmt::format("{} of {} rows do not hold: {}", failing.size(), rows.size(), fmt::join(failing, "; "));
 }
 
+namespace {
+
 Json stability_settings(const StabilityOptions& options) {
   return {{"subjects", all_or(options.subjects)},
           {"extremes", all_or(options.extremes)},
           {"cases", options.cases.cases},
           {"seed", options.cases.seed}};
 }
+
+}  // namespace
 
 std::string stability_json(std::string command, const StabilityOptions& options,
                            std::span<const StabilityRow> rows) {

@@ -13,8 +13,6 @@
 
 namespace kds {
 
-[[nodiscard]] Json stability_settings(const StabilityOptions& options);
-
 /// Returns one object with the members command, settings, rows, holds, version and machine. The text ends
 /// with a newline.
 [[nodiscard]] std::string stability_json(std::string command, const StabilityOptions& options,

@@ -54,6 +54,11 @@ std::string name_of(const TheoremSeries& series) {
 
 namespace {
 
+struct FamilySize {
+  std::uint64_t family = 0;       ///< pairs of spheres
+  std::optional<Spread> seconds;  ///< of the search, without building the hierarchy
+};
+
 template <int Dimension>
 double ratio(const Eigen::Matrix3Xd& centers, std::span<const double> radii) {
   const std::array necklaces{BeadRange{0, static_cast<BeadId>(radii.size() - 1)}};
@@ -102,13 +107,12 @@ ClosestByDiagram measure(const Eigen::Matrix3Xd& centers, std::size_t rounds) {
   return result;
 }
 
-}  // namespace
 
+// Requires at least three beads of radius 1, of which consecutive beads meet and no others.
 ClosestByDiagram closest_by_diagram(const Eigen::Matrix3Xd& centers, int dimension, std::size_t rounds) {
   return dimension == 2 ? measure<2>(centers, rounds) : measure<3>(centers, rounds);
 }
 
-namespace {
 
 template <int Dimension>
 FamilySize measure(const Eigen::Matrix3Xd& centers, Hierarchy hierarchy, std::size_t rounds) {
@@ -128,12 +132,15 @@ FamilySize measure(const Eigen::Matrix3Xd& centers, Hierarchy hierarchy, std::si
   return size;
 }
 
-}  // namespace
 
+// Measures the family of beads with radius 1. No two beads may collide except neighbours along the chain. If
+// `rounds` is 0, no time is measured.
 FamilySize measure_family(const Eigen::Matrix3Xd& centers, int dimension, Hierarchy hierarchy,
                           std::size_t rounds) {
   return dimension == 2 ? measure<2>(centers, hierarchy, rounds) : measure<3>(centers, hierarchy, rounds);
 }
+
+}  // namespace
 
 std::size_t beads_of_grid(int dimension, std::size_t side) {
   const std::size_t rows = dimension == 2 ? side : side * side;
@@ -155,12 +162,14 @@ std::vector<std::size_t> sides_of_grids(int dimension, std::size_t most_beads) {
   return sides;
 }
 
+namespace {
+
+// Returns n log2 n in the plane, n^(4/3) in space.
 double family_bound(int dimension, std::size_t beads) {
   const auto n = static_cast<double>(beads);
   return dimension == 2 ? n * std::log2(n) : std::pow(n, 4.0 / 3);
 }
 
-namespace {
 
 using Centers = Eigen::Matrix3Xd;
 

@@ -78,25 +78,11 @@ struct ClosestByDiagram {
   bool same = false;  ///< whether the hierarchy search, which considers all pairs, finds the same pair
 };
 
-/// Requires at least three beads of radius 1, of which consecutive beads meet and no others.
-[[nodiscard]] ClosestByDiagram closest_by_diagram(const Eigen::Matrix3Xd& centers, int dimension,
-                                                  std::size_t rounds);
-
 // Separating families of tightly packed grids: their sizes (Theorem 3.1) and the time to find them (Theorem
 // 3.2). The bounds are O(n log n) in the plane and O(n^(4/3)) in space.
 //
 // All grids have odd sides. If a side is a power of two, tree nodes end where rows end, and results for a
 // mixture of such sizes oscillate.
-
-struct FamilySize {
-  std::uint64_t family = 0;       ///< pairs of spheres
-  std::optional<Spread> seconds;  ///< of the search, without building the hierarchy
-};
-
-/// Measures the family of beads with radius 1. No two beads may collide except neighbours along the chain. If
-/// `rounds` is 0, no time is measured.
-[[nodiscard]] FamilySize measure_family(const Eigen::Matrix3Xd& centers, int dimension, Hierarchy hierarchy,
-                                        std::size_t rounds);
 
 /// Returns the number of beads in a grid: all rows, and a bead beside each row except the last that joins it
 /// to the next row.
@@ -105,9 +91,6 @@ struct FamilySize {
 /// Returns odd sides of grids with 1000 to `most_beads` beads. The number of beads grows by a roughly
 /// constant factor, and the last side is the largest possible.
 [[nodiscard]] std::vector<std::size_t> sides_of_grids(int dimension, std::size_t most_beads);
-
-/// Returns n log2 n in the plane, n^(4/3) in space.
-[[nodiscard]] double family_bound(int dimension, std::size_t beads);
 
 struct TheoremOptions {
   std::vector<Theorem> theorems;     ///< ascending

@@ -222,6 +222,34 @@ std::string few_figures(double value) {
 
 std::string percent(double share) { return few_figures(100 * share) + "%"; }
 
+// Returns the errors in words: "radii 0.02% larger on average, 0.5% at most".
+std::string losses_of(const TradeRow& row) {
+  const TradeErrors& e = row.errors;
+  std::vector<std::string> losses;
+  const auto add = [&losses](std::string words) { losses.push_back(std::move(words)); };
+  if (row.want == Want::cages) {
+    add(fmt::format("radii are {} from the smallest on average, {} at most",
+                    percent(e.radius_mean.value_or(0)), percent(e.radius_max.value_or(0))));
+    add(e.beads_outside.value_or(0) > 0 ? fmt::format("{:.3g} beads stick out on average", *e.beads_outside)
+                                        : "no bead is outside");
+    if (!row.setting.has_events()) add("it does not tell when bases change");
+  }
+  if (row.want == Want::diagram)
+    add(fmt::format("{} of its cells are wrong, and it misses {} of the short edges",
+                    percent(e.cells_wrong.value_or(0)), percent(e.edges_missed.value_or(0))));
+  if (row.want == Want::contacts) {
+    add(fmt::format("{} of the contacts are missed, {} are spurious", percent(e.contacts_missed.value_or(0)),
+                    percent(e.contacts_spurious.value_or(0))));
+    if (e.contacts_unsure) add(fmt::format("{} of them are only possible", percent(*e.contacts_unsure)));
+    if (row.setting.calpha) add("it is another model, and tells of residues");
+  }
+  if (row.want == Want::events || ((row.want == Want::diagram || row.want == Want::cages) && e.events_missed))
+    add(fmt::format("{} of the events are missed, {} are invented", percent(e.events_missed.value_or(0)),
+                    percent(e.events_invented.value_or(0))));
+  if (row.setting.kernel == Kernel::fast) add("it guarantees nothing: signs that doubles err in stay wrong");
+  return fmt::format("{}", fmt::join(losses, "; "));
+}
+
 std::string subject_of(const TradeRow& row) {
   switch (row.want) {
     case Want::contacts:
@@ -298,33 +326,6 @@ std::string sentence_for(std::span<const TradeRow> group) {
 }
 
 }  // namespace
-
-std::string losses_of(const TradeRow& row) {
-  const TradeErrors& e = row.errors;
-  std::vector<std::string> losses;
-  const auto add = [&losses](std::string words) { losses.push_back(std::move(words)); };
-  if (row.want == Want::cages) {
-    add(fmt::format("radii are {} from the smallest on average, {} at most",
-                    percent(e.radius_mean.value_or(0)), percent(e.radius_max.value_or(0))));
-    add(e.beads_outside.value_or(0) > 0 ? fmt::format("{:.3g} beads stick out on average", *e.beads_outside)
-                                        : "no bead is outside");
-    if (!row.setting.has_events()) add("it does not tell when bases change");
-  }
-  if (row.want == Want::diagram)
-    add(fmt::format("{} of its cells are wrong, and it misses {} of the short edges",
-                    percent(e.cells_wrong.value_or(0)), percent(e.edges_missed.value_or(0))));
-  if (row.want == Want::contacts) {
-    add(fmt::format("{} of the contacts are missed, {} are spurious", percent(e.contacts_missed.value_or(0)),
-                    percent(e.contacts_spurious.value_or(0))));
-    if (e.contacts_unsure) add(fmt::format("{} of them are only possible", percent(*e.contacts_unsure)));
-    if (row.setting.calpha) add("it is another model, and tells of residues");
-  }
-  if (row.want == Want::events || ((row.want == Want::diagram || row.want == Want::cages) && e.events_missed))
-    add(fmt::format("{} of the events are missed, {} are invented", percent(e.events_missed.value_or(0)),
-                    percent(e.events_invented.value_or(0))));
-  if (row.setting.kernel == Kernel::fast) add("it guarantees nothing: signs that doubles err in stay wrong");
-  return fmt::format("{}", fmt::join(losses, "; "));
-}
 
 std::string recommendation(std::span<const TradeRow> rows) {
   std::string text;

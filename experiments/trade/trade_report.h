@@ -22,7 +22,4 @@ namespace kds {
 /// its gain. `rows` are in the order of measure_trade.
 [[nodiscard]] std::string recommendation(std::span<const TradeRow> rows);
 
-/// Returns the errors in words: "radii 0.02% larger on average, 0.5% at most".
-[[nodiscard]] std::string losses_of(const TradeRow& row);
-
 }  // namespace kds
