@@ -13,6 +13,7 @@
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
+#include "experiments/update/compare_updates.h"
 #include "motions/base/input_error.h"
 #include "motions/scene/radii.h"
 

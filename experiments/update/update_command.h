@@ -11,7 +11,6 @@
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/table.h"
 #include "experiments/program/input_options.h"
-#include "experiments/update/compare_updates.h"
 #include "kds/audit.h"
 #include "structures/power_diagram/diagram_update.h"
 
@@ -42,6 +41,8 @@ struct UpdateOptions : InputOptions, Destinations {  // results: update.json, up
 /// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
 /// --help. Opens no file.
 [[nodiscard]] UpdateOptions parse_update_options(const Arguments& arguments);
+
+struct UpdateRow;  // compare_updates.h
 
 /// Returns the columns of update.json and update.csv, of the terminal and of the page.
 [[nodiscard]] const Table<UpdateRow>& update_columns();
