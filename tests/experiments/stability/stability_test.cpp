@@ -12,6 +12,7 @@
 #include "certificates/types/power_test.h"
 #include "certificates/types/precedes.h"
 #include "experiments/output/text.h"
+#include "experiments/stability/certificate_trial.h"
 #include "experiments/stability/compare_answers.h"
 #include "experiments/stability/stability_command.h"
 #include "experiments/stability/stability_report.h"
