@@ -211,8 +211,8 @@ Option<BenchInputs> trajectories_option() {
   using O = BenchInputs;
   const auto names = [](const O& o) {
     std::vector<std::string> files;
-    for (const std::filesystem::path& file : o.trajectories) files.push_back(file.string());
-    return files;
+    for (const std::filesystem::path& file : o.trajectories) files.push_back(file.filename().string());
+    return files;  // without folders, so that results of two machines agree
   };
   return {{"--trajectories", "LIST",
            "trajectory files, for hierarchies, power, collision and trade (default: all .dcd files in the "
@@ -225,19 +225,26 @@ Option<BenchInputs> trajectories_option() {
           [=](const O& o) { return Json(names(o)); }};
 }
 
+Option<BenchInputs> instances_option() {
+  using O = BenchInputs;
+  Option<O> option = path_option({"--instances", "DIR",
+                                  "folder of moving-point files, for certificates and engine (default: the "
+                                  "folder kinetic of the data)"},
+                                 &O::instances);
+  option.json = [](const O& o) {
+    return o.instances.empty() ? Json() : Json(o.instances.lexically_normal().filename().string());
+  };
+  return option;
+}
+
 const OptionList<BenchInputs>& bench_options() {
   using O = BenchInputs;
   static const auto list =
       OptionList<O>()
-          .with(
-              {sizes_option(), data_option(&O::data), trajectories_option(),
-               path_option({"--instances", "DIR",
-                            "folder of moving-point files, for certificates and engine (default: the folder "
-                            "kinetic of the data)"},
-                           &O::instances),
-               whole_option(
-                   {"--rounds", "N", "alternating runs of kds and the peer, at least 5 (default: 5)"},
-                   &O::rounds, 5, most_count)})
+          .with({sizes_option(), data_option(&O::data), trajectories_option(), instances_option(),
+                 whole_option(
+                     {"--rounds", "N", "alternating runs of kds and the peer, at least 5 (default: 5)"},
+                     &O::rounds, 5, most_count)})
           .with(destination_options("write bench.json, bench.csv and report.html to DIR (default: none)"));
   return list;
 }

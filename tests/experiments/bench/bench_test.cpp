@@ -110,6 +110,7 @@ TEST(Bench, HierarchiesGiveARowForEachMeasureAndInput) {
                          test::data_file("trajectories/villin_hp36_300K.dcd"), "--json", "-", "--quiet"});
   ASSERT_EQ(result.code, 0) << result.err;
   const Json json = Json::parse(result.out);
+  EXPECT_EQ(json["settings"]["trajectories"], Json::array({"villin_hp36_300K.dcd"}));  // no folder
   EXPECT_TRUE(json.contains("machine"));
   EXPECT_TRUE(json.contains("version"));
   std::set<std::string> names, inputs;
