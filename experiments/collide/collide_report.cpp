@@ -262,8 +262,7 @@ void CollideResults::deliver(const CollideReport& report, const Json& json, cons
   if (json_on_stdout)
     frames_->write_within(json, "frames", [](std::string_view text) { print_to_stdout(std::string(text)); });
   if (table_on_stdout) print_to_stdout(collide_table(report));
-  if (files_ && table_on_stdout)
-    print_to_stdout("report " + (*destinations_.out / "report.html").string() + "\n");
+  if (files_ && table_on_stdout) print_report_path(*destinations_.out);
 }
 
 }  // namespace kds

@@ -180,7 +180,9 @@ void TableCommand::deliver_text(const std::string& json, const Json& settings, c
   if (json_path && !json_on_stdout) json_file.write(*json_path, json);
   commit_together({files ? &*files : nullptr, &json_file});
   if (json_on_stdout) print_to_stdout(json);
-  if (!quiet && !json_on_stdout) print_to_stdout(table);
+  if (quiet || json_on_stdout) return;
+  print_to_stdout(table);
+  if (out && page_of) print_report_path(*out);
 }
 
 }  // namespace kds

@@ -110,8 +110,7 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
                    log_ ? &log_->file() : nullptr, files_ ? &*files_ : nullptr, &json_file});
   if (json_on_stdout) print_to_stdout(json);
   if (table_on_stdout) print_to_stdout(table);
-  if (files_ && table_on_stdout)
-    print_to_stdout("report " + (*destinations_.out / "report.html").string() + "\n");
+  if (files_ && table_on_stdout) print_report_path(*destinations_.out);
 }
 
 }  // namespace kds

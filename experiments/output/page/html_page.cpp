@@ -225,4 +225,8 @@ void check_page(const std::filesystem::path& directory, std::string_view command
   require_gnuplot("--out");
 }
 
+void print_report_path(const std::filesystem::path& directory) {
+  print_to_stdout("report " + (directory / "report.html").string() + "\n");
+}
+
 }  // namespace kds

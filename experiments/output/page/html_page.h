@@ -52,4 +52,7 @@ struct HtmlRow {
 /// write.
 void check_page(const std::filesystem::path& directory, std::string_view command);
 
+/// Prints the line "report PATH", with the path of the page in this directory.
+void print_report_path(const std::filesystem::path& directory);
+
 }  // namespace kds

@@ -166,6 +166,7 @@ TEST(Update, OfATrajectoryWithPlots) {
                    "--audit", "frames", "--rounds", "1", "--out", (directory / "out").string()});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("stride 4: 2 steps"));
+  EXPECT_THAT(run.out, testing::EndsWith("report " + (directory / "out/report.html").string() + "\n"));
   const Json json = Json::parse(content_of(directory / "out/update.json"));
   EXPECT_EQ(json["input"]["beads"], 108);
   EXPECT_EQ(json["settings"]["strides"], Json::array({1, 4}));
