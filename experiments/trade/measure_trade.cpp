@@ -128,6 +128,7 @@ std::vector<TradeRow> measure_trade(const FinestData& finest, const TradeTask& t
   std::size_t total = 0, done = 0;
   TradeInput input = finest.input();
   input.exact_kernel = task.exact_kernel;
+  input.range = task.frames;
   for (const Want want : task.wants) {
     for (TradeGroup& group : groups_for(want, input, task.apart)) {
       total += group.settings.size() * (task.rounds + 1);

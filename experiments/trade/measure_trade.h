@@ -77,6 +77,7 @@ struct TradeTask {
   std::optional<double> cutoff;  ///< limit for short edges; empty for four times the largest radius
   /// Adds rows for the exact kernel: the same events, 100 to thousands of times the cost.
   bool exact_kernel = true;
+  FrameRange frames{};  ///< the frames that were read
 };
 
 struct TradeCost {

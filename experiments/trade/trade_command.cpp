@@ -232,6 +232,7 @@ int trade_command(const Arguments& arguments) {
   std::vector<double> radii = bead_radii(options.radius, necklaces);
   const FinestData finest(std::move(necklaces), std::move(radii), options.radius);
   TradeTask task = options.task;
+  task.frames = options.reading.frames;
   task.exact_kernel = !leave_out_exact_kernel(finest, task, command.warn());
   if (!options.quiet) foretell(foretold_seconds(finest, task));
   const std::vector<TradeRow> rows = measure_trade(finest, task, command.progress(), command.warn());

@@ -121,9 +121,7 @@ Table<TradeRow> trade_columns(const std::string& title, Want want) {
     table.add({{.heading = column.title,
                 .value = [value = column.value](const Row& r) { return Field(r.errors.*value); },
                 .format = column.share ? share_text : error_text}});
-  return table.add({{.key = "pareto",
-                     .value = [](const Row& r) { return Field(r.on_front ? 1U : 0U); },
-                     .json = [](const Row& r) { return Json(r.on_front); }}});
+  return table.add({{.key = "pareto", .value = [](const Row& r) { return Field(r.on_front); }}});
 }
 Table<TradeRow> trade_columns(std::span<const TradeRow> group) {
   return trade_columns(title_of(group), group.front().want);
@@ -174,7 +172,8 @@ std::string with_code(const std::string& html) {
 }
 
 constexpr const char* words_of_columns =
-    "Each row is a setting of `kds run`; a stride is the third part of --frames. Seconds: processor time, as "
+    "Each row is a setting of `kds run`: its --structures, and its other options. Seconds: processor time, "
+    "as "
     "the median of the rounds, without reading and the first build; for --certify, the time of its runs. "
     "Ratio: seconds divided by those of the exact run for as many frames. Tests: tests of two spheres by a "
     "search for contacts in the hierarchy, on average. Errors are measured against beads on straight lines "

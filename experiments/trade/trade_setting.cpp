@@ -45,11 +45,24 @@ std::vector<std::pair<std::string, std::string>> options_of(const TradeSetting& 
   return options;
 }
 
+namespace {
+
+// Returns --frames as `kds run` takes it. Leaves out FIRST if it is 0.
+std::string frames_of(const TradeSetting& setting) {
+  const auto& [first, last, stride] = setting.frames;
+  return fmt::format("{}:{}:{}", first > 0 ? std::to_string(first) : "", last ? std::to_string(*last) : "",
+                     stride * setting.stride);
+}
+
+}  // namespace
+
 std::string words_of(const TradeSetting& setting) {
   std::string words;
   for (const auto& [name, value] : options_of(setting)) {
     if (name == "structures") {
       words = value;
+    } else if (name == "stride") {
+      words += " --frames " + frames_of(setting);
     } else {
       words += name == "certify" ? " --certify" : fmt::format(" --{} {}", name, value);
     }
@@ -76,6 +89,7 @@ class Settings {
   Settings(std::string structure, const TradeInput& input, BeadId apart) : input_(input) {
     exact_.structure = std::move(structure);
     exact_.settings.apart = apart;
+    exact_.frames = input.range;
     all.push_back(exact_);
   }
 

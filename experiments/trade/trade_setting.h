@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "motions/frames/frame_selection.h"
 #include "motions/scene/scene.h"
 #include "structures/session/session.h"
 
@@ -39,6 +40,7 @@ struct TradeSetting {
   bool has_own_apart = false;          ///< settings.apart differs from the requested value
   bool element_radii = false;
   bool projected = false;  ///< project onto the plane z = 0
+  FrameRange frames{};     ///< --frames of `kds trade`; `stride` leaves out more frames
 
   /// Returns whether the structure reports events.
   [[nodiscard]] bool has_events() const;
@@ -47,11 +49,11 @@ struct TradeSetting {
   [[nodiscard]] double reach() const;
 };
 
-/// Returns the options as `kds run` takes them, the structure first. Omits options that equal the exact
-/// run's.
+/// Returns the options by which the setting differs from the exact run, the structure first. They are options
+/// of `kds run`, except that `stride` is the third part of --frames.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> options_of(const TradeSetting& setting);
-/// Returns the options as words, as in "wrapped --between chord", followed by properties that no option
-/// expresses.
+/// Returns the structures and the options, as in "wrapped --between chord" for `kds run --structures wrapped
+/// --between chord`, followed by properties that no option expresses.
 [[nodiscard]] std::string words_of(const TradeSetting& setting);
 
 /// Settings that are compared with each other.
@@ -72,6 +74,7 @@ struct TradeInput {
   double residue_radius = 0;       ///< CalphaModel::covering_radius
   bool has_element_radii = false;  ///< whether the radii of the elements are known
   bool exact_kernel = false;       ///< whether the exact kernel is one of the levers
+  FrameRange range{};              ///< --frames
 };
 
 /// Returns the groups of settings. `apart` applies to contacts.

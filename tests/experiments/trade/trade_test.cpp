@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "experiments/output/text.h"
+#include "experiments/run/run_options.h"
 #include "experiments/trade/measure_trade.h"
 #include "experiments/trade/trade_report.h"
 #include "motions/readers/read_trajectory.h"
@@ -104,7 +106,7 @@ TEST(Trade, ContainmentIsKeptWhereItIsPromised) {
   const TradeErrors& relaxed = row_of(rows, "wrapped --relax 0.03").errors;
   EXPECT_EQ(relaxed.beads_outside, 0.0);
   EXPECT_LE(relaxed.radius_max.value(), 0.03 + 1e-9);
-  EXPECT_GT(row_of(rows, "wrapped --stride 4").errors.beads_outside.value(), 0);
+  EXPECT_GT(row_of(rows, "wrapped --frames ::4").errors.beads_outside.value(), 0);
   for (const TradeRow& row : rows) {
     for (const TradeRow& other : rows) {
       if (!row.on_front) continue;
@@ -138,8 +140,8 @@ TEST(Trade, CertifiedRunsMissNothingAndNothingSureIsWrong) {
   }
   EXPECT_EQ(certified, 7U);
   EXPECT_TRUE(any_sure);
-  EXPECT_GT(row_of(rows, "wrapped --stride 2").errors.beads_outside.value(), 0);
-  EXPECT_GT(row_of(rows, "contacts --stride 2").errors.contacts_missed.value(), 0);
+  EXPECT_GT(row_of(rows, "wrapped --frames ::2").errors.beads_outside.value(), 0);
+  EXPECT_GT(row_of(rows, "contacts --frames ::2").errors.contacts_missed.value(), 0);
 }
 
 TEST(Trade, CalphaAloneIsAnotherModel) {
@@ -161,6 +163,33 @@ TEST(Trade, CalphaAloneIsAnotherModel) {
   EXPECT_GT(cages.beads_outside.value(), 0);
   EXPECT_GT(cages.radius_max.value(), 0.001);
   EXPECT_EQ(row_of(rows, "wrapped --select ca" + by_hand).errors.beads_outside, 0.0);
+}
+
+TEST(Trade, SettingsAreOptionsOfARun) {
+  TradeInput input;
+  input.frames = 100;
+  input.beads = 60;
+  input.residues = 20;
+  input.largest_residue = 3;
+  input.residue_radius = 2.5;
+  input.has_element_radii = input.exact_kernel = true;
+  input.range = {1, 91, 3};
+  std::size_t strides = 0;
+  for (const Want want : {Want::contacts, Want::cages, Want::diagram, Want::events, Want::scenes})
+    for (const TradeGroup& group : groups_for(want, input, 5))
+      for (const TradeSetting& setting : group.settings) {
+        if (setting.projected) continue;  // no option expresses this property
+        Arguments arguments{"chain.pdb", "--structures"};
+        for (const std::string& word : split(words_of(setting), ' ')) arguments.push_back(word);
+        RunOptions options;
+        ASSERT_NO_THROW(options = parse_run_options(arguments)) << words_of(setting);
+        if (setting.stride == 1) continue;
+        ++strides;
+        EXPECT_EQ(options.reading.frames.first, 1U);
+        EXPECT_EQ(options.reading.frames.last, 91U);
+        EXPECT_EQ(options.reading.frames.stride, 3 * setting.stride);
+      }
+  EXPECT_GT(strides, 10U);
 }
 
 TEST(Trade, CalphaAsksAboutAllResiduesOfBeadsSoFarApart) {
@@ -218,9 +247,9 @@ TEST(Trade, LeavesOutWhatCannotBeCertifiedAndSaysSo) {
   const std::vector<TradeRow> rows = measure_trade(
       finest, task, [](auto, auto) {}, [&](const std::string& warning) { warnings.push_back(warning); });
   ASSERT_FALSE(warnings.empty());
-  EXPECT_THAT(warnings.front(), HasSubstr("`contacts --stride 2 --certify` is left out: bead"));
-  EXPECT_NO_THROW(static_cast<void>(row_of(rows, "contacts --stride 2")));
-  for (const TradeRow& row : rows) EXPECT_NE(words_of(row.setting), "contacts --stride 2 --certify");
+  EXPECT_THAT(warnings.front(), HasSubstr("`contacts --frames ::2 --certify` is left out: bead"));
+  EXPECT_NO_THROW(static_cast<void>(row_of(rows, "contacts --frames ::2")));
+  for (const TradeRow& row : rows) EXPECT_NE(words_of(row.setting), "contacts --frames ::2 --certify");
 }
 
 TEST(Trade, ScenesCostByWhatIsAskedFor) {
@@ -273,11 +302,11 @@ TEST(Trade, AStrideIsWrongByWhatItLeavesOut) {
   task.sampling.times = rounds(500U);
   const std::vector<TradeRow> rows = measure_trade(
       finest, task, [](auto, auto) {}, [](auto&) {});
-  const TradeErrors& errors = row_of(rows, "power --stride 8").errors;
+  const TradeErrors& errors = row_of(rows, "power --frames ::8").errors;
   EXPECT_NEAR(errors.displacement.value(), farthest, 1e-9);
   EXPECT_GT(errors.cells_wrong.value(), 0.01);
   EXPECT_GT(errors.events_missed.value(), 0.1);
-  EXPECT_LT(row_of(rows, "power --stride 2").errors.cells_wrong.value(), errors.cells_wrong.value());
+  EXPECT_LT(row_of(rows, "power --frames ::2").errors.cells_wrong.value(), errors.cells_wrong.value());
 }
 
 TEST(Trade, RecommendsWhatHasSmallErrors) {
@@ -325,7 +354,7 @@ TEST(TradeCommand, WritesRowsAndAPage) {
     EXPECT_TRUE(row.at("error").at("cells_wrong").is_null());
     EXPECT_TRUE(row.at("error").at("radius_mean").is_number());
   }
-  EXPECT_TRUE(std::filesystem::exists(directory.path() / "result" / "trade.csv"));
+  EXPECT_THAT(test::content_of(directory.path() / "result" / "trade.csv"), HasSubstr(",true\n"));  // pareto
   const std::string page = content_of(directory.path() / "result" / "report.html");
   expect_sound(page);
   EXPECT_THAT(page, HasSubstr("<code>kds run</code>"));
@@ -359,7 +388,11 @@ TEST(TradeCommand, LeavesOutWhatDoesNotFitTheFrames) {
   const ProgramRun run = run_program(
       {"trade", file, "--rounds", "1", "--times", "4", "--want", "cages,scenes", "--json", "-", "--quiet"});
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("`wrapped --stride 2` is left out: frames of a stride of 2 lie in a plane"));
+  EXPECT_THAT(run.err,
+              HasSubstr("`wrapped --frames ::2` is left out: frames of a stride of 2 lie in a plane"));
+  const ProgramRun some = run_program({"trade", file, "--rounds", "1", "--times", "4", "--want", "cages",
+                                       "--json", "-", "--quiet", "--frames", "2:"});
+  EXPECT_THAT(some.err, HasSubstr("`wrapped --frames 2::2` is left out"));
   const auto json = nlohmann::json::parse(run.out);
   std::size_t strides = 0;
   for (const auto& row : json["rows"]) strides += row["setting"].contains("stride") ? 1 : 0;
