@@ -159,7 +159,7 @@ std::vector<std::string> cases_of(const Comparison& comparison) {
 
 std::string plots_over_strides(const Comparison& comparison) {
   if (comparison.rows.front().stride == comparison.rows.back().stride) return "";
-  return over_strides(comparison, "events a step", "Events from one frame to the next, by stride.",
+  return over_strides(comparison, "events per step", "Events from one frame to the next, by stride.",
                       [](const CompareRow& row) { return std::optional(row.events_per_step()); }) +
          over_strides(comparison, "events a ps", "Events in a picosecond, by stride.",
                       [](const CompareRow& row) { return row.events_per_picosecond(); }) +
@@ -180,7 +180,7 @@ std::string plots_by_kind(const Comparison& comparison) {
     if (!at_smallest_stride(comparison, row) || row.events() + row.internal() == 0) continue;
     const std::string& name = row.structure.name;
     auto plot = std::ranges::find(plots, name, &std::pair<std::string, BarPlot>::first);
-    if (plot == plots.end()) plot = plots.insert(plot, {name, {"events a step", {}, cases}});
+    if (plot == plots.end()) plot = plots.insert(plot, {name, {"events per step", {}, cases}});
     const auto series =
         static_cast<std::size_t>(std::ranges::find(cases, distinction(comparison, row)) - cases.begin());
     for (const auto& [kind, count] : row.structure.events_by_kind)

@@ -79,11 +79,13 @@ Table<CompareRow> compare_columns(const Comparison& comparison) {
       {"internal", "internal", [](const Row& r) { return Field(r.internal()); }},
       {"net_changes", "net changes", [](const Row& r) { return Field(r.net_changes); }},
       {"efficiency", "efficiency", [](const Row& r) { return Field(r.efficiency()); }, shortly},
-      {"events_per_step", "a step", [](const Row& r) { return Field(r.events_per_step()); }, shortly},
-      {"events_per_ps", "a ps", [](const Row& r) { return Field(r.events_per_picosecond()); }, shortly},
+      {"events_per_step", "events per step", [](const Row& r) { return Field(r.events_per_step()); },
+       shortly},
+      {"events_per_ps", "events per ps", [](const Row& r) { return Field(r.events_per_picosecond()); },
+       shortly},
       {"compactness", "compactness", [](const Row& r) { return Field(r.structure.peak); }},
       {"locality", "locality", [](const Row& r) { return Field(r.structure.per_bead_max); }},
-      {"responsiveness", "us an event", [](const Row& r) { return Field(r.seconds_per_event()); },
+      {"responsiveness", "us per event", [](const Row& r) { return Field(r.seconds_per_event()); },
        [](const Field& seconds) { return short_decimal(1e6 * seconds.number()); }},
   });
   table.add(spread_columns<Row>("seconds", "seconds", [](const Row& r) { return r.seconds; }));
@@ -134,7 +136,8 @@ std::vector<std::pair<std::string, std::string>> terms() {
   return {
       {"event", "a change of the structure itself, at an exact time between two frames (an external event)"},
       {"internal", "events of the structure's bookkeeping, which are not counted among the events"},
-      {"a step, a ps", "events from one frame to the next, and for a picosecond if the file has times"},
+      {"events per step, per ps",
+       "events from one frame to the next, and for a picosecond if the file has times"},
       {"net change",
        "a difference between one frame and the next, whatever happened in between: a node of the wrapped "
        "hierarchy with another basis, a cell in the power diagram of one frame only, a pair that meets in "
@@ -146,7 +149,7 @@ std::vector<std::pair<std::string, std::string>> terms() {
        "frame"},
       {"compactness", "the most certificates at once"},
       {"locality", "the most certificates on one bead, at the start of a step"},
-      {"us an event (responsiveness)",
+      {"us per event (responsiveness)",
        "microseconds divided by events; the time includes internal events and certificates that never fail"},
       {"seconds",
        "time spent on this structure: the median of the rounds, with the least and the most in brackets"},
@@ -238,7 +241,7 @@ std::string findings(const Comparison& comparison) {
                         name, k == 0 ? " changes" : "", text(first, a_step));
     std::string line;
     if (last != first) {
-      line = fmt::format(" changes {} times a step at stride {}", text(last, a_step), with_thousands(last));
+      line = fmt::format(" changes {} times per step at stride {}", text(last, a_step), with_thousands(last));
       if (const std::string times =
               text(last, [&](const CompareRow& row) { return growth(comparison, row); });
           !times.empty())

@@ -164,11 +164,14 @@ class Measurement {
   Question ask() {
     question_.name = "energy";
     question_.title = "How many changes does a deformation energy buy?";
-    question_.columns = {{"step", "stride or amplitude"},           {"steps", "steps"},
-                         {"bending", "bending energy a step"},      {"torsion", "torsion energy a step"},
-                         {"basis_changes", "basis changes a step"}, {"flips", "flips a step"}};
-    question_.x_label = "deformation energy a step, rad²";
-    question_.y_label = "changes a step";
+    question_.columns = {{"step", "stride or amplitude"},
+                         {"steps", "steps"},
+                         {"bending", "bending energy per step"},
+                         {"torsion", "torsion energy per step"},
+                         {"basis_changes", "basis changes per step"},
+                         {"flips", "flips per step"}};
+    question_.x_label = "deformation energy per step, rad²";
+    question_.y_label = "changes per step";
     question_.words = fmt::format(
         "The energy of a step is half the sum of the squared changes of all bending angles and of all "
         "torsion angles of the chain, in radians, between two frames: springs of stiffness 1. Basis changes "

@@ -251,7 +251,7 @@ std::string findings(const RunReport& report) {
                                  steps == 1 ? "motion step" : "motion steps", with_thousands(report.beads));
   const StructureReport* first = nullptr;
   for (const StructureReport& structure : report.structures) {
-    html += fmt::format("{} the <strong>{}</strong> structure changed {} times ({} a step{})",
+    html += fmt::format("{} the <strong>{}</strong> structure changed {} times ({} per step{})",
                         first == nullptr ? "" : ",", html_escaped(structure.name),
                         with_thousands(structure.events_total),
                         short_decimal(a_step(structure.events_total, steps)),

@@ -169,11 +169,11 @@ const std::vector<Group>& groups(bool structure) {
   static const std::vector<Group> certificate{{"", {kCases, kEvents, kDiffer}},
                                               {"wrong in fast", {kSigns, kMissed, kExtra, kError}},
                                               {"settled by", {kDouble, kTracked, kIntegers, kBits}},
-                                              {"us a search", {kFastTime, kFilteredTime, kExactTime}}};
+                                              {"us per search", {kFastTime, kFilteredTime, kExactTime}}};
   static const std::vector<Group> kinetic{{"", {kCases, kEvents, kDiffer, kAudits}},
                                           {"wrong in fast", {kMissed, kExtra, kError}},
                                           {"settled by", {kDouble, kTracked, kIntegers, kBits}},
-                                          {"us a run", {kFastTime, kFilteredTime, kExactTime}}};
+                                          {"us per run", {kFastTime, kFilteredTime, kExactTime}}};
   return structure ? kinetic : certificate;
 }
 
@@ -319,9 +319,9 @@ std::string table(std::span<const RowGroup> groups) {
       count("refused", [](const Row& g) { return g.sum.refused; }),
       count("fast missed", [](const Row& g) { return g.sum.fast.missed; }),
       count("fast extra", [](const Row& g) { return g.sum.fast.extra; }),
-      micros("us fast", &KernelSeconds::fast),
-      micros("us filtered", &KernelSeconds::filtered),
-      micros("us exact", &KernelSeconds::exact),
+      micros("fast, us", &KernelSeconds::fast),
+      micros("filtered, us", &KernelSeconds::filtered),
+      micros("exact, us", &KernelSeconds::exact),
       {.heading = "holds", .value = [](const Row& g) { return Field(g.failing == 0 ? "yes" : "NO"); }},
   }};
   return groups.empty() ? "" : columns.html(groups);
@@ -335,7 +335,7 @@ std::string subjects(std::span<const StabilityRow> rows, bool structures) {
   const auto name = [&](const StabilityRow& row) {
     return row.structure == structures ? subject_of(row) : "";
   };
-  PointPlot plot{"us exact", "us", {"filtered", "fast"}, {}};
+  PointPlot plot{"exact, us", "us", {"filtered", "fast"}, {}};
   const std::vector<RowGroup> groups = grouped(rows, name);
   for (const RowGroup& group : groups) {
     const auto exact = group.microseconds(&KernelSeconds::exact),

@@ -98,7 +98,7 @@ double per_step(const UpdateRow& row, double sum) {
 std::string task_line(const UpdateTask& task) {
   const double steps = static_cast<double>(std::max<std::size_t>(1, task.steps));
   return fmt::format(
-      "stride {}: {} step{}, {:.1f} cells, {:.1f} of them changed a step, {:.3g}% of {:.1f} certificates "
+      "stride {}: {} step{}, {:.1f} cells, {:.1f} of them changed per step, {:.3g}% of {:.1f} certificates "
       "failed, {:.1f} beads hidden",
       task.stride, with_thousands(task.steps), task.steps == 1 ? "" : "s",
       static_cast<double>(task.cells) / steps, static_cast<double>(task.cells_changed) / steps,
@@ -124,7 +124,7 @@ LinePlot over_strides(std::span<const UpdateRow> rows, const char* label, Value 
 std::string plots(std::span<const UpdateRow> rows) {
   const bool several = rows.front().task.stride != rows.back().task.stride;
   if (!several) {
-    BarPlot plot{"microseconds a step", {}};
+    BarPlot plot{"microseconds per step", {}};
     for (const UpdateRow& row : rows)
       plot.bars.push_back({row.technique, 1e6 * per_step(row, row.seconds.median)});
     return html_figure(svg_plot(plot), "Time of each technique from one frame to the next.");
@@ -207,10 +207,11 @@ const Table<UpdateRow>& update_columns() {
       {"activated", "activated", [](const Row& r) { return Field(r.activated); }},
       {"removed", "removed", [](const Row& r) { return Field(r.removed); }},
       {"events", "events", [](const Row& r) { return Field(r.events); }},
-      {"efficiency", "a change", [](const Row& r) { return Field(r.efficiency()); }, with_decimals(3)},
+      {"efficiency", "events per change", [](const Row& r) { return Field(r.efficiency()); },
+       with_decimals(3)},
       {"rebuilds", "rebuilds", [](const Row& r) { return Field(r.rebuilds); }},
       {.key = "audits", .value = [](const Row& r) { return Field(r.audits); }},
-      micros("us a step", &Spread::median, Shown::everywhere),
+      micros("us per step", &Spread::median, Shown::everywhere),
       micros("least", &Spread::least, Shown::on_pages),
       micros("most", &Spread::most, Shown::on_pages),
       {.key = "seconds", .value = [](const Row& r) { return Field(r.seconds.median); }},
@@ -239,9 +240,11 @@ std::string update_page(std::span<const UpdateRow> rows, const std::string& inpu
   page.words =
       "Each <em>technique</em> brings the power diagram from one frame to the next and ends in the same "
       "diagram. <em>Activated</em>: beads that moved along a path in time; <em>removed</em>: beads taken out "
-      "and put in again; <em>events</em>: flips, and beads that vanish from the diagram or come back; <em>a "
-      "change</em>: events divided by the number of cells that are in only one of the two frames' diagrams; "
-      "<em>ratio</em>: time as a multiple of building the diagram anew with CGAL; <em>us a step</em>: the "
+      "and put in again; <em>events</em>: flips, and beads that vanish from the diagram or come back; "
+      "<em>events "
+      "per change</em>: events divided by the number of cells that are in only one of the two frames' "
+      "diagrams; "
+      "<em>ratio</em>: time as a multiple of building the diagram anew with CGAL; <em>us per step</em>: the "
       "median of the rounds, with the <em>least</em> and the <em>most</em>.";
   page.body = html_section("Plots", plots(rows)) + html_section("Figures", tables(rows));
   return html_page(page);

@@ -294,7 +294,7 @@ TEST(Compare, TheFirstParagraphIsWhatWasFound) {
                         "<strong>power</strong> changes " +
                         a_step(1) + " times and <strong>wrapped</strong> " + a_step(0) + " times.</p>"));
   EXPECT_THAT(page,
-              HasSubstr("<li><strong>power</strong> changes " + a_step(3) + " times a step at stride 4, "));
+              HasSubstr("<li><strong>power</strong> changes " + a_step(3) + " times per step at stride 4, "));
   EXPECT_EQ(count_of(page, "<div class=\"panels\">"), 0U);
 }
 

@@ -33,8 +33,8 @@ TEST(HtmlReport, BeginsWithWhatWasFound) {
   EXPECT_THAT(
       html,
       HasSubstr("<div class=\"found\">\n<p>In 3 motion steps of 36 beads the "
-                "<strong>wrapped</strong> structure changed 6 times (2.000 a step), the "
-                "<strong>power</strong> structure changed 30 times (10.00 a step, 5.000 times as often as "
+                "<strong>wrapped</strong> structure changed 6 times (2.000 per step), the "
+                "<strong>power</strong> structure changed 30 times (10.00 per step, 5.000 times as often as "
                 "wrapped).</p>\n</div>"));
 }
 
