@@ -19,7 +19,6 @@
 #include "motions/models/random.h"
 #include "structures/collision/auto_detector.h"
 #include "structures/collision/cell_list.h"
-#include "structures/collision/verlet_list.h"
 #include "structures/session/kinetic_run.h"
 
 namespace kds {

@@ -53,7 +53,6 @@ std::vector<std::string> parse_methods(const std::string& list) {
   return ordered;
 }
 
-
 const OptionList<CollideOptions>& collide_options() {
   using O = CollideOptions;
   static const std::string method_help = kds::method_help();
@@ -144,7 +143,8 @@ int collide_command(const Arguments& arguments) {
   json["input"] = input_json(options,
                              {.necklaces = frames.necklaces().size(),
                               .frames = frames.frame_count(),
-                              .dimension = frames.dimension()},
+                              .dimension = frames.dimension(),
+                              .truncated = frames.is_truncated()},
                              frames.radii());
   json["settings"] = collide_options().settings_json(options);
   json["rows"] = collide_columns().json(report.rows);

@@ -16,7 +16,7 @@
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/table.h"
-#include "structures/collision/pairs_asked.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 

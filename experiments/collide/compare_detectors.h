@@ -15,10 +15,10 @@
 #include "experiments/program/input_options.h"
 #include "experiments/program/timing.h"
 #include "motions/base/bead_range.h"
-#include "motions/scene/scene_stream.h"
+#include "motions/scene/frame_survey.h"
 #include "structures/collision/closest_pair.h"
-#include "structures/collision/pairs_asked.h"
 #include "structures/necklace/balls.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 
@@ -64,6 +64,7 @@ class CollideFrames {
   /// Returns 2 if all beads stay in one plane x, y or z = constant in all frames, else 3.
   [[nodiscard]] int dimension() const { return plane_ ? 2 : 3; }
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
+  [[nodiscard]] bool is_truncated() const { return truncated_; }
   [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   /// Returns the bead's name in the file, or an empty text if the file has no names.
@@ -73,9 +74,10 @@ class CollideFrames {
   }
 
  private:
-  SceneStream stream_;
+  std::unique_ptr<FrameSource> frames_;
   std::optional<AxisPlane> plane_;
   std::size_t frame_count_ = 0;
+  bool truncated_ = false;
   std::vector<BeadRange> necklaces_;
   std::vector<double> radii_;
   std::vector<std::string> bead_names_;  // empty, or a name for every bead

@@ -34,6 +34,7 @@ struct MissedRow {
 struct MissedInput {
   std::size_t beads = 0, necklaces = 0, frames = 0;
   int dimension = 3;
+  bool truncated = false;
   double radius_min = 0, radius_max = 0;
 };
 
@@ -59,8 +60,13 @@ std::vector<std::size_t> strides_for(const MissedTask& task, std::size_t frames)
 
 MissedInput input_of(const Scene& scene) {
   const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
-  return {
-      scene.bead_count(), scene.necklaces().size(), scene.frame_count(), scene.dimension(), *least, *most};
+  return {scene.bead_count(),
+          scene.necklaces().size(),
+          scene.frame_count(),
+          scene.dimension(),
+          scene.is_truncated(),
+          *least,
+          *most};
 }
 
 std::vector<SampledContacts::Sampling> samplings_of(const MissedTask& task, const Scene& scene,
@@ -86,7 +92,6 @@ std::vector<SampledContacts::Sampling> samplings_of(const MissedTask& task, cons
   return sampled.samplings();
 }
 
-
 // Counts the missed contacts. Each warning about the input goes to `warn` as one line. Throws InputError for
 // any fault of the input, and if a requested stride examines only one frame.
 MissedReport count_missed(const MissedTask& task, const std::function<void(const std::string&)>& warn,
@@ -110,7 +115,6 @@ MissedReport count_missed(const MissedTask& task, const std::function<void(const
   return report;
 }
 
-
 constexpr CommandSpec kMissedCommand{
     "kds missed",
     "Measures which share of all contacts you miss if you look only at the frames, or only at every second, "
@@ -128,7 +132,6 @@ std::vector<double> parse_factors(const std::string& list) {
     throw InputError(fmt::format("--factors: {} is listed twice", *twice));
   return factors;
 }
-
 
 // Returns the options that appear as settings in the JSON.
 const OptionList<MissedTask>& missed_task_options() {
@@ -223,7 +226,6 @@ std::string findings(std::span<const MissedRow> rows) {
   return html;
 }
 
-
 // Returns the columns of missed.json and missed.csv, of the terminal and of the page.
 const Table<MissedRow>& missed_columns() {
   using Row = MissedRow;
@@ -241,7 +243,6 @@ const Table<MissedRow>& missed_columns() {
   }};
   return table;
 }
-
 
 // `page` says how the results were made.
 std::string missed_page(std::span<const MissedRow> rows, const std::string& input, Page page) {
@@ -276,8 +277,9 @@ int missed_command(const Arguments& arguments) {
 
   const MissedInput& input = report.input;
   Json json;
-  json["input"] = input_json(task, {input.beads, input.necklaces, input.frames, input.dimension},
-                             input.radius_min, input.radius_max);
+  json["input"] =
+      input_json(task, {input.beads, input.necklaces, input.frames, input.dimension, input.truncated},
+                 input.radius_min, input.radius_max);
   json["settings"] = missed_task_options().settings_json(task);
   json["rows"] = missed_columns().json(report.rows);
   json["warnings"] = command.warnings();

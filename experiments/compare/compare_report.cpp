@@ -49,6 +49,7 @@ Json compared_inputs_json(const Comparison& comparison) {
                     {"beads", input.beads},
                     {"frames", input.frames},
                     {"dimension", input.dimension},
+                    {"truncated", input.truncated},
                     {"radius_min", input.radius_min},
                     {"radius_max", input.radius_max}});
   return json;

@@ -78,6 +78,7 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const Wa
              scene.bead_count(),
              scene.frame_count(),
              scene.dimension(),
+             scene.is_truncated(),
              *least,
              *most,
              {}};

@@ -68,6 +68,7 @@ struct ComparedInput {
   std::string file;
   std::size_t beads = 0, frames = 0;
   int dimension = 3;
+  bool truncated = false;  ///< frames are missing at the end
   double radius_min = 0, radius_max = 0;
   std::vector<std::string> bead_names;  ///< empty names if the file has none
 };

@@ -214,6 +214,7 @@ Json input_json(const InputOptions& options, const InputSize& size, double radiu
   if (size.necklaces) json["necklaces"] = *size.necklaces;
   json["frames"] = size.frames;
   json["dimension"] = size.dimension;
+  json["truncated"] = size.truncated;
   json["radius_min"] = radius_min;
   json["radius_max"] = radius_max;
   return json;

@@ -11,10 +11,8 @@
 #include <vector>
 
 #include "experiments/program/timing.h"
-#include "experiments/reproduce/subjects.h"
 #include "motions/base/bead_range.h"
 #include "structures/hierarchy/layered_hierarchy.h"
-#include "structures/hierarchy/tightness.h"
 
 namespace kds {
 

@@ -20,9 +20,6 @@ namespace kds {
 
 namespace {
 
-<<<<<<< HEAD
-std::unique_ptr<FrameSource> frames_of(const RunOptions& options, std::size_t stride) {
-=======
 // The end of a step equals the start of the next step.
 MetContacts::Moment moment_of(const Event& event, double u) {
   return u < 1 ? MetContacts::Moment{event.step, u} : MetContacts::Moment{event.step + 1, 0};
@@ -65,8 +62,7 @@ std::vector<std::uint8_t> holding(std::span<const MetContacts::Contact> contacts
 
 namespace {
 
-std::unique_ptr<SceneStream> frames_of(const RunOptions& options, std::size_t stride) {
->>>>>>> d53b7493 (Join the pages of runs: options, steps, reports and replay)
+std::unique_ptr<FrameSource> frames_of(const RunOptions& options, std::size_t stride) {
   InputOptions input = options;
   input.reading.frames.stride = stride;
   return open_frames(input, [](const std::string&) {});

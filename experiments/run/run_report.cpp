@@ -65,6 +65,7 @@ RunReport report_of(Session& session, const Scene& scene, const RunOptions& opti
   report.first_frame = scene.stamp(0);
   report.last_frame = scene.stamp(scene.frame_count() - 1);
   report.dimension = scene.dimension();
+  report.truncated = scene.is_truncated();
   const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
   report.radius_min = *least;
   report.radius_max = *most;
@@ -150,9 +151,10 @@ Json approach_json(const RunReport& report) {
 
 Json run_json(const RunReport& report) {
   Json json;
-  json["input"] = {{"files", report.files},           {"beads", report.beads},
-                   {"frames", report.frames},         {"dimension", report.dimension},
-                   {"radius_min", report.radius_min}, {"radius_max", report.radius_max}};
+  json["input"] = {{"files", report.files},          {"beads", report.beads},
+                   {"frames", report.frames},        {"dimension", report.dimension},
+                   {"truncated", report.truncated},  {"radius_min", report.radius_min},
+                   {"radius_max", report.radius_max}};
   if (report.first_frame && report.last_frame) {
     const auto& [first, first_time] = *report.first_frame;
     const auto& [last, last_time] = *report.last_frame;

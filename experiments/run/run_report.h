@@ -49,6 +49,7 @@ struct RunReport {
   std::uint64_t beads = 0, frames = 0;
   std::optional<FrameStamp> first_frame, last_frame;  ///< their numbers in the file, and their times
   int dimension = 3;
+  bool truncated = false;  ///< frames are missing at the end of the input
   double radius_min = 0, radius_max = 0;
   std::vector<std::pair<std::string, std::string>>
       settings;  ///< motion, kernel, audit, select, chain, frames, radius, ...

@@ -37,7 +37,6 @@ constexpr CommandSpec kInfoCommand{
     "kds info 1a4y.pdb --beads",
 };
 
-
 const OptionList<InfoOptions>& info_options() {
   using O = InfoOptions;
   static const auto list =
@@ -86,7 +85,6 @@ std::vector<BeadRow> bead_rows(std::span<const Trajectory> necklaces, std::span<
   return rows;
 }
 
-
 // Returns the columns of JSON, CSV and the terminal.
 const Table<BeadRow>& bead_columns() {
   using Row = BeadRow;
@@ -105,7 +103,6 @@ const Table<BeadRow>& bead_columns() {
   }};
   return table;
 }
-
 
 // An instance file has weighted points rather than balls in a chain, so there are no conditions to check.
 void describe(const Instance& instance, bool beads, const TableCommand& command) {
@@ -147,8 +144,11 @@ void describe(const InfoOptions& options, TableCommand& command) {
   const auto frames = open_frames(options, command.warn());
   const FrameSurvey survey = survey_frames(*frames, options.radius == "auto", command.warn());
   const std::vector<double> radii = bead_radii(options.radius, frames->necklaces(), survey);
-  const SceneInfo info = describe_frames(frames->heads(), frames->frame_counts(), *frames, radii,
-                                         options.validate, command.progress());
+  SceneInfo info = describe_frames(frames->heads(), frames->frame_counts(), *frames, radii, options.validate,
+                                   command.progress());
+  info.first_time = survey.first.picoseconds;
+  info.last_time = survey.last.picoseconds;
+  info.truncated = survey.truncated;
   Json json;
   add_scene(json, info);
   json["settings"] = info_options().settings_json(options);

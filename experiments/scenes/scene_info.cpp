@@ -235,8 +235,15 @@ void add_scene(Json& json, const SceneInfo& info) {
                          {"residues", known ? Json(necklace.residues) : Json(nullptr)},
                          {"residues_read", known ? Json(necklace.residues_read) : Json(nullptr)}});
   }
-  json["input"] = {{"files", files}, {"beads", info.beads},           {"frames", info.frames},
-                   {"dimension", 3}, {"radius_min", info.radius_min}, {"radius_max", info.radius_max}};
+  json["input"] = {{"files", files},
+                   {"beads", info.beads},
+                   {"frames", info.frames},
+                   {"dimension", 3},
+                   {"truncated", info.truncated},
+                   {"radius_min", info.radius_min},
+                   {"radius_max", info.radius_max}};
+  if (info.first_time && info.last_time)
+    json["input"]["picoseconds"] = std::vector<double>{*info.first_time, *info.last_time};
   json["necklaces"] = necklaces;
   json["rows"] = condition_columns().json(info.conditions);
   json["proper"] = info.proper();
@@ -247,6 +254,10 @@ std::string conditions_csv(const SceneInfo& info) { return condition_columns().c
 std::string scene_table(const SceneInfo& info) {
   std::string text = fmt::format("scene     {} beads, {} frame{}\n", with_thousands(info.beads),
                                  with_thousands(info.frames), info.frames == 1 ? "" : "s");
+  if (info.first_time && info.last_time)
+    text += info.frames == 1
+                ? fmt::format("time      {:.10g} ps\n", *info.first_time)
+                : fmt::format("times     {:.10g} to {:.10g} ps\n", *info.first_time, *info.last_time);
   for (std::size_t n = 0; n < std::min(kNecklacesShown, info.necklaces.size()); ++n)
     text +=
         fmt::format("necklace  {}: {}\n", one_line(info.necklaces[n].file), necklace_line(info.necklaces[n]));

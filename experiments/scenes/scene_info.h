@@ -43,6 +43,9 @@ struct ConditionInfo {
 struct SceneInfo {
   std::size_t beads = 0, frames = 0;
   double radius_min = 0, radius_max = 0;
+  /// Times of the first and the last frame, in picoseconds; none if the file has no times.
+  std::optional<double> first_time = {}, last_time = {};
+  bool truncated = false;  ///< frames are missing at the end, as FrameSource::is_truncated tells it
   std::vector<NecklaceInfo> necklaces;
   std::array<ConditionInfo, kConditions.size()> conditions;
 

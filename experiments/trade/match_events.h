@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kds/change.h"
-#include "structures/collision/pairs_asked.h"
+#include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 

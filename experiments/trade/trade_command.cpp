@@ -243,8 +243,11 @@ int trade_command(const Arguments& arguments) {
     if (const auto hint = radius_hint(finest.scene(), task.apart)) command.warn()(*hint);
 
   Json json;
-  json["input"] = input_json(
-      options, {.frames = finest.frame_count(), .dimension = finest.scene().dimension()}, finest.radii());
+  json["input"] = input_json(options,
+                             {.frames = finest.frame_count(),
+                              .dimension = finest.scene().dimension(),
+                              .truncated = finest.scene().is_truncated()},
+                             finest.radii());
   json["settings"] = trade_options().settings_json(options);
   json["rows"] = trade_rows_json(rows);
   json["recommendation"] = recommendation(rows);
