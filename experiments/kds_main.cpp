@@ -21,7 +21,7 @@
 #include "experiments/program/option_values.h"
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
-#include "motions/numbers/processor.h"
+#include "motions/numbers/lanes.h"
 #include "structures/session/structure_spec.h"
 
 namespace kds {

@@ -1,20 +1,32 @@
 #pragma once
-// Events as listeners receive them: every change of a run in order, each a complete record that remains valid
-// after the run.
+// The history of a run: events as listeners receive them, their times in decimal digits, and the fingerprint.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "kds/change.h"
-#include "kds/rounded_time.h"
-#include "kds/statistics.h"
+#include "certificates/exact/instant.h"
+#include "kds/kinetic_structure.h"
 #include "motions/frames/frame_stamp.h"
 
 namespace kds {
 
+/// A time on a scale that runs from one frame to the next, rounded to twelve significant digits (half to
+/// even). A number printed with `{:.12g}` shows these digits.
+struct RoundedTime {
+  double frame = 0;                   ///< counted in frames, with a fraction between two frames
+  std::optional<double> picoseconds;  ///< empty if a frame has no time
+};
+
+/// Rounds `now`, a time in the step between two frames. Narrows a copy of the exact root behind `now` until
+/// all digits are certain. Ties of the rounding are decided exactly, so the function always ends. Returns
+/// fewer digits if only a bracket is known (a replayed time).
+[[nodiscard]] RoundedTime rounded_time(const Instant& now, const FrameStamp& from, const FrameStamp& to);
+
+/// A change of a structure as listeners receive it: a complete record that remains valid after the run.
 struct Event {
   std::size_t step = 0;
   double lower = 0, upper = 0;      ///< the time in the step lies strictly between, or equals both
@@ -22,8 +34,8 @@ struct Event {
   Change change;
   std::string_view structure;  ///< the structure's name, in static storage
   EventKind kind;
-  FrameStamp from,
-      to;  ///< the frames that the step leads from and to; numbers of steps if no frames are known
+  /// The frames that the step leads from and to; numbers of steps if no frames are known.
+  FrameStamp from, to;
   /// The time of the event in digits that are all certain. Set only if a listener prints it.
   std::optional<RoundedTime> rounded;
 
@@ -78,6 +90,29 @@ class EventLog final : public EventListener {
   void on_event(const Event& event) override { events.push_back(event); }
 
   std::vector<Event> events;
+};
+
+/// A hash of the order of events and their combinatorial changes, never of doubles. Equal histories have
+/// equal fingerprints on every kernel, run and machine. Computed by FNV-1a over 32-bit words with the final
+/// mix of splitmix64.
+class Fingerprint {
+ public:
+  void add(std::uint32_t word) { hash_ = (hash_ ^ word) * 0x100000001b3ULL; }
+  void add(std::uint32_t step, std::uint32_t structure, const Change& change) {
+    add(step);
+    add(structure);
+    add(change.kind);
+    for (std::uint8_t i = 0; i < change.size; ++i) add(change.ids[i]);
+  }
+  [[nodiscard]] std::uint64_t value() const {
+    std::uint64_t x = hash_ + 0x9e3779b97f4a7c15ULL;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+    return x ^ (x >> 31);
+  }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
 };
 
 }  // namespace kds

@@ -9,7 +9,6 @@
 #include <unordered_map>
 
 #include "certificates/base/certificate.h"
-#include "certificates/base/failure_time.h"
 #include "certificates/exact/instant.h"
 
 namespace kds {

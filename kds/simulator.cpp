@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "certificates/exact/exact_time.h"
-#include "kds/bead_edits.h"
-#include "motions/numbers/processor.h"
+#include "kds/kinetic_structure.h"
+#include "motions/numbers/lanes.h"
 
 namespace kds {
 

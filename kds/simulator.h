@@ -13,11 +13,9 @@
 #include "certificates/base/kernel.h"
 #include "certificates/exact/exact_work.h"
 #include "certificates/exact/instant.h"
-#include "kds/audit.h"
 #include "kds/event_log.h"
 #include "kds/event_queue.h"
 #include "kds/failure_order.h"
-#include "kds/fingerprint.h"
 #include "kds/kinetic_structure.h"
 #include "kds/stopwatch.h"
 #include "motions/base/floating_point_guard.h"
@@ -47,7 +45,7 @@ class Simulator {
 
   /// Adds a structure. Structures act in the order in which they are added, and must remain valid as long as
   /// the simulator is used. Throws std::logic_error once the structures are built. Throws std::runtime_error
-  /// if the processor lacks instructions for which the libraries were compiled (motions/numbers/processor.h).
+  /// if the processor lacks instructions for which the libraries were compiled (motions/numbers/lanes.h).
   std::size_t add(KineticStructure& structure);
   /// Throws std::logic_error if certificates of another type have the same number.
   void add_table(FailureSource& table, const CertificateType& type);

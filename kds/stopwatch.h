@@ -1,12 +1,14 @@
 #pragma once
-// Wall time, charged to one of several lanes at a time.
+// Measures time: wall time charged to lanes, and wall and processor time of some work.
 
 #include <chrono>
 #include <cstddef>
+#include <ctime>
 #include <vector>
 
 namespace kds {
 
+/// Wall time, charged to one of several lanes at a time.
 class Stopwatch {
  public:
   static constexpr std::size_t stopped = static_cast<std::size_t>(-1);
@@ -31,5 +33,27 @@ class Stopwatch {
   std::size_t lane_ = stopped;
   std::chrono::steady_clock::time_point since_{};
 };
+
+/// Wall time, and the processor time of all threads of this process together. Other programs on the machine
+/// do not add to the processor time.
+struct Seconds {
+  double clock = 0, processor = 0;
+};
+
+inline double processor_seconds() {
+  std::timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// Returns what some work takes.
+template <class Work>
+Seconds seconds_of(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  const double used = processor_seconds();
+  work();
+  const double using_now = processor_seconds();
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), using_now - used};
+}
 
 }  // namespace kds

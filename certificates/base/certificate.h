@@ -16,7 +16,6 @@
 
 #include "certificates/base/certificate_type.h"
 #include "motions/views/motion_view.h"
-#include "motions/views/recording_view.h"
 
 namespace kds {
 

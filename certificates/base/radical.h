@@ -10,10 +10,17 @@
 // the condition is negative. While A + B sqrt(D) is positive, the condition must not change sign.
 
 #include <concepts>
+#include <cstdint>
 
 #include "certificates/base/certificate.h"
 
 namespace kds {
+
+/// The guarantee about the radii of a necklace.
+enum class Radii : std::uint8_t {
+  equal,  ///< equal radii and weights for all beads, so no certificate is radical
+  any
+};
 
 /// Returns the sign of A + B sqrt(D) from the signs of A, B and the norm. An input of 0 may also mean that a
 /// filter does not know the sign. In that case the result 0 means unknown, and every other result is right.

@@ -3,8 +3,14 @@
 // exceeded before they fail. The share is a multiple of 2^-20, so its square is exact in double and a small
 // multiple of 2^-40.
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <tuple>
+#include <type_traits>
+
+#include "motions/base/bead.h"
 
 namespace kds {
 
@@ -38,4 +44,16 @@ class Relaxation {
   std::int64_t units_ = 0;
 };
 
+/// The arguments of the formulas of relaxed spheres: beads and a relaxation. The default is the greatest
+/// relaxation, so that bounds derived from the formula hold for all.
+template <std::size_t N>
+struct RelaxedBeads : std::array<BeadId, N> {
+  Relaxation relaxation = Relaxation::greatest();
+
+  friend constexpr bool operator==(const RelaxedBeads&, const RelaxedBeads&) = default;
+};
+
 }  // namespace kds
+
+template <std::size_t N>
+struct std::tuple_size<kds::RelaxedBeads<N>> : std::integral_constant<std::size_t, N> {};

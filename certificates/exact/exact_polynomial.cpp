@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <deque>
 
-#include "certificates/exact/bernstein_parts.h"
 #include "certificates/exact/halves.h"
 #include "certificates/exact/polynomial_gcd.h"
 #include "certificates/exact/precise_values.h"
@@ -44,8 +43,6 @@ Integers square_free_part(Integers c) {
   return c.size() <= 2 || certainly_square_free(c) ? c : without_repeated_factors(c);
 }
 
-int sign_of(const Integer& x) { return sgn(x); }
-
 }  // namespace
 
 const Integers& ExactPolynomial::wide_whole() const { return wide_->whole(); }
@@ -77,9 +74,9 @@ std::size_t ExactPolynomial::largest_bit_length() const {
 int ExactPolynomial::sign_at(const Dyadic& u) const {
   if (wide_) return wide_->sign_at(u);
   if (scaled_.empty()) return 0;
-  if (u.exponent() == 0 && u.numerator() == 0) return sign_of(scaled_.front());
-  return sign_of(detail::value_of(scaled_, Integer(1), u.numerator(),
-                                  Integer((Integer(1) << u.exponent()) - u.numerator())));
+  if (u.exponent() == 0 && u.numerator() == 0) return sgn(scaled_.front());
+  return sgn(detail::value_of(scaled_, Integer(1), u.numerator(),
+                              Integer((Integer(1) << u.exponent()) - u.numerator())));
 }
 
 int ExactPolynomial::sign_after(const Dyadic& u) const {
@@ -88,7 +85,7 @@ int ExactPolynomial::sign_after(const Dyadic& u) const {
       restricted(u, Dyadic(u.numerator() + (Integer(1) << u.exponent()), u.exponent()));
   if (from_u.wide_) return from_u.wide_->first_sign();
   for (const Integer& x : from_u.scaled_) {
-    if (x != 0) return sign_of(x);
+    if (x != 0) return sgn(x);
   }
   return 0;
 }
@@ -113,7 +110,7 @@ int ExactPolynomial::sign_between(const Dyadic& lower, const Dyadic& upper, bool
   const ExactPolynomial local = restricted(lower, upper);
   if (local.sign_variations() != 0) return 0;
   for (const Integer& x : local.scaled_) {
-    if (x != 0) return sign_of(x);
+    if (x != 0) return sgn(x);
   }
   return 0;
 }

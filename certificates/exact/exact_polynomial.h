@@ -8,15 +8,26 @@
 // wide polynomial are computed only as precisely as an answer needs, and its roots are isolated scale by
 // scale. Nearly all polynomials are not wide; for them integers and bisection are faster.
 
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "certificates/exact/root_interval.h"
 #include "motions/numbers/bernstein.h"
 #include "motions/numbers/exact_number.h"
 
 namespace kds {
+
+/// An interval that contains exactly one root, with no root at its ends. If lower == upper, it is the root
+/// itself.
+struct RootInterval {
+  Dyadic lower, upper;
+  unsigned digits = 1;    ///< how many binary digits the next narrowing step should gain (narrow_root)
+  int sign_at_lower = 0;  ///< the polynomial's sign at `lower`; 0 if unknown
+};
+
+/// Takes one root; returns whether the next one is wanted.
+using RootVisitor = std::function<bool(RootInterval)>;
 
 class WidePolynomial;
 

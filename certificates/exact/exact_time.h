@@ -2,10 +2,12 @@
 // An exact time in a step: a root of a polynomial with integer coefficients, or a dyadic number. Narrowing
 // the isolating interval changes the representation, never the value.
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 
-#include "certificates/base/failure_time.h"
 #include "certificates/exact/exact_polynomial.h"
+#include "certificates/exact/instant.h"
 
 namespace kds {
 

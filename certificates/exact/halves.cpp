@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "certificates/exact/bernstein_parts.h"
-
 namespace kds {
 
 namespace {

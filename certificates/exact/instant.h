@@ -1,18 +1,51 @@
 #pragma once
-// The present time of a run within a step, as certificates need it: a bracket in doubles, and the exact
-// number behind it, computed only if the exact stage asks for it.
+// Times at which certificates fail, as brackets in doubles and roots of functions. This header knows no exact
+// numbers, so that files which only hand times on need not parse them.
 
 #include <cstdint>
 #include <memory>
 #include <optional>
-
-#include "certificates/base/failure_time.h"
 
 namespace kds {
 
 class Dyadic;
 class ExactPolynomial;
 class ExactTime;
+
+/// The time at which a certificate fails: a bracket of two doubles, and which root of the certificate's
+/// function in the bracket is meant.
+///
+/// The time is root number `ordinal` (from 0, each root counted once) of the function in [lower, upper].
+/// Together with the function, this determines the time exactly. If lower < upper, the time lies strictly
+/// between them. If `isolating`, there is no other root in the bracket, and the function's signs at lower and
+/// upper are proved to differ. The function is the certificate's own, which turns negative at the time. For a
+/// radical certificate it is a polynomial that has all roots of the certificate's function (the norm,
+/// radical.h) and may change sign in either direction. The `fast` kernel gives lower == upper without proof.
+struct FailureTime {
+  double lower = 0;
+  double upper = 0;
+  std::uint16_t ordinal = 0;
+  bool isolating = true;
+  bool touch = false;  ///< the function only touches zero there, which is no failure, see TouchPolicy
+  bool last = false;   ///< known to be the function's last root in the step, and not at its end
+};
+
+/// Whether a structure is told when a function touches zero without changing sign. A touch is not a failure.
+/// However, motions in general position have no touches, so a structure may have to examine itself at one.
+enum class TouchPolicy : std::uint8_t { ignored, reported };
+
+/// The result of searching a new certificate. A certificate that never fails has its own kind, not a large
+/// time.
+struct Failure {
+  enum class Kind : std::uint8_t {
+    never,     ///< holds for the rest of the step
+    zero,      ///< the function is zero on the whole step, so it never fails either
+    later,     ///< fails at `time`, before the end of the step, or only touches zero then
+    at_birth,  ///< does not hold just after the present time
+  };
+  Kind kind = Kind::never;
+  FailureTime time{};
+};
 
 /// A certificate's function with integer coefficients.
 using ExactFunction = std::shared_ptr<const ExactPolynomial>;
@@ -31,6 +64,8 @@ class CertificateSource {
 /// function.
 void narrow(FailureTime& time, const ExactTime& exact);
 
+/// The present time of a run within a step, as certificates need it: a bracket in doubles, and the exact
+/// number behind it, computed only if the exact stage asks for it.
 class Instant {
  public:
   /// Constructs the start of a step or another time that is a double.

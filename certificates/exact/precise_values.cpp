@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "certificates/exact/bernstein_parts.h"
+#include "certificates/exact/halves.h"
 
 namespace kds {
 

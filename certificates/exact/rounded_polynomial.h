@@ -22,7 +22,7 @@
 #include <optional>
 
 #include "certificates/exact/exact_polynomial.h"
-#include "motions/numbers/coefficients.h"
+#include "motions/numbers/bernstein.h"
 
 namespace kds {
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <utility>
 
-#include "certificates/exact/bernstein_parts.h"
+#include "certificates/exact/halves.h"
 #include "certificates/exact/polynomial_gcd.h"
 #include "certificates/exact/precise_values.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 // Polynomials whose coefficients are thousands of bits long because the input numbers differ wildly in size
-// (formula_in_integers.h gives the width at which this class takes over). An answer seldom needs all bits.
+// (function_values.h gives the width at which this class takes over). An answer seldom needs all bits.
 // Signs are first sought with ball arithmetic on the leading digits (motions/numbers/leading_digits.h), and
 // common factors modulo a prime. The whole integers are formed only if these do not decide. Every answer is
 // exact, or says that it is undecided.
@@ -17,7 +17,7 @@
 #include <variant>
 #include <vector>
 
-#include "certificates/exact/root_interval.h"
+#include "certificates/exact/exact_polynomial.h"
 #include "motions/numbers/exact_number.h"
 #include "motions/numbers/fixed_digits.h"
 #include "motions/numbers/leading_digits.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include "certificates/exact/bernstein_parts.h"
+#include "certificates/exact/halves.h"
 #include "certificates/exact/precise_values.h"
 
 namespace kds {

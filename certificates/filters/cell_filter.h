@@ -11,7 +11,7 @@
 #include "certificates/base/kernel.h"
 #include "motions/base/bead.h"
 #include "motions/curves/motion_ref.h"
-#include "motions/views/length_unit.h"
+#include "motions/views/lanes_view.h"
 
 namespace kds {
 

@@ -6,8 +6,7 @@
 
 #include "certificates/filters/cell_filter.h"
 #include "certificates/filters/float_filter.h"
-#include "motions/numbers/long_lanes.h"
-#include "motions/numbers/processor.h"
+#include "motions/numbers/lanes.h"
 
 namespace kds {
 

@@ -4,22 +4,22 @@
 // both beads stray, so each bead may stray half the slack. The slack stays valid for as many steps as the
 // beads stay near, and needs no polynomial.
 //
-// Derivation. The formula is evaluated at the position over numbers with errors (tracked_double.h), where
+// Derivation. The formula is evaluated at the position over numbers with errors (rounding_error.h), where
 // each coordinate difference has an error of `reach`. The result is a value and a bound E(reach): while no
 // difference moves by more than `reach`, the formula is within E(reach) of the value, rounding included.
 // Intermediate values do not depend on the reach, so E is a polynomial in the reach without negative
 // coefficients, and hence convex:
 //   E(s reach) <= E(0) + s E(reach) for s from 0 to 1.
 // E(0) consists of rounding alone. Operation by operation it is at most what the formula's magnitudes give
-// (motions/numbers/magnitude.h), which are used in its place. The sign therefore holds while no difference
-// moves by more than s reach, with s = (value - E(0)) / E(reach), at most 1.
+// (motions/numbers/rounding_error.h), which are used in its place. The sign therefore holds while no
+// difference moves by more than s reach, with s = (value - E(0)) / E(reach), at most 1.
 //
 // Weights and radii must stay constant. The slack is proved; it is 0 if nothing can be proved.
 
 #include <cmath>
 
 #include "certificates/filters/formula_lanes.h"
-#include "motions/numbers/tracked_double.h"
+#include "motions/numbers/rounding_error.h"
 
 namespace kds {
 
@@ -43,7 +43,8 @@ class ReachView {
   [[gnu::always_inline]] void set_reach(const Lanes& reach) { reach_ = reach; }
   /// Returns the largest coordinate difference to the first bead.
   [[nodiscard, gnu::always_inline]] const Lanes& longest() const { return longest_; }
-  /// Returns the M of the error bound (motions/numbers/magnitude.h) at the start or in the step, or a NaN.
+  /// Returns the M of the error bound (motions/numbers/rounding_error.h) at the start or in the step, or a
+  /// NaN.
   [[nodiscard, gnu::always_inline]] Lanes largest_length() const { return view_.largest_length(); }
 
   [[nodiscard, gnu::always_inline]] BernsteinVector<Number, 0, dimension> difference(BeadId i,

@@ -1,6 +1,6 @@
 #pragma once
 // Beads during a short time, as a MotionView of constants. Each constant encloses all values of that time: it
-// is a double with a running error bound (tracked_double.h). A function evaluated over this view has a
+// is a double with a running error bound (rounding_error.h). A function evaluated over this view has a
 // certain sign during all of that time, without forming its polynomial. The result is sharper than evaluating
 // the polynomial at a single time, and less sharp the longer the time is. Numbers are scaled to the middle of
 // double's range, as in TrackedView.

@@ -10,9 +10,7 @@
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/constants.h"
-#include "certificates/base/failure_time.h"
 #include "certificates/base/kernel.h"
-#include "certificates/base/stage_counts.h"
 #include "certificates/exact/instant.h"
 #include "motions/curves/motion_ref.h"
 

@@ -11,17 +11,14 @@
 #include <type_traits>
 #include <utility>
 
-#include "certificates/base/formula_probe.h"
 #include "certificates/exact/exact_work.h"
-#include "certificates/filters/classify_lanes.h"
 #include "certificates/filters/formula_lanes.h"
-#include "certificates/filters/moment_lanes.h"
+#include "certificates/filters/lanes_descent.h"
 #include "certificates/formulas/function_values.h"
-#include "certificates/search/careful_search.h"
 #include "certificates/search/certificate_search.h"
 #include "certificates/search/define_anchored_search.h"
-#include "certificates/search/degree_limit.h"
 #include "certificates/search/exact_search.h"
+#include "certificates/search/formula_checks.h"
 
 namespace kds {
 

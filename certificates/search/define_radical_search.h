@@ -9,9 +9,8 @@
 #include "certificates/exact/exact_work.h"
 #include "certificates/formulas/function_values.h"
 #include "certificates/search/certificate_search.h"
-#include "certificates/search/degree_limit.h"
-#include "certificates/search/exact_radical.h"
-#include "certificates/search/radical_in_double.h"
+#include "certificates/search/formula_checks.h"
+#include "certificates/search/radical_stages.h"
 
 namespace kds {
 

@@ -1,18 +1,35 @@
 #pragma once
-// The exact stage of the failure-time cascade: the first failure of a polynomial with integer coefficients.
-// Roots are found in double if that is precise enough, else with integers.
+// The stages of the failure-time cascade after its first filter, for one certificate: in double with error
+// bounds, however these were computed, and in integers.
 
-#include "certificates/base/failure_time.h"
-#include "certificates/base/stage_counts.h"
+#include <optional>
+
+#include "certificates/base/kernel.h"
 #include "certificates/exact/exact_time.h"
 #include "certificates/exact/instant.h"
+#include "certificates/formulas/function_values.h"
 #include "certificates/search/certificate_search.h"
 
 namespace kds {
 
+/// Returns the failure of a certificate that does not hold just after now: its sign is certainly negative on
+/// all of the present bracket.
+[[nodiscard]] inline Failure failed_at_birth(const Instant& now) {
+  return {Failure::Kind::at_birth, {now.lower(), now.upper(), 0, false}};
+}
+
+/// Returns the failure that doubles prove for a certificate with this function, or nothing.
+[[nodiscard]] std::optional<Failure> proved_failure(const BoundedFunction& bounded, const Instant& now,
+                                                    KnownAtStart known);
+
+/// Returns the failure as computed in double, without proof. The work is bounded.
+[[nodiscard]] Failure fast_first_failure(BoundedPolynomial function, const Instant& now, KnownAtStart known,
+                                         StageCounts& stages);
+
 /// Returns the exact failure, a root of `function`, as a bracket in doubles.
 [[nodiscard]] Failure to_failure(const ExactPolynomial& function, ExactFailure& root);
 
+/// Returns the first failure of a polynomial with integer coefficients.
 [[nodiscard]] Failure exact_first_failure(const ExactPolynomial& function, const Instant& now,
                                           StageCounts& stages, TouchPolicy touches = TouchPolicy::ignored);
 /// Does the same, trying doubles first.

@@ -1,5 +1,5 @@
 #pragma once
-// The signs of functions of beads at a snapshot (motions/curves/snapshot.h). Exact: first in double with
+// The signs of functions of beads at a snapshot (motions/curves/positions.h). Exact: first in double with
 // proved bounds (four at once or one), then with running error bounds, then with integers.
 
 #include <cmath>

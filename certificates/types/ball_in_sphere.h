@@ -62,7 +62,7 @@
 
 #include "certificates/base/determinant.h"
 #include "certificates/base/radical.h"
-#include "certificates/types/relaxed_beads.h"
+#include "certificates/base/relaxation.h"
 
 namespace kds {
 

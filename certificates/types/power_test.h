@@ -8,8 +8,8 @@
 // and 4.
 
 #include "certificates/base/certificate.h"
+#include "certificates/base/certificate_type.h"
 #include "certificates/base/determinant.h"
-#include "certificates/base/sorted_beads.h"
 
 namespace kds {
 

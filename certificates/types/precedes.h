@@ -3,7 +3,7 @@
 // degree k.
 
 #include "certificates/base/certificate.h"
-#include "certificates/base/sorted_beads.h"
+#include "certificates/base/certificate_type.h"
 
 namespace kds {
 

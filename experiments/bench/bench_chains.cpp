@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "motions/base/input_error.h"
+#include "motions/models/elementary.h"
 #include "motions/models/model.h"
-#include "motions/models/random.h"
-#include "motions/models/spiral.h"
+#include "motions/models/shapes.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/radii.h"
 

@@ -8,6 +8,7 @@
 
 #include "experiments/run/load_scene.h"
 #include "kds/seconds.h"
+#include "kds/stopwatch.h"
 #include "motions/base/input_error.h"
 #include "motions/scene/radii.h"
 #include "structures/collision/auto_detector.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "experiments/output/text.h"
-#include "motions/base/csv_field.h"
+#include "motions/base/text_input.h"
 
 namespace kds {
 

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <fstream>
 
-#include "kds/fingerprint.h"
+#include "kds/event_log.h"
 #include "motions/base/input_error.h"
 
 namespace kds {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "kds/seconds.h"
+#include "kds/stopwatch.h"
 
 namespace kds {
 

@@ -9,7 +9,7 @@
 #include "experiments/output/text.h"
 #include "experiments/reproduce/measurements.h"
 #include "motions/models/model.h"
-#include "motions/models/shape.h"
+#include "motions/models/shapes.h"
 #include "structures/collision/closest_pair.h"
 #include "structures/collision/sphere_tree.h"
 

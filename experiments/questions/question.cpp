@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "motions/models/model.h"
-#include "motions/models/shape.h"
+#include "motions/models/shapes.h"
 
 namespace kds {
 

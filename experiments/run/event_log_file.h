@@ -20,8 +20,7 @@
 #include "experiments/output/output_files.h"
 #include "experiments/run/run_options.h"
 #include "kds/event_log.h"
-#include "kds/fingerprint.h"
-#include "motions/base/line_reader.h"
+#include "motions/base/input_file.h"
 #include "motions/scene/scene.h"
 
 namespace kds {

@@ -16,6 +16,7 @@
 #include "experiments/program/input_options.h"
 #include "experiments/program/option.h"
 #include "kds/audit.h"
+#include "kds/kinetic_structure.h"
 #include "motions/scene/scene.h"
 #include "structures/session/structure_spec.h"
 

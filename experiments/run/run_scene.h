@@ -76,7 +76,7 @@ void run_steps(KineticRun& run, const RunOptions& options,
 
 /// Runs the structures. Each warning about the input goes to `warn` as one line. The output goes to
 /// `results`, which the caller delivers. Throws InputError for errors that the user can fix. Throws
-/// AuditError (kds/audit.h) if a structure disagrees with its static rebuild.
+/// AuditError (kds/kinetic_structure.h) if a structure disagrees with its static rebuild.
 [[nodiscard]] RunReport run_scene(const RunOptions& options, const Progress& progress,
                                   const std::function<void(const std::string&)>& warn, RunResults& results);
 

@@ -18,6 +18,7 @@
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
 #include "motions/models/shape.h"
+#include "motions/models/shapes.h"
 #include "motions/readers/write_trajectory.h"
 
 namespace kds {

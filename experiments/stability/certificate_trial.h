@@ -21,7 +21,7 @@
 #include "experiments/stability/stability_scenes.h"
 #include "experiments/stability/stability_subjects.h"
 #include "motions/base/input_error.h"
-#include "motions/curves/any_degree_motion.h"
+#include "motions/curves/bezier_motion.h"
 #include "motions/scene/scene.h"
 
 namespace kds {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kds/change.h"
+#include "kds/kinetic_structure.h"
 #include "structures/necklace/bead_pairs.h"
 
 namespace kds {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "experiments/program/timing.h"
-#include "kds/seconds.h"
+#include "kds/stopwatch.h"
 #include "motions/base/input_error.h"
 #include "structures/session/kinetic_run.h"
 

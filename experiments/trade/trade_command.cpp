@@ -15,7 +15,7 @@
 #include "experiments/run/radius_hint.h"
 #include "experiments/trade/measure_trade.h"
 #include "experiments/trade/trade_report.h"
-#include "kds/seconds.h"
+#include "kds/stopwatch.h"
 #include "motions/base/input_error.h"
 #include "motions/scene/radii.h"
 

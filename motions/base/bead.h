@@ -11,4 +11,12 @@ using BeadId = std::uint32_t;
 /// An id that belongs to no bead of any scene. It sorts after all others.
 inline constexpr BeadId no_bead = 0xffffffffU;
 
+/// A run of consecutive beads.
+struct BeadRange {
+  BeadId first = 0;
+  BeadId last = 0;  ///< inclusive
+
+  friend bool operator==(const BeadRange&, const BeadRange&) = default;
+};
+
 }  // namespace kds

@@ -1,9 +1,5 @@
 #pragma once
-// A regular file, unpacked while it is read if it is gzipped. The amount read is bounded by the size that the
-// file has when it is opened, and by a limit for the unpacked size of a gzipped one.
-//
-// A gzipped file is a sequence of members, which are unpacked one after the other. Zeros may pad the file
-// behind the last member. Anything else there is an error, because members that cannot be told would be lost.
+// Input files, plain or gzipped, read by bytes or by lines.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +26,12 @@ class CutFile : public InputError {
 /// InputError naming the file if the text is UTF-16.
 [[nodiscard]] std::size_t byte_order_mark(std::string_view start, const std::string& file);
 
+/// A regular file, unpacked while it is read if it is gzipped. The amount read is bounded by the size that
+/// the file has when it is opened, and by a limit for the unpacked size of a gzipped one.
+///
+/// A gzipped file is a sequence of members, which are unpacked one after the other. Zeros may pad the file
+/// behind the last member. Anything else there is an error, because members that cannot be told would be
+/// lost.
 class InputFile {
  public:
   /// Opens the file. Throws InputError naming the file. Never blocks on a pipe.
@@ -71,6 +73,36 @@ class InputFile {
   std::unique_ptr<OnDisk, void (*)(OnDisk*)> disk_;
   std::unique_ptr<Members, void (*)(Members*)> packed_;  ///< null for a plain file
   std::uint64_t read_ = 0;
+};
+
+/// Reads the lines of a file of any length, one after the other. A byte order mark is skipped.
+class LineReader {
+ public:
+  /// Opens the file. Throws InputError naming the file.
+  explicit LineReader(const std::filesystem::path& path) : file_(path) {}
+
+  /// Reads the next line without its line end (LF or CR LF). Returns false at the end of the file. `line` is
+  /// valid until the next call. Throws InputError naming file and line if a line is longer than `longest`.
+  [[nodiscard]] bool next(std::string_view& line);
+  /// Returns the number of the line read last, from 1.
+  [[nodiscard]] std::size_t number() const { return number_; }
+  /// Returns whether the line read last ended at the end of the file, without a line end.
+  [[nodiscard]] bool cut() const { return cut_; }
+  /// Starts again at the first line.
+  void rewind();
+  [[nodiscard]] const std::string& name() const { return file_.name(); }
+
+  static constexpr std::size_t longest = std::size_t{1} << 20U;
+
+ private:
+  [[nodiscard]] bool fill();
+
+  InputFile file_;
+  std::string buffer_;
+  std::size_t begin_ = 0, end_ = 0;  ///< the unread part of the buffer
+  std::size_t number_ = 0;
+  bool at_start_ = true;
+  bool cut_ = false;
 };
 
 }  // namespace kds

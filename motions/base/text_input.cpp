@@ -8,10 +8,10 @@
 #include <cmath>
 #include <locale>
 #include <sstream>
+#include <vector>
 
 #include "motions/base/input_error.h"
 #include "motions/base/input_file.h"
-#include "motions/base/line_reader.h"
 
 namespace kds {
 
@@ -104,6 +104,23 @@ std::string in_quotes(std::string_view field) {
 
 std::string counted(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  // Rows of the last three prefixes of `a`.
+  std::vector<std::size_t> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    next[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      next[j] = std::min({row[j] + 1, next[j - 1] + 1, row[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        next[j] = std::min(next[j], before[j - 2] + 1);
+    }
+    before.swap(row);
+    row.swap(next);
+  }
+  return row.back();
 }
 
 }  // namespace kds

@@ -1,5 +1,6 @@
 #pragma once
-// Reads text files and the numbers in them. A number must fill its whole field, otherwise it does not parse.
+// Text: reads text files and the numbers in them, quotes fields for messages and CSV files, compares names.
+// A number must fill its whole field, otherwise it does not parse.
 
 #include <cstddef>
 #include <filesystem>
@@ -40,5 +41,35 @@ void unify_line_ends(std::string& text);
 
 /// Returns a count with its noun: "1 atom", "2 atoms".
 [[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
+
+/// Returns the ending of a file, which determines its format, in lower case with its dot: ".pdb".
+[[nodiscard]] inline std::string file_ending(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return ending;
+}
+
+/// Returns whether PDB files with this ending hold a biological assembly: .pdb and a number, as in .pdb1.
+[[nodiscard]] inline bool is_assembly_ending(const std::string& ending) {
+  return ending.size() > 4 && ending.compare(0, 4, ".pdb") == 0 &&
+         ending.find_first_not_of("0123456789", 4) == std::string::npos;
+}
+
+/// Returns the text as a field of a CSV file (comma-separated values), in quotation marks if necessary.
+[[nodiscard]] inline std::string csv_field(std::string_view text) {
+  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += c;
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+/// Returns how many insertions, deletions, substitutions and exchanges of neighbours make `b` of `a`: the
+/// Damerau-Levenshtein distance in which no letter is edited twice (optimal string alignment). It finds
+/// mistyped names.
+[[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 }  // namespace kds

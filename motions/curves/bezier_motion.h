@@ -1,17 +1,33 @@
 #pragma once
-// A motion (motion.h) whose degree is a compile-time constant. The certificates' filters are compiled for
-// such degrees.
+// Motions (motion.h) that store the control points of their beads: BezierMotion, whose degree is a
+// compile-time constant, and AnyDegreeMotion, whose degree is known only at run time.
 
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
-#include "motions/base/finite.h"
-#include "motions/curves/linear_ends.h"
+#include "motions/base/floating_point_guard.h"
 #include "motions/curves/motion.h"
+#include "motions/numbers/bernstein.h"
 
 namespace kds {
 
+namespace detail {
+
+/// Sets both control points of linear motion for all beads at once. This conversion from frames to motion is
+/// a considerable part of a step. Frames have three numbers per bead, of which the first `dimension` are
+/// used. Radii are one per bead and constant; weights are their squares. For each bead, `points` receives two
+/// control points of coordinates and weight, and `own_radii` receives the radius of both. Returns whether all
+/// numbers are finite.
+template <int Dimension>
+[[nodiscard]] bool set_linear_ends(const double* start, const double* end, const double* radii,
+                                   std::size_t beads, double* points, double* own_radii);
+
+}  // namespace detail
+
+/// A motion of constant degree. The filters of certificates are compiled for such degrees.
 template <int DimensionValue, int DegreeValue>
 class BezierMotion {
   static_assert(DimensionValue >= 1 && DimensionValue <= 3 && DegreeValue >= 1);
@@ -33,13 +49,13 @@ class BezierMotion {
     records_[bead].control[k][axis] = finite(value);
   }
   void set_weight(BeadId bead, int k, double value) { records_[bead].control[k][dimension] = finite(value); }
-  /// Sets the motion of all beads from one frame to the next (linear_ends.h). Throws like finite(); the
-  /// control points are undefined then.
+  /// Sets the motion of all beads from one frame to the next (detail::set_linear_ends). Throws like finite();
+  /// the control points are undefined then.
   void set_ends(const double* start, const double* end, const double* radii) requires(degree == 1) {
     static_assert(sizeof(Record) == 2 * (dimension + 1) * sizeof(double));
     if (records_.empty()) return;
-    if (!set_linear_ends<dimension>(start, end, radii, records_.size(), records_[0].control[0],
-                                    radii_[0].control))
+    if (!detail::set_linear_ends<dimension>(start, end, radii, records_.size(), records_[0].control[0],
+                                            radii_[0].control))
       (void)finite(std::numeric_limits<double>::infinity());
   }
   [[nodiscard]] double radius(BeadId bead, int k) const { return radii_[bead].control[k]; }
@@ -60,5 +76,56 @@ class BezierMotion {
 };
 
 static_assert(Motion<BezierMotion<3, 1>>);
+
+/// A motion whose degree is known only at run time, for users' polynomials of degrees for which no filters
+/// are compiled. Control points are kept as given.
+template <int DimensionValue>
+class AnyDegreeMotion {
+  static_assert(DimensionValue >= 1 && DimensionValue <= 3);
+
+ public:
+  static constexpr int dimension = DimensionValue;
+  static constexpr int degree = any_degree;
+
+  /// Throws std::invalid_argument if the degree is negative.
+  AnyDegreeMotion(std::size_t beads, int own_degree)
+      : own_degree_(accepted(own_degree)),
+        beads_(beads),
+        control_(beads * row() * (dimension + 1)),
+        radii_(beads * row()) {}
+
+  [[nodiscard]] int own_degree() const { return own_degree_; }
+  [[nodiscard]] std::size_t bead_count() const { return beads_; }
+  [[nodiscard]] const double* control_point(BeadId bead, int k) const {
+    return &control_[(bead * row() + static_cast<std::size_t>(k)) * (dimension + 1)];
+  }
+  [[nodiscard]] double coordinate(BeadId bead, int k, int axis) const { return control_point(bead, k)[axis]; }
+  [[nodiscard]] double weight(BeadId bead, int k) const { return control_point(bead, k)[dimension]; }
+  [[nodiscard]] const double* radii(BeadId bead) const { return &radii_[bead * row()]; }
+  [[nodiscard]] double radius(BeadId bead, int k) const { return radii(bead)[k]; }
+  void set_coordinate(BeadId bead, int k, int axis, double value) { number(bead, k, axis) = finite(value); }
+  void set_weight(BeadId bead, int k, double value) { number(bead, k, dimension) = finite(value); }
+  void set_radius(BeadId bead, int k, double value) {
+    radii_[bead * row() + static_cast<std::size_t>(k)] = finite(value);
+  }
+
+ private:
+  [[nodiscard]] static int accepted(int wanted) {
+    if (wanted < 0)
+      throw std::invalid_argument("a motion of degree " + std::to_string(wanted) + ": expected 0 or more");
+    return wanted;
+  }
+  [[nodiscard]] std::size_t row() const { return static_cast<std::size_t>(own_degree_) + 1; }
+  [[nodiscard]] double& number(BeadId bead, int k, int place) {
+    return control_[(bead * row() + static_cast<std::size_t>(k)) * (dimension + 1) +
+                    static_cast<std::size_t>(place)];
+  }
+
+  int own_degree_;
+  std::size_t beads_;
+  std::vector<double> control_, radii_;
+};
+
+static_assert(Motion<AnyDegreeMotion<3>>);
 
 }  // namespace kds

@@ -8,7 +8,7 @@
 #include <cstddef>
 
 #include "motions/base/bead.h"
-#include "motions/base/floating_point.h"
+#include "motions/base/floating_point_guard.h"
 
 namespace kds {
 

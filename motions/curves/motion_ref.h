@@ -5,16 +5,12 @@
 
 #include <array>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 
 #include "motions/curves/curves.h"
 
 namespace kds {
-
-namespace detail {
-
-[[noreturn]] void refuse_changed_degree(int before, int now);
-
-}  // namespace detail
 
 template <int DimensionValue>
 class MotionRef {
@@ -47,7 +43,9 @@ class MotionRef {
   [[nodiscard]] Curves<DimensionValue> curves() const {
     const Curves<DimensionValue> now = curves_(motion_);
     if (now.own_degree() != degree_) [[unlikely]]
-      detail::refuse_changed_degree(degree_, now.own_degree());
+      throw std::logic_error("a motion of degree " + std::to_string(degree_) + " has become one of degree " +
+                             std::to_string(now.own_degree()) +
+                             ": structures and searches over it must be made anew");
     return now;
   }
   [[nodiscard]] int degree() const { return degree_; }

@@ -1,12 +1,18 @@
 #pragma once
-// The positions of the beads at one time of a step.
+// The positions of the beads at one time of a step: exact, rounded, and in doubles with error
+// bounds.
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
+#include <span>
 #include <vector>
 
+#include "motions/curves/bezier_motion.h"
 #include "motions/curves/curves.h"
+#include "motions/curves/motion_ref.h"
 #include "motions/numbers/exact_number.h"
+#include "motions/numbers/rounding_error.h"
 
 namespace kds {
 
@@ -69,5 +75,37 @@ template <Motion M>
 [[nodiscard]] Rational exact_radius(const M& motion, BeadId bead, const Dyadic& time) {
   return detail::PositionsOf<M::dimension>::exact_radius(CurvesOf<M>(motion), bead, time);
 }
+
+/// Positions of the beads at one time of a step, in doubles with error bounds (ball arithmetic), computed
+/// from the control points. They decide nearly every sign that an audit needs; integers decide the others.
+template <int Dimension>
+class RoundedPositions {
+ public:
+  /// The coordinates, then the weight, padded to four numbers.
+  using Row = std::array<double, 4>;
+
+  /// Rounding must be to nearest.
+  RoundedPositions(const MotionRef<Dimension>& motion, const Dyadic& time);
+
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  [[nodiscard]] const Row& row(BeadId bead) const { return rows_[bead]; }
+  /// Return bounds on the error of every coordinate and of every weight. They are infinite if a number
+  /// overflows.
+  [[nodiscard]] double coordinate_error() const { return coordinate_error_; }
+  [[nodiscard]] double weight_error() const { return weight_error_; }
+
+  [[nodiscard]] TrackedDouble coordinate(BeadId bead, std::size_t axis) const {
+    return {rows_[bead][axis], coordinate_error_};
+  }
+  [[nodiscard]] TrackedDouble radius(BeadId bead) const { return radii_[bead]; }
+
+ private:
+  std::vector<Row> rows_;
+  std::vector<TrackedDouble> radii_;
+  double coordinate_error_ = 0, weight_error_ = 0;
+};
+
+extern template class RoundedPositions<2>;
+extern template class RoundedPositions<3>;
 
 }  // namespace kds

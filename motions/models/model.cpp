@@ -7,10 +7,8 @@
 #include <utility>
 
 #include "motions/base/input_error.h"
-#include "motions/models/random_chain.h"
 #include "motions/models/shape_motion.h"
 #include "motions/models/shapes.h"
-#include "motions/models/spiral.h"
 
 namespace kds::models {
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "motions/models/random.h"
-#include "motions/models/shape.h"
+#include "motions/models/elementary.h"
+#include "motions/models/shapes.h"
 
 namespace kds::models {
 

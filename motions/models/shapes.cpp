@@ -1,17 +1,49 @@
 #include "motions/models/shapes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <numbers>
+#include <unordered_map>
 #include <vector>
 
-#include "motions/models/curve.h"
-#include "motions/models/elementary.h"
+#include "motions/base/input_error.h"
 
 namespace kds::models {
 
 namespace {
+
+using Curve = std::function<Eigen::Vector3d(double)>;  ///< maps t in [0, 1] to a point
+
+/// Returns `beads` (at least 2) beads at equal arc lengths along the curve, ends included. The curve is
+/// scaled so that consecutive beads are `bond` diameters apart along it, so their distance in space is at
+/// most that. The curve is approximated by a polyline of `pieces` equal parts of [0, 1]; its corners should
+/// be among the ends of the parts.
+Shape beads_along(const Curve& curve, std::size_t beads, double bond, std::size_t pieces) {
+  std::vector<Eigen::Vector3d> corners;
+  std::vector<double> lengths;  // from the start to each corner
+  for (std::size_t i = 0; i <= pieces; ++i) {
+    corners.push_back(curve(static_cast<double>(i) / static_cast<double>(pieces)));
+    lengths.push_back(i == 0 ? 0 : lengths.back() + std::sqrt(squared_distance(corners[i], corners[i - 1])));
+  }
+  const double gap = lengths.back() / static_cast<double>(beads - 1);
+  const double scale = 2 * radius * bond / gap;
+  Shape shape(3, static_cast<Eigen::Index>(beads));
+  std::size_t piece = 1;
+  for (std::size_t b = 0; b < beads; ++b) {
+    const double place = std::min(gap * static_cast<double>(b), lengths.back());
+    while (piece < pieces && lengths[piece] < place) ++piece;
+    const double share = (place - lengths[piece - 1]) / (lengths[piece] - lengths[piece - 1]);
+    shape.col(static_cast<Eigen::Index>(b)) =
+        scale * ((1 - share) * corners[piece - 1] + share * corners[piece]);
+  }
+  return shape;
+}
 
 std::size_t pieces_for(std::size_t beads, std::size_t parts) {
   return parts * std::max<std::size_t>(1000, 4 * beads);
@@ -34,6 +66,35 @@ Eigen::Vector3d grill_at(double t) {
   }
   return {forth ? x : length - x, y, 0};
 }
+
+// A hash map of beads by grid cells, whose side is the distance that nonadjacent beads keep. It is used only
+// for look-up, so its order does not matter.
+class Occupied {
+ public:
+  void add(const Eigen::Vector3d& place) { cells_[key(place, 0, 0, 0)].push_back(place); }
+  void remove(const Eigen::Vector3d& place) {
+    auto& cell = cells_[key(place, 0, 0, 0)];
+    cell.erase(std::find(cell.begin(), cell.end(), place));
+  }
+  [[nodiscard]] bool near(const Eigen::Vector3d& place) const {
+    for (int n = 0; n < 27; ++n) {
+      const auto cell = cells_.find(key(place, n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
+      if (cell == cells_.end()) continue;
+      for (const Eigen::Vector3d& other : cell->second)
+        if (squared_distance(place, other) < clear_distance * clear_distance) return true;
+    }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] static std::int64_t key(const Eigen::Vector3d& place, int x, int y, int z) {
+    const auto number = [](double at, int shift) {  // numbers from 0 on
+      return static_cast<std::int64_t>(at / clear_distance) + shift + 1;
+    };
+    return (number(place[0], x) << 42U) + (number(place[1], y) << 21U) + number(place[2], z);
+  }
+  std::unordered_map<std::int64_t, std::vector<Eigen::Vector3d>> cells_;
+};
 
 }  // namespace
 
@@ -106,6 +167,96 @@ Shape packed_grid(std::size_t beads, int dimension, double gap, double bond) {
   }
   Shape shape(3, static_cast<Eigen::Index>(beads));
   for (std::size_t b = 0; b < beads; ++b) shape.col(static_cast<Eigen::Index>(b)) = places[b];
+  return shape;
+}
+
+Shape spiral(std::size_t beads, double turns, double rolled, double bond) {
+  constexpr double last_over_first = 5;
+  const double step = 2 * radius * bond;
+  const double length = step * static_cast<double>(beads - 1);
+  const double first = length / (last_over_first - 1);
+  const double turns_per_log = turns * rolled / logarithm(last_over_first);
+  const double k = 2 * std::numbers::pi * turns_per_log;
+  Shape shape(3, static_cast<Eigen::Index>(beads));
+  for (std::size_t b = 0; b < beads; ++b) {
+    const double s = first + step * static_cast<double>(b);
+    const auto [sine, cosine] = sine_cosine(turns_per_log * logarithm(s / (first + length)));
+    const double scale = s / (1 + k * k);
+    shape.col(static_cast<Eigen::Index>(b)) << scale * (cosine + k * sine), scale * (sine - k * cosine), 0;
+  }
+  const Eigen::Vector3d middle = centroid(shape);
+  for (Eigen::Index b = 0; b < shape.cols(); ++b) shape.col(b) -= middle;
+  return shape;
+}
+
+Shape facing_spiral(const Shape& spiral, double distance, double bond) {
+  Shape other = -spiral;
+  const double length = 2 * radius * bond * static_cast<double>(spiral.cols() - 1);
+  for (Eigen::Index b = 0; b < other.cols(); ++b) other(1, b) += distance * length;
+  return other;
+}
+
+Eigen::Matrix3Xd tightness_points(int h) {
+  // Works with angles: every point and every centre lies on a ray from the origin, so mirroring a point
+  // mirrors its angle.
+  std::vector<long double> angles{0};
+  long double ray = 0, distance = 1;  // of the centre O_l of the first 2^l points
+  const long double leg = 1 / std::sqrt(static_cast<long double>(h));
+  for (int l = 0; l + 1 < h; ++l) {
+    // O_(l+1) is at the right angle of the triangle O O_(l+1) O_l whose leg O_l O_(l+1) is 1 / sqrt(h).
+    const long double next = std::sqrt(distance * distance - leg * leg);
+    ray += std::acos(next / distance);
+    distance = next;
+    for (std::size_t i = 0, built = angles.size(); i < built; ++i) angles.push_back(2 * ray - angles[i]);
+  }
+  const auto half = static_cast<Eigen::Index>(angles.size());
+  Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, 2 * half);
+  for (Eigen::Index p = 0; p < half; ++p) {
+    const long double angle = angles[static_cast<std::size_t>(p)];
+    points(0, p) = static_cast<double>(std::cos(angle));
+    points(1, p) = static_cast<double>(std::sin(angle));
+  }
+  points.rightCols(half) = -points.leftCols(half);
+  return points;
+}
+
+Shape random_chain(std::size_t beads, double fill, Random& random, double bond) {
+  constexpr int tries_a_bead = 200;
+  constexpr std::size_t steps_back = 30;
+  const double volume = 4 * std::numbers::pi / 3 * static_cast<double>(beads) / fill;
+  const double side = cube_root(volume);
+  std::vector<Eigen::Vector3d> chain{Eigen::Vector3d::Constant(side / 2)};
+  Occupied occupied;  // all beads except the last
+  std::size_t dead_ends = 0;
+  while (chain.size() < beads) {
+    int tries = tries_a_bead;
+    for (; tries > 0; --tries) {
+      const Eigen::Vector3d next = chain.back() + 2 * radius * bond * random.direction();
+      const bool inside = next.minCoeff() >= 0 && next.maxCoeff() <= side;
+      if (!inside || occupied.near(next)) continue;
+      occupied.add(chain.back());
+      chain.push_back(next);
+      break;
+    }
+    if (tries > 0) continue;
+    if (++dead_ends > 100 + beads)
+      throw InputError(fmt::format("--fill: found no chain of {} beads that fill {} of their cube; give less",
+                                   beads, fill));
+    for (std::size_t back = 0; back < steps_back && chain.size() > 1; ++back) {
+      chain.pop_back();
+      occupied.remove(chain.back());
+    }
+  }
+  Shape shape(3, static_cast<Eigen::Index>(beads));
+  for (std::size_t b = 0; b < beads; ++b) shape.col(static_cast<Eigen::Index>(b)) = chain[b];
+  return shape;
+}
+
+Shape jittered(Shape shape, double distance, Random& random, int dimension) {
+  for (Eigen::Index bead = 0; bead < shape.cols(); ++bead) {
+    const double length = distance * radius * random.uniform();
+    shape.col(bead) += length * random.direction(dimension);
+  }
   return shape;
 }
 

@@ -12,11 +12,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
-
-#include "motions/numbers/coefficients.h"
-#include "motions/numbers/sum_of_products.h"
+#include <vector>
 
 namespace kds {
 
@@ -34,16 +36,80 @@ inline constexpr int most_degree_of_function = 61;
 /// The degree constant of a motion whose degree is known only at run time.
 inline constexpr int any_degree = -1;
 
+/// A row of plain numbers whose length is known only when the program runs (small-vector). Short rows lie in
+/// the object itself and cost no allocation; a copy costs as many numbers as there are.
+template <class Number>
+class PlainCoefficients {
+  static_assert(std::is_trivially_copyable_v<Number>);
+
+ public:
+  static constexpr std::size_t room = 48;  ///< norms of cubic motion have 37
+
+  PlainCoefficients() {}
+  PlainCoefficients(const PlainCoefficients& other) { *this = other; }
+  [[gnu::noinline]] PlainCoefficients& operator=(const PlainCoefficients& other) {
+    if (this == &other) return *this;
+    resize(other.size_);
+    std::copy_n(other.begin(), size_, begin());
+    return *this;
+  }
+  ~PlainCoefficients() = default;
+
+  /// Keeps the numbers there are; new ones are not set to anything.
+  [[gnu::noinline]] void resize(std::size_t size) {
+    if (size > room && size > size_) {
+      auto more = std::make_unique<Number[]>(size);
+      std::copy_n(begin(), size_, more.get());
+      more_ = std::move(more);
+    }
+    size_ = size;
+  }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] Number* begin() {
+    return more_ ? more_.get() : std::launder(reinterpret_cast<Number*>(few_));
+  }
+  [[nodiscard]] const Number* begin() const {
+    return more_ ? more_.get() : std::launder(reinterpret_cast<const Number*>(few_));
+  }
+  [[nodiscard]] Number* end() { return begin() + size_; }
+  [[nodiscard]] const Number* end() const { return begin() + size_; }
+  [[nodiscard]] Number& operator[](std::size_t i) { return begin()[i]; }
+  [[nodiscard]] const Number& operator[](std::size_t i) const { return begin()[i]; }
+  [[nodiscard]] const Number& back() const { return begin()[size_ - 1]; }
+
+ private:
+  std::size_t size_ = 0;
+  std::unique_ptr<Number[]> more_;
+  alignas(Number) std::byte few_[room * sizeof(Number)];  // not initialized
+};
+
+/// A row of numbers of any type.
+template <class Number>
+using Coefficients =
+    std::conditional_t<std::is_trivially_copyable_v<Number>, PlainCoefficients<Number>, std::vector<Number>>;
+
+/// A sum of products a b + c d + ... Number types specialize this class if they can add a product faster than
+/// by forming the product first.
+template <class Number>
+class SumOfProducts {
+ public:
+  constexpr SumOfProducts(const Number& a, const Number& b) : sum_(a * b) {}
+  constexpr void add(const Number& a, const Number& b) { sum_ += a * b; }
+  [[nodiscard]] constexpr Number value() && { return std::move(sum_); }
+
+ private:
+  Number sum_;
+};
+
 namespace detail {
 
 // Polynomials with run-time degrees share the code below, whatever multiple their types name.
 
-[[noreturn]] void refuse_unlike_degrees(std::size_t a, std::size_t b);
-
 template <class Number>
 void require_like_degrees(const Coefficients<Number>& a, const Coefficients<Number>& b) {
   if (a.size() != b.size()) [[unlikely]]
-    refuse_unlike_degrees(a.size(), b.size());
+    throw std::logic_error("polynomials of " + std::to_string(a.size()) + " and " + std::to_string(b.size()) +
+                           " coefficients are added: write them with one degree first");
 }
 
 /// Adds in place. Throws std::logic_error if the numbers of coefficients differ; so does subtract_from.

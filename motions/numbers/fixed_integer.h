@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "motions/numbers/bernstein.h"
 #include "motions/numbers/exact_number.h"
-#include "motions/numbers/sum_of_products.h"
 
 namespace kds {
 

@@ -8,7 +8,7 @@
 
 #include "motions/numbers/lanes.h"
 
-// Functions on four floats are compiled as long functions (long_lanes.h), because formulas of many numbers
+// Functions on four floats are compiled as long functions (in_long_lanes), because formulas of many numbers
 // then keep more values in registers. Functions on eight floats are compiled under a name of their own for
 // each kind of processor with long enough vectors. Only code that has checked for such a processor may call
 // them. Every version gives the same bits.

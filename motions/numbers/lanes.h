@@ -7,8 +7,10 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <string>
 
-#include "motions/base/floating_point.h"
+#include "motions/base/floating_point_guard.h"
 
 namespace kds {
 
@@ -99,5 +101,53 @@ class alignas(32) Lanes {
     return ((mask[0] & mask[1]) & (mask[2] & mask[3])) != 0;
   }
 };
+
+/// Returns whether the processor supports x86-64-v4, that is AVX-512 with twice as many vector registers.
+[[nodiscard]] inline bool processor_has_avx512() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+         __builtin_cpu_supports("avx512vl");
+#else
+  return false;
+#endif
+}
+
+/// Returns a sentence that names the instructions which the libraries need and this processor lacks, or
+/// nothing if the libraries can run here. On a processor that lacks them, a function on lanes would
+/// crash.
+[[nodiscard]] std::optional<std::string> missing_in_processor();
+
+// Long functions on lanes, each compiled in one file. They are compiled like KDS_LANES_TARGETS and once more
+// for processors with AVX-512, which have twice the registers. Every version gives the same bits.
+
+namespace detail {
+
+inline const bool here_is_avx512 = processor_has_avx512();  // cached, since the check is slow
+
+template <auto function>
+struct LongLanes;
+/// `function` is inlined into each version, so it must not be marked noinline itself.
+template <class... P, void (*function)(P...)>
+struct LongLanes<function> {
+#if KDS_LANES_ARE_COMPILED_FOR_TARGETS && defined(KDS_NEEDS_AVX2)
+  [[KDS_FOR_TARGET("avx2")]] static void with_avx2(P... arguments) { function(arguments...); }
+  [[KDS_FOR_TARGET("arch=x86-64-v4")]] static void with_avx512(P... arguments) { function(arguments...); }
+  static void call(P... arguments) { here_is_avx512 ? with_avx512(arguments...) : with_avx2(arguments...); }
+#elif KDS_LANES_ARE_COMPILED_FOR_TARGETS
+  [[gnu::target_clones("arch=x86-64-v4", "avx2", "default"), gnu::flatten, gnu::noinline]] static void call(
+      P... arguments) {
+    function(arguments...);
+  }
+#else
+  static void call(P... arguments) { function(arguments...); }
+#endif
+};
+
+}  // namespace detail
+
+/// Calls `function` in the version for this processor. Its parameters must be references, spans or numbers.
+template <auto function>
+inline constexpr auto in_long_lanes = &detail::LongLanes<function>::call;
 
 }  // namespace kds

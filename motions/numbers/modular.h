@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <span>
 
+#include "motions/numbers/bernstein.h"
 #include "motions/numbers/exact_number.h"
-#include "motions/numbers/sum_of_products.h"
 
 namespace kds {
 

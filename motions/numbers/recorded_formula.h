@@ -1,6 +1,6 @@
 #pragma once
 // A formula over polynomials, recorded step by step instead of computed. Evaluating the formula of a
-// certificate over a RecordingView (motions/views/recording_view.h) records it. Any number type can later
+// certificate over a RecordingView (motions/views/motion_view.h) records it. Any number type can later
 // play the recorded formula (certificates/formulas/formula_player.h). Rarely used number types are therefore
 // compiled once, not once per formula. Playing a formula performs exactly the recorded operations: nothing is
 // rounded, reordered or left out.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "motions/base/edit_distance.h"
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "motions/base/line_reader.h"
+#include "motions/base/input_file.h"
 #include "motions/frames/frame_selection.h"
 #include "motions/frames/periodic.h"
 #include "motions/readers/pdb_atom_line.h"

@@ -6,7 +6,6 @@
 #include <array>
 #include <utility>
 
-#include "motions/base/file_ending.h"
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
 #include "motions/frames/frame_selection.h"

@@ -6,8 +6,8 @@
 #include <array>
 #include <string_view>
 
-#include "motions/base/file_ending.h"
 #include "motions/base/input_error.h"
+#include "motions/base/text_input.h"
 #include "motions/readers/reader_registry.h"
 
 namespace kds {

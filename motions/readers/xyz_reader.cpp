@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "motions/base/input_error.h"
-#include "motions/base/line_reader.h"
+#include "motions/base/input_file.h"
 #include "motions/base/text_input.h"
 #include "motions/frames/frame_selection.h"
 #include "motions/readers/extended_xyz.h"

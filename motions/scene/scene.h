@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/base/bead_range.h"
+#include "motions/base/bead.h"
 #include "motions/base/require_index.h"
 #include "motions/curves/bezier_motion.h"
 #include "motions/curves/lifted_motion.h"

@@ -3,11 +3,11 @@
 // view:
 //
 //   DoubleView     rounded; records the largest length returned, which scales the error bound
-//   TrackedView    rounded, with a running error bound (tracked_double.h). Numbers are scaled to the middle
+//   TrackedView    rounded, with a running error bound (rounding_error.h). Numbers are scaled to the middle
 //                  of double's range: all lengths by one power of two, weights by its square
-//   MagnitudeView  the constants of the error bound (magnitude.h); independent of any motion
+//   MagnitudeView  the constants of the error bound (rounding_error.h); independent of any motion
 //   IntegerView, ResidueView, MomentView   exact (integer_view.h)
-//   RecordingView  records the formula, which can be played over any of these views (recording_view.h)
+//   RecordingView  records the formula, which can be played over any of these views
 //
 // Functions of certificates are homogeneous in lengths, so a common factor changes no sign. Every view
 // returns differences of beads. Certificates are independent of the origin, or have the origin as a bead, and
@@ -18,17 +18,25 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <span>
 
+#include "motions/base/bead.h"
 #include "motions/curves/bezier_motion.h"
 #include "motions/curves/curves.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/numbers/bernstein.h"
-#include "motions/numbers/magnitude.h"
-#include "motions/numbers/tracked_double.h"
-#include "motions/views/channels.h"
+#include "motions/numbers/recorded_formula.h"
+#include "motions/numbers/rounding_error.h"
 
 namespace kds {
+
+/// The channels that a function uses besides the centres of beads.
+struct Channels {
+  bool weights = false;
+  bool radii = false;
+};
+inline constexpr Channels all_channels{true, true};
 
 /// Besides difference(i, j), a view has weight_difference(i, j), radius_difference(i, j) and radius_sum(i,
 /// j), polynomials of the same degree, if the channels were requested. Over a lifted motion it has
@@ -271,5 +279,52 @@ using MagnitudeViewOf = MagnitudeView<M::dimension, M::degree, lifted<M>, Number
 static_assert(MotionView<DoubleView<BezierMotion<3, 1>>>);
 static_assert(MotionView<TrackedView<BezierMotion<3, 1>>> && MotionView<TrackedView<Curves<3>>>);
 static_assert(MotionView<MagnitudeView<3, 1>>);
+
+/// A view without a motion: it records a formula, which can be played later (recorded_formula.h). The formula
+/// names beads by their places among its own beads.
+template <int DimensionValue, bool Lifted, Channels channels>
+class RecordingView {
+  using Kind = FormulaStep::Kind;
+
+ public:
+  using Number = Recorded;
+  static constexpr int dimension = DimensionValue;
+  static constexpr int degree = Lifted ? 1 : any_degree;
+
+  explicit RecordingView(RecordedFormula& formula) : formula_(formula) {}
+
+  [[nodiscard]] BernsteinVector<Recorded, degree, dimension> difference(BeadId i, BeadId j) const {
+    BernsteinVector<Recorded, degree, dimension> result;
+    Kind kind = Kind::centre_difference;
+    for (auto& coordinate : result) {
+      coordinate = of_beads<degree>(kind, i, j);
+      kind = Kind::next_coordinate;
+    }
+    return result;
+  }
+  [[nodiscard]] Bernstein<Recorded, degree> weight_difference(BeadId i, BeadId j) const
+      requires(channels.weights) {
+    return of_beads<degree>(Kind::weight_difference, i, j);
+  }
+  [[nodiscard]] Bernstein<Recorded, degree> radius_difference(BeadId i, BeadId j) const
+      requires(channels.radii) {
+    return of_beads<degree>(Kind::radius_difference, i, j);
+  }
+  [[nodiscard]] Bernstein<Recorded, degree> radius_sum(BeadId i, BeadId j) const requires(channels.radii) {
+    return of_beads<degree>(Kind::radius_sum, i, j);
+  }
+  [[nodiscard]] Bernstein<Recorded, 1> lift_difference(BeadId i, BeadId j) const
+      requires(channels.weights&& Lifted) {
+    return of_beads<1>(Kind::lift_difference, i, j);
+  }
+
+ private:
+  template <int Degree>
+  [[nodiscard]] Bernstein<Recorded, Degree> of_beads(Kind kind, BeadId i, BeadId j) const {
+    return {&formula_, formula_.add(kind, static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j))};
+  }
+
+  RecordedFormula& formula_;
+};
 
 }  // namespace kds

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "kds/kinetic_structure.h"
+#include "motions/base/bead.h"
 #include "motions/base/bead_range.h"
 #include "motions/curves/curves.h"
 #include "motions/curves/motion_ref.h"

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "certificates/types/closer.h"
+#include "certificates/types/distances.h"
 #include "kds/structure_base.h"
 #include "motions/curves/curves.h"
 #include "motions/curves/motion_ref.h"

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "motions/numbers/float_lanes.h"
-#include "motions/numbers/long_lanes.h"
+#include "motions/numbers/lanes.h"
 
 namespace kds {
 

@@ -25,6 +25,7 @@
 
 #include "certificates/search/certificate_search.h"
 #include "certificates/types/contact.h"
+#include "certificates/types/distances.h"
 #include "kds/certificate_table.h"
 #include "kds/structure_base.h"
 #include "structures/contacts/moving_family.h"

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "certificates/base/gram_matrix.h"
+#include "certificates/base/determinant.h"
 
 namespace kds {
 

@@ -6,7 +6,7 @@
 // radii are no special case, because their A vanish. A decision takes microseconds, so these functions serve
 // only where doubles cannot decide.
 //
-// The formulas also accept doubles with error bounds (tracked_double.h). An uncertain sign then counts as
+// The formulas also accept doubles with error bounds (rounding_error.h). An uncertain sign then counts as
 // negative, so "yes" is proved and "no" means nothing.
 
 #include <array>
@@ -17,7 +17,7 @@
 
 #include "certificates/base/relaxation.h"
 #include "motions/numbers/exact_number.h"
-#include "motions/numbers/tracked_double.h"
+#include "motions/numbers/rounding_error.h"
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/enclosing_sphere/cage.h"
 #include "structures/necklace/balls.h"

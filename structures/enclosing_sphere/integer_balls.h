@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "certificates/base/relaxation.h"
-#include "motions/base/bead_range.h"
+#include "motions/base/bead.h"
 #include "motions/curves/curves.h"
-#include "motions/curves/rounded_positions.h"
+#include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/enclosing_sphere/exact_sphere.h"
 

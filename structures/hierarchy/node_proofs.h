@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "certificates/base/radical.h"
 #include "certificates/base/relaxation.h"
 #include "certificates/types/radii.h"
 #include "certificates/types/relaxed_membership.h"

@@ -25,11 +25,10 @@
 #include <string_view>
 #include <vector>
 
+#include "certificates/base/radical.h"
 #include "certificates/base/relaxation.h"
-#include "certificates/types/radii.h"
-#include "kds/bead_edits.h"
 #include "kds/kinetic_structure.h"
-#include "motions/base/bead_range.h"
+#include "motions/base/bead.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/necklace/necklace_tree.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "motions/numbers/long_lanes.h"
+#include "motions/numbers/lanes.h"
 #include "structures/moving_sphere/chord_lanes.h"
 
 namespace kds {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "motions/base/bead_range.h"
+#include "motions/base/bead.h"
 #include "structures/moving_sphere/sphere_chord.h"
 
 namespace kds {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "certificates/base/determinant.h"
+#include "certificates/filters/lanes_descent.h"
 #include "certificates/filters/lanes_polynomial.h"
 #include "motions/numbers/bernstein.h"
 #include "structures/enclosing_sphere/basis.h"

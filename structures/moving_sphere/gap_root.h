@@ -13,7 +13,7 @@
 #include <array>
 #include <optional>
 
-#include "certificates/base/failure_time.h"
+#include "certificates/exact/instant.h"
 #include "structures/moving_sphere/sphere_enclosure.h"
 
 namespace kds {

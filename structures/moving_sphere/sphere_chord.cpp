@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "certificates/base/determinant.h"
-#include "motions/numbers/long_lanes.h"
+#include "motions/numbers/lanes.h"
 #include "structures/moving_sphere/chord_lanes.h"
 #include "structures/moving_sphere/linear_chords.h"
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "motions/base/bead.h"
-#include "motions/base/bead_range.h"
 
 namespace kds {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "motions/base/bead_range.h"
+#include "motions/base/bead.h"
 
 namespace kds {
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "motions/base/bead_range.h"
+#include "motions/base/bead.h"
 
 namespace kds {
 

@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "kds/change.h"
-#include "kds/statistics.h"
+#include "kds/kinetic_structure.h"
 
 namespace kds {
 

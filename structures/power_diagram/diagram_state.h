@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "certificates/search/certificate_search.h"
-#include "certificates/search/hull_search.h"
+#include "certificates/search/predicate_searches.h"
 #include "kds/certificate_table.h"
-#include "kds/present_beads.h"
 #include "kds/simulator.h"
+#include "kds/structure_base.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/power_diagram/diagram_events.h"
 #include "structures/triangulation/cells.h"

@@ -16,7 +16,7 @@
 #include "certificates/base/kernel.h"
 #include "certificates/filters/cell_filter.h"
 #include "motions/curves/curves.h"
-#include "motions/views/length_unit.h"
+#include "motions/views/lanes_view.h"
 #include "structures/triangulation/regular_triangulation.h"
 
 namespace kds {

@@ -13,6 +13,7 @@
 #include "certificates/base/certificate.h"
 #include "certificates/base/failure_time.h"
 #include "kds/certificate_table.h"
+#include "motions/views/lanes_view.h"
 #include "structures/power_diagram/diagram_state.h"
 #include "structures/power_diagram/facet_proofs.h"
 

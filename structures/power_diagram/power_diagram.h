@@ -29,7 +29,6 @@
 #include <string_view>
 #include <vector>
 
-#include "kds/bead_edits.h"
 #include "kds/kinetic_structure.h"
 #include "motions/curves/motion_ref.h"
 #include "structures/power_diagram/diagram_events.h"
@@ -84,7 +83,7 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   /// be absent.
   [[nodiscard]] DiagramEdges edges_at_frame(bool first) const;
 
-  // Edits (bead_edits.h). The cost of an edit depends on the beads around and on the walk to them. If ties
+  // Edits (BeadEdits). The cost of an edit depends on the beads around and on the walk to them. If ties
   // decide how cells lie, or if many beads jump at once, the diagram is rebuilt instead, and the rebuild is
   // counted. An edit also throws std::invalid_argument if too few beads would remain, or if the remaining
   // beads, or all beads before the edit, stay in one plane (on one line) in this step. If new curves keep all

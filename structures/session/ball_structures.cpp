@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kds/seconds.h"
+#include "kds/stopwatch.h"
 #include "structures/collision/cell_list.h"
 #include "structures/contacts/contacts.h"
 #include "structures/power_diagram/power_diagram.h"

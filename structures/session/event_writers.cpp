@@ -6,8 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "motions/base/csv_field.h"
-#include "motions/base/file_ending.h"
+#include "motions/base/text_input.h"
 #include "motions/readers/bead_name.h"
 
 namespace kds {

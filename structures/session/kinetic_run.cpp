@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "certificates/exact/exact_time.h"
-#include "kds/bead_edits.h"
+#include "kds/kinetic_structure.h"
 #include "motions/base/input_error.h"
 #include "structures/session/scene_motion.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kds/bead_edits.h"
+#include "kds/kinetic_structure.h"
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/require_index.h"
 

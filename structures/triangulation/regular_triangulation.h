@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "kds/seconds.h"
+#include "kds/stopwatch.h"
 #include "motions/base/bead.h"
 #include "motions/curves/snapshot.h"
 #include "structures/triangulation/cells.h"

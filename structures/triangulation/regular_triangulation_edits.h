@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "certificates/base/sorted_beads.h"
+#include "certificates/base/certificate_type.h"
 #include "structures/triangulation/regular_triangulation_cgal.h"
 
 namespace kds {

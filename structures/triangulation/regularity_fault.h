@@ -18,7 +18,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "certificates/types/coplanar.h"
 #include "certificates/types/orientation.h"
 #include "certificates/types/power_test.h"
 #include "motions/curves/snapshot.h"

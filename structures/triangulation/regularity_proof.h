@@ -22,7 +22,7 @@
 
 #include <span>
 
-#include "motions/curves/rounded_positions.h"
+#include "motions/curves/positions.h"
 #include "structures/triangulation/hidden_beads.h"
 #include "structures/triangulation/regular_triangulation.h"
 #include "structures/triangulation/regularity_fault.h"

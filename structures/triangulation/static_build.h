@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "kds/seconds.h"
-#include "motions/base/bead_range.h"
+#include "kds/stopwatch.h"
+#include "motions/base/bead.h"
 
 namespace kds {
 

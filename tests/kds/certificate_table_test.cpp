@@ -9,7 +9,7 @@
 
 #include "certificates/search/define_radical_search.h"
 #include "certificates/types/ball_in_sphere.h"
-#include "certificates/types/contact.h"
+#include "certificates/types/distances.h"
 #include "certificates/types/precedes.h"
 #include "motions/curves/bezier_motion.h"
 #include "tests/support/searches.h"

@@ -1,4 +1,4 @@
-#include "kds/fingerprint.h"
+#include "kds/event_log.h"
 
 #include <gtest/gtest.h>
 

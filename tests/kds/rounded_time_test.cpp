@@ -1,6 +1,6 @@
 // Tests printed times: twelve digits, correctly rounded.
 
-#include "kds/rounded_time.h"
+#include "kds/event_log.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,6 @@
 
 #include "certificates/search/define_certificate_search.h"
 #include "kds/certificate_table.h"
-#include "motions/curves/any_degree_motion.h"
 #include "motions/curves/bezier_motion.h"
 #include "tests/support/searches.h"
 

@@ -8,7 +8,7 @@
 
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/text.h"
-#include "motions/base/csv_field.h"
+#include "motions/base/text_input.h"
 
 namespace kds {
 

@@ -1,4 +1,4 @@
-#include "certificates/base/stage_counts.h"
+#include "certificates/base/kernel.h"
 
 #include <gtest/gtest.h>
 

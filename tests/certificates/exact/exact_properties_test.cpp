@@ -10,7 +10,7 @@
 
 #include "certificates/search/define_certificate_search.h"
 #include "certificates/types/precedes.h"
-#include "motions/curves/any_degree_motion.h"
+#include "motions/curves/bezier_motion.h"
 #include "tests/support/judges/judged_failure.h"
 #include "tests/support/property_runs.h"
 #include "tests/support/searches.h"

@@ -1,10 +1,9 @@
 #include "certificates/exact/instant.h"
+#include "certificates/exact/exact_time.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
-
-#include "certificates/exact/exact_time.h"
 
 namespace kds::instant_test {
 namespace {

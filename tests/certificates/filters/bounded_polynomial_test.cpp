@@ -4,7 +4,6 @@
 
 #include <limits>
 
-#include "certificates/filters/error_bound.h"
 #include "motions/numbers/bernstein.h"
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/sturm.h"

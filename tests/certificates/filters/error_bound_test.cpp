@@ -1,4 +1,4 @@
-#include "certificates/filters/error_bound.h"
+#include "certificates/filters/bounded_polynomial.h"
 
 #include <gtest/gtest.h>
 

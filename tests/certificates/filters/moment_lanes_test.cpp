@@ -1,7 +1,7 @@
 // Four orientations are reported as positive at a moment only if each of them is positive throughout its
 // bracket, judged in integers.
 
-#include "certificates/filters/moment_lanes.h"
+#include "certificates/filters/formula_lanes.h"
 
 #include <gtest/gtest.h>
 

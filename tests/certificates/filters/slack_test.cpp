@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "certificates/types/bead_in_sphere.h"
-#include "certificates/types/contact.h"
+#include "certificates/types/distances.h"
 #include "certificates/types/orientation.h"
 #include "certificates/types/power_test.h"
 #include "tests/support/inputs/random_motion.h"

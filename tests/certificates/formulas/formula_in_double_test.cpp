@@ -1,4 +1,4 @@
-#include "certificates/formulas/formula_in_double.h"
+#include "certificates/formulas/function_values.h"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,10 @@
 #include <numeric>
 
 #include "certificates/filters/tracked_moment.h"
-#include "certificates/formulas/function_values.h"
 #include "certificates/search/define_certificate_search.h"
 #include "certificates/types/ball_in_sphere.h"
-#include "certificates/types/coplanar.h"
-#include "certificates/types/relaxed_bead_in_sphere.h"
+#include "certificates/types/bead_in_sphere.h"
+#include "certificates/types/orientation.h"
 #include "motions/curves/lifted_motion.h"
 #include "tests/support/inputs/any_certificate.h"
 #include "tests/support/inputs/random_motion.h"

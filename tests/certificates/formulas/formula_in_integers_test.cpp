@@ -1,4 +1,4 @@
-#include "certificates/formulas/formula_in_integers.h"
+#include "certificates/formulas/function_values.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,9 @@
 
 #include "certificates/exact/exact_work.h"
 #include "certificates/exact/polynomial_gcd.h"
-#include "certificates/exact/recent_coefficients.h"
+#include "certificates/exact/recent_functions.h"
 #include "certificates/exact/wide_polynomial.h"
-#include "certificates/formulas/function_values.h"
-#include "certificates/types/relaxed_bead_in_sphere.h"
+#include "certificates/types/bead_in_sphere.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/views/integer_view.h"
 #include "tests/support/inputs/any_certificate.h"

@@ -7,7 +7,7 @@
 
 #include "certificates/search/define_certificate_search.h"
 #include "examples/new_certificate.h"
-#include "motions/curves/any_degree_motion.h"
+#include "motions/curves/bezier_motion.h"
 #include "motions/curves/lifted_motion.h"
 #include "tests/support/judges/searched_constants.h"
 #include "tests/support/rounds.h"

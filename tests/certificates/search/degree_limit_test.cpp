@@ -1,17 +1,17 @@
 // Functions whose binomials exceed 64 bits are refused when their search is constructed. If the degree of a
 // motion changes, the search refuses when it is used.
 
-#include "certificates/search/degree_limit.h"
+#include "certificates/search/formula_checks.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <string>
 
-#include "certificates/search/ball_in_sphere_search.h"
-#include "certificates/types/contact.h"
+#include "certificates/search/sphere_searches.h"
+#include "certificates/types/distances.h"
 #include "certificates/types/power_test.h"
-#include "motions/curves/any_degree_motion.h"
+#include "motions/curves/bezier_motion.h"
 #include "tests/support/searches.h"
 
 namespace kds::degree_limit_test {

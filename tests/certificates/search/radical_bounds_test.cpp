@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "certificates/formulas/function_values.h"
-#include "certificates/search/radical_in_double.h"
+#include "certificates/search/radical_stages.h"
 #include "motions/views/integer_view.h"
 #include "tests/support/inputs/ball_motions.h"
 

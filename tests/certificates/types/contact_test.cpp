@@ -1,4 +1,4 @@
-#include "certificates/types/contact.h"
+#include "certificates/types/distances.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,8 @@
-#include "certificates/types/relaxed_bead_in_sphere.h"
+#include "certificates/types/bead_in_sphere.h"
 
 #include <gtest/gtest.h>
 
-#include "certificates/types/bead_in_sphere.h"
-#include "motions/curves/any_degree_motion.h"
+#include "motions/curves/bezier_motion.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/rational_geometry.h"
 #include "tests/support/rounds.h"

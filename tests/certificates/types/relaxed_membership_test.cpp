@@ -1,9 +1,9 @@
-#include "certificates/types/relaxed_membership.h"
+#include "certificates/types/membership.h"
 
 #include <gtest/gtest.h>
 
 #include "certificates/search/define_radical_search.h"
-#include "certificates/search/relaxed_ball_in_sphere_search.h"
+#include "certificates/search/relaxed_sphere_searches.h"
 #include "certificates/types/orientation.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/enclosing_ball.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/numbers/integer.h"
+#include "motions/numbers/exact_number.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 

@@ -15,7 +15,7 @@
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_results.h"
 #include "experiments/run/run_scene.h"
-#include "kds/fingerprint.h"
+#include "kds/event_log.h"
 #include "motions/base/input_error.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"

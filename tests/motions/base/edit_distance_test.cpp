@@ -1,4 +1,4 @@
-#include "motions/base/edit_distance.h"
+#include "motions/base/text_input.h"
 
 #include <gtest/gtest.h>
 

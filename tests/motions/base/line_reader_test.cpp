@@ -1,4 +1,4 @@
-#include "motions/base/line_reader.h"
+#include "motions/base/input_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

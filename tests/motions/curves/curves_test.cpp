@@ -8,7 +8,6 @@
 #include <string>
 #include <type_traits>
 
-#include "motions/curves/any_degree_motion.h"
 #include "motions/curves/bezier_motion.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/curves/motion_ref.h"

@@ -1,4 +1,4 @@
-#include "motions/curves/linear_ends.h"
+#include "motions/curves/bezier_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "motions/curves/bezier_motion.h"
 #include "tests/support/inputs/random_motion.h"
 
 namespace kds::linear_ends_test {

@@ -1,6 +1,6 @@
 // The difference between rounded and exact positions is within the stated bounds.
 
-#include "motions/curves/rounded_positions.h"
+#include "motions/curves/positions.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 
 #include "motions/curves/bezier_motion.h"
 #include "motions/curves/lifted_motion.h"
-#include "motions/curves/positions.h"
 #include "tests/support/inputs/random_motion.h"
 
 namespace kds::rounded_positions_test {

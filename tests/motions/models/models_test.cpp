@@ -12,10 +12,8 @@
 
 #include "motions/models/elementary.h"
 #include "motions/models/model.h"
-#include "motions/models/random_chain.h"
 #include "motions/models/shape_motion.h"
 #include "motions/models/shapes.h"
-#include "motions/models/spiral.h"
 #include "tests/motions/test_files.h"
 
 namespace kds::models::models_test {

@@ -11,7 +11,7 @@
 
 #include "motions/numbers/exact_number.h"
 #include "motions/numbers/modular.h"
-#include "motions/numbers/tracked_double.h"
+#include "motions/numbers/rounding_error.h"
 #include "tests/support/judges/sturm.h"
 
 namespace kds::bernstein_test {

@@ -1,4 +1,4 @@
-#include "motions/numbers/coefficients.h"
+#include "motions/numbers/bernstein.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "motions/numbers/integer.h"
+#include "motions/numbers/exact_number.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 #include <array>
 
 #include "motions/numbers/float_lanes.h"
-#include "motions/numbers/long_lanes.h"
 
 namespace kds::lanes_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "motions/numbers/magnitude.h"
+#include "motions/numbers/rounding_error.h"
 
 #include <gtest/gtest.h>
 

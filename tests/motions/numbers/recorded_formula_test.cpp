@@ -5,7 +5,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "motions/views/recording_view.h"
+#include "motions/views/motion_view.h"
 
 namespace kds::recorded_formula_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "motions/numbers/tracked_double.h"
+#include "motions/numbers/rounding_error.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <random>
 
-#include "motions/curves/any_degree_motion.h"
+#include "motions/curves/bezier_motion.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/radii.h"
 #include "motions/scene/scene.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "motions/curves/any_degree_motion.h"
+#include "motions/curves/bezier_motion.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/curves/positions.h"
 #include "motions/views/lanes_view.h"

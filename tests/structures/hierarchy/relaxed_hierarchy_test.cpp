@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "motions/curves/any_degree_motion.h"
+#include "motions/curves/bezier_motion.h"
 #include "structures/hierarchy/wrapped_hierarchy.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"

@@ -6,9 +6,7 @@
 #include <string>
 
 #include "motions/models/model.h"
-#include "motions/models/shape.h"
 #include "motions/models/shapes.h"
-#include "motions/models/tightness_points.h"
 #include "motions/readers/write_trajectory.h"
 #include "structures/necklace/necklace.h"
 

@@ -2,8 +2,8 @@
 // Computes failures and signs of single certificates with integers alone, for tests of faster ways to compute
 // them.
 
-#include "certificates/search/ball_in_sphere_search.h"
 #include "certificates/search/certificate_search.h"
+#include "certificates/search/sphere_searches.h"
 
 namespace kds::test {
 

@@ -1,0 +1,66 @@
+#pragma once
+// Certificates about distances of beads. Exact; degree 2k for centres and radii of degree k.
+
+#include <algorithm>
+
+#include "certificates/base/certificate.h"
+#include "certificates/base/certificate_type.h"
+
+namespace kds {
+
+/// Compares two pairs of beads: the centres of the first pair are closer together than those of the second,
+/// |c - d|^2 - |a - b|^2 > 0.
+struct Closer {
+  static constexpr CertificateType type{12, "closer"};
+  static constexpr int lanes_up_to_degree = 3;
+
+  std::array<BeadId, 4> beads{};  ///< the lesser pair, ascending, then the other; the pairs may share a bead
+  int sign = 1;
+
+  Closer() = default;
+  /// Holds while the first pair is closer. Both pairs must be ascending.
+  Closer(std::array<BeadId, 2> near, std::array<BeadId, 2> far) : sign(near < far ? 1 : -1) {
+    const auto& [lesser, greater] = std::minmax(near, far);
+    beads = {lesser[0], lesser[1], greater[0], greater[1]};
+  }
+
+  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
+
+  [[nodiscard]] bool side() const { return sign > 0; }
+
+  template <MotionView View>
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 4>& beads) {
+    const auto lesser = view.difference(beads[1], beads[0]), greater = view.difference(beads[3], beads[2]);
+    return dot(greater, greater) - dot(lesser, lesser);
+  }
+};
+
+/// Contact of two balls: |c_i - c_j|^2 - (r_i + r_j)^2 is positive while they are disjoint, zero while they
+/// touch, and negative while they overlap. Radii may change, but the sum of both must not be negative.
+struct Contact {
+  static constexpr CertificateType type{4, "contact"};
+  static constexpr int lanes_up_to_degree = 3;
+  static constexpr bool uses_radii = true;
+
+  std::array<BeadId, 2> beads{};  ///< ascending
+  int sign = 1;
+
+  Contact() = default;
+  /// Holds while the balls are disjoint, or, if `sign_wanted` is -1, while they overlap.
+  Contact(std::array<BeadId, 2> in_any_order, int sign_wanted) : beads(in_any_order), sign(sign_wanted) {
+    static_cast<void>(sort_beads(beads));
+  }
+
+  [[nodiscard]] Identity identity() const { return identity_of(type, beads); }
+
+  [[nodiscard]] bool side() const { return sign > 0; }
+
+  template <MotionView View>
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 2>& beads) {
+    const auto d = view.difference(beads[1], beads[0]);
+    const auto reach = view.radius_sum(beads[1], beads[0]);
+    return dot(d, d) - reach * reach;
+  }
+};
+
+}  // namespace kds
