@@ -1,15 +1,20 @@
 // Measures whole kinetic runs of moving-point instances beside CGAL's static build of the same points, in
 // turn in one process. The counters are `ns` per event, `events_per_second`, `run_us`, `build_us`, and
-// `static_builds`, the cost of one run in static builds.
+// `static_builds`, the cost of one run in static builds. Measures the queue of events beside Boost's heap.
 //
-//   kds_benchmarks --benchmark_filter='power|sorted'
+//   kds_benchmarks --benchmark_filter='power|sorted|queue'
 
 #include <algorithm>
 #include <array>
+#include <boost/heap/d_ary_heap.hpp>
 #include <numeric>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "experiments/bench/subject.h"
+#include "kds/event_queue.h"
+#include "motions/models/elementary.h"
 #include "motions/readers/instance.h"
 #include "structures/session/kinetic_run.h"
 #include "structures/triangulation/regular_triangulation.h"
@@ -61,6 +66,79 @@ void run_instance(Turns& turns, const std::filesystem::path& file, Kernel kernel
   turns.note("static_builds", median_of(ratios));
 }
 
+/// A failure that is due at a time.
+struct Due {
+  double time = 0;
+  std::uint32_t number = 0;
+};
+
+class OurQueue {
+ public:
+  explicit OurQueue(std::size_t size) : handles_(size) {}
+  void push(Due due) {
+    handles_[due.number] = queue_.push([&](QueueHandle) { return due; });
+  }
+  void erase(std::uint32_t number) { queue_.erase(handles_[number]); }
+  Due pop() {
+    const Due due = queue_.top();
+    queue_.pop();
+    return due;
+  }
+
+ private:
+  struct Order {
+    [[nodiscard]] static bool before(const Due& a, const Due& b) { return a.time < b.time; }
+    [[nodiscard]] static double earliest(const Due& due) { return due.time; }
+    [[nodiscard]] static double latest(const Due& due) { return due.time; }
+  };
+  Order order_;
+  EventQueue<Due, Order> queue_{order_};
+  std::vector<QueueHandle> handles_;
+};
+
+class BoostQueue {
+ public:
+  explicit BoostQueue(std::size_t size) : handles_(size) {}
+  void push(Due due) { handles_[due.number] = queue_.push(due); }
+  void erase(std::uint32_t number) { queue_.erase(handles_[number]); }
+  Due pop() {
+    const Due due = queue_.top();
+    queue_.pop();
+    return due;
+  }
+
+ private:
+  struct Later {
+    bool operator()(const Due& a, const Due& b) const { return b.time < a.time; }
+  };
+  using Queue = boost::heap::d_ary_heap<Due, boost::heap::arity<4>, boost::heap::mutable_<true>,
+                                        boost::heap::compare<Later>>;
+  Queue queue_;
+  std::vector<Queue::handle_type> handles_;
+};
+
+/// Runs as many events as a queue holds failures. At each event the first failure gets another time, and so
+/// do four others, which are cancelled. Returns a checksum of the order.
+template <class Queue>
+std::uint64_t run_queue(std::size_t size) {
+  models::Random random(1);
+  Queue queue(size);
+  for (std::uint32_t number = 0; number < size; ++number) queue.push({random.uniform(), number});
+  std::uint64_t sum = 0;
+  for (std::size_t event = 0; event < size; ++event) {
+    const Due first = queue.pop();
+    sum = 31 * sum + first.number;
+    const auto later = [&] { return first.time + (1 - first.time) * random.uniform(); };
+    queue.push({later(), first.number});
+    for (int cancelled = 0; cancelled < 4; ++cancelled) {
+      const auto number = static_cast<std::uint32_t>(random.uniform() * static_cast<double>(size));
+      queue.erase(number);
+      queue.push({later(), number});
+    }
+  }
+  return sum;
+}
+
 struct Goal {
   std::string_view instance;
   double events_per_second;
@@ -70,6 +148,21 @@ constexpr std::array goals{Goal{"d3_n200_linear", 400'000, 55}, Goal{"d3_n500_li
                            Goal{"d3_n50_degree3", 30'000, std::nullopt}};
 
 }  // namespace
+
+std::vector<Subject> queue_subjects() {
+  std::vector<Subject> all;
+  for (const std::size_t size : {10'000U, 100'000U}) {
+    all.push_back({"queue/" + std::to_string(size), "random times", size, "boost::heap::d_ary_heap",
+                   std::nullopt, std::nullopt, [size](Turns& turns) {
+                     if (run_queue<OurQueue>(size) != run_queue<BoostQueue>(size))
+                       throw std::logic_error("two queues give failures in different orders");
+                     turns.take(
+                         size, [&] { keep(run_queue<OurQueue>(size)); },
+                         [&] { return processor_seconds_of([&] { keep(run_queue<BoostQueue>(size)); }); });
+                   }});
+  }
+  return all;
+}
 
 std::vector<Subject> engine_subjects(const std::filesystem::path& instances) {
   std::vector<std::filesystem::path> files;

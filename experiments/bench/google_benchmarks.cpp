@@ -74,6 +74,7 @@ int main(int argc, char** argv) try {
   const std::filesystem::path instances = named ? named : "data/kinetic";
   add(kds::bench::certificate_subjects(instances), 21);
   add(kds::bench::slack_subjects(), 21);
+  add(kds::bench::queue_subjects(), 7);
   add(kds::bench::engine_subjects(instances), 7);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

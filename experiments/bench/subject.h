@@ -88,6 +88,8 @@ struct Subject {
 /// `instances` is the folder of the moving-point files. Throws InputError if a file is missing.
 [[nodiscard]] std::vector<Subject> certificate_subjects(const std::filesystem::path& instances);
 [[nodiscard]] std::vector<Subject> slack_subjects();
+/// An item is an event: the first failure and four others get new times.
+[[nodiscard]] std::vector<Subject> queue_subjects();
 /// An item is an event. The peer is one static build.
 [[nodiscard]] std::vector<Subject> engine_subjects(const std::filesystem::path& instances);
 
