@@ -30,7 +30,9 @@ struct Decimal {
   std::int64_t digits = 0;
   int exponent = 0;
 
-  [[nodiscard]] Rational value() const { return in_units(Rational(Integer(digits)), -exponent); }
+  [[nodiscard]] Rational value() const {
+    return in_units(Rational(Integer(static_cast<long>(digits))), -exponent);
+  }
   [[nodiscard]] double nearest() const {
     const std::string text = fmt::format("{}e{}", digits, exponent);
     double number = 0;

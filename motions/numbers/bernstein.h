@@ -164,10 +164,8 @@ constexpr void multiply_by(Number& x, std::int64_t factor) {
     x *= static_cast<Number>(factor);
   } else if constexpr (requires { Number::constant(1.0); }) {
     x = Number::constant(static_cast<double>(factor)) * x;
-  } else if constexpr (requires { x *= static_cast<long long>(factor); }) {
-    x *= static_cast<long long>(factor);
-  } else if constexpr (requires { x *= factor; }) {
-    x *= factor;
+  } else if constexpr (requires { x *= static_cast<long>(factor); }) {  // GMP takes no long long
+    x *= static_cast<long>(factor);
   } else {
     x = Number{static_cast<double>(factor)} * x;
   }

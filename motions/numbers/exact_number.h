@@ -48,7 +48,7 @@ class SumOfProducts<Integer> {
 
 /// A finite double split into mantissa * 2^exponent. The mantissa is odd; zero is 0 * 2^0.
 struct SplitDouble {
-  std::int64_t mantissa = 0;
+  long mantissa = 0;  // a type that GMP takes
   int exponent = 0;
 };
 [[nodiscard]] inline SplitDouble split(double value) {
@@ -58,7 +58,7 @@ struct SplitDouble {
   const std::uint64_t mantissa = power == 0 ? fraction : fraction | (std::uint64_t{1} << 52U);
   if (mantissa == 0) return {};
   const int zeros = std::countr_zero(mantissa);
-  const auto odd = static_cast<std::int64_t>(mantissa >> static_cast<unsigned>(zeros));
+  const auto odd = static_cast<long>(mantissa >> static_cast<unsigned>(zeros));
   return {value < 0 ? -odd : odd, std::max(power, 1) - 1075 + zeros};
 }
 
