@@ -52,7 +52,7 @@ if(KDS_GEMMI_LIBRARY)
 endif()
 kds_install_component(motions TARGETS kds_requirements kds_options kds_motions REQUIRES eigen3 fmt zlib netcdf gmpxx gmp
                       LIBRARIES ${gemmi})
-kds_install_component(certificates TARGETS kds_certificates REQUIRES kds-motions LIBRARIES "${KDS_FLINT_LIBRARY}")
+kds_install_component(certificates TARGETS kds_certificates REQUIRES kds-motions LIBRARIES ${KDS_ARB_LIBRARY} "${KDS_FLINT_LIBRARY}")
 kds_install_component(engine TARGETS kds_engine REQUIRES kds-certificates)
 kds_install_component(structures TARGETS kds_structures REQUIRES kds-engine tbb mpfr)
 kds_install_component(kds TARGETS kds_all REQUIRES kds-structures)

@@ -6,7 +6,6 @@
 
 #include "certificates/exact/halves.h"
 #include "certificates/exact/polynomial_gcd.h"
-#include "certificates/exact/precise_values.h"
 #include "certificates/exact/wide_roots.h"
 
 namespace kds {
@@ -97,8 +96,8 @@ int ExactPolynomial::sign_variations() const {
 int ExactPolynomial::sign_between(const Dyadic& lower, const Dyadic& upper, bool exactly) const {
   if (wide_) {
     if (const int sign = wide_->sign_on(lower, upper)) return sign;
-    // An interval with only a few digits needs no more than the leading digits that sign_on() used.
-    const bool closely = exactly || has_digits({lower, upper}, LeadingDigits::most_bits / 2);
+    // An interval with only a few digits needs no more than the bits that sign_on() used.
+    const bool closely = exactly || has_digits({lower, upper}, BallNumber::first_bits / 2);
     const int sign = closely ? sign_closely(*wide_, lower, upper) : 0;
     if (sign != 0 || !exactly) return sign;
     // There is a root between ends of opposite sign.

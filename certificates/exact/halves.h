@@ -1,7 +1,7 @@
 #pragma once
 // Polynomials in scaled Bernstein form: values, restrictions to parts of the step, sign changes, and
 // Bernstein subdivision, which halves a part by de Casteljau's algorithm on integers, using only additions.
-// Functions in `detail` take any number type: whole numbers, or balls (leading digits with an error bound),
+// Functions in `detail` take any number type: whole numbers, or balls (ball_number.h),
 // whose sign may be unknown. Used only by the files of the exact stage.
 
 #include <algorithm>
@@ -12,10 +12,15 @@
 #include <vector>
 
 #include "certificates/exact/exact_work.h"
-#include "certificates/exact/wide_polynomial.h"
 #include "motions/numbers/exact_number.h"
 
 namespace kds {
+
+/// Bounds on the number of sign changes of a polynomial's coefficients, as far as their signs are certain.
+struct Variations {
+  int least = 0, most = 0;
+  int sign = 0;  ///< of the coefficients that are not 0 if there is no change; known if most is 0
+};
 
 /// The plain Bernstein coefficients of a polynomial given in scaled form, times `multiple`, a common
 /// multiple of the binomials. Additions alone halve them.
@@ -143,11 +148,9 @@ template <class Number>
 inline void add_product(Integer& sum, const Integer& a, const Integer& b) {
   mpz_addmul(sum.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
 }
-inline void add_product(LeadingDigits& sum, const LeadingDigits& a, const LeadingDigits& b) { sum += a * b; }
 
 /// Returns the approximate length in 64-bit limbs.
 [[nodiscard]] inline std::size_t limbs_of(const Integer& x) { return mpz_size(x.get_mpz_t()) + 1; }
-[[nodiscard]] inline std::size_t limbs_of(const LeadingDigits&) { return 1; }
 
 /// The ends of an interval and their distances from 1, over a common denominator 2^exponent.
 struct Ends {

@@ -1,9 +1,9 @@
 #pragma once
 // Polynomials whose coefficients are thousands of bits long because the input numbers differ wildly in size
 // (function_values.h gives the width at which this class takes over). An answer seldom needs all bits.
-// Signs are first sought with ball arithmetic on the leading digits (motions/numbers/leading_digits.h), and
-// common factors modulo a prime. The whole integers are formed only if these do not decide. Every answer is
-// exact, or says that it is undecided.
+// Signs are first sought with ball arithmetic (ball_number.h) of 128 bits, then of twice as many at each
+// attempt, and common factors modulo a prime. The whole integers are formed only if these do not decide.
+// Every answer is exact, or says that it is undecided.
 //
 // Results are cached. An object must therefore be used by one thread only.
 
@@ -11,16 +11,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <list>
+#include <map>
 #include <memory>
 #include <optional>
-#include <tuple>
 #include <variant>
 #include <vector>
 
+#include "certificates/exact/ball_number.h"
 #include "certificates/exact/exact_polynomial.h"
+#include "certificates/exact/halves.h"
 #include "motions/numbers/exact_number.h"
-#include "motions/numbers/fixed_digits.h"
-#include "motions/numbers/leading_digits.h"
 #include "motions/numbers/modular.h"
 
 namespace kds {
@@ -29,20 +29,12 @@ namespace kds {
 class CoefficientSource {
  public:
   virtual ~CoefficientSource() = default;
-  [[nodiscard]] virtual std::vector<LeadingDigits> leading_digits() const = 0;
-  /// Returns the coefficients in numbers of `words` words, one of `word_counts`.
-  [[nodiscard]] virtual std::vector<LongDigits> digits(std::size_t words) const = 0;
-  static constexpr std::array<std::size_t, 2> word_counts{8, 16};
+  /// Returns the coefficients in numbers of `bits` bits, one of `precisions`.
+  [[nodiscard]] virtual std::vector<BallNumber> balls(std::size_t bits) const = 0;
+  static constexpr std::array<std::size_t, 3> precisions{BallNumber::first_bits, 512, 1024};
   /// Returns the coefficients modulo 2^61 - fold.
   [[nodiscard]] virtual std::vector<Residue> residues(std::uint64_t fold) const = 0;
   [[nodiscard]] virtual std::vector<Integer> whole() const = 0;
-};
-
-/// Bounds on the number of sign changes of a polynomial's coefficients, as far as their leading digits
-/// decide.
-struct Variations {
-  int least = 0, most = 0;
-  int sign = 0;  ///< of the coefficients that are not 0 if there is no change; known if most is 0
 };
 
 class WidePolynomial {
@@ -57,25 +49,23 @@ class WidePolynomial {
   [[nodiscard]] const std::shared_ptr<const WidePolynomial>& opposite() const { return opposite_; }
 
   [[nodiscard]] const std::vector<Integer>& whole() const;
-  [[nodiscard]] const std::vector<LeadingDigits>& leading_digits() const;
-  /// Returns the coefficients as balls of 4, 8, 16 or 32 words. Half of the words are correct, except in
-  /// coefficients that others outweigh.
-  template <int Words>
-  [[nodiscard]] const std::vector<FixedDigits<Words>>& in_words() const;
+  /// Returns the coefficients with this precision. Half of the bits are correct, except in coefficients that
+  /// others outweigh. The reference is valid until the next call.
+  [[nodiscard]] const std::vector<BallNumber>& balls(std::size_t bits = BallNumber::first_bits) const;
   /// Returns the coefficients modulo the first of the primes.
   [[nodiscard]] const std::vector<Residue>& residues() const;
   /// Returns the formal degree plus 1.
-  [[nodiscard]] std::size_t size() const { return leading_digits().size(); }
-  /// Returns the bit length of the longest coefficient, computed from leading digits; it may be one too
+  [[nodiscard]] std::size_t size() const { return balls().size(); }
+  /// Returns the bit length of the longest coefficient, computed from balls; it may be one too
   /// large.
   [[nodiscard]] std::size_t largest_bit_length() const;
 
   [[nodiscard]] bool is_zero() const;
   [[nodiscard]] int sign_at(const Dyadic& u) const;
-  /// Returns the sign on [lower, upper] if the leading digits decide it, else 0.
+  /// Returns the sign on [lower, upper] if balls of 128 bits decide it, else 0.
   [[nodiscard]] int sign_on(const Dyadic& lower, const Dyadic& upper) const;
   [[nodiscard]] int sign_variations() const;
-  /// Counts sign changes of the polynomial restricted to [lower, upper], using leading digits. The caller may
+  /// Counts sign changes of the polynomial restricted to [lower, upper], by balls of 128 bits. The caller may
   /// supply the signs at both ends.
   [[nodiscard]] Variations variations_on(const Dyadic& lower, const Dyadic& upper,
                                          std::optional<int> sign_at_lower = {},
@@ -91,8 +81,8 @@ class WidePolynomial {
     bool with_lower = false;  ///< a root at the lower end belongs to this part
     int changes = 0;          ///< the number of sign changes, if known
     unsigned digits = 0;      ///< by how many digits it was narrowed without losing a sign change
-    std::size_t bits =
-        LeadingDigits::most_bits;  ///< the precision at which it, or the part around it, was last examined
+    /// The precision at which it, or the part around it, was last examined.
+    std::size_t bits = BallNumber::first_bits;
   };
   /// Results found so far.
   struct Found {
@@ -114,20 +104,40 @@ class WidePolynomial {
  private:
   /// Returns coefficients with `bits` correct leading bits where they matter, or null if that needs the whole
   /// integers.
-  [[nodiscard]] const std::vector<LongDigits>* formed_to(std::size_t bits) const;
-
-  template <int Words>
-  using InWords = std::optional<std::vector<FixedDigits<Words>>>;
+  [[nodiscard]] const std::vector<BallNumber>* formed_to(std::size_t bits) const;
 
   std::unique_ptr<const CoefficientSource> source_;
   std::shared_ptr<const WidePolynomial> opposite_;
   mutable std::optional<std::vector<Integer>> whole_;
-  mutable std::optional<std::vector<LeadingDigits>> leading_;
-  mutable std::vector<LongDigits> formed_;  // formed with `formed_words_` words
-  mutable std::size_t formed_words_ = 0;
-  mutable std::tuple<InWords<4>, InWords<8>, InWords<16>, InWords<32>> in_words_;
+  mutable std::vector<BallNumber> formed_;  // formed with `formed_bits_` bits
+  mutable std::size_t formed_bits_ = 0;
+  mutable std::map<std::size_t, std::vector<BallNumber>> balls_;  // by precision
   mutable std::optional<std::vector<Residue>> residues_;
   mutable Found found_;
 };
+
+// Values, and sign changes on parts of the step, by balls of increasing precision, finally with all bits.
+// Exact.
+
+/// Returns the value at u, exact or with at least `digits` correct leading binary digits.
+[[nodiscard]] BallNumber value_at(const WidePolynomial& polynomial, const Dyadic& u, std::size_t digits);
+
+/// Returns the sign on [lower, upper] if about as many digits as the interval has decide it, else 0.
+[[nodiscard]] int sign_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper);
+
+/// Returns the polynomial restricted to [lower, upper], with numbers of `bits` bits. The ends must
+/// have the same scale.
+[[nodiscard]] Halves seen_closely(const WidePolynomial& polynomial, const Dyadic& lower, const Dyadic& upper,
+                                  std::size_t bits);
+
+/// Counts the sign changes of the polynomial restricted to [lower, upper]. In the result least == most, or
+/// both are at least 2, since callers need no more.
+[[nodiscard]] Variations exact_variations(const WidePolynomial& polynomial, const Dyadic& lower,
+                                          const Dyadic& upper);
+
+/// Does the same if 128 bits do not decide. Starts with numbers of `bits` bits, and sets `bits` to the
+/// number that decided.
+[[nodiscard]] Variations variations_closely(const WidePolynomial& polynomial, const Dyadic& lower,
+                                            const Dyadic& upper, std::size_t& bits);
 
 }  // namespace kds

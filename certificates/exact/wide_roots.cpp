@@ -8,7 +8,6 @@
 #include <variant>
 
 #include "certificates/exact/halves.h"
-#include "certificates/exact/precise_values.h"
 
 namespace kds {
 
@@ -53,10 +52,10 @@ struct Cells {
 
 /// Returns the cell, of `cells` equal parts of an interval, in which the linear interpolation between the
 /// values at both ends is zero.
-Integer straight_zero(const LongDigits& at_lower, const LongDigits& at_upper, const Integer& cells) {
-  Integer from = abs(at_lower.number()), to = abs(at_upper.number());
-  const std::int64_t apart = at_upper.exponent() - at_lower.exponent();
-  (apart > 0 ? to : from) <<= static_cast<std::size_t>(std::abs(apart));
+Integer straight_zero(const BallNumber& at_lower, const BallNumber& at_upper, const Integer& cells) {
+  if (at_lower.is_zero() || at_upper.is_zero()) return at_lower.is_zero() ? Integer(0) : Integer(cells - 1);
+  const std::int64_t unit = std::min(at_lower.lowest_bit(), at_upper.lowest_bit());
+  Integer error, from = abs(at_lower.in_units(unit, error)), to = abs(at_upper.in_units(unit, error));
   if (from + to == 0) return 0;
   const Integer cell = from * cells / (from + to);
   return cell < cells ? cell : Integer(cells - 1);

@@ -1,6 +1,6 @@
 #pragma once
 // Isolates the roots of a wide polynomial on [0,1], each in its own interval, by Descartes' rule of signs on
-// parts of the step. The polynomial's leading digits are used where they decide. Roots may lie anywhere
+// parts of the step. Balls of few bits are used where they decide. Roots may lie anywhere
 // between 2^-10000 and 1 - 2^-10000, and pairs of roots as close together. Plain halving would take a step
 // for each binary digit. Instead, scales are searched by halving exponents, and the number of digits doubles
 // from step to step. Exact.

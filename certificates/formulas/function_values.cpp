@@ -208,6 +208,15 @@ std::vector<Integer> whole_coefficients(const RecordedFormula& formula, std::spa
   return scaled;
 }
 
+/// Integers as balls of limited precision.
+struct BallNumbers {
+  using Number = BallNumber;
+  std::size_t bits = BallNumber::first_bits;
+  [[nodiscard]] BallNumber of(std::int64_t x) const { return BallNumber::of(x, bits); }
+};
+template <Motion M>
+using BallView = ExactView<M, BallNumbers>;
+
 /// The coefficients of a wide function's formula, computed from copies of its beads' curves.
 template <class C>
 class WideFunction final : public CoefficientSource {
@@ -230,14 +239,10 @@ class WideFunction final : public CoefficientSource {
     return numbers;
   }
 
-  [[nodiscard]] std::vector<LeadingDigits> leading_digits() const override {
+  [[nodiscard]] std::vector<BallNumber> balls(std::size_t bits) const override {
     const C curves = curves_.curves();
-    const DigitsView<C> view(curves, scale_);
-    return taken<LeadingDigits>(play(formula_, ViewedBeads<DigitsView<C>>(view, beads_)),
-                                LeadingDigits::most_bits);
-  }
-  [[nodiscard]] std::vector<LongDigits> digits(std::size_t words) const override {
-    return words == word_counts[0] ? in_words<word_counts[0]>() : in_words<word_counts[1]>();
+    const BallView<C> view(curves, scale_, {bits});
+    return taken<BallNumber>(play(formula_, ViewedBeads<BallView<C>>(view, beads_)), static_cast<int>(bits));
   }
   [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
     const C curves = curves_.curves();
@@ -249,18 +254,6 @@ class WideFunction final : public CoefficientSource {
   }
 
  private:
-  template <std::size_t Words>
-  [[nodiscard]] std::vector<LongDigits> in_words() const {
-    const C curves = curves_.curves();
-    const WordsView<C, Words> view(curves, scale_);
-    const auto& p = play(formula_, ViewedBeads<WordsView<C, Words>>(view, beads_));
-    std::vector<LongDigits> coefficients;
-    coefficients.reserve(p.size());
-    for (const auto& c : p) coefficients.push_back(c.long_digits());
-    spend_on_forming(coefficients.size(), 64 * static_cast<int>(Words));
-    return coefficients;
-  }
-
   RecordedFormula formula_;
   CopiedCurves<C> curves_;
   std::vector<BeadId> beads_;  // numbered from 0

@@ -4,8 +4,6 @@
 //
 //   FixedView      integers of fixed width (fixed_integer.h)
 //   ResidueView    integers modulo a prime (modular.h)
-//   DigitsView     leading digits of the integers, as balls (leading_digits.h)
-//   WordsView      the same with a fixed number of words (fixed_digits.h)
 //   IntegerView    integers of unlimited length
 //   MomentView     integers, at one dyadic time: polynomials of degree 0
 //   KeptMoment     a MomentView that computes each bead's position once, for many functions of the same time
@@ -24,9 +22,7 @@
 #include "motions/curves/lifted_motion.h"
 #include "motions/numbers/bernstein.h"
 #include "motions/numbers/exact_number.h"
-#include "motions/numbers/fixed_digits.h"
 #include "motions/numbers/fixed_integer.h"
-#include "motions/numbers/leading_digits.h"
 #include "motions/numbers/modular.h"
 #include "motions/views/motion_view.h"
 
@@ -72,7 +68,7 @@ template <Motion M>
 /// The ring of integers.
 struct Integers {
   using Number = Integer;
-  [[nodiscard]] static Integer of(std::int64_t x) { return x; }
+  [[nodiscard]] static Integer of(std::int64_t x) { return static_cast<long>(x); }  // GMP takes no long long
 };
 
 /// Integers of fixed width.
@@ -88,19 +84,7 @@ struct Residues {
   [[nodiscard]] Residue of(long long x) const { return Residue::of(x, fold); }
 };
 
-/// Leading digits of integers, as balls.
-struct RoundedIntegers {
-  using Number = LeadingDigits;
-  [[nodiscard]] static LeadingDigits of(long long x) { return LeadingDigits::of(x); }
-};
-
-/// Balls with a fixed number of words.
-template <int Words>
-struct IntegersInWords {
-  using Number = FixedDigits<Words>;
-  [[nodiscard]] static Number of(long long x) { return Number::of(x); }
-};
-
+/// A view in any ring into which integers are mapped.
 template <Motion M, class Ring>
 class ExactView {
  public:
@@ -159,7 +143,7 @@ class ExactView {
     for (int k = 0; k <= own; ++k) {
       Number& scaled = result.scaled[static_cast<std::size_t>(k)];
       scaled = value(k);
-      if (0 < k && k < own) scaled *= binomial(own, k);
+      if (0 < k && k < own) detail::multiply_by(scaled, binomial(own, k));
     }
     return result;
   }
@@ -187,10 +171,6 @@ template <Motion M>
 using FixedView = ExactView<M, FixedIntegers>;
 template <Motion M>
 using ResidueView = ExactView<M, Residues>;
-template <Motion M>
-using DigitsView = ExactView<M, RoundedIntegers>;
-template <Motion M, int Words>
-using WordsView = ExactView<M, IntegersInWords<Words>>;
 
 template <Motion M>
 class MomentView {
@@ -308,7 +288,6 @@ class KeptMoment {
 static_assert(MotionView<IntegerView<Curves<3>>>);
 static_assert(MotionView<FixedView<Curves<3>>>);
 static_assert(MotionView<ResidueView<Curves<3>>>);
-static_assert(MotionView<DigitsView<Curves<3>>>);
 static_assert(MotionView<MomentView<Curves<3>>>);
 static_assert(MotionView<KeptMoment<Curves<3>>>);
 

@@ -8,8 +8,8 @@
 
 #include "certificates/exact/exact_time.h"
 #include "certificates/exact/instant.h"
-#include "certificates/exact/precise_values.h"
 #include "certificates/exact/recent_functions.h"
+#include "certificates/exact/wide_polynomial.h"
 #include "certificates/exact/wide_roots.h"
 #include "tests/support/inputs/polynomials.h"
 #include "tests/support/judges/sturm.h"
@@ -348,15 +348,10 @@ TEST(WildPolynomials, OrdinaryRootsOfAnotherScaleTakeFewSteps) {
 class Source final : public CoefficientSource {
  public:
   explicit Source(Scaled p, int& asked) : p_(std::move(p)), asked_(asked) {}
-  [[nodiscard]] std::vector<LeadingDigits> leading_digits() const override {
-    std::vector<LeadingDigits> digits;
-    for (const Integer& x : p_) digits.push_back(LeadingDigits::of(x));
-    return digits;
-  }
-  [[nodiscard]] std::vector<LongDigits> digits(std::size_t words) const override {
-    std::vector<LongDigits> digits;
-    for (const Integer& x : p_) digits.emplace_back(x, 64 * words);
-    return digits;
+  [[nodiscard]] std::vector<BallNumber> balls(std::size_t bits) const override {
+    std::vector<BallNumber> balls;
+    for (const Integer& x : p_) balls.emplace_back(x, bits);
+    return balls;
   }
   [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {
     std::vector<Residue> image;
@@ -409,13 +404,8 @@ TEST(WildPolynomials, TimesOfWideAndOrdinaryFunctionsAreToldApartByFewDigits) {
 class Failing final : public CoefficientSource {
  public:
   explicit Failing(const bool& fails) : fails_(fails) {}
-  [[nodiscard]] std::vector<LeadingDigits> leading_digits() const override {
-    LeadingDigits unknown = LeadingDigits::of(Integer(1));
-    unknown.error = 5;
-    return {unknown, unknown};
-  }
-  [[nodiscard]] std::vector<LongDigits> digits(std::size_t) const override {
-    const LongDigits unknown(Integer(1), 5, 0, LongDigits::unlimited);
+  [[nodiscard]] std::vector<BallNumber> balls(std::size_t bits) const override {
+    const BallNumber unknown = BallNumber::around(Integer(1), 2, bits);
     return {unknown, unknown};
   }
   [[nodiscard]] std::vector<Residue> residues(std::uint64_t fold) const override {

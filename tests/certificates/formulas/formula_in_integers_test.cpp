@@ -44,7 +44,7 @@ void expect_same(const C& certificate, const M& motion) {
   const ExactPolynomial function = Values::exact(certificate, CurvesOf<M>(motion));
   if (function.wide() != nullptr) {  // facts that are known before the integer coefficients are
     EXPECT_EQ(function.wide()->residues(), image_of(ExactPolynomial(expected).scaled()));
-    const auto& leading = function.wide()->leading_digits();
+    const auto& leading = function.wide()->balls();
     for (std::size_t k = 0; k < leading.size(); ++k) {
       if (leading[k].certain_sign() != 0) {
         EXPECT_EQ(leading[k].certain_sign(), sgn(expected.scaled[k]));
