@@ -8,8 +8,9 @@
 
 namespace kds {
 
-/// Wall time, charged to one of several lanes at a time.
-class Stopwatch {
+/// The time of a clock, charged to one of several lanes at a time.
+template <class Clock>
+class StopwatchOf {
  public:
   static constexpr std::size_t stopped = static_cast<std::size_t>(-1);
 
@@ -18,7 +19,7 @@ class Stopwatch {
   /// clock takes about 30 ns; it is not read if the lane stays the same.
   std::size_t charge(std::size_t lane) {
     if (lane == lane_) return lane;
-    const auto now = std::chrono::steady_clock::now();
+    const auto now = Clock::now();
     if (lane_ != stopped) seconds_[lane_] += std::chrono::duration<double>(now - since_).count();
     since_ = now;
     const std::size_t before = lane_;
@@ -31,8 +32,10 @@ class Stopwatch {
  private:
   std::vector<double> seconds_{0};
   std::size_t lane_ = stopped;
-  std::chrono::steady_clock::time_point since_{};
+  typename Clock::time_point since_{};
 };
+
+using Stopwatch = StopwatchOf<std::chrono::steady_clock>;
 
 /// Wall time, and the processor time of all threads of this process together. Other programs on the machine
 /// do not add to the processor time.

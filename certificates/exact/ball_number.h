@@ -1,5 +1,5 @@
 #pragma once
-// BallNumber arithmetic: numbers with proved bounds on their errors, which are Arb's (arb_t of FLINT 3). Only
+// Ball arithmetic: numbers with proved bounds on their errors, which are Arb's (arb_t of FLINT 3). Only
 // ball_number.cpp includes Arb's header, because its macros would reach every file.
 
 #include <array>
