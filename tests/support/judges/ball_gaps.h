@@ -2,39 +2,43 @@
 // Finds the closest pair of balls by brute force over all pairs, with distances as integers of many bits.
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 #include "motions/base/bead.h"
-#include "motions/numbers/exact_number.h"
+#include "tests/support/judges/second_numbers.h"
 
 namespace kds::test {
 
 /// Returns |a - b| - r - s, rounded down to a multiple of 2^-500. The numbers are below 2^10 in size and
 /// multiples of 2^-70. Two such distances are then equal or more than 2^-400 apart: their difference times
 /// its three conjugates is a multiple of 2^-280.
-inline Integer gap_in_units(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s) {
-  Rational square = 0;
+inline second::Integer gap_in_units(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double r, double s) {
+  // In units of 2^-70 all numbers are whole, so the square is in units of 2^-140.
+  const auto in_units = [](double x) {
+    const double units = std::ldexp(x, 70);
+    if (std::trunc(units) != units) throw std::invalid_argument("no multiple of 2^-70");
+    return second::Integer(units);
+  };
+  second::Integer square = 0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const Rational x = Rational(a[axis]) - Rational(b[axis]);
+    const second::Integer x = in_units(a[axis]) - in_units(b[axis]);
     square += x * x;
   }
-  const Integer one = Integer(1) << 500U;
-  const Rational scaled = square * Rational(one) * Rational(one);
-  const Integer whole = numerator(scaled) / denominator(scaled);
-  const Rational reach = (Rational(r) + Rational(s)) * Rational(one);
-  return sqrt(whole) - numerator(reach) / denominator(reach);
+  return sqrt(second::Integer(square << 860U)) - ((in_units(r) + in_units(s)) << 430U);
 }
-inline int compare_gap_units(const Integer& a, const Integer& b) {
-  const Integer difference = a - b;
-  if (abs(difference) < Integer(1) << 100U) return 0;
+inline int compare_gap_units(const second::Integer& a, const second::Integer& b) {
+  const second::Integer difference = a - b;
+  if (abs(difference) < second::Integer(1) << 100U) return 0;
   return difference > 0 ? 1 : -1;
 }
 
 struct ClosestByForce {
   std::pair<BeadId, BeadId> beads;  ///< the first of equally close pairs
-  Integer gap;
+  second::Integer gap;
 };
 
 /// Returns the closest pair among the pairs that are not neighbours, or nothing if there is no such pair.
@@ -51,7 +55,7 @@ std::optional<ClosestByForce> closest_by_force(const Eigen::Matrix3Xd& centers, 
       const double about =
           (centers.col(Eigen::Index{a}) - centers.col(Eigen::Index{b})).norm() - radii[a] - radii[b];
       if (best && about > least + 0x1p-30) continue;
-      const Integer gap =
+      const second::Integer gap =
           gap_in_units(centers.col(Eigen::Index{a}), centers.col(Eigen::Index{b}), radii[a], radii[b]);
       if (!best || compare_gap_units(gap, best->gap) < 0) {
         best = {{a, b}, gap};

@@ -2,11 +2,14 @@
 // Finds the balls within a distance of each other by brute force over all pairs, in rationals.
 
 #include <Eigen/Core>
+#include <cmath>
 #include <span>
 #include <vector>
 
 #include "motions/numbers/exact_number.h"
+#include "structures/collision/pairs_asked.h"
 #include "structures/necklace/bead_pairs.h"
+#include "tests/support/judges/second_numbers.h"
 
 namespace kds::test {
 
@@ -21,12 +24,16 @@ inline std::vector<BeadPair> pairs_over_rationals(const Eigen::Matrix3Xd& center
       while (asked.necklaces[of_a].last < a) ++of_a;
       while (asked.necklaces[of_b].last < b) ++of_b;
       if (of_a == of_b ? !asked.within || b - a < asked.apart : !asked.between) continue;
-      Rational square = 0;
+      // Doubles decide pairs that are farther apart than twice the reach.
+      const double apart = (centers.col(Eigen::Index{a}) - centers.col(Eigen::Index{b})).norm();
+      if (std::isfinite(apart) && apart > 2 * (radii[a] + radii[b] + distance)) continue;
+      second::Rational square = 0;
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        const Rational x = Rational(centers(axis, a)) - Rational(centers(axis, b));
+        const second::Rational x = second::Rational(centers(axis, a)) - second::Rational(centers(axis, b));
         square += x * x;
       }
-      const Rational reach = Rational(radii[a]) + Rational(radii[b]) + Rational(distance);
+      const second::Rational reach =
+          second::Rational(radii[a]) + second::Rational(radii[b]) + second::Rational(distance);
       if (square <= reach * reach) pairs.push_back({a, b});
     }
   }
