@@ -2,8 +2,10 @@
 // The interface between the simulator and a kinetic structure: the structure itself, the changes it reports,
 // the counts it keeps, edits of its beads, and audits.
 
+#include <algorithm>
 #include <array>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -61,6 +63,23 @@ struct CertificateCounts {
   std::uint64_t alive = 0;
   std::uint64_t peak = 0;          ///< most alive at once (compactness)
   std::uint64_t per_bead_max = 0;  ///< most that name one bead, at the starts of steps (locality)
+};
+
+/// Counts the certificates that name each bead, and keeps the greatest of all counts in per_bead_max.
+class CertificatesPerBead {
+ public:
+  CertificatesPerBead(CertificateCounts& counts, std::size_t bead_count)
+      : counts_(counts), named_(bead_count) {}
+
+  /// Counts one certificate of the bead.
+  void add(BeadId bead) {
+    counts_.per_bead_max = std::max<std::uint64_t>(counts_.per_bead_max, ++named_[bead]);
+  }
+  void reset(BeadId bead) { named_[bead] = 0; }
+
+ private:
+  CertificateCounts& counts_;
+  std::vector<std::uint32_t> named_;
 };
 
 /// Counts that a structure keeps in a run.

@@ -63,6 +63,15 @@ std::vector<BenchRow> rows_of(const std::vector<bench::Subject>& subjects, std::
   return rows;
 }
 
+void add_row_beside_peer(const bench::Subject& subject, const CountedTurns& turns,
+                         std::vector<BenchRow>& rows) {
+  const auto peer = turns.figure("peer_ns");
+  rows.push_back(with_spread_of(
+      {subject.name, subject.input, subject.beads, *turns.figure("ns"), "ns", peer ? subject.peer : "", peer,
+       subject.most_ns ? subject.most_ns : subject.most_ratio, subject.most_ns.has_value()},
+      turns, "ns"));
+}
+
 void check_folder(const std::filesystem::path& instances) {
   std::error_code error;
   if (!std::filesystem::is_directory(instances, error))
@@ -76,27 +85,21 @@ std::vector<BenchRow> bench_certificates(const SubjectBenchOptions& options,
   check_folder(options.instances);
   std::vector<bench::Subject> subjects = bench::certificate_subjects(options.instances);
   for (bench::Subject& subject : bench::slack_subjects()) subjects.push_back(std::move(subject));
-  return rows_of(
-      subjects, options.rounds, progress,
-      [](const bench::Subject& subject, const CountedTurns& turns, auto& rows) {
-        const auto peer = turns.figure("peer_ns");
-        rows.push_back(with_spread_of(
-            {subject.name, subject.input, subject.beads, *turns.figure("ns"), "ns", peer ? subject.peer : "",
-             peer, subject.most_ns ? subject.most_ns : subject.most_ratio, subject.most_ns.has_value()},
-            turns, "ns"));
-      });
+  return rows_of(subjects, options.rounds, progress, add_row_beside_peer);
 }
 
 std::vector<BenchRow> bench_engine(const SubjectBenchOptions& options,
                                    const std::function<void(std::size_t, std::size_t)>& progress) {
   check_folder(options.instances);
-  const std::vector<bench::Subject> subjects = bench::engine_subjects(options.instances);
+  std::vector<bench::Subject> subjects = bench::engine_subjects(options.instances);
   if (subjects.empty())
     throw InputError("--instances: " + options.instances.string() +
                      ": expected files such as d3_n200_linear.txt");
+  for (bench::Subject& subject : bench::queue_subjects()) subjects.push_back(std::move(subject));
   return rows_of(
       subjects, options.rounds, progress,
       [](const bench::Subject& subject, const CountedTurns& turns, auto& rows) {
+        if (subject.name.starts_with("queue/")) return add_row_beside_peer(subject, turns, rows);
         rows.push_back(with_spread_of({subject.name + ", an event", subject.input, subject.beads,
                                        *turns.figure("ns"), "ns", "", std::nullopt, subject.most_ns, true},
                                       turns, "ns"));

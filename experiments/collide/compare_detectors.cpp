@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "experiments/run/load_scene.h"
-#include "kds/seconds.h"
 #include "kds/stopwatch.h"
 #include "motions/base/input_error.h"
 #include "motions/scene/radii.h"

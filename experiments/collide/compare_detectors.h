@@ -14,7 +14,7 @@
 
 #include "experiments/program/input_options.h"
 #include "experiments/program/timing.h"
-#include "motions/base/bead_range.h"
+#include "motions/base/bead.h"
 #include "motions/scene/frame_survey.h"
 #include "structures/collision/closest_pair.h"
 #include "structures/necklace/balls.h"

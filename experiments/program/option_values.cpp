@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "experiments/output/text.h"
-#include "motions/base/edit_distance.h"
 #include "motions/base/input_error.h"
+#include "motions/base/text_input.h"
 #include "structures/session/structure_spec.h"
 
 namespace kds {

@@ -9,12 +9,8 @@
 #include <string_view>
 
 #include "experiments/output/text.h"
-#include "experiments/questions/deformation.h"
-#include "experiments/questions/moving_subjects.h"
 #include "experiments/questions/question.h"
 #include "motions/models/elementary.h"
-#include "motions/models/random.h"
-#include "motions/models/shape.h"
 #include "motions/models/shapes.h"
 #include "structures/session/kinetic_run.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "motions/models/model.h"
-#include "motions/models/shape.h"
+#include "motions/models/shapes.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/radii.h"
 #include "structures/collision/brute_force.h"

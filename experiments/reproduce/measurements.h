@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "experiments/program/timing.h"
-#include "motions/base/bead_range.h"
+#include "motions/base/bead.h"
 #include "structures/hierarchy/layered_hierarchy.h"
 
 namespace kds {

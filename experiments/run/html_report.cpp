@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "certificates/base/stage_counts.h"
+#include "certificates/base/kernel.h"
 #include "experiments/events/event_places.h"
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"

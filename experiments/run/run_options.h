@@ -15,7 +15,6 @@
 #include "experiments/output/output_files.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option.h"
-#include "kds/audit.h"
 #include "kds/kinetic_structure.h"
 #include "motions/scene/scene.h"
 #include "structures/session/structure_spec.h"

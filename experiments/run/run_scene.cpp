@@ -13,7 +13,7 @@
 #include "experiments/run/radius_hint.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
-#include "kds/audit.h"
+#include "kds/kinetic_structure.h"
 #include "motions/base/input_error.h"
 #include "structures/session/kinetic_run.h"
 

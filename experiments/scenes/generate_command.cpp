@@ -14,10 +14,8 @@
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 #include "experiments/scenes/scene_info.h"
-#include "motions/base/file_ending.h"
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
-#include "motions/models/shape.h"
 #include "motions/models/shapes.h"
 #include "motions/readers/write_trajectory.h"
 

@@ -2,7 +2,6 @@
 
 #include "certificates/types/ball_in_sphere.h"
 #include "certificates/types/bead_in_sphere.h"
-#include "certificates/types/contact.h"
 #include "certificates/types/distances.h"
 #include "certificates/types/orientation.h"
 #include "certificates/types/power_test.h"

@@ -11,7 +11,7 @@
 
 #include "certificates/exact/exact_time.h"
 #include "certificates/search/certificate_search.h"
-#include "kds/change.h"
+#include "kds/kinetic_structure.h"
 
 namespace kds {
 

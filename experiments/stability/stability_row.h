@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "certificates/base/kernel.h"
-#include "certificates/base/stage_counts.h"
 #include "experiments/stability/compare_answers.h"
-#include "experiments/stability/event_difference.h"
 
 namespace kds {
 

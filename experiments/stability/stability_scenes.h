@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "motions/curves/any_degree_motion.h"
+#include "motions/curves/bezier_motion.h"
 #include "motions/readers/instance.h"
 
 namespace kds {

@@ -12,9 +12,7 @@
 #include <vector>
 
 #include "motions/models/model.h"
-#include "motions/models/shape.h"
 #include "motions/models/shapes.h"
-#include "motions/models/tightness_points.h"
 #include "structures/collision/closest_pair.h"
 #include "structures/collision/hierarchy_search.h"
 #include "structures/hierarchy/layered_hierarchy.h"
@@ -107,12 +105,10 @@ ClosestByDiagram measure(const Eigen::Matrix3Xd& centers, std::size_t rounds) {
   return result;
 }
 
-
 // Requires at least three beads of radius 1, of which consecutive beads meet and no others.
 ClosestByDiagram closest_by_diagram(const Eigen::Matrix3Xd& centers, int dimension, std::size_t rounds) {
   return dimension == 2 ? measure<2>(centers, rounds) : measure<3>(centers, rounds);
 }
-
 
 template <int Dimension>
 FamilySize measure(const Eigen::Matrix3Xd& centers, Hierarchy hierarchy, std::size_t rounds) {
@@ -131,7 +127,6 @@ FamilySize measure(const Eigen::Matrix3Xd& centers, Hierarchy hierarchy, std::si
     size.seconds = repeated_seconds(rounds, search, std::numeric_limits<double>::infinity());
   return size;
 }
-
 
 // Measures the family of beads with radius 1. No two beads may collide except neighbours along the chain. If
 // `rounds` is 0, no time is measured.
@@ -169,7 +164,6 @@ double family_bound(int dimension, std::size_t beads) {
   const auto n = static_cast<double>(beads);
   return dimension == 2 ? n * std::log2(n) : std::pow(n, 4.0 / 3);
 }
-
 
 using Centers = Eigen::Matrix3Xd;
 

@@ -7,10 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/trade/match_contacts.h"
 #include "experiments/trade/match_events.h"
 #include "motions/base/bead.h"
-#include "motions/base/bead_range.h"
 #include "motions/frames/trajectory.h"
 
 namespace kds {

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "kds/change.h"
 #include "kds/kinetic_structure.h"
 #include "structures/necklace/bead_pairs.h"
 

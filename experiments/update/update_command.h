@@ -11,10 +11,8 @@
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/table.h"
 #include "experiments/program/input_options.h"
-#include "kds/audit.h"
 #include "kds/kinetic_structure.h"
 #include "structures/power_diagram/diagram_update.h"
-#include "structures/power_diagram/update_technique.h"
 
 namespace kds {
 

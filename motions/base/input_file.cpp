@@ -313,4 +313,18 @@ void LineReader::rewind() {
   cut_ = false;
 }
 
+void LineReader::seek(std::uint64_t place, std::size_t number) {
+  if (place == 0) return rewind();
+  const std::uint64_t in_memory = file_.place() - end_;
+  if (in_memory <= place && place <= file_.place()) {
+    begin_ = static_cast<std::size_t>(place - in_memory);
+  } else {
+    file_.seek(place);
+    begin_ = end_ = 0;
+  }
+  number_ = number - 1;
+  at_start_ = false;
+  cut_ = false;
+}
+
 }  // namespace kds

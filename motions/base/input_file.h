@@ -88,8 +88,13 @@ class LineReader {
   [[nodiscard]] std::size_t number() const { return number_; }
   /// Returns whether the line read last ended at the end of the file, without a line end.
   [[nodiscard]] bool cut() const { return cut_; }
+  /// Returns the position in the file of the next line, in bytes.
+  [[nodiscard]] std::uint64_t place() const { return file_.place() - (end_ - begin_); }
   /// Starts again at the first line.
   void rewind();
+  /// Continues at the line that begins at this byte and has this number. Takes no time if the line is in
+  /// memory, as the next line is. A gzipped file is otherwise unpacked up to the line.
+  void seek(std::uint64_t place, std::size_t number);
   [[nodiscard]] const std::string& name() const { return file_.name(); }
 
   static constexpr std::size_t longest = std::size_t{1} << 20U;

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/base/bead_range.h"
+#include "motions/base/bead.h"
 #include "motions/frames/frame_reader.h"
 #include "motions/frames/trajectory.h"
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "motions/base/input_error.h"
-#include "motions/base/line_reader.h"
+#include "motions/base/input_file.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/lammps_layout.h"
 #include "motions/readers/vdw_radii.h"

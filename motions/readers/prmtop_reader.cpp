@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "motions/base/input_error.h"
-#include "motions/base/line_reader.h"
+#include "motions/base/input_file.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/element_guess.h"
 #include "motions/readers/residue_grouping.h"

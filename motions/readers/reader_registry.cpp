@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "motions/base/file_ending.h"
 #include "motions/base/input_error.h"
 #include "motions/base/input_file.h"
 #include "motions/base/text_input.h"

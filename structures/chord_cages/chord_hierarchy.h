@@ -10,7 +10,6 @@
 
 #include "kds/kinetic_structure.h"
 #include "motions/base/bead.h"
-#include "motions/base/bead_range.h"
 #include "motions/curves/curves.h"
 #include "motions/curves/motion_ref.h"
 #include "motions/numbers/exact_number.h"

@@ -37,7 +37,7 @@
 #include <span>
 #include <vector>
 
-#include "motions/base/bead_range.h"
+#include "motions/base/bead.h"
 #include "motions/curves/curves.h"
 #include "structures/blocks/block_loops.h"
 #include "structures/necklace/bead_pairs.h"

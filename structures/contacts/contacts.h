@@ -24,7 +24,6 @@
 #include <vector>
 
 #include "certificates/search/certificate_search.h"
-#include "certificates/types/contact.h"
 #include "certificates/types/distances.h"
 #include "kds/certificate_table.h"
 #include "kds/structure_base.h"

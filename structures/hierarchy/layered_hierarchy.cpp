@@ -5,7 +5,6 @@
 
 #include "motions/base/floating_point_guard.h"
 #include "motions/numbers/lanes.h"
-#include "motions/numbers/long_lanes.h"
 #include "structures/enclosing_sphere/cage.h"
 #include "structures/hierarchy/parallel_passes.h"
 

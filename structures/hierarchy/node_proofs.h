@@ -12,8 +12,7 @@
 
 #include "certificates/base/radical.h"
 #include "certificates/base/relaxation.h"
-#include "certificates/types/radii.h"
-#include "certificates/types/relaxed_membership.h"
+#include "certificates/types/membership.h"
 #include "kds/simulator.h"
 #include "motions/curves/curves.h"
 #include "structures/enclosing_sphere/basis.h"

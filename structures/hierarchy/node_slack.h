@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "motions/base/back_off.h"
-#include "motions/base/bead_range.h"
+#include "motions/base/bead.h"
 #include "motions/curves/curves.h"
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/moving_sphere/bead_paths.h"

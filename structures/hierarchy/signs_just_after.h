@@ -10,12 +10,11 @@
 #include <span>
 #include <utility>
 
-#include "certificates/search/ball_in_sphere_search.h"
-#include "certificates/search/relaxed_ball_in_sphere_search.h"
+#include "certificates/base/radical.h"
+#include "certificates/search/relaxed_sphere_searches.h"
+#include "certificates/search/sphere_searches.h"
 #include "certificates/types/membership.h"
 #include "certificates/types/orientation.h"
-#include "certificates/types/radii.h"
-#include "certificates/types/relaxed_membership.h"
 #include "kds/certificate_tables.h"
 #include "kds/simulator.h"
 #include "motions/curves/curves.h"

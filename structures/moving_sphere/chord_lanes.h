@@ -9,7 +9,6 @@
 
 #include "certificates/base/determinant.h"
 #include "certificates/filters/lanes_descent.h"
-#include "certificates/filters/lanes_polynomial.h"
 #include "motions/numbers/bernstein.h"
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/enclosing_sphere/sphere_of_balls.h"

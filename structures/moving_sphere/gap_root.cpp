@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motions/numbers/long_lanes.h"
+#include "motions/numbers/lanes.h"
 #include "structures/moving_sphere/chord_lanes.h"
 
 namespace kds {

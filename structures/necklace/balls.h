@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "motions/base/bead.h"
-#include "motions/base/bead_range.h"
 #include "motions/base/input_error.h"
 #include "motions/curves/curves.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "certificates/base/certificate.h"
-#include "certificates/base/failure_time.h"
+#include "certificates/exact/instant.h"
 #include "kds/certificate_table.h"
 #include "motions/views/lanes_view.h"
 #include "structures/power_diagram/diagram_state.h"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "certificates/filters/cell_filter.h"
-#include "motions/views/length_unit.h"
+#include "motions/views/lanes_view.h"
 #include "motions/views/motion_ahead.h"
 #include "structures/power_diagram/diagram_state.h"
 #include "structures/power_diagram/facet_filter.h"

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "kds/seconds.h"
+#include "kds/stopwatch.h"
 #include "motions/numbers/exact_number.h"
 #include "structures/chord_cages/chord_hierarchy.h"
 #include "structures/enclosing_sphere/exact_sphere.h"

@@ -8,7 +8,6 @@
 
 #include "motions/base/input_error.h"
 #include "motions/base/require_index.h"
-#include "motions/curves/any_degree_motion.h"
 #include "motions/curves/bezier_motion.h"
 
 namespace kds {

@@ -7,7 +7,6 @@
 #include <span>
 
 #include "motions/numbers/exact_number.h"
-#include "motions/numbers/integer.h"
 #include "structures/triangulation/regular_triangulation.h"
 
 namespace kds {

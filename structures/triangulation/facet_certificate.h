@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "certificates/types/coplanar.h"
 #include "certificates/types/orientation.h"
 #include "certificates/types/power_test.h"
 #include "structures/triangulation/regular_triangulation.h"

@@ -11,9 +11,7 @@
 
 #include "experiments/program/timing.h"
 #include "experiments/theorems/plan_theorems.h"
-#include "experiments/theorems/root_ratio.h"
 #include "motions/models/shapes.h"
-#include "motions/models/tightness_points.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/curves/any_degree_motion.h"
+#include "motions/curves/bezier_motion.h"
 #include "motions/readers/necklace_stream.h"
 #include "motions/scene/file_frames.h"
 #include "motions/scene/scene.h"

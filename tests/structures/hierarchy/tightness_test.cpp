@@ -6,9 +6,7 @@
 #include <cmath>
 
 #include "motions/models/shapes.h"
-#include "motions/models/tightness_points.h"
 #include "structures/hierarchy/layered_hierarchy.h"
-#include "structures/hierarchy/tightness.h"
 #include "tests/support/inputs/ball_sets.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/rounds.h"

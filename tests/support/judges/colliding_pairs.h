@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "motions/numbers/exact_number.h"
-#include "structures/collision/pairs_asked.h"
 #include "structures/necklace/bead_pairs.h"
 #include "tests/support/judges/second_numbers.h"
 
