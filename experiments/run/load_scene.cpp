@@ -68,8 +68,7 @@ bool takes_topology(const std::filesystem::path& file) {
 bool has_atoms_of(const InputAtoms& one, const InputAtoms& other, const ReadOptions& reading) {
   if (one.names.empty()) return false;
   if (!other.names.empty()) return one.names == other.names;
-  return one.beads == other.beads ||
-         read_topology(one.file, reading).atom_count == other.beads;
+  return one.beads == other.beads || read_topology(one.file, reading).atom_count == other.beads;
 }
 
 // Throws InputError if a structure file with several models accompanies a trajectory of its atoms that has no

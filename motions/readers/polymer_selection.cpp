@@ -514,7 +514,7 @@ InputError no_beads(const std::string& file, const Parts& parts, const PolymerPa
       counted(parts.candidates(part, Selection::all).size(), "residue")));
 }
 
-// The atoms that the file shows as bonded to each other along a chain.
+// Returns whether the atom's name is that of an atom of a backbone.
 bool is_chain_atom(const SelectedAtom& selected) {
   constexpr std::array<std::string_view, 5> names{"N", "CA", "C", "BB", "P"};
   return std::find(names.begin(), names.end(), selected.atom->name) != names.end();
