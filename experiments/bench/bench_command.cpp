@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiments/bench/bench_readers.h"
 #include "experiments/bench/benches.h"
 #include "experiments/bench/collision_peers.h"
 #include "experiments/bench/subject.h"
@@ -20,6 +21,7 @@
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 #include "motions/base/input_error.h"
+#include "motions/readers/reader_registry.h"
 
 namespace kds {
 
@@ -124,9 +126,10 @@ constexpr CommandSpec kBenchCommand{
     "  power         the power diagram from frame to frame, beside CGAL's static build\n"
     "  collision     the pairs of beads that meet, beside a cell list, a Verlet list, FCL and Bullet, and\n"
     "                the times at which contacts begin and end, beside a cell list\n"
-    "  trade         options that trade accuracy for speed, beside exact runs of kds",
+    "  trade         options that trade accuracy for speed, beside exact runs of kds\n"
+    "  readers       reading trajectories of each format, beside reading the bytes of the file",
     "SUBJECT",
-    "certificates, engine, hierarchies, power, collision or trade",
+    "certificates, engine, hierarchies, power, collision, trade or readers",
     "kds bench certificates\n"
     "kds bench hierarchies\n"
     "kds bench collision --sizes 10240\n"
@@ -180,6 +183,7 @@ constexpr std::array kSubjects{
     // in space, so the beads should not all lie in one plane
     Subject{"power", 20, on_chains<PowerBenchOptions, bench_power>},
     Subject{"trade", only_trajectories, on_chains<TradeBenchOptions, bench_trade>},
+    Subject{"readers", only_trajectories, on_chains<ReaderBenchOptions, bench_readers>},
 };
 
 const Subject& subject_of(const std::vector<std::string>& operands) {
@@ -218,8 +222,8 @@ Option<BenchInputs> trajectories_option() {
     return files;  // without folders, so that results of two machines agree
   };
   return {{"--trajectories", "LIST",
-           "trajectory files, for hierarchies, power, collision and trade (default: all .dcd files in the "
-           "folder trajectories of the data)"},
+           "trajectory files, for hierarchies, power, collision, trade and readers (default: all .dcd files "
+           "in the folder trajectories of the data; for readers also the folder formats)"},
           [](O& o, const std::string& list) {
             for (const std::string& path : split(list, ',')) o.trajectories.emplace_back(path);
           },
@@ -261,6 +265,17 @@ std::vector<std::filesystem::path> trajectories_in(const std::filesystem::path& 
   return found;
 }
 
+// Returns the trajectories whose atoms another file names.
+std::vector<std::filesystem::path> trajectories_of_formats(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const ReaderSpec* const reader = reader_registry().find_by_ending(entry.path());
+    if (reader != nullptr && reader->open && reader->takes_topology) found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 void refuse_needless_options(const ParsedArguments& parsed, const Subject& subject) {
   const auto refuse = [&](const char* option) {
     if (parsed.has(option)) throw InputError(fmt::format("{}: {} takes none", option, subject.name));
@@ -271,6 +286,16 @@ void refuse_needless_options(const ParsedArguments& parsed, const Subject& subje
   if (has_chains) refuse("--instances");
 }
 
+std::vector<std::filesystem::path> default_trajectories(const std::filesystem::path& data,
+                                                        const Subject& subject) {
+  auto found = trajectories_in(folder_in_data(data, "trajectories", "--trajectories"));
+  if (subject.name == "readers") {
+    const auto others = trajectories_of_formats(folder_in_data(data, "formats", "--trajectories"));
+    found.insert(found.end(), others.begin(), others.end());
+  }
+  return found;
+}
+
 BenchInputs read_inputs(const ParsedArguments& parsed, const Subject& subject) {
   refuse_needless_options(parsed, subject);
   BenchInputs inputs;
@@ -278,7 +303,7 @@ BenchInputs read_inputs(const ParsedArguments& parsed, const Subject& subject) {
   bench_options().read(parsed, inputs);
   const bool has_chains = subject.fewest_beads > 0;
   if (has_chains && inputs.trajectories.empty())
-    inputs.trajectories = trajectories_in(folder_in_data(inputs.data, "trajectories", "--trajectories"));
+    inputs.trajectories = default_trajectories(inputs.data, subject);
   if (!has_chains && inputs.instances.empty())
     inputs.instances = folder_in_data(inputs.data, "kinetic", "--instances");
   return inputs;

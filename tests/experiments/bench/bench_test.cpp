@@ -245,6 +245,28 @@ TEST(Bench, EngineRunsEveryInstanceOfAFolder) {
   EXPECT_EQ(goals, 1U);
 }
 
+TEST(Bench, ReadersGiveTimeAndSpeedOfEachFile) {
+  const test::ProgramRun result = test::run_program(
+      {"bench", "readers", "--trajectories",
+       test::data_file("formats/chain_and_gas.xtc") + "," + test::data_file("formats/nine_atoms.trr"),
+       "--json", "-", "--quiet"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json rows = Json::parse(result.out)["rows"];
+  ASSERT_EQ(rows.size(), 4U);
+  for (std::size_t i = 0; i < 4; i += 2) {
+    EXPECT_EQ(rows[i]["unit"], "ns/atom");
+    EXPECT_EQ(rows[i]["peer"], "reading the bytes");
+    EXPECT_EQ(rows[i + 1]["unit"], "million atoms/s");
+    EXPECT_NEAR(rows[i]["value"].get<double>() * rows[i + 1]["value"].get<double>(), 1000, 1e-6);
+  }
+  EXPECT_EQ(rows[0]["name"], "read xtc");
+  EXPECT_EQ(rows[0]["n"], 2400);  // 600 atoms in 4 frames
+  EXPECT_EQ(rows[0]["holds"].get<bool>(), rows[0]["value"].get<double>() <= 200);
+  EXPECT_EQ(rows[2]["name"], "read trr");
+  EXPECT_EQ(rows[2]["n"], 27);
+  EXPECT_TRUE(rows[2]["goal"].is_null());
+}
+
 TEST(Bench, FindsItsDataFromAnyFolder) {
   const test::ScratchDirectory directory;
   const std::filesystem::path instances = directory / "kinetic";
@@ -269,6 +291,8 @@ TEST(Bench, RefusesWhatItDoesNotKnow) {
         Arguments{"bench", "certificates", "--instances", KDS_DATA_DIR},
         Arguments{"bench", "engine", "--instances", KDS_DATA_DIR},
         Arguments{"bench", "hierarchies", "--data", "none"}, Arguments{"bench", "engine", "--data", "none"},
+        Arguments{"bench", "readers", "--sizes", "10"},
+        Arguments{"bench", "readers", "--trajectories", test::data_file("formats/wide.f32")},
         Arguments{"bench", "hierarchies", "--sizes", "10", "--trajectories", "none.dcd"}}) {
     const test::ProgramRun result = test::run_program(arguments);
     EXPECT_EQ(result.code, 2);
