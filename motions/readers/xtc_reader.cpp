@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -398,22 +399,19 @@ class XtcFrames final : public AtomFrames {
   // lost: searches the rest of the file for the header of another frame.
   void refuse_frame_inside(const XtcHeader& header) {
     constexpr std::size_t block = std::size_t{1} << 16U, magic_and_atoms = 8;
-    std::vector<char> bytes(magic_and_atoms);
-    if (!input_.read_at(header.begin, bytes.data(), bytes.size())) return;
-    const std::string wanted(bytes.begin(), bytes.end());
-    bytes.resize(block);
+    std::array<char, magic_and_atoms> wanted;
+    std::vector<char> bytes(block);
+    if (!input_.read_at(header.begin, wanted.data(), wanted.size())) return;
     for (std::uint64_t place = header.begin + header.size; place + magic_and_atoms <= length_;
          place += block - magic_and_atoms) {
       const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(block, length_ - place));
       if (!input_.read_at(place, bytes.data(), size)) return;
-      const std::string_view text(bytes.data(), size);
-      for (std::size_t at = text.find(wanted); at != std::string_view::npos; at = text.find(wanted, at + 1))
-        if ((place + at - header.begin) % 4 == 0)
+      for (std::size_t at = 0; at + magic_and_atoms <= size; at += 4)  // frames have multiples of 4 bytes
+        if (std::memcmp(bytes.data() + at, wanted.data(), magic_and_atoms) == 0)
           throw DamagedFrame(
               input_.name(), begins_.size(), header.begin + 88,
               fmt::format("expected coordinates up to the next frame at byte {}, found a size of {}",
                           place + at, counted(header.data, "byte")));
-      if (size < block) return;
     }
   }
 
