@@ -1,6 +1,6 @@
 #pragma once
 // `kds bench readers`. Measures how long a reader takes for all atoms of all frames of a file. The peer reads
-// the bytes of the file and nothing else. Files are opened before, and their bytes are in the cache.
+// the bytes of the file and nothing else. The time to open the file does not count.
 
 #include <cstddef>
 #include <filesystem>

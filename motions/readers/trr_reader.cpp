@@ -126,7 +126,7 @@ class TrrFrames final : public AtomFrames {
     held_.damage = damage;
   }
 
-  // Reads and checks a header. Returns nothing if the file ends inside it.
+  // Reads and checks a header. Returns nothing if the file ends inside the header.
   std::optional<TrrHeader> read_header(std::size_t frame, std::uint64_t begin) {
     std::array<char, TrrHeader::most_size> bytes{};
     const auto left = static_cast<std::size_t>(std::min<std::uint64_t>(length_ - begin, bytes.size()));

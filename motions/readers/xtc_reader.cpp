@@ -103,7 +103,7 @@ class XtcBits {
  public:
   XtcBits(InputFile& input, std::vector<char>& bytes) : input_(input), bytes_(bytes) {}
 
-  // Goes to the frame's coordinates. Reads them at once if all are wanted, otherwise bit by bit.
+  // Goes to the frame's coordinates. Reads their bytes at once if all atoms are wanted, else block by block.
   void open(const XtcHeader& header, bool all) {
     header_ = &header;
     place_ = loaded_ = 0;
@@ -111,8 +111,8 @@ class XtcBits {
     if (bytes_.size() < header.data + most_group) bytes_.resize(header.data + most_group);
   }
 
-  // Makes sure that the bits of the next group are there. They may be past the end of the coordinates, but
-  // never past the end of the memory. Returns false if the group before was.
+  // Reads the bits of the next group. Bits past the end of the coordinates are any bits, but never past the
+  // end of the memory. Returns false if the group before used such bits.
   [[nodiscard]] bool begin_group() {
     if (place_ > 8 * header_->data) return false;
     while (loaded_ < header_->data && place_ / 8 + most_group > loaded_) {
@@ -340,7 +340,7 @@ class XtcFrames final : public AtomFrames {
     held_.damage = damage;
   }
 
-  // Reads and checks a header. Returns nothing if the file ends inside it.
+  // Reads and checks a header. Returns nothing if the file ends inside the header.
   std::optional<XtcHeader> read_header(std::size_t frame, std::uint64_t begin) {
     std::array<char, XtcHeader::most_size> bytes{};
     const std::uint64_t left = length_ - begin;

@@ -4,12 +4,15 @@
 // Numbers are big-endian. A frame holds its magic number (1995, or 2023 if sizes have 64 bits), the number of
 // atoms, step, time (ps) and box (nm), then the coordinates. Up to nine atoms have plain floats.
 //
-// Coordinates of more atoms are integers: nanometres times a precision. They are packed with a radix: the
-// number (x * sizes[1] + y) * sizes[2] + z in as many bits as the product of the sizes has. Atoms come in
-// groups. The first atom of a group is packed with the sizes of the whole frame. A bit tells whether a run
-// follows whose length differs from the last one. The atoms of the run are packed as differences from the
-// atom before them, with a smaller size that may change by one place in a table after each group. The first
-// two atoms of a group with a run are exchanged, which suits water.
+// Coordinates of more atoms are integers: nanometres times a precision. Three integers x, y, z are packed
+// into the number (x * sizes[1] + y) * sizes[2] + z, with as many bits as the product of the sizes has. Sizes
+// above 2^24 are not packed.
+//
+// Atoms come in groups. The first atom of a group is packed with the sizes of the whole frame. A run of atoms
+// may follow; each of these is packed as the difference from the atom before it, with a smaller size. A bit
+// tells whether five more bits follow. These bits give the length of the run and may move the smaller size by
+// one place in a table. Without them the run is as long as the last one. The first two atoms of a group with
+// a run are exchanged.
 
 #include <filesystem>
 #include <memory>
