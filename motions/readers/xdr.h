@@ -1,9 +1,9 @@
 #pragma once
 // Numbers, boxes and times as GROMACS writes them: big-endian (XDR), in nanometres and picoseconds.
 
-#include <fmt/format.h>
-
+#include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,6 @@
 #include <optional>
 #include <type_traits>
 
-#include "motions/base/text_input.h"
 #include "motions/frames/periodic.h"
 
 namespace kds {
@@ -36,7 +35,11 @@ template <class Number>
 /// 0.200000003. None if the float is not finite.
 [[nodiscard]] inline std::optional<double> xdr_time(float picoseconds) {
   if (!std::isfinite(picoseconds)) return std::nullopt;
-  return parse_double(fmt::format("{}", picoseconds));
+  std::array<char, 32> text;
+  const auto written = std::to_chars(text.data(), text.data() + text.size(), picoseconds);
+  double decimal = 0;
+  std::from_chars(text.data(), written.ptr, decimal);
+  return decimal;
 }
 
 /// Converts a length to angstrom, in single precision as other programs do, so that results agree.
