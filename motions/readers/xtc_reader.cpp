@@ -273,8 +273,8 @@ class XtcCoordinates {
     }
     const std::uint64_t used = bits_.bytes_used();
     if (used > header.data || (wanted == header.atoms && used != header.data))
-      return fmt::format("expected coordinates in {}, found them in {} {}", counted(header.data, "byte"),
-                         used > header.data ? "at least" : "", used);
+      return fmt::format("expected coordinates in {}, found them in {}{}", counted(header.data, "byte"),
+                         used > header.data ? "at least " : "", used);
     return {};
   }
 
