@@ -426,8 +426,8 @@ TEST(StabilityPage, TimesOfKernelsBesideEachOther) {
     row.seconds.exact = 5e-5;
   }
   const std::string page = stability_page(rows, {});
-  EXPECT_THAT(page, HasSubstr("us exact: 50\nus: 2</title>"));
-  EXPECT_THAT(page, HasSubstr("us exact: 50\nus: 1</title>"));
+  EXPECT_THAT(page, HasSubstr("exact, us: 50\nus: 2</title>"));
+  EXPECT_THAT(page, HasSubstr("exact, us: 50\nus: 1</title>"));
   EXPECT_THAT(stability_page(std::vector{rows[0]}, {}), Not(HasSubstr("<svg")));
 }
 
