@@ -55,7 +55,6 @@ Option<CompareOptions> compare_apart_option() {
   return option;
 }
 
-
 const OptionList<CompareOptions>& compare_options() {
   using O = CompareOptions;
   static const auto list =

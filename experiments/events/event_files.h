@@ -1,5 +1,6 @@
 #pragma once
-// Writes contacts.csv during the run: which beads began to meet, parted or touched, and when.
+// The files that a run writes about its events: contacts.csv, events.csv and the files of --dump. They are
+// written during the run.
 
 #include <cstddef>
 #include <cstdint>
@@ -86,8 +87,6 @@ class ContactsTable final : public ContactsCsv {
   bool timed_;
 };
 
-// Writes how often each structure changed, frame by frame, during the run. Other programs can plot the file.
-
 /// Writes the header `frame,structure,events,cumulative`, then one line per frame and structure. Only
 /// external events count. A line with frame k (its number in the file) covers the time from frame k to the
 /// next frame of the run. If the file has times, the column `picoseconds` follows with the time of frame k.
@@ -103,9 +102,8 @@ class EventsCsv {
   std::map<std::string, std::uint64_t, std::less<>> cumulative_;  ///< per structure
 };
 
-// The files of --dump. Either the files of all frames of a run appear, or none. Files of an earlier dump are
-// removed.
-
+/// The files of --dump. Either the files of all frames of a run appear, or none. Files of an earlier dump are
+/// removed.
 class DumpedFrames {
  public:
   /// Throws an InputError or OutputError that names the option and the path. Throws also if the directory has
@@ -118,7 +116,7 @@ class DumpedFrames {
   [[nodiscard]] std::ostream& open_contacts();
   /// Writes the files of a frame. Call it in the order of the frames, from 0.
   void write(std::size_t frame, const std::vector<DumpFile>& files);
-  /// Taking their places, the files replace an earlier dump: its remaining files are removed.
+  /// Returns the files. When they take their places, the other files of an earlier dump are removed.
   [[nodiscard]] AtomicFiles& files() { return files_; }
 
  private:

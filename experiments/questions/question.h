@@ -109,7 +109,7 @@ struct ChainAngles {
 
 // "Can we prove bounds on the number of combinatorial changes in the wrapped hierarchy, assuming a physical
 // model of deformation and a given deformation energy budget?" Measures the number of changes as a function
-// of the energy of deformation.h.
+// of the energy of deformation.
 
 /// Measures the question. `data` is the data folder with the trajectories. `step_done` is called
 /// energy_steps() times.

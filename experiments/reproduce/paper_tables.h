@@ -46,8 +46,6 @@ struct PaperTable {
   std::string words;  ///< a few sentences: general differences, and the findings
 };
 
-// The paper's seven tables: the published values, and how each row is measured here.
-
 inline constexpr int paper_table_count = 7;
 
 struct PaperTablePlan {

@@ -68,8 +68,6 @@ struct SceneInfo {
 /// Returns a short description for tables, such as "beads that follow each other touch".
 [[nodiscard]] std::string_view about(Condition condition);
 
-// Text describing a scene. `kds info` and `kds generate` share it.
-
 /// Adds `input`, `necklaces`, `rows` (one per condition) and `proper`.
 void add_scene(Json& json, const SceneInfo& info);
 
