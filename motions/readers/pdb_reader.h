@@ -32,7 +32,7 @@ using OpenModels = std::unique_ptr<StructureModels> (*)(const std::filesystem::p
 
 [[nodiscard]] bool looks_like_pdb(std::string_view start);
 [[nodiscard]] bool looks_like_mmcif(std::string_view start);
-[[nodiscard]] std::unique_ptr<StructureModels> open_pdb(const std::filesystem::path& path);
-[[nodiscard]] std::unique_ptr<StructureModels> open_mmcif(const std::filesystem::path& path);
+std::unique_ptr<StructureModels> open_pdb(const std::filesystem::path& path);
+std::unique_ptr<StructureModels> open_mmcif(const std::filesystem::path& path);
 
 }  // namespace kds

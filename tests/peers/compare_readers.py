@@ -120,8 +120,8 @@ def write_seven(nanometres, folder):
             for i in range(atoms):
                 n, a = nanometres[k, i], angstrom[k, i]
                 gro.write(f"{i + 1:5d}ALA     CA{i + 1:5d}" + "".join(f"{c:15.10f}" for c in n) + "\n")
-                xyz.write("C " + " ".join(f"{c:.10g}" for c in a) + "\n")
-                dump.write(f"{i + 1} 1 " + " ".join(f"{c:.10g}" for c in a) + "\n")
+                xyz.write("C " + " ".join(f"{c:.17g}" for c in a) + "\n")
+                dump.write(f"{i + 1} 1 " + " ".join(f"{c:.17g}" for c in a) + "\n")
             gro.write("   0.00000   0.00000   0.00000\n")
     return [path(ending) for ending in ("dcd", "nc", "trr", "gro", "xyz", "lammpstrj", "xtc")], angstrom
 
