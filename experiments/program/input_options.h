@@ -46,9 +46,9 @@ struct InputOptions {
 inline constexpr std::string_view kInputOperand = "INPUT...";
 /// The trajectory formats as the help texts list them.
 inline constexpr std::string_view kTrajectoryHelp =
-    "a necklace: .pdb .ent .cif .mmcif .dcd .xyz .extxyz (also .gz)";
+    "a necklace: .pdb .cif .gro .dcd .xtc .trr .nc .lammpstrj .xyz (also .gz)";
 inline constexpr std::string_view kInputHelp =
-    "a necklace: .pdb .ent .cif .mmcif .dcd .xyz .extxyz (also .gz), or an instance file";
+    "a necklace: .pdb .cif .gro .dcd .xtc .trr .nc .lammpstrj .xyz (also .gz), or an instance file";
 
 /// Takes the inputs from the operands of `command` (such as `kds run`) after its options have been read.
 /// Throws InputError if there are no inputs, or if the number of --chain lists does not fit the number of
