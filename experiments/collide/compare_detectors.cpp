@@ -26,7 +26,7 @@ CollideFrames::CollideFrames(const InputOptions& options, const std::function<vo
   truncated_ = survey.truncated;
   frame_count_ = survey.frame_count;
   necklaces_ = bead_ranges(frames_->necklaces());
-  bead_names_ = bead_names(frames_->necklaces());
+  bead_names_ = names_of_beads(frames_->necklaces());
 }
 
 bool CollideFrames::next(FrameRead& frame) {

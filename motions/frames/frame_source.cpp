@@ -33,7 +33,7 @@ std::vector<BeadRange> bead_ranges(std::span<const NecklaceBeads> necklaces) {
   return ranges;
 }
 
-std::vector<std::string> bead_names(std::span<const NecklaceBeads> necklaces) {
+std::vector<std::string> names_of_beads(std::span<const NecklaceBeads> necklaces) {
   std::vector<std::string> names;
   std::size_t first = 0;
   for (const NecklaceBeads& necklace : necklaces) {

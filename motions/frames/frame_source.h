@@ -38,7 +38,7 @@ struct NecklaceBeads {
 /// Returns the beads of each necklace, which are numbered necklace after necklace.
 [[nodiscard]] std::vector<BeadRange> bead_ranges(std::span<const NecklaceBeads> necklaces);
 /// Returns a name for each bead, or nothing if no bead has a name.
-[[nodiscard]] std::vector<std::string> bead_names(std::span<const NecklaceBeads> necklaces);
+[[nodiscard]] std::vector<std::string> names_of_beads(std::span<const NecklaceBeads> necklaces);
 
 class FrameSource {
  public:

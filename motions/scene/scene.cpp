@@ -50,7 +50,7 @@ void Scene::take(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey,
                                  counted(count_beads(necklaces), "bead"), radii_.size()));
   check_radii(radii_);
   necklaces_ = bead_ranges(necklaces);
-  bead_names_ = bead_names(necklaces);
+  bead_names_ = names_of_beads(necklaces);
   truncated_ = survey.truncated;
   plane_ = survey.plane.value_or(AxisPlane{});
   steps_ = std::make_unique<DiscreteStepAdapter>(std::move(frames), survey, motion);

@@ -37,8 +37,8 @@ TEST(NecklaceBeads, AreNumberedNecklaceAfterNecklace) {
   const std::vector<NecklaceBeads> necklaces{{.count = 2}, {.count = 1, .names = {"CA"}}, {.count = 3}};
   EXPECT_EQ(count_beads(necklaces), 6U);
   EXPECT_EQ(bead_ranges(necklaces), (std::vector<BeadRange>{{0, 1}, {2, 2}, {3, 5}}));
-  EXPECT_EQ(bead_names(necklaces), (std::vector<std::string>{"", "", "CA", "", "", ""}));
-  EXPECT_TRUE(bead_names(std::vector<NecklaceBeads>{{.count = 2}}).empty());
+  EXPECT_EQ(names_of_beads(necklaces), (std::vector<std::string>{"", "", "CA", "", "", ""}));
+  EXPECT_TRUE(names_of_beads(std::vector<NecklaceBeads>{{.count = 2}}).empty());
 }
 
 TEST(MemoryFrames, PutNecklacesSideBySide) {

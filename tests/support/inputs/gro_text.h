@@ -27,7 +27,7 @@ inline std::string gro_line(const GroAtom& atom, std::size_t serial, int decimal
 
 struct GroText {
   std::string title = "made by a test";
-  std::vector<GroAtom> atoms;
+  std::vector<GroAtom> atoms = {};
   std::string box = "   3.00000   4.00000   5.00000";
   int decimals = 3;
   bool velocities = false;
