@@ -175,7 +175,7 @@ bool is_part(std::string_view name) {
   return name == ".part";
 }
 
-// Removes the hidden folders that killed programs left in the directory: nobody holds their locks.
+// Removes the hidden folders that killed programs left in the directory. No process holds their locks.
 void clear_stale_parts(const fs::path& directory) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory, ignored)) {
@@ -186,6 +186,8 @@ void clear_stale_parts(const fs::path& directory) {
     ::close(descriptor);
   }
 }
+
+std::string name_of(const std::string& path) { return fs::path(path).filename().string(); }
 
 // Blocks the catchable signals of this thread, so that a replacement that was begun is completed.
 struct SignalsWait {
@@ -203,7 +205,7 @@ struct SignalsWait {
 
 }  // namespace
 
-// It is open and locked, so that other programs see that it is in use.
+// The folder is open and locked, so that other programs see that it is in use.
 struct StagingFolder {
   StagingFolder(const fs::path& directory, const std::string& subject) : beside(directory) {
     static std::atomic<unsigned> counter{0};
@@ -345,7 +347,7 @@ std::ostream& AtomicFiles::open(const fs::path& place) {
     subject = cannot_write(target);
   }
   const fs::path waiting = folder_in(directory, subject).waiting->add_file();
-  files_.push_back({waiting, target});
+  files_.push_back({waiting.string(), target.string()});
   return open_.emplace_back(make_file(waiting, subject), subject);
 }
 
@@ -373,7 +375,7 @@ void AtomicFiles::finish() {
   for (OutputStream& file : open_) file.close();
   for (const File& file : files_) {
     check_replaceable(file.place);
-    if (earlier_) earlier_->require_own(file.place.filename().string());
+    if (earlier_) earlier_->require_own(name_of(file.place));
   }
   if (!earlier_) return;
   check_replaceable(earlier_->path());
@@ -385,7 +387,7 @@ void AtomicFiles::finish() {
     return path;
   };
   std::string lines;
-  for (const File& file : files_) lines += ResultManifest::line(file.waiting, file.place.filename().string());
+  for (const File& file : files_) lines += ResultManifest::line(file.waiting, name_of(file.place));
   both_ = write_manifest(earlier_->lines() + lines);
   manifest_ = write_manifest(lines);
 }
@@ -398,7 +400,7 @@ void AtomicFiles::take_places() {
   if (!earlier_) return;
   std::set<std::string> now;
   if (!earlier_->empty())
-    for (const File& file : files_) now.insert(file.place.filename().string());
+    for (const File& file : files_) now.insert(name_of(file.place));
   std::error_code ignored;
   for (const auto& [name, content] : earlier_->files())
     if (!now.contains(name) && earlier_->is_own(name)) fs::remove(directory_ / name, ignored);

@@ -110,7 +110,7 @@ class AtomicFiles {
  private:
   friend void commit_together(std::initializer_list<AtomicFiles*> results);
   struct File {
-    std::filesystem::path waiting, place;
+    std::string waiting, place;  ///< paths, as texts because there may be a file for each frame
   };
 
   void finish();

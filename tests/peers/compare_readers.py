@@ -119,7 +119,7 @@ def write_seven(nanometres, folder):
             dump.write("-500 500\n" * 3 + "ITEM: ATOMS id type x y z\n")
             for i in range(atoms):
                 n, a = nanometres[k, i], angstrom[k, i]
-                gro.write(f"{i + 1:5d}ALA     CA{i + 1:5d}" + "".join(f"{c:15.10f}" for c in n) + "\n")
+                gro.write(f"{i + 1:5d}ALA     CA{i + 1:5d}" + "".join(f"{c:17.12f}" for c in n) + "\n")
                 xyz.write("C " + " ".join(f"{c:.17g}" for c in a) + "\n")
                 dump.write(f"{i + 1} 1 " + " ".join(f"{c:.17g}" for c in a) + "\n")
             gro.write("   0.00000   0.00000   0.00000\n")

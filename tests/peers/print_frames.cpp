@@ -1,6 +1,6 @@
 // Prints the frames of a trajectory as raw doubles, for compare_readers.py.
-// Usage: kds_print_frames FILE [TOPOLOGY]. Per frame: its time in picoseconds (NaN if the file has none), then x, y, z of each
-// bead.
+// Usage: kds_print_frames FILE [TOPOLOGY]. Per frame: its time in picoseconds (NaN if the file has none),
+// then x, y, z of each bead.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -15,7 +15,8 @@ int main(int count, char** arguments) try {
   if (count > 2) options.topology = arguments[2];
   const kds::Trajectory trajectory = kds::read_trajectory(arguments[1], options);
   for (std::size_t k = 0; k < trajectory.frames.size(); ++k) {
-    const double time = k < trajectory.times.size() ? trajectory.times[k] : std::numeric_limits<double>::quiet_NaN();
+    const double time =
+        k < trajectory.times.size() ? trajectory.times[k] : std::numeric_limits<double>::quiet_NaN();
     std::fwrite(&time, sizeof time, 1, stdout);
     const Eigen::Matrix3Xd& frame = trajectory.frames[k];
     std::fwrite(frame.data(), sizeof(double), static_cast<std::size_t>(frame.size()), stdout);

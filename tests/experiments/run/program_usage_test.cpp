@@ -140,7 +140,7 @@ TEST(Program, RefusesBrokenFiles) {
                  {"nan.xyz", "frame 1"});
   expect_refused({"run", directory.file("count.xyz", good + xyz({"0 0 0", "1 0 0"}))},
                  {"count.xyz", "frame 1"});
-  expect_refused({"run", directory.file("cut.xyz", good + good + "3\nframe\nC 0 0")}, {"cut.xyz", "frame"});
+  expect_refused({"run", directory.file("cut.xyz", good + "3\nframe\nC 0 0")}, {"cut.xyz", "two frames"});
   expect_refused({"run", directory.file("one-frame.xyz", good)}, {"one-frame.xyz"});
   expect_refused({"run", directory.file("empty.xyz", "")}, {"empty.xyz"});
   expect_refused({"run", directory.file("what.bin", "?")}, {"what.bin"});
@@ -156,12 +156,15 @@ TEST(Program, RefusesRadiiWhoseSquareIsNoNumber) {
             0);
 }
 
-TEST(Program, RefusesATrajectoryThatEndsInsideAFrame) {
+TEST(Program, ReadsATrajectoryThatEndsInsideAFrame) {
   const ScratchDirectory directory;
   std::string bytes = content_of(data_file("trajectories/villin_hp36_300K.dcd"));
   ASSERT_GT(bytes.size(), 100000U);
   bytes.resize(100000);
-  expect_refused({"run", directory.file("cut.dcd", bytes)}, {"cut.dcd", "frame"});
+  const ProgramRun run = run_program({"run", directory.file("cut.dcd", bytes), "--json", "-", "--quiet"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(run.err, HasSubstr("cut.dcd: the file ends inside frame 75 (after 100000 bytes)"));
+  EXPECT_THAT(run.out, HasSubstr("\"truncated\": true"));
 }
 
 TEST(Program, RefusesAnEmptySelection) {

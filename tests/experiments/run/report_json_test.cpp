@@ -32,7 +32,7 @@ TEST(ReportJson, HasTheShapeOfTheContract) {
                                       "version", "machine"));
   EXPECT_EQ(json["command"], "kds run chain.pdb");
   EXPECT_THAT(keys(json["input"]),
-              ElementsAre("files", "beads", "frames", "dimension", "radius_min", "radius_max"));
+              ElementsAre("files", "beads", "frames", "dimension", "truncated", "radius_min", "radius_max"));
   EXPECT_THAT(keys(json["machine"]), ElementsAre("cpu", "cores", "os", "compiler"));
   EXPECT_EQ(json["input"]["files"], Json::array({"chain.pdb"}));
   EXPECT_EQ(json["input"]["radius_max"], 1.5);

@@ -10,8 +10,8 @@
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/radii.h"
 #include "tests/motions/test_files.h"
-#include "tests/support/inputs/netcdf_maker.h"
 #include "tests/support/inputs/gro_text.h"
+#include "tests/support/inputs/netcdf_maker.h"
 
 namespace kds::reader_fuzz_test {
 namespace {
