@@ -146,9 +146,9 @@ template <int Dimension>
     size = std::max(size, 0.5 * box.high[axis] - 0.5 * box.low[axis]);
   }
   // Keeps |x| scale below 2^100. Differences of coordinates this large are then zero or at least 2^47.
-  const int up = largest > 0 ? 100 - std::ilogb(largest) - 1 : 0;
-  const int wanted = size > 0 ? -std::ilogb(size) - 1 : up;
-  frame.scale = std::ldexp(1.0, std::min({wanted, up, 1023}));
+  const int limit = largest > 0 ? 100 - std::ilogb(largest) - 1 : 0;
+  const int wanted = size > 0 ? -std::ilogb(size) - 1 : limit;
+  frame.scale = std::ldexp(1.0, std::min({wanted, limit, 1023}));
   double farthest = 0x1p-31;
   for (std::size_t axis = 0; axis < Dimension; ++axis) {
     frame.shift[axis] = (0.5 * box.low[axis] + 0.5 * box.high[axis]) * frame.scale;
