@@ -3,6 +3,7 @@
 // order.
 
 #include <cstdint>
+#include <vector>
 
 namespace kds {
 
@@ -18,5 +19,8 @@ struct BeadRange {
 
   friend bool operator==(const BeadRange&, const BeadRange&) = default;
 };
+
+/// The groups of each bead: bit k is set if the bead is in group k.
+using BeadGroups = std::vector<std::uint8_t>;
 
 }  // namespace kds

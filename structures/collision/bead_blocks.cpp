@@ -77,6 +77,7 @@ template class MortonOrder<3>;
 template <int Dimension>
 BeadBlocks<Dimension>::BeadBlocks(PairsAsked asked, const BlockLoops<Dimension>& loops, BlockOrder order)
     : asked_(std::move(asked)), loops_(loops) {
+  refuse_groups(asked_, "a block tree");
   for (const BeadRange& range : asked_.necklaces) {
     if (range.first != beads_ || range.last < range.first)
       throw std::invalid_argument("expected a scene's necklaces one after the other");

@@ -52,6 +52,7 @@ template <int Dimension, class Distance, class Visit>
 void visit_near(const Balls<Dimension>& balls, const PairsAsked& asked, const Distance& distance,
                 const Visit& visit) {
   const FloatingPointGuard to_nearest;
+  check_groups(asked);
   Found found;
   for (std::size_t n = 0; n < asked.necklaces.size(); ++n) {
     for (BeadId i = asked.necklaces[n].first; i <= asked.necklaces[n].last; ++i) {
@@ -59,7 +60,8 @@ void visit_near(const Balls<Dimension>& balls, const PairsAsked& asked, const Di
         for (BeadId first = run.first; first < run.end;) {
           const BeadId end = first + std::min(beads_at_a_time, run.end - first);
           const std::size_t count = find_near(balls, i, distance(), first, end, found);
-          for (std::size_t k = 0; k < count; ++k) visit(i, found[k]);
+          for (std::size_t k = 0; k < count; ++k)
+            if (asked.joins_groups({i, found[k]})) visit(i, found[k]);
           first = end;
         }
       }

@@ -13,6 +13,7 @@ namespace kds {
 template <int Dimension>
 CellList<Dimension>::CellList(PairsAsked asked)
     : asked_(std::move(asked)), one_necklace_(asked_.necklaces.size() == 1) {
+  check_groups(asked_);
   if (one_necklace_) least_along_ = asked_.within ? asked_.apart : std::int64_t{no_bead} + 1;
 }
 
@@ -142,7 +143,7 @@ void CellList<Dimension>::compare_cell(const Balls<Dimension>& balls, std::uint3
       const std::int64_t along = std::int64_t{entry.bead} - std::int64_t{other.bead};
       if (static_cast<unsigned>(square <= limit) & static_cast<unsigned>(std::abs(along) >= least_along_)) {
         const BeadPair pair{std::min(entry.bead, other.bead), std::max(entry.bead, other.bead)};
-        if (one_necklace_ || asked_.asks(pair)) candidates_.push_back(pair);
+        if (one_necklace_ ? asked_.joins_groups(pair) : asked_.asks(pair)) candidates_.push_back(pair);
       }
     }
   }

@@ -108,6 +108,8 @@ std::optional<std::string> diagram_refusal(const Balls<Dimension>& balls, const 
   if (!asked.within || (several && !asked.between))
     return "the power diagram is of all beads together; it does not answer about some pairs of necklaces "
            "only";
+  if (!asked.groups.empty())
+    return "the power diagram is of all beads together; it does not answer about groups of beads only";
   for (BeadId b = 0; b < balls.size(); ++b)
     if (!balls.equal_radii() && !std::isfinite(balls.radius(b) * balls.radius(b)))
       return "bead " + std::to_string(b) + ": the power diagram needs a radius with a finite square";

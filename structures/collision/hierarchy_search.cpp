@@ -171,6 +171,7 @@ bool splits_first(const TreeSphere<Dimension>& a, const TreeSphere<Dimension>& b
 // Calls search(root, root, apart) for the trees and pairs of trees asked about.
 template <int Dimension, class Search>
 void for_each_root(const SphereTree<Dimension>& tree, const PairsAsked& asked, const Search& search) {
+  refuse_groups(asked, "a hierarchy of spheres");
   const auto roots = tree.roots();
   for (std::size_t n = 0; n < roots.size(); ++n) {
     if (asked.within) search(NodePair{roots[n], roots[n]}, asked.apart);

@@ -185,7 +185,14 @@ MovingFamily<Dimension>::MovingFamily(PairsAsked asked, int degree)
       boxes_(blocks_, degree),
       beads_(blocks_, degree),
       order_(blocks_.size()) {
+  check_groups(asked_);
   std::iota(order_.begin(), order_.end(), 0U);
+  if (asked_.groups.empty()) return;
+  for (const BeadBlock& block : blocks_) {
+    std::uint8_t& groups = groups_of_blocks_.emplace_back();
+    for (BeadId bead = block.first; bead < block.first + block.count; ++bead)
+      groups = static_cast<std::uint8_t>(groups | asked_.groups[bead]);
+  }
 }
 
 template <int Dimension>
@@ -207,6 +214,10 @@ void MovingFamily<Dimension>::find_pairs(const Curves<Dimension>& curves, Restin
   split(resting, boxes_.level_count(), 0, 0);
   if (sorts) size_when_sorted_ = size_;
   beads_.look_at(near_blocks_, asked_.apart, list_overlapping, pairs);
+  if (asked_.groups.empty()) return;
+  const auto is_within_a_group = [this](const BeadPair& pair) { return !asked_.joins_groups(pair); };
+  std::erase_if(pairs.unclear, is_within_a_group);
+  std::erase_if(pairs.overlapping, is_within_a_group);
 }
 
 template <int Dimension>
@@ -284,6 +295,8 @@ void MovingFamily<Dimension>::split(Resting resting, std::size_t level, std::siz
 
 template <int Dimension>
 bool MovingFamily<Dimension>::asks(std::size_t first, std::size_t second) const {
+  if (!groups_of_blocks_.empty() && !PairsAsked::joins(groups_of_blocks_[first], groups_of_blocks_[second]))
+    return false;
   return blocks_[first].necklace == blocks_[second].necklace ? asked_.within : asked_.between;
 }
 

@@ -146,6 +146,7 @@ class MovingFamily {
 
   PairsAsked asked_;
   std::vector<BeadBlock> blocks_;
+  std::vector<std::uint8_t> groups_of_blocks_;  // groups that occur in each block; empty without groups
   MovingBoxes<Dimension> boxes_;
   BlockBeads<Dimension> beads_;
   std::vector<std::uint32_t> order_;  // of blocks, with the blocks of one box consecutive

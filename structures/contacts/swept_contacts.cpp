@@ -97,6 +97,7 @@ template <int D>
 template <int D>
 SweptContacts<D>::SweptContacts(const NecklaceTree& tree, PairsAsked asked)
     : asked_(std::move(asked)), nodes_(static_cast<Item>(tree.node_count())) {
+  check_groups(asked_);
   ranges_.assign(tree.ranges().begin(), tree.ranges().end());
   const BeadId beads = asked_.necklaces.empty() ? 0 : asked_.necklaces.back().last + 1;
   for (BeadId b = 0; b < beads; ++b) ranges_.push_back({b, b});
@@ -140,7 +141,8 @@ void SweptContacts<D>::traverse(const MayMeet& may_meet, FoundPairs& found) {
     const BeadRange &of_a = ranges_[a], &of_b = ranges_[b];
     const BeadId beads_a = of_a.last - of_a.first, beads_b = of_b.last - of_b.first;
     if (beads_a == 0 && beads_b == 0) {
-      found.pairs.push_back({of_a.first, of_b.first});
+      const BeadPair pair{of_a.first, of_b.first};
+      if (asked_.joins_groups(pair)) found.pairs.push_back(pair);
       continue;
     }
     const auto open = [&](const Task& task) {

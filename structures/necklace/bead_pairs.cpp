@@ -5,6 +5,19 @@
 
 namespace kds {
 
+void check_groups(const PairsAsked& asked) {
+  const std::size_t beads = asked.necklaces.empty() ? 0 : std::size_t{asked.necklaces.back().last} + 1;
+  if (asked.groups.empty() || asked.groups.size() == beads) return;
+  throw std::invalid_argument("expected the groups of " + std::to_string(beads) + " beads, found those of " +
+                              std::to_string(asked.groups.size()));
+}
+
+void refuse_groups(const PairsAsked& asked, std::string_view method) {
+  if (asked.groups.empty()) return;
+  throw std::invalid_argument(std::string(method) +
+                              " takes no groups of beads; expected contacts, a cell list or brute force");
+}
+
 BeadPairs::BeadPairs(std::size_t beads, std::span<const Pair> pairs) : start_(beads + 1, 0) {
   for (const auto& [a, b] : pairs) {
     if (a >= beads || b >= beads || a == b)

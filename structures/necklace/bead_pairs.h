@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,12 +30,14 @@ struct BeadPair {
 };
 
 /// Selects the pairs of beads a query is about: pairs within one necklace that are far enough apart along it,
-/// pairs of two necklaces, or both. Pairs near along the chain meet by construction.
+/// pairs of two necklaces, or both. Pairs near along the chain meet by construction. With two groups of
+/// beads, only pairs with one bead in each group are asked about; a bead may be in both groups.
 struct PairsAsked {
   std::vector<BeadRange> necklaces;  ///< one after the other, from bead 0 to the scene's last bead
   bool within = true;                ///< pairs within one necklace
   BeadId apart = 2;                  ///< least distance in sequence for these pairs, at least 1
   bool between = true;               ///< pairs of two necklaces
+  BeadGroups groups = {};            ///< groups 0 and 1 of each bead; empty: pairs of any beads
 
   /// Returns the index of the bead's necklace.
   [[nodiscard]] std::size_t necklace_of(BeadId bead) const {
@@ -46,10 +49,25 @@ struct PairsAsked {
   /// Takes log(necklaces) time, which suits single pairs. Loops over many pairs should look up the necklaces
   /// themselves.
   [[nodiscard]] bool asks(const BeadPair& pair) const {
+    if (!joins_groups(pair)) return false;
     if (necklace_of(pair.first) != necklace_of(pair.second)) return between;
     return within && pair.second - pair.first >= apart;
   }
+
+  /// Returns whether one bead is in group 0 and the other in group 1. True without groups.
+  [[nodiscard]] bool joins_groups(const BeadPair& pair) const {
+    return groups.empty() || joins(groups[pair.first], groups[pair.second]);
+  }
+  /// Takes the groups of two beads, or the groups that occur in two sets of beads.
+  [[nodiscard]] static constexpr bool joins(unsigned one, unsigned other) {
+    return ((one & (other >> 1U)) | ((one >> 1U) & other)) % 2 != 0;
+  }
 };
+
+/// Throws std::invalid_argument if there are groups, but not those of all beads of the necklaces.
+void check_groups(const PairsAsked& asked);
+/// Throws std::invalid_argument if there are groups. For a `method` that looks at all pairs.
+void refuse_groups(const PairsAsked& asked, std::string_view method);
 
 /// A symmetric set of pairs of beads as flat adjacency lists: the neighbours of each bead in ascending order.
 /// The set holds the edges of a diagram or the family of beads that may meet. No bead is its own neighbour.

@@ -123,7 +123,7 @@ StructureSpec contacts_structure() {
   spec.make =
       make_of_motion<2>([]<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
                                   const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
-        const PairsAsked asked{scene.necklaces(), true, settings.apart, true};
+        const PairsAsked asked{scene.necklaces(), true, settings.apart, true, settings.groups};
         if (simulator.kernel() == Kernel::exact) check_exact_pairs(asked);
         return std::make_unique<ContactsInRun<D>>(simulator, scene, ref, asked);
       });

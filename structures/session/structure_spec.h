@@ -86,7 +86,9 @@ struct StructureSettings {
   Between between = Between::events;  ///< for `wrapped`
   /// For chords: radii are at most 1 + tightness times the smallest radii at all times. No value: no bound.
   std::optional<double> tightness{};
-  BeadId apart = 2;    ///< for contacts: pairs in one necklace are at least this far apart along it
+  BeadId apart = 2;  ///< for contacts: pairs in one necklace are at least this far apart along it
+  /// For contacts: the groups of each bead, as PairsAsked::groups has them. Empty: all pairs.
+  BeadGroups groups{};
   Relaxation relax{};  ///< for `wrapped`: share of a sphere's radius by which beads may stick out
 };
 
