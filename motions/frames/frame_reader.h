@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "motions/base/bead.h"
 #include "motions/frames/frame_stamp.h"
 #include "motions/frames/periodic.h"
 
@@ -50,6 +51,7 @@ struct FramesOpened {
   std::vector<ChainRead> chains;      ///< the chains of the beads, in order; empty: one chain without a name
   std::vector<double> element_radii;  ///< van der Waals radius of each bead; empty if elements are unknown
   std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty if the file has no residues
+  BeadGroups bead_groups;               ///< empty if no groups are asked for or the file does not name atoms
   std::vector<std::string> warnings;    ///< one line each
   bool chain_like = true;               ///< consecutive beads are meant to be bonded
   bool truncated = false;               ///< the file ends inside the frame after the last one

@@ -13,7 +13,8 @@
 namespace kds {
 
 NecklaceBeads beads_of(const Trajectory& necklace) {
-  return {necklace.file, necklace.bead_count(), necklace.bead_names, necklace.element_radii, necklace.breaks};
+  return {necklace.file,          necklace.bead_count(), necklace.bead_names,
+          necklace.element_radii, necklace.breaks,       necklace.bead_groups};
 }
 
 std::size_t count_beads(std::span<const NecklaceBeads> necklaces) {
@@ -45,6 +46,15 @@ std::vector<std::string> names_of_beads(std::span<const NecklaceBeads> necklaces
     first += necklace.count;
   }
   return names;
+}
+
+BeadGroups bead_groups(std::span<const NecklaceBeads> necklaces) {
+  BeadGroups groups;
+  for (const NecklaceBeads& necklace : necklaces) {
+    if (necklace.groups.empty()) return {};
+    groups.insert(groups.end(), necklace.groups.begin(), necklace.groups.end());
+  }
+  return groups;
 }
 
 namespace {

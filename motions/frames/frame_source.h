@@ -31,6 +31,7 @@ struct NecklaceBeads {
   std::vector<std::string> names = {};     ///< empty if the beads have no names
   std::vector<double> element_radii = {};  ///< van der Waals radii; empty if elements are unknown
   std::vector<std::size_t> breaks = {};    ///< b: beads b and b+1 are joined across a chain break
+  BeadGroups groups = {};                  ///< empty unless asked for
 };
 [[nodiscard]] NecklaceBeads beads_of(const Trajectory& necklace);
 
@@ -39,6 +40,8 @@ struct NecklaceBeads {
 [[nodiscard]] std::vector<BeadRange> bead_ranges(std::span<const NecklaceBeads> necklaces);
 /// Returns a name for each bead, or nothing if no bead has a name.
 [[nodiscard]] std::vector<std::string> names_of_beads(std::span<const NecklaceBeads> necklaces);
+/// Returns the groups of each bead, or nothing if a necklace has none.
+[[nodiscard]] BeadGroups bead_groups(std::span<const NecklaceBeads> necklaces);
 
 class FrameSource {
  public:

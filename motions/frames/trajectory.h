@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "motions/base/bead.h"
+
 namespace kds {
 
 /// Frames that have chain breaks which the first frame has not.
@@ -21,6 +23,7 @@ struct Trajectory {
   std::vector<double> times;               ///< of the frames, in picoseconds; empty where the file has none
   std::vector<double> element_radii;  ///< van der Waals radius of each bead; empty where elements are unknown
   std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty where residues are unknown
+  BeadGroups bead_groups;               ///< empty unless asked for
   std::size_t residues = 0;       ///< of the chain in the file, without waters and ligands; 0 if unknown
   std::size_t residues_read = 0;  ///< those with beads
   std::vector<std::size_t>

@@ -20,9 +20,15 @@ namespace {
 bool is_numeral(char c) { return c >= '0' && c <= '9'; }
 bool is_latin(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-InputError malformed(const std::string& text, std::string_view what) {
-  return InputError(fmt::format("--select: {} {}; expected a selection as in {}", in_quotes(text), what,
-                                selection_example));
+// An atom selection and the option that gives it.
+struct GivenText {
+  std::string text;
+  std::string option;
+};
+
+InputError malformed(const GivenText& given, std::string_view what) {
+  return InputError(fmt::format("{}: {} {}; expected a selection as in {}", given.option,
+                                in_quotes(given.text), what, selection_example));
 }
 
 // A residue number with its insertion code. A number without a code means the residue without one, and `*`
@@ -142,11 +148,11 @@ std::vector<std::string> split_list(std::string_view list, char separator) {
 }
 
 // Separates the names in brackets from the numbers of RESIDUES.
-void take_residues(const std::string& text, std::string residues, SelectionTexts& parts) {
+void take_residues(const GivenText& given, std::string residues, SelectionTexts& parts) {
   const std::size_t open = residues.find('(');
   if (open != std::string::npos) {
     const std::size_t close = residues.find(')', open);
-    if (close == std::string::npos) throw malformed(text, "has no ) behind its (");
+    if (close == std::string::npos) throw malformed(given, "has no ) behind its (");
     parts.residue_names = residues.substr(open + 1, close - open - 1);
     residues.erase(open, close - open + 1);
   }
@@ -154,9 +160,9 @@ void take_residues(const std::string& text, std::string residues, SelectionTexts
 }
 
 // Which parts are missing follows from the first character that is special, as in gemmi.
-SelectionTexts texts_of(const std::string& text) {
+SelectionTexts texts_of(const GivenText& given) {
   std::string dense;  // blanks belong to no name
-  for (const char c : text)
+  for (const char c : given.text)
     if (c != ' ' && c != '\t') dense += c;
   SelectionTexts parts;
   const std::size_t semicolon = std::min(dense.find(';'), dense.size());
@@ -176,51 +182,51 @@ SelectionTexts texts_of(const std::string& text) {
   } else if (head[special] == '(') {
     first = 2;
   }
-  if (first + fields.size() > 4) throw malformed(text, "has too many parts");
+  if (first + fields.size() > 4) throw malformed(given, "has too many parts");
   std::string residues;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     std::string* const targets[] = {&parts.model, &parts.chains, &residues, &parts.atoms};
     *targets[first + i] = fields[i];
   }
-  take_residues(text, residues, parts);
+  take_residues(given, residues, parts);
   return parts;
 }
 
-NameList parse_list(const std::string& text, std::string_view list) {
+NameList parse_list(const GivenText& given, std::string_view list) {
   if (list == "*") return {};
   NameList read;
   read.any = false;
   read.inverted = list.starts_with('!');
   if (read.inverted) list.remove_prefix(1);
   if (const std::size_t wrong = list.find_first_of("[]()!*/:;"); wrong != std::string_view::npos)
-    throw malformed(text, fmt::format("has {} in a list of names", in_quotes(list.substr(wrong, 1))));
+    throw malformed(given, fmt::format("has {} in a list of names", in_quotes(list.substr(wrong, 1))));
   read.names = split_list(list, ',');
   return read;
 }
 
 // Returns the symbols of the elements as gemmi writes them.
-NameList parse_elements(const std::string& text, std::string_view list) {
-  NameList read = parse_list(text, list);
+NameList parse_elements(const GivenText& given, std::string_view list) {
+  NameList read = parse_list(given, list);
   for (std::string& symbol : read.names) {
     const gemmi::Element element(symbol);
     if (symbol.empty() || symbol.size() > 2 || (element == gemmi::El::X && symbol != "X" && symbol != "x"))
-      throw malformed(text, fmt::format("has {} in [ ], which is no element", in_quotes(symbol)));
+      throw malformed(given, fmt::format("has {} in [ ], which is no element", in_quotes(symbol)));
     symbol = element.name();
   }
   return read;
 }
 
-NumberCondition parse_number_condition(const std::string& text, std::string_view condition) {
+NumberCondition parse_number_condition(const GivenText& given, std::string_view condition) {
   NumberCondition read;
   read.is_occupancy = condition.starts_with('q');
   const std::optional<double> value = condition.size() < 2 ? std::nullopt : parse_double(condition.substr(2));
   if ((!read.is_occupancy && !condition.starts_with('b')) || !value)
     throw malformed(
-        text, fmt::format("has the condition {}, which is not as in q>0.5 or b<30", in_quotes(condition)));
+        given, fmt::format("has the condition {}, which is not as in q>0.5 or b<30", in_quotes(condition)));
   const char sign = condition[1];
   if (sign != '<' && sign != '=' && sign != '>')
     throw malformed(
-        text, fmt::format("has the condition {}, which is not as in q>0.5 or b<30", in_quotes(condition)));
+        given, fmt::format("has the condition {}, which is not as in q>0.5 or b<30", in_quotes(condition)));
   read.comparison = sign == '<' ? Comparison::less : sign == '>' ? Comparison::greater : Comparison::equal;
   read.value = *value;
   return read;
@@ -235,21 +241,21 @@ std::string kind_name_of(const StructureResidue& residue) {
 }  // namespace
 
 struct AtomFilter::Rules {
-  std::string text;
+  GivenText given;
   NameList chains, residue_names, kinds, atom_names, elements, locations;
   ResidueRange numbers;
   std::vector<NumberCondition> conditions;
 
-  explicit Rules(const std::string& selection) : text(selection) {
-    const SelectionTexts parts = texts_of(text);
+  explicit Rules(GivenText its_given) : given(std::move(its_given)) {
+    const SelectionTexts parts = texts_of(given);
     if (!parts.model.empty() && parts.model != "*" && parts.model != "0")
-      throw malformed(text, fmt::format("names model {}, which --frames chooses", in_quotes(parts.model)));
-    chains = parse_list(text, parts.chains);
-    residue_names = parse_list(text, parts.residue_names);
+      throw malformed(given, fmt::format("names model {}, which --frames chooses", in_quotes(parts.model)));
+    chains = parse_list(given, parts.chains);
+    residue_names = parse_list(given, parts.residue_names);
     const auto range = parse_range(parts.numbers);
     if (!range)
       throw malformed(
-          text, fmt::format("has the residues {}, which are no number or range", in_quotes(parts.numbers)));
+          given, fmt::format("has the residues {}, which are no number or range", in_quotes(parts.numbers)));
     numbers = *range;
     take_atoms(parts.atoms);
     if (!parts.conditions.empty())
@@ -260,29 +266,29 @@ struct AtomFilter::Rules {
   // Parses NAMES[ELEMENTS]:LOCATIONS.
   void take_atoms(std::string_view atoms) {
     const std::size_t end = std::min(atoms.find_first_of("[:"), atoms.size());
-    if (end > 0) atom_names = parse_list(text, atoms.substr(0, end));
+    if (end > 0) atom_names = parse_list(given, atoms.substr(0, end));
     atoms.remove_prefix(end);
     if (atoms.starts_with('[')) {
       const std::size_t close = atoms.find(']');
-      if (close == std::string_view::npos) throw malformed(text, "has no ] behind its [");
-      elements = parse_elements(text, atoms.substr(1, close - 1));
+      if (close == std::string_view::npos) throw malformed(given, "has no ] behind its [");
+      elements = parse_elements(given, atoms.substr(1, close - 1));
       atoms.remove_prefix(close + 1);
     }
     if (atoms.empty()) return;
-    if (atoms[0] != ':') throw malformed(text, fmt::format("has {} behind ]", in_quotes(atoms)));
-    locations = parse_list(text, atoms.substr(1));
+    if (atoms[0] != ':') throw malformed(given, fmt::format("has {} behind ]", in_quotes(atoms)));
+    locations = parse_list(given, atoms.substr(1));
   }
 
   void take_condition(const std::string& condition) {
     if (condition.find_first_of("<=>") != std::string::npos) {
-      conditions.push_back(parse_number_condition(text, condition));
+      conditions.push_back(parse_number_condition(given, condition));
       return;
     }
-    kinds = parse_list(text, condition);
+    kinds = parse_list(given, condition);
     for (const std::string& kind : kinds.names)
       if (kind != "polymer" && kind != "solvent")
-        throw malformed(text, fmt::format("has the condition {}, which is not polymer, solvent, q or b",
-                                          in_quotes(condition)));
+        throw malformed(given, fmt::format("has the condition {}, which is not polymer, solvent, q or b",
+                                           in_quotes(condition)));
   }
 
   bool takes(const StructureResidue& residue) const {
@@ -298,8 +304,8 @@ struct AtomFilter::Rules {
     return std::all_of(conditions.begin(), conditions.end(), [&](const NumberCondition& condition) {
       const std::optional<double>& value = condition.is_occupancy ? atom.occupancy : atom.b_factor;
       if (!value)
-        throw InputError(fmt::format("--select: {} compares {}, which {} does not give for {} of {} {}",
-                                     in_quotes(text),
+        throw InputError(fmt::format("{}: {} compares {}, which {} does not give for {} of {} {}",
+                                     given.option, in_quotes(given.text),
                                      condition.is_occupancy ? "occupancies (q)" : "B factors (b)", file,
                                      atom.name, residue.name, residue.number));
       return condition.holds_for(*value);
@@ -307,7 +313,8 @@ struct AtomFilter::Rules {
   }
 };
 
-AtomFilter::AtomFilter(const std::string& text) : rules_(std::make_shared<const Rules>(text)) {}
+AtomFilter::AtomFilter(const std::string& text, std::string_view option)
+    : rules_(std::make_shared<const Rules>(GivenText{text, std::string(option)})) {}
 
 std::vector<const StructureAtom*> AtomFilter::atoms_of(const std::string& file,
                                                        const StructureResidue& residue) const {

@@ -14,12 +14,12 @@ namespace kds {
 
 class AtomFilter {
  public:
-  /// Parses an atom selection. Throws InputError naming --select.
-  explicit AtomFilter(const std::string& text);
+  /// Parses an atom selection. Throws InputError naming `option`, here and later.
+  explicit AtomFilter(const std::string& text, std::string_view option = "--select");
 
   /// Returns the atoms of the residue that are selected, in the order of the file. The first of alternate
-  /// locations counts. Throws InputError naming --select and `file` if the selection compares a number that
-  /// the file does not give.
+  /// locations counts. Throws InputError naming `file` if the selection compares a number that the file does
+  /// not give.
   [[nodiscard]] std::vector<const StructureAtom*> atoms_of(const std::string& file,
                                                            const StructureResidue& residue) const;
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -19,6 +20,7 @@ struct ChosenAtoms {
   std::vector<std::size_t> places;
   std::vector<double> element_radii;
   std::vector<std::string> names;
+  BeadGroups groups;
   std::vector<ChainRead> chains;
   bool chain_like = true;
 };
@@ -38,6 +40,9 @@ ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, st
   if (!options.topology) {
     if (options.selection.needs_names()) throw needs_names("--select", file, "atoms");
     if (options.chain) throw needs_names("--chain", file, "chains");
+    if (std::any_of(options.groups.begin(), options.groups.end(),
+                    [](const Selection& group) { return group.needs_names(); }))
+      throw needs_names("--groups", file, "atoms");
     return chosen;
   }
   Topology topology = read_topology(*options.topology, options);
@@ -51,6 +56,7 @@ ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, st
   }
   chosen.element_radii = std::move(topology.element_radii);
   chosen.names = std::move(topology.bead_names);
+  chosen.groups = std::move(topology.bead_groups);
   chosen.chains = std::move(topology.chains);
   chosen.chain_like = topology.chain_like;
   return chosen;
@@ -99,6 +105,7 @@ FramesOpened open_atom_frames(const std::filesystem::path& path, const ReadOptio
       opened.element_radii.push_back(radii[atoms.places[i]]);
   }
   opened.bead_names = std::move(atoms.names);
+  opened.bead_groups = std::move(atoms.groups);
   opened.chains = std::move(atoms.chains);
   opened.chain_like = atoms.chain_like;
   opened.frames = std::make_unique<ChosenFrames>(std::move(frames), std::move(atoms.places), asked);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -85,6 +86,14 @@ std::vector<T> of_chain(const std::vector<T>& of_beads, std::size_t first, std::
   return {begin, begin + static_cast<std::ptrdiff_t>(bead_count)};
 }
 
+// Returns the groups of each bead of a file that does not name atoms.
+std::uint8_t groups_without_names(const std::string& file, const std::vector<Selection>& groups) {
+  for (const Selection& group : groups)
+    if (group.needs_names())
+      throw InputError(fmt::format("--groups: {} does not name its atoms; expected a file that does", file));
+  return static_cast<std::uint8_t>((1U << groups.size()) - 1);
+}
+
 void count_residues(const ChainRead& chain, Trajectory& head) {
   head.residues = chain.residues;
   head.residues_read = chain.residues_read;
@@ -97,6 +106,7 @@ std::vector<Trajectory> heads_of(const FramesOpened& opened) {
     heads.emplace_back().file = opened.file;
     heads.front().element_radii = opened.element_radii;
     heads.front().bead_names = opened.bead_names;
+    heads.front().bead_groups = opened.bead_groups;
     if (!opened.chains.empty()) count_residues(opened.chains.front(), heads.front());
     return heads;
   }
@@ -107,6 +117,7 @@ std::vector<Trajectory> heads_of(const FramesOpened& opened) {
     head.file = fmt::format("{} chain {}", opened.file, chain.name.empty() ? "' '" : chain.name);
     head.element_radii = of_chain(opened.element_radii, first, chain.bead_count);
     head.bead_names = of_chain(opened.bead_names, first, chain.bead_count);
+    head.bead_groups = of_chain(opened.bead_groups, first, chain.bead_count);
     first += chain.bead_count;
   }
   return heads;
@@ -128,6 +139,10 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
   for (std::size_t n = 0; n < heads_.size(); ++n)
     bead_counts_.push_back(heads_.size() == 1 ? first.positions.cols()
                                               : static_cast<Eigen::Index>(opened_.chains[n].bead_count));
+  for (std::size_t n = 0; n < heads_.size(); ++n)
+    if (!options.groups.empty() && heads_[n].bead_groups.empty())
+      heads_[n].bead_groups.assign(static_cast<std::size_t>(bead_counts_[n]),
+                                   groups_without_names(opened_.file, options.groups));
   judge_cell(first);
   EarlierNecklaces earlier;
   Eigen::Index begin = 0;

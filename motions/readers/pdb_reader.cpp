@@ -60,6 +60,14 @@ Eigen::Matrix3Xd positions(const std::vector<SelectedAtom>& atoms) {
   return frame;
 }
 
+// Returns nothing if there are no groups.
+BeadGroups groups_of(const std::vector<SelectedAtom>& atoms, const std::vector<Selection>& groups) {
+  BeadGroups of_atoms;
+  for (const SelectedAtom& selected : atoms)
+    if (!groups.empty()) of_atoms.push_back(selected.groups);
+  return of_atoms;
+}
+
 std::vector<std::string> names_of(const std::vector<SelectedAtom>& atoms) {
   std::vector<std::string> names;
   for (const SelectedAtom& selected : atoms) names.push_back(selected.name);
@@ -88,6 +96,7 @@ class StructureFrames final : public FrameReader {
         models_(std::move(models)),
         selection_(options.selection),
         chain_(options.chain),
+        groups_(options.groups),
         asked_(asked),
         alone_(models_->held().whole == 1),
         ignores_cell_(alone_ && models_->lone_cell_is_crystal()),
@@ -96,10 +105,11 @@ class StructureFrames final : public FrameReader {
   // Describes what the first frame determines for all frames.
   void describe(FramesOpened& opened) {
     const StructureModel model = models_->model(asked_[0]);
-    SelectedChains selected = select_chains(place(asked_[0]), model, selection_, chain_);
+    SelectedChains selected = select_chains(place(asked_[0]), model, selection_, chain_, groups_);
     names_ = names_of(selected.atoms);
     opened.element_radii = element_radii_of(selected.atoms);
     opened.bead_names = names_;
+    opened.bead_groups = groups_of(selected.atoms, groups_);
     opened.chain_like = selected.chain_like;
     warn(file_, models_->notes(), opened.warnings);
     warn(file_, model.notes, opened.warnings);
@@ -130,6 +140,7 @@ class StructureFrames final : public FrameReader {
   std::unique_ptr<StructureModels> models_;
   Selection selection_;
   std::optional<std::string> chain_;
+  std::vector<Selection> groups_;
   FramesAsked asked_;
   bool alone_;
   bool ignores_cell_;
@@ -156,10 +167,12 @@ Topology topology_of(const std::filesystem::path& path, const ReadOptions& optio
   const StructureModel model = models->model(0);
   Topology topology;
   topology.atom_count = model.atom_count;
-  SelectedChains selected = select_chains(path.string(), model, options.selection, options.chain);
+  SelectedChains selected =
+      select_chains(path.string(), model, options.selection, options.chain, options.groups);
   for (const SelectedAtom& atom : selected.atoms) topology.selected.push_back(atom.atom->place);
   topology.element_radii = element_radii_of(selected.atoms);
   topology.bead_names = names_of(selected.atoms);
+  topology.bead_groups = groups_of(selected.atoms, options.groups);
   warn(path.string(), models->notes(), topology.warnings);
   warn(path.string(), model.notes, topology.warnings);
   warn(path.string(), selected.notes, topology.warnings);

@@ -261,8 +261,9 @@ bool is_hydrogen(const StructureAtom* atom) {
 // A selection, ready to be applied to residues.
 class AtomChoice {
  public:
-  AtomChoice(std::string file, const Selection& selection) : file_(std::move(file)), selection_(selection) {
-    if (selection == Selection::atoms) filter_.emplace(selection.text());
+  AtomChoice(std::string file, const Selection& selection, std::string_view option = "--select")
+      : file_(std::move(file)), selection_(selection) {
+    if (selection == Selection::atoms) filter_.emplace(selection.text(), option);
   }
   // Uses the filter of another choice.
   AtomChoice(const AtomChoice& other, const Selection& selection)
@@ -287,6 +288,31 @@ class AtomChoice {
   std::optional<AtomFilter> filter_;
 };
 
+// Groups of beads, ready to be applied to the residues that beads are read from.
+class GroupChoices {
+ public:
+  GroupChoices(const std::string& file, std::span<const Selection> groups) {
+    for (const Selection& group : groups) choices_.emplace_back(file, group, "--groups");
+  }
+
+  // Returns the groups of each of these atoms of a residue.
+  std::vector<std::uint8_t> groups_of(const StructureResidue& residue, bool in_polymer,
+                                      const std::vector<const StructureAtom*>& atoms) const {
+    std::vector<std::uint8_t> groups(atoms.size(), 0);
+    for (std::size_t k = 0; k < choices_.size(); ++k) {
+      if (choices_[k].is_by_name() && !in_polymer) continue;
+      const std::vector<const StructureAtom*> chosen = choices_[k].atoms_of(residue);
+      for (std::size_t i = 0; i < atoms.size(); ++i)
+        if (std::find(chosen.begin(), chosen.end(), atoms[i]) != chosen.end())
+          groups[i] = static_cast<std::uint8_t>(groups[i] | 1U << k);
+    }
+    return groups;
+  }
+
+ private:
+  std::vector<AtomChoice> choices_;
+};
+
 bool holds_copies(const StructureResidue& residue, const std::vector<const StructureAtom*>& atoms) {
   return std::any_of(atoms.begin(), atoms.end(), [&](const StructureAtom* selected) {
     return std::count_if(residue.atoms.begin(), residue.atoms.end(), [&](const StructureAtom& atom) {
@@ -304,7 +330,8 @@ struct PartRead {
   Selection selection = Selection::automatic;
 };
 
-PartRead read_part(const Parts& parts, const PolymerPart& part, const AtomChoice& choice) {
+PartRead read_part(const Parts& parts, const PolymerPart& part, const AtomChoice& choice,
+                   const GroupChoices& groups) {
   const Selection& selection = choice.selection();
   PartRead read;
   read.chain.name = part.label;
@@ -324,15 +351,18 @@ PartRead read_part(const Parts& parts, const PolymerPart& part, const AtomChoice
     const bool is_coarse = is_martini(*residue);
     if (residue->repeated && !part.polymer.empty()) read.repeated.push_back(name_of(*residue));
     if (choice.is_by_name() && holds_copies(*residue, atoms)) read.copies.push_back(name_of(*residue));
-    for (const StructureAtom* atom : atoms)
-      read.atoms.push_back({atom, is_coarse ? "" : element_of(*atom).name(),
-                            text_of({atom->name, residue->name, residue->number, shown(part.label)})});
+    const bool in_polymer = !part.polymer.empty() && kind_of(*residue) != ResidueKind::none;
+    const std::vector<std::uint8_t> groups_of_atoms = groups.groups_of(*residue, in_polymer, atoms);
+    for (std::size_t i = 0; i < atoms.size(); ++i)
+      read.atoms.push_back({atoms[i], is_coarse ? "" : element_of(*atoms[i]).name(),
+                            text_of({atoms[i]->name, residue->name, residue->number, shown(part.label)}),
+                            groups_of_atoms[i]});
   }
   read.chain.bead_count = read.atoms.size();
   if (read.atoms.empty() && selection == Selection::automatic) {
     // A coarse-grained model may have CA or Martini's BB.
     for (const Selection::Kind kind : {Selection::ca, Selection::bb}) {
-      PartRead coarse = read_part(parts, part, AtomChoice(choice, kind));
+      PartRead coarse = read_part(parts, part, AtomChoice(choice, kind), groups);
       if (!coarse.atoms.empty()) return coarse;
     }
   }
@@ -401,7 +431,7 @@ std::optional<std::string> describe_unread(const Parts& parts, const PolymerPart
     if (part == &read) continue;
     unread.push_back(part);
     chains = chains || !part->molecule;
-    const PartRead other = read_part(parts, *part, choice);
+    const PartRead other = read_part(parts, *part, choice, GroupChoices({}, {}));
     residues += other.chain.residues;
     if (!other.atoms.empty()) (parts.can_be_named(*part) ? readable : hidden).push_back(part);
   }
@@ -528,10 +558,11 @@ bool is_chain_like(const Selection& selection, const std::vector<SelectedAtom>& 
 }  // namespace
 
 SelectedChains select_chains(const std::string& file, const StructureModel& model, const Selection& selection,
-                             const std::optional<std::string>& list) {
+                             const std::optional<std::string>& list, std::span<const Selection> groups) {
   if (model.residues.empty()) throw InputError(fmt::format("{}: no atoms", file));
   const Parts parts(model);
   const AtomChoice choice(file, selection);
+  const GroupChoices group_choices(file, groups);
   SelectedChains selected;
   const auto take = [&](PartRead&& read) {
     selected.chains.push_back(std::move(read.chain));
@@ -539,13 +570,14 @@ SelectedChains select_chains(const std::string& file, const StructureModel& mode
   };
   if (selection == Selection::atoms && !list) {
     for (const PolymerPart& part : parts.whole_parts())
-      if (PartRead read = read_part(parts, part, choice); !read.atoms.empty()) take(std::move(read));
+      if (PartRead read = read_part(parts, part, choice, group_choices); !read.atoms.empty())
+        take(std::move(read));
     if (selected.atoms.empty()) throw nothing_selected(file, model, selection, list);
     selected.chain_like = is_chain_like(selection, selected.atoms);
     return selected;
   }
   for (const PolymerPart* part : parts_asked_for(file, parts, selection, list)) {
-    PartRead read = read_part(parts, *part, choice);
+    PartRead read = read_part(parts, *part, choice, group_choices);
     if (read.atoms.empty())
       throw selection == Selection::atoms ? nothing_selected(file, model, selection, part->label)
                                           : no_beads(file, parts, *part, selection);

@@ -7,7 +7,9 @@
 // chain takes precedence over that of a molecule.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,7 +22,8 @@ namespace kds {
 struct SelectedAtom {
   const StructureAtom* atom;
   std::string element;
-  std::string name;  ///< "CA of ALA 12 in chain A": detects models with different atoms
+  std::string name;         ///< "CA of ALA 12 in chain A": detects models with different atoms
+  std::uint8_t groups = 0;  ///< bit k: the atom is in group k
 };
 
 struct SelectedChains {
@@ -41,11 +44,14 @@ struct SelectedChains {
 /// list, each chain with selected atoms is read. A chain without a name is read as its molecules, and its
 /// other residues follow as one more chain. With a list, both must hold.
 ///
+/// A group has those beads whose atom its selection takes from the residue; a selection by names takes atoms
+/// of polymers only. Groups neither add beads nor leave beads out, and a group may have no bead.
+///
 /// Throws InputError naming file and option if a name is not in the model or is listed twice, or if nothing
 /// is selected.
 [[nodiscard]] SelectedChains select_chains(const std::string& file, const StructureModel& model,
-                                           const Selection& selection,
-                                           const std::optional<std::string>& list);
+                                           const Selection& selection, const std::optional<std::string>& list,
+                                           std::span<const Selection> groups = {});
 
 /// Returns the van der Waals radii of the atoms, or an empty vector if an element is unknown.
 [[nodiscard]] std::vector<double> element_radii_of(const std::vector<SelectedAtom>& atoms);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "motions/frames/frame_selection.h"
 #include "motions/readers/selection.h"
@@ -35,6 +36,7 @@ struct ReadOptions {
   std::optional<double> time_step = {};    ///< picoseconds between frames; none: times as in the file
   bool until_damage = false;               ///< reads the frames before a damaged one
   std::optional<LammpsUnits> units = {};   ///< of a LAMMPS dump; none: as the file says, else angstrom
+  std::vector<Selection> groups = {};      ///< groups of the selected beads, at most eight (BeadGroups)
 };
 
 }  // namespace kds

@@ -6,7 +6,7 @@
 
 namespace kds {
 
-std::optional<Selection> Selection::parse(std::string_view text) {
+std::optional<Selection> Selection::parse(std::string_view text, std::string_view option) {
   std::string lower(text);
   for (char& c : lower)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -15,7 +15,7 @@ std::optional<Selection> Selection::parse(std::string_view text) {
   const bool starts_with_number =
       !text.empty() && std::string_view("0123456789.-").find(text[0]) != std::string_view::npos;
   if (!starts_with_number && text.find_first_of("/([:;") == std::string_view::npos) return std::nullopt;
-  static_cast<void>(AtomFilter(std::string(text)));
+  static_cast<void>(AtomFilter(std::string(text), option));
   Selection selection(atoms);
   selection.atoms_ = text;
   return selection;

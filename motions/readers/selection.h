@@ -27,9 +27,10 @@ class Selection {
 
   Selection(Kind kind = automatic) : kind_(kind) {}  // NOLINT: a kind is a selection
   /// Returns the selection that `text` asks for: a name in upper or lower case, or an atom selection. Returns
-  /// nothing if `text` is neither a name nor shaped like an atom selection. Throws InputError naming --select
-  /// if an atom selection is malformed.
-  [[nodiscard]] static std::optional<Selection> parse(std::string_view text);
+  /// nothing if `text` is neither a name nor shaped like an atom selection. Throws InputError naming
+  /// `option` if an atom selection is malformed.
+  [[nodiscard]] static std::optional<Selection> parse(std::string_view text,
+                                                      std::string_view option = "--select");
 
   [[nodiscard]] Kind kind() const { return kind_; }
   /// Returns the text that `parse` takes; "automatic" if there is none.

@@ -51,6 +51,7 @@ void Scene::take(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey,
   check_radii(radii_);
   necklaces_ = bead_ranges(necklaces);
   bead_names_ = names_of_beads(necklaces);
+  bead_groups_ = kds::bead_groups(necklaces);
   truncated_ = survey.truncated;
   plane_ = survey.plane.value_or(AxisPlane{});
   steps_ = std::make_unique<DiscreteStepAdapter>(std::move(frames), survey, motion);

@@ -92,6 +92,8 @@ class Scene {
     require_index("bead", bead, bead_count());
     return bead < bead_names_.size() ? bead_names_[bead] : unnamed;
   }
+  /// Returns the groups of each bead, or an empty vector if none were asked for.
+  [[nodiscard]] const BeadGroups& bead_groups() const { return bead_groups_; }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   [[nodiscard]] bool equal_radii() const;
   /// Returns whether any bead has a name.
@@ -152,6 +154,7 @@ class Scene {
 
   std::vector<BeadRange> necklaces_;
   std::vector<std::string> bead_names_;  // empty, or one per bead
+  BeadGroups bead_groups_;               // likewise
   std::vector<double> radii_;
   bool has_radii_ = true;
   bool truncated_ = false;
