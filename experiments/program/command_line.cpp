@@ -20,6 +20,11 @@ std::string left_column(const OptionSpec& option) {
   return option.value.empty() ? std::string(option.name) : fmt::format("{} {}", option.name, option.value);
 }
 
+std::string needs_values(const OptionSpec& option) {
+  if (option.count == 1) return fmt::format("{} needs a value", option.name);
+  return fmt::format("{} needs {} values, {}", option.name, option.count, option.value);
+}
+
 // Rewrites a CLI11 error, which names C++ types and counts, into a message that says what to do.
 std::string explain(const CLI::ParseError& error, const CLI::App& parser,
                     const std::vector<OptionSpec>& options, const Arguments& arguments) {
@@ -35,8 +40,15 @@ std::string explain(const CLI::ParseError& error, const CLI::App& parser,
     for (const std::string& argument : arguments)
       if (option.value.empty() && argument.starts_with(std::string(option.name) + "="))
         return fmt::format("{} takes no value", option.name);
-  const std::string last = arguments.empty() ? "" : arguments.back();
-  if (last.starts_with('-') && parser.get_option_no_throw(last) != nullptr) return last + " needs a value";
+  for (const OptionSpec& option : options) {
+    if (option.value.empty()) continue;
+    for (std::size_t k = 0; k < arguments.size(); ++k) {
+      const bool with_value = arguments[k].starts_with(std::string(option.name) + "=");
+      if (!with_value && arguments[k] != option.name) continue;
+      const std::size_t given = arguments.size() - 1 - k + (with_value ? 1 : 0);
+      if (given < option.count) return needs_values(option);
+    }
+  }
   return one_line(error.what());
 }
 
@@ -45,7 +57,11 @@ std::string explain(const CLI::ParseError& error, const CLI::App& parser,
 std::optional<std::string> ParsedArguments::value(std::string_view option) const {
   const auto found = values_.find(option);
   if (found == values_.end()) return std::nullopt;
-  return found->second;
+  return found->second.front();
+}
+
+const std::vector<std::string>& ParsedArguments::values(std::string_view option) const {
+  return values_.find(option)->second;
 }
 
 ParsedArguments parse_arguments(const CommandSpec& command, const std::vector<OptionSpec>& options,
@@ -59,8 +75,9 @@ ParsedArguments parse_arguments(const CommandSpec& command, const std::vector<Op
     if (option.value.empty()) {
       parser.add_flag(name)->disable_flag_override();
     } else {
-      parser.add_option(name, unused[option.name])
-          ->allow_extra_args(false);  // each occurrence takes one value
+      CLI::Option* const added = parser.add_option(name, unused[option.name]);
+      added->allow_extra_args(false);  // each occurrence takes `count` values
+      if (option.count > 1) added->type_size(static_cast<int>(option.count));
     }
   }
   if (!command.operand.empty()) parser.add_option(std::string(command.operand), unused[command.operand]);
@@ -76,16 +93,17 @@ ParsedArguments parse_arguments(const CommandSpec& command, const std::vector<Op
   ParsedArguments parsed;
   if (!command.operand.empty()) parsed.operands_ = parser.get_option(std::string(command.operand))->results();
   for (const OptionSpec& option : options) {
-    const std::vector<std::string>& values = parser.get_option(std::string(option.name))->results();
-    const std::size_t times = values.size();
-    if (times == 0) continue;
+    std::vector<std::string> values = parser.get_option(std::string(option.name))->results();
+    const std::size_t times = values.size() / option.count;
+    if (values.empty()) continue;
     if (times > 1) throw InputError(fmt::format("{} is given {} times; give it once", option.name, times));
-    std::string value = option.value.empty() ? "" : values.front();
-    if (value.starts_with("--"))  // a forgotten value: the next option was read as the value
-      throw InputError(fmt::format("{} needs a value, but '{}' follows", option.name, value));
-    if (value.empty() && !option.value.empty())
-      throw InputError(fmt::format("{} needs a value", option.name));
-    parsed.values_.emplace(option.name, std::move(value));
+    if (option.value.empty()) values = {""};
+    for (const std::string& value : values) {
+      if (value.starts_with("--"))  // a forgotten value: the next option was read as the value
+        throw InputError(fmt::format("{}, but '{}' follows", needs_values(option), value));
+      if (value.empty() && !option.value.empty()) throw InputError(needs_values(option));
+    }
+    parsed.values_.emplace(option.name, std::move(values));
   }
   return parsed;
 }

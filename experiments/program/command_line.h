@@ -2,6 +2,7 @@
 // Declares and parses the command line of one command. The parser and the help text are made from the same
 // declarations.
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@ struct OptionSpec {
   std::string_view name;   ///< with its dashes
   std::string_view value;  ///< placeholder of the value in the help text; empty for a flag
   std::string_view help;   ///< one line, with the default value
+  std::size_t count = 1;   ///< number of values, unless the option is a flag
 };
 
 struct CommandSpec {
@@ -35,17 +37,20 @@ class ParsedArguments {
  public:
   [[nodiscard]] const std::vector<std::string>& operands() const { return operands_; }
   [[nodiscard]] bool has(std::string_view flag) const { return values_.contains(flag); }
+  /// Returns the first value, which is empty for a flag.
   [[nodiscard]] std::optional<std::string> value(std::string_view option) const;
+  /// Returns all values of an option that is given.
+  [[nodiscard]] const std::vector<std::string>& values(std::string_view option) const;
 
  private:
   friend ParsedArguments parse_arguments(const CommandSpec&, const std::vector<OptionSpec>&,
                                          const Arguments&);
   std::vector<std::string> operands_;
-  std::map<std::string, std::string, std::less<>> values_;  ///< a flag has an empty value
+  std::map<std::string, std::vector<std::string>, std::less<>> values_;  ///< a flag has an empty value
 };
 
 /// Parses the arguments of a command. Throws InputError for an unknown option, a repeated option or an option
-/// without its value. Throws HelpRequest for --help.
+/// without its values. Throws HelpRequest for --help.
 [[nodiscard]] ParsedArguments parse_arguments(const CommandSpec& command,
                                               const std::vector<OptionSpec>& options,
                                               const Arguments& arguments);

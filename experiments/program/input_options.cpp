@@ -47,11 +47,11 @@ std::string parse_radius(const std::string& rule) {
 }
 
 // The user cannot ask for `automatic`.
-Selection parse_selection(const std::string& text) {
-  if (const std::optional<Selection> selection = Selection::parse(text)) return *selection;
+Selection parse_selection(std::string_view option, const std::string& text) {
+  if (const std::optional<Selection> selection = Selection::parse(text, option)) return *selection;
   const auto names = std::span(selection_names).subspan(1);
   refuse_unknown(
-      "--select", text, names,
+      option, text, names,
       fmt::format("one of {}, nor an atom selection as in {}", fmt::join(names, ", "), selection_example));
 }
 
@@ -99,7 +99,9 @@ const OptionList<InputOptions>& input_options() {
         "hydrogens) or all atoms of the residues read; or an atom selection as in '//A/10-40/CA,CB' "
         "(default: "
         "backbone, or all if the file names no residues)"},
-       [](InputOptions& o, const std::string& text) { o.reading.selection = parse_selection(text); },
+       [](InputOptions& o, const std::string& text) {
+         o.reading.selection = parse_selection("--select", text);
+       },
        [](const InputOptions& o) { return o.reading.selection.text(); },
        [](const InputOptions& o) {
          const bool is_asked_for = o.reading.selection != Selection::automatic;
@@ -163,6 +165,27 @@ const Option<InputOptions>& obstacle_option() {
                    "file with a necklace of one frame that does not move. In --chain its list comes last, "
                    "behind a / (default: none)"},
                   &InputOptions::obstacle);
+  return option;
+}
+
+const Option<InputOptions>& groups_option() {
+  static const Option<InputOptions> option = [] {
+    Option<InputOptions> groups(
+        {"--groups", "SEL1 SEL2",
+         "contacts: one bead of a pair must be in SEL1 and the other in SEL2, each as "
+         "--select takes it, among the beads that are read (default: all pairs)",
+         2});
+    groups.read_values = [](InputOptions& o, const std::vector<std::string>& texts) {
+      for (const std::string& text : texts) o.reading.groups.push_back(parse_selection("--groups", text));
+    };
+    groups.values = [](const InputOptions& o) {
+      std::vector<std::string> texts;
+      for (const Selection& group : o.reading.groups) texts.push_back(group.text());
+      return texts;
+    };
+    groups.text = [values = groups.values](const InputOptions& o) { return shell_words(values(o)); };
+    return groups;
+  }();
   return option;
 }
 

@@ -34,7 +34,7 @@ std::filesystem::path folder_in_data(const std::filesystem::path& data, const ch
 
 struct InputOptions {
   std::vector<std::filesystem::path> inputs;
-  ReadOptions reading;  ///< --topology, --select, --chain (as given, for all inputs), --frames
+  ReadOptions reading;  ///< --topology, --select, --chain (as given, for all inputs), --frames; --groups
   std::string radius = "auto";
   std::optional<std::filesystem::path> obstacle = {};  ///< --obstacle, for the commands that have it
 };
@@ -43,6 +43,8 @@ struct InputOptions {
 [[nodiscard]] const OptionList<InputOptions>& input_options();
 /// Returns the option --obstacle, for commands that put all inputs on one clock.
 [[nodiscard]] const Option<InputOptions>& obstacle_option();
+/// Returns the option --groups, for `kds run`.
+[[nodiscard]] const Option<InputOptions>& groups_option();
 inline constexpr std::string_view kInputOperand = "INPUT...";
 /// The trajectory formats as the help texts list them.
 inline constexpr std::string_view kTrajectoryHelp =

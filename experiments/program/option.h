@@ -39,6 +39,8 @@ template <class Options>
 struct Option {
   using Read = std::function<void(Options&, const std::string&)>;
   using Show = std::function<std::string(const Options&)>;
+  using ReadValues = std::function<void(Options&, const std::vector<std::string>&)>;
+  using ShowValues = std::function<std::vector<std::string>(const Options&)>;
   using ShowJson = std::function<Json(const Options&)>;
 
   OptionSpec spec;
@@ -51,6 +53,10 @@ struct Option {
   Show text_anywhere;
   /// Returns the value in JSON. Null if `text` is null.
   ShowJson json;
+  /// For an option with several values: reads all of them, in place of `read`.
+  ReadValues read_values;
+  /// For an option with several values: returns them as the option takes them, or nothing if there are none.
+  ShowValues values;
   /// The name of the setting. By default, the option's name without its dashes.
   std::string setting;
 
@@ -101,7 +107,11 @@ class OptionList {
 
   void read(const ParsedArguments& parsed, Options& options) const {
     for (const auto& option : options_) {
-      if (const auto value = parsed.value(option.spec.name)) option.read(options, *value);
+      if (!parsed.has(option.spec.name)) continue;
+      if (option.read_values)
+        option.read_values(options, parsed.values(option.spec.name));
+      else
+        option.read(options, *parsed.value(option.spec.name));
     }
   }
 
@@ -128,6 +138,12 @@ class OptionList {
     Arguments arguments;
     for (const auto& option : options_) {
       if (!option.text) continue;
+      if (option.values) {
+        const std::vector<std::string> values = option.values(options);
+        if (!values.empty()) arguments.emplace_back(option.spec.name);
+        arguments.insert(arguments.end(), values.begin(), values.end());
+        continue;
+      }
       const std::string value = (option.text_anywhere ? option.text_anywhere : option.text)(options);
       if (value.empty()) continue;
       arguments.emplace_back(option.spec.name);
@@ -153,6 +169,12 @@ class OptionList {
       if (o.text) option.text = in_part(o.text);
       if (o.text_anywhere) option.text_anywhere = in_part(o.text_anywhere);
       if (o.json) option.json = in_part(o.json);
+      if (o.values) option.values = in_part(o.values);
+      if (o.read_values)
+        option.read_values = [read = o.read_values, part_of](Options& all,
+                                                             const std::vector<std::string>& values) {
+          read(part_of(all), values);
+        };
     }
     return with(options);
   }
@@ -177,6 +199,7 @@ template <class Options>
   option.text = nullptr;
   option.text_anywhere = nullptr;
   option.json = nullptr;
+  option.values = nullptr;
   return option;
 }
 

@@ -1,12 +1,15 @@
 #include "experiments/run/load_scene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <limits>
 
 #include "motions/base/input_error.h"
+#include "motions/base/text_input.h"
+#include "motions/readers/bead_name.h"
 #include "motions/readers/pdb_reader.h"
 #include "motions/readers/reader_registry.h"
 #include "motions/scene/radii.h"
@@ -31,6 +34,7 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   refuse(reading.selection != Selection::automatic, "--select");
   refuse(reading.frames.first != 0 || reading.frames.last || reading.frames.stride != 1, "--frames");
   refuse(reading.format.has_value(), "--format");
+  refuse(!reading.groups.empty(), "--groups");
   refuse(reading.time_step.has_value(), "--dt");
   refuse(reading.until_damage, "--until-damage");
   refuse(options.radius != "auto", "--radius");
@@ -110,6 +114,34 @@ void check_inputs_of_one_frame(const std::vector<InputAtoms>& inputs, const Inpu
   }
 }
 
+// Describes the beads by the names of their atoms, the first and the last bead.
+std::string described(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 6;
+  std::vector<std::string> atoms;
+  for (const std::string& name : names) {
+    const std::optional<BeadName> parts = bead_name_of(name);
+    if (!parts || std::find(atoms.begin(), atoms.end(), parts->atom) != atoms.end()) continue;
+    atoms.push_back(atoms.size() < most ? parts->atom : "...");
+    if (atoms.size() > most) break;
+  }
+  if (atoms.empty()) return counted(names.size(), "bead");
+  return fmt::format("{} ({}), from {} to {}", counted(names.size(), "bead"), fmt::join(atoms, ", "),
+                     names.front(), names.back());
+}
+
+// Throws InputError if a group of --groups has no bead.
+void check_groups_have_beads(const std::vector<Selection>& groups,
+                             const std::vector<NecklaceBeads>& necklaces) {
+  const BeadGroups of_beads = bead_groups(necklaces);
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    if (std::any_of(of_beads.begin(), of_beads.end(),
+                    [k](std::uint8_t of_bead) { return (of_bead >> k & 1U) != 0; }))
+      continue;
+    throw InputError(fmt::format("--groups: {} chooses none of the beads that are read: {}",
+                                 in_quotes(groups[k].text()), described(bead_names(necklaces))));
+  }
+}
+
 // Returns whether the selection takes atoms that are not bonded to the ones before them.
 bool takes_side_chains(const std::vector<NecklaceStream>& files, const Selection& selection) {
   return selection == Selection::all ||
@@ -169,6 +201,7 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
                      const std::function<void(const std::string&)>& warn,
                      const std::optional<MotionTolerance>& tolerance) {
   std::unique_ptr<FrameSource> frames = open_frames(input, warn);
+  check_groups_have_beads(input.reading.groups, frames->necklaces());
   const FrameSurvey survey = survey_frames(*frames, input.radius == "auto", warn);
   std::vector<double> radii = bead_radii(input.radius, frames->necklaces(), survey);
   for (double& radius : radii) radius *= radius_factor;
@@ -226,6 +259,7 @@ std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& sce
   session.settings.apart = options.apart.value_or(session.settings.apart);
   session.settings.between = options.between.value_or(session.settings.between);
   session.settings.tightness = options.tightness;
+  session.settings.groups = scene.bead_groups();
   session.settings.relax = Relaxation::of(options.relax.value_or(0));
   if (session.structures.empty()) session.structures = default_structures(scene);
   const auto& names = session.structures;
@@ -235,6 +269,10 @@ std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& sce
         "find the closest pair of each frame");
   if (options.apart && std::find(names.begin(), names.end(), "contacts") == names.end())
     throw InputError("--apart: it chooses pairs of contacts, which is not among the structures");
+  if (!options.reading.groups.empty() && std::find(names.begin(), names.end(), "closest") != names.end())
+    throw InputError("--groups: closest looks at all pairs of beads; run it without --groups");
+  if (!options.reading.groups.empty() && std::find(names.begin(), names.end(), "contacts") == names.end())
+    throw InputError("--groups: it chooses pairs of contacts, which is not among the structures");
   const auto has = [&names](const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };

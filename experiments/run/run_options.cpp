@@ -148,6 +148,9 @@ const OptionList<RunOptions>& run_options() {
               apart_option(
                   "contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",
                   &O::apart),
+          })
+          .with(OptionList<InputOptions>({groups_option()}))
+          .with({
               real_option({"--relax", "EPS",
                            "wrapped: no event until a bead sticks out of its sphere by more than EPS times "
                            "the radius, from 2^-20 to 1 (default: none)"},

@@ -142,6 +142,7 @@ std::optional<double> deviation_of_run(const RunOptions& options, const Scene& s
 /// Returns a hint if the automatic radius leaves a run without contacts.
 std::optional<std::string> hint_of(const RunOptions& options, const Scene& scene, const RunReport& report) {
   if (options.radius != "auto") return std::nullopt;
+  if (!options.reading.groups.empty()) return std::nullopt;  // the hint counts pairs of all beads
   for (const StructureReport& structure : report.structures)
     if (structure.name == "contacts" && structure.events_total == 0 && structure.contacts_at_start == 0U)
       return radius_hint(scene, options.apart.value_or(StructureSettings().apart));
