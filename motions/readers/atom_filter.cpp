@@ -328,4 +328,9 @@ std::vector<const StructureAtom*> AtomFilter::atoms_of(const std::string& file,
   return atoms;
 }
 
+bool AtomFilter::takes(const std::string& file, const StructureResidue& residue,
+                       const StructureAtom& atom) const {
+  return rules_->takes(residue) && rules_->takes(file, residue, atom);
+}
+
 }  // namespace kds

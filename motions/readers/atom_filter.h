@@ -22,6 +22,10 @@ class AtomFilter {
   /// not give.
   [[nodiscard]] std::vector<const StructureAtom*> atoms_of(const std::string& file,
                                                            const StructureResidue& residue) const;
+  /// Returns whether the selection has this atom of the residue, be it the first of its alternate locations
+  /// or not. Throws InputError like atoms_of.
+  [[nodiscard]] bool takes(const std::string& file, const StructureResidue& residue,
+                           const StructureAtom& atom) const;
 
  private:
   struct Rules;

@@ -281,6 +281,15 @@ class AtomChoice {
     if (selection_ == Selection::heavy) std::erase_if(atoms, is_hydrogen);
     return atoms;
   }
+  // Returns whether the selection has this atom of the residue, be it the first of its alternates or not.
+  bool takes(const StructureResidue& residue, bool in_polymer, const StructureAtom& atom) const {
+    if (filter_) return filter_->takes(file_, residue, atom);
+    if (selection_ == Selection::heavy) return !is_hydrogen(&atom);
+    if (!is_by_name()) return true;
+    const std::vector<std::string_view> names = atom_names_of(selection_);
+    return in_polymer && std::find(names.begin(), names.end(), atom.name) != names.end() &&
+           !named_atoms(residue, selection_).empty();
+  }
 
  private:
   std::string file_;
@@ -288,30 +297,14 @@ class AtomChoice {
   std::optional<AtomFilter> filter_;
 };
 
-// Groups of beads, ready to be applied to the residues that beads are read from.
-class GroupChoices {
- public:
-  GroupChoices(const std::string& file, std::span<const Selection> groups) {
-    for (const Selection& group : groups) choices_.emplace_back(file, group, "--groups");
-  }
-
-  // Returns the groups of each of these atoms of a residue.
-  std::vector<std::uint8_t> groups_of(const StructureResidue& residue, bool in_polymer,
-                                      const std::vector<const StructureAtom*>& atoms) const {
-    std::vector<std::uint8_t> groups(atoms.size(), 0);
-    for (std::size_t k = 0; k < choices_.size(); ++k) {
-      if (choices_[k].is_by_name() && !in_polymer) continue;
-      const std::vector<const StructureAtom*> chosen = choices_[k].atoms_of(residue);
-      for (std::size_t i = 0; i < atoms.size(); ++i)
-        if (std::find(chosen.begin(), chosen.end(), atoms[i]) != chosen.end())
-          groups[i] = static_cast<std::uint8_t>(groups[i] | 1U << k);
-    }
-    return groups;
-  }
-
- private:
-  std::vector<AtomChoice> choices_;
-};
+// Returns the groups of a bead: of its atom, which is one of the residue's.
+std::uint8_t groups_of(const std::vector<AtomChoice>& groups, const StructureResidue& residue,
+                       bool in_polymer, const StructureAtom& atom) {
+  unsigned of_bead = 0;
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    if (groups[k].takes(residue, in_polymer, atom)) of_bead |= 1U << k;
+  return static_cast<std::uint8_t>(of_bead);
+}
 
 bool holds_copies(const StructureResidue& residue, const std::vector<const StructureAtom*>& atoms) {
   return std::any_of(atoms.begin(), atoms.end(), [&](const StructureAtom* selected) {
@@ -331,7 +324,7 @@ struct PartRead {
 };
 
 PartRead read_part(const Parts& parts, const PolymerPart& part, const AtomChoice& choice,
-                   const GroupChoices& groups) {
+                   const std::vector<AtomChoice>& groups) {
   const Selection& selection = choice.selection();
   PartRead read;
   read.chain.name = part.label;
@@ -352,11 +345,10 @@ PartRead read_part(const Parts& parts, const PolymerPart& part, const AtomChoice
     if (residue->repeated && !part.polymer.empty()) read.repeated.push_back(name_of(*residue));
     if (choice.is_by_name() && holds_copies(*residue, atoms)) read.copies.push_back(name_of(*residue));
     const bool in_polymer = !part.polymer.empty() && kind_of(*residue) != ResidueKind::none;
-    const std::vector<std::uint8_t> groups_of_atoms = groups.groups_of(*residue, in_polymer, atoms);
-    for (std::size_t i = 0; i < atoms.size(); ++i)
-      read.atoms.push_back({atoms[i], is_coarse ? "" : element_of(*atoms[i]).name(),
-                            text_of({atoms[i]->name, residue->name, residue->number, shown(part.label)}),
-                            groups_of_atoms[i]});
+    for (const StructureAtom* atom : atoms)
+      read.atoms.push_back({atom, is_coarse ? "" : element_of(*atom).name(),
+                            text_of({atom->name, residue->name, residue->number, shown(part.label)}),
+                            groups_of(groups, *residue, in_polymer, *atom)});
   }
   read.chain.bead_count = read.atoms.size();
   if (read.atoms.empty() && selection == Selection::automatic) {
@@ -431,7 +423,7 @@ std::optional<std::string> describe_unread(const Parts& parts, const PolymerPart
     if (part == &read) continue;
     unread.push_back(part);
     chains = chains || !part->molecule;
-    const PartRead other = read_part(parts, *part, choice, GroupChoices({}, {}));
+    const PartRead other = read_part(parts, *part, choice, {});
     residues += other.chain.residues;
     if (!other.atoms.empty()) (parts.can_be_named(*part) ? readable : hidden).push_back(part);
   }
@@ -562,7 +554,8 @@ SelectedChains select_chains(const std::string& file, const StructureModel& mode
   if (model.residues.empty()) throw InputError(fmt::format("{}: no atoms", file));
   const Parts parts(model);
   const AtomChoice choice(file, selection);
-  const GroupChoices group_choices(file, groups);
+  std::vector<AtomChoice> group_choices;
+  for (const Selection& group : groups) group_choices.emplace_back(file, group, "--groups");
   SelectedChains selected;
   const auto take = [&](PartRead&& read) {
     selected.chains.push_back(std::move(read.chain));

@@ -44,8 +44,8 @@ struct SelectedChains {
 /// list, each chain with selected atoms is read. A chain without a name is read as its molecules, and its
 /// other residues follow as one more chain. With a list, both must hold.
 ///
-/// A group has those beads whose atom its selection takes from the residue; a selection by names takes atoms
-/// of polymers only. Groups neither add beads nor leave beads out, and a group may have no bead.
+/// A group has the beads whose atoms meet its selection. The selections `backbone`, `ca`, `bb` and `p` hold
+/// for atoms of polymers only. Groups neither add beads nor leave beads out, and a group may have no bead.
 ///
 /// Throws InputError naming file and option if a name is not in the model or is listed twice, or if nothing
 /// is selected.
