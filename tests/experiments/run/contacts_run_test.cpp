@@ -38,6 +38,14 @@ std::string frames_at(const std::vector<std::string>& beads, const std::vector<d
   return frames;
 }
 
+void expect_refused(std::vector<std::string> arguments, const std::string& reason) {
+  arguments.insert(arguments.begin(), "run");
+  const ProgramRun run = run_program(arguments);
+  EXPECT_EQ(run.code, 2) << run.out;
+  EXPECT_THAT(run.err, HasSubstr(reason));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
 // Some balls meet an obstacle at rest and leave; one only touches it, at a frame.
 TEST(ContactsRun, ANecklaceAndAnObstacleAtRest) {
   const ScratchDirectory scratch;
@@ -148,6 +156,81 @@ TEST(ContactsRun, WithoutContactsMissedNamesAFactor) {
   EXPECT_GE(Json::parse(some.out)["rows"][0]["contacts"], 108 / 4);
 }
 
+/// Returns step, beads and kind of each event of a dump. Brackets of times may be narrowed by other events.
+std::vector<std::string> events_of_dump(const std::filesystem::path& csv) {
+  std::vector<std::string> events;
+  for (const std::string& line : lines_of(csv)) {
+    std::vector<std::string> cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+    events.push_back(cells[0] + " " + cells[3] + " " + cells[4] + " " + cells[5]);
+  }
+  events.erase(events.begin());  // the header
+  return events;
+}
+
+// The beads are N, CA, C of the residues 41 to 76.
+TEST(ContactsRun, GroupsLeaveTheContactsOfTheirPairs) {
+  const ScratchDirectory scratch;
+  const auto run = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"run",          kDcd,
+                                       "--topology",   kPdb,
+                                       "--frames",     "0:20",
+                                       "--radius",     "1.9",
+                                       "--apart",      "4",
+                                       "--json",       "-",
+                                       "--dump",       scratch / name,
+                                       "--log",        scratch / (name + ".log"),
+                                       "--audit",      "events",
+                                       "--structures", "contacts"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun done = run_program(arguments);
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_EQ(run_program({"replay", scratch / (name + ".log"), "--quiet"}).code, 0);
+    return Json::parse(done.out);
+  };
+  const Json all = run("all", {}), some = run("some", {"--groups", "//A/-55", "50-/CA"});
+  EXPECT_EQ(some["settings"]["groups"], "//A/-55 50-/CA");
+  EXPECT_EQ(all["settings"]["groups"], "");
+  EXPECT_NE(all["fingerprint"], some["fingerprint"]);
+  const auto first = [](int bead) { return 41 + bead / 3 <= 55; };
+  const auto second = [](int bead) { return bead % 3 == 1 && 41 + bead / 3 >= 50; };
+  std::vector<std::string> expected = events_of_dump(scratch / "all/contacts.csv");
+  std::erase_if(expected, [&](const std::string& event) {
+    int step = 0, i = 0, j = 0;
+    std::istringstream(event) >> step >> i >> j;
+    return !(first(i) && second(j)) && !(first(j) && second(i));
+  });
+  EXPECT_GT(expected.size(), 3U);
+  EXPECT_EQ(events_of_dump(scratch / "some/contacts.csv"), expected);
+  EXPECT_LT(some["structures"]["contacts"]["contacts"]["at_start"],
+            all["structures"]["contacts"]["contacts"]["at_start"]);
+  EXPECT_EQ(run("both", {"--groups", "all", "all"})["fingerprint"], all["fingerprint"]);
+}
+
+TEST(ContactsRun, GroupsOfInputsWithoutNames) {
+  const std::vector<std::string> arguments{"run",    kDcd, "--frames",     "0:3",      "--radius", "1.9",
+                                           "--json", "-",  "--structures", "contacts", "--groups", "all"};
+  std::vector<std::string> all = arguments, some = arguments;
+  all.emplace_back("all");
+  some.emplace_back("ca");
+  EXPECT_EQ(run_program(all).code, 0);
+  some.erase(some.begin());
+  expect_refused(some, "does not name its atoms; give a file that does with --topology");
+}
+
+TEST(ContactsRun, CertifiesGroups) {
+  const ScratchDirectory scratch;
+  const ProgramRun run = run_program({"run", kDcd, "--topology", kPdb, "--frames", "0:21:4", "--radius",
+                                      "1.9", "--apart", "4", "--structures", "contacts", "--certify",
+                                      "--groups", "//A/-55", "50-/CA", "--out", scratch / "out", "--quiet"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const std::vector<std::string> lines = lines_of(scratch / "out/possible_contacts.csv");
+  EXPECT_GT(lines.size(), 3U);
+  for (const std::string& line : lines)
+    EXPECT_THAT(line, testing::AnyOf(HasSubstr("CA of"), HasSubstr("first")));
+}
+
 TEST(ContactsRun, PairsNearAlongTheChain) {
   const auto total = [](std::vector<std::string> more) {
     std::vector<std::string> arguments{"run",      kDcd, "--topology",   kPdb,       "--frames", "0:6",
@@ -164,20 +247,23 @@ TEST(ContactsRun, PairsNearAlongTheChain) {
   EXPECT_GT(total({"--apart", "5"}), total({"--apart", "30"}));
 }
 
-void expect_refused(std::vector<std::string> arguments, const std::string& reason) {
-  arguments.insert(arguments.begin(), "run");
-  const ProgramRun run = run_program(arguments);
-  EXPECT_EQ(run.code, 2) << run.out;
-  EXPECT_THAT(run.err, HasSubstr(reason));
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-}
-
 TEST(ContactsRun, Refusals) {
   expect_refused({kDcd, "--apart", "5"}, "--apart: it chooses pairs of contacts");
   expect_refused({kDcd, "--structures", "contacts", "--apart", "0"}, "--apart");
   expect_refused({kDcd, "--structures", "closest,contacts", "--apart", "5"},
                  "--apart: closest looks at all pairs of beads");
   expect_refused({kDcd, "--structures", "contacts", "--apart", "two"}, "--apart");
+  const auto with_groups = [](const std::string& structures, const char* first, const char* second) {
+    return std::vector<std::string>{kDcd,           "--topology", kPdb,       "--frames", "0:3",
+                                    "--structures", structures,   "--groups", first,      second};
+  };
+  expect_refused(with_groups("power", "ca", "all"), "--groups: it chooses pairs of contacts");
+  expect_refused(with_groups("closest,contacts", "ca", "all"), "--groups: closest looks at all pairs");
+  expect_refused(with_groups("contacts", "ca", "//B"),
+                 "--groups: '//B' chooses none of the beads that are read: 108 beads (N, CA, C), from N of ");
+  expect_refused(with_groups("contacts", "cb", "ca"), "--groups: 'cb' is not one of backbone, ca");
+  expect_refused({data_file("kinetic/d3_n20_linear.txt"), "--groups", "ca", "ca"},
+                 "--groups: has no meaning for an instance file");
   expect_refused({kDcd, "--structures", "contacts", "--motion", "lifted"}, "fictitious");
   expect_refused({data_file("kinetic/d3_n20_linear.txt"), "--structures", "contacts"}, "no radii");
   expect_refused({data_file("kinetic/d1_n20_linear.txt"), "--structures", "contacts"}, "1 coordinate");

@@ -26,7 +26,7 @@ constexpr std::array kWords{
     "b.dcd",        "[a,b]",       "[",        "{}",         "%%",        "'x",
     "\"",           "a b",         "\n",       "\xff\xfe",   "--kernel=", "--kernel=fast",
     "--json=-",     "--radius=1",  "-vvv",     "-1",         "/opt",      "18446744073709551616:",
-    "--config"};
+    "--config",     "--groups"};
 
 std::string random_word(std::mt19937& random) {
   std::string word = kWords[random() % kWords.size()];

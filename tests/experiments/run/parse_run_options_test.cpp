@@ -81,6 +81,33 @@ TEST(RunOptions, TakesEveryNamedValue) {
     EXPECT_EQ(parse_run_options({"a", "--radius", rule}).radius, rule);
 }
 
+TEST(RunOptions, GroupsAreTwoSelections) {
+  EXPECT_TRUE(parse_run_options({"a"}).reading.groups.empty());
+  for (const Arguments& given : {Arguments{"a", "--groups", "CA", "-5--1", "b"},
+                                 {"--groups", "ca", "-5--1", "a", "b"},
+                                 {"a", "--groups=ca", "-5--1", "--quiet", "b"}}) {
+    const RunOptions options = parse_run_options(given);
+    EXPECT_THAT(options.inputs, ElementsAre("a", "b"));
+    ASSERT_EQ(options.reading.groups.size(), 2U);
+    EXPECT_EQ(options.reading.groups[0], Selection::ca);
+    EXPECT_EQ(options.reading.groups[1].text(), "-5--1");
+  }
+  const std::string needed = "--groups needs 2 values, SEL1 SEL2";
+  for (const Arguments& given : {Arguments{"a", "--groups"},
+                                 {"a", "--groups", "ca"},
+                                 {"a", "--groups=ca"},
+                                 {"a", "--groups", "ca", "--quiet"},
+                                 {"a", "--groups", "", "ca"},
+                                 {"a", "--groups", "ca", ""}})
+    EXPECT_THAT(refusal(given), HasSubstr(needed));
+  EXPECT_THAT(refusal({"a", "--groups", "ca", "--quiet"}), HasSubstr(needed + ", but '--quiet' follows"));
+  EXPECT_THAT(refusal({"a", "--groups", "ca", "p", "--groups", "ca", "p"}),
+              HasSubstr("--groups is given 2 times"));
+  EXPECT_THAT(refusal({"--groups", "ca", "a.pdb"}), HasSubstr("--groups: 'a.pdb' is not one of backbone"));
+  EXPECT_THAT(refusal({"a", "--groups", "ca", "//A/10-x"}),
+              HasSubstr("--groups: '//A/10-x' has the residues '10-x'"));
+}
+
 TEST(RunOptions, RunsStructuresInOneOrder) {
   EXPECT_THAT(parse_run_options({"a", "--structures", "power,wrapped,sorted"}).structures,
               ElementsAre("sorted", "wrapped", "power"));
@@ -198,12 +225,14 @@ TEST(RunOptions, RepeatingArgumentsAreReadAgain) {
         {"/a.pdb", "--levels", ":4", "--tolerance", "0.2r"},
         {"/a.pdb", "--relax", "0.01", "--certify", "--frames", "::3", "--chain", "A", "--select", "ca"},
         {"/a.pdb", "--select", "//A/-5-40/CA,CB;q>0.5"},
-        {"/a.pdb", "--select", "-5--1"}}) {
+        {"/a.pdb", "--select", "-5--1"},
+        {"/a.pdb", "--groups", "ca", "//A/-5-40/CA,CB;q>0.5", "--apart", "4"}}) {
     const Arguments again = repeating_arguments(parse_run_options(arguments));
     EXPECT_EQ(repeating_arguments(parse_run_options(again)), again);
     const auto nodes = [](const Arguments& a) { return parse_run_options(a).nodes; };
     EXPECT_EQ(nodes(again).first_level, nodes(arguments).first_level);
     EXPECT_EQ(nodes(again).last_level, nodes(arguments).last_level);
+    EXPECT_EQ(parse_run_options(again).reading.groups, parse_run_options(arguments).reading.groups);
     ASSERT_EQ(nodes(again).beads.has_value(), nodes(arguments).beads.has_value());
     if (nodes(again).beads) {
       EXPECT_EQ(nodes(again).beads->last, nodes(arguments).beads->last);

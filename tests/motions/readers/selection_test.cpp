@@ -167,6 +167,65 @@ TEST(Selection, FirstOfAlternateLocationsCounts) {
   EXPECT_EQ(read(pdb, "3/CA:B")[0].frames[0](0, 0), 300.0 + 'B');
 }
 
+// Returns a digit for each bead of all necklaces: the sum of 1 for the first group and 2 for the second.
+std::string groups(const std::string& pdb, const ReadOptions& options) {
+  std::string digits;
+  for (const Trajectory& necklace : read_trajectories(test::write_file("a.pdb", pdb), options))
+    for (const std::uint8_t of_bead : necklace.bead_groups) digits += static_cast<char>('0' + of_bead);
+  return digits;
+}
+std::string groups(const std::string& pdb, std::string_view selection, std::string_view first,
+                   std::string_view second, const std::optional<std::string>& chain = {}) {
+  return groups(pdb,
+                {.selection = parsed(selection), .chain = chain, .groups = {parsed(first), parsed(second)}});
+}
+
+TEST(Selection, GroupsChooseAmongTheBeads) {
+  const std::string& pdb = two_chains();
+  EXPECT_EQ(groups(pdb, "//B", "ca", "heavy"), "2322023220");
+  EXPECT_EQ(groups(pdb, "//A,B/1/CA", "//A", "1"), "32");
+  EXPECT_EQ(groups(pdb, "ca", "//A/1-2", "//B", "A,B"), "001122");
+  EXPECT_EQ(groups(pdb, "ca", "(GLY)", "all", "A,B"), "222322");
+  EXPECT_EQ(groups(pdb, "ca", "//Z", "[N]", "B"), "00");  // a reader does not refuse an empty group
+  // Names of atoms are those of polymers, and `all` and `heavy` take any bead.
+  EXPECT_EQ(groups(pdb, "//W", "backbone", "all"), "2");
+  const std::string ion = pdb_line(
+      {.name = "CA", .residue = "CA", .chain = 'A', .number = 9, .x = 50, .het = true, .element = "CA"});
+  EXPECT_EQ(groups(residue(1) + ion, "/", "ca", "CA[CA]"), "010002");
+  EXPECT_EQ(groups(residue(1) + ion, "/", "heavy", "//*//CA"), "131103");
+  EXPECT_EQ(groups(pdb, {.selection = parsed("ca")}), "");
+  // A bead that is not the first of its alternates is in the groups of its atom.
+  std::string alternates = residue(1);
+  for (const char location : {'A', 'B'})
+    alternates += pdb_line({.name = "CA", .number = 2, .x = 10.0 + location, .alternate = location});
+  EXPECT_EQ(groups(alternates, "2/CA:B", "ca", "all"), "3");
+  EXPECT_EQ(groups(alternates, "2/CA:B", "2/CA", "CA:A"), "1");
+}
+
+// With several models, the first frame that is read decides.
+TEST(Selection, GroupsOfModelsAndOfFilesWithoutNames) {
+  const std::string one = residue(1) + residue(2);
+  const std::string models = "MODEL 1\n" + one + "ENDMDL\nMODEL 2\n" + one + "ENDMDL\n";
+  EXPECT_EQ(groups(models, "ca", "1", "2"), "12");
+  const auto xyz = test::write_file("a.xyz", "2\n\nC 0 0 0\nC 1 0 0\n");
+  EXPECT_EQ(read_trajectory(xyz, {.groups = {Selection::all, Selection::all}}).bead_groups,
+            (BeadGroups{3, 3}));
+  test::expect_refused(
+      [&] {
+        static_cast<void>(read_trajectory(xyz, {.groups = {Selection::all, Selection::ca}}));
+      },
+      {"--groups: ", "a.xyz does not name its atoms", "--topology"});
+}
+
+TEST(Selection, MessagesAboutGroupsNameTheirOption) {
+  test::expect_refused([&] { static_cast<void>(Selection::parse("//A/10-x", "--groups")); },
+                       {"--groups: '//A/10-x' has the residues '10-x'"});
+  std::string pdb = residue(1);
+  pdb.replace(pdb.find("  1.00  0.00"), 12, "            ");
+  test::expect_refused([&] { static_cast<void>(groups(pdb, "all", "ca", "/;q>0.5")); },
+                       {"--groups: '/;q>0.5' compares occupancies (q)", "N of ALA 1"});
+}
+
 TEST(Selection, SelectionThatMatchesNothingSaysWhatTheFileHas) {
   refuse(two_chains(), "//a//CA",
          {"--select: '//a//CA' selects no atom of", "a.pdb", "the chains A, B, W", "ALA -2 to HOH 7",

@@ -7,7 +7,11 @@
 
 #include "structures/collision/auto_detector.h"
 #include "structures/collision/block_tree.h"
+#include "structures/collision/brute_force.h"
 #include "structures/collision/cell_list.h"
+#include "structures/collision/diagram_collision.h"
+#include "structures/collision/distance_queries.h"
+#include "structures/collision/hierarchy_search.h"
 #include "tests/structures/collision/collision_scenes.h"
 #include "tests/support/rounds.h"
 
@@ -261,6 +265,52 @@ TEST(CollisionDetectors, ScenesThatFloatsDoNotTellApartAreLeftToCells) {
   const auto expected = all_pairs(far.centers, far.radii, far.asked, 3);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(detector.pairs(balls), expected);
   EXPECT_GE(detector.counts().by_cells, 1U);
+}
+
+TEST(CollisionDetectors, ListsAndBruteForceTakeGroups) {
+  Random random(7);
+  std::size_t joined = 0;
+  for (unsigned round = 0; round < rounds(300U); ++round) {
+    CollisionScene scene = random_scene(random, 60);
+    std::vector<BeadPair> expected = all_pairs(scene.centers, scene.radii, scene.asked, 3);
+    BeadGroups groups(scene.radii.size());
+    for (std::uint8_t& of_bead : groups) of_bead = static_cast<std::uint8_t>(random() % 4);
+    const auto is_in = [&](BeadId bead, unsigned group) { return (groups[bead] & group) != 0; };
+    std::erase_if(expected, [&](const BeadPair& pair) {
+      return !(is_in(pair.first, 1) && is_in(pair.second, 2)) &&
+             !(is_in(pair.first, 2) && is_in(pair.second, 1));
+    });
+    scene.asked.groups = groups;
+    const Balls<3> balls(scene.centers, scene.radii);
+    ASSERT_EQ(CellList<3>(scene.asked).pairs(balls), expected) << scene.name;
+    ASSERT_EQ(VerletList<3>(scene.asked, 1.0).pairs(balls), expected) << scene.name;
+    ASSERT_EQ(pairs_by_force(balls, scene.asked), expected) << scene.name;
+    const std::optional<ClosestPair> closest = closest_pair_by_force(balls, scene.asked);
+    if (closest) {
+      EXPECT_TRUE(scene.asked.asks({closest->first, closest->second})) << scene.name;
+    }
+    joined += expected.size();
+  }
+  EXPECT_GT(joined, rounds(300U));
+}
+
+// A detector that looks at all pairs would give a wrong answer.
+TEST(CollisionDetectors, OthersRefuseGroups) {
+  const Balls<3> balls(Eigen::Matrix3Xd::Random(3, 3), std::vector<double>(3, 1.0));
+  PairsAsked asked{{{0, 2}}};
+  asked.groups = {1, 2, 3};
+  EXPECT_THROW(BlockTree<3>{asked}, std::invalid_argument);
+  EXPECT_THROW(AutoDetector<3>{asked}, std::invalid_argument);
+  EXPECT_THROW(DistanceQueries<3>{asked}, std::invalid_argument);
+  SphereTree<3> tree(Hierarchy::wrapped, asked.necklaces);
+  tree.build(balls);
+  EXPECT_THROW((void)find_pairs(tree, asked), std::invalid_argument);
+  EXPECT_THROW((void)find_closest_pair(tree, balls, asked), std::invalid_argument);
+  EXPECT_TRUE(diagram_refusal(balls, asked));
+  EXPECT_THROW((void)collide_by_diagram(balls, asked), std::invalid_argument);
+  asked.groups = {1, 2};
+  EXPECT_THROW(CellList<3>{asked}, std::invalid_argument);
+  EXPECT_THROW((void)pairs_by_force(balls, asked), std::invalid_argument);
 }
 
 TEST(CollisionDetectors, WrongUseIsRefused) {

@@ -202,6 +202,94 @@ TEST(Contacts, SeveralNecklaces) {
   }
 }
 
+/// Puts each bead in the first group, in the second, in both or in none, at random.
+BeadGroups random_groups(std::mt19937& random, std::size_t beads) {
+  BeadGroups groups(beads);
+  for (std::uint8_t& of_bead : groups) of_bead = static_cast<std::uint8_t>(random() % 4);
+  return groups;
+}
+
+bool joins(const BeadGroups& groups, const Event& event) {
+  const auto is_in = [&](std::size_t end, unsigned group) {
+    return (groups[event.change.ids[end]] & group) != 0;
+  };
+  return (is_in(0, 1) && is_in(1, 2)) || (is_in(0, 2) && is_in(1, 1));
+}
+
+/// Expects the events of a run with groups to be the events of the run without them that join both groups.
+/// Returns the number of these events.
+std::size_t expect_part_of_all(const std::vector<Space>& steps, PairsAsked asked) {
+  const BeadGroups groups = asked.groups;
+  ContactRig<Space> some(steps.front(), AuditMode::frames, asked);
+  some.run(steps);
+  asked.groups.clear();
+  ContactRig<Space> all(steps.front(), AuditMode::none, asked);
+  all.run(steps);
+  std::vector<Event> expected = all.history.events;
+  std::erase_if(expected, [&](const Event& event) { return !joins(groups, event); });
+  const std::vector<Event>& found = some.history.events;
+  EXPECT_EQ(found.size(), expected.size());
+  for (std::size_t e = 0; e < std::min(found.size(), expected.size()); ++e) {
+    EXPECT_EQ(found[e].step, expected[e].step);
+    EXPECT_EQ(found[e].change.kind, expected[e].change.kind);
+    EXPECT_EQ(found[e].change.ids, expected[e].change.ids);
+    // Both brackets enclose one root, and either may have been narrowed.
+    EXPECT_LE(std::max(found[e].lower, expected[e].lower), std::min(found[e].upper, expected[e].upper));
+  }
+  return found.size();
+}
+
+TEST(Contacts, OfTwoGroups) {
+  std::mt19937 random(23);
+  std::size_t events = 0;
+  for (int round = 0; round < rounds(24); ++round) {
+    SCOPED_TRACE(round);
+    const std::size_t beads = 2 + random() % 30;
+    const auto steps = random_grid_steps(random, beads, 3 + static_cast<int>(random() % 6), 3);
+    PairsAsked asked = all_pairs(beads, 1 + random() % 4);
+    if (beads > 8 && round % 2 == 0)
+      asked = {{{0, 3}, {4, 4}, {5, static_cast<BeadId>(beads - 1)}}, round % 3 != 0, 2, round % 5 != 0};
+    asked.groups = random_groups(random, beads);
+    if (round < 8) expect_right(steps, asked);
+    events += expect_part_of_all(steps, asked);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(events, rounds(24U) * 2U);
+}
+
+// Most blocks have beads of one group or of none, so that pairs of blocks are left out.
+TEST(Contacts, OfGroupsAlongALongChain) {
+  constexpr std::size_t beads = 400;
+  std::mt19937 random(29);
+  const auto steps = random_grid_steps(random, beads, 12, 2);
+  PairsAsked asked = all_pairs(beads, 3);
+  asked.groups.assign(beads, 0);
+  for (std::size_t b = 30; b < 75; ++b) asked.groups[b] = 1;
+  for (std::size_t b = 70; b < 300; b += b % 7 + 1) asked.groups[b] |= 2;
+  EXPECT_GT(expect_part_of_all(steps, asked), 20U);
+  ContactRig<Space> some(steps.front(), AuditMode::none, asked);
+  some.run(steps);
+  asked.groups.clear();
+  ContactRig<Space> all(steps.front(), AuditMode::none, asked);
+  all.run(steps);
+  EXPECT_LT(some.structure.statistics.certificates.created,
+            all.structure.statistics.certificates.created / 4);
+}
+
+TEST(Contacts, GroupsMustBeThoseOfAllBeads) {
+  const Points three{{0, 0, 0}, {1, 0, 0}, {9, 0, 0}};
+  const Space motion = with_radii(moving(three, three), {1});
+  PairsAsked asked = all_pairs(3);
+  asked.groups = {1, 2};
+  EXPECT_THROW((ContactRig<Space>(motion, AuditMode::none, asked)), std::invalid_argument);
+  asked.groups = {1, 0, 2};
+  ContactRig<Space> rig(motion, AuditMode::none, asked);
+  rig.run();
+  EXPECT_THAT(rig.structure.pairs(), IsEmpty());
+  EXPECT_THROW(rig.structure.apply({Contacts<3>::begin, 2, {0, 1}}), std::invalid_argument);
+  EXPECT_NO_THROW(rig.structure.apply({Contacts<3>::begin, 2, {0, 2}}));
+}
+
 template <class M>
 class ContactMotions : public testing::Test {};
 using MotionsOfAllKinds = testing::Types<BezierMotion<2, 1>, BezierMotion<3, 1>, BezierMotion<2, 3>,

@@ -29,10 +29,11 @@ using testing::HasSubstr;
 template <int Dimension>
 struct Structures {
   template <class M>
-  Structures(Simulator& simulator, const M& motion, std::size_t beads)
+  Structures(Simulator& simulator, const M& motion, std::size_t beads, BeadGroups groups = {})
       : sorted(simulator, motion),
         power(simulator, motion),
-        contacts(simulator, motion, {{{0, static_cast<BeadId>(beads - 1)}}, true, 1}) {}
+        contacts(simulator, motion,
+                 {{{0, static_cast<BeadId>(beads - 1)}}, true, 1, true, std::move(groups)}) {}
 
   [[nodiscard]] std::array<BeadEdits*, 3> all() { return {&sorted, &power, &contacts}; }
 
@@ -77,8 +78,9 @@ class EditedRun {
         places_(places),
         totals_(totals),
         motion_(dimension + 9),
+        groups_(groups_of(seed, motion_.bead_count())),
         simulator_(kernel == Kernel::fast ? AuditMode::none : AuditMode::events, kernel),
-        structures_(simulator_, motion_, motion_.bead_count()) {
+        structures_(simulator_, motion_, motion_.bead_count(), groups_) {
     for (BeadId b = 0; b < motion_.bead_count(); ++b) set_curve(motion_, b, random_, places_);
     for (BeadEdits* structure : structures_.all())
       for (BeadId b = 0; b < 3; ++b)
@@ -117,6 +119,13 @@ class EditedRun {
   [[nodiscard]] std::uint64_t fingerprint() const { return simulator_.fingerprint(); }
 
  private:
+  /// Returns groups of the beads for every third seed, and none for the others.
+  static BeadGroups groups_of(unsigned seed, std::size_t beads) {
+    BeadGroups groups(seed % 3 == 2 ? beads : 0);
+    for (std::size_t b = 0; b < groups.size(); ++b) groups[b] = static_cast<std::uint8_t>((b + seed) % 4);
+    return groups;
+  }
+
   void edit() {
     for (BeadEdits* structure : structures_.all()) {
       const auto b = static_cast<BeadId>(random_() % motion_.bead_count());
@@ -161,7 +170,7 @@ class EditedRun {
   void compare(double u) {
     if (simulator_.kernel() == Kernel::fast) return;
     Simulator simulator;
-    Structures<dimension> twins(simulator, motion_, motion_.bead_count());
+    Structures<dimension> twins(simulator, motion_, motion_.bead_count(), groups_);
     for (std::size_t s = 0; s < 3; ++s)
       for (BeadId b = 0; b < motion_.bead_count(); ++b)
         if (structures_.all()[s]->is_absent(b)) twins.all()[s]->leave_out(b);
@@ -180,6 +189,7 @@ class EditedRun {
   Places places_;
   Totals& totals_;
   M motion_;
+  BeadGroups groups_;
   Simulator simulator_;
   Structures<dimension> structures_;
 };
