@@ -170,42 +170,48 @@ std::vector<std::string> events_of_dump(const std::filesystem::path& csv) {
 }
 
 // The beads are N, CA, C of the residues 41 to 76.
+// An obstacle at rest has the same beads, which belong to the same groups.
 TEST(ContactsRun, GroupsLeaveTheContactsOfTheirPairs) {
-  const ScratchDirectory scratch;
-  const auto run = [&](const std::string& name, std::vector<std::string> more) {
-    std::vector<std::string> arguments{"run",          kDcd,
-                                       "--topology",   kPdb,
-                                       "--frames",     "0:20",
-                                       "--radius",     "1.9",
-                                       "--apart",      "4",
-                                       "--json",       "-",
-                                       "--dump",       scratch / name,
-                                       "--log",        scratch / (name + ".log"),
-                                       "--audit",      "events",
-                                       "--structures", "contacts"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const ProgramRun done = run_program(arguments);
-    EXPECT_EQ(done.code, 0) << done.err;
-    EXPECT_EQ(run_program({"replay", scratch / (name + ".log"), "--quiet"}).code, 0);
-    return Json::parse(done.out);
-  };
-  const Json all = run("all", {}), some = run("some", {"--groups", "//A/-55", "50-/CA"});
-  EXPECT_EQ(some["settings"]["groups"], "//A/-55 50-/CA");
-  EXPECT_EQ(all["settings"]["groups"], "");
-  EXPECT_NE(all["fingerprint"], some["fingerprint"]);
-  const auto first = [](int bead) { return 41 + bead / 3 <= 55; };
-  const auto second = [](int bead) { return bead % 3 == 1 && 41 + bead / 3 >= 50; };
-  std::vector<std::string> expected = events_of_dump(scratch / "all/contacts.csv");
-  std::erase_if(expected, [&](const std::string& event) {
-    int step = 0, i = 0, j = 0;
-    std::istringstream(event) >> step >> i >> j;
-    return !(first(i) && second(j)) && !(first(j) && second(i));
-  });
-  EXPECT_GT(expected.size(), 3U);
-  EXPECT_EQ(events_of_dump(scratch / "some/contacts.csv"), expected);
-  EXPECT_LT(some["structures"]["contacts"]["contacts"]["at_start"],
-            all["structures"]["contacts"]["contacts"]["at_start"]);
-  EXPECT_EQ(run("both", {"--groups", "all", "all"})["fingerprint"], all["fingerprint"]);
+  for (const bool with_obstacle : {false, true}) {
+    SCOPED_TRACE(with_obstacle);
+    const ScratchDirectory scratch;
+    const auto run = [&](const std::string& name, std::vector<std::string> more) {
+      std::vector<std::string> arguments{"run",          kDcd,
+                                         "--topology",   kPdb,
+                                         "--frames",     "0:12",
+                                         "--radius",     "1.9",
+                                         "--apart",      "4",
+                                         "--json",       "-",
+                                         "--dump",       scratch / name,
+                                         "--log",        scratch / (name + ".log"),
+                                         "--audit",      "events",
+                                         "--structures", "contacts"};
+      if (with_obstacle) arguments.insert(arguments.end(), {"--obstacle", kPdb});
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      const ProgramRun done = run_program(arguments);
+      EXPECT_EQ(done.code, 0) << done.err;
+      EXPECT_EQ(run_program({"replay", scratch / (name + ".log"), "--quiet"}).code, 0);
+      return Json::parse(done.out);
+    };
+    const Json all = run("all", {}), some = run("some", {"--groups", "//A/-55", "50-/CA"});
+    EXPECT_EQ(some["settings"]["groups"], "//A/-55 50-/CA");
+    EXPECT_EQ(all["settings"]["groups"], "");
+    EXPECT_NE(all["fingerprint"], some["fingerprint"]);
+    const auto number = [](int bead) { return 41 + bead % 108 / 3; };
+    const auto first = [&](int bead) { return number(bead) <= 55; };
+    const auto second = [&](int bead) { return bead % 3 == 1 && number(bead) >= 50; };
+    std::vector<std::string> expected = events_of_dump(scratch / "all/contacts.csv");
+    std::erase_if(expected, [&](const std::string& event) {
+      int step = 0, i = 0, j = 0;
+      std::istringstream(event) >> step >> i >> j;
+      return !(first(i) && second(j)) && !(first(j) && second(i));
+    });
+    EXPECT_GT(expected.size(), 3U);
+    EXPECT_EQ(events_of_dump(scratch / "some/contacts.csv"), expected);
+    EXPECT_LT(some["structures"]["contacts"]["contacts"]["at_start"],
+              all["structures"]["contacts"]["contacts"]["at_start"]);
+    EXPECT_EQ(run("both", {"--groups", "all", "all"})["fingerprint"], all["fingerprint"]);
+  }
 }
 
 TEST(ContactsRun, GroupsOfInputsWithoutNames) {
