@@ -109,7 +109,8 @@ MissedReport count_missed(const MissedTask& task, const std::function<void(const
       report.rows.push_back({factor, sampling.stride, frames_looked_at(scene.frame_count(), sampling.stride),
                              sampling.contacts, sampling.found});
     const bool none = std::ranges::all_of(report.rows, [](const auto& row) { return row.contacts == 0; });
-    if (none && run + 1 == task.factors.size() && task.radius == "auto")
+    // The hint counts pairs of all beads.
+    if (none && run + 1 == task.factors.size() && task.radius == "auto" && task.reading.groups.empty())
       if (const auto hint = factor_hint(scene, factor, task.apart)) warn(*hint);
   }
   return report;
@@ -149,8 +150,9 @@ const OptionList<MissedTask>& missed_task_options() {
                              &O::factors, parse_factors),
                  apart_option("pairs of beads of one chain must be at least K apart along it; with factors "
                               "above 2 take 5, or near neighbours are always in contact (default: 2)",
-                              &O::apart),
-                 // Lifted motion is excluded because it has no radii between frames.
+                              &O::apart)})
+          .with(OptionList<InputOptions>({groups_option()}))
+          .with({// Lifted motion is excluded because it has no radii between frames.
                  choice_option({"--motion", "NAME",
                                 "motion of beads between frames: linear or hermite (default: linear)"},
                                &O::motion, std::span(frame_motion_names).first(2))});

@@ -43,7 +43,7 @@ struct InputOptions {
 [[nodiscard]] const OptionList<InputOptions>& input_options();
 /// Returns the option --obstacle, for commands that put all inputs on one clock.
 [[nodiscard]] const Option<InputOptions>& obstacle_option();
-/// Returns the option --groups, for `kds run`.
+/// Returns the option --groups, for commands that follow contacts.
 [[nodiscard]] const Option<InputOptions>& groups_option();
 inline constexpr std::string_view kInputOperand = "INPUT...";
 /// The trajectory formats as the help texts list them.

@@ -225,6 +225,23 @@ TEST(ContactsRun, GroupsOfInputsWithoutNames) {
   expect_refused(some, "does not name its atoms; give a file that does with --topology");
 }
 
+// Each pair of beads is within one of two groups or between them.
+TEST(ContactsRun, ContactsMissedOfGroups) {
+  const auto contacts = [](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"missed",    kDcd,  "--topology", kPdb, "--frames", "0:9",
+                                       "--factors", "2.5", "--apart",    "5",  "--json",   "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.code == 0 ? Json::parse(run.out)["rows"][0]["contacts"].get<int>() : 0;
+  };
+  const char* const others = "//A//N,C";
+  const int within_ca = contacts({"--groups", "ca", "ca"}), between = contacts({"--groups", "ca", others}),
+            within_others = contacts({"--groups", others, others});
+  EXPECT_GT(std::min({within_ca, between, within_others}), 0);
+  EXPECT_EQ(within_ca + between + within_others, contacts({}));
+}
+
 TEST(ContactsRun, CertifiesGroups) {
   const ScratchDirectory scratch;
   const ProgramRun run = run_program({"run", kDcd, "--topology", kPdb, "--frames", "0:21:4", "--radius",
