@@ -3,7 +3,6 @@
 // order.
 
 #include <cstdint>
-#include <vector>
 
 namespace kds {
 
@@ -19,8 +18,5 @@ struct BeadRange {
 
   friend bool operator==(const BeadRange&, const BeadRange&) = default;
 };
-
-/// The groups of each bead: bit k is set if the bead is in group k.
-using BeadGroups = std::vector<std::uint8_t>;
 
 }  // namespace kds

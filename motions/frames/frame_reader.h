@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/base/bead.h"
+#include "motions/base/bead_groups.h"
 #include "motions/frames/frame_stamp.h"
 #include "motions/frames/periodic.h"
 

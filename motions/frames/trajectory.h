@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/base/bead.h"
+#include "motions/base/bead_groups.h"
 
 namespace kds {
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "motions/base/bead.h"
+#include "motions/base/bead_groups.h"
 
 namespace kds {
 
