@@ -137,8 +137,11 @@ void check_groups_have_beads(const std::vector<Selection>& groups,
     if (std::any_of(of_beads.begin(), of_beads.end(),
                     [k](std::uint8_t of_bead) { return (of_bead >> k & 1U) != 0; }))
       continue;
+    std::vector<std::string> names;
+    for (const NecklaceBeads& necklace : necklaces)
+      names.insert(names.end(), necklace.names.begin(), necklace.names.end());
     throw InputError(fmt::format("--groups: {} chooses none of the beads that are read: {}",
-                                 in_quotes(groups[k].text()), described(bead_names(necklaces))));
+                                 in_quotes(groups[k].text()), described(names)));
   }
 }
 

@@ -193,13 +193,13 @@ TEST(ContactsRun, GroupsLeaveTheContactsOfTheirPairs) {
       EXPECT_EQ(run_program({"replay", scratch / (name + ".log"), "--quiet"}).code, 0);
       return Json::parse(done.out);
     };
-    const Json all = run("all", {}), some = run("some", {"--groups", "//A/-55", "50-/CA"});
-    EXPECT_EQ(some["settings"]["groups"], "//A/-55 50-/CA");
+    const Json all = run("all", {}), some = run("some", {"--groups", "//A/-60", "45-/N"});
+    EXPECT_EQ(some["settings"]["groups"], "//A/-60 45-/N");
     EXPECT_EQ(all["settings"]["groups"], "");
     EXPECT_NE(all["fingerprint"], some["fingerprint"]);
     const auto number = [](int bead) { return 41 + bead % 108 / 3; };
-    const auto first = [&](int bead) { return number(bead) <= 55; };
-    const auto second = [&](int bead) { return bead % 3 == 1 && number(bead) >= 50; };
+    const auto first = [&](int bead) { return number(bead) <= 60; };
+    const auto second = [&](int bead) { return bead % 3 == 0 && number(bead) >= 45; };
     std::vector<std::string> expected = events_of_dump(scratch / "all/contacts.csv");
     std::erase_if(expected, [&](const std::string& event) {
       int step = 0, i = 0, j = 0;
@@ -235,23 +235,22 @@ TEST(ContactsRun, ContactsMissedOfGroups) {
     EXPECT_EQ(run.code, 0) << run.err;
     return run.code == 0 ? Json::parse(run.out)["rows"][0]["contacts"].get<int>() : 0;
   };
-  const char* const others = "//A//N,C";
-  const int within_ca = contacts({"--groups", "ca", "ca"}), between = contacts({"--groups", "ca", others}),
-            within_others = contacts({"--groups", others, others});
-  EXPECT_GT(std::min({within_ca, between, within_others}), 0);
-  EXPECT_EQ(within_ca + between + within_others, contacts({}));
+  const int at_start = contacts({"--groups", "-55", "-55"}), between = contacts({"--groups", "-55", "56-"}),
+            at_end = contacts({"--groups", "56-", "56-"});
+  EXPECT_GT(std::min({at_start, between, at_end}), 0);
+  EXPECT_EQ(at_start + between + at_end, contacts({}));
 }
 
 TEST(ContactsRun, CertifiesGroups) {
   const ScratchDirectory scratch;
   const ProgramRun run = run_program({"run", kDcd, "--topology", kPdb, "--frames", "0:21:4", "--radius",
                                       "1.9", "--apart", "4", "--structures", "contacts", "--certify",
-                                      "--groups", "//A/-55", "50-/CA", "--out", scratch / "out", "--quiet"});
+                                      "--groups", "//A/-60", "45-/N", "--out", scratch / "out", "--quiet"});
   ASSERT_EQ(run.code, 0) << run.err;
   const std::vector<std::string> lines = lines_of(scratch / "out/possible_contacts.csv");
   EXPECT_GT(lines.size(), 3U);
   for (const std::string& line : lines)
-    EXPECT_THAT(line, testing::AnyOf(HasSubstr("CA of"), HasSubstr("first")));
+    EXPECT_THAT(line, testing::AnyOf(HasSubstr(",N of"), HasSubstr("first")));
 }
 
 TEST(ContactsRun, PairsNearAlongTheChain) {
