@@ -8,6 +8,8 @@
 #include "motions/readers/instance.h"
 #include "motions/readers/necklace_stream.h"
 #include "motions/readers/read_trajectory.h"
+#include "motions/readers/reader_registry.h"
+#include "motions/readers/topology.h"
 #include "motions/scene/radii.h"
 #include "tests/motions/test_files.h"
 #include "tests/support/inputs/gro_text.h"
@@ -231,6 +233,29 @@ TEST(ReaderFuzz, Topology) {
   test::write_file("b.dcd", test::DcdMaker::chain(6, 2).bytes());
   fuzz("t.pdb", test::pdb_residue(1) + test::pdb_residue(2), 1000,
        [&](const auto& path) { read_and_check(dcd, {.topology = path, .selection = Selection::all}); });
+}
+
+// libFuzzer starts from these files. A file that is refused leads it nowhere.
+TEST(FuzzCorpus, EachFormatHasValidFiles) {
+  const std::filesystem::path corpus = test::data_file("../tests/fuzz/corpus");
+  for (const std::string& format : reader_registry().names()) {
+    ASSERT_TRUE(std::filesystem::is_directory(corpus / format)) << format;
+    int files = 0;
+    for (const auto& file : std::filesystem::directory_iterator(corpus / format)) {
+      SCOPED_TRACE(file.path());
+      ++files;
+      EXPECT_LE(file.file_size(), 4096U) << "libFuzzer makes longer inputs only if a seed is longer";
+      const ReaderSpec* const reader = reader_registry().find(file.path());
+      ASSERT_NE(reader, nullptr);
+      EXPECT_EQ(reader->name, format);
+      if (reader->open) read_and_check(file.path(), {.selection = Selection::all});
+      if (reader->topology) {
+        const Topology topology = reader->topology(file.path(), {.selection = Selection::all});
+        EXPECT_FALSE(topology.selected.empty());
+      }
+    }
+    EXPECT_GT(files, 0) << format;
+  }
 }
 
 }  // namespace
