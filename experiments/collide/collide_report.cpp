@@ -129,8 +129,9 @@ std::string ClosestCourse::figure() const {
                       true};
   return html_figure(
       svg_plot(plot),
-      fmt::format("The distance of the closest pair asked for, frame by frame, in the file's unit "
-                  "of length; below zero two beads overlap.{}",
+      fmt::format("The distance of the closest pair asked for, frame by frame, in {}; below zero two beads "
+                  "overlap.{}",
+                  length_unit,
                   width_ > 1 ? fmt::format(" Each value is the least of {} frames.", width_) : ""));
 }
 

@@ -15,6 +15,9 @@ namespace kds {
 /// Returns seconds or a ratio with about four figures, never with an exponent.
 [[nodiscard]] std::string short_decimal(double value);
 
+/// The unit of lengths, as figures name it: XYZ files, LAMMPS units lj and instance files name none.
+inline constexpr std::string_view length_unit = "angstrom (or the unit of a file whose format names none)";
+
 /// Returns a value in the form of a plot's tick labels: 12,000, 0.25, 3·10⁻⁷.
 [[nodiscard]] std::string tick_label(double value);
 

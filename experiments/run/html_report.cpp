@@ -341,9 +341,8 @@ std::string plot_of_displacement(const RunReport& report) {
   }
   return html_figure(
       svg_plot(plot),
-      fmt::format("How far beads are from where they were a frame before, in the file's unit of length; the "
-                  "largest radius is {}.{}",
-                  short_decimal(report.radius_max), of_steps(report.displacement.width())));
+      fmt::format("How far beads are from where they were a frame before, in {}; the largest radius is {}.{}",
+                  length_unit, short_decimal(report.radius_max), of_steps(report.displacement.width())));
 }
 
 std::string plots_by_kind(const RunReport& report) {

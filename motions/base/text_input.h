@@ -42,7 +42,7 @@ void unify_line_ends(std::string& text);
 /// Returns a count with its noun: "1 atom", "2 atoms".
 [[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
 
-/// Returns the ending of a file, which determines its format, in lower case with its dot: ".pdb".
+/// Returns the ending of a file in lower case with its dot: ".pdb".
 [[nodiscard]] inline std::string file_ending(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
   for (char& c : ending)

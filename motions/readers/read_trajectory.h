@@ -1,6 +1,6 @@
 #pragma once
-// Reads necklaces: one, unless several chains are requested. The file's ending determines the format, as in
-// .pdb, .ent.gz, .cif, .mmcif, .dcd or .xyz (reader_registry.h).
+// Reads necklaces: one, unless several chains are requested. The first bytes of the file determine the
+// format, otherwise its ending does (reader_registry.h).
 
 #include <filesystem>
 #include <vector>

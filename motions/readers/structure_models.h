@@ -1,6 +1,7 @@
 #pragma once
-// The models of a PDB or mmCIF file in sequence. For a PDB file, only the requested model is in memory. Both
-// readers return every atom of a model; polymer_selection.h decides which of them are beads.
+// The models of a file whose format names residues, in sequence: PDB, mmCIF, GRO, PSF and prmtop (the last two
+// have one model without positions). A reader returns every atom of a model; polymer_selection.h decides
+// which of them are beads.
 
 #include <Eigen/Core>
 #include <cstddef>

@@ -26,7 +26,7 @@ constexpr std::string_view to_topology =
     "save a PDB file of the atoms, as with cpptraj or VMD, and give that one";
 constexpr std::string_view to_unpacked = "unpack it, or pack it with gzip";
 constexpr std::array unread{
-    UnreadFormat{".tng", "GROMACS", "convert it to PDB, as with gmx trjconv -f FILE -s TOPOLOGY -o traj.pdb"},
+    UnreadFormat{".tng", "GROMACS", "convert it to XTC, as with gmx trjconv -f FILE -o traj.xtc"},
     UnreadFormat{".g96", "GROMACS", to_structure},
     UnreadFormat{".tpr", "GROMACS", to_structure},
     UnreadFormat{".top", "AMBER, GROMACS", to_topology},

@@ -25,8 +25,8 @@
 namespace kds {
 
 /// Computes how far every ball of a necklace, of any radius, may be out of the sphere of a basis during a
-/// whole step while its relaxed certificate (relaxed_membership.h) holds. Bounds of the sphere's path can
-/// then prove the certificate.
+/// whole step while its relaxed certificate (visit_relaxed_membership in membership.h) holds. Bounds of the
+/// sphere's path can then prove the certificate.
 ///
 /// Let |d| >= least and p >= p' for the distance and the sum of radii of the basis' two balls farthest apart,
 /// let r be the largest radius of all balls, and let R' >= R. Suppose least >= r and p' >= r. Then all

@@ -336,6 +336,8 @@ TEST(ReadTrajectory, UnknownEnding) {
        {".tng", ".tpr", ".top", ".rst7", ".h5md", ".TNG", ".g96.gz", ".mol2", ".xyz.bz2"})
     test::expect_refused([&] { (void)read_trajectory(test::write_file("a" + ending, "some bytes")); },
                          {"a" + ending, "not read yet; supported: .pdb", "; "});
+  test::expect_refused([&] { (void)read_trajectory(test::write_file("a.tng", "some bytes")); },
+                       {"convert it to XTC", "-o traj.xtc"});
   const auto pdb = test::write_file("a.pdb", test::pdb_residue(1));
   const auto dcd = test::write_file("a.dcd", test::DcdMaker::chain(3, 2).bytes());
   test::expect_refused(
