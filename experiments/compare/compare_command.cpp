@@ -17,9 +17,9 @@ namespace {
 
 constexpr CommandSpec kCompareCommand{
     "kds compare",
-    "Compares how often structures change, by stride, motion and input. Each row is one structure. The "
-    "structures of one\n"
-    "input run together.\n\n"
+    "Compares how often structures change, by stride, motion and input. Each INPUT is a run of its own, in "
+    "which all\n"
+    "structures run together. Each row is one structure.\n\n"
     "  net changes     what differs between two consecutive frames: bases of nodes (wrapped), cells "
     "(power),\n"
     "                  pairs in contact (contacts), ranks (sorted), ends (box), corners (hull), the pair "
@@ -29,7 +29,7 @@ constexpr CommandSpec kCompareCommand{
     "  locality        largest number of certificates on one bead\n"
     "  responsiveness  seconds per event",
     kInputOperand,
-    "necklaces, each a run of its own: .pdb .ent .cif .mmcif .dcd .xyz .extxyz (also .gz)",
+    kTrajectoryHelp,
     "kds compare villin.dcd --topology villin.pdb --strides 1,2,4,8,16,32 --out report\n"
     "kds compare 300K.dcd 400K.dcd --topology villin.pdb --structures wrapped,contacts --motions "
     "linear,hermite",

@@ -84,21 +84,22 @@ void check_exists(const std::filesystem::path& path) {
 }
 
 const OptionList<InputOptions>& input_options() {
+  static const std::string format_help =
+      fmt::format("format of the inputs: {} (default: as the content says, otherwise the ending)",
+                  fmt::join(reader_registry().names_with_frames(), ", "));
   static const OptionList<InputOptions> list{{
       {{"--topology", "FILE",
-        "file that names the atoms of a trajectory that does not: PDB, mmCIF, GRO, PSF or prmtop (default: "
-        "every "
-        "atom of the trajectory is a bead)"},
+        "file that names the atoms of the inputs if their format does not: .pdb .cif .gro .psf .prmtop "
+        "(default: none, and every atom is a bead)"},
        [](InputOptions& o, const std::string& text) { o.reading.topology = parse_path("--topology", text); },
        [](const InputOptions& o) { return o.reading.topology ? o.reading.topology->string() : ""; },
        [](const InputOptions& o) {
          return o.reading.topology ? std::filesystem::absolute(*o.reading.topology).string() : "";
        }},
-      {{"--select", "ATOMS",
-        "which atoms become beads: backbone (N, CA, C), ca, bb (Martini), p (nucleic acids), heavy (all but "
-        "hydrogens) or all atoms of the residues read; or an atom selection as in '//A/10-40/CA,CB' "
-        "(default: "
-        "backbone, or all if the file names no residues)"},
+      {{"--select", "NAME",
+        "atoms that become beads. NAME is backbone, ca, bb, p, heavy or all; or an atom selection, as in "
+        "'//A/10-40/CA,CB'. backbone: N, CA and C of each residue; bb: backbone of Martini; p: phosphorus of "
+        "nucleic acids; heavy: all but hydrogens (default: backbone, or all if the file names no residues)"},
        [](InputOptions& o, const std::string& text) {
          o.reading.selection = parse_selection("--select", text);
        },
@@ -117,10 +118,9 @@ const OptionList<InputOptions>& input_options() {
         "frames to read: FIRST:LAST:STRIDE, counted from 0; frame LAST itself is not read (default: all)"},
        [](InputOptions& o, const std::string& text) { o.reading.frames = parse_frame_range(text); },
        [](const InputOptions& o) { return name_of(o.reading.frames); }},
-      {{"--format", "NAME",
-        "format of the inputs, as in dcd or pdb (default: told from the content, then from the ending)"},
+      {{"--format", "NAME", format_help},
        [](InputOptions& o, const std::string& text) {
-         const std::vector<std::string> names = reader_registry().names();
+         const std::vector<std::string> names = reader_registry().names_with_frames();
          const std::vector<std::string_view> views(names.begin(), names.end());
          o.reading.format = names[place_among("--format", text, views)];
        },

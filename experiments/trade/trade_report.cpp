@@ -178,14 +178,14 @@ constexpr const char* words_of_columns =
     "Ratio: seconds divided by those of the exact run for as many frames. Tests: tests of two spheres by a "
     "search for contacts in the hierarchy, on average. Errors are measured against beads on straight lines "
     "between all frames, at frames and at random times between them. Radius: how much larger a sphere is "
-    "than the smallest one, on average, at most, and at most at frames. Outside: beads outside their "
+    "than the smallest one: mean, maximum, and maximum over frames. Outside: beads outside their "
     "spheres, as the mean over times; with --certify spheres are larger by the certified deviation. Wrong: "
     "cells that are not in the true diagram. Edges: short edges that are missed. Missed, and invented or "
     "spurious: events or contacts compared with the exact run. With --certify all possible contacts count as "
     "found, and unsure are the contacts that are possible but not certain. --select ca is another model: "
     "contacts of residues count that are at least its --apart apart. Time: error of times, in frames. "
     "Closest: error of the closest distance. Moved: distance of a bead from its true place. *: no other row "
-    "of the group is as quick and as right.";
+    "of the group is both as fast and as accurate.";
 
 }  // namespace
 

@@ -127,6 +127,13 @@ std::vector<std::string> ReaderRegistry::names() const {
   return names;
 }
 
+std::vector<std::string> ReaderRegistry::names_with_frames() const {
+  std::vector<std::string> names;
+  for (const ReaderSpec& reader : readers_)
+    if (reader.open) names.push_back(reader.name);
+  return names;
+}
+
 std::string ReaderRegistry::endings() const {
   std::vector<std::string> all;
   for (const ReaderSpec& reader : readers_)

@@ -43,6 +43,8 @@ class ReaderRegistry {
   [[nodiscard]] const ReaderSpec* find_by_ending(const std::filesystem::path& path) const;
   /// Returns the names of all formats.
   [[nodiscard]] std::vector<std::string> names() const;
+  /// Returns the names of the formats that have frames.
+  [[nodiscard]] std::vector<std::string> names_with_frames() const;
   /// Returns ".pdb, .ent, ... or .xyz" of the formats that have frames, for messages.
   [[nodiscard]] std::string endings() const;
   /// Returns the same of the formats that take a topology.
