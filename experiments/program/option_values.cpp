@@ -15,28 +15,16 @@
 
 namespace kds {
 
-namespace {
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(), [](char c) { return lower(c); });
-  return result;
-}
-
-}  // namespace
-
 std::optional<std::string_view> nearest_name(std::string_view word, std::span<const std::string_view> names) {
   constexpr std::size_t longest = 64, letters_for_a_part = 3;
   if (word.empty() || word.size() > longest) return std::nullopt;
-  const std::string typed = lower(word);
+  const std::string typed = lower_case(word);
   const std::size_t dashes = std::min(typed.find_first_not_of('-'), typed.size());
   const std::string_view bare = std::string_view(typed).substr(dashes);
   std::optional<std::string_view> nearest;
   std::size_t least = 0;
   for (const std::string_view name : names) {
-    const std::string known = lower(name);
+    const std::string known = lower_case(name);
     const std::size_t distance = edit_distance(typed, known);
     const std::size_t letters =
         std::max(bare.size(), known.size() - std::min(known.find_first_not_of('-'), known.size()));

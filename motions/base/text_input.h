@@ -42,12 +42,17 @@ void unify_line_ends(std::string& text);
 /// Returns a count with its noun: "1 atom", "2 atoms".
 [[nodiscard]] std::string counted(std::size_t count, std::string_view noun);
 
+/// Returns the text with its ASCII letters in lower case, in every locale.
+[[nodiscard]] inline std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
 /// Returns the ending of a file in lower case with its dot: ".pdb".
 [[nodiscard]] inline std::string file_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return ending;
+  return lower_case(path.extension().string());
 }
 
 /// Returns whether PDB files with this ending hold a biological assembly: .pdb and a number, as in .pdb1.

@@ -5,8 +5,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+
+#include "motions/base/text_input.h"
 
 namespace kds {
 
@@ -52,9 +53,7 @@ bool is_upright(const Numbers& v) {
 }
 
 bool names_any(std::string_view title, std::initializer_list<std::string_view> programs) {
-  std::string lower(title);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lower_case(title);
   return std::any_of(programs.begin(), programs.end(),
                      [&](std::string_view program) { return lower.find(program) != std::string::npos; });
 }

@@ -12,13 +12,6 @@ namespace kds {
 
 namespace {
 
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
-
 struct Value {
   std::vector<std::string> items;
   std::vector<std::size_t> rows;  // number of items in each row of a matrix; empty if not a matrix

@@ -18,6 +18,7 @@
 #include "motions/base/input_file.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/lammps_layout.h"
+#include "motions/readers/nanometres.h"
 #include "motions/readers/vdw_radii.h"
 
 namespace kds {
@@ -340,7 +341,7 @@ class LammpsFrames final : public AtomFrames {
     Eigen::Vector3d position = three_of_row(k, columns_.position);
     if (columns_.scaled) position = box->origin + box->vectors * position;
     if (columns_.image) position += box->vectors * three_of_row(k, *columns_.image);
-    if (units_ == LammpsUnits::nano) position = (10.0F * position.cast<float>()).cast<double>();
+    if (units_ == LammpsUnits::nano) position = position.unaryExpr(&angstrom_of_nanometres);
     return position;
   }
 

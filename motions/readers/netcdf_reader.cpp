@@ -17,6 +17,7 @@
 #include "motions/base/input_error.h"
 #include "motions/base/input_file.h"
 #include "motions/base/text_input.h"
+#include "motions/readers/nanometres.h"
 #include "motions/readers/netcdf_layout.h"
 
 namespace kds {
@@ -97,12 +98,6 @@ struct NetcdfSeries {
   double scale = 1;
   std::string units;
 };
-
-std::string lower_case(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
 
 // Returns the entry of `units` that has this name, with or without an s at its end.
 template <std::size_t n>
@@ -308,7 +303,7 @@ class NetcdfFrames final : public AtomFrames {
         if (value == static_cast<Number>(NC_FILL_FLOAT)) fail_unwritten(k, atoms[bead]);
         if (scale != 1) value *= scale;
         positions(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(bead)) =
-            is_nanometres ? 10.0F * static_cast<float>(value) : value;
+            is_nanometres ? angstrom_of_nanometres(value) : value;
       }
   }
 

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 
+#include "motions/base/text_input.h"
 #include "motions/readers/atom_filter.h"
 
 namespace kds {
 
 std::optional<Selection> Selection::parse(std::string_view text, std::string_view option) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  const auto* const name = std::find(selection_names.begin() + 1, selection_names.end(), lower);
+  const auto* const name = std::find(selection_names.begin() + 1, selection_names.end(), lower_case(text));
   if (name != selection_names.end()) return Selection(static_cast<Kind>(name - selection_names.begin()));
   const bool starts_with_number =
       !text.empty() && std::string_view("0123456789.-").find(text[0]) != std::string_view::npos;

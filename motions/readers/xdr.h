@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "motions/frames/periodic.h"
+#include "motions/readers/nanometres.h"
 
 namespace kds {
 
@@ -40,11 +41,6 @@ template <class Number>
   double decimal = 0;
   std::from_chars(text.data(), written.ptr, decimal);
   return decimal;
-}
-
-/// Converts a length to angstrom, in single precision as other programs do, so that results agree.
-[[nodiscard]] inline double angstrom_of_nanometres(float nanometres) {
-  return static_cast<double>(10.0F * nanometres);
 }
 
 /// Reads a box from its three vectors, nine numbers in nanometres.
