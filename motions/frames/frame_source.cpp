@@ -175,9 +175,12 @@ bool FrameQueue::next(FrameRead& frame) {
 
 void FrameQueue::seek(std::size_t k) {
   const std::size_t next = pushed_ - waiting_.size();
-  if (k < next || k > pushed_)
-    throw InputError(fmt::format("frame {} {}: of frames that are pushed those of one step are kept", k,
-                                 k < next ? "is gone" : "has not come"));
+  if (k < next)
+    throw InputError(
+        fmt::format("frame {} is gone: of pushed frames, only those from frame {} on are kept", k, next));
+  if (k > pushed_)
+    throw InputError(
+        fmt::format("frame {} is not pushed yet: {} pushed so far", k, counted(pushed_, "frame")));
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(k - next));
 }
 

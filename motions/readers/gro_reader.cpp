@@ -15,6 +15,7 @@
 #include "motions/base/input_file.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/element_guess.h"
+#include "motions/readers/nanometres.h"
 #include "motions/readers/residue_grouping.h"
 #include "motions/readers/residue_kind.h"
 #include "motions/readers/structure_models.h"
@@ -22,9 +23,6 @@
 namespace kds {
 
 namespace {
-
-// Nanometres to angstrom, in the float arithmetic of MDAnalysis.
-double angstrom(double nanometres) { return static_cast<double>(10.0F * static_cast<float>(nanometres)); }
 
 // The columns of an atom's line. Numbers begin behind column 20. Their width is the distance between the
 // first two decimal points.
@@ -109,7 +107,7 @@ struct GroBox {
         {{0, 0}, {1, 1}, {2, 2}, {1, 0}, {2, 0}, {0, 1}, {2, 1}, {0, 2}, {1, 2}}};
     Eigen::Matrix3d vectors = Eigen::Matrix3d::Zero();
     for (std::size_t i = 0; i < lengths.size(); ++i)
-      vectors(places[i].first, places[i].second) = angstrom(lengths[i]);
+      vectors(places[i].first, places[i].second) = angstrom_of_nanometres(lengths[i]);
     return read_cell(vectors);
   }
 };
@@ -283,8 +281,11 @@ class GroModels final : public StructureModels {
       if (!next_line(line) || lines_.cut()) return Found::cut;
       if (!columns) columns = GroColumns::of(line);
       if (!columns || !columns->fit(line))
-        throw damage(
-            k, fmt::format("atom {} of {} with its numbers in the columns of the first", i + 1, atoms), line);
+        throw damage(k,
+                     fmt::format("atom {} of {} with {}", i + 1, atoms,
+                                 columns ? "its numbers in the columns of atom 1"
+                                         : "three decimal numbers after column 20"),
+                     line);
       if (model != nullptr) add_atom(k, i, line, *columns, blocks);
     }
     if (!next_line(line)) return Found::cut;
@@ -314,7 +315,8 @@ class GroModels final : public StructureModels {
     StructureAtom& atom = blocks.back().atoms.emplace_back();
     atom.name = trimmed(line.substr(10, 5));
     atom.place = place;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) atom.position[axis] = angstrom((*position)[axis]);
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      atom.position[axis] = angstrom_of_nanometres((*position)[axis]);
   }
 
   LineReader lines_;

@@ -74,10 +74,14 @@ std::uint64_t NetcdfLayout::number(std::size_t bytes) {
 
 // Reads the length of a list whose items take at least 4 bytes each.
 std::size_t NetcdfLayout::list(std::uint64_t tag, const char* items) {
+  const auto begin = place_;
   const std::uint64_t found = number(4);
   const std::uint64_t length = size();
-  if (found != tag && (found != 0 || length != 0))
-    fail(fmt::format("expected the NetCDF list of {} before", items));
+  if (found != tag && (found != 0 || length != 0)) {
+    place_ = begin;
+    fail(fmt::format("expected the NetCDF list of {} (tag {}), found tag {} and length {}", items, tag, found,
+                     length));
+  }
   if (length > (header_.size() - place_) / 4) fail_end();
   return static_cast<std::size_t>(length);
 }
@@ -93,8 +97,10 @@ std::string_view NetcdfLayout::padded_bytes(std::uint64_t bytes) {
 int NetcdfLayout::type() {
   const std::uint64_t found = number(4);
   const std::uint64_t last = version_ == 5 ? bytes_of_type.size() - 1 : double_type;
-  if (found == 0 || found > last)
-    fail(fmt::format("expected a type from 1 to {} before, found {}", last, found));
+  if (found == 0 || found > last) {
+    place_ -= 4;
+    fail(fmt::format("expected a NetCDF type from 1 to {}, found {}", last, found));
+  }
   return static_cast<int>(found);
 }
 
@@ -133,10 +139,13 @@ void NetcdfLayout::read_variable(const std::vector<std::uint64_t>& dimensions) {
   const std::uint64_t rank = size();
   if (rank > (header_.size() - place_) / 4) fail_end();
   for (std::uint64_t i = 0; i < rank; ++i) {
+    const auto begin = place_;
     const std::uint64_t dimension = size();
-    if (dimension >= dimensions.size())
-      fail(fmt::format("expected one of {} dimensions before, found dimension {}", dimensions.size(),
-                       dimension));
+    if (dimension >= dimensions.size()) {
+      place_ = begin;
+      fail(fmt::format("expected the number of one of {} dimensions, counted from 0, found {}",
+                       dimensions.size(), dimension));
+    }
     const std::uint64_t length = dimensions[static_cast<std::size_t>(dimension)];
     if (length == 0 && i > 0) fail("only the first dimension of a variable can be that of the records");
     variable.has_records = variable.has_records || length == 0;

@@ -103,8 +103,10 @@ TEST(FrameQueue, HandsOutEachFrameOnce) {
   EXPECT_EQ(frame.positions.col(0), Eigen::Vector3d(2, 2, 0));
   EXPECT_EQ(frame.stamp.number, 2U);
   EXPECT_EQ(frame.stamp.picoseconds, 0.5);
-  EXPECT_THAT(refusal_of([&] { queue.seek(2); }), HasSubstr("frame 2 is gone"));
-  EXPECT_THAT(refusal_of([&] { queue.seek(5); }), HasSubstr("frame 5 has not come"));
+  EXPECT_THAT(refusal_of([&] { queue.seek(2); }),
+              HasSubstr("frame 2 is gone: of pushed frames, only those from frame 3 on are kept"));
+  EXPECT_THAT(refusal_of([&] { queue.seek(5); }),
+              HasSubstr("frame 5 is not pushed yet: 4 frames pushed so far"));
   queue.end();
   EXPECT_FALSE(queue.is_open());
   EXPECT_TRUE(queue.next(frame));

@@ -233,6 +233,10 @@ TEST(GroReader, DamageIsRefusedWithFrameByteAndLine) {
     EXPECT_EQ(before.frames.size(), 1U);
   };
   refuse(1, "six", 0, {"line 11: expected the number of atoms, found 'six'"});
+  refuse(2, "    1ALA      N    1   0 0 0", 0,
+         {"expected atom 1 of 6 with three decimal numbers after column 20"});
+  refuse(3, "    1ALA     CA    2  0.150   0.000   0.000", 0,
+         {"atom 2 of 6 with its numbers in the columns of atom 1"});
   refuse(1, "    5", 6, {"expected a box of 3 or 9 numbers behind 5 atoms"});
   refuse(1, "    7", 7, {"atom 7 of 7"});
   refuse(1, "99999999999999999999999", 0, {"expected the number of atoms"});

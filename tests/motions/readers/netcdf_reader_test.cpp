@@ -8,6 +8,7 @@
 #include "motions/readers/dcd_reader.h"
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
+#include "tests/support/inputs/cells.h"
 #include "tests/support/inputs/netcdf_maker.h"
 
 namespace kds::netcdf_reader_test {
@@ -117,6 +118,17 @@ TEST(NetcdfReader, Scales) {
   EXPECT_EQ(read_frame(*open(maker.bytes()), 1).positions(2, 0), 1.1 * 0.1);
   maker.scale = 0;
   refuse(maker.bytes(), {"a.nc", "scale_factor"});
+}
+
+TEST(NetcdfReader, NamesTheByteOfADamagedHeader) {
+  std::string bytes = NetcdfMaker::chain(3, 2).bytes();
+  bytes[11] = '\x0c';  // the list of dimensions begins at byte 8
+  refuse(bytes, {"a.nc: byte 8: expected the NetCDF list of dimensions (tag 10), found tag 12 and length 3"});
+  bytes[11] = '\x0a';
+  const std::size_t name = bytes.find("coordinates");  // its rank and dimensions follow
+  bytes[name + 12 + 4 + 3] = '\x07';
+  refuse(bytes, {"a.nc: byte " + std::to_string(name + 16) + ": expected the number of one of 3 dimensions",
+                 "counted from 0, found 7"});
 }
 
 TEST(NetcdfReader, NotesDoubtfulUnits) {
@@ -253,7 +265,7 @@ TEST(NetcdfReader, ReadsTheFilesOfOtherPrograms) {
   }
   const FrameRead frame = read_frame(*open_netcdf(test::data_file(folder + "mdtraj.nc"), {}), 2);
   EXPECT_EQ(frame.stamp.picoseconds, 5.0);
-  EXPECT_EQ(frame.cell, cell_from_angles({40, 50, 60}, {80, 75, 65}));
+  EXPECT_EQ(frame.cell, test::cell_from_angles({40, 50, 60}, {80, 75, 65}));
   EXPECT_EQ(read_frame(*open_netcdf(test::data_file(folder + "mdanalysis.nc"), {}), 2).stamp.picoseconds,
             1.0);
 }
