@@ -34,16 +34,6 @@ struct CellRead {
 /// Reads a cell from the lengths of its vectors and the angles in degrees, each between 0 and 180.
 [[nodiscard]] CellRead read_cell_from_angles(const Eigen::Vector3d& lengths, const Eigen::Vector3d& degrees);
 
-/// Both functions return the cell without the doubt.
-[[nodiscard]] inline std::optional<Cell> cell_from_lengths(const Eigen::Vector3d& lengths,
-                                                           const Eigen::Vector3d& cosines) {
-  return read_cell_from_lengths(lengths, cosines).cell;
-}
-[[nodiscard]] inline std::optional<Cell> cell_from_angles(const Eigen::Vector3d& lengths,
-                                                          const Eigen::Vector3d& degrees) {
-  return read_cell_from_angles(lengths, degrees).cell;
-}
-
 /// Finds the nearest periodic image of a point. The lattice is Minkowski-reduced first, so the result is
 /// correct for cells of any shape. With a reduced basis b1, b2, b3, every face of the Voronoi cell belongs to
 /// a vector i b1 + j b2 + k b3 with i, j, k in {-1, 0, 1}. A point that none of these 26 vectors shortens is

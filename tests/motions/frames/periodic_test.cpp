@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "tests/support/inputs/cells.h"
+
 namespace kds::periodic_test {
 namespace {
 
@@ -53,7 +55,7 @@ void expect_same_shape(const Frames& whole, const Frames& expected) {
 
 TEST(Periodic, UprightCell) {
   std::mt19937 random(1);
-  const Cell cell = *cell_from_lengths({10, 12, 9}, {0, 0, 0});
+  const Cell cell = *test::cell_from_lengths({10, 12, 9}, {0, 0, 0});
   const Frames truth = walk(random, 60, 30, {1.3, -0.7, 2.1});
   Frames frames = wrapped(truth, cell);
   EXPECT_GT(make_whole(frames, Cells(frames.size(), cell)), 0U);
@@ -62,7 +64,7 @@ TEST(Periodic, UprightCell) {
 
 TEST(Periodic, SkewCell) {
   std::mt19937 random(2);
-  const Cell cell = *cell_from_angles({12, 11, 13}, {60, 70, 60});
+  const Cell cell = *test::cell_from_angles({12, 11, 13}, {60, 70, 60});
   const Frames truth = walk(random, 60, 30, {1.3, -0.7, 2.1});
   Frames frames = wrapped(truth, cell);
   make_whole(frames, Cells(frames.size(), cell));
@@ -73,7 +75,7 @@ TEST(Periodic, WholeFramesKeepTheirBits) {
   std::mt19937 random(3);
   const Frames truth = walk(random, 20, 5, {0.1, 0.1, 0.1});
   Frames frames = truth;
-  EXPECT_EQ(make_whole(frames, Cells(5, cell_from_lengths({1000, 1000, 1000}, {0, 0, 0}))), 0U);
+  EXPECT_EQ(make_whole(frames, Cells(5, test::cell_from_lengths({1000, 1000, 1000}, {0, 0, 0}))), 0U);
   for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(frames[k], truth[k]);
 }
 
@@ -89,7 +91,7 @@ TEST(Periodic, WithoutCellNothingMoves) {
 TEST(Periodic, HalfwayStaysWhereItIs) {
   Frames frames(1, Eigen::Matrix3Xd::Zero(3, 2));
   frames[0](0, 1) = 5;
-  EXPECT_EQ(make_whole(frames, Cells(1, cell_from_lengths({10, 10, 10}, {0, 0, 0}))), 0U);
+  EXPECT_EQ(make_whole(frames, Cells(1, test::cell_from_lengths({10, 10, 10}, {0, 0, 0}))), 0U);
 }
 
 TEST(Periodic, FarOutCoordinatesStayFinite) {
@@ -97,7 +99,7 @@ TEST(Periodic, FarOutCoordinatesStayFinite) {
   frames[0](0, 1) = 1e300;
   frames[1](1, 0) = -1e308;
   frames[1](1, 1) = 1e308;
-  make_whole(frames, Cells(2, cell_from_lengths({10, 10, 10}, {0, 0, 0})));
+  make_whole(frames, Cells(2, test::cell_from_lengths({10, 10, 10}, {0, 0, 0})));
   EXPECT_TRUE(frames[0].allFinite());
   EXPECT_TRUE(frames[1].allFinite());
 }
@@ -117,7 +119,8 @@ TEST(Periodic, NearestImagesInCellsOfAnyShape) {
   std::uniform_real_distribution<double> place(-60, 60);
   std::uniform_int_distribution<int> multiple(-4, 4);
   for (int round = 0; round < 40; ++round) {
-    const Cell small = *cell_from_angles({12.0 + round % 3, 11, 13.0 + round % 5}, {60.0 + round, 70, 75});
+    const Cell small =
+        *test::cell_from_angles({12.0 + round % 3, 11, 13.0 + round % 5}, {60.0 + round, 70, 75});
     // These vectors span the same lattice, and may be arbitrarily oblique.
     Cell steps = Cell::Identity();
     steps(0, 1) = multiple(random);
@@ -209,7 +212,7 @@ TEST(Periodic, BondsThatWouldNotBeMoreAlikeStay) {
     for (Eigen::Index i = 1; i < straight.cols(); ++i) straight(0, i) = straight(0, i - 1) + bond;
     for (const Eigen::Matrix3Xd& truth : {chain, straight}) {
       Eigen::Matrix3Xd frame = truth;
-      EXPECT_EQ(WholeChain().make_whole(frame, cell_from_lengths({10, 10, 10}, {0, 0, 0})),
+      EXPECT_EQ(WholeChain().make_whole(frame, test::cell_from_lengths({10, 10, 10}, {0, 0, 0})),
                 WholeChain::Outcome::doubtful)
           << bond;
       EXPECT_EQ(frame, truth);
@@ -218,7 +221,7 @@ TEST(Periodic, BondsThatWouldNotBeMoreAlikeStay) {
 }
 
 TEST(Periodic, ChainsThatAreMovedAsAWhole) {
-  const Cell cell = *cell_from_lengths({10, 10, 10}, {0, 0, 0});
+  const Cell cell = *test::cell_from_lengths({10, 10, 10}, {0, 0, 0});
   Eigen::Matrix3Xd chain(3, 3);
   chain << 0, 1.5, 3, 0, 0, 0, 0, 0, 0;
   WholeChain whole;
@@ -237,7 +240,7 @@ TEST(Periodic, ChainsLongerThanTheirCell) {
   std::mt19937 random(9);
   for (const Eigen::Vector3d& angles : {Eigen::Vector3d(90, 90, 90), Eigen::Vector3d(60, 70, 60),
                                         Eigen::Vector3d(109.4712206, 109.4712206, 109.4712206)}) {
-    const Cell cell = *cell_from_angles({12, 11, 13}, angles);
+    const Cell cell = *test::cell_from_angles({12, 11, 13}, angles);
     Cell leaning = cell;
     leaning.col(1) += 3 * cell.col(0);
     for (const Cell& of_lattice : {cell, leaning}) {
@@ -266,18 +269,20 @@ TEST(Periodic, AnglesOfACell) {
 }
 
 TEST(Periodic, CellsThatAreNone) {
-  EXPECT_FALSE(cell_from_lengths({1, 1, 1}, {0, 0, 0}).has_value());
-  EXPECT_FALSE(cell_from_lengths({0, 20, 20}, {0, 0, 0}).has_value());
-  EXPECT_FALSE(cell_from_lengths({-9, 20, 20}, {0, 0, 0}).has_value());
-  EXPECT_FALSE(cell_from_lengths({20, 20, 20}, {1, 1, 1}).has_value());
-  EXPECT_FALSE(cell_from_lengths({20, 20, 20}, {3, 0, 0}).has_value());
-  EXPECT_FALSE(cell_from_lengths({20, 20, std::numeric_limits<double>::quiet_NaN()}, {0, 0, 0}).has_value());
-  EXPECT_FALSE(cell_from_lengths({20, 20, std::numeric_limits<double>::infinity()}, {0, 0, 0}).has_value());
-  EXPECT_FALSE(cell_from_angles({20, 20, 20}, {30, 30, 90}).has_value());
+  EXPECT_FALSE(test::cell_from_lengths({1, 1, 1}, {0, 0, 0}).has_value());
+  EXPECT_FALSE(test::cell_from_lengths({0, 20, 20}, {0, 0, 0}).has_value());
+  EXPECT_FALSE(test::cell_from_lengths({-9, 20, 20}, {0, 0, 0}).has_value());
+  EXPECT_FALSE(test::cell_from_lengths({20, 20, 20}, {1, 1, 1}).has_value());
+  EXPECT_FALSE(test::cell_from_lengths({20, 20, 20}, {3, 0, 0}).has_value());
+  EXPECT_FALSE(
+      test::cell_from_lengths({20, 20, std::numeric_limits<double>::quiet_NaN()}, {0, 0, 0}).has_value());
+  EXPECT_FALSE(
+      test::cell_from_lengths({20, 20, std::numeric_limits<double>::infinity()}, {0, 0, 0}).has_value());
+  EXPECT_FALSE(test::cell_from_angles({20, 20, 20}, {30, 30, 90}).has_value());
 }
 
 TEST(Periodic, CellOfATruncatedOctahedron) {
-  const Cell cell = *cell_from_angles({20, 20, 20}, {109.4712206, 109.4712206, 109.4712206});
+  const Cell cell = *test::cell_from_angles({20, 20, 20}, {109.4712206, 109.4712206, 109.4712206});
   for (Eigen::Index i = 0; i < 3; ++i) EXPECT_NEAR(cell.col(i).norm(), 20, 1e-9);
   EXPECT_NEAR(cell.col(0).dot(cell.col(1)), -400.0 / 3, 1e-4);
   EXPECT_NEAR(cell.col(1).dot(cell.col(2)), -400.0 / 3, 1e-4);

@@ -12,6 +12,7 @@
 #include "motions/frames/periodic.h"
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
+#include "tests/support/inputs/cells.h"
 
 namespace kds::dcd_reader_test {
 namespace {
@@ -272,7 +273,7 @@ std::vector<CellShape> cell_shapes() {
 
 TEST(DcdReader, CellsOfEveryFormAndShape) {
   for (const CellShape& shape : cell_shapes()) {
-    const Cell cell = *cell_from_angles(shape.lengths, shape.degrees);
+    const Cell cell = *test::cell_from_angles(shape.lengths, shape.degrees);
     const Eigen::Vector3d& l = shape.lengths;
     const Eigen::Vector3d& d = shape.degrees;
     WrappedChain degrees(cell);

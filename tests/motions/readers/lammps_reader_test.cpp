@@ -6,6 +6,7 @@
 #include "motions/readers/dcd_reader.h"
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
+#include "tests/support/inputs/cells.h"
 
 namespace kds::lammps_reader_test {
 namespace {
@@ -284,7 +285,7 @@ TEST(LammpsReader, ReadsAFileOfMdtraj) {
   }
   const auto cell = read_frame(*file, 0).cell;
   ASSERT_TRUE(cell);
-  EXPECT_TRUE(cell->isApprox(*cell_from_angles({40, 50, 60}, {80, 75, 65}), 1e-6));
+  EXPECT_TRUE(cell->isApprox(*test::cell_from_angles({40, 50, 60}, {80, 75, 65}), 1e-6));
 }
 
 TEST(LammpsReader, OtherFormatsLeaveUnitsUnread) {
