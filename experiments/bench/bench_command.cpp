@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/bench/bench_readers.h"
 #include "experiments/bench/benches.h"
 #include "experiments/bench/collision_peers.h"
 #include "experiments/bench/subject.h"

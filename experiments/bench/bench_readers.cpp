@@ -1,4 +1,4 @@
-#include "experiments/bench/bench_readers.h"
+#include "experiments/bench/benches.h"
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ void read_bytes(InputFile& file, std::vector<char>& block) {
   }
 }
 
-// Adds a row with the time of an atom and one with the atoms of a second.
+// Adds two rows: time per atom, and atoms per second.
 void add_rows(const std::filesystem::path& path, std::size_t rounds, std::vector<BenchRow>& rows) {
   constexpr double most_for_xtc = 200;           // ns/atom
   constexpr Eigen::Index fewest_for_goal = 100;  // atoms in a frame; headers dominate in smaller ones

@@ -1,5 +1,6 @@
 #pragma once
-// The subjects of `kds bench`, each measured beside a peer in the same process.
+// The subjects of `kds bench`, each measured beside a peer in the same process: certificates, engine,
+// hierarchies, power, collision, trade and readers.
 
 #include <cstddef>
 #include <cstdint>
@@ -39,24 +40,21 @@ void bench_kinetic_steps(const BenchChain& chain, std::size_t rounds, std::optio
 /// Adds rows for linear and for Hermite motion.
 void bench_kinetic_events(const BenchChain& chain, std::vector<BenchRow>& rows);
 
-// `kds bench hierarchies`. Measures wrapped and layered hierarchies that are built, updated from frame to
-// frame, and updated kinetically. Their peer is CGAL's Min_sphere_of_spheres_d at every node. Also compares
-// the number of events with the net change.
-
 struct HierarchyBenchOptions {
   std::vector<std::size_t> sizes{640, 10240, 102400};  ///< numbers of beads of generated chains
   std::vector<std::filesystem::path> trajectories;     ///< inputs, each as `kds run` reads it
   std::size_t rounds = 5;                              ///< at least; more if rounds are short
 };
 
+/// Measures wrapped and layered hierarchies that are built, updated from frame to frame, and run kinetically.
+/// The peer is CGAL's Min_sphere_of_spheres_d at every node. Also compares the number of events with the net
+/// change.
 [[nodiscard]] std::vector<BenchRow> bench_hierarchies(
     const HierarchyBenchOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
 
-// The rows of `kds bench collision` about contacts. They compare the computation of all begin and end times
-// with a cell list that examines only frames.
-
-/// Measures consecutive frames; both methods start from the positions that were read. Radii are
-/// `radius_factor` times the chain's. Pairs are at least 5 beads apart along the chain.
+/// Adds the rows of `kds bench collision` about contacts: all begin and end times, beside a cell list that
+/// examines only frames. Measures consecutive frames; both methods start from the positions that were read.
+/// Radii are `radius_factor` times the chain's. Pairs are at least 5 beads apart along the chain.
 void bench_contacts(const BenchChain& chain, double radius_factor, std::optional<double> goal,
                     std::size_t rounds, std::vector<BenchRow>& rows);
 
@@ -65,25 +63,18 @@ void bench_contacts(const BenchChain& chain, double radius_factor, std::optional
 void bench_contacts_growth(std::string_view model, std::size_t beads, std::optional<double> goal,
                            std::size_t rounds, std::vector<BenchRow>& rows);
 
-// `kds bench collision`. Measures the detector of kds beside the common alternatives in one process: a cell
-// list on single scenes, a Verlet list from frame to frame, and the trees of FCL and Bullet if this program
-// was built with them. All frames are distinct, and the detectors see the same frames in turn. Also measures
-// the computation of the times at which contacts begin and end beside the cell list.
-
 struct CollisionBenchOptions {
   std::vector<std::size_t> sizes{1000, 10240, 102400};  ///< numbers of beads of generated chains
   std::vector<std::filesystem::path> trajectories;      ///< inputs, each as `kds run` reads it
   std::size_t rounds = 5;
 };
 
-/// Runs the benchmark. Throws std::logic_error if two detectors find different pairs.
+/// Measures the detector of kds. Its peers are a cell list on single scenes, a Verlet list from frame to
+/// frame, and the trees of FCL and Bullet if this program was built with them. All frames are distinct, and
+/// the detectors see the same frames in turn. Includes the rows of contacts. Throws std::logic_error if two
+/// detectors find different pairs.
 [[nodiscard]] std::vector<BenchRow> bench_collision(
     const CollisionBenchOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
-
-// `kds bench power`. Measures the power diagram from frame to frame, kinetically with an exact order of
-// events, and by the other techniques of structures/power_diagram/diagram_update.h. The peer is CGAL's static
-// build. Regular scenes, in which many balls lie on one sphere and many events coincide, are measured only
-// kinetically. Their peer is CGAL's static build of both frames.
 
 struct PowerBenchOptions {
   std::vector<std::size_t> sizes{10240};            ///< numbers of beads of generated chains
@@ -92,23 +83,34 @@ struct PowerBenchOptions {
   std::size_t rounds = 5;                           ///< at least; more if rounds are short
 };
 
+/// Measures the power diagram from frame to frame, kinetically with an exact order of events, and by the
+/// other techniques of structures/power_diagram/diagram_update.h. The peer is CGAL's static build. Regular
+/// scenes, in which many balls lie on one sphere and many events coincide, are measured only kinetically.
+/// Their peer is CGAL's static build of both frames.
 [[nodiscard]] std::vector<BenchRow> bench_power(
     const PowerBenchOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
-
-// `kds bench trade`. Measures levers that trade accuracy for speed beside the exact run of the same structure
-// in the same process: the steps alone, as in `kds trade`, and with the construction of the motion from the
-// frames.
 
 struct TradeBenchOptions {
   std::vector<std::filesystem::path> trajectories;  ///< inputs, each as `kds run` reads it
   std::size_t rounds = 5;                           ///< at least; more if rounds are short
 };
 
+/// Measures levers that trade accuracy for speed beside the exact run of one structure: the steps alone, as
+/// in `kds trade`, and with the construction of the motion from the frames.
 [[nodiscard]] std::vector<BenchRow> bench_trade(
     const TradeBenchOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
 
-// `kds bench certificates` and `kds bench engine`. They report the subjects of kds_benchmarks as rows.
+struct ReaderBenchOptions {
+  std::vector<std::filesystem::path> trajectories;  ///< inputs, in any format with frames
+  std::size_t rounds = 5;
+};
 
+/// Measures how long a reader takes for all atoms of all frames of a file. The peer reads the bytes of the
+/// file and nothing else. The time to open the file does not count.
+[[nodiscard]] std::vector<BenchRow> bench_readers(
+    const ReaderBenchOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
+
+/// Options of the two subjects that kds_benchmarks also has.
 struct SubjectBenchOptions {
   std::filesystem::path instances;  ///< the folder of moving-point files
   std::size_t rounds = 5;

@@ -3,9 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
+#include <string>
 
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"
+#include "experiments/output/page/table.h"
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
 #include "experiments/program/option_values.h"

@@ -1,18 +1,9 @@
 #pragma once
-// The experiment behind `kds missed`. It computes all contacts of a run with their exact times, and counts
-// the contacts that are seen if only frames are examined: every frame, every second frame, every fourth
-// frame, and so on. A contact that begins and ends between two examined frames is missed.
+// The options of `kds missed`.
 
 #include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <string>
 #include <vector>
 
-#include "experiments/output/output_files.h"
-#include "experiments/output/page/html_page.h"
-#include "experiments/output/page/table.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option.h"
@@ -24,7 +15,7 @@ namespace kds {
 struct MissedTask : InputOptions {
   FrameMotion motion = FrameMotion::linear;
   std::vector<double> factors{1};  ///< factors of the radii; each is a run
-  /// Ascending; empty for those of 1, 2, 4 ... 64 that examine at least two frames.
+  /// Ascending. If empty, the strides are 1, 2, 4 ... 64, as far as at least two frames are examined.
   std::vector<std::size_t> strides;
   BeadId apart = 2;
 };

@@ -1,5 +1,6 @@
 #pragma once
 // The open questions of the paper with their measured answers: a table, the fits to it, and the conclusions.
+// Each question has a function that measures it, and one that returns how often `step_done` is called.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -52,8 +53,7 @@ struct Question {
   std::vector<std::string> findings;  ///< sentences
 };
 
-// The moving chains that several questions use.
-
+/// A moving chain that several questions use.
 struct NamedSubject {
   std::string name;
   Subject subject;
@@ -65,33 +65,28 @@ inline constexpr std::size_t moving_subject_count = 3;
 [[nodiscard]] NamedSubject moving_subject(std::size_t which, const std::filesystem::path& data,
                                           std::uint64_t seed);
 
-// "What properties of a physical model can be exploited to make hierarchy updates faster?" Measures how much
-// work bounds on the motion of beads save.
-
-/// Measures how rarely near pairs, found within a skin, must be found again, depending on the known bound on
-/// the motion.
+/// "What properties of a physical model can be exploited to make hierarchy updates faster?" Measures how
+/// rarely near pairs, found within a skin, must be found again, depending on the known bound on the motion.
 [[nodiscard]] Question ask_about_bounds(const std::filesystem::path& data, std::uint64_t seed,
                                         const std::function<void()>& step_done);
-/// Measures the work saved by trusting the bases of the wrapped hierarchy for several frames, and how far
-/// beads may then stick out.
+/// Asks the question of ask_about_bounds too. Measures the work saved by trusting the bases of the wrapped
+/// hierarchy for several frames, and how far beads may then stick out.
 [[nodiscard]] Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed,
                                        std::size_t rounds, const std::function<void()>& step_done);
 [[nodiscard]] std::size_t bounds_steps();
 [[nodiscard]] std::size_t trust_steps();
 
-// "How can we best integrate the power diagram and the sphere hierarchy so as to get the advantages of each?"
-// Measures one way: the hierarchy settles as much as it can down to blocks of beads, and a diagram of the
-// remaining beads settles the rest.
-
+/// "How can we best integrate the power diagram and the sphere hierarchy so as to get the advantages of
+/// each?" Measures one way: the hierarchy settles as much as it can down to blocks of beads, and a diagram of
+/// the remaining beads settles the rest.
 [[nodiscard]] Question ask_about_combination(const std::filesystem::path& data, std::uint64_t seed,
                                              const std::function<void()>& step_done);
 [[nodiscard]] std::size_t combination_steps();
 
-// The energy of deforming a chain in the simplest model: springs of stiffness 1 at its angles. From one
-// conformation to the next, the energy is half the sum of the squared changes, in radians, of all bending and
-// torsion angles. A bending angle lies at a bead, between its two bonds. A torsion angle lies at a bond,
-// between the bonds before and after it. Bond lengths do not count, and rigid motions take no energy.
-
+/// The energy of deforming a chain in the simplest model: springs of stiffness 1 at its angles. From one
+/// conformation to the next, the energy is half the sum of the squared changes, in radians, of all bending
+/// and torsion angles. A bending angle lies at a bead, between its two bonds. A torsion angle lies at a bond,
+/// between the bonds before and after it. Bond lengths do not count, and rigid motions take no energy.
 struct Deformation {
   double bending = 0, torsion = 0;
   [[nodiscard]] double energy() const { return bending + torsion; }
@@ -107,12 +102,9 @@ struct ChainAngles {
 };
 [[nodiscard]] Eigen::Matrix3Xd chain_of(const ChainAngles& angles, double bond);
 
-// "Can we prove bounds on the number of combinatorial changes in the wrapped hierarchy, assuming a physical
-// model of deformation and a given deformation energy budget?" Measures the number of changes as a function
-// of the energy of deformation.
-
-/// Measures the question. `data` is the data folder with the trajectories. `step_done` is called
-/// energy_steps() times.
+/// "Can we prove bounds on the number of combinatorial changes in the wrapped hierarchy, assuming a physical
+/// model of deformation and a given deformation energy budget?" Measures the number of changes as a function
+/// of the energy of deformation. `data` is the data folder with the trajectories.
 [[nodiscard]] Question ask_about_energy(const std::filesystem::path& data, std::uint64_t seed,
                                         const std::function<void()>& step_done);
 [[nodiscard]] std::size_t energy_steps();

@@ -59,37 +59,28 @@ struct TheoremSeries {
 /// Returns a name such as "grid in space, wrapped".
 [[nodiscard]] std::string name_of(const TheoremSeries& series);
 
-// Compares the radii of the layered and the wrapped hierarchy's roots (Theorem 2.3).
-
-/// Returns layered radius / wrapped radius of the root over all balls of a necklace with at least two beads.
-/// Returns 1 if both radii are 0.
+/// Measures Theorem 2.3: returns layered radius / wrapped radius of the root over all balls of a necklace
+/// with at least two beads. Returns 1 if both radii are 0.
 [[nodiscard]] double root_ratio(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
                                 int dimension);
 
 /// Returns the height of the balanced tree over this many beads: the depth of its deepest leaf.
 [[nodiscard]] std::size_t tree_height(std::size_t beads);
 
-// Compares the closest pair by power diagram (Theorem 3.5) with the closest pair by a search of the
-// hierarchy.
-
+/// Measures Theorem 3.5: the closest pair by power diagram, and by a search of the hierarchy.
 struct ClosestByDiagram {
   std::uint64_t looked_at = 0;  ///< pairs that the diagram and the chain give
   Spread seconds;               ///< time, diagram included
   bool same = false;  ///< whether the hierarchy search, which considers all pairs, finds the same pair
 };
 
-// Separating families of tightly packed grids: their sizes (Theorem 3.1) and the time to find them (Theorem
-// 3.2). The bounds are O(n log n) in the plane and O(n^(4/3)) in space.
-//
-// All grids have odd sides. If a side is a power of two, tree nodes end where rows end, and results for a
-// mixture of such sizes oscillate.
-
-/// Returns the number of beads in a grid: all rows, and a bead beside each row except the last that joins it
-/// to the next row.
+/// Returns the number of beads in a tightly packed grid (Theorems 3.1 and 3.2): all rows, and a bead beside
+/// each row except the last that joins it to the next row.
 [[nodiscard]] std::size_t beads_of_grid(int dimension, std::size_t side);
 
 /// Returns odd sides of grids with 1000 to `most_beads` beads. The number of beads grows by a roughly
-/// constant factor, and the last side is the largest possible.
+/// constant factor, and the last side is the largest possible. Sides are odd: if a side is a power of two,
+/// tree nodes end where rows end, and results for a mixture of such sizes oscillate.
 [[nodiscard]] std::vector<std::size_t> sides_of_grids(int dimension, std::size_t most_beads);
 
 struct TheoremOptions {
