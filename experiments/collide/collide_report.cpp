@@ -68,6 +68,14 @@ std::vector<Column<Row>> pair_columns(PairOf pair_of) {
           part("closest.distance", &ClosestPair::distance)};
 }
 
+std::string quoted(const std::string& name) {
+  std::string text = "\"";
+  for (const char c : name) text += c == '"' ? "\"\"" : std::string(1, c);
+  return text + "\"";
+}
+
+constexpr std::string_view kCommand = "collide";
+
 }  // namespace
 
 Table<CollideRow> collide_columns() {
@@ -191,16 +199,6 @@ std::string ContactMap::plot() const {
   return svg_plot(map);
 }
 
-namespace {
-
-std::string quoted(const std::string& name) {
-  std::string text = "\"";
-  for (const char c : name) text += c == '"' ? "\"\"" : std::string(1, c);
-  return text + "\"";
-}
-
-}  // namespace
-
 PairsCsv::PairsCsv(std::ostream& stream, const CollideFrames& scene) : stream_(stream), scene_(scene) {
   stream_ << "frame,i,j,distance,name_i,name_j\n";
 }
@@ -214,12 +212,6 @@ void PairsCsv::add(const FrameRead& frame, std::span<const BeadPair> pairs) {
                            quoted(scene_.bead_name(i)), quoted(scene_.bead_name(j)));
   }
 }
-
-namespace {
-
-constexpr std::string_view kCommand = "collide";
-
-}  // namespace
 
 void CollideResults::begin(const CollideFrames& scene) {
   if (destinations_.out || destinations_.json) frames_.emplace();

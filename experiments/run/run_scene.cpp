@@ -51,36 +51,6 @@ class WorkWatcher {
   std::uint64_t moment_ = 0, before_ = 0, next_ = 0;
 };
 
-}  // namespace
-
-void watch_exact_work(Simulator& simulator, const Scene& scene,
-                      const std::function<void(const std::string&)>& warn, std::uint64_t extraordinary) {
-  simulator.exact_work().set_watcher(WorkWatcher(simulator, scene, warn, extraordinary),
-                                     extraordinary / 16 + 1);
-}
-
-StepCounts::StepCounts(Session& session, const Scene& scene)
-    : session_(session),
-      scene_(scene),
-      courses_(session.structures().size(),
-               EventCourse(bin_width(scene.step_count(), EventCourse::most_bins))) {}
-
-void StepCounts::begin() { contacts_at_start_ = contacts_at(session_, 0); }
-
-void StepCounts::end_step(std::size_t step, RunResults* results) {
-  const FrameStamp stamp = scene_.stamp(step);
-  for (std::size_t s = 0; s < courses_.size(); ++s) {
-    KineticStructure& structure = *session_.structures()[s];
-    std::vector<std::uint64_t>& events_per_step = structure.statistics.events_per_step;
-    const std::uint64_t events = events_per_step.empty() ? 0 : events_per_step.back();
-    events_per_step.clear();
-    courses_[s].add(events, stamp.number);
-    if (results != nullptr) results->add_step(stamp, structure.name(), events);
-  }
-}
-
-namespace {
-
 // Runs `work`. Turns WorkLimitReached into an InputError that names the computation which used the last of
 // the allowed work.
 template <class Work>
@@ -111,23 +81,6 @@ void in_step(KineticRun& run, std::size_t step, const RunOptions& options, Work 
     throw InputError(named(error.what()));
   }
 }
-
-}  // namespace
-
-void run_steps(KineticRun& run, const RunOptions& options,
-               const std::function<void(std::size_t frame)>& at_frame) {
-  if (options.work) run.limit_work(*options.work);
-  with_limit(run, options, [&] { run.build(); });
-  at_frame(0);
-  for (std::size_t step = 0; run.load_step(); ++step) {
-    in_step(run, step, options, [&] { run.run_step(); });
-    at_frame(step + 1);
-  }
-  // An error that can occur only after all steps is reported for the last step.
-  in_step(run, run.scene().step_count() - 1, options, [&] { run.finish(); });
-}
-
-namespace {
 
 /// Returns a bound on the distance of beads from their positions in all frames. Returns nothing if the run
 /// passes through all frames exactly, or if frames were left out and never examined.
@@ -176,6 +129,45 @@ void add_times(const Times& times, RunReport& report) {
 }
 
 }  // namespace
+
+void watch_exact_work(Simulator& simulator, const Scene& scene,
+                      const std::function<void(const std::string&)>& warn, std::uint64_t extraordinary) {
+  simulator.exact_work().set_watcher(WorkWatcher(simulator, scene, warn, extraordinary),
+                                     extraordinary / 16 + 1);
+}
+
+StepCounts::StepCounts(Session& session, const Scene& scene)
+    : session_(session),
+      scene_(scene),
+      courses_(session.structures().size(),
+               EventCourse(bin_width(scene.step_count(), EventCourse::most_bins))) {}
+
+void StepCounts::begin() { contacts_at_start_ = contacts_at(session_, 0); }
+
+void StepCounts::end_step(std::size_t step, RunResults* results) {
+  const FrameStamp stamp = scene_.stamp(step);
+  for (std::size_t s = 0; s < courses_.size(); ++s) {
+    KineticStructure& structure = *session_.structures()[s];
+    std::vector<std::uint64_t>& events_per_step = structure.statistics.events_per_step;
+    const std::uint64_t events = events_per_step.empty() ? 0 : events_per_step.back();
+    events_per_step.clear();
+    courses_[s].add(events, stamp.number);
+    if (results != nullptr) results->add_step(stamp, structure.name(), events);
+  }
+}
+
+void run_steps(KineticRun& run, const RunOptions& options,
+               const std::function<void(std::size_t frame)>& at_frame) {
+  if (options.work) run.limit_work(*options.work);
+  with_limit(run, options, [&] { run.build(); });
+  at_frame(0);
+  for (std::size_t step = 0; run.load_step(); ++step) {
+    in_step(run, step, options, [&] { run.run_step(); });
+    at_frame(step + 1);
+  }
+  // An error that can occur only after all steps is reported for the last step.
+  in_step(run, run.scene().step_count() - 1, options, [&] { run.finish(); });
+}
 
 RunReport run_scene(const RunOptions& options, const Progress& progress,
                     const std::function<void(const std::string&)>& warn, RunResults& results) {

@@ -66,60 +66,12 @@ void add_fields(std::vector<std::pair<std::string, std::string>>& fields, const 
   }
 }
 
-}  // namespace
-
-std::string name_of(const StabilityRow& row) {
-  return fmt::format("{} {}D degree {}, {}", row.subject, row.dimension, row.degree, row.extreme);
-}
-
-std::optional<std::string> complaint_about(std::span<const StabilityRow> rows) {
-  std::vector<std::string> failing;
-  for (const StabilityRow& row : rows)
-    if (!row.holds()) failing.push_back(name_of(row));
-  if (failing.empty()) return std::nullopt;
-  return fmt::format("{} of {} rows do not hold: {}", failing.size(), rows.size(), fmt::join(failing, "; "));
-}
-
-namespace {
-
 Json stability_settings(const StabilityOptions& options) {
   return {{"subjects", all_or(options.subjects)},
           {"extremes", all_or(options.extremes)},
           {"cases", options.cases.cases},
           {"seed", options.cases.seed}};
 }
-
-}  // namespace
-
-std::string stability_json(std::string command, const StabilityOptions& options,
-                           std::span<const StabilityRow> rows) {
-  Json json;
-  json["settings"] = stability_settings(options);
-  json["rows"] = Json::array();
-  for (const StabilityRow& row : rows) json["rows"].push_back(row_json(row));
-  json["holds"] = std::ranges::all_of(rows, &StabilityRow::holds);
-  add_provenance(json, std::move(command));
-  return text_of(json);
-}
-
-std::string stability_csv(std::span<const StabilityRow> rows) {
-  std::string text;
-  for (const StabilityRow& row : rows) {
-    std::vector<std::pair<std::string, std::string>> fields;
-    add_fields(fields, "", row_json(row));
-    const auto line = [&](auto part) {
-      std::vector<std::string> parts;
-      for (const auto& field : fields) parts.push_back(field.*part);
-      return fmt::format("{}\n", fmt::join(parts, ","));
-    };
-    using NamedValue = std::pair<std::string, std::string>;
-    if (text.empty()) text = line(&NamedValue::first);
-    text += line(&NamedValue::second);
-  }
-  return text;
-}
-
-namespace {
 
 struct TextColumn {
   std::string_view heading;
@@ -215,31 +167,6 @@ std::string line_of(const StabilityRow& row) {
 bool same_block(const StabilityRow& a, const StabilityRow& b) {
   return a.subject == b.subject && a.dimension == b.dimension && a.degree == b.degree;
 }
-
-}  // namespace
-
-std::string stability_table(std::span<const StabilityRow> rows) {
-  std::string text;
-  std::uint64_t cases = 0, differing = 0, refused = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool first = i == 0 || !same_block(rows[i - 1], rows[i]);
-    if (first && i > 0) text += '\n';
-    if (first) text += heading_of(rows[i]);
-    text += line_of(rows[i]);
-    cases += rows[i].cases;
-    differing += rows[i].disagreements + rows[i].failed;
-    refused += rows[i].refused;
-  }
-  const auto failing = std::ranges::count_if(rows, [](const StabilityRow& row) { return !row.holds(); });
-  text += fmt::format("\n{} rows, {} cases ({} refused); filtered differs from exact in {}: {}\n",
-                      rows.size(), with_thousands(cases), with_thousands(refused), with_thousands(differing),
-                      failing == 0 ? "all rows hold" : fmt::format("{} rows do not hold", failing));
-  for (const StabilityRow& row : rows)
-    if (!row.holds()) text += fmt::format("  {}: {}\n", name_of(row), one_line(row.reason));
-  return text;
-}
-
-namespace {
 
 std::string findings(std::span<const StabilityRow> rows) {
   std::uint64_t cases = 0, refused = 0, differing = 0, missed = 0, extra = 0, audits = 0, failed_audits = 0;
@@ -360,6 +287,67 @@ std::string failing_rows(std::span<const StabilityRow> rows) {
 }
 
 }  // namespace
+
+std::string name_of(const StabilityRow& row) {
+  return fmt::format("{} {}D degree {}, {}", row.subject, row.dimension, row.degree, row.extreme);
+}
+
+std::optional<std::string> complaint_about(std::span<const StabilityRow> rows) {
+  std::vector<std::string> failing;
+  for (const StabilityRow& row : rows)
+    if (!row.holds()) failing.push_back(name_of(row));
+  if (failing.empty()) return std::nullopt;
+  return fmt::format("{} of {} rows do not hold: {}", failing.size(), rows.size(), fmt::join(failing, "; "));
+}
+
+std::string stability_json(std::string command, const StabilityOptions& options,
+                           std::span<const StabilityRow> rows) {
+  Json json;
+  json["settings"] = stability_settings(options);
+  json["rows"] = Json::array();
+  for (const StabilityRow& row : rows) json["rows"].push_back(row_json(row));
+  json["holds"] = std::ranges::all_of(rows, &StabilityRow::holds);
+  add_provenance(json, std::move(command));
+  return text_of(json);
+}
+
+std::string stability_csv(std::span<const StabilityRow> rows) {
+  std::string text;
+  for (const StabilityRow& row : rows) {
+    std::vector<std::pair<std::string, std::string>> fields;
+    add_fields(fields, "", row_json(row));
+    const auto line = [&](auto part) {
+      std::vector<std::string> parts;
+      for (const auto& field : fields) parts.push_back(field.*part);
+      return fmt::format("{}\n", fmt::join(parts, ","));
+    };
+    using NamedValue = std::pair<std::string, std::string>;
+    if (text.empty()) text = line(&NamedValue::first);
+    text += line(&NamedValue::second);
+  }
+  return text;
+}
+
+std::string stability_table(std::span<const StabilityRow> rows) {
+  std::string text;
+  std::uint64_t cases = 0, differing = 0, refused = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool first = i == 0 || !same_block(rows[i - 1], rows[i]);
+    if (first && i > 0) text += '\n';
+    if (first) text += heading_of(rows[i]);
+    text += line_of(rows[i]);
+    cases += rows[i].cases;
+    differing += rows[i].disagreements + rows[i].failed;
+    refused += rows[i].refused;
+  }
+  const auto failing = std::ranges::count_if(rows, [](const StabilityRow& row) { return !row.holds(); });
+  text += fmt::format("\n{} rows, {} cases ({} refused); filtered differs from exact in {}: {}\n",
+                      rows.size(), with_thousands(cases), with_thousands(refused), with_thousands(differing),
+                      failing == 0 ? "all rows hold" : fmt::format("{} rows do not hold", failing));
+  for (const StabilityRow& row : rows)
+    if (!row.holds()) text += fmt::format("  {}: {}\n", name_of(row), one_line(row.reason));
+  return text;
+}
 
 std::string stability_page(std::span<const StabilityRow> rows, Page page) {
   page.title = "kds stability";

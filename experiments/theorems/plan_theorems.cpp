@@ -69,16 +69,6 @@ double ratio(const Eigen::Matrix3Xd& centers, std::span<const double> radii) {
   return inner > 0 ? layered.sphere(0).radius / inner : 1;
 }
 
-}  // namespace
-
-double root_ratio(const Eigen::Matrix3Xd& centers, std::span<const double> radii, int dimension) {
-  return dimension == 2 ? ratio<2>(centers, radii) : ratio<3>(centers, radii);
-}
-
-std::size_t tree_height(std::size_t beads) { return static_cast<std::size_t>(std::bit_width(beads - 1)); }
-
-namespace {
-
 template <int Dimension>
 ClosestByDiagram measure(const Eigen::Matrix3Xd& centers, std::size_t rounds) {
   const auto beads = static_cast<std::size_t>(centers.cols());
@@ -134,30 +124,6 @@ FamilySize measure_family(const Eigen::Matrix3Xd& centers, int dimension, Hierar
                           std::size_t rounds) {
   return dimension == 2 ? measure<2>(centers, hierarchy, rounds) : measure<3>(centers, hierarchy, rounds);
 }
-
-}  // namespace
-
-std::size_t beads_of_grid(int dimension, std::size_t side) {
-  const std::size_t rows = dimension == 2 ? side : side * side;
-  return rows * side + rows - 1;
-}
-
-std::vector<std::size_t> sides_of_grids(int dimension, std::size_t most_beads) {
-  constexpr std::size_t least_beads = 1000;
-  const double factor = dimension == 2 ? 1.34 : 1.22;  // n grows by a factor of about 1.8
-  std::vector<std::size_t> sides;
-  std::size_t side = 3;
-  while (beads_of_grid(dimension, side + 2) <= most_beads) side += 2;
-  for (auto next = static_cast<double>(side); beads_of_grid(dimension, side) >= least_beads;) {
-    sides.push_back(side);
-    next /= factor;
-    side = std::min(side - 2, 2 * static_cast<std::size_t>(next / 2) + 1);
-  }
-  std::reverse(sides.begin(), sides.end());
-  return sides;
-}
-
-namespace {
 
 // Returns n log2 n in the plane, n^(4/3) in space.
 double family_bound(int dimension, std::size_t beads) {
@@ -318,6 +284,32 @@ class Planner {
 };
 
 }  // namespace
+
+double root_ratio(const Eigen::Matrix3Xd& centers, std::span<const double> radii, int dimension) {
+  return dimension == 2 ? ratio<2>(centers, radii) : ratio<3>(centers, radii);
+}
+
+std::size_t tree_height(std::size_t beads) { return static_cast<std::size_t>(std::bit_width(beads - 1)); }
+
+std::size_t beads_of_grid(int dimension, std::size_t side) {
+  const std::size_t rows = dimension == 2 ? side : side * side;
+  return rows * side + rows - 1;
+}
+
+std::vector<std::size_t> sides_of_grids(int dimension, std::size_t most_beads) {
+  constexpr std::size_t least_beads = 1000;
+  const double factor = dimension == 2 ? 1.34 : 1.22;  // n grows by a factor of about 1.8
+  std::vector<std::size_t> sides;
+  std::size_t side = 3;
+  while (beads_of_grid(dimension, side + 2) <= most_beads) side += 2;
+  for (auto next = static_cast<double>(side); beads_of_grid(dimension, side) >= least_beads;) {
+    sides.push_back(side);
+    next /= factor;
+    side = std::min(side - 2, 2 * static_cast<std::size_t>(next / 2) + 1);
+  }
+  std::reverse(sides.begin(), sides.end());
+  return sides;
+}
 
 TheoremPlan plan_theorems(const TheoremOptions& options) { return Planner(options).plan(); }
 
