@@ -47,7 +47,7 @@ fs::path link_target(const fs::path& path) {
 }
 
 // Returns the descriptor of this program to which the path leads, if a link on the way lies in /proc/self/fd.
-// The text of such a link need not be a path. If a file behind it were opened again, it would be written from
+// Such a link need not contain a path. A file behind it must not be opened again: it would be written from
 // its beginning, over the text that standard output has already written.
 std::optional<int> descriptor_behind(fs::path path) {
   std::error_code error;
@@ -175,7 +175,7 @@ bool is_part(std::string_view name) {
   return name == ".part";
 }
 
-// Removes the hidden folders that killed programs left in the directory. No process holds their locks.
+// Removes the hidden folders that killed programs left in the directory: those that no process has locked.
 void clear_stale_parts(const fs::path& directory) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory, ignored)) {
@@ -189,7 +189,7 @@ void clear_stale_parts(const fs::path& directory) {
 
 std::string name_of(const std::string& path) { return fs::path(path).filename().string(); }
 
-// Blocks the catchable signals of this thread, so that a replacement that was begun is completed.
+// Blocks the catchable signals of this thread during its life, so that no signal stops a replacement halfway.
 struct SignalsWait {
   SignalsWait() {
     sigset_t all;
@@ -205,7 +205,8 @@ struct SignalsWait {
 
 }  // namespace
 
-// The folder is open and locked, so that other programs see that it is in use.
+// The hidden folder in which results are written before they are moved to their places. It is locked, so that
+// other programs see that it is in use.
 struct StagingFolder {
   StagingFolder(const fs::path& directory, const std::string& subject) : beside(directory) {
     static std::atomic<unsigned> counter{0};
@@ -392,8 +393,7 @@ void AtomicFiles::finish() {
   manifest_ = write_manifest(lines);
 }
 
-// The program may be killed at any moment, so a manifest must list every present file of a result at each
-// moment.
+// At each moment a manifest must list every present file of a result, because the program may be killed.
 void AtomicFiles::take_places() {
   if (earlier_) replace_file(both_, earlier_->path());
   for (const File& file : files_) replace_file(file.waiting, file.place);

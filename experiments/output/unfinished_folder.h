@@ -1,5 +1,5 @@
 #pragma once
-// A folder that no stopped program leaves behind.
+// A temporary folder. It is removed when the program ends, also if a catchable signal ends it.
 
 #include <cstdint>
 #include <string>

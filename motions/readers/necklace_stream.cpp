@@ -29,7 +29,7 @@ const ReaderSpec& reader_of(const std::filesystem::path& path,
                                path.string(), reader_registry().endings()));
 }
 
-// A format that takes a topology names no atoms itself, so it cannot be one.
+// Throws InputError if the topology has a format that names no atoms and needs a topology itself.
 void refuse_trajectory_as_topology(const std::filesystem::path& path, const std::filesystem::path& topology,
                                    bool path_takes_topology) {
   const ReaderSpec* const reader =

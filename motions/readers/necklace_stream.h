@@ -77,8 +77,8 @@ class NecklaceStream {
   std::vector<WholeChain> whole_;          ///< of each necklace
   std::vector<Notes> notes_;               ///< likewise
   std::vector<Eigen::Index> bead_counts_;  ///< likewise
-  bool bonds_joined_ = false;              ///< across the walls of a cell, in a frame so far
-  std::string cell_unsuited_;              ///< why cells are used no more
+  bool bonds_joined_ = false;              ///< some frame had a bond across the walls of its cell
+  std::string cell_unsuited_;              ///< why cells are no longer used
   std::optional<std::size_t> last_read_;   ///< number of the last frame read
   bool ended_ = false;                     ///< a damaged frame has ended the reading
   std::string damage_;                     ///< a warning about that frame

@@ -1,6 +1,7 @@
 #pragma once
-// The layout of a classic NetCDF file, which libnetcdf does not tell. Attributes are skipped. Each size is
-// compared with the size of the file, so that libnetcdf never sees a header that promises what cannot be.
+// The layout of a classic NetCDF file: where its variables begin and end, which libnetcdf does not report.
+// Attributes are skipped. Each size in the header is compared with the size of the file before libnetcdf
+// opens it, because libnetcdf believes the header.
 
 #include <cstddef>
 #include <cstdint>

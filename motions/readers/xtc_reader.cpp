@@ -133,7 +133,7 @@ class XtcBits {
     return bits == 0 ? 0 : word >> (64 - bits);
   }
 
-  // Returns three packed numbers. The first one exceeds its size if the bits are damaged.
+  // Returns three packed numbers. Only the first can exceed its size, and only if the bits are damaged.
   std::array<std::uint64_t, 3> read(const XtcRadix& radix) {
     if (radix.bits <= 64) return unpack(read_whole(radix.bits), radix);
     const XtcWide low = read_whole(64);
@@ -395,8 +395,8 @@ class XtcFrames final : public AtomFrames {
     return header;
   }
 
-  // A wrong size must not pass for a file that ends inside its last frame, for then other frames would be
-  // lost: searches the rest of the file for the header of another frame.
+  // Throws if the rest of the file has the header of another frame. The size of this frame is then wrong. If
+  // the file were taken for one that ends inside its last frame, the other frames would be lost.
   void refuse_frame_inside(const XtcHeader& header) {
     constexpr std::size_t block = std::size_t{1} << 16U, magic_and_atoms = 8;
     std::array<char, magic_and_atoms> wanted;

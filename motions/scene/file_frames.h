@@ -28,8 +28,8 @@ class FileFrames final : public FrameSource {
 
   [[nodiscard]] bool is_truncated() const override;
 
-  /// Returns what the files tell about each necklace, with its first frame alone. Complete once all frames
-  /// have been read.
+  /// Returns one trajectory per necklace: its names, radii and warnings, and only its first frame. Complete
+  /// once all frames have been read.
   [[nodiscard]] std::vector<Trajectory> heads() const;
   /// Returns the number of frames of each necklace. Known once all frames have been read.
   [[nodiscard]] std::vector<std::size_t> frame_counts() const;

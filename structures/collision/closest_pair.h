@@ -59,7 +59,7 @@ struct ClosestPair {
   double distance;       ///< rounded
 };
 
-/// Numbers of pairs tested, counted for the rule that named the pair first.
+/// Numbers of pairs tested. A pair that several rules name counts for the first of them.
 struct PairsLookedAt {
   std::uint64_t edges = 0;
   std::uint64_t common_neighbors = 0;

@@ -81,8 +81,8 @@ class FacetForesight {
   void proved(CellId cell, int i, int steps) { until_[cell][i] = step_ + steps; }
   /// Stores that the cell stays positive, for cells that cannot become anything else.
   void stays_positive_ahead(CellId cell) { positive_until_[cell] = step_ + all_steps; }
-  /// Notes that the facet, facet i of this cell and facet k of the other, has other beads, and that the cell
-  /// may have others too.
+  /// Forgets what is known of a facet whose beads change: facet i of `cell`, which is facet k of `other`. The
+  /// beads of `cell` may change too.
   void forget(CellId cell, int i, CellId other, int k) {
     if (!used_) return;
     grow(std::max(cell, other) + 1);
@@ -215,8 +215,8 @@ class FacetProofs {
   void proved_around(CellId cell, unsigned facets, unsigned found) {
     if (looks_ahead()) foresight_.proved(cell, facets, found);
   }
-  /// Notes that the facet, facet i of this cell and facet k of the other, has other beads, and that the cell
-  /// may have others too.
+  /// Forgets what is known of a facet whose beads change: facet i of `cell`, which is facet k of `other`. The
+  /// beads of `cell` may change too.
   void forget(CellId cell, int i, CellId other, int k) {
     slack_.forget(cell, i);
     slack_.forget(other, k);
