@@ -54,7 +54,7 @@ struct FramesOpened {
   BeadGroups bead_groups;               ///< empty if no groups are asked for or the file does not name atoms
   std::vector<std::string> warnings;    ///< one line each
   bool chain_like = true;               ///< consecutive beads are meant to be bonded
-  bool truncated = false;               ///< the file ends inside the frame after the last one
+  bool truncated = false;               ///< frames are missing at the end, as FramesAsked tells it
   std::unique_ptr<FrameReader> frames;
 };
 

@@ -13,10 +13,13 @@ namespace {
 
 std::string where_it_ends(const std::string& file, const FramesHeld& held) {
   const std::string bytes = held.end > 0 ? fmt::format(" (after {} bytes)", held.end) : "";
+  const char* const line_end =
+      held.lacks_line_end ? "; its last number may be cut off, expected a line end behind it" : "";
   if (held.whole == 0)
-    return fmt::format("{}: the file ends inside frame 0{} and holds no whole frame", file, bytes);
-  return fmt::format("{}: the file ends inside frame {}{}; the last whole frame is {}", file, held.whole,
-                     bytes, held.whole - 1);
+    return fmt::format("{}: the file ends inside frame 0{} and holds no whole frame{}", file, bytes,
+                       line_end);
+  return fmt::format("{}: the file ends inside frame {}{}; the last whole frame is {}{}", file, held.whole,
+                     bytes, held.whole - 1, line_end);
 }
 
 }  // namespace
@@ -63,7 +66,8 @@ FramesAsked select_frames(const std::string& file, const FrameRange& range, cons
   if (range.last && *range.last <= range.first)
     throw InputError(fmt::format("--frames: no frame lies in {}:{}", range.first, *range.last));
   const std::size_t last = range.last.value_or(held.whole);
-  if (held.damage && (!range.last || last > held.whole)) {
+  const bool meets_damage = held.damage && (!range.last || last > held.whole);
+  if (meets_damage) {
     if (held.whole == 0 || !until_damage) throw DamagedFrame(*held.damage);
     warnings.push_back(warning_of(*held.damage));
   }
@@ -81,7 +85,8 @@ FramesAsked select_frames(const std::string& file, const FrameRange& range, cons
     throw InputError(fmt::format("--frames: frames up to {} are asked for, {} holds {}", last - 1, file,
                                  counted(held.whole, "frame")));
   const std::size_t end = std::min(last, held.whole);
-  const FramesAsked frames{range.first, range.stride, 1 + (end - 1 - range.first) / range.stride};
+  const FramesAsked frames{range.first, range.stride, 1 + (end - 1 - range.first) / range.stride,
+                           held.ends_inside || meets_damage};
   const std::size_t final = frames[frames.count - 1];
   if (const std::size_t behind = end - 1 - final; behind > 0)
     warnings.push_back(fmt::format("{}: a stride of {} ends at frame {}; {} behind it {} left out", file,

@@ -42,11 +42,13 @@ struct FramesHeld {
   bool ends_inside = false;                 ///< the file ends inside the frame after the whole ones
   std::uint64_t end = 0;                    ///< if it does: the file's length in bytes, unpacked
   std::optional<DamagedFrame> damage = {};  ///< of the frame after the whole ones
+  bool lacks_line_end = false;              ///< if it ends inside: its last number may be cut off
 };
 
 /// The numbers of the requested frames, ascending: first, first + stride, ...
 struct FramesAsked {
   std::size_t first = 0, stride = 1, count = 0;
+  bool truncated = false;  ///< the file ends inside a frame, or frames asked for are damaged and left out
 
   [[nodiscard]] std::size_t operator[](std::size_t i) const { return first + i * stride; }
 };

@@ -92,7 +92,7 @@ FramesOpened open_atom_frames(const std::filesystem::path& path, const ReadOptio
   const FramesHeld held = frames->held();
   const FramesAsked asked =
       select_frames(opened.file, options.frames, held, options.until_damage, opened.warnings);
-  opened.truncated = held.ends_inside;
+  opened.truncated = asked.truncated;
   for (const std::string& note : frames->notes())
     opened.warnings.push_back(fmt::format("{}: {}", opened.file, note));
   ChosenAtoms atoms = choose_atoms(opened.file, options, frames->atom_count(), opened.warnings);

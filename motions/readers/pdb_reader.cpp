@@ -155,7 +155,7 @@ FramesOpened open_models(const std::filesystem::path& path, const ReadOptions& o
   const FramesHeld held = models->held();
   const FramesAsked asked =
       select_frames(opened.file, options.frames, held, options.until_damage, opened.warnings);
-  opened.truncated = held.ends_inside;
+  opened.truncated = asked.truncated;
   auto frames = std::make_unique<StructureFrames>(opened.file, std::move(models), options, asked);
   frames->describe(opened);
   opened.frames = std::move(frames);

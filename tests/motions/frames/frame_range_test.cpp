@@ -108,7 +108,10 @@ TEST(FrameRange, DamagedFrame) {
     EXPECT_EQ(numbers(select_frames("f", parse_frame_range(range), held, true, warnings)), (Frames{0, 1, 2}));
     ASSERT_EQ(warnings.size(), 1U);
     EXPECT_NE(warnings[0].find("frames up to 2 are read (--until-damage)"), std::string::npos);
+    EXPECT_TRUE(select_frames("f", parse_frame_range(range), held, true, warnings).truncated);
   }
+  std::vector<std::string> none_expected;
+  EXPECT_FALSE(select_frames("f", parse_frame_range(":3"), held, true, none_expected).truncated);
   const FramesHeld none{0, false, 0, DamagedFrame("f", 0, 8, "expected 7 atoms, found 8")};
   std::vector<std::string> warnings;
   test::expect_refused([&] { (void)select_frames("f", {}, none, true, warnings); }, {"f: frame 0, byte 8"});

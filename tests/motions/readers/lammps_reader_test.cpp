@@ -295,5 +295,17 @@ TEST(LammpsReader, OtherFormatsLeaveUnitsUnread) {
   EXPECT_NE(warnings[0].find("--units is left unread"), std::string::npos);
 }
 
+// Damage that is found when the file is opened, and damage that is found when the frame is read.
+TEST(LammpsReader, FramesLeftOutAsDamagedAreMissing) {
+  const std::string columns = "id x y z";
+  const std::string sound = dump(0, 1, cube, columns, "1 0 0 0\n");
+  for (const std::string& damaged :
+       {dump(1, 2, cube, columns, "1 0 0 0\n2 0 0 0\n"), dump(1, 1, cube, columns, "1 x 0 0\n")}) {
+    const auto path = test::write_file("a.lammpstrj", sound + damaged + sound);
+    EXPECT_TRUE(read_trajectory(path, {.until_damage = true}).truncated);
+    EXPECT_FALSE(read_trajectory(path, {.frames = {0, 1, 1}, .until_damage = true}).truncated);
+  }
+}
+
 }  // namespace
 }  // namespace kds::lammps_reader_test
