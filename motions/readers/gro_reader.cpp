@@ -83,7 +83,7 @@ std::optional<double> time_in(std::string_view title) {
 // The numbers of the line behind the atoms.
 struct GroBox {
   std::vector<double> lengths;  // 3 or 9
-  bool same_digits = true;      // behind the decimal points
+  bool same_digits = true;      // behind the decimal points, at least one
 
   static std::optional<GroBox> of(std::string_view line) {
     GroBox box;
@@ -93,7 +93,8 @@ struct GroBox {
       if (!number || !(std::abs(*number) < 1e30)) return std::nullopt;
       box.lengths.push_back(*number);
       const std::size_t point = std::min(field.find('.'), field.size());
-      if (digits && *digits != field.size() - point) box.same_digits = false;
+      if (field.size() - point < 2 || field.size() - point != digits.value_or(field.size() - point))
+        box.same_digits = false;
       digits = field.size() - point;
     }
     if (box.lengths.size() != 3 && box.lengths.size() != 9) return std::nullopt;
@@ -205,6 +206,10 @@ class GroModels final : public StructureModels {
       notes_.push_back(
           fmt::format("{} of {} have no time (t=) in their titles: frames have numbers and no times",
                       held_.whole - timed, counted(held_.whole, "frame")));
+    if (upright_without_line_end_)
+      notes_.emplace_back(
+          "the box has no line end behind it; its 3 numbers are read as an upright box, though a file that "
+          "is cut off may have lost the other 6");
     start_again();
   }
 
@@ -290,9 +295,12 @@ class GroModels final : public StructureModels {
     }
     if (!next_line(line)) return Found::cut;
     const std::optional<GroBox> box = GroBox::of(line);
-    if (lines_.cut() && !(box && box->same_digits && (box_size_ == 0 || box->lengths.size() == box_size_)))
+    if (lines_.cut() && !(box && box->same_digits && (box_size_ == 0 || box->lengths.size() == box_size_))) {
+      held_.lacks_line_end = box.has_value();
       return Found::cut;
+    }
     if (!box) throw damage(k, fmt::format("a box of 3 or 9 numbers behind {}", counted(atoms, "atom")), line);
+    upright_without_line_end_ = lines_.cut() && box_size_ == 0 && box->lengths.size() == 3;
     box_size_ = box->lengths.size();
     if (model == nullptr) return Found::frame;
     model->cell = box->cell();
@@ -323,9 +331,10 @@ class GroModels final : public StructureModels {
   FramesHeld held_;
   std::vector<std::string> notes_;
   std::size_t next_ = 0;
-  std::uint64_t line_begin_ = 0;  // of the line read last, in bytes
-  std::size_t box_size_ = 0;      // numbers in the box of the frame read last
-  std::optional<double> time_;    // of the frame read last
+  std::uint64_t line_begin_ = 0;           // of the line read last, in bytes
+  std::size_t box_size_ = 0;               // numbers in the box of the frame read last
+  bool upright_without_line_end_ = false;  // the only frame ends behind 3 numbers of its box
+  std::optional<double> time_;             // of the frame read last
   bool has_times_ = false;
 };
 

@@ -167,7 +167,7 @@ class XyzFrames final : public AtomFrames {
                                          in_quotes(line_)));
     if (*count == 0) fail_count(held.whole, "expected at least 1 atom, found 0");
     if (held.whole == 0) atoms_ = *count;
-    if (!skip_atoms(*count)) {
+    if (!skip_atoms(*count, held)) {
       held.ends_inside = true;
       return false;
     }
@@ -180,13 +180,20 @@ class XyzFrames final : public AtomFrames {
 
   // Skips the atoms. Returns whether the frame is complete. The last line of a truncated file may be
   // truncated itself.
-  bool skip_atoms(std::size_t count) {
+  bool skip_atoms(std::size_t count, FramesHeld& held) {
     if (!read_line()) return false;
     const std::string comment(line_);
     may_have_cell_ = may_have_cell_ || names_lattice(comment);
+    const std::uint64_t first_atom = lines_.place();
+    const std::size_t first_line = lines_.number() + 1;
     for (std::size_t i = 0; i < count; ++i)
       if (!read_line()) return false;
-    return !lines_.cut() || is_atom_line(comment);
+    if (!lines_.cut()) return true;
+    const std::optional<XyzColumns> columns = columns_of(comment);
+    if (!columns) return true;  // reading the frame reports the reason
+    if (!is_atom_line(*columns)) return false;
+    held.lacks_line_end = !is_last_column_whole(*columns, first_atom, first_line, count);
+    return !held.lacks_line_end;
   }
 
   static bool names_lattice(std::string_view comment) {
@@ -195,13 +202,44 @@ class XyzFrames final : public AtomFrames {
     return std::search(comment.begin(), comment.end(), key.begin(), key.end(), same) != comment.end();
   }
 
-  bool is_atom_line(const std::string& comment) const {
-    XyzColumns columns;
+  static std::optional<XyzColumns> columns_of(std::string_view comment) {
     try {
-      columns = read_xyz_comment(comment).columns;
+      return read_xyz_comment(comment).columns;
     } catch (const InputError&) {
-      return true;  // reading the frame reports the reason
+      return std::nullopt;
     }
+  }
+
+  // Whether the last column that is read cannot be cut off: something stands behind it, or it is a coordinate
+  // with all decimals.
+  bool is_last_column_whole(const XyzColumns& columns, std::uint64_t first_atom, std::size_t first_line,
+                            std::size_t count) {
+    if (line_.ends_with(' ') || line_.ends_with('\t')) return true;
+    const std::size_t last = split_fields(line_).size() - 1;
+    if (columns.species == last || columns.id == last) return false;
+    return last >= columns.position + 3 || has_equal_decimals(columns, first_atom, first_line, count);
+  }
+
+  // Whether all coordinates of the frame have as many decimals as the first one. A last number that is cut
+  // off has fewer. Integers have none, so a cut cannot be noticed: returns false.
+  bool has_equal_decimals(const XyzColumns& columns, std::uint64_t first_atom, std::size_t first_line,
+                          std::size_t count) {
+    lines_.seek(first_atom, first_line);
+    std::optional<std::size_t> decimals;
+    bool equal = true;
+    for (std::size_t i = 0; i < count && read_line(); ++i) {
+      const auto fields = split_fields(line_);
+      for (std::size_t at = columns.position; at < std::min(columns.position + 3, fields.size()); ++at) {
+        const std::size_t point = std::min(fields[at].find('.'), fields[at].size());
+        const std::size_t behind = fields[at].size() - point;
+        equal = equal && behind > 1 && behind == decimals.value_or(behind);
+        decimals = behind;
+      }
+    }
+    return equal;
+  }
+
+  bool is_atom_line(const XyzColumns& columns) const {
     const auto fields = split_fields(line_);
     if (fields.size() < columns.count) return false;
     for (std::size_t axis = 0; axis < 3; ++axis)

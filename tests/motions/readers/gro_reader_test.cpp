@@ -217,6 +217,25 @@ TEST(GroReader, TruncatedFilesGiveTheFramesBefore) {
   }
 }
 
+TEST(GroReader, BoxWithoutLineEnd) {
+  GroText file{.box = "3.00000 4.00000 5.00000 0.00000 0.00000 0.50000 0.00000 0.00000 0.00000"};
+  const std::string text = file.residues(1, 2).text();
+  const std::size_t box = text.find("3.00000 4.00000");
+  const auto cut = [&](std::size_t length) { return text.substr(0, box + length); };
+  const auto warns = Contains(HasSubstr("the box has no line end behind it"));
+  EXPECT_THAT(read(cut(23)).warnings, warns);
+  EXPECT_THAT(read(cut(23) + "\n").warnings, Not(warns));
+  EXPECT_THAT(read(cut(71)).warnings, Not(warns));
+  EXPECT_EQ(read(text + cut(23)).frames.size(), 1U);
+  EXPECT_EQ(read(text + cut(71)).frames.size(), 2U);
+  test::expect_refused([&] { static_cast<void>(read(cut(22))); },
+                       {"ends inside frame 0", "expected a line end"});
+  file.box = "30 40 50";  // may be 500
+  const std::string integers = file.text();
+  test::expect_refused([&] { static_cast<void>(read(integers.substr(0, integers.size() - 1))); },
+                       {"expected a line end"});
+}
+
 TEST(GroReader, DamageIsRefusedWithFrameByteAndLine) {
   const std::string frame = GroText().residues(1, 2).text();
   const auto refuse = [&](std::size_t line, const std::string& text, std::size_t lines_on,
@@ -231,6 +250,7 @@ TEST(GroReader, DamageIsRefusedWithFrameByteAndLine) {
     test::expect_refused([&] { static_cast<void>(read(frame + damaged + frame)); }, {"a.gro", place});
     const Trajectory before = read(frame + damaged + frame, {.until_damage = true});
     EXPECT_EQ(before.frames.size(), 1U);
+    EXPECT_TRUE(before.truncated);
   };
   refuse(1, "six", 0, {"line 11: expected the number of atoms, found 'six'"});
   refuse(2, "    1ALA      N    1   0 0 0", 0,

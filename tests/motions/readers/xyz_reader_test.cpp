@@ -81,6 +81,34 @@ TEST(XyzReader, FileThatEndsInsideAFrame) {
   }
 }
 
+// A number that is cut off must not be read as another one.
+TEST(XyzReader, LastNumberWithoutLineEnd) {
+  const auto frame = [](const std::string& last) {
+    return "2\n\nC 0.125 1.000 0.500\nC 1.250 0.125 " + last;
+  };
+  for (const std::string last : {"2", "2.", "2.3", "2.34"}) {
+    const Trajectory before = read(frame("2.345\n") + frame(last));
+    EXPECT_EQ(before.frames.size(), 1U) << last;
+    EXPECT_TRUE(before.truncated) << last;
+    ASSERT_EQ(before.warnings.size(), 1U) << last;
+    EXPECT_NE(before.warnings[0].find("expected a line end"), std::string::npos) << before.warnings[0];
+    refuse(frame(last), {"ends inside frame 0", "expected a line end"});
+  }
+  refuse("1\n\nC 1 2 3", {"expected a line end"});         // may be 34
+  refuse("1\n\nC 1.5 2.25 3.5", {"expected a line end"});  // may be 3.55
+  // All decimals are there, or something behind the number shows that it is whole.
+  for (const std::string last : {"2.345", "2 ", "2.3 0", "2.3\t"})
+    for (const std::string& text : {frame("2.345\n") + frame(last), frame(last)}) {
+      const Trajectory all = read(text);
+      EXPECT_EQ(all.frames.back()(2, 1), std::stod(last)) << text;
+      EXPECT_FALSE(all.truncated) << text;
+      EXPECT_TRUE(all.warnings.empty()) << text;
+    }
+  // A symbol or an id may be cut off, too.
+  refuse("1\nProperties=pos:R:3:species:S:1\n0.1 0.2 0.3 C", {"expected a line end"});
+  refuse("1\nProperties=species:S:1:pos:R:3:id:I:1\nC 0.1 0.2 0.3 1", {"expected a line end"});
+}
+
 TEST(XyzReader, CutAnywhere) {
   const std::string path = test::temporary("a.xyz").string();
   for (std::size_t size = 0; size < two_frames.size(); ++size) {
