@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "motions/base/input_error.h"
+#include "motions/base/text_input.h"
 
 namespace kds {
 
@@ -43,6 +44,13 @@ std::uint64_t NetcdfLayout::whole_records() const {
     if (variable.has_records) end = std::max(end, variable.begin + variable.bytes);
   if (record_size_ == 0 || file_size_ < end) return 0;
   return 1 + (file_size_ - end) / record_size_;
+}
+
+std::uint64_t NetcdfLayout::room_of(const NetcdfVariable& variable) const {
+  std::uint64_t end = file_size_;
+  for (const NetcdfVariable& other : variables_)
+    if (other.begin > variable.begin) end = std::min(end, other.begin);
+  return end - std::min(end, variable.begin);
 }
 
 std::uint64_t NetcdfLayout::record_begin(std::uint64_t k) const {
@@ -153,7 +161,8 @@ void NetcdfLayout::read_variable(const std::vector<std::uint64_t>& dimensions) {
   }
   skip_attributes();
   variable.type = type();
-  static_cast<void>(size());  // the bytes of a part, which follow from the lengths
+  const std::size_t size_place = place_;
+  const std::uint64_t size_told = size();
   variable.begin = number(version_ == 1 ? 4 : 8);
   variable.bytes = bytes_of_type[static_cast<std::size_t>(variable.type)];
   for (const std::uint64_t length : variable.lengths) {
@@ -161,7 +170,20 @@ void NetcdfLayout::read_variable(const std::vector<std::uint64_t>& dimensions) {
     variable.bytes *= length;
   }
   if (variable.begin > most_bytes) fail("a variable begins behind the end of any file");
+  check_size(variable, size_told, size_place);
   variables_.push_back(std::move(variable));
+}
+
+// The bytes of a part follow from the lengths. Writers may leave out the padding, write 0 for variables
+// without records, and write any number where the bytes do not fit into 31 bits.
+void NetcdfLayout::check_size(const NetcdfVariable& variable, std::uint64_t told, std::size_t place) {
+  const std::uint64_t padded = padded_size(variable.bytes);
+  if (told == padded || told == variable.bytes) return;
+  if (version_ != 5 && padded > std::numeric_limits<std::int32_t>::max() - 3U) return;
+  if (told == 0 && variable.has_records && records_claimed_.value_or(0) == 0) return;
+  place_ = place;
+  fail(fmt::format("expected a size of {} for the variable {}, as its dimensions say, found {}", padded,
+                   in_quotes(variable.name), told));
 }
 
 // Parts are padded to whole words, except if only one variable has records.

@@ -39,12 +39,15 @@ class NetcdfLayout {
   [[nodiscard]] std::optional<std::uint64_t> records_claimed() const { return records_claimed_; }
   /// Returns the number of records that the file has all bytes of.
   [[nodiscard]] std::uint64_t whole_records() const;
+  /// Returns the bytes from the first one of a variable to the next variable, or to the end of the file.
+  [[nodiscard]] std::uint64_t room_of(const NetcdfVariable& variable) const;
   /// Returns the byte at which record k begins.
   [[nodiscard]] std::uint64_t record_begin(std::uint64_t k) const;
 
  private:
   void read_header();
   void read_variable(const std::vector<std::uint64_t>& dimensions);
+  void check_size(const NetcdfVariable& variable, std::uint64_t told, std::size_t place);
   void sum_records();
   void skip_attributes();
   [[nodiscard]] std::uint64_t number(std::size_t bytes);

@@ -19,6 +19,7 @@
 #include "motions/base/text_input.h"
 #include "motions/readers/nanometres.h"
 #include "motions/readers/netcdf_layout.h"
+#include "motions/readers/xdr.h"
 
 namespace kds {
 
@@ -244,14 +245,17 @@ class NetcdfFrames final : public AtomFrames {
       held_.whole = std::min(held_.whole, static_cast<std::size_t>(whole));
     }
     held_.ends_inside = held_.whole < frames_;
-    if (coordinates_.layout->has_records) {
-      const std::uint64_t whole = layout_.whole_records();
-      if (!layout_.records_claimed())
-        held_.ends_inside = layout_.file_size() > layout_.record_begin(whole);
-      else if (whole > frames_)
+    const bool has_records = coordinates_.layout->has_records;
+    if (has_records && !layout_.records_claimed()) {
+      held_.ends_inside = layout_.file_size() > layout_.record_begin(layout_.whole_records());
+    } else if (coordinates_.framed) {
+      const NetcdfVariable& variable = *coordinates_.layout;
+      const std::uint64_t room =
+          has_records ? layout_.whole_records() : layout_.room_of(variable) / (variable.bytes / frames_);
+      if (room > frames_)
         notes_.push_back(
             fmt::format("the header counts {}, the file has room for {}; only those of the header are read",
-                        counted(static_cast<std::size_t>(frames_), "frame"), whole));
+                        counted(static_cast<std::size_t>(frames_), "frame"), room));
     }
     if (held_.ends_inside) held_.end = layout_.file_size();
   }
@@ -262,6 +266,9 @@ class NetcdfFrames final : public AtomFrames {
     double value = 0;
     file_.check(nc_get_var1_double(file_.id(), time_->layout->id, &start, &value),
                 fmt::format("frame {}: cannot read its time", k));
+    const bool is_float = time_->layout->type == NC_FLOAT;
+    if (value == (is_float ? static_cast<double>(NC_FILL_FLOAT) : NC_FILL_DOUBLE)) return std::nullopt;
+    if (is_float) value = xdr_time(static_cast<float>(value)).value_or(value);
     value *= time_->scale;
     value = to_picoseconds_ < 1 ? value / std::round(1 / to_picoseconds_) : value * to_picoseconds_;
     return std::isfinite(value) ? std::optional(value) : std::nullopt;

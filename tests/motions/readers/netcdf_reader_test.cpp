@@ -203,6 +203,35 @@ TEST(NetcdfReader, ComparesTheHeaderWithTheFile) {
   EXPECT_TRUE(open(maker.bytes())->held().ends_inside);
   maker.frames_claimed = 0;
   refuse(maker.bytes(), {"a.nc", "no frame"});
+  // With a fixed dimension of frames the coordinates are the last part of the file.
+  maker = NetcdfMaker::chain(4, 3);
+  maker.fixed_frames = true;
+  const auto longer = open(maker.bytes() + std::string(4 * 12, '\0'));
+  EXPECT_EQ(longer->held().whole, 3U);
+  ASSERT_EQ(longer->notes().size(), 1U);
+  EXPECT_NE(longer->notes()[0].find("counts 3 frames, the file has room for 4"), std::string::npos);
+  EXPECT_TRUE(open(maker.bytes() + std::string(4 * 12 - 1, '\0'))->notes().empty());
+}
+
+// The size of a variable shows that a dimension in the header has been changed.
+TEST(NetcdfReader, ComparesSizesWithDimensions) {
+  for (const int version : {1, 2, 5}) {
+    NetcdfMaker maker = NetcdfMaker::chain(4, 3);
+    maker.version = version;
+    maker.fixed_frames = true;
+    maker.frames_claimed = 2;
+    refuse(maker.bytes(), {"a.nc: byte ", "expected a size of 8 for the variable 'time'", "found 12"});
+    maker.with_time = false;
+    refuse(maker.bytes(), {"expected a size of 96 for the variable 'coordinates'", "found 144"});
+  }
+}
+
+TEST(NetcdfReader, TimesThatWereNeverWrittenAreNone) {
+  NetcdfMaker maker = NetcdfMaker::chain(4, 2);
+  maker.times = {9.9692099683868690e+36, 0.2};
+  const auto file = open(maker.bytes());
+  EXPECT_FALSE(read_frame(*file, 0).stamp.picoseconds);
+  EXPECT_EQ(read_frame(*file, 1).stamp.picoseconds, 0.2);  // the shortest number, not 0.200000003
 }
 
 TEST(NetcdfReader, RefusesUnwrittenFrames) {
