@@ -88,11 +88,15 @@ MemoryFrames::MemoryFrames(std::span<const Trajectory> necklaces) {
     truncated_ = truncated_ || necklace.truncated;
   }
   beads_ = static_cast<Eigen::Index>(count_beads(necklaces_));
+  const auto timed = std::find_if(necklaces.begin(), necklaces.end(), [&](const Trajectory& necklace) {
+    return necklace.frames.size() == longest.frames.size() && !necklace.times.empty();
+  });
+  const std::vector<double> times = timed == necklaces.end() ? std::vector<double>() : timed->times;
   own_.reserve(3 * count_beads(necklaces_) * longest.frames.size());
   for (std::size_t k = 0; k < longest.frames.size(); ++k) {
     FrameStamp& stamp = stamps_.emplace_back();
     stamp.number = longest.frame_number(k);
-    if (k < longest.times.size()) stamp.picoseconds = longest.times[k];
+    if (k < times.size()) stamp.picoseconds = times[k];
     for (const Trajectory& necklace : necklaces) {
       const Eigen::Matrix3Xd& frame = necklace.frames[necklace.frames.size() == 1 ? 0 : k];
       own_.insert(own_.end(), frame.data(), frame.data() + frame.size());

@@ -231,6 +231,15 @@ void NecklaceStream::note_cell(const FrameRead& frame) {
   }
 }
 
+void NecklaceStream::note_time(const FrameStamp& stamp) {
+  if (!stamp.picoseconds) return;
+  if (last_timed_ && *stamp.picoseconds <= *last_timed_->picoseconds && times_disordered_++ == 0)
+    first_disordered_ = fmt::format(
+        "{}: frame {} has the time {} ps, which is not later than the {} ps of frame {}", opened_.file,
+        stamp.number, *stamp.picoseconds, *last_timed_->picoseconds, last_timed_->number);
+  last_timed_ = stamp;
+}
+
 void NecklaceStream::note_breaks(std::size_t n, const Eigen::Ref<const Eigen::Matrix3Xd>& chain,
                                  std::size_t frame) {
   const std::vector<std::size_t> breaks = find_chain_breaks(chain);
@@ -307,6 +316,7 @@ bool NecklaceStream::read(FrameRead& frame) {
     if (frame.stamp.picoseconds) has_times_ = true;
     frame.stamp.picoseconds = static_cast<double>(frame.stamp.number) * *time_step_;
   }
+  note_time(frame.stamp);
   last_read_ = frame.stamp.number;
   note_cell(frame);
   if (!frame.note.empty() && frames_noted_++ == 0)
@@ -334,6 +344,8 @@ void NecklaceStream::rewind() {
   bonds_joined_ = false;
   ended_ = false;
   last_read_.reset();
+  last_timed_.reset();
+  times_disordered_ = 0;
   cell_unsuited_.clear();
   cells_unused_ = frames_noted_ = frames_with_cell_ = frames_without_cell_ = 0;
 }
@@ -347,6 +359,9 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
     if (has_times_)
       lines.push_back(
           fmt::format("{}: has times of its own, which --dt {} replaces", opened_.file, *time_step_));
+    if (times_disordered_ > 0)
+      lines.push_back(fmt::format("{} ({}; --dt PS replaces times)", first_disordered_,
+                                  counted(times_disordered_, "frame")));
     if (cells_unused_ > 0)
       lines.push_back(fmt::format("{} ({})", first_doubt_, counted(cells_unused_, "frame")));
     if (frames_with_cell_ > 0 && frames_without_cell_ > 0)

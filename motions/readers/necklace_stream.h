@@ -68,6 +68,8 @@ class NecklaceStream {
   /// Makes the chains whole. Notes what happens only in frames asked for.
   void follow(FrameRead& frame);
   void note_cell(const FrameRead& frame);
+  /// Notes a time that is not later than that of the frame before.
+  void note_time(const FrameStamp& stamp);
   void note_breaks(std::size_t n, const Eigen::Ref<const Eigen::Matrix3Xd>& chain, std::size_t frame);
 
   FramesOpened opened_;
@@ -80,6 +82,9 @@ class NecklaceStream {
   bool bonds_joined_ = false;              ///< some frame had a bond across the walls of its cell
   std::string cell_unsuited_;              ///< why cells are no longer used
   std::optional<std::size_t> last_read_;   ///< number of the last frame read
+  std::optional<FrameStamp> last_timed_;   ///< of the last frame read that has a time
+  std::size_t times_disordered_ = 0;       ///< frames not later than the frame before
+  std::string first_disordered_;           ///< about the first of these
   bool ended_ = false;                     ///< a damaged frame has ended the reading
   std::string damage_;                     ///< a warning about that frame
   bool has_times_ = false;                 ///< the file has times, but --dt replaces them

@@ -3,37 +3,39 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "motions/base/input_error.h"
+#include "motions/base/text_input.h"
 #include "motions/frames/periodic.h"
 
 namespace kds {
 
 FileFrames::FileFrames(std::vector<NecklaceStream> files)
     : files_(std::move(files)), present_(files_.size()), first_cells_(files_.size()), read_(files_.size()) {
-  for (const NecklaceStream& file : files_)
+  for (NecklaceStream& file : files_) {
+    at_rest_.push_back(files_.size() > 1 && file.holds_one_frame());
     for (const Trajectory& head : file.heads()) necklaces_.push_back(beads_of(head));
+  }
 }
 
 bool FileFrames::next(FrameRead& frame) {
   bool more = false;
-  std::size_t longest = 0;
   for (std::size_t f = 0; f < files_.size(); ++f) {
     if (files_[f].next(present_[f])) {
       ++read_[f];
       more = true;
       if (next_ == 0) first_cells_[f] = present_[f].cell;
     }
-    if (read_[f] > read_[longest]) longest = f;
   }
   if (!more) {
     all_ = read_;
     check_frame_counts();
     return false;
   }
+  frame.stamp = stamp();
   ++next_;
-  frame.stamp = present_[longest].stamp;
   frame.cell.reset();
   frame.positions.resize(3, static_cast<Eigen::Index>(count_beads(necklaces_)));
   Eigen::Index begin = 0;
@@ -44,11 +46,39 @@ bool FileFrames::next(FrameRead& frame) {
   return true;
 }
 
+FrameStamp FileFrames::stamp() {
+  // Programs round times differently, and formats have single precision.
+  const auto differ = [](double a, double b) {
+    return std::abs(a - b) > 1e-5 + 1e-6 * std::max(std::abs(a), std::abs(b));
+  };
+  std::optional<std::size_t> first, timed;
+  bool differs = false;
+  for (std::size_t f = 0; f < files_.size(); ++f) {
+    const FrameStamp& own = present_[f].stamp;
+    if (at_rest_[f] || read_[f] != next_ + 1) continue;
+    if (!first) first = f;
+    if (!own.picoseconds) continue;
+    if (!timed) timed = f;
+    const FrameStamp& other = present_[*timed].stamp;
+    if (differs || !differ(*own.picoseconds, *other.picoseconds)) continue;
+    differs = true;
+    if (times_differ_++ == 0)
+      first_difference_ = fmt::format(
+          "{}: frame {} has the time {} ps, frame {} of {} beside it {} ps; the times of {} are used",
+          files_[f].heads().front().file, own.number, *own.picoseconds, other.number,
+          files_[*timed].heads().front().file, *other.picoseconds, files_[*timed].heads().front().file);
+  }
+  if (!first) return present_.front().stamp;
+  FrameStamp stamp = present_[*first].stamp;
+  if (timed) stamp.picoseconds = present_[*timed].stamp.picoseconds;
+  return stamp;
+}
+
 void FileFrames::seek(std::size_t k) {
   if (k < next_) {
     for (NecklaceStream& file : files_) file.rewind();
     std::fill(read_.begin(), read_.end(), 0);
-    next_ = 0;
+    next_ = times_differ_ = 0;
   }
   FrameRead passed;
   while (next_ < k && next(passed)) {
@@ -67,6 +97,9 @@ void FileFrames::check_frame_counts() const {
 
 std::vector<std::string> FileFrames::warnings() const {
   std::vector<std::string> lines;
+  if (times_differ_ > 0)
+    lines.push_back(
+        fmt::format("{} ({}; --dt PS replaces times)", first_difference_, counted(times_differ_, "frame")));
   add_nearer_images(lines);
   for (const NecklaceStream& file : files_)
     for (std::size_t n = 0; n < file.heads().size(); ++n)

@@ -22,8 +22,8 @@ class FileFrames final : public FrameSource {
   [[nodiscard]] bool next(FrameRead& frame) override;
   /// Reads the files again from the start to go back.
   void seek(std::size_t k) override;
-  /// Includes lines about necklaces whose periodic image in the first frame is much nearer to necklaces of
-  /// earlier files.
+  /// Includes a line about times that differ between files, and lines about necklaces whose periodic image in
+  /// the first frame is much nearer to necklaces of earlier files.
   [[nodiscard]] std::vector<std::string> warnings() const override;
 
   [[nodiscard]] bool is_truncated() const override;
@@ -37,14 +37,20 @@ class FileFrames final : public FrameSource {
  private:
   void check_frame_counts() const;
   void add_nearer_images(std::vector<std::string>& lines) const;
+  /// Returns the number and the time of the present frame: those of the first file that moves. If it has no
+  /// time, then another moving file gives the time. Notes times that differ.
+  [[nodiscard]] FrameStamp stamp();
 
   std::vector<NecklaceStream> files_;
   std::vector<NecklaceBeads> necklaces_;
-  std::vector<FrameRead> present_;                ///< one per file
+  std::vector<bool> at_rest_;                     ///< whether a file has only one frame, one per file
+  std::vector<FrameRead> present_;                ///< likewise
   std::vector<std::optional<Cell>> first_cells_;  ///< likewise, in the first frame
   std::vector<std::size_t> read_;                 ///< number of frames read from each file
   std::vector<std::size_t> all_;                  ///< likewise, once all have been read
   std::size_t next_ = 0;                          ///< number of the next frame
+  std::size_t times_differ_ = 0;                  ///< frames with different times in two files
+  std::string first_difference_;                  ///< about the first of these
 };
 
 }  // namespace kds

@@ -5,9 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "motions/frames/periodic.h"
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
+#include "tests/support/inputs/gro_text.h"
+#include "tests/support/inputs/netcdf_maker.h"
 
 namespace kds::necklace_stream_test {
 namespace {

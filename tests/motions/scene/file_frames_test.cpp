@@ -13,6 +13,7 @@
 #include "motions/scene/radii.h"
 #include "motions/scene/scene.h"
 #include "tests/motions/test_files.h"
+#include "tests/support/inputs/gro_text.h"
 
 namespace kds::file_frames_test {
 namespace {
@@ -196,6 +197,43 @@ TEST(FileFrames, TellsOfNearerImagesOfEachChain) {
                              "away, not 18)"),
             std::string::npos)
       << warnings[0];
+}
+
+std::vector<std::optional<double>> times_of(const std::vector<std::filesystem::path>& paths,
+                                            std::vector<std::string>& warnings) {
+  const Streamed streamed = open(paths);
+  streamed.stream->seek(0);
+  std::vector<std::optional<double>> times;
+  for (FrameRead frame; streamed.stream->next(frame);) times.push_back(frame.stamp.picoseconds);
+  warnings = streamed.warnings;
+  return times;
+}
+
+TEST(FileFrames, TimesOfInputsSideBySide) {
+  using Times = std::vector<std::optional<double>>;
+  std::mt19937 random(20);
+  const auto gro = [](const std::string& name, const std::vector<double>& of_frames) {
+    return test::write_file(name, test::gro_with_times(of_frames));
+  };
+  const auto one = gro("one.gro", {0, 1, 2}), other = gro("other.gro", {0, 1.5, 3});
+  const auto alike = gro("alike.gro", {0, 1.0000005, 2}), resting = gro("resting.gro", {7});
+  const auto untimed = test::write_file("untimed.xyz", xyz_frames(random, 3, 4, false));
+  std::vector<std::string> warnings;
+  EXPECT_EQ(times_of({one, other}, warnings), (Times{0, 1, 2}));
+  EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
+                          [](const std::string& line) {
+                            return line.find("other.gro: frame 1 has the time 1.5 ps, frame 1 of ") !=
+                                       std::string::npos &&
+                                   line.find("one.gro beside it 1 ps") != std::string::npos &&
+                                   line.find("(2 frames") != std::string::npos;
+                          }),
+            1);
+  // A file without times takes those of another, and a file at rest gives none.
+  for (const auto& paths : std::vector<std::vector<std::filesystem::path>>{
+           {untimed, one}, {one, untimed}, {resting, one}, {untimed, resting, one}, {one, alike}}) {
+    EXPECT_EQ(times_of(paths, warnings), (Times{0, 1, 2}));
+    for (const std::string& line : warnings) EXPECT_EQ(line.find("has the time"), std::string::npos) << line;
+  }
 }
 
 }  // namespace

@@ -51,4 +51,15 @@ struct GroText {
   }
 };
 
+/// Returns a frame of two residues for each of these times, which stand in the titles.
+inline std::string gro_with_times(const std::vector<double>& times) {
+  std::string text;
+  for (const double time : times) {
+    GroText frame;
+    frame.title = fmt::format("x t= {}", time);
+    text += frame.residues(1, 2).text();
+  }
+  return text;
+}
+
 }  // namespace kds::test
