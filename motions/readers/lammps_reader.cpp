@@ -35,7 +35,8 @@ struct DumpHeader {
 
 class LammpsFrames final : public AtomFrames {
  public:
-  LammpsFrames(const std::filesystem::path& path, const ReadOptions& options) : lines_(path) {
+  LammpsFrames(const std::filesystem::path& path, const ReadOptions& options)
+      : lines_(path), units_asked_(options.units) {
     count_frames();
     choose_units(options.units);
     if (held_.whole == 0) return;
@@ -151,8 +152,6 @@ class LammpsFrames final : public AtomFrames {
     if (header.columns != first_.columns)
       fail(k, fmt::format("expected the columns {} as in frame 0, found {}", in_quotes(first_.columns),
                           in_quotes(header.columns)));
-    if (!header.units.empty() && !first_.units.empty() && header.units != first_.units)
-      fail(k, fmt::format("expected units {} as in frame 0, found {}", first_.units, header.units));
     if (!header.box && (columns_.scaled || columns_.image))
       fail(k, "expected ITEM: BOX BOUNDS before ITEM: ATOMS, as its coordinates depend on the box");
   }
@@ -202,7 +201,20 @@ class LammpsFrames final : public AtomFrames {
     if (name == "NUMBER OF ATOMS") header.atoms = *count;
     if (name == "TIME") header.time = *number;
     if (name == "UNITS") header.units = value;
+    if (name == "UNITS" && k > 0) check_units(k, header.units);
     return true;
+  }
+
+  // All frames have the units of frame 0, or those of --units if frame 0 names none.
+  void check_units(std::size_t k, std::string_view units) const {
+    if (first_.units.empty() && !units_asked_)
+      fail(k, fmt::format("expected no units, as frame 0 names none, found {} (--units {} names those of all "
+                          "frames)",
+                          in_quotes(units), fmt::join(lammps_units_names, "|")));
+    const std::string_view expected = first_.units.empty() ? name_of(*units_asked_) : first_.units;
+    if (units != expected)
+      fail(k, fmt::format("expected units {} as {}, found {}", expected,
+                          first_.units.empty() ? "--units says" : "in frame 0", units));
   }
 
   // Reads a box: xlo xhi; with tilt xlo_bound xhi_bound xy; or, in a general box, a vector and a coordinate
@@ -364,7 +376,7 @@ class LammpsFrames final : public AtomFrames {
   DumpHeader first_;  // header of frame 0
   DumpColumns columns_;
   bool may_have_cell_ = false;
-  std::optional<LammpsUnits> units_;
+  std::optional<LammpsUnits> units_, units_asked_;
   std::vector<std::size_t> ids_;       // sorted
   std::vector<std::string> elements_;  // in the order of the ids
   std::vector<std::size_t> wanted_, column_of_;

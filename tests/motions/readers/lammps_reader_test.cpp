@@ -307,5 +307,18 @@ TEST(LammpsReader, FramesLeftOutAsDamagedAreMissing) {
   }
 }
 
+// Lengths of the frames before would be in other units.
+TEST(LammpsReader, UnitsMustStandInTheFirstFrame) {
+  const std::string frame = dump(0, 1, cube, "id x y z", "1 0 0 0\n");
+  const std::string later = frame + "ITEM: UNITS\nnano\n" + frame;
+  refuse(later,
+         {"frame 1, byte", "expected no units, as frame 0 names none, found 'nano' (--units ", "(line 12)"});
+  refuse(later, {"expected units real as --units says, found nano"}, {.units = LammpsUnits::real});
+  EXPECT_EQ(
+      read_trajectory(test::write_file("a.lammpstrj", later), {.units = LammpsUnits::nano}).frames.size(),
+      2U);
+  refuse("ITEM: UNITS\nreal\n" + later, {"expected units real as in frame 0, found nano"});
+}
+
 }  // namespace
 }  // namespace kds::lammps_reader_test
