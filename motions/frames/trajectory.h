@@ -20,7 +20,7 @@ struct Trajectory {
   std::string file;                        ///< where it was read, for messages
   std::vector<Eigen::Matrix3Xd> frames;    ///< one column a bead, in the file's length unit (angstrom)
   std::vector<std::size_t> frame_numbers;  ///< 0-based place of each frame in the file
-  std::vector<double> times;               ///< of the frames, in picoseconds; empty where the file has none
+  std::vector<double> times;          ///< one a frame, in picoseconds; empty unless all frames have a time
   std::vector<double> element_radii;  ///< van der Waals radius of each bead; empty where elements are unknown
   std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty where residues are unknown
   BeadGroups bead_groups;               ///< empty unless asked for

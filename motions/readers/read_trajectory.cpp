@@ -29,6 +29,13 @@ std::vector<Trajectory> read_trajectories(const std::filesystem::path& path, con
     necklaces[n].later_breaks = stream.heads()[n].later_breaks;
     necklaces[n].warnings = stream.warnings(n);
     necklaces[n].truncated = stream.is_truncated();
+    const std::size_t frames = necklaces[n].frames.size(), timed = necklaces[n].times.size();
+    if (timed == frames || timed == 0) continue;
+    necklaces[n].times.clear();
+    if (n == 0)
+      necklaces[n].warnings.push_back(
+          fmt::format("{}: {} of {} have no time: frames have numbers and no times", path.string(),
+                      frames - timed, counted(frames, "frame")));
   }
   return necklaces;
 }

@@ -232,5 +232,27 @@ TEST(NecklaceStream, KnowsFilesOfOneFrame) {
   EXPECT_EQ(frame.stamp.number, 0U);
 }
 
+TEST(NecklaceStream, WarnsOfTimesThatDoNotAscend) {
+  const auto warns = [](const std::string& line) { return testing::Contains(HasSubstr(line)); };
+  const auto path = test::write_file("a.gro", test::gro_with_times({0, 2, 2, 1, 3, 2.5}));
+  EXPECT_THAT(read_trajectory(path).warnings,
+              warns("frame 2 has the time 2 ps, which is not later than the 2 ps of frame 1 (3 frames"));
+  EXPECT_THAT(read_trajectory(path, {.frames = {1, 4, 2}}).warnings,
+              warns("frame 3 has the time 1 ps, which is not later than the 2 ps of frame 1 (1 frame"));
+  for (const ReadOptions& ascending : {ReadOptions{.frames = {0, 3, 2}}, ReadOptions{.time_step = 1}})
+    EXPECT_THAT(read_trajectory(path, ascending).warnings, testing::Not(warns("not later")));
+}
+
+// Frames without a time must not shift the times of those behind them.
+TEST(NecklaceStream, TimesAreThoseOfTheirFrames) {
+  test::NetcdfMaker maker = test::NetcdfMaker::chain(4, 3);
+  maker.times[1] = std::numeric_limits<double>::quiet_NaN();
+  const auto path = test::write_file("a.nc", maker.bytes());
+  const Trajectory mixed = read_trajectory(path);
+  EXPECT_TRUE(mixed.times.empty());
+  EXPECT_THAT(mixed.warnings, ElementsAre(HasSubstr("1 of 3 frames have no time")));
+  EXPECT_THAT(read_trajectory(path, {.frames = {0, 3, 2}}).times, ElementsAre(0, 2));
+}
+
 }  // namespace
 }  // namespace kds::necklace_stream_test
