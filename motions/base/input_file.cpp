@@ -45,6 +45,8 @@ std::pair<int, std::uint64_t> open_regular(const std::string& name) {
   return {descriptor, static_cast<std::uint64_t>(status.st_size)};
 }
 
+thread_local std::size_t restarts_in_thread = 0;
+
 bool begins_gzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B"); }
 
 }  // namespace
@@ -203,13 +205,33 @@ InputFile::InputFile(const std::filesystem::path& path)
 
 std::size_t InputFile::read(char* to, std::size_t size) {
   size = std::min<std::size_t>(size, 1U << 30U);
-  const std::size_t got = packed_ ? packed_->read(to, size) : disk_->read(read_, to, size);
-  if (packed_ && read_ == 0 && begins_gzip({to, got}))
-    throw InputError(fmt::format("{}: this file is compressed twice; unpack it once with gunzip", name_));
+  std::size_t got = 0;
+  if (!packed_) {
+    got = disk_->read(read_, to, size);
+  } else if (read_ < unpacked_) {
+    const auto left = static_cast<std::size_t>(unpacked_ - read_);
+    got = std::min(size, left);
+    std::copy_n(behind_.end() - static_cast<std::ptrdiff_t>(left), got, to);
+  } else {
+    got = unpack(to, size);
+  }
   read_ += got;
-  if (packed_ && read_ > most_unpacked && read_ / most_ratio > disk_->size())
+  return got;
+}
+
+// Unpacks the next bytes and keeps the last ones.
+std::size_t InputFile::unpack(char* to, std::size_t size) {
+  const std::size_t got = packed_->read(to, size);
+  if (unpacked_ == 0 && begins_gzip({to, got}))
+    throw InputError(fmt::format("{}: this file is compressed twice; unpack it once with gunzip", name_));
+  unpacked_ += got;
+  if (unpacked_ > most_unpacked && unpacked_ / most_ratio > disk_->size())
     throw InputError(fmt::format("{}: unpacks to more than {} times its size, which no coordinates do", name_,
                                  most_ratio));
+  const std::size_t kept = std::min(got, kept_behind);
+  const std::size_t dropped = behind_.size() + kept - std::min(behind_.size() + kept, kept_behind);
+  behind_.erase(behind_.begin(), behind_.begin() + static_cast<std::ptrdiff_t>(dropped));
+  behind_.insert(behind_.end(), to + (got - kept), to + got);
   return got;
 }
 
@@ -219,7 +241,8 @@ void InputFile::seek(std::uint64_t place) {
     read_ = std::min(place, disk_->size());
     return;
   }
-  if (place < read_) rewind();
+  if (place < unpacked_ - behind_.size()) rewind();
+  read_ = std::min(place, unpacked_);
   std::array<char, 1 << 15> skipped;
   while (read_ < place)
     if (read(skipped.data(),
@@ -258,9 +281,15 @@ InputFile::Length InputFile::length() {
 }
 
 void InputFile::rewind() {
-  if (packed_) packed_->rewind();
-  read_ = 0;
+  if (packed_ && unpacked_ > 0) {
+    packed_->rewind();
+    ++restarts_in_thread;
+  }
+  read_ = unpacked_ = 0;
+  behind_.clear();
 }
+
+std::size_t InputFile::restarts() { return restarts_in_thread; }
 
 bool LineReader::next(std::string_view& line) {
   for (std::size_t searched = 0;;) {

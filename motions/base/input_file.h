@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "motions/base/input_error.h"
 
@@ -43,7 +44,8 @@ class InputFile {
   /// size.
   [[nodiscard]] std::size_t read(char* to, std::size_t size);
   /// Continues at this byte of the unpacked file, or at its end. Fast for plain files. A gzipped file is
-  /// unpacked up to that byte, from the start if the byte is before the present position.
+  /// unpacked up to that byte, from the start if the byte is more than `kept_behind` bytes before the last
+  /// one unpacked.
   void seek(std::uint64_t place);
   /// Reads `size` bytes from this byte on. Returns false if the file ends before them, also if a gzipped file
   /// is cut off there.
@@ -62,10 +64,16 @@ class InputFile {
   /// Returns whether the file is unpacked while it is read.
   [[nodiscard]] bool is_gzipped() const { return packed_ != nullptr; }
 
+  /// Returns how often gzipped files have been unpacked again from the start in this thread, for tests.
+  [[nodiscard]] static std::size_t restarts();
+
+  static constexpr std::size_t kept_behind = std::size_t{1} << 12U;
   static constexpr std::uint64_t most_unpacked = std::uint64_t{1} << 26U;
   static constexpr std::uint64_t most_ratio = 100;
 
  private:
+  [[nodiscard]] std::size_t unpack(char* to, std::size_t size);
+
   class OnDisk;
   class Members;
 
@@ -73,6 +81,8 @@ class InputFile {
   std::unique_ptr<OnDisk, void (*)(OnDisk*)> disk_;
   std::unique_ptr<Members, void (*)(Members*)> packed_;  ///< null for a plain file
   std::uint64_t read_ = 0;
+  std::uint64_t unpacked_ = 0;  ///< bytes of a gzipped file unpacked so far
+  std::vector<char> behind_;    ///< the last of these, at most `kept_behind`
 };
 
 /// Reads the lines of a file of any length, one after the other. A byte order mark is skipped.

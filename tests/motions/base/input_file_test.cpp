@@ -5,9 +5,12 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <random>
+
 #include "motions/base/text_input.h"
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
+#include "tests/support/inputs/gromacs_files.h"
 
 namespace kds::input_file_test {
 namespace {
@@ -148,6 +151,53 @@ TEST(InputFile, FramesBehindAMemberAreNotLost) {
   EXPECT_EQ(read("a.dcd.gz", member(start) + member(rest)), 3U);
   EXPECT_THROW((void)read("a.dcd.gz", member(start) + rest), InputError);
   EXPECT_EQ(read("a.dcd.gz", member(start) + member(rest).substr(0, 1)), 2U);
+}
+
+TEST(InputFile, SeekingBackALittleUnpacksNothingAgain) {
+  std::string text;
+  for (int i = 0; i < 30000; ++i) text += std::to_string(i) + ' ';
+  InputFile file(test::write_file("a", member(text.substr(0, 1000)) + member(text.substr(1000))));
+  std::string got(10000, ' ');
+  std::mt19937 random(3);
+  std::uint64_t furthest = 0;
+  const std::size_t restarts = InputFile::restarts();
+  for (std::uint64_t place = 0; place + got.size() < text.size(); place += random() % 9000) {
+    place -= std::min(place, (furthest > place ? 0 : random() % (InputFile::kept_behind + 1)));
+    if (furthest > place + InputFile::kept_behind) place = furthest - InputFile::kept_behind;
+    const std::size_t size = 1 + random() % got.size();
+    ASSERT_TRUE(file.read_at(place, got.data(), size));
+    ASSERT_EQ(std::string_view(got).substr(0, size), std::string_view(text).substr(place, size)) << place;
+    ASSERT_EQ(file.place(), place + size);
+    furthest = std::max(furthest, place + size);
+  }
+  EXPECT_EQ(InputFile::restarts(), restarts);
+  ASSERT_TRUE(file.read_at(furthest - InputFile::kept_behind - 1, got.data(), 1));
+  EXPECT_EQ(InputFile::restarts(), restarts + 1);
+}
+
+// Readers look at a frame's header before its data. Opening unpacks a file to count bytes and frames, and the
+// first frame is read twice, however many frames there are.
+TEST(InputFile, FramesAreUnpackedInSequence) {
+  test::XtcMaker xtc;
+  test::TrrMaker trr;
+  for (std::int32_t k = 0; k < 40; ++k) {
+    auto& integers = xtc.frames.emplace_back();
+    auto& reals = trr.frames.emplace_back();
+    for (std::int32_t i = 0; i < 2000; ++i) {
+      integers.push_back({100 * i, 7 * k, i % 13});
+      reals.push_back({0.1 * i, 0.01 * k, 0.001 * (i % 13)});
+    }
+  }
+  const std::vector<std::pair<std::string, std::string>> files{
+      {"a.xtc.gz", xtc.bytes()},
+      {"a.trr.gz", trr.bytes()},
+      {"a.dcd.gz", test::DcdMaker::chain(2000, 40).bytes()}};
+  for (const auto& [name, bytes] : files) {
+    const auto path = test::write_file(name, member(bytes));
+    const std::size_t restarts = InputFile::restarts();
+    EXPECT_EQ(read_trajectory(path).frames.size(), 40U) << name;
+    EXPECT_LE(InputFile::restarts() - restarts, 8U) << name;
+  }
 }
 
 }  // namespace
