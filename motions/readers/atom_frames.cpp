@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include "motions/base/input_error.h"
@@ -30,10 +32,56 @@ InputError needs_names(const char* option, const std::string& file, const char* 
                                 option, file, what, reader_registry().topology_endings()));
 }
 
+// Whether the ids are those from 1 to the number of atoms, in any order.
+bool number_all(std::vector<std::size_t> ids) {
+  std::sort(ids.begin(), ids.end());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    if (ids[i] != i + 1) return false;
+  return true;
+}
+
+// Returns the place in the file of each selected atom, whose id is one more than its place in the topology.
+// Returns nothing, and the first missing bead, if the file does not have all these ids.
+std::optional<std::vector<std::size_t>> places_by_id(const std::vector<std::size_t>& ids,
+                                                     const std::vector<std::size_t>& selected,
+                                                     std::size_t& missing) {
+  std::unordered_map<std::size_t, std::size_t> place_of;
+  for (std::size_t place = 0; place < ids.size(); ++place) place_of.emplace(ids[place], place);
+  std::vector<std::size_t> places;
+  for (const std::size_t atom : selected) {
+    const auto found = place_of.find(atom + 1);
+    missing = places.size();
+    if (found == place_of.end()) return std::nullopt;
+    places.push_back(found->second);
+  }
+  return places;
+}
+
+// Warns if elements of the file contradict those of the topology, unless the file's elements are guessed.
+void compare_elements(const std::string& file, const std::string& topology, const AtomFrames& frames,
+                      const ChosenAtoms& chosen, std::vector<std::string>& warnings) {
+  std::vector<std::string> guesses;
+  const std::vector<double> radii = frames.element_radii(guesses);
+  if (radii.empty() || !guesses.empty() || chosen.element_radii.empty()) return;
+  std::size_t differ = 0, first = 0;
+  for (std::size_t bead = chosen.places.size(); bead-- > 0;) {
+    if (radii[chosen.places[bead]] == chosen.element_radii[bead]) continue;
+    ++differ;
+    first = bead;
+  }
+  if (differ == 0) return;
+  warnings.push_back(fmt::format(
+      "{}: bead {} ({}) has another element than in {} (radius {}, not {}), which is used; do atoms have "
+      "the same order? ({})",
+      file, first, chosen.names.empty() ? "without a name" : chosen.names[first], topology,
+      radii[chosen.places[first]], chosen.element_radii[first], counted(differ, "bead")));
+}
+
 // Chooses among all atoms by the topology. A topology of the selected atoms alone suits a trajectory of
-// these.
-ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, std::size_t atom_count,
+// these. Ids decide which atoms these are, if the file has ids.
+ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, const AtomFrames& frames,
                          std::vector<std::string>& warnings) {
+  const std::size_t atom_count = frames.atom_count();
   ChosenAtoms chosen;
   chosen.places.resize(atom_count);
   std::iota(chosen.places.begin(), chosen.places.end(), std::size_t{0});
@@ -46,19 +94,31 @@ ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, st
     return chosen;
   }
   Topology topology = read_topology(*options.topology, options);
-  if (topology.atom_count == atom_count) {
-    chosen.places = std::move(topology.selected);
-    warnings.insert(warnings.end(), topology.warnings.begin(), topology.warnings.end());
-  } else if (topology.selected.size() != atom_count) {
+  const bool has_all = topology.atom_count == atom_count;
+  if (!has_all && topology.selected.size() != atom_count)
     throw InputError(fmt::format("{}: {} a frame, but {} names {} ({} of them selected)", file,
                                  counted(atom_count, "atom"), options.topology->string(), topology.atom_count,
                                  topology.selected.size()));
-  }
+  const std::vector<std::size_t> ids = frames.ids();
+  std::size_t missing = 0;
+  const bool by_id = !ids.empty() && (!has_all || number_all(ids));
+  if (const auto places = by_id ? places_by_id(ids, topology.selected, missing) : std::nullopt)
+    chosen.places = *places;
+  else if (has_all)
+    chosen.places = topology.selected;
+  else if (!ids.empty())
+    throw InputError(fmt::format(
+        "{}: expected the {} selected from {}, found no atom with the id {} (bead {}, {}); --topology with a "
+        "file of the {} alone names them in their order",
+        file, counted(atom_count, "atom"), options.topology->string(), topology.selected[missing] + 1,
+        missing, topology.bead_names[missing], counted(atom_count, "atom")));
+  if (has_all) warnings.insert(warnings.end(), topology.warnings.begin(), topology.warnings.end());
   chosen.element_radii = std::move(topology.element_radii);
   chosen.names = std::move(topology.bead_names);
   chosen.groups = std::move(topology.bead_groups);
   chosen.chains = std::move(topology.chains);
   chosen.chain_like = topology.chain_like;
+  compare_elements(file, options.topology->string(), frames, chosen, warnings);
   return chosen;
 }
 
@@ -95,11 +155,11 @@ FramesOpened open_atom_frames(const std::filesystem::path& path, const ReadOptio
   opened.truncated = asked.truncated;
   for (const std::string& note : frames->notes())
     opened.warnings.push_back(fmt::format("{}: {}", opened.file, note));
-  ChosenAtoms atoms = choose_atoms(opened.file, options, frames->atom_count(), opened.warnings);
+  FrameRead first;
+  frames->read(asked[0], {}, first);
+  ChosenAtoms atoms = choose_atoms(opened.file, options, *frames, opened.warnings);
   opened.element_radii = std::move(atoms.element_radii);
   if (opened.element_radii.empty()) {
-    FrameRead first;
-    frames->read(asked[0], {}, first);
     const std::vector<double> radii = frames->element_radii(opened.warnings);
     for (std::size_t i = 0; i < atoms.places.size() && !radii.empty(); ++i)
       opened.element_radii.push_back(radii[atoms.places[i]]);

@@ -41,13 +41,16 @@ class AtomFrames {
     static_cast<void>(warnings);
     return {};
   }
+  /// Returns the number that the file gives each atom, usually from 1 on; empty if it gives none. A frame has
+  /// been read before.
+  [[nodiscard]] virtual std::vector<std::size_t> ids() const { return {}; }
   /// Returns lines about how the file is read, each without the file's name.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };
 
 /// Returns the frames of beads that `options` ask for: all atoms, or those that the selection takes from the
-/// topology. Throws InputError naming file and option if the topology has other atoms, or if an option needs
-/// the names of atoms and there is no topology.
+/// topology. Throws InputError naming file and option if the topology has other atoms by their number or
+/// their ids, or if an option needs the names of atoms and there is no topology.
 [[nodiscard]] FramesOpened open_atom_frames(const std::filesystem::path& path, const ReadOptions& options,
                                             std::unique_ptr<AtomFrames> frames);
 

@@ -71,6 +71,8 @@ class LammpsFrames final : public AtomFrames {
     }
   }
 
+  std::vector<std::size_t> ids() const override { return columns_.id ? ids_ : std::vector<std::size_t>(); }
+
   std::vector<double> element_radii(std::vector<std::string>& warnings) const override {
     if (elements_.empty()) return {};
     std::vector<double> radii;

@@ -95,6 +95,16 @@ class XyzFrames final : public AtomFrames {
     return element_radii_of(lines_.name(), symbols_, warnings);
   }
 
+  std::vector<std::size_t> ids() const override {
+    std::vector<std::size_t> ids;
+    for (const std::string& text : ids_) {
+      const auto id = parse_count(text);
+      if (!id) return {};
+      ids.push_back(*id);
+    }
+    return ids;
+  }
+
   // All frames must have the atoms of the one read first.
   void read(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) override {
     if (k < next_) rewind();

@@ -4,9 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "motions/readers/prmtop_reader.h"
 #include "motions/readers/psf_reader.h"
 #include "motions/readers/read_trajectory.h"
+#include "motions/readers/topology.h"
 #include "tests/motions/test_files.h"
 
 namespace kds::topology_files_test {
@@ -277,6 +280,91 @@ TEST(TopologyFiles, FormatsAreToldByContent) {
   EXPECT_FALSE(looks_like_psf("PSFX\n"));
   EXPECT_TRUE(looks_like_prmtop(Prmtop().text()));
   EXPECT_EQ(read("a.top", Prmtop().text(), 16)[0].bead_count(), 12U);
+}
+
+// Returns a LAMMPS dump or an extended XYZ file of one frame, whose atoms lie at x = id.
+std::string with_ids(bool is_dump, const std::vector<std::size_t>& ids,
+                     const std::vector<std::string>& elements) {
+  std::string text =
+      is_dump ? fmt::format("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{}\nITEM: ATOMS id element x y z\n",
+                            ids.size())
+              : fmt::format("{}\nProperties=id:I:1:species:S:1:pos:R:3\n", ids.size());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    text += fmt::format("{} {} {} 0 0\n", ids[i], elements[i], ids[i]);
+  return text;
+}
+
+TEST(TopologyFiles, IdsMustBeThoseOfTheSelectedAtoms) {
+  const auto topology = test::write_file("t.pdb", test::pdb_residue(1) + test::pdb_residue(2));
+  const std::size_t atoms = read_topology(topology, {}).atom_count;
+  const ReadOptions ca{.topology = topology, .selection = Selection::ca};
+  const std::vector<std::size_t> selected = read_topology(topology, ca).selected;
+  ASSERT_EQ(selected.size(), 2U);
+  const std::size_t first = selected[0] + 1, second = selected[1] + 1;
+  for (const bool is_dump : {true, false}) {
+    const auto read = [&](const std::vector<std::size_t>& ids) {
+      const std::vector<std::string> elements(ids.size(), is_dump ? "N" : "C");
+      return read_trajectory(
+          test::write_file(is_dump ? "a.lammpstrj" : "a.xyz", with_ids(is_dump, ids, elements)), ca);
+    };
+    EXPECT_EQ(read({first, second}).frames[0].row(0), Eigen::RowVector2d(first, second));
+    EXPECT_EQ(read({second, first}).frames[0].row(0), Eigen::RowVector2d(first, second));
+    test::expect_refused(
+        [&] {
+          (void)read({first, second + 1});
+        },
+        {"expected the 2 atoms selected from ",
+         fmt::format("no atom with the id {} (bead 1, CA of ALA 2", second)});
+    // All atoms, in the reverse order, and with ids that are not those of the topology.
+    std::vector<std::size_t> ids(atoms);
+    for (std::size_t i = 0; i < atoms; ++i) ids[i] = atoms - i;
+    EXPECT_EQ(read(ids).frames[0].row(0), Eigen::RowVector2d(first, second));
+    for (std::size_t i = 0; i < atoms; ++i) ids[i] = 1000 + i;
+    EXPECT_EQ(read(ids).frames[0].row(0), Eigen::RowVector2d(999 + first, 999 + second));
+  }
+}
+
+TEST(TopologyFiles, WarnsOfElementsThatContradictTheTopology) {
+  const auto topology = test::write_file("t.pdb", test::pdb_residue(1) + test::pdb_residue(2));
+  const ReadOptions options{.topology = topology};
+  const auto warnings = [&](bool is_dump, const std::vector<std::string>& elements) {
+    std::vector<std::size_t> ids(elements.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = i + 1;
+    std::string lines;
+    for (const std::string& line :
+         read_trajectory(
+             test::write_file(is_dump ? "a.lammpstrj" : "a.xyz", with_ids(is_dump, ids, elements)), options)
+             .warnings)
+      lines += line;
+    return lines;
+  };
+  const std::vector<double> radii = read_topology(topology, {.selection = Selection::all}).element_radii;
+  std::vector<std::string> elements;
+  for (const double radius : radii) elements.emplace_back(radius == 1.55 ? "N" : radius == 1.7 ? "C" : "O");
+  for (const bool is_dump : {true, false}) {
+    EXPECT_EQ(warnings(is_dump, elements).find("another element"), std::string::npos);
+    std::vector<std::string> others = elements;
+    const std::size_t alpha = read_topology(topology, {.selection = Selection::ca}).selected[1];
+    others[alpha] = "N";
+    EXPECT_NE(warnings(is_dump, others).find("CA of ALA 2"), std::string::npos) << warnings(is_dump, others);
+    EXPECT_NE(warnings(is_dump, others).find("another element than in"), std::string::npos);
+    EXPECT_NE(warnings(is_dump, others).find("(1 bead)"), std::string::npos);
+  }
+  // LAMMPS writes C unless it is told the elements.
+  EXPECT_EQ(warnings(true, std::vector<std::string>(elements.size(), "C")).find("another element"),
+            std::string::npos);
+}
+
+TEST(TopologyFiles, WarnsOfAnEndingThatTheContentContradicts) {
+  const auto topology = test::write_file("t.gro", test::pdb_residue(1));
+  const auto xyz = test::write_file("a.xyz", "3\n\nN 0 0 0\nC 1.5 0 0\nC 3 0 0\n");
+  const auto warnings = read_trajectory(xyz, {.topology = topology}).warnings;
+  EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
+                          [](const std::string& line) {
+                            return line.find("t.gro: its content is that of the format pdb, not gro") !=
+                                   std::string::npos;
+                          }),
+            1);
 }
 
 }  // namespace
