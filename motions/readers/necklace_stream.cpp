@@ -43,6 +43,16 @@ void refuse_trajectory_as_topology(const std::filesystem::path& path, const std:
           : fmt::format("the trajectory comes first: {} --topology {}", topology.string(), path.string())));
 }
 
+// Warns if the file has the ending of another format than that of its reader.
+void warn_of_ending(const std::filesystem::path& path, const ReaderSpec& reader, std::string_view hint,
+                    std::vector<std::string>& warnings) {
+  const ReaderSpec* const by_ending = reader_registry().find_by_ending(path);
+  if (by_ending != nullptr && by_ending != &reader)
+    warnings.push_back(
+        fmt::format("{}: its content is that of the format {}, not {} as its ending says; read as {}{}",
+                    path.string(), reader.name, by_ending->name, reader.name, hint));
+}
+
 FramesOpened open_frames(const std::filesystem::path& path, const ReadOptions& options) {
   const FloatingPointGuard to_nearest;
   const ReaderSpec& reader = reader_of(path, options.format);
@@ -58,12 +68,9 @@ FramesOpened open_frames(const std::filesystem::path& path, const ReadOptions& o
   if (options.units && reader.name != "lammps")
     opened.warnings.push_back(
         fmt::format("{}: --units is left unread, as only LAMMPS dumps take it", opened.file));
-  const ReaderSpec* const by_ending = reader_registry().find_by_ending(path);
-  if (!options.format && by_ending != nullptr && by_ending != &reader)
-    opened.warnings.push_back(
-        fmt::format("{}: its content is that of the format {}, not {} as its ending says; read as {} "
-                    "(--format overrides)",
-                    opened.file, reader.name, by_ending->name, reader.name));
+  if (!options.format) warn_of_ending(path, reader, " (--format overrides)", opened.warnings);
+  if (options.topology && reader.takes_topology)
+    warn_of_ending(*options.topology, reader_of(*options.topology), "", opened.warnings);
   return opened;
 }
 
