@@ -176,6 +176,7 @@ std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
     ReadOptions reading = reading_of(options, options.inputs.size());
     reading.topology = std::nullopt;
     reading.frames = {};
+    reading.format = std::nullopt;  // --format is that of the inputs
     NecklaceStream& obstacle = files.emplace_back(*options.obstacle, reading);
     if (!obstacle.holds_one_frame())
       throw InputError(

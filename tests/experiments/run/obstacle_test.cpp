@@ -76,6 +76,8 @@ TEST(Obstacle, IsANecklaceAtRest) {
   EXPECT_EQ(named["settings"]["obstacle"], wall);
   // The structure itself may be an obstacle if the user declares it as one.
   EXPECT_EQ(run({kVillin, "--obstacle", kVillinPdb}).first["input"]["beads"], 216);
+  // The format is that of the inputs.
+  EXPECT_EQ(run({kVillin, "--format", "dcd", "--obstacle", kVillinPdb}).first["input"]["beads"], 216);
 }
 
 TEST(Obstacle, IsReplayed) {
