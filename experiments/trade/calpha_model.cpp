@@ -55,10 +55,12 @@ Trajectory calphas_of(const Trajectory& necklace, const std::vector<Residue>& re
   }
   for (std::size_t r = 0; r < residues.size(); ++r) {
     some.bead_names.push_back(necklace.bead_names[residues[r].calpha]);
-    const auto& breaks = necklace.breaks;
-    if (r + 1 < residues.size() &&
-        std::find(breaks.begin(), breaks.end(), residues[r].beads.last) != breaks.end())
-      some.breaks.push_back(r);
+    if (r + 1 == residues.size()) continue;
+    const auto holds = [&](const std::vector<std::size_t>& places) {
+      return std::find(places.begin(), places.end(), residues[r].beads.last) != places.end();
+    };
+    if (holds(necklace.breaks)) some.breaks.push_back(r);
+    if (holds(necklace.gaps)) some.gaps.push_back(r);
   }
   return some;
 }

@@ -21,9 +21,24 @@ struct ChainRead {
   std::size_t residues = 0, residues_read = 0;  ///< of the chain in the file; 0 if none
 };
 
+/// Consecutive beads of one chain that follow one another by bonds. A periodic cell makes pieces whole, one
+/// by one.
+struct PieceRead {
+  std::size_t first = 0;  ///< its first bead; it ends at the next piece or with its chain
+  bool polymer = true;    ///< false: a water, ion or lipid, which stays in the image that the file gives
+};
+
+/// The bonds along the beads. Guides are atoms of residues that the selection leaves out between two beads of
+/// a polymer. They are read to follow the bonds across these residues and are dropped afterwards.
+struct BondPaths {
+  std::vector<PieceRead> pieces;           ///< in order; empty: each chain is one piece
+  std::vector<std::size_t> guides_before;  ///< for each guide, in order: the bead that follows it
+};
+
 struct FrameRead {
   FrameStamp stamp;
-  Eigen::Matrix3Xd positions;  ///< one column per bead, in the file's length unit (angstrom)
+  /// One column per bead, in the file's length unit (angstrom). Readers add one column per guide.
+  Eigen::Matrix3Xd positions;
   std::optional<Cell> cell;
   /// Why the cell in the file is not used; empty if the cell is used or the file has none.
   std::string cell_doubt = {};
@@ -53,8 +68,9 @@ struct FramesOpened {
   std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty if the file has no residues
   BeadGroups bead_groups;               ///< empty if no groups are asked for or the file does not name atoms
   std::vector<std::string> warnings;    ///< one line each
-  bool chain_like = true;               ///< consecutive beads are meant to be bonded
-  bool truncated = false;               ///< frames are missing at the end, as FramesAsked tells it
+  BondPaths bonds;
+  bool chain_like = true;  ///< consecutive beads are meant to be bonded
+  bool truncated = false;  ///< frames are missing at the end, as FramesAsked tells it
   std::unique_ptr<FrameReader> frames;
 };
 

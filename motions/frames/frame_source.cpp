@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -13,8 +14,14 @@
 namespace kds {
 
 NecklaceBeads beads_of(const Trajectory& necklace) {
-  return {necklace.file,          necklace.bead_count(), necklace.bead_names,
-          necklace.element_radii, necklace.breaks,       necklace.bead_groups};
+  NecklaceBeads beads{.file = necklace.file,
+                      .count = necklace.bead_count(),
+                      .names = necklace.bead_names,
+                      .element_radii = necklace.element_radii,
+                      .groups = necklace.bead_groups};
+  std::set_union(necklace.breaks.begin(), necklace.breaks.end(), necklace.gaps.begin(), necklace.gaps.end(),
+                 std::back_inserter(beads.breaks));
+  return beads;
 }
 
 std::size_t count_beads(std::span<const NecklaceBeads> necklaces) {

@@ -293,7 +293,10 @@ WholeChain::Outcome WholeChain::make_whole(Frame frame, const std::optional<Cell
     last_centroid_.reset();
     return Outcome::unmoved;
   }
-  const Images images(*cell);
+  return make_whole(frame, Images(*cell));
+}
+
+WholeChain::Outcome WholeChain::make_whole(Frame frame, const Images& images) {
   Eigen::Matrix3Xd shifts = Eigen::Matrix3Xd::Zero(3, frame.cols());
   Eigen::Matrix3Xd whole = frame;
   bool joined = false;

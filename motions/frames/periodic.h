@@ -121,6 +121,8 @@ class WholeChain {
 
   /// Makes a frame whole. A frame without a cell is left unchanged.
   Outcome make_whole(Frame frame, const std::optional<Cell>& cell);
+  /// Makes a frame whole in the cell whose images are given.
+  Outcome make_whole(Frame frame, const Images& images);
   /// Shifts the first frame by `shift`, in cell vectors.
   void start_shifted(const Eigen::Vector3d& shift) { start_ = shift; }
   /// Starts again: the next frame is the first.

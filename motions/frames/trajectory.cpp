@@ -4,16 +4,24 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace kds {
 
 namespace {
 
-std::vector<double> bond_lengths(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) {
-  std::vector<double> lengths;
+struct Bond {
+  std::size_t first;  // it joins this bead and the next one
+  double length;
+};
+
+std::vector<Bond> bonds_of(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
+                           const std::vector<std::size_t>& gaps) {
+  std::vector<Bond> bonds;
   for (Eigen::Index i = 0; i + 1 < frame.cols(); ++i)
-    lengths.push_back((frame.col(i + 1) - frame.col(i)).stableNorm());
-  return lengths;
+    if (const auto bead = static_cast<std::size_t>(i); !std::binary_search(gaps.begin(), gaps.end(), bead))
+      bonds.push_back({bead, (frame.col(i + 1) - frame.col(i)).stableNorm()});
+  return bonds;
 }
 
 double median(std::vector<double> values) {
@@ -25,14 +33,17 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-std::vector<std::size_t> find_chain_breaks(const Eigen::Ref<const Eigen::Matrix3Xd>& frame) {
+std::vector<std::size_t> find_chain_breaks(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
+                                           const std::vector<std::size_t>& gaps) {
   std::vector<std::size_t> breaks;
-  if (frame.cols() < 3) return breaks;
-  const std::vector<double> lengths = bond_lengths(frame);
-  const double longest_bond = 1.5 * median(lengths);
+  const std::vector<Bond> bonds = bonds_of(frame, gaps);
+  if (bonds.size() < 2) return breaks;
+  std::vector<double> lengths;
+  for (const Bond& bond : bonds) lengths.push_back(bond.length);
+  const double longest_bond = 1.5 * median(std::move(lengths));
   if (longest_bond == 0) return breaks;  // most beads coincide, so there is no typical bond length
-  for (std::size_t i = 0; i < lengths.size(); ++i)
-    if (lengths[i] > longest_bond) breaks.push_back(i);
+  for (const Bond& bond : bonds)
+    if (bond.length > longest_bond) breaks.push_back(bond.first);
   return breaks;
 }
 

@@ -27,9 +27,10 @@ struct Trajectory {
   std::size_t residues = 0;       ///< of the chain in the file, without waters and ligands; 0 if unknown
   std::size_t residues_read = 0;  ///< those with beads
   std::vector<std::size_t>
-      breaks;                ///< b: beads b and b+1 are joined across a chain break, in the first frame
-  bool truncated = false;    ///< frames are missing at the end, as FrameSource::is_truncated tells it
-  LaterBreaks later_breaks;  ///< complete once all frames have been read
+      breaks;                     ///< b: beads b and b+1 are joined across a chain break, in the first frame
+  std::vector<std::size_t> gaps;  ///< b: beads b and b+1 are not bonded, as the names in the file say
+  bool truncated = false;         ///< frames are missing at the end, as FrameSource::is_truncated tells it
+  LaterBreaks later_breaks;       ///< complete once all frames have been read
   std::vector<std::string> warnings;  ///< one line each, without trailing newline
 
   [[nodiscard]] std::size_t bead_count() const {
@@ -42,9 +43,10 @@ struct Trajectory {
 };
 
 /// Finds chain breaks: places where residues are missing, so that two consecutive beads are far apart.
-/// Returns b for each bond b to b+1 of this frame that is longer than 1.5 times the median bond. Needs three
-/// beads.
-[[nodiscard]] std::vector<std::size_t> find_chain_breaks(const Eigen::Ref<const Eigen::Matrix3Xd>& frame);
+/// Returns b for each bond b to b+1 of this frame that is longer than 1.5 times the median bond. Needs two
+/// bonds. There is no bond at `gaps`, which are in ascending order.
+[[nodiscard]] std::vector<std::size_t> find_chain_breaks(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
+                                                         const std::vector<std::size_t>& gaps = {});
 
 /// Returns one line that names the first ten places.
 [[nodiscard]] std::string describe_chain_breaks(const std::string& file,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <unordered_map>
@@ -17,9 +18,11 @@ namespace kds {
 
 namespace {
 
-// The atoms that are beads, and what is known of them.
+// The atoms that are beads or guides, and what is known of them.
 struct ChosenAtoms {
-  std::vector<std::size_t> places;
+  std::vector<std::size_t> places;  // the beads, then the guides
+  std::size_t bead_count = 0;
+  BondPaths bonds;
   std::vector<double> element_radii;
   std::vector<std::string> names;
   BeadGroups groups;
@@ -64,7 +67,7 @@ void compare_elements(const std::string& file, const std::string& topology, cons
   const std::vector<double> radii = frames.element_radii(guesses);
   if (radii.empty() || !guesses.empty() || chosen.element_radii.empty()) return;
   std::size_t differ = 0, first = 0;
-  for (std::size_t bead = chosen.places.size(); bead-- > 0;) {
+  for (std::size_t bead = chosen.bead_count; bead-- > 0;) {
     if (radii[chosen.places[bead]] == chosen.element_radii[bead]) continue;
     ++differ;
     first = bead;
@@ -77,6 +80,20 @@ void compare_elements(const std::string& file, const std::string& topology, cons
       radii[chosen.places[first]], chosen.element_radii[first], counted(differ, "bead")));
 }
 
+// Begins a piece at each bead behind guides, for a file without these atoms.
+BondPaths without_guides(const BondPaths& bonds) {
+  BondPaths cut;
+  auto guide = bonds.guides_before.begin();
+  for (auto piece = bonds.pieces.begin(); piece != bonds.pieces.end(); ++piece) {
+    cut.pieces.push_back(*piece);
+    const auto next = std::next(piece);
+    for (; guide != bonds.guides_before.end() && (next == bonds.pieces.end() || *guide < next->first);
+         ++guide)
+      if (cut.pieces.back().first != *guide) cut.pieces.push_back({*guide, false});
+  }
+  return cut;
+}
+
 // Chooses among all atoms by the topology. A topology of the selected atoms alone suits a trajectory of
 // these. Ids decide which atoms these are, if the file has ids.
 ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, const AtomFrames& frames,
@@ -85,6 +102,7 @@ ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, co
   ChosenAtoms chosen;
   chosen.places.resize(atom_count);
   std::iota(chosen.places.begin(), chosen.places.end(), std::size_t{0});
+  chosen.bead_count = atom_count;
   if (!options.topology) {
     if (options.selection.needs_names()) throw needs_names("--select", file, "atoms");
     if (options.chain) throw needs_names("--chain", file, "chains");
@@ -100,18 +118,23 @@ ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, co
                                  counted(atom_count, "atom"), options.topology->string(), topology.atom_count,
                                  topology.selected.size()));
   const std::vector<std::size_t> ids = frames.ids();
+  const std::size_t bead_count = topology.selected.size();
+  std::vector<std::size_t> wanted = topology.selected;  // the beads and, if the file has them, the guides
+  if (has_all) wanted.insert(wanted.end(), topology.guides.begin(), topology.guides.end());
   std::size_t missing = 0;
   const bool by_id = !ids.empty() && (!has_all || number_all(ids));
-  if (const auto places = by_id ? places_by_id(ids, topology.selected, missing) : std::nullopt)
+  if (const auto places = by_id ? places_by_id(ids, wanted, missing) : std::nullopt)
     chosen.places = *places;
   else if (has_all)
-    chosen.places = topology.selected;
+    chosen.places = wanted;
   else if (!ids.empty())
     throw InputError(fmt::format(
         "{}: expected the {} selected from {}, found no atom with the id {} (bead {}, {}); --topology with a "
         "file of the {} alone names them in their order",
         file, counted(atom_count, "atom"), options.topology->string(), topology.selected[missing] + 1,
         missing, topology.bead_names[missing], counted(atom_count, "atom")));
+  chosen.bead_count = bead_count;
+  chosen.bonds = has_all ? std::move(topology.bonds) : without_guides(topology.bonds);
   if (has_all) warnings.insert(warnings.end(), topology.warnings.begin(), topology.warnings.end());
   chosen.element_radii = std::move(topology.element_radii);
   chosen.names = std::move(topology.bead_names);
@@ -161,9 +184,10 @@ FramesOpened open_atom_frames(const std::filesystem::path& path, const ReadOptio
   opened.element_radii = std::move(atoms.element_radii);
   if (opened.element_radii.empty()) {
     const std::vector<double> radii = frames->element_radii(opened.warnings);
-    for (std::size_t i = 0; i < atoms.places.size() && !radii.empty(); ++i)
+    for (std::size_t i = 0; i < atoms.bead_count && !radii.empty(); ++i)
       opened.element_radii.push_back(radii[atoms.places[i]]);
   }
+  opened.bonds = std::move(atoms.bonds);
   opened.bead_names = std::move(atoms.names);
   opened.bead_groups = std::move(atoms.groups);
   opened.chains = std::move(atoms.chains);

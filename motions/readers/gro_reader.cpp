@@ -127,11 +127,6 @@ bool has_one_of(const StructureResidue& residue, std::initializer_list<std::stri
                      [&](std::string_view atom) { return first_named(residue, atom) != nullptr; });
 }
 
-// Whether the residue is a cap at an end of a protein chain, but no amino acid.
-bool is_cap(const std::string& name) {
-  return name == "ACE" || name == "FOR" || name == "NME" || name == "NMA" || name == "NAC" || name == "NH2";
-}
-
 bool begins_chain(const StructureResidue& residue, MoleculeKind kind) {
   if (kind == MoleculeKind::protein) return has_one_of(residue, {"H2", "H3", "HN2", "HN3", "HT2", "2HT"});
   if (kind == MoleculeKind::nucleic) return has_one_of(residue, {"HO5'", "H5T"});

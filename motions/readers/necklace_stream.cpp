@@ -143,62 +143,124 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
   if (!opened_.frames->next(first))
     throw InputError(fmt::format("{}: the file holds no frame", opened_.file));
   check_finite(opened_.file, first);
+  const auto guides = static_cast<Eigen::Index>(opened_.bonds.guides_before.size());
   for (std::size_t n = 0; n < heads_.size(); ++n)
-    bead_counts_.push_back(heads_.size() == 1 ? first.positions.cols()
+    bead_counts_.push_back(heads_.size() == 1 ? first.positions.cols() - guides
                                               : static_cast<Eigen::Index>(opened_.chains[n].bead_count));
   for (std::size_t n = 0; n < heads_.size(); ++n)
     if (!options.groups.empty() && heads_[n].bead_groups.empty())
       heads_[n].bead_groups.assign(static_cast<std::size_t>(bead_counts_[n]),
                                    groups_without_names(opened_.file, options.groups));
+  find_pieces();
   judge_cell(first);
+  const std::optional<Images> images = first.cell ? std::optional<Images>(*first.cell) : std::nullopt;
   EarlierNecklaces earlier;
+  for (Piece& piece : pieces_) {
+    const auto beads = [&](const Eigen::Matrix3Xd& positions) -> Eigen::Matrix3Xd {
+      return positions.middleCols(piece.first, piece.bead_count);
+    };
+    if (piece.placed) {
+      Eigen::Matrix3Xd positions = first.positions;
+      const bool doubtful = make_whole(piece, positions, images) == WholeChain::Outcome::doubtful;
+      const auto beside = doubtful ? std::nullopt : earlier.nearer_image(beads(positions), first.cell);
+      piece.whole.restart();
+      if (beside) piece.whole.start_shifted(place_beside_earlier(piece, *beside));
+    }
+    static_cast<void>(make_whole(piece, first.positions, images));
+    piece.whole.restart();
+    if (piece.placed) earlier.add(beads(first.positions), first.cell);
+  }
+  drop_guides(first.positions);
   Eigen::Index begin = 0;
   for (std::size_t n = 0; n < heads_.size(); ++n) {
-    const Eigen::Index beads = bead_counts_[n];
-    Eigen::Matrix3Xd& frame = heads_[n].frames.emplace_back(first.positions.middleCols(begin, beads));
-    WholeChain chain;
-    const bool doubtful = chain.make_whole(frame, first.cell) == WholeChain::Outcome::doubtful;
-    const auto beside = doubtful ? std::nullopt : earlier.nearer_image(frame, first.cell);
-    if (beside) place_beside_earlier(n, *beside);
-    chain.restart();
-    frame = first.positions.middleCols(begin, beads);
-    chain.start_shifted(notes_[n].start);
-    chain.make_whole(frame, first.cell);
-    earlier.add(frame, first.cell);
-    whole_.push_back(chain);
-    whole_.back().restart();
-    if (opened_.chain_like) heads_[n].breaks = find_chain_breaks(frame);
+    const Eigen::Matrix3Xd& frame =
+        heads_[n].frames.emplace_back(first.positions.middleCols(begin, bead_counts_[n]));
+    if (opened_.chain_like) heads_[n].breaks = find_chain_breaks(frame, heads_[n].gaps);
     heads_[n].frame_numbers.push_back(first.stamp.number);
-    begin += beads;
+    begin += bead_counts_[n];
   }
   rewind();
 }
 
-void NecklaceStream::place_beside_earlier(std::size_t n, const ImageBeside& beside) {
-  const std::string distances = fmt::format("({:.4g} away, not {:.4g})", beside.distance, beside.present);
-  if (beside.is_much_nearer()) {
-    notes_[n].start = beside.shift;
-    notes_[n].placed = fmt::format("{}: moved to its periodic image nearest to the chains before it {}",
-                                   heads_[n].file, distances);
-  } else if (beside.distance < (1 - 1e-3) * beside.present) {  // otherwise the two are printed alike
-    notes_[n].placed =
-        fmt::format("{}: has a periodic image nearer to the chains before it {}, left where it is",
-                    heads_[n].file, distances);
+void NecklaceStream::find_pieces() {
+  const std::vector<PieceRead>& read = opened_.bonds.pieces;
+  const std::vector<std::size_t>& guides = opened_.bonds.guides_before;
+  std::size_t next_piece = 0, guide = 0;
+  Eigen::Index begin = 0, guide_column = 0;
+  for (const Eigen::Index beads : bead_counts_) guide_column += beads;
+  for (std::size_t n = 0; n < heads_.size(); ++n) {
+    const Eigen::Index end = begin + bead_counts_[n];
+    std::vector<std::size_t>& gaps = heads_[n].gaps;
+    for (Eigen::Index bead = begin; bead < end; ++bead) {
+      const auto number = static_cast<std::size_t>(bead);
+      const bool begins_piece = next_piece < read.size() && read[next_piece].first == number;
+      const bool behind_guides = guide < guides.size() && guides[guide] == number;
+      if (bead > begin && (begins_piece || behind_guides))
+        gaps.push_back(static_cast<std::size_t>(bead - begin) - 1);
+      if (bead == begin || begins_piece) {
+        pieces_.push_back({n, bead, 0, {}});
+        pieces_.back().placed = !begins_piece || read[next_piece].polymer;
+        ++notes_[n].pieces;
+      }
+      if (begins_piece) ++next_piece;
+      Piece& piece = pieces_.back();
+      for (; guide < guides.size() && guides[guide] == number; ++guide) piece.route.push_back(guide_column++);
+      piece.route.push_back(bead);
+      ++piece.bead_count;
+    }
+    begin = end;
   }
+  for (Piece& piece : pieces_) {
+    Notes& notes = notes_[piece.necklace];
+    piece.placed = piece.placed || notes.pieces == 1;
+    if (!piece.placed) ++notes.pieces_left;
+  }
+}
+
+Eigen::Vector3d NecklaceStream::place_beside_earlier(const Piece& piece, const ImageBeside& beside) {
+  const std::string distances = fmt::format("({:.4g} away, not {:.4g})", beside.distance, beside.present);
+  Notes& notes = notes_[piece.necklace];
+  std::string name = heads_[piece.necklace].file;
+  if (notes.pieces > 1)
+    name += fmt::format(": molecule of {}", counted(static_cast<std::size_t>(piece.bead_count), "bead"));
+  if (beside.is_much_nearer()) {
+    notes.placed.push_back(
+        fmt::format("{}: moved to its periodic image nearest to the chains before it {}", name, distances));
+    return beside.shift;
+  }
+  if (beside.distance < (1 - 1e-3) * beside.present)  // otherwise the two are printed alike
+    notes.placed.push_back(fmt::format(
+        "{}: has a periodic image nearer to the chains before it {}, left where it is", name, distances));
+  return Eigen::Vector3d::Zero();
+}
+
+WholeChain::Outcome NecklaceStream::make_whole(Piece& piece, Eigen::Matrix3Xd& positions,
+                                               const std::optional<Images>& images) {
+  if (!images) {
+    piece.whole.restart();
+    return WholeChain::Outcome::unmoved;
+  }
+  Eigen::Matrix3Xd along = positions(Eigen::all, piece.route);
+  const WholeChain::Outcome outcome = piece.whole.make_whole(along, *images);
+  positions(Eigen::all, piece.route) = along;
+  return outcome;
+}
+
+void NecklaceStream::drop_guides(Eigen::Matrix3Xd& positions) const {
+  const auto guides = static_cast<Eigen::Index>(opened_.bonds.guides_before.size());
+  if (guides > 0) positions.conservativeResize(Eigen::NoChange, positions.cols() - guides);
 }
 
 void NecklaceStream::judge_cell(FrameRead& frame) {
   if (!frame.cell || bonds_joined_) return;
   std::optional<LongerThanCell> longer;
+  // Waters and lipids are always shorter than the cell.
   const auto any_chain = [&](const auto& holds) {
-    Eigen::Index begin = 0;
-    for (const Eigen::Index beads : bead_counts_) {
-      if (holds(frame.positions.middleCols(begin, beads))) return true;
-      begin += beads;
-    }
-    return false;
+    return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& piece) {
+      return piece.placed && holds(Eigen::Matrix3Xd(frame.positions(Eigen::all, piece.route)));
+    });
   };
-  const auto is_longer = [&](const auto& chain) {
+  const auto is_longer = [&](const Eigen::Matrix3Xd& chain) {
     longer = longer_than_cell(chain, *frame.cell);
     return longer.has_value();
   };
@@ -208,8 +270,7 @@ void NecklaceStream::judge_cell(FrameRead& frame) {
   if (cell_unsuited_.empty() && any_chain(is_longer) && !any_chain(is_joined))
     cell_unsuited_ = fmt::format(
         "a chain is {:.4g} long where the cell is {:.4g}, and no bond crosses the walls; is the cell in "
-        "another "
-        "unit?",
+        "another unit?",
         longer->chain, longer->cell);
   if (cell_unsuited_.empty()) return;
   frame.cell.reset();
@@ -219,11 +280,12 @@ void NecklaceStream::judge_cell(FrameRead& frame) {
 void NecklaceStream::check_bead_count(const FrameRead& frame) const {
   Eigen::Index expected = 0;
   for (const Eigen::Index beads : bead_counts_) expected += beads;
-  if (frame.positions.cols() == expected) return;
+  const auto guides = static_cast<Eigen::Index>(opened_.bonds.guides_before.size());
+  if (frame.positions.cols() == expected + guides) return;
   throw InputError(fmt::format("{}: frame {}: {}, expected {} as in frame {}", opened_.file,
                                frame.stamp.number,
-                               counted(static_cast<std::size_t>(frame.positions.cols()), "bead"), expected,
-                               heads_.front().frame_number(0)));
+                               counted(static_cast<std::size_t>(frame.positions.cols() - guides), "bead"),
+                               expected, heads_.front().frame_number(0)));
 }
 
 void NecklaceStream::note_cell(const FrameRead& frame) {
@@ -249,7 +311,7 @@ void NecklaceStream::note_time(const FrameStamp& stamp) {
 
 void NecklaceStream::note_breaks(std::size_t n, const Eigen::Ref<const Eigen::Matrix3Xd>& chain,
                                  std::size_t frame) {
-  const std::vector<std::size_t> breaks = find_chain_breaks(chain);
+  const std::vector<std::size_t> breaks = find_chain_breaks(chain, heads_[n].gaps);
   const std::vector<std::size_t>& known = heads_[n].breaks;
   if (std::includes(known.begin(), known.end(), breaks.begin(), breaks.end())) return;
   LaterBreaks& later = heads_[n].later_breaks;
@@ -261,30 +323,47 @@ void NecklaceStream::note_breaks(std::size_t n, const Eigen::Ref<const Eigen::Ma
 }
 
 void NecklaceStream::follow(FrameRead& frame) {
-  Eigen::Index begin = 0;
-  Eigen::Vector3d first_centroid = Eigen::Vector3d::Zero();
-  for (std::size_t n = 0; n < heads_.size(); ++n) {
-    const Eigen::Index beads = bead_counts_[n];
-    auto chain = frame.positions.middleCols(begin, beads);
-    begin += beads;
-    const WholeChain::Outcome outcome = whole_[n].make_whole(chain, frame.cell);
-    if (outcome == WholeChain::Outcome::joined) bonds_joined_ = true;
-    if (!frame.asked) continue;
-    Notes& notes = notes_[n];
-    if (outcome == WholeChain::Outcome::joined) ++notes.frames_joined;
-    if (outcome == WholeChain::Outcome::shifted && notes.frames_shifted++ == 0)
-      notes.first_shifted = frame.stamp.number;
-    if (outcome == WholeChain::Outcome::doubtful && notes.frames_doubtful++ == 0)
-      notes.first_doubtful = frame.stamp.number;
-    if (opened_.chain_like && !surveyed_) note_breaks(n, chain, frame.stamp.number);
-    if (frame.cell && heads_.size() > 1) {
-      const Eigen::Vector3d centroid = chain.rowwise().mean();
-      if (n == 0) first_centroid = centroid;
-      const Eigen::Vector3d apart = Images(*frame.cell).nearest(centroid - first_centroid);
-      if (!notes.apart_at_first) notes.apart_at_first = apart;
-      if (apart != *notes.apart_at_first && notes.frames_apart++ == 0) notes.first_apart = frame.stamp.number;
-    }
+  struct Moved {
+    bool joined = false, shifted = false, doubtful = false;
+  };
+  const std::optional<Images> images = frame.cell ? std::optional<Images>(*frame.cell) : std::nullopt;
+  std::vector<Moved> moved(heads_.size());
+  for (Piece& piece : pieces_) {
+    const WholeChain::Outcome outcome = make_whole(piece, frame.positions, images);
+    if (outcome == WholeChain::Outcome::joined) moved[piece.necklace].joined = bonds_joined_ = true;
+    if (outcome == WholeChain::Outcome::shifted) moved[piece.necklace].shifted = true;
+    if (outcome == WholeChain::Outcome::doubtful) moved[piece.necklace].doubtful = true;
   }
+  drop_guides(frame.positions);
+  if (!frame.asked) return;
+  Eigen::Index begin = 0;
+  for (std::size_t n = 0; n < heads_.size(); ++n) {
+    Notes& notes = notes_[n];
+    if (moved[n].joined) ++notes.frames_joined;
+    if (moved[n].shifted && notes.frames_shifted++ == 0) notes.first_shifted = frame.stamp.number;
+    if (moved[n].doubtful && notes.frames_doubtful++ == 0) notes.first_doubtful = frame.stamp.number;
+    if (opened_.chain_like && !surveyed_)
+      note_breaks(n, frame.positions.middleCols(begin, bead_counts_[n]), frame.stamp.number);
+    begin += bead_counts_[n];
+  }
+  if (frame.cell) note_apart(frame);
+}
+
+void NecklaceStream::note_apart(const FrameRead& frame) {
+  const Images images(*frame.cell);
+  std::optional<Eigen::Vector3d> first_centroid;
+  std::vector<bool> is_apart(heads_.size(), false);
+  for (Piece& piece : pieces_) {
+    if (!piece.placed) continue;
+    const Eigen::Vector3d centroid =
+        frame.positions.middleCols(piece.first, piece.bead_count).rowwise().mean();
+    if (!first_centroid) first_centroid = centroid;
+    const Eigen::Vector3d apart = images.nearest(centroid - *first_centroid);
+    if (!piece.apart_at_first) piece.apart_at_first = apart;
+    if (apart != *piece.apart_at_first) is_apart[piece.necklace] = true;
+  }
+  for (std::size_t n = 0; n < heads_.size(); ++n)
+    if (is_apart[n] && notes_[n].frames_apart++ == 0) notes_[n].first_apart = frame.stamp.number;
 }
 
 bool NecklaceStream::next(FrameRead& frame) {
@@ -310,7 +389,7 @@ bool NecklaceStream::read(FrameRead& frame) {
       return false;
     }
     if (!frame.asked && !frame.cell) {
-      for (WholeChain& chain : whole_) chain.restart();
+      for (Piece& piece : pieces_) piece.whole.restart();
       continue;
     }
     check_finite(opened_.file, frame);
@@ -341,11 +420,12 @@ bool NecklaceStream::holds_one_frame() {
 
 void NecklaceStream::rewind() {
   opened_.frames->rewind();
-  for (WholeChain& chain : whole_) chain.restart();
-  for (Notes& notes : notes_) {
-    notes.frames_joined = notes.frames_shifted = notes.frames_doubtful = notes.frames_apart = 0;
-    notes.apart_at_first.reset();
+  for (Piece& piece : pieces_) {
+    piece.whole.restart();
+    piece.apart_at_first.reset();
   }
+  for (Notes& notes : notes_)
+    notes.frames_joined = notes.frames_shifted = notes.frames_doubtful = notes.frames_apart = 0;
   if (!surveyed_)
     for (Trajectory& head : heads_) head.later_breaks = {};
   bonds_joined_ = false;
@@ -382,25 +462,34 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
   }
   const Trajectory& head = heads_[necklace];
   const Notes& notes = notes_[necklace];
-  if (!notes.placed.empty()) lines.push_back(notes.placed);
+  const bool in_pieces = notes.pieces > 1;
+  lines.insert(lines.end(), notes.placed.begin(), notes.placed.end());
+  if (notes.pieces_left > 0 && frames_with_cell_ > 0)
+    lines.push_back(
+        fmt::format("{}: no bonds are known between {} molecules of it (waters, ions, lipids, residues of no "
+                    "known polymer); each is made whole and starts in the periodic image that the file gives",
+                    head.file, notes.pieces_left));
   if (notes.frames_joined > 0)
     lines.push_back(fmt::format("{}: made whole across the periodic cell in {}", head.file,
                                 counted(notes.frames_joined, "frame")));
   if (notes.frames_shifted > 0)
     lines.push_back(fmt::format(
-        "{}: frame {}: moved as a whole to its periodic image nearest to the frame before, no bond "
-        "crosses the walls ({})",
-        head.file, notes.first_shifted, counted(notes.frames_shifted, "frame")));
+        "{}: frame {}: {} to {} nearest to the frame before, no bond crosses the walls ({})", head.file,
+        notes.first_shifted, in_pieces ? "molecules moved" : "moved as a whole",
+        in_pieces ? "their periodic images" : "its periodic image", counted(notes.frames_shifted, "frame")));
   if (notes.frames_doubtful > 0)
     lines.push_back(fmt::format(
-        "{}: frame {}: not made whole, because across the periodic cell bonds would be shorter but "
+        "{}: frame {}: {}not made whole, because across the periodic cell bonds would be shorter but "
         "not more alike; is the cell right? ({})",
-        head.file, notes.first_doubtful, counted(notes.frames_doubtful, "frame")));
+        head.file, notes.first_doubtful, in_pieces ? "a molecule is " : "",
+        counted(notes.frames_doubtful, "frame")));
+  const auto placed = std::find_if(pieces_.begin(), pieces_.end(), [](const Piece& p) { return p.placed; });
+  const std::string reference = placed == pieces_.end() ? "" : heads_[placed->necklace].file;
   if (notes.frames_apart > 0)
     lines.push_back(
         fmt::format("{}: frame {}: has drifted into another periodic image, nearer to {} by its centroid; "
                     "contacts across the walls of the cell are not found ({})",
-                    head.file, notes.first_apart, heads_.front().file, counted(notes.frames_apart, "frame")));
+                    head.file, notes.first_apart, reference, counted(notes.frames_apart, "frame")));
   if (!head.breaks.empty()) lines.push_back(describe_chain_breaks(head.file, head.breaks));
   if (head.later_breaks.frames > 0)
     lines.push_back(fmt::format(

@@ -3,6 +3,9 @@
 // across a periodic cell, and chain breaks are found. Two frames are in memory, whatever the length of the
 // file.
 //
+// A chain consists of pieces of beads that follow one another by bonds (BondPaths). Each piece is made whole
+// on its own. Pieces that are not of a polymer, such as waters, begin in the image that the file gives.
+//
 // Chains of one file are placed beside each other in the first frame: a chain moves to its periodic image
 // nearest to the chains before it if that is much nearer than the chain itself. From then on each chain moves
 // continuously: its image follows through all frames from the first one asked for, so that a stride finds the
@@ -18,6 +21,7 @@
 #include <vector>
 
 #include "motions/frames/frame_reader.h"
+#include "motions/frames/periodic.h"
 #include "motions/frames/trajectory.h"
 #include "motions/readers/read_options.h"
 
@@ -48,25 +52,42 @@ class NecklaceStream {
  private:
   /// Findings about one necklace, for its warnings.
   struct Notes {
-    Eigen::Vector3d start = Eigen::Vector3d::Zero();      ///< shift of the first frame, in cell vectors
-    std::string placed;                                   ///< a line about that shift
+    std::vector<std::string> placed;                      ///< lines about shifts of the first frame
     std::size_t frames_joined = 0;                        ///< bonds were joined across the walls
-    std::size_t frames_shifted = 0, first_shifted = 0;    ///< the chain moved as a whole
+    std::size_t frames_shifted = 0, first_shifted = 0;    ///< a piece moved as a whole
     std::vector<std::size_t> later_breaks;                ///< in the first frame with breaks of its own
     std::size_t frames_doubtful = 0, first_doubtful = 0;  ///< where the cell does not suit the bonds
-    /// Shift that takes the centroid to its image nearest to the first necklace's centroid, in the first
-    /// frame.
-    std::optional<Eigen::Vector3d> apart_at_first;
-    std::size_t frames_apart = 0, first_apart = 0;  ///< frames in which that shift differs
+    std::size_t frames_apart = 0, first_apart = 0;        ///< a piece is in another image than at first
+    std::size_t pieces = 0;
+    std::size_t pieces_left = 0;  ///< those in the image that the file gives
+  };
+  /// Beads that follow one another by bonds.
+  struct Piece {
+    std::size_t necklace = 0;
+    Eigen::Index first = 0, bead_count = 0;
+    std::vector<Eigen::Index>
+        route;           ///< columns of its beads and of the guides between them, along the bonds
+    bool placed = true;  ///< beside the pieces before it, not where the file has it
+    WholeChain whole = {};
+    /// Shift that takes the centroid to its image nearest to the centroid of the first placed piece, in the
+    /// first frame.
+    std::optional<Eigen::Vector3d> apart_at_first = {};
   };
   /// Reads the next frame; `next` adds what --until-damage asks for.
   [[nodiscard]] bool read(FrameRead& frame);
-  void place_beside_earlier(std::size_t n, const ImageBeside& beside);
+  /// Divides the necklaces into pieces. Notes the gaps between bonded beads.
+  void find_pieces();
+  /// Returns the shift of the first frame, in cell vectors, for a piece that has this image.
+  Eigen::Vector3d place_beside_earlier(const Piece& piece, const ImageBeside& beside);
+  [[nodiscard]] WholeChain::Outcome make_whole(Piece& piece, Eigen::Matrix3Xd& positions,
+                                               const std::optional<Images>& images);
+  void drop_guides(Eigen::Matrix3Xd& positions) const;
   /// Removes a cell that is not that of the coordinates.
   void judge_cell(FrameRead& frame);
   void check_bead_count(const FrameRead& frame) const;
-  /// Makes the chains whole. Notes what happens only in frames asked for.
+  /// Makes the pieces whole and drops the guides. Notes what happens only in frames asked for.
   void follow(FrameRead& frame);
+  void note_apart(const FrameRead& frame);
   void note_cell(const FrameRead& frame);
   /// Notes a time that is not later than that of the frame before.
   void note_time(const FrameStamp& stamp);
@@ -76,8 +97,8 @@ class NecklaceStream {
   std::optional<double> time_step_;
   bool until_damage_;
   std::vector<Trajectory> heads_;
-  std::vector<WholeChain> whole_;          ///< of each necklace
-  std::vector<Notes> notes_;               ///< likewise
+  std::vector<Piece> pieces_;              ///< of all necklaces, in order
+  std::vector<Notes> notes_;               ///< of each necklace
   std::vector<Eigen::Index> bead_counts_;  ///< likewise
   bool bonds_joined_ = false;              ///< some frame had a bond across the walls of its cell
   std::string cell_unsuited_;              ///< why cells are no longer used

@@ -51,12 +51,13 @@ void warn(const std::string& file, const std::vector<std::string>& notes,
   for (const std::string& note : notes) warnings.push_back(fmt::format("{}: {}", file, note));
 }
 
-Eigen::Matrix3Xd positions(const std::vector<SelectedAtom>& atoms) {
-  Eigen::Matrix3Xd frame(3, static_cast<Eigen::Index>(atoms.size()));
-  Eigen::Index bead = 0;
-  for (const SelectedAtom& selected : atoms) {
-    frame.col(bead++) = selected.atom->position;
-  }
+// Returns the positions of the beads, then those of `guide_count` guides.
+Eigen::Matrix3Xd positions(const SelectedChains& selected, std::size_t guide_count) {
+  const std::size_t beads = selected.atoms.size();
+  Eigen::Matrix3Xd frame = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(beads + guide_count));
+  for (std::size_t i = 0; i < beads + std::min(guide_count, selected.guides.size()); ++i)
+    frame.col(static_cast<Eigen::Index>(i)) =
+        (i < beads ? selected.atoms[i] : selected.guides[i - beads]).atom->position;
   return frame;
 }
 
@@ -107,6 +108,8 @@ class StructureFrames final : public FrameReader {
     const StructureModel model = models_->model(asked_[0]);
     SelectedChains selected = select_chains(place(asked_[0]), model, selection_, chain_, groups_);
     names_ = names_of(selected.atoms);
+    guide_names_ = names_of(selected.guides);
+    opened.bonds = std::move(selected.bonds);
     opened.element_radii = element_radii_of(selected.atoms);
     opened.bead_names = names_;
     opened.bead_groups = groups_of(selected.atoms, groups_);
@@ -125,9 +128,14 @@ class StructureFrames final : public FrameReader {
     const SelectedChains selected = select_chains(place(k), read, selection_, chain_);
     check_same_atoms(file_, asked_[0], names_, k, selected.atoms);
     frame.stamp = {k, read.picoseconds};
-    frame.positions = positions(selected.atoms);
+    frame.positions = positions(selected, guide_names_.size());
     frame.cell = ignores_cell_ ? std::nullopt : read.cell.cell;
     frame.cell_doubt = ignores_cell_ ? std::string() : read.cell.doubt;
+    if (frame.cell && names_of(selected.guides) != guide_names_)
+      throw InputError(
+          fmt::format("{}: frame {}: the residues that --select leaves out are not those of frame {}, so the "
+                      "chain cannot be made whole across the periodic cell; --select ca reads all residues",
+                      file_, k, asked_[0]));
     return true;
   }
 
@@ -145,7 +153,7 @@ class StructureFrames final : public FrameReader {
   bool alone_;
   bool ignores_cell_;
   FrameWalk walk_;
-  std::vector<std::string> names_;  // of the beads in the first frame
+  std::vector<std::string> names_, guide_names_;  // of beads and guides in the first frame
 };
 
 FramesOpened open_models(const std::filesystem::path& path, const ReadOptions& options, OpenModels open) {
@@ -170,6 +178,8 @@ Topology topology_of(const std::filesystem::path& path, const ReadOptions& optio
   SelectedChains selected =
       select_chains(path.string(), model, options.selection, options.chain, options.groups);
   for (const SelectedAtom& atom : selected.atoms) topology.selected.push_back(atom.atom->place);
+  for (const SelectedAtom& guide : selected.guides) topology.guides.push_back(guide.atom->place);
+  topology.bonds = std::move(selected.bonds);
   topology.element_radii = element_radii_of(selected.atoms);
   topology.bead_names = names_of(selected.atoms);
   topology.bead_groups = groups_of(selected.atoms, options.groups);

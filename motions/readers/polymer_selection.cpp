@@ -314,9 +314,59 @@ bool holds_copies(const StructureResidue& residue, const std::vector<const Struc
   });
 }
 
+// Returns the atom that stands for a residue in the bonds along its polymer.
+const StructureAtom& guide_of(const StructureResidue& residue) {
+  for (const std::string_view name : {"CA", "BB", "P"})
+    if (const StructureAtom* const atom = first_named(residue, name)) return *atom;
+  return residue.atoms.front();
+}
+
+// Follows the residues of a part in order, from each that is read to the next one by bonds.
+class BondWalk {
+ public:
+  explicit BondWalk(bool lists_bonds) : lists_bonds_(lists_bonds) {}
+
+  // Notes a residue that is left out.
+  void leave_out(const StructureResidue& residue) {
+    if (last_ == nullptr || !is_bonded_to_last(residue)) return;
+    const StructureResidue& before = left_out_.empty() ? *last_ : *left_out_.back();
+    if (!is_alternate_of(residue, before)) left_out_.push_back(&residue);
+  }
+  // Goes on to a residue that is read. Returns whether bonds lead to it from the residue read before. They
+  // lead through the residues left_out().
+  bool go_to(const StructureResidue& residue) {
+    left_out_behind_.clear();
+    const bool bonded = last_ != nullptr && is_bonded_to_last(residue);
+    if (bonded) left_out_behind_.swap(left_out_);
+    left_out_.clear();
+    if (!bonded) is_polymer_ = is_in_polymer(residue);
+    last_ = &residue;
+    return bonded;
+  }
+  const Residues& left_out() const { return left_out_behind_; }
+  // Whether the residue that is read last belongs to a polymer.
+  bool is_polymer() const { return is_polymer_; }
+
+ private:
+  static bool is_in_polymer(const StructureResidue& residue) {
+    return kind_of(residue) != ResidueKind::none || is_cap(residue.name);
+  }
+  bool is_bonded_to_last(const StructureResidue& residue) const {
+    if (residue.chain != last_->chain || residue.molecule != last_->molecule) return false;
+    return lists_bonds_ || (is_polymer_ && is_in_polymer(residue));
+  }
+
+  bool lists_bonds_;
+  bool is_polymer_ = false;
+  const StructureResidue* last_ = nullptr;
+  Residues left_out_, left_out_behind_;
+};
+
 struct PartRead {
   std::vector<SelectedAtom> atoms;
   ChainRead chain;
+  BondPaths bonds;                    // numbers of beads count from the part's first one
+  std::vector<SelectedAtom> guides;   // the guides of `bonds`
   std::vector<std::string> lacking;   // residues that lack an atom of the selection
   std::vector<std::string> repeated;  // residues read whose number repeats an earlier one
   std::vector<std::string> copies;    // residues read that contain a selected atom twice
@@ -331,6 +381,11 @@ PartRead read_part(const Parts& parts, const PolymerPart& part, const AtomChoice
   read.selection = selection;
   const Residues candidates = parts.candidates(part, selection);
   read.chain.residues = candidates.size();
+  BondWalk walk(parts.model().lists_bonds);
+  const auto selected = [&](const StructureAtom& atom, const StructureResidue& residue) {
+    return SelectedAtom{&atom, is_martini(residue) ? "" : element_of(atom).name(),
+                        text_of({atom.name, residue.name, residue.number, shown(part.label)})};
+  };
   const StructureResidue* last = nullptr;  // read
   for (const StructureResidue* residue : candidates) {
     if (last != nullptr && selection == Selection::atoms && is_alternate_of(*residue, *last)) continue;
@@ -338,17 +393,22 @@ PartRead read_part(const Parts& parts, const PolymerPart& part, const AtomChoice
     if (!atoms.empty()) last = residue;
     if (atoms.empty()) {
       if (choice.is_by_name()) read.lacking.push_back(name_of(*residue));
+      if (selection == Selection::atoms) walk.leave_out(*residue);
       continue;
     }
     ++read.chain.residues_read;
-    const bool is_coarse = is_martini(*residue);
+    if (!walk.go_to(*residue)) read.bonds.pieces.push_back({read.atoms.size(), walk.is_polymer()});
+    for (const StructureResidue* between : walk.left_out()) {
+      read.guides.push_back(selected(guide_of(*between), *between));
+      read.bonds.guides_before.push_back(read.atoms.size());
+    }
     if (residue->repeated && !part.polymer.empty()) read.repeated.push_back(name_of(*residue));
     if (choice.is_by_name() && holds_copies(*residue, atoms)) read.copies.push_back(name_of(*residue));
     const bool in_polymer = !part.polymer.empty() && kind_of(*residue) != ResidueKind::none;
-    for (const StructureAtom* atom : atoms)
-      read.atoms.push_back({atom, is_coarse ? "" : element_of(*atom).name(),
-                            text_of({atom->name, residue->name, residue->number, shown(part.label)}),
-                            groups_of(groups, *residue, in_polymer, *atom)});
+    for (const StructureAtom* atom : atoms) {
+      read.atoms.push_back(selected(*atom, *residue));
+      read.atoms.back().groups = groups_of(groups, *residue, in_polymer, *atom);
+    }
   }
   read.chain.bead_count = read.atoms.size();
   if (read.atoms.empty() && selection == Selection::automatic) {
@@ -503,6 +563,24 @@ std::string first_few(const StructureModel& model, std::size_t most, const Text&
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+// Returns a selection that may have been meant, as the end of a message.
+std::string advice_on_selection(const StructureModel& model, const std::string& text) {
+  const auto any_residue = [&](const auto& holds) {
+    return std::any_of(model.residues.begin(), model.residues.end(), holds);
+  };
+  // A selection without leading slash begins with chains.
+  const std::size_t slash = text.find('/');
+  const std::string names = text.substr(0, slash);
+  if (!names.empty() && names.find('(') == std::string::npos &&
+      any_residue([&](const StructureResidue& residue) { return residue.name == names; }))
+    return fmt::format("; {} is the name of a residue: ({}){}", names, names,
+                       slash == std::string::npos ? "" : text.substr(slash));
+  const bool named = any_residue([](const StructureResidue& residue) { return !residue.chain.empty(); });
+  if (!named && text.starts_with("//") && !text.starts_with("//*"))
+    return "; no chain has a name here: //*/ allows any, and --chain 1 takes the first molecule";
+  return "";
+}
+
 InputError nothing_selected(const std::string& file, const StructureModel& model, const Selection& selection,
                             const std::optional<std::string>& list) {
   constexpr std::size_t most = 6;
@@ -511,12 +589,12 @@ InputError nothing_selected(const std::string& file, const StructureModel& model
   for (const StructureAtom& atom : middle.atoms) atoms.push_back(atom.name);
   return InputError(fmt::format(
       "--select: {} selects no atom of {}{}, which has the chains {}; residues {} to {} ({}); {} has the "
-      "atoms {}",
+      "atoms {}{}",
       in_quotes(selection.text()), file, list ? fmt::format(" in --chain {}", *list) : "",
       first_few(model, most, [](const StructureResidue& residue) { return shown(residue.chain); }),
       name_of(model.residues.front()), name_of(model.residues.back()),
       first_few(model, most, [](const StructureResidue& residue) { return residue.name; }), name_of(middle),
-      joined(atoms, most)));
+      joined(atoms, most), advice_on_selection(model, selection.text())));
 }
 
 // Explains why a chain that was asked for has no beads.
@@ -558,6 +636,12 @@ SelectedChains select_chains(const std::string& file, const StructureModel& mode
   for (const Selection& group : groups) group_choices.emplace_back(file, group, "--groups");
   SelectedChains selected;
   const auto take = [&](PartRead&& read) {
+    const std::size_t first = selected.atoms.size();
+    for (const PieceRead& piece : read.bonds.pieces)
+      selected.bonds.pieces.push_back({first + piece.first, piece.polymer});
+    for (const std::size_t bead : read.bonds.guides_before)
+      selected.bonds.guides_before.push_back(first + bead);
+    std::move(read.guides.begin(), read.guides.end(), std::back_inserter(selected.guides));
     selected.chains.push_back(std::move(read.chain));
     std::move(read.atoms.begin(), read.atoms.end(), std::back_inserter(selected.atoms));
   };

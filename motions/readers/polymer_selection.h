@@ -29,6 +29,8 @@ struct SelectedAtom {
 struct SelectedChains {
   std::vector<SelectedAtom> atoms;
   std::vector<ChainRead> chains;
+  BondPaths bonds;                   ///< along the atoms
+  std::vector<SelectedAtom> guides;  ///< the guides of `bonds`
   std::vector<std::string> notes;  ///< about residues and chains that are left out or guessed, one line each
   bool chain_like = true;          ///< consecutive beads are meant to be bonded
 };
@@ -46,6 +48,11 @@ struct SelectedChains {
 ///
 /// A group has the beads whose atoms meet its selection. The selections `backbone`, `ca`, `bb` and `p` hold
 /// for atoms of polymers only. Groups neither add beads nor leave beads out, and a group may have no bead.
+///
+/// An atom follows the atom before it by bonds if both are in one residue or in consecutive residues of one
+/// molecule of a polymer. The polymer's residues that an atom selection leaves out between two atoms give a
+/// guide each: CA, BB, P, or the first atom. Any other atom begins a piece. A residue outside polymers is a
+/// piece of its own, unless the file lists bonds.
 ///
 /// Throws InputError naming file and option if a name is not in the model or is listed twice, or if nothing
 /// is selected.

@@ -187,7 +187,8 @@ StructureModel read_prmtop(const std::filesystem::path& path) {
 
   StructureModel model;
   std::vector<bool> bonded(residues, true);
-  if (prmtop.has("BONDS_WITHOUT_HYDROGEN"))
+  model.lists_bonds = prmtop.has("BONDS_WITHOUT_HYDROGEN");
+  if (model.lists_bonds)
     bonded = bonded_to_previous(prmtop, residue_of, residues, bonds);
   else
     model.notes.emplace_back("no section BONDS_WITHOUT_HYDROGEN: molecules are not told apart");

@@ -55,6 +55,10 @@ bool is_water(const std::string& name) {
   return is_among(waters, name) || gemmi::find_tabulated_residue(name).is_water();
 }
 
+bool is_cap(const std::string& name) {
+  return name == "ACE" || name == "FOR" || name == "NME" || name == "NMA" || name == "NAC" || name == "NH2";
+}
+
 bool is_martini(const StructureResidue& residue) { return first_named(residue, "BB") != nullptr; }
 
 gemmi::Element element_of(const StructureAtom& atom) {

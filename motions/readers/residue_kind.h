@@ -29,6 +29,9 @@ enum class ResidueKind {
 /// Returns whether the residue is one of Martini's amino acids, whose beads have no element.
 [[nodiscard]] bool is_martini(const StructureResidue& residue);
 
+/// Returns whether the residue is a cap at an end of a protein chain, but no amino acid.
+[[nodiscard]] bool is_cap(const std::string& name);
+
 /// Returns the element that the file gives for the atom. If the file gives none, a name in the wrong column
 /// would turn CA into calcium and HG into mercury. An atom of a chain whose element would be unusual there
 /// therefore gets the element of its name's first letter.

@@ -1,6 +1,6 @@
 #pragma once
-// The models of a file whose format names residues, in sequence: PDB, mmCIF, GRO, PSF and prmtop (the last two
-// have one model without positions). A reader returns every atom of a model; polymer_selection.h decides
+// The models of a file whose format names residues, in sequence: PDB, mmCIF, GRO, PSF and prmtop (the last
+// two have one model without positions). A reader returns every atom of a model; polymer_selection.h decides
 // which of them are beads.
 
 #include <Eigen/Core>
@@ -44,6 +44,7 @@ struct StructureResidue {
 struct StructureModel {
   std::vector<StructureResidue> residues;  ///< in the order of the file
   std::size_t atom_count = 0;
+  bool lists_bonds = false;  ///< molecules follow from the bonds in the file
   CellRead cell;
   std::optional<double> picoseconds = {};  ///< either all models of a file have a time, or none has one
   std::vector<std::string> notes;  ///< about how this model was read, one line each, without the file's name

@@ -15,6 +15,8 @@ namespace kds {
 struct Topology {
   std::size_t atom_count = 0;         ///< with all alternate locations, waters and ligands
   std::vector<std::size_t> selected;  ///< places of the beads, in the order of the chains
+  std::vector<std::size_t> guides;    ///< places of the guides of `bonds`
+  BondPaths bonds;                    ///< along the beads
   std::vector<ChainRead> chains;      ///< the chains of the beads
   std::vector<std::string> warnings;  ///< about parts left out or guessed, one line each
   std::vector<double> element_radii;  ///< one per bead; empty if elements are unknown

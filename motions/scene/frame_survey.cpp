@@ -1,5 +1,7 @@
 #include "motions/scene/frame_survey.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -49,7 +51,8 @@ void LongestBond::add(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
                       const std::vector<std::size_t>& breaks) {
   constexpr double rounding = 0x1p-48;  // well above the relative error of a length
   for (Eigen::Index i = 0; i + 1 < frame.cols(); ++i) {
-    if (std::find(breaks.begin(), breaks.end(), static_cast<std::size_t>(i)) != breaks.end()) continue;
+    if (std::binary_search(breaks.begin(), breaks.end(), static_cast<std::size_t>(i))) continue;
+    any_ = true;
     const Ends ends{frame.col(i), frame.col(i + 1)};
     const double length = (ends[1] - ends[0]).stableNorm();
     longest_ = std::isfinite(length) ? std::max(longest_, length) : std::numeric_limits<double>::infinity();
@@ -64,8 +67,8 @@ void LongestBond::add(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
 
 double LongestBond::radius() const {
   if (!(longest_ > 0))
-    throw InputError(
-        "--radius: auto is half the longest bond, and here no bond is longer than 0; give --radius NUMBER");
+    throw InputError(fmt::format("--radius: auto is half the longest bond, and here {}; give --radius NUMBER",
+                                 any_ ? "no bond is longer than 0" : "no two consecutive beads are bonded"));
   if (!std::isfinite(longest_))
     throw InputError(
         "--radius: auto is half the longest bond, and here that is beyond all numbers; "

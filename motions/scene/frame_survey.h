@@ -38,13 +38,14 @@ class PlaneSearch {
 /// Finds the longest bond of all frames, which are added one after the other.
 class LongestBond {
  public:
-  /// Adds a frame of one necklace. A chain break does not count as a bond.
+  /// Adds a frame of one necklace. A chain break does not count as a bond; `breaks` are in ascending order.
   void add(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, const std::vector<std::size_t>& breaks);
   /// Returns half the length of the longest bond, rounded up to the smallest double with which all
   /// consecutive beads meet. Throws InputError if there is no such number above 0.
   [[nodiscard]] double radius() const;
 
  private:
+  bool any_ = false;    ///< a bond was added
   double longest_ = 0;  ///< rounded
   double radius_ = 0;
 };

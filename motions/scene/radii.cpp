@@ -150,7 +150,8 @@ std::vector<double> bead_radii(const std::string& policy, std::span<const Trajec
     survey.first_positions.middleCols(first, trajectory.frames.front().cols()) = trajectory.frames.front();
     first += trajectory.frames.front().cols();
     if (policy != "auto") continue;
-    for (const Eigen::Matrix3Xd& frame : trajectory.frames) survey.bonds.add(frame, trajectory.breaks);
+    const std::vector<std::size_t> breaks = beads_of(trajectory).breaks;
+    for (const Eigen::Matrix3Xd& frame : trajectory.frames) survey.bonds.add(frame, breaks);
   }
   return bead_radii(policy, necklaces, survey);
 }

@@ -17,6 +17,8 @@ TEST(ChainBreaks, LongerThanOneAndAHalfMedians) {
   EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 2, 3.5, 4.5})), Breaks{});  // 1.5 is not longer than the limit
   EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 2, 3.75, 4.75})), Breaks{2});
   EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 11, 12, 13, 23, 24})), (Breaks{1, 4}));
+  EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 11, 12, 13, 23, 24}), {1}), Breaks{4});
+  EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 11, 21, 31}), {1, 2, 3}), Breaks{});
 }
 
 TEST(ChainBreaks, NeedThreeBeads) {

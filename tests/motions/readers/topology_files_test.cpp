@@ -367,5 +367,18 @@ TEST(TopologyFiles, WarnsOfAnEndingThatTheContentContradicts) {
             1);
 }
 
+// Only an AMBER topology tells which residues outside polymers are bonded.
+TEST(Prmtop, BondsBetweenResiduesOutsidePolymers) {
+  const ReadOptions every{.selection = *Selection::parse("//*")};
+  const auto gaps = [&](std::vector<std::pair<int, int>> links) {
+    const Prmtop prmtop{.labels = {"NAG", "NAG", "NAG", "WAT"}, .links = std::move(links)};
+    return read("a.prmtop", prmtop.text(), 16, every)[0].gaps;
+  };
+  EXPECT_THAT(gaps({{0, 1}, {1, 2}}), ElementsAre(11));
+  EXPECT_THAT(gaps({{1, 2}}), ElementsAre(3, 11));
+  const std::vector<Atom> sugars = joined({residue("1", "NAG"), residue("2", "NAG"), residue("3", "NAG")});
+  EXPECT_THAT(read("a.psf", psf(sugars), 12, every)[0].gaps, ElementsAre(3, 7));
+}
+
 }  // namespace
 }  // namespace kds::topology_files_test
