@@ -241,9 +241,16 @@ WholeChain::Outcome NecklaceStream::make_whole(Piece& piece, Eigen::Matrix3Xd& p
     return WholeChain::Outcome::unmoved;
   }
   Eigen::Matrix3Xd along = positions(Eigen::all, piece.route);
+  // The bonds of a small molecule are too few to tell whether they become more alike.
+  bool joined = false;
+  for (Eigen::Index i = 1; i < along.cols() && !piece.placed; ++i) {
+    const Eigen::Vector3d step = images->nearest(along.col(i) - along.col(i - 1));
+    joined = joined || !step.isZero(0);
+    along.col(i) = images->shifted(along.col(i), step);
+  }
   const WholeChain::Outcome outcome = piece.whole.make_whole(along, *images);
   positions(Eigen::all, piece.route) = along;
-  return outcome;
+  return joined ? WholeChain::Outcome::joined : outcome;
 }
 
 void NecklaceStream::drop_guides(Eigen::Matrix3Xd& positions) const {
@@ -465,10 +472,10 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
   const bool in_pieces = notes.pieces > 1;
   lines.insert(lines.end(), notes.placed.begin(), notes.placed.end());
   if (notes.pieces_left > 0 && frames_with_cell_ > 0)
-    lines.push_back(
-        fmt::format("{}: no bonds are known between {} molecules of it (waters, ions, lipids, residues of no "
-                    "known polymer); each is made whole and starts in the periodic image that the file gives",
-                    head.file, notes.pieces_left));
+    lines.push_back(fmt::format(
+        "{}: {} molecules are not bonded to the beads before them (waters, ions, lipids, residues of "
+        "no known polymer); each starts in the periodic image that the file gives",
+        head.file, notes.pieces_left));
   if (notes.frames_joined > 0)
     lines.push_back(fmt::format("{}: made whole across the periodic cell in {}", head.file,
                                 counted(notes.frames_joined, "frame")));

@@ -573,8 +573,7 @@ std::string advice_on_selection(const StructureModel& model, const std::string& 
   const std::string names = text.substr(0, slash);
   if (!names.empty() && names.find('(') == std::string::npos &&
       any_residue([&](const StructureResidue& residue) { return residue.name == names; }))
-    return fmt::format("; {} is the name of a residue: ({}){}", names, names,
-                       slash == std::string::npos ? "" : text.substr(slash));
+    return fmt::format("; {0} is the name of a residue, not of a chain: ({0}) chooses it", names);
   const bool named = any_residue([](const StructureResidue& residue) { return !residue.chain.empty(); });
   if (!named && text.starts_with("//") && !text.starts_with("//*"))
     return "; no chain has a name here: //*/ allows any, and --chain 1 takes the first molecule";

@@ -149,15 +149,23 @@ TEST(BondPaths, EndsLeftOutShiftTheChainByCellVectors) {
     }
 }
 
+// The cell is longer than the chain, but the selected beads are farther apart than half of the cell.
 TEST(BondPaths, WholeChainsKeepTheirBits) {
-  for (const Box& box : boxes()) {
-    const std::vector<Atom> atoms = chain(61, 3, 12);
+  for (Box box : boxes()) {
+    for (double* const length : {&box.a, &box.b, &box.c}) *length *= 2.8;
+    const std::vector<Atom> atoms = chain(41, 3, 30);
     const auto frames = dcd(atoms, box, false, 3);
     const Trajectory all = read(atoms, frames, "all")[0];
     for (const char* selection : {"//A/(MET)/CA", "//A/(MET)", "//A//CB"}) {
       const Trajectory some = read(atoms, frames, selection)[0];
       for (std::size_t k = 0; k < 3; ++k)
-        EXPECT_EQ(some.frames[k], all.frames[k](Eigen::all, columns(all, some))) << selection;
+        for (std::size_t i = 0; i < some.bead_count(); ++i) {
+          const Eigen::Index column = columns(all, some)[i];
+          const Point expected =
+              atoms[static_cast<std::size_t>(column)].position + static_cast<double>(k) * drift;
+          EXPECT_EQ(some.frames[k].col(static_cast<Eigen::Index>(i)), all.frames[k].col(column)) << selection;
+          EXPECT_EQ(all.frames[k].col(column).cast<float>(), expected.cast<float>());
+        }
       EXPECT_THAT(some.warnings, IsEmpty());
     }
   }
@@ -207,7 +215,7 @@ TEST(BondPaths, TrajectoriesOfTheSelectedAtomsAlone) {
     for (std::size_t i = 0; i < selected.size(); ++i)
       EXPECT_EQ(some.frames[k].col(static_cast<Eigen::Index>(i)).cast<float>(),
                 (selected[i].position + static_cast<double>(k) * drift).cast<float>());
-  EXPECT_THAT(some.warnings, ElementsAre(HasSubstr("no bonds are known between 4 molecules of it")));
+  EXPECT_THAT(some.warnings, ElementsAre(HasSubstr("4 molecules are not bonded to the beads before")));
 }
 
 // Waters of three atoms, spread over the cell, in a chain that begins with a protein.
@@ -243,7 +251,7 @@ TEST(BondPaths, WatersStayWhereTheFileHasThemAndMoveContinuously) {
         }
       }
     EXPECT_THAT(read_here.breaks, IsEmpty()) << selection;
-    EXPECT_THAT(read_here.warnings, Contains(HasSubstr("no bonds are known between 20 molecules of it")));
+    EXPECT_THAT(read_here.warnings, Contains(HasSubstr("20 molecules are not bonded to the beads before")));
   }
   EXPECT_EQ(read(atoms, frames, "(HOH)/O")[0].gaps.size(), 19U);
   EXPECT_THAT(read(atoms, frames, "ca")[0].gaps, IsEmpty());
@@ -316,7 +324,8 @@ TEST(BondPaths, SelectionsThatWereMeant) {
       "   5.00000   5.00000   5.00000\n";
   refuse(gro, "//1//BB",
          {"no chain has a name here: //*/ allows any, and --chain 1 takes the first molecule"});
-  refuse(gro, "POPC/PO4", {"; POPC is the name of a residue: (POPC)/PO4"});
+  refuse(gro, "POPC/PO4", {"names of residues stand in brackets: (POPC)/PO4"});
+  refuse(gro, "POPC/3", {"POPC is the name of a residue, not of a chain: (POPC) chooses it"});
   EXPECT_EQ(read_trajectories(test::write_file("a.gro", gro), {.selection = *Selection::parse("(POPC)/PO4")})
                 .front()
                 .bead_count(),
