@@ -255,11 +255,11 @@ struct AtomFilter::Rules {
     const auto range = parse_range(parts.numbers);
     if (!range)
       throw malformed(
-          text, fmt::format("has the residues {}, which are no number or range{}", in_quotes(parts.numbers),
-                            text.starts_with('/') || parts.residue_names != "*"
-                                ? ""
-                                : fmt::format(" (names of residues stand in brackets: ({})/{})", parts.chains,
-                                              parts.numbers)));
+          given, fmt::format("has the residues {}, which are no number or range{}", in_quotes(parts.numbers),
+                             given.text.starts_with('/') || parts.residue_names != "*"
+                                 ? ""
+                                 : fmt::format(" (names of residues stand in brackets: ({})/{})",
+                                               parts.chains, parts.numbers)));
     numbers = *range;
     take_atoms(parts.atoms);
     if (!parts.conditions.empty())
