@@ -58,7 +58,8 @@ std::vector<Atom> chain(std::size_t residues, std::size_t first, std::size_t eve
   Point calpha(3, 4, 5);
   for (std::size_t r = 0; r < residues; ++r) {
     const std::string residue = r >= first && (r - first) % every == 0 ? "MET" : "ALA";
-    const Point along = Point(step(random) + 0.8, step(random), step(random)).normalized();
+    const double z = step(random), y = step(random), x = step(random);  // in the same order for all compilers
+    const Point along = Point(x + 0.8, y, z).normalized();
     const int number = static_cast<int>(r) + 1;
     atoms.push_back({"N", residue, number, name, calpha - 1.4 * along});
     atoms.push_back({"CA", residue, number, name, calpha});

@@ -242,7 +242,7 @@ std::size_t expect_part_of_all(const std::vector<Space>& steps, PairsAsked asked
 TEST(Contacts, OfTwoGroups) {
   std::mt19937 random(23);
   std::size_t events = 0;
-  for (int round = 0; round < rounds(24); ++round) {
+  for (int round = 0; round < rounds(24, 12); ++round) {
     SCOPED_TRACE(round);
     const std::size_t beads = 2 + random() % 30;
     const auto steps = random_grid_steps(random, beads, 3 + static_cast<int>(random() % 6), 3);
@@ -254,7 +254,7 @@ TEST(Contacts, OfTwoGroups) {
     events += expect_part_of_all(steps, asked);
     if (HasFailure()) return;
   }
-  EXPECT_GT(events, rounds(24U) * 2U);
+  EXPECT_GT(events, rounds(24U, 12U));
 }
 
 // Most blocks have beads of one group or of none, so that pairs of blocks are left out.
