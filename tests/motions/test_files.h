@@ -62,6 +62,17 @@ inline void expect_refused(const std::function<void()>& call, std::initializer_l
   ADD_FAILURE() << "expected an InputError";
 }
 
+/// The call must succeed or throw an InputError of one line. Returns whether it succeeded.
+inline bool succeeds_or_refuses(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos) << error.what();
+    return false;
+  }
+  return true;
+}
+
 /// An atom line of a PDB file.
 struct PdbAtom {
   std::string name = "CA";

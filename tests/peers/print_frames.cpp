@@ -1,5 +1,5 @@
 // Prints the frames of a trajectory as raw doubles, for compare_readers.py.
-// Usage: kds_print_frames FILE [TOPOLOGY]. Per frame: its time in picoseconds (NaN if the file has none),
+// Usage: kds_print_frames FILE. Per frame: its time in picoseconds (NaN if the file has none),
 // then x, y, z of each bead.
 #include <fmt/format.h>
 
@@ -7,12 +7,13 @@
 #include <exception>
 #include <limits>
 
+#include "motions/base/input_error.h"
 #include "motions/readers/read_trajectory.h"
 
 int main(int count, char** arguments) try {
+  if (count != 2) throw kds::InputError("usage: kds_print_frames FILE");
   kds::ReadOptions options;
   options.selection = kds::Selection::all;
-  if (count > 2) options.topology = arguments[2];
   const kds::Trajectory trajectory = kds::read_trajectory(arguments[1], options);
   for (std::size_t k = 0; k < trajectory.frames.size(); ++k) {
     const double time =

@@ -241,13 +241,11 @@ TEST(LammpsReader, SurvivesEveryChangedByte) {
     for (const char c : {'\0', '\n', ' ', '-', '9', 'e', '\xFF'}) {
       std::string changed = two_frames;
       changed[place] = c;
-      try {
-        const auto file = open(changed);
-        for (std::size_t k = 0; k < file->held().whole; ++k) (void)read_frame(*file, k);
+      if (test::succeeds_or_refuses([&] {
+            const auto file = open(changed);
+            for (std::size_t k = 0; k < file->held().whole; ++k) (void)read_frame(*file, k);
+          }))
         ++read;
-      } catch (const InputError& error) {
-        ASSERT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos);
-      }
     }
   EXPECT_GT(read, 100);
 }

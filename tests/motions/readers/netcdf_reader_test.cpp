@@ -312,13 +312,11 @@ TEST(NetcdfReader, SurvivesEveryChangedByte) {
       for (const char c : {'\0', '\1', '\x7F', '\x80', '\xFF', static_cast<char>(bytes[place] ^ 1)}) {
         std::string changed = bytes;
         changed[place] = c;
-        try {
-          const auto file = open(changed);
-          for (std::size_t k = 0; k < file->held().whole; ++k) (void)read_frame(*file, k);
+        if (test::succeeds_or_refuses([&] {
+              const auto file = open(changed);
+              for (std::size_t k = 0; k < file->held().whole; ++k) (void)read_frame(*file, k);
+            }))
           ++read;
-        } catch (const InputError& error) {
-          ASSERT_EQ(std::string_view(error.what()).find('\n'), std::string_view::npos);
-        }
       }
     EXPECT_GT(read, 100);
   }

@@ -288,11 +288,10 @@ TEST(XtcReader, EverySingleByteReadsOrIsRefused) {
         for (const int change : {0x01, 0x80, 0xFF}) {
           std::string mutated = bytes;
           mutated[place] = static_cast<char>(mutated[place] ^ change);
-          try {
+          (void)test::succeeds_or_refuses([&] {
             const auto frames = open_xtc(test::write_file("a.xtc", mutated), {});
             for (std::size_t k = 0; k < frames->held().whole; ++k) read(*frames, k, all_atoms(*frames));
-          } catch (const InputError&) {
-          }
+          });
         }
     }
 }
