@@ -115,18 +115,18 @@ namespace {
 
 constexpr CommandSpec kBenchCommand{
     "kds bench",
-    "Measures kds beside another library (the peer). The two alternate in one process; figures are medians "
-    "of\n"
+    "Compares kds with another library (the peer). The two alternate in one process; figures are medians of\n"
     "processor time.\n\n"
-    "  certificates  finding the time at which a certificate fails, beside CGAL's predicates and algebraic "
-    "numbers\n"
-    "  engine        whole runs of moving points, beside CGAL's static build\n"
-    "  hierarchies   wrapped and layered hierarchies, beside CGAL at every node\n"
-    "  power         the power diagram from frame to frame, beside CGAL's static build\n"
-    "  collision     the pairs of beads that meet, beside a cell list, a Verlet list, FCL and Bullet, and\n"
-    "                the times at which contacts begin and end, beside a cell list\n"
-    "  trade         options that trade accuracy for speed, beside exact runs of kds\n"
-    "  readers       reading trajectories of each format, beside reading the bytes of the file",
+    "  certificates  finding the time at which a certificate fails, compared with CGAL's predicates and "
+    "algebraic numbers\n"
+    "  engine        whole runs of moving points, compared with CGAL's static build\n"
+    "  hierarchies   wrapped and layered hierarchies, compared with CGAL at every node\n"
+    "  power         the power diagram from frame to frame, compared with CGAL's static build\n"
+    "  collision     the pairs of beads that meet, compared with a cell list, a Verlet list, FCL and "
+    "Bullet,\n"
+    "                and the times at which contacts begin and end, compared with a cell list\n"
+    "  trade         options that trade accuracy for speed, compared with exact runs of kds\n"
+    "  readers       reading trajectories of each format, compared with reading the bytes of the file",
     "SUBJECT",
     "certificates, engine, hierarchies, power, collision, trade or readers",
     "kds bench certificates\n"

@@ -117,11 +117,12 @@ std::string_view missing_collision_peers() {
 #if defined(KDS_FCL) && defined(KDS_BULLET)
   return "";
 #elif defined(KDS_FCL)
-  return "no rows beside Bullet: this program was built without libbullet-dev";
+  return "no rows that compare with Bullet: this program was built without libbullet-dev";
 #elif defined(KDS_BULLET)
-  return "no rows beside FCL: this program was built without libfcl-dev";
+  return "no rows that compare with FCL: this program was built without libfcl-dev";
 #else
-  return "no rows beside FCL and Bullet: this program was built without libfcl-dev and libbullet-dev";
+  return "no rows that compare with FCL and Bullet: this program was built without libfcl-dev and "
+         "libbullet-dev";
 #endif
 }
 

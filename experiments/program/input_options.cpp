@@ -85,7 +85,7 @@ void check_exists(const std::filesystem::path& path) {
 
 const OptionList<InputOptions>& input_options() {
   static const std::string format_help =
-      fmt::format("format of the inputs: {} (default: as the content says, otherwise the ending)",
+      fmt::format("format of the inputs: {} (default: by content, otherwise by ending)",
                   fmt::join(reader_registry().names_with_frames(), ", "));
   static const OptionList<InputOptions> list{{
       {{"--topology", "FILE",
@@ -147,8 +147,8 @@ const OptionList<InputOptions>& input_options() {
        [](const InputOptions& o) { return Json(o.reading.until_damage); }},
       {{"--radius", "RULE",
         "radii of the beads: auto (half of the longest bond in the frames read), a number, element (van der "
-        "Waals), element:fit (element times a factor, at most 1, with which no beads but neighbours touch in "
-        "the first frame) or file:PATH (default: auto)"},
+        "Waals), element:fit (element times one factor, at most 1, at which only neighbours may touch in the "
+        "first frame) or file:PATH (default: auto)"},
        [](InputOptions& o, const std::string& text) { o.radius = parse_radius(text); },
        [](const InputOptions& o) { return o.radius; },
        [](const InputOptions& o) {
@@ -163,7 +163,7 @@ const Option<InputOptions>& obstacle_option() {
   static const Option<InputOptions> option =
       path_option({"--obstacle", "FILE",
                    "file with a necklace of one frame that does not move. In --chain its list comes last, "
-                   "behind a / (default: none)"},
+                   "after a / (default: none)"},
                   &InputOptions::obstacle);
   return option;
 }

@@ -174,7 +174,7 @@ Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, 
       "The wrapped hierarchy is verified at one frame; so many frames later its spheres are taken from the "
       "same bases without any test. Beads may stick out of these; by how much at most follows from how far "
       "beads have moved, as a bound on speed or the largest measured displacement tells: mean over all "
-      "nodes, as a share of their radii, and beside it how far beads really stick out. Times are medians of "
+      "nodes, as a share of their radii, and next to it how far beads really stick out. Times are medians of "
       "the rounds at one frame, with the least and the most.";
   for (std::size_t which = 0; which < moving_subject_count; ++which) {
     const auto [name, subject] = moving_subject(which, data, seed);

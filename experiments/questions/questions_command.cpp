@@ -155,7 +155,8 @@ constexpr std::array<std::string_view, 4> kQuestions{"energy", "bounds", "trust"
 
 constexpr CommandSpec kQuestionsCommand{
     "kds questions",
-    "Measures what Agarwal et al. (2004) leave open, and gives exponents with confidence intervals.\n\n"
+    "Measures answers to the open questions of Agarwal et al. (2004), and gives exponents with confidence "
+    "intervals.\n\n"
     "  energy       how basis changes and flips grow with the energy of bending and torsion of a step\n"
     "  bounds       how many searches for near pairs a bound on speed or displacement saves\n"
     "  trust        time saved by not checking spheres for some frames, and how far beads then stick out\n"

@@ -140,7 +140,7 @@ std::string paper_page(std::span<const PaperTable> tables, Page page) {
       "(2004), that these tables can judge.</p>\n{2}</ul>\n",
       claims.all, claims.hold, list);
   page.words =
-      "The paper's values stand beside ours. Times are ratios within a row, because the paper's machine is "
+      "Each row also gives the paper's values. Times are ratios within a row, because the paper's machine is "
       "of 2004. Works that are compared take turns, round by round; the ratio is the median of the rounds, "
       "with the least and the most in brackets. Work of more than a second is done once, whatever the number "
       "of rounds, and is compared with all rounds of the other work.";
@@ -156,7 +156,7 @@ namespace {
 
 constexpr CommandSpec kReproduceCommand{
     "kds reproduce",
-    "Measures the tables of Agarwal et al. (2004) again. Shows each row beside the paper's, and times as "
+    "Measures the tables of Agarwal et al. (2004) again. Shows each row next to the paper's, and times as "
     "ratios.",
     "TABLE...",
     "table1, table2 ... table7, or all",

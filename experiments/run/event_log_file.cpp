@@ -166,7 +166,7 @@ void EventLogReader::read_event(std::string_view line) {
   entry_.line = lines_.number();
   const auto step = fields.number<std::size_t>("a step");
   if (step_events_ > 0 ? step != entry_.step : step < first_free_step_)
-    throw InputError(fmt::format("{}: an event of step {} among or behind those of another", where(), step));
+    throw InputError(fmt::format("{}: an event of step {} among or after those of another", where(), step));
   entry_.step = step;
   if (step >= header_.steps) throw InputError(fmt::format("{}: step {} of {}", where(), step, header_.steps));
   entry_.structure = fields.word("a structure");

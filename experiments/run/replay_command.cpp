@@ -167,7 +167,7 @@ const OptionList<ReplayOptions>& replay_options() {
 
 constexpr CommandSpec kReplayCommand{
     "kds replay",
-    "Repeats a logged run and reports whether the same happens (exit code 0) or not (1).",
+    "Repeats a logged run and compares every event with the log. Exit code: 0 if all are equal, 1 otherwise.",
     "LOG",
     "an event log, as written by kds run --log",
     "kds run models.pdb --log models.kdslog\nkds replay models.kdslog",

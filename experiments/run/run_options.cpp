@@ -98,7 +98,7 @@ Option<RunOptions> tolerance_option() {
 Option<RunOptions> structures_option() {
   return {{"--structures", "LIST",
            "comma list of sorted, box, hull, closest, wrapped, layered, power, contacts (default: "
-           "wrapped,power; for instance files sorted in 1D, else power)"},
+           "wrapped,power; with an instance file: sorted in 1D, otherwise power)"},
           [](RunOptions& o, const std::string& text) { o.structures = parse_structures(text); },
           [](const RunOptions& o) { return fmt::format("{}", fmt::join(o.structures, ",")); }};
 }
@@ -158,7 +158,7 @@ const OptionList<RunOptions>& run_options() {
               tolerance_option(),
               flag_option("--certify",
                           "with a stride in --frames, or with --tolerance: read all frames too, and report "
-                          "how wrong the run can be at most",
+                          "the largest possible error of the run",
                           &O::certify),
               choice_option({"--audit", "WHEN",
                              "check against structures built from scratch: none, frames (at all frames) or "

@@ -127,10 +127,11 @@ const OptionList<GenerateOptions>& generate_options() {
                                     &S::rolled, {0, 1})),
               of_models(
                   Setting::distance,
-                  span_option({"--distance", "FROM:TO",
-                               "two-spirals: distance between the centres of the two in the first and in the "
-                               "last frame, in chain lengths; a single number holds for both (default: 1.5)"},
-                              &S::distance, {0, 1e6})),
+                  span_option(
+                      {"--distance", "FROM:TO",
+                       "two-spirals: distance between the centres of the spirals in the first and in the "
+                       "last frame, in chain lengths; a single number applies to both frames (default: 1.5)"},
+                      &S::distance, {0, 1e6})),
           })
           .with(destination_options("write generate.json and generate.csv to DIR (default: none)",
                                     "write a summary to FILE; - is standard output (default: none)"));

@@ -51,10 +51,10 @@ const OptionList<InfoOptions>& info_options() {
                       {"--list", "N", "number of violations to list for each condition (default: 5)"},
                       &ValidateOptions::most_listed, 0, 1'000'000))}})
           .with({of_output(flag_option(
-              "--beads", "list the beads instead, one in a row: necklace, chain, residue, atom and radius",
+              "--beads", "list the beads instead, one per row: necklace, chain, residue, atom and radius",
               &O::beads))})
           .with(destination_options("write info.json and info.csv to DIR (default: none)",
-                                    "write all of it to FILE; - is standard output (default: none)"));
+                                    "write the results to FILE; - is standard output (default: none)"));
   return list;
 }
 

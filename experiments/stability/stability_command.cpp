@@ -34,7 +34,7 @@ constexpr CommandSpec kStabilityCommand{
     "    offset   2^20, 2^35 or 2^50 radii from the origin\n"
     "    step     subnormal, ulp or thousandfold motion, none (zero), or out and back (identical)\n"
     "    radii    of ratio 10^3, 10^6 or 10^9\n"
-    "    beads    ulp-apart; coincident, collinear, coplanar or cospherical, or so at u = 1/2 "
+    "    beads    ulp-apart; coincident, collinear, coplanar or cospherical, or only at u = 1/2 "
     "(coincident-mid ...)\n"
     "    contact  balls that touch at u = 1/2: tangent (from outside) or inner\n"
     "    ties     many certificates are zero at the start, middle or end\n"

@@ -266,7 +266,8 @@ std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
 
 constexpr CommandSpec kTheoremsCommand{
     "kds theorems",
-    "Measures, for growing sizes, what the theorems of Agarwal et al. (2004) bound, and fits exponents.\n\n"
+    "Measures the quantities that the theorems of Agarwal et al. (2004) bound, for growing sizes,\nand fits "
+    "exponents.\n\n"
     "  2.3  radius of the layered root / radius of the wrapped root: at most sqrt(h + 1), h the tree's "
     "height\n"
     "  3.1  pairs in separating families of packed grids: n log n in the plane, n^(4/3) in space\n"

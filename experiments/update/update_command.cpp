@@ -34,7 +34,7 @@ constexpr CommandSpec kUpdateCommand{
     "  lifted    like kinetic, with radii that change between frames so that certificates have a lower "
     "degree\n"
     "  activate  moves only the beads of failed certificates, until no certificate fails\n"
-    "  auto      rebuilds, or moves all or some beads, by the share of certificates that fail in a sample",
+    "  auto      chooses rebuild, kinetic or activate by the share of certificates that fail in a sample",
     kInputOperand,
     kTrajectoryHelp,
     "kds update villin.dcd --topology villin.pdb --frames 0:200 --strides 1,2,4,8 --out report\n"

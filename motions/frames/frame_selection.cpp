@@ -14,7 +14,7 @@ namespace {
 std::string where_it_ends(const std::string& file, const FramesHeld& held) {
   const std::string bytes = held.end > 0 ? fmt::format(" (after {} bytes)", held.end) : "";
   const char* const line_end =
-      held.lacks_line_end ? "; its last number may be cut off, expected a line end behind it" : "";
+      held.lacks_line_end ? "; its last number may be cut off, expected a line end after it" : "";
   if (held.whole == 0)
     return fmt::format("{}: the file ends inside frame 0{} and holds no whole frame{}", file, bytes,
                        line_end);
@@ -89,7 +89,7 @@ FramesAsked select_frames(const std::string& file, const FrameRange& range, cons
                            held.ends_inside || meets_damage};
   const std::size_t final = frames[frames.count - 1];
   if (const std::size_t behind = end - 1 - final; behind > 0)
-    warnings.push_back(fmt::format("{}: a stride of {} ends at frame {}; {} behind it {} left out", file,
+    warnings.push_back(fmt::format("{}: a stride of {} ends at frame {}; {} after it {} left out", file,
                                    range.stride, final, counted(behind, "frame"),
                                    behind == 1 ? "is" : "are"));
   return frames;

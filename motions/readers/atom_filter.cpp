@@ -152,7 +152,7 @@ void take_residues(const GivenText& given, std::string residues, SelectionTexts&
   const std::size_t open = residues.find('(');
   if (open != std::string::npos) {
     const std::size_t close = residues.find(')', open);
-    if (close == std::string::npos) throw malformed(given, "has no ) behind its (");
+    if (close == std::string::npos) throw malformed(given, "has no ) after its (");
     parts.residue_names = residues.substr(open + 1, close - open - 1);
     residues.erase(open, close - open + 1);
   }
@@ -274,12 +274,12 @@ struct AtomFilter::Rules {
     atoms.remove_prefix(end);
     if (atoms.starts_with('[')) {
       const std::size_t close = atoms.find(']');
-      if (close == std::string_view::npos) throw malformed(given, "has no ] behind its [");
+      if (close == std::string_view::npos) throw malformed(given, "has no ] after its [");
       elements = parse_elements(given, atoms.substr(1, close - 1));
       atoms.remove_prefix(close + 1);
     }
     if (atoms.empty()) return;
-    if (atoms[0] != ':') throw malformed(given, fmt::format("has {} behind ]", in_quotes(atoms)));
+    if (atoms[0] != ':') throw malformed(given, fmt::format("has {} after ]", in_quotes(atoms)));
     locations = parse_list(given, atoms.substr(1));
   }
 

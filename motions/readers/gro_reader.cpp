@@ -203,7 +203,7 @@ class GroModels final : public StructureModels {
                       held_.whole - timed, counted(held_.whole, "frame")));
     if (upright_without_line_end_)
       notes_.emplace_back(
-          "the box has no line end behind it; its 3 numbers are read as an upright box, though a file that "
+          "the box has no line end after it; its 3 numbers are read as an upright box, though a file that "
           "is cut off may have lost the other 6");
     start_again();
   }
@@ -294,7 +294,7 @@ class GroModels final : public StructureModels {
       held_.lacks_line_end = box.has_value();
       return Found::cut;
     }
-    if (!box) throw damage(k, fmt::format("a box of 3 or 9 numbers behind {}", counted(atoms, "atom")), line);
+    if (!box) throw damage(k, fmt::format("a box of 3 or 9 numbers after {}", counted(atoms, "atom")), line);
     upright_without_line_end_ = lines_.cut() && box_size_ == 0 && box->lengths.size() == 3;
     box_size_ = box->lengths.size();
     if (model == nullptr) return Found::frame;

@@ -169,7 +169,7 @@ void NetcdfLayout::read_variable(const std::vector<std::uint64_t>& dimensions) {
     if (length > most_bytes / variable.bytes) fail("a variable is larger than any file");
     variable.bytes *= length;
   }
-  if (variable.begin > most_bytes) fail("a variable begins behind the end of any file");
+  if (variable.begin > most_bytes) fail("a variable begins beyond the end of any file");
   check_size(variable, size_told, size_place);
   variables_.push_back(std::move(variable));
 }

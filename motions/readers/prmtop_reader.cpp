@@ -67,7 +67,7 @@ class Prmtop {
         form = FieldForm::of(trimmed(line.substr(7)));
         if (section != nullptr && !form) throw refuse("a format as in %FORMAT(20a4)", line);
       } else if (section != nullptr && !line.starts_with("%COMMENT")) {
-        if (!form) throw refuse("%FORMAT behind %FLAG", line);
+        if (!form) throw refuse("%FORMAT after %FLAG", line);
         take_fields(line, *form, section->fields);
       }
     }

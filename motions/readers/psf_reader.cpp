@@ -88,7 +88,7 @@ class PsfFile {
     StructureResidue residue;
     for (std::size_t i = 0; i < atoms; ++i) {
       if (!lines_.next(line))
-        throw InputError(fmt::format("{}: the file ends behind atom {} of {}", lines_.name(), i, atoms));
+        throw InputError(fmt::format("{}: the file ends after atom {} of {}", lines_.name(), i, atoms));
       const std::optional<PsfAtom> read = form.parse(line);
       if (!read)
         throw refuse(

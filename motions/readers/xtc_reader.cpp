@@ -244,7 +244,7 @@ class XtcCoordinates {
         put(last);
       } else {
         if (run > header.atoms - i)
-          return fmt::format("expected at most {} behind atom {}, found a run of {}",
+          return fmt::format("expected at most {} after atom {}, found a run of {}",
                              counted(header.atoms - i, "atom"), i - 1, run);
         if (small >= xtc_end_small)
           return fmt::format("expected differences of at most {} bits, found {}", xtc_end_small - 1, small);

@@ -274,7 +274,7 @@ void KineticRun::go_to(double time) {
 
 void KineticRun::run_to(std::size_t step) {
   while (simulator().step() < step)
-    if (!run_step()) throw std::logic_error(fmt::format("step {} lies behind the last step", step));
+    if (!run_step()) throw std::logic_error(fmt::format("step {} lies after the last step", step));
 }
 
 /// Runs to time u of the step. Enters the step unless u is 0.

@@ -78,7 +78,7 @@ Options parse(const std::vector<std::string>& words) {
     } else if (word == "--instance") {
       options.scene.inputs.push_back({oracle::FileKind::instance, value, {}});
     } else if (word == "--select-from") {
-      if (options.scene.inputs.empty()) throw UsageError("--select-from: belongs behind its --dcd");
+      if (options.scene.inputs.empty()) throw UsageError("--select-from: belongs after its --dcd");
       options.scene.inputs.back().names = value;
     } else if (word == "--frames") {
       parse_frames(value, options.scene);

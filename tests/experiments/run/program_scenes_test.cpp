@@ -282,7 +282,7 @@ TEST(Program, NamesFramesByTheirNumberInTheFile) {
   const ProgramRun run = run_program({"run", kTrajectory, "--frames", "100:125:10", "--structures", "wrapped",
                                       "--out", out, "--dump", dump});
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("a stride of 10 ends at frame 120; 4 frames behind it are left out"));
+  EXPECT_THAT(run.err, HasSubstr("a stride of 10 ends at frame 120; 4 frames after it are left out"));
   EXPECT_THAT(run.out, HasSubstr("108 beads, 3 frames (100 to 120), dimension 3"));
   EXPECT_THAT(content_of(out + "/events.csv"), HasSubstr("\n100,wrapped,"));
   EXPECT_THAT(content_of(out + "/events.csv"), HasSubstr("\n110,wrapped,"));

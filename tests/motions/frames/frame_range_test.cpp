@@ -55,9 +55,9 @@ TEST(FrameRange, TellsOfFramesBehindTheLastOneThatAStrideMeets) {
   };
   using Lines = std::vector<std::string>;
   EXPECT_EQ(warnings("0:100:7", 200),
-            Lines{"f: a stride of 7 ends at frame 98; 1 frame behind it is left out"});
+            Lines{"f: a stride of 7 ends at frame 98; 1 frame after it is left out"});
   EXPECT_EQ(warnings("::10", 1000),
-            Lines{"f: a stride of 10 ends at frame 990; 9 frames behind it are left out"});
+            Lines{"f: a stride of 10 ends at frame 990; 9 frames after it are left out"});
   EXPECT_TRUE(warnings("0:99:7", 200).empty());
   EXPECT_TRUE(warnings(":5", 200).empty());
   EXPECT_TRUE(warnings("::10", 1).empty());

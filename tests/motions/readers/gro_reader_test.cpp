@@ -222,7 +222,7 @@ TEST(GroReader, BoxWithoutLineEnd) {
   const std::string text = file.residues(1, 2).text();
   const std::size_t box = text.find("3.00000 4.00000");
   const auto cut = [&](std::size_t length) { return text.substr(0, box + length); };
-  const auto warns = Contains(HasSubstr("the box has no line end behind it"));
+  const auto warns = Contains(HasSubstr("the box has no line end after it"));
   EXPECT_THAT(read(cut(23)).warnings, warns);
   EXPECT_THAT(read(cut(23) + "\n").warnings, Not(warns));
   EXPECT_THAT(read(cut(71)).warnings, Not(warns));
@@ -257,7 +257,7 @@ TEST(GroReader, DamageIsRefusedWithFrameByteAndLine) {
          {"expected atom 1 of 6 with three decimal numbers after column 20"});
   refuse(3, "    1ALA     CA    2  0.150   0.000   0.000", 0,
          {"atom 2 of 6 with its numbers in the columns of atom 1"});
-  refuse(1, "    5", 6, {"expected a box of 3 or 9 numbers behind 5 atoms"});
+  refuse(1, "    5", 6, {"expected a box of 3 or 9 numbers after 5 atoms"});
   refuse(1, "    7", 7, {"atom 7 of 7"});
   refuse(1, "99999999999999999999999", 0, {"expected the number of atoms"});
   refuse(3, "    1ALA     CA    2   0.150  10000.000   0.000", 0, {"atom 2 of 6"});

@@ -125,7 +125,7 @@ TEST(Psf, DamageIsRefusedInOneLine) {
   const auto refuse = [&](const std::string& damaged, std::initializer_list<std::string_view> parts) {
     test::expect_refused([&] { static_cast<void>(read("a.psf", damaged, 8)); }, parts);
   };
-  refuse(text.substr(0, text.find("       5 P1")), {"a.psf", "ends behind atom 4 of 8"});
+  refuse(text.substr(0, text.find("       5 P1")), {"a.psf", "ends after atom 4 of 8"});
   refuse("PSF\n\n", {"a.psf", "!NATOM"});
   std::string wrong = text;
   refuse(wrong.replace(wrong.find("14.007"), 6, "x4.007"), {"a.psf:7", "atom 1 of 8"});
