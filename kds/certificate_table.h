@@ -139,8 +139,8 @@ class CertificateTable final : public FailureSource {
     failures_[waiting_count_ - 1] = failure;
     any_known_ = true;
   }
-  /// Enqueues one of possibly very many certificates. They are searched a few hundred at a time, so that they
-  /// need little memory. Certificates enqueued this way cannot be forgotten by forget_enqueued.
+  /// Enqueues one of possibly very many certificates. The certificates are searched a few hundred at a time,
+  /// so that they need little memory. Certificates enqueued this way cannot be forgotten by forget_enqueued.
   void enqueue_one_of_many(const Certificate& certificate, std::uint32_t place, KnownAtStart birth) {
     one_of_many(place, birth) = certificate;
   }
@@ -230,8 +230,8 @@ class CertificateTable final : public FailureSource {
   [[nodiscard]] Identity identity(std::uint32_t slot) const override {
     return identity(slots_[slot].certificate);
   }
-  /// Returns the identity of `certificate` in this table. It names the beads and, for a type with constants,
-  /// the table, because other constants give another function of the same beads.
+  /// Returns the identity of `certificate` in this table. The identity names the beads and, for a type with
+  /// constants, the table, because other constants give another function of the same beads.
   [[nodiscard]] Identity identity(const Certificate& certificate) const {
     Identity identity = certificate.identity();
     if constexpr (HasConstants<Certificate>) identity.beads.back() = among_tables_.table();

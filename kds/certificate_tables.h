@@ -17,7 +17,7 @@ class CertificateTables {
  public:
   static constexpr std::size_t count = sizeof...(Certificates);
 
-  /// `touches` is called with the `std::type_identity` of each certificate type. It returns the touch
+  /// `touches` is called with the `std::type_identity` of each certificate type. `touches` returns the touch
   /// policy of the table of this type, or an empty optional if the type has no table.
   template <int Dimension, class TouchesOf>
   CertificateTables(Simulator& simulator, KineticStructure& owner, std::size_t structure,

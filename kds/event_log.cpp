@@ -25,7 +25,7 @@ Rational in_units(const Rational& value, int exponent) {
   return exponent > 0 ? Rational(value / power) : Rational(value * power);
 }
 
-/// The number digits * 10^exponent. Its last digit is 0 only if the number is 0.
+/// The number digits * 10^exponent. The last digit of the number is 0 only if the number is 0.
 struct Decimal {
   std::int64_t digits = 0;
   int exponent = 0;

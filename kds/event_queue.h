@@ -7,9 +7,9 @@
 //   push        O(log4 m) near, O(1) far      erase   O(4 log4 m) near, O(1) far
 //   top         O(1), a bin of k joining O(k log4 m)       pop     O(4 log4 m)
 //
-// The queue is a plain heap if all times fall into one bin. It does not allocate once it has grown to its
-// size. The order may narrow the entries it compares: their brackets shrink around the same time, which never
-// changes how they compare.
+// The queue is a plain heap if all times fall into one bin. The queue does not allocate once it has grown to
+// its size. The order may narrow the entries it compares: their brackets shrink around the same time, which
+// never changes how they compare.
 //
 // The data that an event needs are scattered in memory, and each piece holds the address of the next one. If
 // the order has a function `fetch(key, bins_ahead)`, the queue calls it for failures that come near, with

@@ -94,9 +94,9 @@ struct StructureStatistics {
   double build_seconds = 0;  ///< time of the first build
 };
 
-/// A kinetic structure. It keeps its certificates in CertificateTables, which put failures into the common
-/// queue. When a certificate fails, the simulator calls the structure's `fail`; the structure repairs itself
-/// and reports the change it made.
+/// A kinetic structure. The structure keeps its certificates in CertificateTables, which put failures into
+/// the common queue. When a certificate fails, the simulator calls the structure's `fail`; the structure
+/// repairs itself and reports the change it made.
 class KineticStructure {
  public:
   virtual ~KineticStructure() = default;
@@ -165,7 +165,8 @@ class AuditError : public std::runtime_error {
 // the structure is the one of the beads now present, on their present curves, just after the present time.
 
 /// A structure whose beads can change course. Only Simulator::change_motion calls these functions, and it
-/// names each bead once. It calls require_release on all structures before it calls release on any.
+/// names each bead once. `change_motion` calls require_release on all structures before it calls release on
+/// any.
 class CourseFollower {
  public:
   virtual ~CourseFollower() = default;

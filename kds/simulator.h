@@ -135,7 +135,7 @@ class Simulator {
     require_index("structure", structure, structures_.size());
     return watch_.seconds(lane_of(structure));
   }
-  /// Returns the seconds that listeners took. They count for no structure and not for the engine.
+  /// Returns the seconds that listeners took. These seconds count for no structure and not for the engine.
   [[nodiscard]] double seconds_of_listeners() const { return watch_.seconds(listener_lane); }
 
  private:

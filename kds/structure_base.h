@@ -136,8 +136,8 @@ template <std::size_t N>
   return all;
 }
 
-/// A structure whose beads can be inserted, erased and given other curves. Its last kinds of events are those
-/// of `with_edits`. The base checks each edit and keeps the set of present beads.
+/// A structure whose beads can be inserted, erased and given other curves. The last kinds of events of the
+/// structure are those of `with_edits`. The base checks each edit and keeps the set of present beads.
 class EditableBase : public StructureBase, public BeadEdits {
  public:
   void leave_out(BeadId bead) final { present_.leave_out(bead); }

@@ -1,10 +1,10 @@
 #pragma once
 // The requirements on a certificate type. A certificate names a few beads and has one function of time, which
-// is positive while the certificate holds. The function is written once, over a MotionView. It must be
-// homogeneous in lengths (weights count as squares). It is independent of the origin unless it uses positions
-// or has a constant point; constants.h describes these and the constants of a type. Everything else is
-// derived from the function: the floating-point filter and its error bound, processing of four certificates
-// at once, exact root isolation, and the order of simultaneous failures.
+// is positive while the certificate holds. The function is written once, over a MotionView. The function must
+// be homogeneous in lengths (weights count as squares). The function is independent of the origin unless it
+// uses positions or has a constant point; constants.h describes these and the constants of a type. Everything
+// else is derived from the function: the floating-point filter and its error bound, processing of four
+// certificates at once, exact root isolation, and the order of simultaneous failures.
 //
 // The function is a static `formula(view, beads)`, or its negative if side() is false. A type that uses
 // weights or radii declares `static constexpr bool uses_weights = true` (`uses_radii`). If motions have

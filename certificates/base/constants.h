@@ -1,9 +1,9 @@
 #pragma once
-// Constants of a certificate type: knowledge besides its beads. They are the members of `struct Constants`
-// within the type, and all certificates of a table share one set of them (CertificateTable::set_constants).
-// Each constant has a declared power of length, so that the function stays homogeneous. A constant may change
-// within a step as beads do: it has one control point, or as many as the motion's curves. The control points
-// are doubles that define the constant exactly; nothing is rounded.
+// Constants of a certificate type: knowledge besides its beads. Constants are the members of `struct
+// Constants` within the type, and all certificates of a table share one set of constants
+// (CertificateTable::set_constants). Each constant has a declared power of length, so that the function stays
+// homogeneous. A constant may change within a step as beads do: it has one control point, or as many as the
+// motion's curves. The control points are doubles that define the constant exactly; nothing is rounded.
 //
 //   Constant<1>, Constant<2>   a length, a squared length: view.constant(&Constants::name), a polynomial
 //   ConstantVector<D>          a vector of lengths, as of a plane's normal: view.constant, D polynomials

@@ -49,9 +49,9 @@ template <class Number, int Degree, int Last>
          xy(1, 3) * zl(0, 2) + xy(2, 3) * zl(0, 1);
 }
 
-/// The Gram matrix G of up to three vectors, its determinant g and its adjugate A. They express the sphere
-/// that touches a set of balls without divisions (certificates/types/ball_in_sphere.h), in integers and in
-/// enclosures.
+/// The Gram matrix G of up to three vectors, its determinant g and its adjugate A. G, g and A express the
+/// sphere that touches a set of balls without divisions (certificates/types/ball_in_sphere.h), in integers
+/// and in enclosures.
 template <class Number>
 class GramMatrix {
  public:

@@ -77,7 +77,7 @@ inline constexpr std::array<Stage, 10> stage_table{{
 }};
 static_assert(sizeof(StageCounts) == stage_table.size() * sizeof(std::uint64_t));
 
-/// Adds the counts; of sizes, the largest is kept.
+/// Adds the counts; sizes keep the largest value.
 constexpr StageCounts& operator+=(StageCounts& sum, const StageCounts& more) {
   for (const Stage& stage : stage_table) {
     std::uint64_t& count = sum.*stage.count;

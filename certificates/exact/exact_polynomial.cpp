@@ -21,7 +21,7 @@ void drop_leading_zeros(Integers& c) {
 }
 
 // Divides out all factors 1 + t, that is (1-u) + u = 1. A polynomial written with more than its true degree
-// has such factors. They would count as repeated roots and as common roots.
+// has such factors. Such factors would count as repeated roots and as common roots.
 void drop_elevation(Integers& c) {
   while (c.size() > 1) {
     Integers quotient(c.size() - 1);

@@ -14,8 +14,8 @@ namespace kds {
 class ExactTime {
  public:
   explicit ExactTime(const Dyadic& time) : root_{time, time} {}
-  /// Constructs the root of `polynomial` in `interval`. It must be the only root there, and the polynomial
-  /// must change sign at it.
+  /// Constructs the root of `polynomial` in `interval`. The root must be the only one there, and the
+  /// polynomial must change sign at it.
   ExactTime(ExactPolynomial polynomial, RootInterval interval);
 
   [[nodiscard]] bool is_dyadic() const { return root_.lower == root_.upper; }

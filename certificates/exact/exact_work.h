@@ -1,9 +1,9 @@
 #pragma once
-// Counts the work of the exact stage in *limb operations*, which are the same on every machine. One limb
-// operation passes over a polynomial's coefficient once, for each 64 bits of its length. Evaluating n
-// coefficients of 128 bits takes about 2 n operations. Restricting the polynomial to a part of the step, or
-// forming it, takes about 2 n^2. The count is only a measure, but every long computation is counted, so work
-// can be limited and watched.
+// Counts the work of the exact stage in *limb operations*. With one version of Arb the count is the same on
+// every machine. One limb operation passes over a polynomial's coefficient once, for each 64 bits of its
+// length. Evaluating n coefficients of 128 bits takes about 2 n operations. Restricting the polynomial to a
+// part of the step, or forming it, takes about 2 n^2. The count is only a measure, but every long computation
+// is counted, so work can be limited and watched.
 //
 // A thread charges its work to the account that it has open (ExactWork::Open), or to an account without a
 // limit.
@@ -46,7 +46,7 @@ class ExactWork {
 
   /// Sets the limit. Requesting more than `most` operations in total throws WorkLimitReached.
   void set_limit(std::uint64_t most);
-  /// Sets a function that is called after each `every` operations of work. It may throw.
+  /// Sets a function that is called after each `every` operations of work. The function may throw.
   void set_watcher(std::function<void()> watcher, std::uint64_t every);
 
   [[nodiscard]] std::uint64_t done() const { return done_; }

@@ -19,7 +19,7 @@ namespace kds {
 /// Bounds on the number of sign changes of a polynomial's coefficients, as far as their signs are certain.
 struct Variations {
   int least = 0, most = 0;
-  int sign = 0;  ///< of the coefficients that are not 0 if there is no change; known if most is 0
+  int sign = 0;  ///< if there is no change: the sign of the coefficients that are not 0; known if most is 0
 };
 
 /// The plain Bernstein coefficients of a polynomial given in scaled form, times `multiple`, a common
@@ -166,8 +166,8 @@ struct Ends {
   }
 };
 
-/// Returns the polynomial restricted to an interval, times a positive number. It substitutes u = lower
-/// (1-s) + upper s and 1-u = above_lower (1-s) + above_upper s.
+/// Returns the polynomial restricted to an interval, times a positive number. Substitutes u = lower (1-s) +
+/// upper s and 1-u = above_lower (1-s) + above_upper s.
 template <class Number>
 std::vector<Number> seen_on(const std::vector<Number>& c, const Number& one, const Number& lower,
                             const Number& upper, const Number& above_lower, const Number& above_upper) {

@@ -18,8 +18,8 @@ namespace kds {
 /// Overload for images modulo the first prime, whose leading coefficients may be zero.
 [[nodiscard]] bool certainly_coprime(std::vector<Residue> a, std::vector<Residue> b);
 
-/// Returns true only if the polynomial has no factor twice. Its degree must be at least 1 and its leading
-/// coefficient not zero.
+/// Returns true only if the polynomial has no factor twice. The polynomial's degree must be at least 1 and
+/// its leading coefficient not zero.
 [[nodiscard]] bool certainly_square_free(const std::vector<Integer>& p);
 /// Overload for an image modulo the first prime, whose leading coefficient may be zero.
 [[nodiscard]] bool certainly_square_free(std::vector<Residue> p);

@@ -63,8 +63,8 @@ class RecentFunctions {
     std::vector<double> numbers;
     std::shared_ptr<const WidePolynomial> function, negative;
   };
-  /// The entries of one hash value. The hash covers only the numbers, so a few formulas share a shelf. It is
-  /// the same in every run.
+  /// The entries of one hash value. The hash covers only the numbers, so a few formulas share a shelf. The
+  /// hash is the same in every run.
   struct Shelf {
     std::array<Known, 8> known;
     std::size_t oldest = 0;

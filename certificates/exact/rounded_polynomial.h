@@ -1,5 +1,5 @@
 #pragma once
-// An exact polynomial rounded to double. Its coefficients are known exactly, and each is rounded by itself. A
+// An exact polynomial rounded to double. The coefficients are known exactly, and each is rounded by itself. A
 // function that would vanish but for the rounding of its beads' coordinates therefore keeps full relative
 // precision. This class finds the descents of such a function without integers of the length that exact roots
 // have. The work is bounded; if a result cannot be proved, the class says so.
@@ -36,8 +36,9 @@ class RoundedPolynomial {
   /// Returns 1 or -1 if that is certainly the sign on all of [lower, upper], else 0.
   [[nodiscard]] int sign_on(double lower, double upper) const;
 
-  /// A root at which the polynomial turns negative. It is the only root in [lower, upper]; the polynomial is
-  /// certainly positive at lower and negative at upper. `last`: there is no later root, and none at 1.
+  /// A root at which the polynomial turns negative. This root is the only one in [lower, upper]; the
+  /// polynomial is certainly positive at lower and negative at upper. `last`: there is no later root, and
+  /// none at 1.
   struct Descent {
     double lower, upper;
     bool last;

@@ -16,8 +16,9 @@ namespace {
 constexpr std::size_t most_kept_bits = 2048;
 
 /// Returns whether `digits` correct leading bits suffice. Each coefficient must either have as many correct
-/// bits itself, or be negligible everywhere in (0,1). It is negligible if it lies `digits` bits below the
-/// Newton polygon: one coefficient before it and one after it have enough correct bits and outweigh it.
+/// bits itself, or be negligible everywhere in (0,1). A coefficient is negligible if it lies `digits` bits
+/// below the Newton polygon: one coefficient before it and one after it have enough correct bits and outweigh
+/// it.
 bool suffice(const std::vector<BallNumber>& c, std::size_t digits) {
   struct Corner {
     std::int64_t place, top;

@@ -41,8 +41,8 @@ class WidePolynomial {
  public:
   explicit WidePolynomial(std::vector<Integer> scaled) : whole_(std::move(scaled)) {}
   explicit WidePolynomial(std::unique_ptr<const CoefficientSource> source) : source_(std::move(source)) {}
-  /// Constructs the negative of `opposite`, which must not itself be a negation. Both share what is found out
-  /// about roots.
+  /// Constructs the negative of `opposite`, which must not itself be a negation. The two polynomials share
+  /// all results about roots.
   explicit WidePolynomial(std::shared_ptr<const WidePolynomial> opposite) : opposite_(std::move(opposite)) {}
 
   /// Returns null unless this polynomial was constructed as the negative of another.
@@ -81,7 +81,7 @@ class WidePolynomial {
     bool with_lower = false;  ///< a root at the lower end belongs to this part
     int changes = 0;          ///< the number of sign changes, if known
     unsigned digits = 0;      ///< by how many digits it was narrowed without losing a sign change
-    /// The precision at which it, or the part around it, was last examined.
+    /// The precision at which this part, or the part around it, was last examined.
     std::size_t bits = BallNumber::first_bits;
   };
   /// Results found so far.

@@ -139,8 +139,8 @@ class WideIsolation {
     return {std::move(left), std::move(right)};
   }
 
-  // Does the same for a part of one scale, without roots at `lower`. It halves the polynomial restricted to
-  // that part, with twice as many bits if they do not decide. Later parts are put off if they would have to
+  // Does the same for a part of one scale, without roots at `lower`. Halves the polynomial restricted to that
+  // part, and takes twice as many bits if signs stay unknown. Later parts are put off if they would have to
   // be examined again.
   void visit_closely(Halves seen, Part part) {
     if (is_past(part) && puts_off(part)) return;

@@ -17,13 +17,13 @@ namespace kds {
 // the function's degree in lengths. Then coefficient k, in scaled Bernstein form, has an error of at most
 // coefficient[k] * M^h.
 //
-// This is proved for 2^-900 <= M^h <= 2^900. In this range nothing overflows. A product that underflows has
-// an error of at most 2^-1022, whether it is flushed to zero or not, times factors whose product is below
+// The bound is proved for 2^-900 <= M^h <= 2^900. In this range nothing overflows. A product that underflows
+// has an error of at most 2^-1022, whether it is flushed to zero or not, times factors whose product is below
 // M^(h-p), where p <= h is the power that the product itself carried. That is at most 2^-69 of the smallest
 // bound, and the constants are inflated by more. Outside this range the filter is undecided. Rounding must be
 // to nearest (motions/base/floating_point_guard.h).
 //
-// Two bounds for the plain Bernstein coefficients c follow. Their division by binomials rounds once more.
+// Two bounds for the plain Bernstein coefficients c follow. The division of c by binomials rounds once more.
 //
 // - Any value at a double has an error of at most uniform * M^h + value_rounding(n) * max|c|.
 // - The coefficients on any part of [0,1], computed by two subdivisions, have an error of at most uniform *

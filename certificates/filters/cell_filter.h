@@ -1,7 +1,7 @@
 #pragma once
-// The float filter of power tests (float_filter.h) for whole cells, behind virtual calls on batches. It is
-// compiled once per dimension, for motions of degrees 1 and 3 and for lifted motion. Tests not proved
-// positive are undecided.
+// The float filter of power tests (float_filter.h) for whole cells, behind virtual calls on batches. The
+// filter is compiled once per dimension, for motions of degrees 1 and 3 and for lifted motion. Tests not
+// proved positive are undecided.
 
 #include <array>
 #include <cstddef>

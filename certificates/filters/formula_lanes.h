@@ -76,7 +76,7 @@ template <class Certificate, Motion M, int Degree>
 //
 // If both together are below 2^-25 M, they are at most the error of rounding to float. The function of these
 // differences, evaluated in double, then has at most the error of an evaluation in float from exact
-// differences, as magnitudes of 24 digits give it (motions/numbers/rounding_error.h). This is proved for
+// differences, as magnitudes of 24 digits give it (motions/numbers/rounding_error.h). The bound is proved for
 // 2^-900 <= M^h <= 2^900, as in bounded_polynomial.h. No allocation.
 
 /// A view of four tuples of beads at time u.

@@ -138,8 +138,8 @@ struct LanesSearch {
 };
 
 /// Searches the wanted lanes after `from`, where they must be certainly positive, by the computed value or
-/// because they are `known` to be. `descent.part` must hold the computed polynomial on [from, 1]. It
-/// determines the first step, and steps that start at `from` subdivide it.
+/// because they are `known` to be. `descent.part` must hold the computed polynomial on [from, 1]. The part
+/// determines the first step, and steps that start at `from` subdivide the part.
 template <int Degree>
 void isolate_lanes(LanesDescent<Degree>& descent, double from, const Lanes::Mask& wanted,
                    const Lanes::Mask& known, LanesSearch& result);

@@ -97,8 +97,8 @@ class TrackedMoment {
   static TrackedDouble rounded(double x) {
     return {x, TrackedDouble::unit_roundoff * std::abs(x) + TrackedDouble::lost_to_underflow};
   }
-  /// Returns the value at the end of the time. Its error includes how much the value may differ during the
-  /// time: |p'| <= degree * the steepest slope of the control polygon.
+  /// Returns the value at the end of the time. The error of the value includes how much it may differ during
+  /// the time: |p'| <= degree * the steepest slope of the control polygon.
   template <int curve_degree, std::invocable<int> Control>
   static TrackedDouble value(int own_degree, Control control, const TrackedDouble& earlier,
                              const TrackedDouble& later, double length) {

@@ -27,7 +27,7 @@ struct CoefficientBits {
 };
 
 /// The recorded formula of a type of functions (motions/numbers/recorded_formula.h), and the bounds that
-/// follow from it for motions of a degree. These are derived on first use and cached.
+/// follow from it for motions of a degree. The bounds are derived on first use and cached.
 class KnownFormula {
  public:
   /// `dimension`: 1 to 3. `lifted`: over lifted motion (motions/curves/lifted_motion.h).

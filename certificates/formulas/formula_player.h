@@ -76,8 +76,8 @@ class ViewedBeads final : public BeadSource<typename View::Number> {
   std::span<const BeadId> beads_;
 };
 
-/// Returns the scaled coefficients of the formula's value. They are valid until the thread plays another
-/// formula in this number type.
+/// Returns the scaled coefficients of the formula's value. The coefficients are valid until the thread plays
+/// another formula in this number type.
 template <class Number>
 [[gnu::noinline]] Coefficients<Number>& play(const RecordedFormula& formula,
                                              const BeadSource<Number>& beads) {

@@ -1,7 +1,7 @@
 #pragma once
 // Evaluates a function of beads in every number type, one function at a time, over the curves of any motion.
-// Its formula is recorded once and played, so nothing is compiled for it. The first filters (lanes of
-// doubles, signs of radicals) do compile formulas: certificates/filters, certificates/search.
+// The formula of the function is recorded once and played, so nothing is compiled for it. The first filters
+// (lanes of doubles, signs of radicals) do compile formulas: certificates/filters, certificates/search.
 
 #include <span>
 

@@ -336,7 +336,7 @@ class SearchInLanes final : public SearchOneByOne<Certificate, CurvesOf<C>> {
   Filter filter_;
 };
 
-/// Returns a search of one certificate at a time. It is faster to compile, for rare types.
+/// Returns a search of one certificate at a time. This search is faster to compile, for rare types.
 template <class Certificate, int Dimension>
 [[nodiscard]] std::unique_ptr<CertificateSearch<Certificate>> search_one_by_one(
     const MotionRef<Dimension>& motion) {

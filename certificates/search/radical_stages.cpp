@@ -12,7 +12,8 @@ namespace kds {
 namespace {
 
 /// Returns a narrower bracket around the only root of the norm in `bracket`, where the norm changes from
-/// `sign`. It surrounds the root of the polynomial as computed in double, as closely as signs are certain.
+/// `sign`. The bracket surrounds the root of the polynomial as computed in double, as closely as signs are
+/// certain.
 [[nodiscard]] BoundedPolynomial::Bracket narrowed(const RadicalInDouble& certificate,
                                                   BoundedPolynomial::Bracket bracket, int sign) {
   const double root =

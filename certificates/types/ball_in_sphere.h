@@ -30,9 +30,9 @@
 // taken out, and the remaining factor is e, not c. For a basis of one the remaining factor is |d|^2.
 //
 // The radius condition rho >= s_j is the sign of (c + s_j b) - s_j sqrt(b^2 - ac), with norm c + 2 b s_j + a
-// s_j^2. It is implied while any ball of the basis is at least as large as ball j. At times when the function
-// is positive, the condition can change only where ball j and the sphere coincide, and there the function
-// vanishes.
+// s_j^2. The condition is implied while any ball of the basis is at least as large as ball j. At times when
+// the function is positive, the condition can change only where ball j and the sphere coincide, and there the
+// function vanishes.
 //
 // Requirements on the basis at all times: its centres span a simplex (and a full basis keeps its
 // orientation), none of its balls contains another, and some sphere touches all of them from outside. A basis
@@ -41,12 +41,14 @@
 // since Qy is the sphere's centre projected to the span of the basis. Hence b^2 - ac >= 0 and sqrt(b^2 - ac)
 // - b > 0. The sign of D is therefore never needed.
 //
-// A relaxed certificate uses e_j - tau / 2 instead of e_j. It holds while |d_j - z|^2 <= (rho - s_j)^2 + tau,
-// since |z| = rho and all of the above is linear in (d_j, s_j, e_j). With eps the relaxation, and d = c_1 -
-// c_0 and p = r_0 + r_1 of the basis' first two balls, which are those farthest apart,
+// A relaxed certificate uses e_j - tau / 2 instead of e_j. The relaxed certificate holds while |d_j - z|^2 <=
+// (rho - s_j)^2 + tau, since |z| = rho and all of the above is linear in (d_j, s_j, e_j). With eps the
+// relaxation, and d = c_1 - c_0 and p = r_0 + r_1 of the basis' first two balls, which are those farthest
+// apart,
 //   tau = eps / 2 (|d|^2 + p^2 - 2 p r_j).
-// Further requirements at all times: p >= r_j and |d| >= r_j. They imply tau >= 0, so a ball inside the
-// sphere is inside the relaxed sphere. The sphere's radius R is at least L = (|d| + p) / 2 >= r_j, hence
+// Further requirements at all times: p >= r_j and |d| >= r_j. These inequalities imply tau >= 0, so a ball
+// inside the sphere is inside the relaxed sphere. The sphere's radius R is at least L = (|d| + p) / 2 >= r_j,
+// hence
 //   2 R (R - r_j) >= 2 L (L - r_j) = (|d|^2 + 2 |d| (p - r_j) + p^2 - 2 p r_j) / 2 >= tau / eps,
 // so that (rho - s_j)^2 + tau = (R - r_j)^2 + tau <= (R - r_j + eps R)^2: ball j is inside the sphere of
 // radius (1 + eps) R. The radius condition holds too. A relaxed basis of one uses s_j - eps r_0 instead of

@@ -84,7 +84,7 @@ struct RelaxedBeadInSphere {
   RelaxedBeadInSphere(const std::array<BeadId, Size + 1>& of, const Relaxation& relaxation)
       : beads{of, relaxation} {}
 
-  /// Returns the identity. Its last place distinguishes relaxations.
+  /// Returns the identity. The last place of the identity distinguishes relaxations.
   [[nodiscard]] Identity identity() const {
     Identity identity = identity_of(type, beads);
     identity.beads.back() = static_cast<BeadId>(beads.relaxation.units());

@@ -1,8 +1,8 @@
 #pragma once
 // Selects the certificate that a ball lies in the sphere of a basis, or in the relaxed sphere. If the radii
-// involved are equal during the whole step, it is the certificate for equal radii, also for beads of an
-// unequal necklace. Otherwise it is the radical certificate. In the plane and in space. Both are exact; the
-// types in their identities distinguish them.
+// involved are equal during the whole step, the selected certificate is the one for equal radii, also for
+// beads of an unequal necklace. Otherwise the radical certificate is selected. The plane and space are
+// supported. The two types are exact; the types in their identities distinguish them.
 //
 //   equal radii    bases of 1, 2 and (in space) 3 beads: bead_in_sphere.h; full bases: a power test times the
 //                  basis' orientation, where the weights are equal too

@@ -1,7 +1,7 @@
 #pragma once
 // Power test: for beads p, q, r (and s in space) of positive orientation, the power test of a bead t is
-// positive if t is outside their power circle (sphere), which is orthogonal to all of them. It is the sign of
-// the determinant with rows
+// positive if t is outside their power circle (sphere), which is orthogonal to all of them. The power test is
+// the sign of the determinant with rows
 //   (x-p, |x-p|^2 - w_x + w_p)   for x = q, r, (s,) t.
 // Antisymmetric in its beads; zero iff one circle (sphere) is orthogonal to all. Exact. For centres of degree
 // k and weights of degree at most 2k, the degree is 4k in the plane and 5k in space; in lifted motion it is 3

@@ -22,9 +22,9 @@ struct BenchChain {
 /// atoms of NAME.dcd and of NAME_first20.dcd. Throws InputError, also if the file has only one frame.
 [[nodiscard]] BenchChain read_bench_chain(const std::filesystem::path& path, std::size_t stride = 1);
 
-/// Returns the centres of the model with its default settings and radius 1. They are moved by up to `jitter`
-/// radii if the model supports jitter. For dimension 2 they lie in the plane. Throws InputError if the model
-/// needs more beads.
+/// Returns the centres of the model with its default settings and radius 1. The centres are moved by up to
+/// `jitter` radii if the model supports jitter. For dimension 2 they lie in the plane. Throws InputError if
+/// the model needs more beads.
 [[nodiscard]] Eigen::Matrix3Xd model_at_rest(std::string_view model, std::size_t beads, double jitter = 0.05,
                                              int dimension = 3);
 

@@ -169,7 +169,7 @@ constexpr std::size_t only_trajectories = std::numeric_limits<std::size_t>::max(
 
 struct Subject {
   std::string_view name;
-  std::size_t fewest_beads;  // of a generated chain; 0: runs on instances; or only_trajectories
+  std::size_t fewest_beads;  // in a generated chain; 0: runs on instances; or only_trajectories
   Rows (*bench)(const BenchInputs&, const Progress&);
   std::string_view (*what_is_missing)() = nullptr;  // names the rows that this build lacks
 };

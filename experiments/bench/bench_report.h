@@ -20,11 +20,11 @@ struct BenchRow {
   std::string unit;
   std::string peer;                  ///< empty if none
   std::optional<double> peer_value;  ///< in the same unit
-  /// The largest permitted ratio ours / peer. It is the largest permitted value instead if there is no peer
-  /// or if `goal_in_unit` is set. Empty if there is no goal.
+  /// The largest permitted ratio ours / peer. The goal is the largest permitted value instead if there is no
+  /// peer or if `goal_in_unit` is set. Empty if there is no goal.
   std::optional<double> goal;
   bool goal_in_unit = false;
-  std::optional<Spread> spread = {};  ///< of the value over the rounds, in its unit; empty for a count
+  std::optional<Spread> spread = {};  ///< the value over the rounds, in its unit; empty for a count
 
   /// Returns nothing if there is no peer or its value is 0.
   [[nodiscard]] std::optional<double> ratio() const {

@@ -69,10 +69,10 @@ struct CollisionBenchOptions {
   std::size_t rounds = 5;
 };
 
-/// Measures the detector of kds. Its peers are a cell list on single scenes, a Verlet list from frame to
-/// frame, and the trees of FCL and Bullet if this program was built with them. All frames are distinct, and
-/// the detectors see the same frames in turn. Includes the rows of contacts. Throws std::logic_error if two
-/// detectors find different pairs.
+/// Measures the detector of kds. The peers of the detector are a cell list on single scenes, a Verlet list
+/// from frame to frame, and the trees of FCL and Bullet if this program was built with them. All frames are
+/// distinct, and the detectors see the same frames in turn. Includes the rows of contacts. Throws
+/// std::logic_error if two detectors find different pairs.
 [[nodiscard]] std::vector<BenchRow> bench_collision(
     const CollisionBenchOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
 
@@ -85,8 +85,8 @@ struct PowerBenchOptions {
 
 /// Measures the power diagram from frame to frame, kinetically with an exact order of events, and by the
 /// other techniques of structures/power_diagram/diagram_update.h. The peer is CGAL's static build. Regular
-/// scenes, in which many balls lie on one sphere and many events coincide, are measured only kinetically.
-/// Their peer is CGAL's static build of both frames.
+/// scenes, in which many balls lie on one sphere and many events coincide, are measured only kinetically. The
+/// peer of these scenes is CGAL's static build of both frames.
 [[nodiscard]] std::vector<BenchRow> bench_power(
     const PowerBenchOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
 

@@ -1,6 +1,6 @@
 // Measures certificates from beads to answers beside the nearest operation of CGAL: a static predicate at one
-// moment, or algebraic numbers for the same polynomials (needs libmpfi-dev). Both are timed in turn. The
-// counters are medians: `ns` per item, `peer_ns` per item, `ratio` of both, and `allocations`, our
+// moment, or algebraic numbers for the same polynomials (needs libmpfi-dev). kds and the peer are timed in
+// turn. The counters are medians: `ns` per item, `peer_ns` per item, `ratio` of both, and `allocations`, our
 // allocations per item.
 //
 //   kds_benchmarks --benchmark_filter=settle    beads to "never fails in this step"; peer: predicate
@@ -332,7 +332,8 @@ void sign(Turns& turns, I input) {
       [&] { return peer.seconds_for(beads); });
 }
 
-// Measures whether four cells are positive at the failure times of other certificates. They are positive.
+// Measures whether four cells are positive at the failure times of other certificates. All four cells are
+// positive.
 template <class I>
 void positive_cells(Turns& turns, I input) {
   input.keep(Failure::Kind::later, enough);

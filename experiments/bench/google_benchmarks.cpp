@@ -1,6 +1,6 @@
-// Microbenchmarks that run kds and a peer in turn in one process. They are not tests. Run them from the
-// folder that contains data/, or set KDS_INSTANCES to the folder of moving-point instances. `kds bench
-// certificates` and `kds bench engine` print the same measures as rows.
+// Microbenchmarks that run kds and a peer in turn in one process. Microbenchmarks are not tests. Run them
+// from the folder that contains data/, or set KDS_INSTANCES to the folder of moving-point instances. `kds
+// bench certificates` and `kds bench engine` print the same measures as rows.
 
 #include <benchmark/benchmark.h>
 #include <gmp.h>

@@ -1,7 +1,8 @@
 #pragma once
-// The subjects of kds_benchmarks and of `kds bench`: measurements of certificates and of whole runs. They
-// time kds and a peer in turn. Google Benchmark in kds_benchmarks or `kds bench` determines the number of
-// turns. Because the speed of a machine drifts, only the ratio is reliable. Times are processor times.
+// The subjects of kds_benchmarks and of `kds bench`: measurements of certificates and of whole runs. The
+// measurements time kds and a peer in turn. Google Benchmark in kds_benchmarks or `kds bench` determines the
+// number of turns. Because the speed of a machine drifts, only the ratio is reliable. Times are processor
+// times.
 
 #include <cmath>
 #include <cstddef>

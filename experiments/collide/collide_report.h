@@ -61,14 +61,14 @@ class ContactMap {
   std::size_t beads_, in_group_, groups_;
   std::size_t frames_ = 0;
   std::uint64_t pairs_ = 0;
-  std::vector<std::uint64_t> counts_;  // of the groups i <= j, at index i * groups_ + j
+  std::vector<std::uint64_t> counts_;  // for the groups i <= j, at index i * groups_ + j
 };
 
-/// Writes the colliding pairs of each frame for other programs, frame by frame during the run.
-/// The header is `frame,i,j,distance,name_i,name_j`, followed by one line per pair. `frame` is the frame's
-/// number in the file. `i` and `j` are the beads' numbers in the scene. `name_i` and `name_j` are the names
-/// in the file, in quotes, or empty if it has none. `distance` is the rounded distance between the surfaces,
-/// printed so that it reads back exactly. It is negative if the balls overlap.
+/// Writes the colliding pairs of each frame for other programs, frame by frame during the run. The header is
+/// `frame,i,j,distance,name_i,name_j`, followed by one line per pair. `frame` is the frame's number in the
+/// file. `i` and `j` are the beads' numbers in the scene. `name_i` and `name_j` are the names in the file, in
+/// quotes, or empty if it has none. `distance` is the rounded distance between the surfaces, printed so that
+/// it reads back exactly. The distance is negative if the balls overlap.
 class PairsCsv {
  public:
   /// Writes the header. Stream and scene must outlive this object.

@@ -32,7 +32,7 @@ struct CollisionQuery {
 struct Detection {
   bool collide = false;
   std::optional<std::vector<BeadPair>> pairs;  ///< all colliding pairs, ascending
-  std::optional<ClosestPair> closest;          ///< of all pairs asked for
+  std::optional<ClosestPair> closest;          ///< among all pairs asked for
   std::optional<std::uint64_t> family;  ///< number of pairs of bead groups that prove the other pairs apart
 };
 
@@ -50,7 +50,7 @@ class Detector {
   virtual void find_closest(const Balls<Dimension>&, Detection&) {}
 };
 
-/// The frames that `kds collide` examines. They are read one after the other, with one frame in memory.
+/// The frames that `kds collide` examines. The frames are read one after the other, with one frame in memory.
 class CollideFrames {
  public:
   /// Reads all frames once. Each warning goes to `warn` as one line. Throws InputError for any fault of an
@@ -117,8 +117,8 @@ struct CollideRow {
   std::optional<ClosestInFrame> closest;   ///< empty if the method does not report it for some frame
   std::optional<std::uint64_t> family;
   Spread seconds;  ///< time over all rounds to find the collisions in all frames
-  /// Additional time for the closest pairs. It is nearly zero if that needs no separate search, and empty if
-  /// `closest` is empty.
+  /// Additional time for the closest pairs. The time is nearly zero if no separate search is necessary, and
+  /// empty if `closest` is empty.
   std::optional<Spread> closest_seconds;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
-// The experiment behind `kds compare`. It runs the same structures over the same inputs at several strides
-// and with several motions. It also counts the net changes between frames, whatever happened in between.
+// The experiment behind `kds compare`. The experiment runs the same structures over the same inputs at
+// several strides and with several motions. Net changes are counted between frames, whatever happened in
+// between.
 
 #include <cstdint>
 #include <functional>

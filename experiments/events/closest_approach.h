@@ -48,7 +48,7 @@ class ClosestApproachOfRun final : public EventListener {
  private:
   Session& session_;
   std::size_t structure_;
-  std::vector<std::array<BeadId, 2>> pairs_;  // of the step; the last one is the current pair
+  std::vector<std::array<BeadId, 2>> pairs_;  // in the step; the last one is the current pair
   std::optional<ClosestApproach> least_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// The files that a run writes about its events: contacts.csv, events.csv and the files of --dump. They are
-// written during the run.
+// The files that a run writes about its events: contacts.csv, events.csv and the files of --dump. These files
+// are written during the run.
 
 #include <cstddef>
 #include <cstdint>

@@ -47,8 +47,8 @@ fs::path link_target(const fs::path& path) {
 }
 
 // Returns the descriptor of this program to which the path leads, if a link on the way lies in /proc/self/fd.
-// Such a link need not contain a path. A file behind it must not be opened again: it would be written from
-// its beginning, over the text that standard output has already written.
+// Such a link need not contain a path. A file that it leads to must not be opened again: it would be written
+// from its beginning, over the text that standard output has already written.
 std::optional<int> descriptor_behind(fs::path path) {
   std::error_code error;
   const fs::path descriptors = fs::canonical("/proc/self/fd", error);
@@ -205,8 +205,8 @@ struct SignalsWait {
 
 }  // namespace
 
-// The hidden folder in which results are written before they are moved to their places. It is locked, so that
-// other programs see that it is in use.
+// The hidden folder in which results are written before they are moved to their places. The folder is locked,
+// so that other programs see that it is in use.
 struct StagingFolder {
   StagingFolder(const fs::path& directory, const std::string& subject) : beside(directory) {
     static std::atomic<unsigned> counter{0};

@@ -99,7 +99,7 @@ void add_provenance(Json& json, std::string command);
 /// bytes are replaced.
 [[nodiscard]] std::string text_of(const Json& json);
 
-/// A long array inside an object. Its items wait on disk as text.
+/// A long array inside an object. The items of the array wait on disk as text.
 class JsonItems {
  public:
   void add(const Json& item);

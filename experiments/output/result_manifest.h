@@ -3,8 +3,8 @@
 // result of the same command replaces or removes only these files. Files that were made or changed by others
 // stay.
 //
-// The manifest is a hidden text file in the directory, .kds-COMMAND-OPTION.files. It has a heading and a line
-// for each file with checksum (16 hex digits), size and name.
+// The manifest is a hidden text file in the directory, .kds-COMMAND-OPTION.files. The manifest has a heading
+// and a line for each file with checksum (16 hex digits), size and name.
 
 #include <cstdint>
 #include <filesystem>

@@ -1,5 +1,5 @@
 #pragma once
-// Text helpers that messages, tables and pages share. All are independent of the locale.
+// Text helpers that messages, tables and pages share. The helpers are independent of the locale.
 
 #include <cstdint>
 #include <optional>
@@ -32,7 +32,7 @@ inline constexpr std::string_view length_unit = "angstrom (or the unit of a file
 
 /// Aligns lines of cells, all with the same number of cells. Each column is as wide as its widest cell, with
 /// two spaces between columns and none at the end. `alignment` has '<' (left) or '>' (right) for each column.
-/// Its last character also holds for all further columns.
+/// The last character of `alignment` also holds for all further columns.
 [[nodiscard]] std::vector<std::string> in_columns(const std::vector<std::vector<std::string>>& lines,
                                                   std::string_view alignment);
 

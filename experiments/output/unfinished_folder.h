@@ -1,5 +1,5 @@
 #pragma once
-// A temporary folder. It is removed when the program ends, also if a catchable signal ends it.
+// A temporary folder. The folder is removed when the program ends, also if a catchable signal ends it.
 
 #include <cstdint>
 #include <string>

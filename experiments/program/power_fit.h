@@ -24,8 +24,9 @@ struct PowerFit {
 
 /// Fits the same law and computes the interval by the jackknife. Each element of `without_a_share` has the
 /// points as they are when one of several equal shares of the measurements is left out; the interval comes
-/// from the exponents of these fits. It says how much the exponent varies when the measurements are repeated,
-/// even if the points do not lie on a line or have unequal errors. Returns nothing if one of the fits fails.
+/// from the exponents of these fits. The interval says how much the exponent varies when the measurements are
+/// repeated, even if the points do not lie on a line or have unequal errors. Returns nothing if one of the
+/// fits fails.
 [[nodiscard]] std::optional<PowerFit> fit_power(
     std::span<const std::pair<double, double>> points,
     std::span<const std::vector<std::pair<double, double>>> without_a_share);

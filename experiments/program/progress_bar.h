@@ -48,7 +48,7 @@ class HeldWarnings {
  public:
   using Warn = std::function<void(const std::string&)>;
 
-  /// Returns a function that holds a warning. It must not be called after this object is destroyed.
+  /// Returns a function that holds a warning. The function must not be called after this object is destroyed.
   [[nodiscard]] Warn hold() {
     return [this](const std::string& warning) { held_.push_back(warning); };
   }

@@ -1,6 +1,7 @@
 #pragma once
 // The common part of every command whose result is a table: destinations, progress bar, warnings and output.
-// It writes results as NAME.json, NAME.csv and report.html in --out, to --json and to standard output.
+// The command writes results as NAME.json, NAME.csv and report.html in --out, to --json and to standard
+// output.
 //
 //   TableCommand command("update", arguments, options, "round");
 //   command.check_destinations(taken);          // before any input is read

@@ -36,9 +36,9 @@ double speed_of(const Subject& subject) {
   return speed;
 }
 
-// Returns how often near pairs must be found again after the first frame. They are found again at each frame
-// at which two beads may have approached by more than the skin since the last search. `nearer(found_at, now)`
-// bounds the approach.
+// Returns how often near pairs must be found again after the first frame. The pairs are found again at each
+// frame at which two beads may have approached by more than the skin since the last search. `nearer(found_at,
+// now)` bounds the approach.
 template <class Nearer>
 double times_repeated(const Subject& subject, double skin, const Nearer& nearer) {
   std::size_t repeated = 0, at = 0;

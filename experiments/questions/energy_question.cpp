@@ -192,7 +192,7 @@ class Measurement {
   }
 
  private:
-  // Returns the answer for chains in which all angles change. They are the last two curves.
+  // Returns the answer for chains in which all angles change. These chains have the last two curves.
   [[nodiscard]] std::string answer() const {
     const std::size_t count = question_.curves.size();
     const auto bases = question_.curves[count - 2].fit(), flips = question_.curves[count - 1].fit();

@@ -11,7 +11,7 @@
 namespace kds {
 
 struct Finding {
-  std::string id;     ///< of the claim; tables about one claim share it
+  std::string id;     ///< the claim's id; tables about one claim share it
   std::string claim;  ///< a sentence without its full stop
   bool holds = false;
   std::string figures;

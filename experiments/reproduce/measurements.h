@@ -51,8 +51,8 @@ struct Construction {
 /// cover only the searches; the hierarchies are built beforehand.
 struct SelfCollision {
   Spread quadratic_per_wrapped, layered_per_wrapped;
-  std::uint64_t wrapped_pairs = 0, layered_pairs = 0;  ///< of the separating sets
-  std::uint64_t edges = 0;                             ///< of the power diagram
+  std::uint64_t wrapped_pairs = 0, layered_pairs = 0;  ///< sizes of the separating sets
+  std::uint64_t edges = 0;                             ///< edges in the power diagram
 };
 [[nodiscard]] SelfCollision self_collision_of(const Subject& subject, std::size_t frame, std::size_t rounds);
 

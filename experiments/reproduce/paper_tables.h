@@ -23,14 +23,14 @@ struct PaperColumn {
 /// A count, or a ratio of two times: the median of the rounds with the least and the most.
 struct PaperValue {
   double value = 0;
-  std::optional<Spread> rounds;  ///< of a ratio of times
+  std::optional<Spread> rounds;  ///< for a ratio of times
 
   PaperValue(double count) : value(count) {}
   PaperValue(const Spread& ratio) : value(ratio.median), rounds(ratio) {}
 };
 
 struct PaperRow {
-  std::string name;  ///< of the model, as in the paper
+  std::string name;  ///< the model's name, as in the paper
   std::size_t beads = 0;
   std::string at;                            ///< conformation or step; empty if there is only one
   std::vector<PaperValue> ours;              ///< in the order of the table's columns

@@ -46,7 +46,7 @@ class EventLogWriter final : public EventListener {
 
 /// The header of a log: what it says about its run before the first event.
 struct EventLogHeader {
-  std::string version;  ///< of the program that wrote the log; empty if unknown
+  std::string version;  ///< the version that wrote the log; empty if unknown
   std::vector<std::string> arguments;
   std::size_t beads = 0;
   std::size_t steps = 0;

@@ -103,7 +103,7 @@ Option<RunOptions> structures_option() {
           [](const RunOptions& o) { return fmt::format("{}", fmt::join(o.structures, ",")); }};
 }
 
-/// Returns the option --rounds. Its default value does not appear as a setting.
+/// Returns the option --rounds. The default value of the option does not appear as a setting.
 Option<RunOptions> rounds_option() {
   auto option = whole_option(
       {"--rounds", "N",

@@ -33,7 +33,8 @@ struct StructureReport {
   double seconds = 0;  ///< time for this structure and its certificates after the first build
   double build_seconds = 0;
   double static_seconds = 0;  ///< time to build the same structure statically at every frame (CGAL)
-  Spread of_seconds, of_static_seconds;  ///< of all rounds; `seconds` and `static_seconds` are their medians
+  Spread of_seconds,
+      of_static_seconds;  ///< over all rounds; `seconds` and `static_seconds` are their medians
   Spread of_ratio;  ///< `seconds` divided by `static_seconds`, round by round; 0 if `static_seconds` is 0
   std::uint64_t rebuilds = 0;
   std::uint64_t audits_run = 0, audits_failed = 0;
@@ -57,8 +58,8 @@ struct RunReport {
   std::size_t rounds = 1;        ///< number of rounds behind the times
   double engine_seconds = 0;     ///< time of the event queue and the clock
   double listeners_seconds = 0;  ///< time for writing and counting events
-  NamedCounts comparisons;  ///< of failure times with overlapping brackets, by the method that settled them
-  std::uint64_t exact_work = 0;             ///< limb operations of exact arithmetic
+  NamedCounts comparisons;       ///< failure times with overlapping brackets, by the method that settled them
+  std::uint64_t exact_work = 0;  ///< limb operations of exact arithmetic
   std::uint64_t fingerprint = 0;            ///< printed as 16 hex digits
   std::optional<StrideCertificate> stride;  ///< from --certify
   std::optional<ClosestApproach> approach;  ///< only if the run has the closest pair and does not use `fast`
@@ -89,8 +90,8 @@ class StepCounts;  // run_scene.h
 /// Returns JSON text that ends with a newline.
 [[nodiscard]] std::string report_json(const RunReport& report);
 
-/// Returns the JSON of report_json with an additional object `replay`. Its members are log, events,
-/// logged_fingerprint, same and difference (null if there is no difference).
+/// Returns the JSON of report_json with an additional object `replay`. The members of `replay` are log,
+/// events, logged_fingerprint, same and difference (null if there is no difference).
 [[nodiscard]] std::string replay_json(const ReplayReport& replay, const std::filesystem::path& log);
 
 /// Returns a table with one column per structure and one row per figure. The fingerprint comes last. The

@@ -21,7 +21,7 @@
 
 namespace kds {
 
-/// Number of limb operations at one time of the run that triggers a warning. They take seconds.
+/// Number of limb operations at one time of the run that triggers a warning. So many operations take seconds.
 inline constexpr std::uint64_t extraordinary_work = 300'000'000;
 
 /// Passes one line to `warn` if the run spends `extraordinary` limb operations at one time: it says where and

@@ -19,7 +19,7 @@ namespace kds {
 
 namespace {
 
-/// The residue and atom of a bead. They identify the beads that results name by number.
+/// The residue and atom of a bead. Residue and atom identify the beads that results name by number.
 struct BeadRow {
   BeadId bead = 0;
   std::size_t necklace = 0;  ///< from 0, in the order of the scene

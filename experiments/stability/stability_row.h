@@ -18,8 +18,8 @@ struct StabilityRow {
   std::string subject;
   bool structure = false;  ///< a structure rather than a certificate type
   int dimension = 0;
-  int degree = 0;           ///< of the motion
-  int function_degree = 0;  ///< of the certificate; 0 for a structure, which has several functions
+  int degree = 0;           ///< the motion's degree
+  int function_degree = 0;  ///< the certificate's degree; 0 for a structure, which has several functions
   std::string extreme;
   bool must_refuse = false;  ///< the extreme has numbers without an exact value
 

@@ -38,7 +38,7 @@ class BeadCurves {
   [[nodiscard]] double& radius(std::size_t bead, int k) { return numbers_[at(bead, k, dimension_ + 1)]; }
   [[nodiscard]] double radius(std::size_t bead, int k) const { return numbers_[at(bead, k, dimension_ + 1)]; }
 
-  /// Returns an instance without radii. Weights are omitted if all are zero. They are also omitted in the
+  /// Returns an instance without radii. Weights are omitted if all are zero. Weights are also omitted in the
   /// plane and on the line, where an instance has no weights.
   [[nodiscard]] Instance instance(std::string name) const;
 
@@ -77,7 +77,7 @@ using SceneRandom = std::mt19937_64;
 /// The requirements for a scene.
 struct SceneShape {
   int dimension = 3;
-  int degree = 1;  ///< of the motion
+  int degree = 1;  ///< the motion's degree
   std::size_t beads = 0;
 };
 

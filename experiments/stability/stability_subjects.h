@@ -21,8 +21,8 @@ struct StabilityCases {
 struct StabilitySubject {
   std::string name;
   bool structure = false;         ///< a structure or a change of its motion rather than a certificate type
-  int dimension = 0, degree = 0;  ///< of the motion
-  int function_degree = 0;        ///< of a certificate
+  int dimension = 0, degree = 0;  ///< for the motion
+  int function_degree = 0;        ///< for a certificate
   bool weighted = false;  ///< uses weights or radii; other subjects skip the extremes of unequal radii
   std::function<StabilityRow(const Extreme&, const StabilityCases&)> run;
 

@@ -54,7 +54,7 @@ namespace {
 
 struct FamilySize {
   std::uint64_t family = 0;       ///< pairs of spheres
-  std::optional<Spread> seconds;  ///< of the search, without building the hierarchy
+  std::optional<Spread> seconds;  ///< time of the search, without building the hierarchy
 };
 
 template <int Dimension>

@@ -87,8 +87,8 @@ struct TheoremOptions {
   std::vector<Theorem> theorems;     ///< ascending
   std::size_t most_beads = 100'000;  ///< beads of the largest necklaces
   double gap = 0.05;                 ///< between rows of grids, in diameters
-  std::uint64_t seed = 1;            ///< of random necklaces
-  std::size_t rounds = 3;            ///< of each time measurement
+  std::uint64_t seed = 1;            ///< for random necklaces
+  std::size_t rounds = 3;            ///< for each time measurement
 };
 
 struct TheoremPlan {

@@ -15,7 +15,7 @@ namespace kds {
 namespace {
 
 struct Residue {
-  BeadRange beads;  ///< of the necklace
+  BeadRange beads;  ///< the necklace's beads
   BeadId calpha = no_bead;
 };
 

@@ -17,8 +17,8 @@ struct CalphaModel {
   std::vector<Trajectory> necklaces;
   std::vector<BeadRange> ranges;  ///< the model's beads of each necklace
   std::vector<double> radii;
-  /// The radius at which a ball around a CA always contains all balls of its residue. It is rounded up to
-  /// three digits. 0 if no such radius exists because numbers are too large or too small.
+  /// The radius at which a ball around a CA always contains all balls of its residue. The radius is rounded
+  /// up to three digits. 0 if no such radius exists because numbers are too large or too small.
   double covering_radius = 0;
   // For each bead of the model, in the numbering of the finest data:
   std::vector<BeadId> bead;

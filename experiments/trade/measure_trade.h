@@ -1,6 +1,6 @@
 #pragma once
-// The experiment behind `kds trade`. It measures the cost of every setting, running the settings in turn, and
-// the error of each against the truth at frames and between them.
+// The experiment behind `kds trade`. The experiment measures the cost of every setting, running the settings
+// in turn, and the error of each against the truth at frames and between them.
 
 #include <cstddef>
 #include <cstdint>

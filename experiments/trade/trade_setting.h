@@ -29,7 +29,7 @@ struct TradeSetting {
   std::string structure;
   std::size_t stride = 1;
   FrameMotion motion = FrameMotion::linear;
-  double tolerance = 0;  ///< of the motion, in units of the smallest radius
+  double tolerance = 0;  ///< the motion's tolerance, in units of the smallest radius
   Kernel kernel = Kernel::filtered;
   StructureSettings settings{};
   bool certify = false;  ///< read the frames left out, and enlarge spheres and balls by the deviation
@@ -49,7 +49,7 @@ struct TradeSetting {
   [[nodiscard]] double reach() const;
 };
 
-/// Returns the options by which the setting differs from the exact run, the structure first. They are options
+/// Returns the options by which the setting differs from the exact run, the structure first. All are options
 /// of `kds run`, except that `stride` is the third part of --frames.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> options_of(const TradeSetting& setting);
 /// Returns the structures and the options, as in "wrapped --between chord" for `kds run --structures wrapped

@@ -1,5 +1,6 @@
 #pragma once
-// The experiment behind `kds update`. It runs every technique over the same frames, at several strides.
+// The experiment behind `kds update`. The experiment runs every technique over the same frames, at several
+// strides.
 
 #include <cstdint>
 #include <functional>

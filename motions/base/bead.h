@@ -8,7 +8,7 @@ namespace kds {
 
 using BeadId = std::uint32_t;
 
-/// An id that belongs to no bead of any scene. It sorts after all others.
+/// An id that belongs to no bead of any scene. This id sorts after all others.
 inline constexpr BeadId no_bead = 0xffffffffU;
 
 /// A run of consecutive beads.

@@ -1,6 +1,6 @@
 #pragma once
-// An error in the user's input. Its message is one line that names the file, frame, bead or option and
-// says what was expected. The program prints it and exits with code 2.
+// An error in the user's input. The message of the error is one line that names the file, frame, bead or
+// option and says what was expected. The program prints it and exits with code 2.
 
 #include <stdexcept>
 

@@ -135,7 +135,7 @@ class InputFile::Members {
   // The byte of the file that is unpacked next.
   [[nodiscard]] std::uint64_t place() const { return filled_ - left(); }
 
-  // Reads on behind what is left; returns false at the end of the file.
+  // Appends further bytes to those that are left; returns false at the end of the file.
   bool fill() {
     std::copy(bytes_.begin() + static_cast<std::ptrdiff_t>(begin_),
               bytes_.begin() + static_cast<std::ptrdiff_t>(end_), bytes_.begin());
@@ -174,7 +174,7 @@ class InputFile::Members {
   const OnDisk& disk_;
   z_stream stream_{};
   std::vector<char> bytes_;
-  std::size_t begin_ = 0, end_ = 0;  // of those in `bytes_` that are not yet unpacked
+  std::size_t begin_ = 0, end_ = 0;  // the part of `bytes_` that is not yet unpacked
   std::uint64_t filled_ = 0;         // bytes of the file read so far
   bool inside_ = false;              // a member
   bool ended_ = false;

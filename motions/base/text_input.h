@@ -73,8 +73,8 @@ void unify_line_ends(std::string& text);
 }
 
 /// Returns how many insertions, deletions, substitutions and exchanges of neighbours make `b` of `a`: the
-/// Damerau-Levenshtein distance in which no letter is edited twice (optimal string alignment). It finds
-/// mistyped names.
+/// Damerau-Levenshtein distance in which no letter is edited twice (optimal string alignment). The distance
+/// finds mistyped names.
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 }  // namespace kds

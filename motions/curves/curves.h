@@ -141,7 +141,7 @@ class CopiedCurves {
 
   /// Returns all numbers that define the curves.
   [[nodiscard]] const std::vector<double>& numbers() const { return numbers_; }
-  /// Returns the curves. They are valid during the life of this object.
+  /// Returns the curves. The curves are valid during the life of this object.
   [[nodiscard]] C curves() const {
     const Curves<C::dimension> curves(Points{*this});
     if constexpr (lifted<C>) {

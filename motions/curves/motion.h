@@ -2,7 +2,8 @@
 // The concept of a motion. During one step, every bead's centre, weight and radius is a Bezier curve in u in
 // [0,1] with double control points. The control points define the motion exactly; any rounding happened when
 // they were made. Length unit and frame of reference are those of the input; a weight is a squared length.
-// Power diagrams use weights; spheres and contacts use radii. Neither is derived from the other here.
+// Power diagrams use weights; spheres and contacts use radii. Neither weights nor radii are derived from the
+// other here.
 
 #include <concepts>
 #include <cstddef>
@@ -20,7 +21,7 @@ concept Motion = requires(const M& motion, BeadId bead, int k, int axis) {
   { M::dimension } -> std::convertible_to<int>;
   { M::degree } -> std::convertible_to<int>;
   { motion.bead_count() } -> std::convertible_to<std::size_t>;
-  { motion.coordinate(bead, k, axis) } -> std::same_as<double>;  // of the k-th control point
+  { motion.coordinate(bead, k, axis) } -> std::same_as<double>;  // at the k-th control point
   { motion.weight(bead, k) } -> std::same_as<double>;
   { motion.control_point(bead, k) } -> std::same_as<const double*>;  // the coordinates, then the weight
   { motion.radius(bead, k) } -> std::same_as<double>;

@@ -1,6 +1,6 @@
 #pragma once
 // A reference to a motion, as structures hold it: any motion of the dimension, of any type and degree. The
-// motion may be set to another step at any time, but its degree must not change. It must outlive the
+// motion may be set to another step at any time, but its degree must not change. The motion must outlive the
 // structures.
 
 #include <array>

@@ -77,7 +77,8 @@ template <Motion M>
 }
 
 /// Positions of the beads at one time of a step, in doubles with error bounds (ball arithmetic), computed
-/// from the control points. They decide nearly every sign that an audit needs; integers decide the others.
+/// from the control points. These positions decide nearly every sign that an audit needs; integers decide the
+/// others.
 template <int Dimension>
 class RoundedPositions {
  public:
@@ -89,7 +90,7 @@ class RoundedPositions {
 
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] const Row& row(BeadId bead) const { return rows_[bead]; }
-  /// Return bounds on the error of every coordinate and of every weight. They are infinite if a number
+  /// Return bounds on the error of every coordinate and of every weight. The bounds are infinite if a number
   /// overflows.
   [[nodiscard]] double coordinate_error() const { return coordinate_error_; }
   [[nodiscard]] double weight_error() const { return weight_error_; }

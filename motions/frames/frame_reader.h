@@ -1,6 +1,6 @@
 #pragma once
-// The interface of a reader for one file format. It returns the frames in sequence, before the chain is made
-// whole and chain breaks are detected. Only the requested frame is in memory.
+// The interface of a reader for one file format. A reader returns the frames in sequence, before the chain is
+// made whole and chain breaks are detected. Only the requested frame is in memory.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace kds {
 struct ChainRead {
   std::string name;
   std::size_t bead_count = 0;
-  std::size_t residues = 0, residues_read = 0;  ///< of the chain in the file; 0 if none
+  std::size_t residues = 0, residues_read = 0;  ///< in the file's chain; 0 if none
 };
 
 /// Consecutive beads of one chain that follow one another by bonds. A periodic cell makes pieces whole, one
@@ -29,7 +29,7 @@ struct PieceRead {
 };
 
 /// The bonds along the beads. Guides are atoms of residues that the selection leaves out between two beads of
-/// a polymer. They are read to follow the bonds across these residues and are dropped afterwards.
+/// a polymer. Guides are read to follow the bonds across these residues and are dropped afterwards.
 struct BondPaths {
   std::vector<PieceRead> pieces;           ///< in order; empty: each chain is one piece
   std::vector<std::size_t> guides_before;  ///< for each guide, in order: the bead that follows it
@@ -52,7 +52,7 @@ struct FrameRead {
 class FrameReader {
  public:
   virtual ~FrameReader() = default;
-  /// Reads the next of the frames asked for; returns false behind the last one. In files with periodic cells
+  /// Reads the next of the frames asked for; returns false after the last one. In files with periodic cells
   /// the frames between come as well. `frame.asked` is true before the call, and the reader sets it to false
   /// for a frame between. Throws InputError naming file and frame.
   [[nodiscard]] virtual bool next(FrameRead& frame) = 0;

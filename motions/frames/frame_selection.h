@@ -41,7 +41,7 @@ struct FramesHeld {
   std::size_t whole = 0;
   bool ends_inside = false;                 ///< the file ends inside the frame after the whole ones
   std::uint64_t end = 0;                    ///< if it does: the file's length in bytes, unpacked
-  std::optional<DamagedFrame> damage = {};  ///< of the frame after the whole ones
+  std::optional<DamagedFrame> damage = {};  ///< damage in the frame after the whole ones
   bool lacks_line_end = false;              ///< if it ends inside: its last number may be cut off
 };
 
@@ -58,7 +58,7 @@ class FrameWalk {
  public:
   FrameWalk(const FramesAsked& asked, bool all) : asked_(asked), step_(all ? 1 : asked.stride) {}
 
-  /// Goes to the next frame; returns false behind the last one asked for.
+  /// Goes to the next frame; returns false after the last one asked for.
   [[nodiscard]] bool next() {
     const std::size_t frame = begun_ ? frame_ + step_ : asked_.first;
     if (asked_.count == 0 || frame > asked_[asked_.count - 1]) return false;
@@ -81,7 +81,7 @@ class FrameWalk {
 ///
 /// A file that ends inside its last frame gives the whole frames before it, with a warning. Throws
 /// DamagedFrame if a frame asked for, or any frame of an open range, is damaged; `until_damage` reads the
-/// frames before it instead, with a warning. Warns of frames behind the last one that a stride meets. The
+/// frames before it instead, with a warning. Warns of frames after the last one that a stride meets. The
 /// frame of a file of one is taken whatever the range: such a necklace is at rest.
 [[nodiscard]] FramesAsked select_frames(const std::string& file, const FrameRange& range,
                                         const FramesHeld& held, bool until_damage,

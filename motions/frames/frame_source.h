@@ -62,7 +62,7 @@ class FrameSource {
   /// Returns whether frames are missing at the end, because a file ends inside a frame or --until-damage has
   /// left out damaged ones. Known once all frames have been read.
   [[nodiscard]] virtual bool is_truncated() const { return false; }
-  /// Returns lines about the frames. They are complete once all frames have been read.
+  /// Returns lines about the frames. The lines are complete once all frames have been read.
   [[nodiscard]] virtual std::vector<std::string> warnings() const { return {}; }
 };
 

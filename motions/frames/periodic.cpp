@@ -16,7 +16,7 @@ namespace kds {
 
 namespace {
 
-// A Minkowski-reduced basis of at most three vectors. They are sorted by length, and no vector becomes
+// A Minkowski-reduced basis of at most three vectors. The vectors are sorted by length, and no vector becomes
 // shorter by adding whole multiples of the vectors before it. Columns beyond `rank` are zero. (Semaev 2001:
 // for three vectors this greedy reduction ends in a Minkowski-reduced basis.)
 struct ReducedBasis {

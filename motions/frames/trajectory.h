@@ -13,7 +13,7 @@ namespace kds {
 /// Frames that have chain breaks which the first frame has not.
 struct LaterBreaks {
   std::size_t frames = 0;       ///< how many
-  std::size_t first_frame = 0;  ///< of these, by its number in the file
+  std::size_t first_frame = 0;  ///< the first of these, by its number in the file
 };
 
 struct Trajectory {
@@ -24,8 +24,8 @@ struct Trajectory {
   std::vector<double> element_radii;  ///< van der Waals radius of each bead; empty where elements are unknown
   std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty where residues are unknown
   BeadGroups bead_groups;               ///< empty unless asked for
-  std::size_t residues = 0;       ///< of the chain in the file, without waters and ligands; 0 if unknown
-  std::size_t residues_read = 0;  ///< those with beads
+  std::size_t residues = 0;             ///< in the file's chain, without waters and ligands; 0 if unknown
+  std::size_t residues_read = 0;        ///< those with beads
   std::vector<std::size_t>
       breaks;                     ///< b: beads b and b+1 are joined across a chain break, in the first frame
   std::vector<std::size_t> gaps;  ///< b: beads b and b+1 are not bonded, as the names in the file say

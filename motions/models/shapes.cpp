@@ -67,8 +67,8 @@ Eigen::Vector3d grill_at(double t) {
   return {forth ? x : length - x, y, 0};
 }
 
-// A hash map of beads by grid cells, whose side is the distance that nonadjacent beads keep. It is used only
-// for look-up, so its order does not matter.
+// A hash map of beads by grid cells, whose side is the distance that nonadjacent beads keep. The map is used
+// only for look-up, so its order does not matter.
 class Occupied {
  public:
   void add(const Eigen::Vector3d& place) { cells_[key(place, 0, 0, 0)].push_back(place); }
@@ -200,7 +200,7 @@ Eigen::Matrix3Xd tightness_points(int h) {
   // Works with angles: every point and every centre lies on a ray from the origin, so mirroring a point
   // mirrors its angle.
   std::vector<long double> angles{0};
-  long double ray = 0, distance = 1;  // of the centre O_l of the first 2^l points
+  long double ray = 0, distance = 1;  // for the centre O_l of the first 2^l points
   const long double leg = 1 / std::sqrt(static_cast<long double>(h));
   for (int l = 0; l + 1 < h; ++l) {
     // O_(l+1) is at the right angle of the triangle O O_(l+1) O_l whose leg O_l O_(l+1) is 1 / sqrt(h).

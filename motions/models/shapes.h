@@ -15,8 +15,8 @@ using Shape = Eigen::Matrix3Xd;
 
 inline constexpr double radius = 1;
 
-/// The distance of consecutive beads divided by their diameter. They overlap by a thousandth, so coordinates
-/// rounded to three decimals (PDB) still give a connected necklace.
+/// The distance of consecutive beads divided by their diameter. Consecutive beads overlap by a thousandth, so
+/// coordinates rounded to three decimals (PDB) still give a connected necklace.
 inline constexpr double usual_bond = 0.999;
 
 /// The distance that models keep between nonadjacent beads, with a margin for the same rounding.
@@ -42,8 +42,8 @@ inline constexpr double clear_distance = 2.002;
 /// from about pi turns^2 beads on.
 [[nodiscard]] Shape helix(std::size_t beads, double turns, double bond = usual_bond);
 
-/// Returns the number of turns of a helix of `beads` beads in a cube whose turns are `pitch` bonds apart. It
-/// grows with the square root of the number of beads.
+/// Returns the number of turns of a helix of `beads` beads in a cube whose turns are `pitch` bonds apart. The
+/// number of turns grows with the square root of the number of beads.
 [[nodiscard]] double turns_at_pitch(std::size_t beads, double pitch);
 
 /// Returns six parallel segments in the plane, connected by parabolic arcs. Proper from 44 beads on, with 40
@@ -62,8 +62,8 @@ inline constexpr double clear_distance = 2.002;
 
 /// Returns a stage of the spiral. The chain covers the arc lengths starting at a quarter of its own length,
 /// for any `rolled`; this choice keeps the turns farthest apart. Fully rolled up (1), its tangent makes
-/// `turns` turns. Its last tangent is along x, and its centroid is at the origin. Proper in all stages from
-/// about 10 turns^2 beads on.
+/// `turns` turns. The last tangent of the chain is along x, and the centroid is at the origin. Proper in all
+/// stages from about 10 turns^2 beads on.
 [[nodiscard]] Shape spiral(std::size_t beads, double turns, double rolled, double bond = usual_bond);
 
 /// Returns the spiral rotated by half a turn and moved by `distance` chain lengths along y. No bead is

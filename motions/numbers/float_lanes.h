@@ -1,7 +1,8 @@
 #pragma once
-// Floats that undergo the same operations side by side. They serve proofs for which 24 binary digits suffice,
-// and do twice the work of the four doubles of lanes.h in the same time. The width is eight or four. Four is
-// for processors without vectors of eight floats, which would execute comparisons of eight one by one.
+// Floats that undergo the same operations side by side. Floats serve proofs for which 24 binary digits
+// suffice, and do twice the work of the four doubles of lanes.h in the same time. The width is eight or four.
+// Four is for processors without vectors of eight floats, which would execute comparisons of eight one by
+// one.
 
 #include <array>
 #include <cstddef>

@@ -118,8 +118,8 @@ class alignas(32) Lanes {
 /// crash.
 [[nodiscard]] std::optional<std::string> missing_in_processor();
 
-// Long functions on lanes, each compiled in one file. They are compiled like KDS_LANES_TARGETS and once more
-// for processors with AVX-512, which have twice the registers. Every version gives the same bits.
+// Long functions on lanes, each compiled in one file. These functions are compiled like KDS_LANES_TARGETS and
+// once more for processors with AVX-512, which have twice the registers. Every version gives the same bits.
 
 namespace detail {
 
@@ -146,7 +146,8 @@ struct LongLanes<function> {
 
 }  // namespace detail
 
-/// Calls `function` in the version for this processor. Its parameters must be references, spans or numbers.
+/// Calls `function` in the version for this processor. The parameters of `function` must be references, spans
+/// or numbers.
 template <auto function>
 inline constexpr auto in_long_lanes = &detail::LongLanes<function>::call;
 

@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::size_t primes = residue_folds.size();
 
-/// inverses[i][j]: of prime j modulo prime i, j < i
+/// inverses[i][j]: the inverse of prime j modulo prime i, j < i
 constexpr auto inverses = [] {
   std::array<std::array<std::uint64_t, primes>, primes> table{};
   for (std::size_t i = 0; i < primes; ++i) {

@@ -10,10 +10,10 @@
 namespace kds {
 
 /// A double, or four side by side, with a running error bound: |value - exact| <= error. The bound is updated
-/// with each operation. This is slower than a filter's fixed bound, but much sharper where numbers differ
-/// widely in size. There is no assumption about ranges: overflow makes the bound infinite or NaN, and losses
-/// from underflow are added to the bound, also where subnormal operands and results are flushed to zero.
-/// Rounding must be to nearest (motions/base/floating_point_guard.h).
+/// with each operation. A running bound is slower than a filter's fixed bound, but much sharper where numbers
+/// differ widely in size. There is no assumption about ranges: overflow makes the bound infinite or NaN, and
+/// losses from underflow are added to the bound, also where subnormal operands and results are flushed to
+/// zero. Rounding must be to nearest (motions/base/floating_point_guard.h).
 ///
 /// The bounds are rounded too, by a relative 2^-53 per operation. The user of a bound must therefore inflate
 /// it once (`inflation`).

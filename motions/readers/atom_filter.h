@@ -1,7 +1,7 @@
 #pragma once
 // Applies an atom selection (selection.h) to the residues of a structure. The syntax is that of gemmi and
-// MMDB, with negative residue numbers besides. It is parsed here because gemmi's own header (select.hpp)
-// needs another library on Debian 12.
+// MMDB, extended by negative residue numbers. The syntax is parsed here because gemmi's own header
+// (select.hpp) needs another library on Debian 12.
 
 #include <memory>
 #include <string>

@@ -80,7 +80,7 @@ void compare_elements(const std::string& file, const std::string& topology, cons
       radii[chosen.places[first]], chosen.element_radii[first], counted(differ, "bead")));
 }
 
-// Begins a piece at each bead behind guides, for a file without these atoms.
+// Begins a piece at each bead that follows guides, for a file without these atoms.
 BondPaths without_guides(const BondPaths& bonds) {
   BondPaths cut;
   auto guide = bonds.guides_before.begin();

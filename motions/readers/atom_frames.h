@@ -23,9 +23,9 @@ class AtomFrames {
 
   /// Returns the number of atoms in each frame.
   [[nodiscard]] virtual std::size_t atom_count() const = 0;
-  /// Returns the frames of the file. They are counted when the file is opened, from the frames' headers where
-  /// the format allows it. A size in a header must not be believed before it is compared with the file's
-  /// size.
+  /// Returns the frames of the file. The frames are counted when the file is opened, from the frames' headers
+  /// where the format allows it. A size in a header must not be believed before it is compared with the
+  /// file's size.
   [[nodiscard]] virtual FramesHeld held() const = 0;
   /// Returns whether a frame may have a cell. If none can, frames between those asked for are not read.
   [[nodiscard]] virtual bool may_have_cell() const = 0;

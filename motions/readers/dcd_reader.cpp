@@ -130,7 +130,7 @@ class DcdFile {
   std::vector<const char*> records_;
 };
 
-// The positions of all atoms. They are kept up to date if frames hold only the free atoms.
+// The positions of all atoms. The positions are kept up to date if frames hold only the free atoms.
 class Atoms {
  public:
   Atoms(DcdFile& dcd, const FramesHeld& held) : dcd_(dcd) {

@@ -24,13 +24,13 @@ namespace kds {
 
 namespace {
 
-// The columns of an atom's line. Numbers begin behind column 20. Their width is the distance between the
-// first two decimal points.
+// The columns of an atom's line. Numbers begin after column 20. The width of a number is the distance between
+// the first two decimal points.
 class GroColumns {
  public:
   static constexpr std::size_t names_end = 20;
 
-  // Returns nothing if the line has no three numbers with decimal points behind its names.
+  // Returns nothing if no three numbers with decimal points follow the names of the line.
   static std::optional<GroColumns> of(std::string_view line) {
     const std::size_t first = line.find('.', names_end);
     if (first == std::string_view::npos) return std::nullopt;
@@ -43,7 +43,8 @@ class GroColumns {
     return columns;
   }
 
-  // Whether the decimal points are where they should be. A number that is too wide moves those behind it.
+  // Whether the decimal points are where they should be. A number that is too wide moves the numbers after
+  // it.
   bool fit(std::string_view line) const {
     if (line.size() < names_end + 3 * width_) return false;
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -80,10 +81,10 @@ std::optional<double> time_in(std::string_view title) {
   return std::nullopt;
 }
 
-// The numbers of the line behind the atoms.
+// The numbers of the line after the atoms.
 struct GroBox {
   std::vector<double> lengths;  // 3 or 9
-  bool same_digits = true;      // behind the decimal points, at least one
+  bool same_digits = true;      // after the decimal points, at least one
 
   static std::optional<GroBox> of(std::string_view line) {
     GroBox box;
@@ -249,7 +250,7 @@ class GroModels final : public StructureModels {
             fmt::format("line {}: expected {}, found {}", lines_.number(), expected, in_quotes(line))};
   }
 
-  // Reads the title and the number of atoms. Blank lines may stand behind the last frame.
+  // Reads the title and the number of atoms. Blank lines may follow the last frame.
   Found read_head(std::size_t k, std::size_t& atoms) {
     std::string_view line;
     std::size_t blank = 0;
@@ -326,10 +327,10 @@ class GroModels final : public StructureModels {
   FramesHeld held_;
   std::vector<std::string> notes_;
   std::size_t next_ = 0;
-  std::uint64_t line_begin_ = 0;           // of the line read last, in bytes
+  std::uint64_t line_begin_ = 0;           // where the line read last begins, in bytes
   std::size_t box_size_ = 0;               // numbers in the box of the frame read last
-  bool upright_without_line_end_ = false;  // the only frame ends behind 3 numbers of its box
-  std::optional<double> time_;             // of the frame read last
+  bool upright_without_line_end_ = false;  // the only frame ends after 3 numbers of its box
+  std::optional<double> time_;             // the time of the frame read last
   bool has_times_ = false;
 };
 

@@ -3,7 +3,7 @@
 //
 // The file has no chains. Residues are divided into molecules (--chain 2 reads the second one): a molecule
 // begins where the residue number goes down, where the kind of molecule changes (protein, nucleic acid,
-// water, others), and behind or before an atom that only the end of a chain has, as OXT, OC2, H3 or HO5'.
+// water, others), and after or before an atom that only the end of a chain has, as OXT, OC2, H3 or HO5'.
 
 #include <filesystem>
 #include <memory>

@@ -372,7 +372,7 @@ class LammpsFrames final : public AtomFrames {
   LineReader lines_;
   std::string_view line_;
   std::uint64_t line_begin_ = 0;
-  std::vector<std::string_view> fields_;  // of a line
+  std::vector<std::string_view> fields_;  // the fields of a line
   FramesHeld held_;
   std::vector<Place> frames_;
   DumpHeader first_;  // header of frame 0

@@ -43,7 +43,7 @@ class NecklaceStream {
   [[nodiscard]] bool chain_like() const { return opened_.chain_like; }
   /// Returns whether the file has only one frame. Starts again with the first frame.
   [[nodiscard]] bool holds_one_frame();
-  /// Returns the warnings about a necklace. They are complete once all frames have been read.
+  /// Returns the warnings about a necklace. The warnings are complete once all frames have been read.
   [[nodiscard]] std::vector<std::string> warnings(std::size_t necklace) const;
   /// Returns whether frames are missing at the end: the file ends inside a frame, or a damaged frame has
   /// ended the reading. Complete once all frames have been read.
@@ -97,13 +97,13 @@ class NecklaceStream {
   std::optional<double> time_step_;
   bool until_damage_;
   std::vector<Trajectory> heads_;
-  std::vector<Piece> pieces_;              ///< of all necklaces, in order
-  std::vector<Notes> notes_;               ///< of each necklace
+  std::vector<Piece> pieces_;              ///< for all necklaces, in order
+  std::vector<Notes> notes_;               ///< for each necklace
   std::vector<Eigen::Index> bead_counts_;  ///< likewise
   bool bonds_joined_ = false;              ///< some frame had a bond across the walls of its cell
   std::string cell_unsuited_;              ///< why cells are no longer used
   std::optional<std::size_t> last_read_;   ///< number of the last frame read
-  std::optional<FrameStamp> last_timed_;   ///< of the last frame read that has a time
+  std::optional<FrameStamp> last_timed_;   ///< the last frame read that has a time
   std::size_t times_disordered_ = 0;       ///< frames not later than the frame before
   std::string first_disordered_;           ///< about the first of these
   bool ended_ = false;                     ///< a damaged frame has ended the reading

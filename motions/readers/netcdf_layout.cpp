@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t longest_header = std::uint64_t{1} << 20U;
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 50U;  // sums of a few do not overflow
-// Bytes of a value of each type. Only CDF-5 has the types behind double.
+// Bytes of a value of each type. Only CDF-5 has the types after double.
 constexpr std::array<std::uint64_t, 12> bytes_of_type{0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
 constexpr int double_type = 6;
 
@@ -39,7 +39,7 @@ const NetcdfVariable* NetcdfLayout::find(std::string_view name) const {
 }
 
 std::uint64_t NetcdfLayout::whole_records() const {
-  std::uint64_t end = 0;  // of the first record
+  std::uint64_t end = 0;  // the end of the first record
   for (const NetcdfVariable& variable : variables_)
     if (variable.has_records) end = std::max(end, variable.begin + variable.bytes);
   if (record_size_ == 0 || file_size_ < end) return 0;

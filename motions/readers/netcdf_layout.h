@@ -19,7 +19,7 @@ namespace kds {
 struct NetcdfVariable {
   std::string name;
   int id = 0;                          ///< as libnetcdf numbers variables
-  std::vector<std::uint64_t> lengths;  ///< of its dimensions; 1 for the records
+  std::vector<std::uint64_t> lengths;  ///< lengths of its dimensions; 1 for the records
   bool has_records = false;
   std::uint64_t begin = 0;  ///< byte of the first part
   std::uint64_t bytes = 0;  ///< in one part

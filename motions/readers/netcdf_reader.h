@@ -1,7 +1,7 @@
 #pragma once
 // AMBER NetCDF trajectories and restart files in the classic formats CDF-1, CDF-2 and CDF-5. libnetcdf reads
-// the values. It returns zeros without an error where a file ends early, so the size that the header promises
-// is compared with the file's size first.
+// the values. libnetcdf returns zeros without an error where a file ends early, so the size that the header
+// promises is compared with the file's size first.
 
 #include <filesystem>
 #include <memory>

@@ -28,8 +28,8 @@ struct Source {
   std::string file, text;
 };
 
-// Returns the line of a value, or of its tag where it is one of a pair: the `index`-th value of the loop that
-// begins with this tag, at this line or behind it.
+// Returns the line of the `index`-th value of the loop that begins with this tag, at this line or after it.
+// For a pair of a tag and a value, returns the line of the tag.
 std::size_t line_of_value(std::string_view text, std::size_t line, const std::string& first_tag,
                           std::size_t columns, std::size_t index) {
   constexpr std::string_view blanks = " \t\n";
@@ -193,7 +193,7 @@ class Table {
                                  loop_ != nullptr ? item.loop.tags[column] : item.pair[0],
                                  in_quotes(values()[index])));
   }
-  // The place of a column in a row, behind the last one if there is none.
+  // The place of a column in a row; one past the last column if there is none.
   std::size_t place_of(const std::string& column) const {
     return static_cast<std::size_t>(std::find(tags_.begin(), tags_.end(), category_ + lower_case(column)) -
                                     tags_.begin());

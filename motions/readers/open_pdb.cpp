@@ -18,11 +18,11 @@ namespace kds {
 
 namespace {
 
-// The use of column 21. It holds the fourth letter of a residue's name (LYSH) in simulation files, or the
-// first letter of a chain's name in files of large structures. Along a chain, names of residues change but
-// names of chains do not, so consecutive amino acids or nucleotides vote: equal letters are votes for a chain
-// name, different letters for a residue name. If no amino acid or nucleotide uses the column, the letters
-// belong to residue names that are in no table (TIP3, DPPC).
+// The use of column 21. Column 21 holds the fourth letter of a residue's name (LYSH) in simulation files, or
+// the first letter of a chain's name in files of large structures. Along a chain, names of residues change
+// but names of chains do not, so consecutive amino acids or nucleotides vote: equal letters are votes for a
+// chain name, different letters for a residue name. If no amino acid or nucleotide uses the column, the
+// letters belong to residue names that are in no table (TIP3, DPPC).
 enum class Column21 { residue_name, guessed_residue_name, chain_name };
 
 Column21 use_of_column_21(const PdbModel& model) {

@@ -112,7 +112,7 @@ bool PdbModelReader::read(PdbModel* model) {
     if (is_record(line, "CRYST1")) {
       cell_ = box_cell(line);
       has_met_cell_ = has_met_cell_ || cell_.cell;
-      if (run.inside && model != nullptr) model->cell = cell_;  // some programs write it behind MODEL
+      if (run.inside && model != nullptr) model->cell = cell_;  // some programs write it after MODEL
     } else if (is_record(line, "MODEL")) {
       // Atoms before the first MODEL are outside the models.
       if (run.inside && !run.with_record) run.outside_models = true;

@@ -153,7 +153,7 @@ class StructureFrames final : public FrameReader {
   bool alone_;
   bool ignores_cell_;
   FrameWalk walk_;
-  std::vector<std::string> names_, guide_names_;  // of beads and guides in the first frame
+  std::vector<std::string> names_, guide_names_;  // beads and guides in the first frame
 };
 
 FramesOpened open_models(const std::filesystem::path& path, const ReadOptions& options, OpenModels open) {

@@ -1,7 +1,7 @@
 #pragma once
-// Formats whose atoms have residues: PDB, mmCIF and their relatives, plain or gzipped. Their models are the
-// frames. The cell of a crystal is not a simulation box. A cell is therefore used only if the file has
-// several models, the space group is P 1, and the lengths are above 1 angstrom. GRO files have boxes.
+// Formats whose atoms have residues: PDB, mmCIF and their relatives, plain or gzipped. The models of a file
+// are the frames. The cell of a crystal is not a simulation box. A cell is therefore used only if the file
+// has several models, the space group is P 1, and the lengths are above 1 angstrom. GRO files have boxes.
 //
 // A reader of such a format is one function that opens the models of a file (structure_models.h) and one line
 // of registration (reader_registry.cpp).

@@ -31,8 +31,8 @@ std::string joined(std::vector<std::string> texts, std::size_t most) {
 
 std::string name_of(const StructureResidue& residue) { return residue.name + ' ' + residue.number; }
 
-// Returns whether two residues at one position are alternates. They are if all atoms of the second residue
-// say so.
+// Returns whether two residues at one position are alternates. Two residues are alternates if all atoms of
+// the second residue have alternate locations.
 bool is_alternate_of(const StructureResidue& residue, const StructureResidue& before) {
   return before.number == residue.number && before.sequence == residue.sequence &&
          before.molecule == residue.molecule &&
@@ -297,7 +297,7 @@ class AtomChoice {
   std::optional<AtomFilter> filter_;
 };
 
-// Returns the groups of a bead: of its atom, which is one of the residue's.
+// Returns the groups of a bead, which are those of its atom. The atom is one of the residue's atoms.
 std::uint8_t groups_of(const std::vector<AtomChoice>& groups, const StructureResidue& residue,
                        bool in_polymer, const StructureAtom& atom) {
   unsigned of_bead = 0;
@@ -332,8 +332,8 @@ class BondWalk {
     const StructureResidue& before = left_out_.empty() ? *last_ : *left_out_.back();
     if (!is_alternate_of(residue, before)) left_out_.push_back(&residue);
   }
-  // Goes on to a residue that is read. Returns whether bonds lead to it from the residue read before. They
-  // lead through the residues left_out().
+  // Goes on to a residue that is read. Returns whether bonds lead to it from the residue read before. The
+  // bonds lead through the residues left_out().
   bool go_to(const StructureResidue& residue) {
     left_out_behind_.clear();
     const bool bonded = last_ != nullptr && is_bonded_to_last(residue);

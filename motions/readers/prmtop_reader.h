@@ -1,7 +1,7 @@
 #pragma once
-// Topologies of AMBER (prmtop, parm7). They name atoms and have no frames or chains. Residues in sequence
-// that a bond connects belong to one molecule (--chain 2 reads the second one). Numbers of residues count
-// from 1.
+// Topologies of AMBER (prmtop, parm7). These files name atoms and have no frames or chains. Residues in
+// sequence that a bond connects belong to one molecule (--chain 2 reads the second one). Numbers of residues
+// count from 1.
 
 #include <filesystem>
 #include <memory>

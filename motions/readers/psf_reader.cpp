@@ -24,7 +24,7 @@ struct PsfAtom {
 };
 
 // The form of the atoms' lines: serial number, segment, residue number, residue, atom, type, charge, mass.
-// NAMD separates them by blanks alone. The other forms have columns of this width, with a blank behind each.
+// NAMD separates them by blanks alone. The other forms have columns of this width, with a blank after each.
 struct PsfForm {
   bool has_columns = true;
   std::size_t serial = 8, name = 4;
@@ -118,7 +118,7 @@ class PsfFile {
                                   in_quotes(found)));
   }
 
-  // Continues behind the line of !NATOM and returns its number.
+  // Continues after the line of !NATOM and returns its number.
   std::size_t read_count() {
     for (std::string_view line; lines_.next(line);) {
       const std::size_t key = line.find("!NATOM");

@@ -1,5 +1,5 @@
 #pragma once
-// PSF files of CHARMM, XPLOR, NAMD and VMD. They name atoms and have no frames. Segments are chains.
+// PSF files of CHARMM, XPLOR, NAMD and VMD. These files name atoms and have no frames. Segments are chains.
 
 #include <filesystem>
 #include <memory>

@@ -14,7 +14,7 @@
 
 namespace kds {
 
-/// The unit styles of LAMMPS that are read. They decide in which unit lengths and times are.
+/// The unit styles of LAMMPS that are read. The unit style gives the units of lengths and times.
 enum class LammpsUnits {
   real,   ///< angstrom, femtoseconds
   metal,  ///< angstrom, picoseconds
@@ -35,7 +35,7 @@ struct ReadOptions {
   std::optional<std::string> format = {};  ///< name of a reader; none: told from the file
   std::optional<double> time_step = {};    ///< picoseconds between frames; none: times as in the file
   bool until_damage = false;               ///< reads the frames before a damaged one
-  std::optional<LammpsUnits> units = {};   ///< of a LAMMPS dump; none: as the file says, else angstrom
+  std::optional<LammpsUnits> units = {};   ///< for LAMMPS dumps; none: as the file says, else angstrom
   std::vector<Selection> groups = {};      ///< groups of the selected beads, at most eight (BeadGroups)
 };
 

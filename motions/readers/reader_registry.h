@@ -58,8 +58,8 @@ class ReaderRegistry {
   std::vector<ReaderSpec> readers_;
 };
 
-/// Returns the registry of the process. It holds the framework's own readers and those added before the first
-/// file is read.
+/// Returns the registry of the process. The registry holds the framework's own readers and those added before
+/// the first file is read.
 [[nodiscard]] ReaderRegistry& reader_registry();
 
 }  // namespace kds

@@ -2,8 +2,8 @@
 // Groups the atoms of a model into residues, for all formats of structures.
 //
 // A block is a run of atoms with the same chain, molecule, number and name. A block becomes a residue of its
-// own unless it completes an earlier residue. It completes a residue with the same chain, molecule, number
-// and name if the two have no atom in common (name and alternate location). This happens for alternate
+// own unless it completes an earlier residue. A block completes a residue with the same chain, molecule,
+// number and name if the two have no atom in common (name and alternate location). This happens for alternate
 // locations or hydrogens listed later in the file. A block that contains an atom twice begins a new residue
 // at the repeated atom, so residues whose numbers restart, overflow or collide stay separate.
 

@@ -2,7 +2,7 @@
 // Which atoms of a structure become beads: a name, or an atom selection in gemmi's syntax.
 //
 // An atom selection has the form /MODEL/CHAINS/RESIDUES/ATOMS, as in //A/10-40/CA,CB. Parts may be missing:
-// A/10-40, 10-40/CA, (ALA,GLY), [C], CA[C]:A. Conditions follow behind semicolons: ;q>0.5, ;b<30, ;polymer.
+// A/10-40, 10-40/CA, (ALA,GLY), [C], CA[C]:A. Conditions follow semicolons: ;q>0.5, ;b<30, ;polymer.
 
 #include <array>
 #include <cstddef>
@@ -43,7 +43,7 @@ class Selection {
 
  private:
   Kind kind_;
-  std::string atoms_;  ///< of the kind `atoms`
+  std::string atoms_;  ///< for the kind `atoms`
 };
 
 /// Names, in the order of the enumerators.

@@ -1,5 +1,5 @@
 #pragma once
-// The atoms of a structure or topology file. They give names to the atoms of a trajectory.
+// The atoms of a structure or topology file. These atoms give names to the atoms of a trajectory.
 
 #include <cstddef>
 #include <filesystem>

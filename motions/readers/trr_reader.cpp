@@ -22,8 +22,8 @@ namespace {
 constexpr std::string_view trr_start("\0\0\x07\xC9\0\0\0\x0D\0\0\0\x0CGMX_trn_file", 24);
 
 struct TrrHeader {
-  std::uint64_t begin = 0;  // of the frame in the file
-  std::size_t size = 0;     // of the header
+  std::uint64_t begin = 0;  // where the frame begins in the file
+  std::size_t size = 0;     // the header's size
   std::size_t real = 4;     // bytes of a number
   std::size_t atoms = 0;
   double time = 0;
@@ -197,7 +197,7 @@ class TrrFrames final : public AtomFrames {
   std::uint64_t length_ = 0;
   std::size_t atoms_ = 0;
   bool has_box_ = false;
-  std::vector<std::uint64_t> begins_;  // of the frames with positions
+  std::vector<std::uint64_t> begins_;  // where the frames with positions begin
   std::size_t left_out_ = 0;           // frames without
   FramesHeld held_;
   std::vector<char> bytes_;

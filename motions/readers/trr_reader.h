@@ -6,7 +6,7 @@
 // two tensors, positions (nm), velocities and forces, each unless its size is 0. All reals have single or
 // double precision, which follows from the sizes. Doubles are rounded to floats, as mdtraj and MDAnalysis do.
 //
-// Frames without positions hold velocities or forces only. They are left out with a note.
+// Frames without positions hold velocities or forces only. Such frames are left out with a note.
 
 #include <filesystem>
 #include <memory>
@@ -20,7 +20,7 @@ namespace kds {
 /// Returns whether a file that begins with these bytes is a TRR file.
 [[nodiscard]] bool looks_like_trr(std::string_view start);
 
-/// Opens a TRR file. Its frames are counted by their headers. Throws InputError naming the file.
+/// Opens a TRR file. The frames are counted by their headers. Throws InputError naming the file.
 [[nodiscard]] std::unique_ptr<AtomFrames> open_trr(const std::filesystem::path& path,
                                                    const ReadOptions& options);
 

@@ -53,7 +53,7 @@ void write_xyz(std::ostream& stream, const Trajectory& trajectory, std::string_v
 }
 
 void write_pdb(std::ostream& stream, const Trajectory& trajectory, std::string_view about) {
-  constexpr std::size_t width = 70;  // of a title line; the second and later lines are numbered
+  constexpr std::size_t width = 70;  // width of a title line; the second and later lines are numbered
   for (std::size_t line = 0; line * width < about.size(); ++line)
     put(stream, fmt::format("TITLE   {:>2}{}\n", line == 0 ? "" : std::to_string(line + 1),
                             about.substr(line * width, width)));

@@ -83,14 +83,14 @@ const std::vector<XtcRadix>& xtc_small_radices() {
 }
 
 struct XtcHeader {
-  std::uint64_t begin = 0;  // of the frame in the file
-  std::size_t size = 0;     // of the header
+  std::uint64_t begin = 0;  // where the frame begins in the file
+  std::size_t size = 0;     // the header's size
   std::size_t atoms = 0;
   float time = 0;
   CellRead cell;
   std::uint64_t data = 0;  // bytes of the coordinates
   float precision = 0;
-  std::array<std::int32_t, 3> least{};   // of all coordinates
+  std::array<std::int32_t, 3> least{};   // the least of all coordinates
   std::array<std::uint32_t, 3> sizes{};  // one more than the difference of the largest and the least
   std::size_t small = 0;                 // place in the table of sizes, at the first atom
 
@@ -234,7 +234,7 @@ class XtcCoordinates {
               bits_.read(static_cast<unsigned>(std::bit_width(header.sizes[axis]))));
       }
       ++i;
-      std::size_t change = 1;  // of the place in the table: one back, none, one on
+      std::size_t change = 1;  // the step in the table: one back, none, one on
       if (bits_.read(1) != 0) {
         const std::uint64_t told = bits_.read(5);
         run = told / 3;
@@ -418,7 +418,7 @@ class XtcFrames final : public AtomFrames {
   InputFile input_;
   std::uint64_t length_ = 0;
   std::size_t atoms_ = 0;
-  std::vector<std::uint64_t> begins_;  // of the frames
+  std::vector<std::uint64_t> begins_;  // where the frames begin
   FramesHeld held_;
   XtcCoordinates coordinates_;
 };

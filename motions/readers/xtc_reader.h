@@ -26,7 +26,7 @@ namespace kds {
 /// Returns whether a file that begins with these bytes is an XTC file.
 [[nodiscard]] bool looks_like_xtc(std::string_view start);
 
-/// Opens an XTC file. Its frames are counted by their headers. Throws InputError naming the file.
+/// Opens an XTC file. The frames are counted by their headers. Throws InputError naming the file.
 [[nodiscard]] std::unique_ptr<AtomFrames> open_xtc(const std::filesystem::path& path,
                                                    const ReadOptions& options);
 

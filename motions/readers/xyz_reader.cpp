@@ -220,8 +220,8 @@ class XyzFrames final : public AtomFrames {
     }
   }
 
-  // Whether the last column that is read cannot be cut off: something stands behind it, or it is a coordinate
-  // with all decimals.
+  // Whether the last column that is read cannot be cut off: something follows the number, or it is a
+  // coordinate with all decimals.
   bool is_last_column_whole(const XyzColumns& columns, std::uint64_t first_atom, std::size_t first_line,
                             std::size_t count) {
     if (line_.ends_with(' ') || line_.ends_with('\t')) return true;
@@ -315,8 +315,8 @@ class XyzFrames final : public AtomFrames {
   bool may_have_cell_ = false;
   std::size_t next_ = 0;  // frame that the next line begins
   std::optional<std::size_t> first_frame_;
-  std::vector<std::string> symbols_, ids_;  // of the first frame
-  Eigen::Matrix3Xd positions_;              // of all atoms
+  std::vector<std::string> symbols_, ids_;  // in the first frame
+  Eigen::Matrix3Xd positions_;              // for all atoms
 };
 
 }  // namespace

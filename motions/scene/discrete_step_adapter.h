@@ -2,9 +2,9 @@
 // The discrete-step adapter turns sampled frames into the motion of a step: it joins frames k and k+1 by a
 // curve for each bead.
 //
-// The adapter reads frames from a FrameSource (motions/frames/frame_source.h). It holds the window of frames
-// that one step needs: two, or four for Hermite curves. Steps are fast to reach in ascending order. To go
-// back, the source is read again from the start, or from anywhere if its frames are in memory.
+// The adapter reads frames from a FrameSource (motions/frames/frame_source.h). The adapter holds the window
+// of frames that one step needs: two, or four for Hermite curves. Steps are fast to reach in ascending order.
+// To go back, the source is read again from the start, or from anywhere if its frames are in memory.
 //
 // To add a way to join frames, add an enumerator to FrameMotion and its name, and extend degree(), reach()
 // and coordinate().
@@ -43,14 +43,14 @@ class DiscreteStepAdapter final : public StepSource {
   /// Adapts frames that have been surveyed. `survey` must be that of the source, or of a source with the same
   /// frames. If the survey found a plane, the motion is two-dimensional.
   DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey, FrameMotion motion);
-  /// Adapts frames that are still to come. They have `dimension` coordinates.
+  /// Adapts frames that are still to come. These frames have `dimension` coordinates.
   DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, int dimension, FrameMotion motion);
 
   [[nodiscard]] int dimension() const override { return dimension_; }
   [[nodiscard]] int degree() const override { return motion_ == FrameMotion::hermite ? 3 : 1; }
   [[nodiscard]] bool is_lifted() const override { return motion_ == FrameMotion::lifted; }
   [[nodiscard]] std::size_t frame_count() const override { return frame_count_; }
-  /// As long as frames may be added, a Hermite step is known one frame later than a linear one.
+  /// While frames may be added, a Hermite step is known one frame later than a linear one.
   [[nodiscard]] std::size_t known_steps() const override;
 
   void read_on() override;
@@ -85,7 +85,7 @@ class DiscreteStepAdapter final : public StepSource {
   int dimension_;
   std::size_t beads_;
   std::size_t frame_count_ = 0;
-  FrameStamp first_, last_;        ///< of all frames
+  FrameStamp first_, last_;        ///< the first and last of all frames
   std::vector<FrameRead> window_;  ///< consecutive frames
   FrameRead spare_;                ///< memory for the next frame
   std::size_t first_held_ = 0;     ///< the first frame in the window

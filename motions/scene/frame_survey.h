@@ -1,5 +1,6 @@
 #pragma once
-// The properties of all frames together. They are found by reading a source of frames once, before the run.
+// The properties of all frames together. The properties are found by reading a source of frames once, before
+// the run.
 
 #include <Eigen/Core>
 #include <array>

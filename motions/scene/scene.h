@@ -64,8 +64,8 @@ class Scene {
   void push(std::span<const double> coordinates, std::optional<double> picoseconds = std::nullopt);
   /// Declares that no further frame follows.
   void end_frames();
-  /// Returns the number of steps whose motion is known. These are all steps, except in a scene of pushed
-  /// frames. There, Hermite curves are known one frame later, or when the frames end.
+  /// Returns the number of steps whose motion is known. The motion of every step is known, except in a scene
+  /// of pushed frames. There, Hermite curves are known one frame later, or when the frames end.
   [[nodiscard]] std::size_t known_steps() const { return steps_->known_steps(); }
 
   [[nodiscard]] int dimension() const { return steps_->dimension(); }

@@ -50,7 +50,7 @@ class StepSource {
   [[nodiscard]] virtual double weight(BeadId /*bead*/, int /*k*/) const { return 0; }
 };
 
-/// The step of an instance. Its frames are u = 0 and u = 1.
+/// The step of an instance. The frames of the step are u = 0 and u = 1.
 class InstanceStep final : public StepSource {
  public:
   /// Throws InputError if a control point is not finite.

@@ -10,8 +10,8 @@
 // samples themselves, and so are the means of a coordinate at rest.
 //
 // Between frames, both the files' motion and this one are linear, so a bead is never farther from its sampled
-// motion than at a frame. This is exact for the resulting doubles: a chord that is not certainly within the
-// tolerance is rejected. Ends of chords lie on a grid, 2^-20 of the tolerance or finer, so all steps of a
+// motion than at a frame. The bound is exact for the resulting doubles: a chord that is not certainly within
+// the tolerance is rejected. Ends of chords lie on a grid, 2^-20 of the tolerance or finer, so all steps of a
 // chord are the same double. A structure can therefore see from two consecutive steps that a bead goes
 // straight on. (Coordinates at rest, and those too large for the grid, are unchanged; steps of a chord that
 // begins or ends there may differ by rounding.)

@@ -6,7 +6,7 @@
 // moves on a part of its Bezier curve. The difference of both motions is again a Bezier curve, so it is at
 // most as long as its longest control point. The result therefore bounds the deviation at all times. For
 // linear motion it is the exact maximum, which occurs at a frame, rounded up by at most 2^-44 of the
-// coordinates. It is infinite if doubles overflow. Frames after the scene's last frame are ignored.
+// coordinates. The bound is infinite if doubles overflow. Frames after the scene's last frame are ignored.
 
 #include <cstddef>
 #include <cstdint>
@@ -32,8 +32,8 @@ struct StrideDeviation {
 /// scene has each `stride`-th of them. Throws InputError if they are not the scene's frames.
 ///
 /// `most` is a proved bound on the deviation of any bead, if one is known, for example for frames
-/// straightened within a tolerance of which none is skipped (straightened_frames.h). No result exceeds it. It
-/// is sharper than the computed bound for beads far from the origin, where rounding is larger.
+/// straightened within a tolerance of which none is skipped (straightened_frames.h). No result exceeds it.
+/// This limit is sharper than the computed bound for beads far from the origin, where rounding is larger.
 [[nodiscard]] StrideDeviation deviation_of_stride(const Scene& scene, FrameSource& every, std::size_t stride,
                                                   std::optional<double> most = {});
 

@@ -1,8 +1,8 @@
 #pragma once
 // The displacement of beads in a step: how far they stray from their positions at an earlier reference frame,
 // without the drift common to all. A coordinate difference of two beads changes by at most the sum of both
-// displacements. Displacements are proved upper bounds, including rounding. They are infinite for a bead
-// whose weight or radius changes.
+// displacements. Displacements are proved upper bounds, including rounding. The displacement is infinite for
+// a bead whose weight or radius changes.
 
 #include <algorithm>
 #include <array>

@@ -21,7 +21,8 @@ void store(const Vector& v, double* p) {
   for (int i = 0; i <= Dimension; ++i) p[i] = v[i];
 }
 
-/// Returns the rounding error of a sum. It is exact unless something overflows; then it is NaN.
+/// Returns the rounding error of a sum. The returned error is exact unless something overflows; then it is
+/// NaN.
 Vector left_of_sum(const Vector& a, const Vector& b, const Vector& sum) {
   const Vector of_b = sum - a;
   return (a - (sum - of_b)) + (b - of_b);

@@ -15,8 +15,8 @@
 
 namespace kds {
 
-/// Is itself a motion, which covers the step examined last and the following steps as one. It is exact for
-/// the beads that are known.
+/// Is itself a motion, which covers the step examined last and the following steps as one. This motion is
+/// exact for the beads that are known.
 template <int DimensionValue>
 class MotionAhead {
  public:

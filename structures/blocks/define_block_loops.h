@@ -16,7 +16,7 @@
 //   append_bits(out, base, bits)      writes base + k for each set bit k, in order, and returns their number
 //
 // A compiler may inline these functions only into functions of their target, and code for other targets must
-// not see them. All of them are therefore local to the file.
+// not see them. The functions are therefore local to the file.
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,7 @@
 //   R  =  (1 + 2^-20) r scale + 2^-21 M          (float_radius; 2^-20 = 16 u, 2^-21 = 8 u)
 //
 // rounded to float. Let two balls meet and let S = (r + s) scale. Then their X are no farther apart than S,
-// and their f no farther than S + 2 sqrt(3) u (1 + 2^-19) M. This has three consequences:
+// and their f no farther than S + 2 sqrt(3) u (1 + 2^-19) M. Three consequences follow:
 //
 //   1. Distances. The sum of squared differences of their f, computed in floats, has a relative error below
 //      (1 + u)^5, so its root is at most (1 + 2.6 u) S + 3.48 u M. The float (R + R')^2 has lost less than a

@@ -32,8 +32,8 @@ class EnclosingBox final : public EditableBase {
   EnclosingBox(Simulator& simulator, const MotionRef<Dimension>& motion);
   ~EnclosingBox() override;
 
-  /// Returns the first and the last bead along the first axis, then along the next. All are no_bead if all
-  /// beads are absent. Empty for a motion without beads.
+  /// Returns the first and the last bead along the first axis, then along the next. If all beads are absent,
+  /// every end is no_bead. The list is empty for a motion without beads.
   [[nodiscard]] const std::vector<BeadId>& ends() const { return ends_; }
 
   void build() override;

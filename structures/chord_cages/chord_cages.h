@@ -115,8 +115,8 @@ class ChordCages {
   void take(int k);
 
   Hierarchy hierarchy_;
-  std::vector<BallsAt> balls_;                // of each control point
-  std::vector<TakenCages<Hierarchy>> cages_;  // of each control point
+  std::vector<BallsAt> balls_;                // at each control point
+  std::vector<TakenCages<Hierarchy>> cages_;  // at each control point
   std::vector<Basis> start_bases_;
   bool keep_bases_;
   bool moved_ = false;

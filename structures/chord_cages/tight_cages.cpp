@@ -114,7 +114,7 @@ template <class N>
 template <int D>
 struct Gap {
   std::array<double, 2 * 61 + 1> coefficients;
-  double least_mean, greatest_mean;  // of the mean radius, over all control points
+  double least_mean, greatest_mean;  // bounds of the mean radius over all control points
 };
 
 template <int D>

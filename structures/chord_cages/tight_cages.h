@@ -23,7 +23,7 @@ template <int Dimension>
 struct CagePiece {
   double from = 0, to = 1;             ///< whole multiples of 2^-25
   std::vector<Cage<Dimension>> cages;  ///< at the control points of the part
-  std::array<Basis, 2> bases;          ///< of the smallest spheres at its ends
+  std::array<Basis, 2> bases;          ///< for the smallest spheres at its ends
 };
 
 template <int Dimension>

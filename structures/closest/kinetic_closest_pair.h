@@ -1,8 +1,7 @@
 #pragma once
-// The closest pair of beads, by their centres, while they move. It is kept by a kinetic tournament among the
-// pairs that may be the closest at some time of the step. If pairs are equally close for
-// the rest of the step, the first by ids wins. Radii are ignored; for pairs of balls that meet, see the
-// structure `contacts`.
+// The closest pair of beads, by their centres, while they move. A kinetic tournament keeps the closest of the
+// pairs that may be the closest at some time of the step. If pairs are equally close for the rest of the
+// step, the first by ids wins. Radii are ignored; for pairs of balls that meet, see the structure `contacts`.
 //
 // Inserting, erasing or redirecting a bead costs as much as the start of a step. If a bead in no candidate
 // pair is inserted or erased, it costs only a search for candidates. Edits throw InputError if more than 10^8

@@ -127,7 +127,7 @@ bool AutoDetector<Dimension>::same_radii(const Balls<Dimension>& balls) const {
 }
 
 // Sets the longest initial skin: half the mean radius, or a fourth of the mean bond if beads have no radius.
-// If this is zero or not finite, no pairs are kept.
+// If the skin is zero or not finite, no pairs are kept.
 template <int Dimension>
 void AutoDetector<Dimension>::measure_scene(const Balls<Dimension>& balls) {
   const std::size_t beads = balls.size();

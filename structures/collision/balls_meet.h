@@ -14,9 +14,9 @@
 namespace kds {
 
 // In these functions, `square` is a squared distance of centres, and `reach` is the sum of two radii and a
-// distance. Neither is negative, and each is rounded as it was computed. The roundings are below 2^-49 of
-// each number. Underflow in one number is below 2^-1000, while the other is at least 2^-900. Infinity
-// compares as larger than all finite numbers, as the exact number would.
+// distance. Neither `square` nor `reach` is negative, and each is rounded as it was computed. The roundings
+// are below 2^-49 of each number. Underflow in one number is below 2^-1000, while the other is at least
+// 2^-900. Infinity compares as larger than all finite numbers, as the exact number would.
 
 /// Returns true only if the balls are certainly farther apart.
 [[nodiscard]] inline bool surely_apart(double square, double reach) {

@@ -69,8 +69,8 @@ class CellList {
   PairsAsked asked_;
   bool one_necklace_;
   std::int64_t least_along_ = 0;                     // least distance in sequence within a necklace
-  std::vector<std::uint64_t> keys_of_beads_, keys_;  // keys_: of entries, then a sentinel
-  std::vector<std::uint32_t> starts_;                // of cells
+  std::vector<std::uint64_t> keys_of_beads_, keys_;  // keys_: keys of entries, then a sentinel
+  std::vector<std::uint32_t> starts_;                // where each cell starts
   std::vector<std::array<std::uint64_t, 2>> keyed_, more_keyed_;
   std::vector<BeadInCell> entries_;
   std::vector<std::uint32_t> around_;  // entries to compare with a cell's; its own come first

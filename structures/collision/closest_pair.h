@@ -55,7 +55,7 @@ namespace kds {
 
 struct ClosestPair {
   BeadId first, second;  ///< ascending
-  int sign;              ///< of the distance: 1 disjoint, 0 touching, -1 overlapping
+  int sign;              ///< the distance's sign: 1 disjoint, 0 touching, -1 overlapping
   double distance;       ///< rounded
 };
 

@@ -117,10 +117,10 @@ class BlockBeads {
   std::vector<float> drift_;  // per control point
   std::vector<double> radii_;
   double scale_of_radii_ = 0;
-  std::array<std::vector<float>, static_cast<std::size_t>(Dimension)> centers_;  // of swept balls
+  std::array<std::vector<float>, static_cast<std::size_t>(Dimension)> centers_;  // swept balls' centres
   std::vector<float> reaches_;                                                   // radii of swept balls
   std::vector<GroupBoxes<Dimension>> boxes_;
-  std::vector<std::uint32_t> necklaces_;  // of blocks
+  std::vector<std::uint32_t> necklaces_;  // for each block
   VectorTarget target_ = widest_vector_target();
   bool usable_ = false;  // false if lengths are too large or too small for floats
 };

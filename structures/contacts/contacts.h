@@ -8,8 +8,8 @@
 // during that time, because balls are closed. Events at a frame follow from the states before and just after
 // the frame: balls that meet exactly then and part at once only touch.
 //
-// With groups of beads (PairsAsked::groups), only pairs of a bead of each group are followed. Their contacts
-// are those of the run without groups.
+// With groups of beads (PairsAsked::groups), only pairs of a bead of each group are followed. The contacts of
+// these pairs are those of the run without groups.
 //
 // Contacts present at the first frame are part of the built structure and cause no events. All results are
 // exact. With the kernel `exact`, every pair is decided on integers and none is left to the family.
@@ -158,7 +158,7 @@ class Contacts final : public EditableBase {
   MovingFamily<Dimension> family_;
   CertificateTable<Contact> disjoint_, overlapping_;
   ContactSet contacts_;
-  PairsOfBlocks pairs_;  // of the step
+  PairsOfBlocks pairs_;  // in the step
   std::vector<Happens> at_once_;
   CertificatesPerBead per_bead_;  // all zero between steps
 };

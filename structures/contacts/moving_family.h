@@ -109,7 +109,7 @@ class MovingBoxes {
   int controls_;  // control points per curve
   std::vector<double> sides_of_blocks_;
   std::vector<Level> levels_;
-  std::vector<std::uint8_t> rests_, rested_;  // of each block: at rest in this step, and in the one before
+  std::vector<std::uint8_t> rests_, rested_;  // for each block: at rest in this step, and in the one before
 };
 
 template <int Dimension>
@@ -137,7 +137,7 @@ class MovingFamily {
  private:
   struct Extent {
     std::array<double, Dimension> middle;
-    double half;  // of the longest side
+    double half;  // half of the longest side
   };
   [[nodiscard]] Extent extent() const;
   void sort_blocks(const Extent& all);
@@ -149,7 +149,7 @@ class MovingFamily {
   std::vector<std::uint8_t> groups_of_blocks_;  // groups that occur in each block; empty without groups
   MovingBoxes<Dimension> boxes_;
   BlockBeads<Dimension> beads_;
-  std::vector<std::uint32_t> order_;  // of blocks, with the blocks of one box consecutive
+  std::vector<std::uint32_t> order_;  // blocks in order, with the blocks of one box consecutive
   std::vector<BlockPair> near_blocks_;
   std::uint64_t size_when_sorted_ = 0;
   std::uint64_t size_ = 0;

@@ -34,7 +34,8 @@ class SweptContacts {
   /// std::invalid_argument if the motion is not linear.
   void find(const OutwardCages<Dimension>& start, const OutwardCages<Dimension>& end,
             const Curves<Dimension>& curves, FoundPairs& found);
-  /// Finds the pairs that meet at the k-th control points, at rest. This is the static query for comparison.
+  /// Finds the pairs that meet at the k-th control points, at rest. Serves as the static query for
+  /// comparison.
   void find_static(const OutwardCages<Dimension>& cages, const Curves<Dimension>& curves, int k,
                    FoundPairs& found);
 
@@ -50,9 +51,9 @@ class SweptContacts {
 
   PairsAsked asked_;
   Item nodes_;
-  std::vector<Item> roots_;  // of the necklaces
+  std::vector<Item> roots_;  // for the necklaces
   std::vector<Children> children_;
-  std::vector<BeadRange> ranges_;         // of items
+  std::vector<BeadRange> ranges_;         // for items
   std::vector<Cage<Dimension>> resting_;  // static spheres around the paths of items
 };
 

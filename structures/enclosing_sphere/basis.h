@@ -53,7 +53,7 @@ concept SphereSigns = requires(S& signs, const Basis& basis, BeadId bead, bool i
   { S::dimension } -> std::convertible_to<int>;
   // 1, 0 or -1: `bead` is inside, on, or outside the sphere of `basis`; negated unless `inside`
   { signs.membership(basis, bead, inside, orientation) } -> std::convertible_to<int>;
-  // of a full basis, for `membership`; 0 if its centres are affinely dependent
+  // for a full basis, in `membership`; 0 if its centres are affinely dependent
   { signs.orientation(basis) } -> std::convertible_to<int>;
 };
 

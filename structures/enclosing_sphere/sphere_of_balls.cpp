@@ -6,7 +6,7 @@ namespace kds {
 
 namespace {
 
-constexpr double slack = 1e-12;  // of the squared radius; the result is verified later
+constexpr double slack = 1e-12;  // relative to the squared radius; the result is verified later
 
 Basis without_place(Basis basis, std::size_t place) {
   erase_place(basis, place);

@@ -1,6 +1,6 @@
 #pragma once
 // Nodes of a static wrapped hierarchy in four lanes: the balls of their bases, and a fast path for nodes of
-// two beads. These are half of all nodes, and usually both beads stay the basis.
+// two beads. Half of all nodes have two beads, and usually both beads stay the basis.
 
 #include <algorithm>
 #include <array>

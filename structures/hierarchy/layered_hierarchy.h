@@ -61,7 +61,7 @@ class LayeredHierarchy {
 
   NecklaceTree tree_;
   BottomUpOrder order_;
-  std::vector<Height> heights_;  // of each group of the order
+  std::vector<Height> heights_;  // for each group of the order
   std::vector<Cage<Dimension>> cages_;
 };
 

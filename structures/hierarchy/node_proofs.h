@@ -84,7 +84,7 @@ class RelaxedAllowance {
 template <int Dimension>
 struct ChordCandidate {
   NodeId node;
-  SphereChord<Dimension> chord;  ///< of its basis at the start of the step
+  SphereChord<Dimension> chord;  ///< for its basis at the start of the step
   std::size_t end;  ///< end of its beads in NodeProofs::beyond(); without a proved chord it has none there
 };
 

@@ -106,8 +106,8 @@ class NodeSlack {
   /// Indices in stray_ of the two halves of each node.
   std::vector<std::array<std::uint32_t, 2>> halves_;
   std::vector<double> stray_;  ///< maximum over each node's beads; then each bead's
-  std::vector<double> slack_;  ///< of each node, or `none`
-  std::array<std::vector<double>, Dimension + 1> reference_;  ///< of beads at the reference
+  std::vector<double> slack_;  ///< for each node, or `none`
+  std::array<std::vector<double>, Dimension + 1> reference_;  ///< beads at the reference
   std::array<Waiting, Basis::max_size> waiting_;
   bool has_reference_ = false, lasted_ = false;
   double worth_keeping_ = 0;

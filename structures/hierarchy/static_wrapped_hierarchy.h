@@ -116,8 +116,8 @@ class StaticWrappedHierarchy {
   NecklaceTree tree_;
   BottomUpOrder order_;
   std::vector<Basis> bases_;
-  std::vector<Cage<Dimension>> cages_;     // of the present time
-  std::vector<Cage<Dimension>> verified_;  // of the last verified time, if it is not the present
+  std::vector<Cage<Dimension>> cages_;     // at the present time
+  std::vector<Cage<Dimension>> verified_;  // at the last verified time, if it is not the present
   std::vector<std::uint8_t> loose_;        // beads may be out of the rounded cage by more than 2^-28 of it
   Frontiers frontiers_;
   double wider_ = 0;  // if radii are equal, spheres are wider than cages by this

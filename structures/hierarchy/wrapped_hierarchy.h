@@ -10,9 +10,9 @@
 // any kernel but `fast`. Spheres may be relaxed: beads may then be out by a share of the radius, which causes
 // fewer events.
 //
-// Beads can change course while time runs. This costs a pass over all paths and nodes, the certificates of
-// the nodes that hold the beads, and a repair for each basis that is no longer right. Beads cannot be
-// inserted or erased, because the tree depends on the necklaces.
+// Beads can change course while time runs. A change of course costs a pass over all paths and nodes, the
+// certificates of the nodes that hold the beads, and a repair for each basis that is no longer right. Beads
+// cannot be inserted or erased, because the tree depends on the necklaces.
 //
 // The class has three parts, each in its own file: proofs that replace certificates (node_proofs.h), the
 // certificates held (node_guards.h), and the repair of a basis (signs_just_after.h).
@@ -136,9 +136,9 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   MotionRef<Dimension> motion_;
   const Radii radii_;
   const Relaxation relaxation_;
-  Curves<Dimension> curves_;  // of the present step
+  Curves<Dimension> curves_;  // in the present step
   NecklaceTree tree_;
-  std::vector<Basis> bases_;        // of nodes
+  std::vector<Basis> bases_;        // for each node
   std::vector<std::uint8_t> kept_;  // one flag per node
   std::size_t index_;
   std::unique_ptr<NodeProofs<Dimension>> proofs_;
@@ -151,7 +151,7 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   enum class BasisFault : std::uint8_t { no, violated, improper };
   std::vector<BasisFault> faults_;   // one per node
   std::vector<BeadId> beyond_;       // beads of a node that are not proved to stay inside
-  std::vector<BeadId> all_watched_;  // of all nodes at the start of a step, node by node
+  std::vector<BeadId> all_watched_;  // for all nodes at the start of a step, node by node
   std::vector<std::size_t> watched_ends_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Kinetic convex hull of the beads' centres in the plane: its corners in counterclockwise order. It
+// Kinetic convex hull of the beads' centres in the plane: its corners in counterclockwise order. The hull
 // consists of an upper and a lower half, each with its own certificates (half_hull.h). The halves meet in the
 // first and the last bead.
 //

@@ -149,7 +149,7 @@ void HalfHull::put_under(BeadId b, BeadId left) {
   beads_[left].under.push_back(b);
 }
 
-/// Puts a bead into the chain behind `after`, or at the front if `after` is no_bead.
+/// Puts a bead into the chain after `after`, or at the front if `after` is no_bead.
 void HalfHull::put_in(BeadId b, BeadId after) {
   release(b);
   const BeadId right = after == no_bead ? first_ : beads_[after].right;

@@ -36,7 +36,7 @@ namespace kds {
 struct SphereGaps {
   using Four = std::array<double, 4>;
 
-  std::array<Four, 2> at_end;      // of the chord
+  std::array<Four, 2> at_end;      // for the chord
   Four loss_at_ends, least;        // and its least value
   Four slowest, fastest;           // slopes, per period
   std::array<Four, 3> square;      // coefficients of (rho' - s)^2 - |p|^2, by powers
@@ -76,7 +76,7 @@ class GapRoots {
   void forget() { known_ = {}; }
 
  private:
-  SphereEnclosure<Dimension> from_now_;  ///< of known_, from known_from_ on
+  SphereEnclosure<Dimension> from_now_;  ///< for known_, from known_from_ on
   Basis known_;
   double known_from_ = 0;
 };

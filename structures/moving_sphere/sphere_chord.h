@@ -48,7 +48,7 @@ struct SphereChord {
   bool proved = false;     ///< otherwise nothing is known of the sphere
   std::uint8_t stays = 0;  ///< basis beads that cannot leave; if all, it is a basis
   std::array<std::array<double, Dimension>, 2> center{};  ///< at both ends, relative to the basis' first bead
-  std::array<double, 2> limit{};  ///< of a bead's distance plus its radius less the first bead's
+  std::array<double, 2> limit{};  ///< for a bead's distance plus its radius less the first bead's
   double dip = 0;                 ///< the true limit is higher by this except for 4 u (1-u) of it
   std::uint8_t rises = 0;         ///< one bit for each basis bead whose weight is positive from `sure` on
 

@@ -29,11 +29,11 @@ namespace kds {
 // hull once and the triangulation is regular: a lifted surface that is convex at each facet is convex.
 //
 // The winding number is constant while no face of the hull is flat and no two adjacent faces fold onto each
-// other. Both make a certificate of the hull zero: a flat face flattens its finite cell, and folded faces
-// are coplanar. Certificates report even roots too (TouchPolicy::reported). The winding number therefore
-// changes only at a moment at which a certificate of the hull touches zero, or at which several vanish. Such
-// a moment raises a doubt (Doubt::unclear), and this check follows. In general position no doubt arises and
-// nothing is checked.
+// other. Flat faces and folded faces make a certificate of the hull zero: a flat face flattens its finite
+// cell, and folded faces are coplanar. Certificates report even roots too (TouchPolicy::reported). The
+// winding number therefore changes only at a moment at which a certificate of the hull touches zero, or at
+// which several vanish. Such a moment raises a doubt (Doubt::unclear), and this check follows. In general
+// position no doubt arises and nothing is checked.
 //
 // A cell that becomes flat inside the hull needs no check of its own: it has neighbours on both sides of its
 // plane, so the power test of one of its facets is zero or negative at that time.

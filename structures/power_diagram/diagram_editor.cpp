@@ -55,7 +55,7 @@ bool DiagramEditor<Dimension>::is_flat_without(BeadId bead) const {
 }
 
 /// Returns whether the beads lie in one plane (on one line) at all times. It suffices to test more times than
-/// a function of theirs has roots, unless that function is zero throughout.
+/// a function of these beads has roots, unless that function is zero throughout.
 template <int Dimension>
 bool DiagramEditor<Dimension>::stays_flat(std::span<const BeadId> beads) const {
   for (int times = 0; times <= Dimension * state_.motion.degree(); ++times) {

@@ -56,11 +56,11 @@ struct DiagramState {
   KineticStructure& owner;
   std::size_t index;
 
-  Curves<Dimension> curves;  ///< of the motion; loaded by build and at the start of each step
+  Curves<Dimension> curves;  ///< the motion's; loaded by build and at the start of each step
   RegularTriangulation<Dimension> triangulation;
   HiddenBeads hidden;
   PresentBeads present_beads;
-  int affine_dimension = Dimension;  ///< of the set of beads; there are no cells if it is below Dimension
+  int affine_dimension = Dimension;  ///< for the set of beads; there are no cells if it is below Dimension
   bool has_had_cells = false;
   bool flat = false;         ///< some cell is flat at the frame just reached
   bool within_step = false;  ///< a step that moves all beads is under way
@@ -141,8 +141,8 @@ struct DiagramState {
     while (!triangulation.is_live(cell) || is_infinite(cell)) ++cell;
     return cell;
   }
-  /// Returns the cell with `bead` in place i. It has the same orientation if `bead` is on the same side of
-  /// facet i.
+  /// Returns the cell with `bead` in place i. The new cell has the same orientation if `bead` is on the same
+  /// side of facet i.
   [[nodiscard]] static Beads with(Beads cell, int i, BeadId bead) {
     cell[static_cast<std::size_t>(i)] = bead;
     return cell;

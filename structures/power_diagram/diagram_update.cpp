@@ -211,7 +211,8 @@ UpdateCounts Reinsertion<Dimension>::advance(const Eigen::Matrix3Xd& centers,
     faults = snapshot_faults(this->triangulation_, std::span<const CellId>(made), next);
   }
   this->triangulation_.set_points(centers, weights);
-  out.insert(out.end(), this->hidden_.begin(), this->hidden_.end());  // any may have become visible
+  // Any hidden bead may have become visible.
+  out.insert(out.end(), this->hidden_.begin(), this->hidden_.end());
   std::sort(out.begin(), out.end());
   this->frame_ = next;
   if (!out.empty()) {

@@ -217,7 +217,7 @@ class FacetFilter {
   template <class Found>
   void look_at(const TriangulationCell<Dimension>& cell, CellId id, unsigned wanted, Found& found) {
     const unsigned count = count_of<Dimension>(wanted);
-    Batch& batch = batches_[count];  // of cells with equally many wanted facets: no lane is idle
+    Batch& batch = batches_[count];  // cells with equally many wanted facets: no lane is idle
     put_in_lane(cell, wanted, batch.beads[batch.waiting]);
     batch.cells[batch.waiting] = id;
     batch.wanted[batch.waiting] = wanted;

@@ -282,8 +282,8 @@ class FacetProofs {
       if (foresight_.stays_positive(cell)) ends_positive_[cell] = 1;
     return others;
   }
-  /// Looks ahead for the facets on_hull_. They are guarded by an orientation, like cells. Returns those not
-  /// found to hold.
+  /// Looks ahead for the facets on_hull_. An orientation guards each of these facets, as it guards a cell.
+  /// Returns those not found to hold.
   [[nodiscard]] std::span<const FacetId> hull_not_proved_ahead();
 
   State& state_;

@@ -17,8 +17,8 @@ constexpr double worth_a_reference = 0.25;
 constexpr double least_share = 0.4;
 /// A reference below this share is dropped.
 constexpr double least_worth = 0.05;
-/// Comparing the slack of a facet with the strays of its own beads costs nearly as much as a certificate. It
-/// must therefore save at least this share of all facets their certificate.
+/// Comparing the slack of a facet with the strays of its own beads costs nearly as much as a certificate. The
+/// comparison must therefore make the certificates of at least this share of all facets unnecessary.
 constexpr double share_worth_a_look = 1.0 / 32;
 constexpr std::size_t sample_size = 128;
 

@@ -115,7 +115,7 @@ class FacetSlack {
   /// at both if unknown.
   std::vector<std::array<float, Dimension + 1>> slack_;
   std::vector<float> least_;                  ///< the least of each cell
-  std::vector<float> strays_, fresh_strays_;  ///< of each bead
+  std::vector<float> strays_, fresh_strays_;  ///< for each bead
   float farthest_ = 0;                        ///< the largest stray of any bead
   bool by_beads_ = false;
   std::vector<CellId> candidates_;

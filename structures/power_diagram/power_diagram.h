@@ -11,11 +11,11 @@
 //   DiagramRebuilder  rebuilds the diagram if flips do not suffice
 //
 // Guarantee (kernels filtered and exact): just after every time at which an event happens, the triangulation
-// is regular. This is so if finite cells are positive, facets are regular, hidden beads are hidden and the
-// hull winds once (diagram_checks.h). In general position one function vanishes at a time, and its flip
-// preserves all four conditions. Any other case raises a doubt, and the four conditions are checked after the
-// last event of that time. A diagram that fails the check is repaired, or rebuilt at a time before the next
-// event.
+// is regular. The triangulation is regular if finite cells are positive, facets are regular, hidden beads are
+// hidden and the hull winds once (diagram_checks.h). In general position one function vanishes at a time, and
+// its flip preserves all four conditions. Any other case raises a doubt, and the four conditions are checked
+// after the last event of that time. A diagram that fails the check is repaired, or rebuilt at a time before
+// the next event.
 //
 // Order of ties: failures at exactly the same time are handled by certificate type, then by bead ids
 // (failure_order.h), so every kernel makes the same flips. If one flip blocks another, the blocked one is

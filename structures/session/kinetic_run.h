@@ -78,7 +78,7 @@ class KineticRun {
   [[nodiscard]] Simulator& simulator() { return session_->simulator(); }
   [[nodiscard]] Session& session() { return *session_; }
 
-  /// Adds a listener, which is notified of all events from now on. It must outlive the run.
+  /// Adds a listener, which is notified of all events from now on. The listener must outlive the run.
   void listen(EventListener& listener);
   /// Like ExactWork::set_limit and set_watcher, but also valid after the run goes back in time; the work is
   /// then counted from 0 again. Settings made on Simulator::exact_work() itself are lost at that point.
@@ -120,8 +120,8 @@ class KineticRun {
   /// Returns whether a step is under way. Otherwise the run stands at a frame or has not begun.
   [[nodiscard]] bool within_step() const { return within_; }
 
-  // Edits within a step while time stands still. They take effect exactly now; if the run stands at an event,
-  // just after it.
+  // Edits within a step while time stands still. Edits take effect exactly now; if the run stands at an
+  // event, just after it.
 
   /// Adds a bead to a structure or removes it. Throws StructureRefusal if the structure does not support
   /// this. Throws std::invalid_argument if it is not possible for this bead.

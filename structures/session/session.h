@@ -1,6 +1,6 @@
 #pragma once
-// A run of structures, chosen by name, over one scene. It owns the motion, the structures, and the simulator
-// that drives them.
+// A run of structures, chosen by name, over one scene. A session owns the motion, the structures, and the
+// simulator that drives them.
 
 #include <concepts>
 #include <cstddef>
@@ -48,9 +48,9 @@ class Session {
   /// scene has the beads and radii, but no frames.
   Session(const Scene& scene, const SceneMotion::Ref& motion, const SessionOptions& options);
 
-  /// Adds a structure by its type, after the existing ones. It is constructed from the simulator, the motion
-  /// and these arguments. Throws StructureRefusal if the structure has no constructor for motions of this
-  /// dimension.
+  /// Adds a structure by its type, after the existing ones. The structure is constructed from the simulator,
+  /// the motion and these arguments. Throws StructureRefusal if the structure has no constructor for motions
+  /// of this dimension.
   template <std::derived_from<KineticStructure> Structure, class... Arguments>
   Structure& add(const Arguments&... arguments);
   /// Restricts a structure to these beads. Must be called before it is built. Throws StructureRefusal, and

@@ -1,8 +1,8 @@
 #pragma once
-// Beads sorted along the first axis, kept sorted while they move. This is the smallest complete kinetic
-// structure; read it first, together with its .cpp. Each pair of neighbours has one certificate; when it
-// fails, the two beads trade places. Inserting, erasing or redirecting a bead costs a few certificates and a
-// shift of the list.
+// Beads sorted along the first axis, kept sorted while they move. The sorted list is the smallest complete
+// kinetic structure; read it first, together with its .cpp. Each pair of neighbours has one certificate; when
+// it fails, the two beads trade places. Inserting, erasing or redirecting a bead costs a few certificates and
+// a shift of the list.
 
 #include <cstddef>
 #include <cstdint>

@@ -38,7 +38,7 @@ class Tournament {
   Tournament(CertificateTable<Certificate>& table, Ahead ahead, std::uint32_t which = 0, std::uint32_t of = 1)
       : table_(table), ahead_(std::move(ahead)), which_(which), of_(of) {}
 
-  /// Starts the tournament at the start of a step, or within it after give_up_all. Its contestants are 0 ...
+  /// Starts the tournament at the start of a step, or within it after give_up_all. The contestants are 0 ...
   /// contestants-1, except those marked in `absent`, if any are marked.
   void start(std::uint32_t contestants, std::span<const char> absent = {}) {
     contestants_ = contestants;

@@ -48,7 +48,7 @@ template <int Dimension>
 struct StaticTriangulation {
   std::vector<CellBeads<Dimension>> cells;  ///< positively oriented; infinite ones only if requested
   std::vector<BeadId> hidden;               ///< ascending
-  int dimension = Dimension;                ///< of the points' affine hull; no cells if below Dimension
+  int dimension = Dimension;                ///< the affine hull's dimension; no cells if below Dimension
 };
 
 /// A canonical form of lists of cells: each cell's beads ascending, cells in lexicographic order.

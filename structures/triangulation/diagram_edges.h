@@ -11,7 +11,7 @@
 namespace kds {
 
 struct DiagramEdges {
-  BeadPairs edges;             ///< of all beads; a hidden bead has none
+  BeadPairs edges;             ///< edges between all beads; a hidden bead has none
   std::vector<BeadId> hidden;  ///< ascending
 };
 

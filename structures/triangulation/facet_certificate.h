@@ -49,8 +49,8 @@ class FacetCertificates {
   [[gnu::always_inline]] void make(BeadId apex, Orientation<dimension>& orientation) const {
     auto beads = with(apex);
     orientation.sign = sign_ * sort_last_bead(beads);
-    // After sorting, the infinite vertex is last. Its row (0, ..., 0, 1) reduces the determinant to that of
-    // the other beads.
+    // After sorting, the infinite vertex is last. The row of the infinite vertex, (0, ..., 0, 1), reduces the
+    // determinant to that of the other beads.
     std::copy(beads.begin(), beads.end() - 1, orientation.beads.begin());
   }
 

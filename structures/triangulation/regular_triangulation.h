@@ -119,9 +119,9 @@ class RegularTriangulation {
   /// Returns whether one of the cells around `bead`, a vertex of `cell`, has all of `beads`. Takes time
   /// linear in the number of these cells and reads only the mirror.
   [[nodiscard]] bool stand_together(BeadId bead, CellId cell, std::span<const BeadId> beads) const;
-  /// Returns whether the given cells, positively oriented, fill the place of the cells `old`. Their facets
-  /// must match each other in pairs, or match the facets around the old cells, from opposite sides. Their
-  /// beads must be beads of the old cells or beads that are not vertices.
+  /// Returns whether the given cells, positively oriented, fill the place of the cells `old`. The facets of
+  /// the given cells must match each other in pairs, or match the facets around the old cells, from opposite
+  /// sides. The beads of the given cells must be beads of the old cells or beads that are not vertices.
   [[nodiscard]] bool fits(std::span<const CellId> old, std::span<const Beads> oriented_cells) const;
   /// Replaces the old cells by the given cells. Beads that lose all their cells stop being vertices. Returns
   /// the new cells in the given order. Takes time n log n in both numbers of cells. Throws std::logic_error,

@@ -1,5 +1,5 @@
 #pragma once
-// Part of RegularTriangulation: flips. They use only the mirror; CGAL's structure is updated when it is next
+// Part of RegularTriangulation: flips. Flips use only the mirror; CGAL's structure is updated when it is next
 // used. A cell that exchanges one vertex keeps the places of its other vertices, which determine the
 // neighbour across each new facet.
 

@@ -6,8 +6,8 @@
 // All beads must be vertices or hidden, all finite cells positive and all facets regular. No bead may lie
 // outside a face of the hull. Each hidden bead must lie in a cell and not inside the cell's power sphere.
 // Under these conditions, the hull's triangles cover its boundary equally often everywhere, and the cells
-// cover its inside as often. They cover it once if the centroid of one triangle lies in no other triangle.
-// (The cells close up: flips preserve this.)
+// cover its inside as often. The triangles cover the boundary once if the centroid of one triangle lies in no
+// other triangle. (The cells close up: flips preserve this.)
 //
 // Finds as well the certificates of a triangulation that fail at given positions.
 

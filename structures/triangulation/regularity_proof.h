@@ -1,7 +1,7 @@
 #pragma once
-// Proves that a triangulation of beads is regular at one time. This is a program checker: it builds no second
-// triangulation. Doubles with error bounds decide nearly all signs; an exact judge decides the remaining ones
-// (ties).
+// Proves that a triangulation of beads is regular at one time. The proof is a program checker: it builds no
+// second triangulation. Doubles with error bounds decide nearly all signs; an exact judge decides the
+// remaining ones (ties).
 //
 // The checks:
 //   1. The cells close up: two neighbours name each other, share their facet, and lie on its two sides.

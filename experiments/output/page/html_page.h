@@ -1,7 +1,8 @@
 #pragma once
 // The report page of every command, report.html: one style, self-contained, without scripts and without
-// network access. It begins with the findings and ends with how the page was made and where its data are. It
-// is light or dark as the reader's system, and legible down to the width of a telephone.
+// network access. The page begins with the findings and ends with how the page was made and where its data
+// are. The page is light or dark, as the reader's system is set, and legible down to the width of a
+// telephone.
 
 #include <filesystem>
 #include <string>
@@ -40,7 +41,8 @@ struct HtmlRow {
   std::vector<std::string> cells;  ///< plain text; the first is the row's name; missing cells are empty
   bool detail = false;             ///< details the nearest row above that is not a detail
 };
-/// Returns a table. It scrolls sideways if the page is too narrow, and its first column stays in place.
+/// Returns a table. The table scrolls sideways if the page is too narrow, and its first column stays in
+/// place.
 [[nodiscard]] std::string html_table(const std::vector<std::string>& columns,
                                      const std::vector<HtmlRow>& rows);
 

@@ -70,10 +70,10 @@ struct MapPlot {
     double x, y;  ///< centre
     double value;
   };
-  std::string label;        ///< of both axes
-  std::string value_label;  ///< of the colour scale
+  std::string label;        ///< for both axes
+  std::string value_label;  ///< for the colour scale
   double from = 0, to = 1;  ///< range of each axis
-  double side = 1;          ///< of one square
+  double side = 1;          ///< the side of one square
   std::vector<Square> squares;
 };
 
@@ -83,8 +83,8 @@ struct MapPlot {
 [[nodiscard]] std::string svg_plot(const BarPlot& plot);
 [[nodiscard]] std::string svg_plot(const MapPlot& plot);
 
-/// Rows of bars over one axis, each with its own scale. They show where along the chain several quantities
-/// occur.
+/// Rows of bars over one axis, each with its own scale. The rows show where along the chain several
+/// quantities occur.
 struct RowsPlot {
   struct Row {
     std::string name;

@@ -1,6 +1,6 @@
 #pragma once
-// A table whose columns are declared once. It writes its rows as JSON, as CSV, as text for a terminal and as
-// HTML for a page.
+// A table whose columns are declared once. The table writes its rows as JSON, as CSV, as text for a terminal
+// and as HTML for a page.
 //
 //   const Table<Row> table{{
 //       {.key = "seconds", .heading = "seconds", .value = [](const Row& r) { return Field(r.seconds); },
@@ -93,7 +93,7 @@ struct TableCell {
   [[nodiscard]] bool is_empty() const { return json ? json->is_null() : field.is_empty(); }
 };
 
-/// A Table after its rows have been turned into cells. It is independent of the row type.
+/// A Table after its rows have been turned into cells. The cells are independent of the row type.
 class TableOfCells {
  public:
   void add_column(ColumnNames column) { columns_.push_back(std::move(column)); }

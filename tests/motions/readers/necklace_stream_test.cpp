@@ -243,7 +243,7 @@ TEST(NecklaceStream, WarnsOfTimesThatDoNotAscend) {
     EXPECT_THAT(read_trajectory(path, ascending).warnings, testing::Not(warns("not later")));
 }
 
-// Frames without a time must not shift the times of those behind them.
+// Frames without a time must not shift the times of later frames.
 TEST(NecklaceStream, TimesAreThoseOfTheirFrames) {
   test::NetcdfMaker maker = test::NetcdfMaker::chain(4, 3);
   maker.times[1] = std::numeric_limits<double>::quiet_NaN();

@@ -96,7 +96,7 @@ TEST(XyzReader, LastNumberWithoutLineEnd) {
   }
   refuse("1\n\nC 1 2 3", {"expected a line end"});         // may be 34
   refuse("1\n\nC 1.5 2.25 3.5", {"expected a line end"});  // may be 3.55
-  // All decimals are there, or something behind the number shows that it is whole.
+  // All decimals are there, or something after the number shows that it is whole.
   for (const std::string last : {"2.345", "2 ", "2.3 0", "2.3\t"})
     for (const std::string& text : {frame("2.345\n") + frame(last), frame(last)}) {
       const Trajectory all = read(text);

@@ -32,7 +32,7 @@ struct GroText {
   int decimals = 3;
   bool velocities = false;
 
-  /// Adds a residue of these atoms, each 0.15 nm behind the one before.
+  /// Adds a residue of these atoms, each 0.15 nm after the one before.
   GroText& residue(int number, const std::string& name = "ALA",
                    const std::vector<std::string>& names = {"N", "CA", "C"}) {
     for (const std::string& atom : names)

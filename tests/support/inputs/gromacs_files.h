@@ -45,7 +45,7 @@ struct XtcMaker {
   float precision = 1000;
   Box box{3, 0, 0, 0, 4, 0, 0, 0, 5};
   double first_time = 0, time_step = 0.2;
-  std::size_t most_run = 8;  ///< atoms behind the first one of a group, 0 to 9
+  std::size_t most_run = 8;  ///< atoms after the first one of a group, 0 to 9
   std::size_t small = 15;    ///< place of the size of differences in the table
   bool change_small = true;  ///< alternates between `small` and the next place
   std::vector<std::vector<Atom>> frames;
