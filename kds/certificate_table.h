@@ -87,7 +87,7 @@ class CertificateTable final : public FailureSource {
   static_assert(detail::IdentityHasRoom<Certificate>, "a certificate with constants has at most 6 beads");
 
  public:
-  /// `number` tells the structure's tables apart in KineticStructure::fail. Throws std::logic_error if the
+  /// `number` distinguishes the structure's tables in KineticStructure::fail. Throws std::logic_error if the
   /// run has certificates of another type with the same type number.
   template <int Dimension>
   CertificateTable(Simulator& simulator, KineticStructure& owner, std::size_t structure, unsigned number,
@@ -221,7 +221,7 @@ class CertificateTable final : public FailureSource {
 
   /// Returns the search, which also answers questions about certificates that are not in the table.
   [[nodiscard]] const CertificateSearch<Certificate>& search() const { return *search_; }
-  /// Returns the number that tells the structure's tables apart.
+  /// Returns the number that distinguishes the structure's tables.
   [[nodiscard]] unsigned number() const { return number_; }
 
   [[nodiscard]] ExactFunction exact_function(std::uint32_t slot) const override {

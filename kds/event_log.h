@@ -46,7 +46,7 @@ struct Event {
     return rounded ? rounded->frame
                    : between(static_cast<double>(from.number), static_cast<double>(to.number));
   }
-  /// Returns the time in picoseconds likewise, or nothing if one of the two frames has no time.
+  /// Returns the time in picoseconds in the same way, or nothing if one of the two frames has no time.
   [[nodiscard]] std::optional<double> picoseconds() const {
     if (!from.picoseconds || !to.picoseconds) return std::nullopt;
     if (rounded) return rounded->picoseconds;

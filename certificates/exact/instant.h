@@ -30,8 +30,9 @@ struct FailureTime {
   bool last = false;   ///< known to be the function's last root in the step, and not at its end
 };
 
-/// Whether a structure is told when a function touches zero without changing sign. A touch is not a failure.
-/// However, motions in general position have no touches, so a structure may have to examine itself at one.
+/// Whether a structure is notified when a function touches zero without changing sign. A touch is not a
+/// failure. However, motions in general position have no touches, so a structure may have to examine itself
+/// at one.
 enum class TouchPolicy : std::uint8_t { ignored, reported };
 
 /// The result of searching a new certificate. A certificate that never fails has its own kind, not a large

@@ -1,5 +1,5 @@
 #pragma once
-// Rows of `kds bench`, which compare kds with a peer in the same process. Reports them to programs and
+// Rows of `kds bench`, which compare kds with a peer in the same process. Reports the rows to programs and
 // people.
 
 #include <optional>

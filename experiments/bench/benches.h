@@ -1,5 +1,5 @@
 #pragma once
-// The subjects of `kds bench`, each measured beside a peer in the same process: certificates, engine,
+// The subjects of `kds bench`, each compared with a peer in the same process: certificates, engine,
 // hierarchies, power, collision, trade and readers.
 
 #include <cstddef>
@@ -52,9 +52,9 @@ struct HierarchyBenchOptions {
 [[nodiscard]] std::vector<BenchRow> bench_hierarchies(
     const HierarchyBenchOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
 
-/// Adds the rows of `kds bench collision` about contacts: all begin and end times, beside a cell list that
-/// examines only frames. Measures consecutive frames; both methods start from the positions that were read.
-/// Radii are `radius_factor` times the chain's. Pairs are at least 5 beads apart along the chain.
+/// Adds the rows of `kds bench collision` about contacts: all begin and end times, compared with a cell list
+/// that examines only frames. Measures consecutive frames; both methods start from the positions that were
+/// read. Radii are `radius_factor` times the chain's. Pairs are at least 5 beads apart along the chain.
 void bench_contacts(const BenchChain& chain, double radius_factor, std::optional<double> goal,
                     std::size_t rounds, std::vector<BenchRow>& rows);
 
@@ -95,8 +95,8 @@ struct TradeBenchOptions {
   std::size_t rounds = 5;                           ///< at least; more if rounds are short
 };
 
-/// Measures levers that trade accuracy for speed beside the exact run of one structure: the steps alone, as
-/// in `kds trade`, and with the construction of the motion from the frames.
+/// Compares levers that trade accuracy for speed with the exact run of one structure: the steps alone, as in
+/// `kds trade`, and with the construction of the motion from the frames.
 [[nodiscard]] std::vector<BenchRow> bench_trade(
     const TradeBenchOptions& options, const std::function<void(std::size_t, std::size_t)>& progress);
 

@@ -1,4 +1,4 @@
-// Measures certificates from beads to answers beside the nearest operation of CGAL: a static predicate at one
+// Compares certificates, from beads to answers, with the nearest operation of CGAL: a static predicate at one
 // moment, or algebraic numbers for the same polynomials (needs libmpfi-dev). kds and the peer are timed in
 // turn. The counters are medians: `ns` per item, `peer_ns` per item, `ratio` of both, and `allocations`, our
 // allocations per item.

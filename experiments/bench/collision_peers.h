@@ -1,6 +1,6 @@
 #pragma once
-// Collision detection libraries that `kds bench collision` measures beside kds, if this program was built
-// with them: FCL (libfcl-dev) and Bullet (libbullet-dev).
+// Collision detection libraries with which `kds bench collision` compares kds, if this program was built with
+// them: FCL (libfcl-dev) and Bullet (libbullet-dev).
 
 #include <cstddef>
 #include <memory>

@@ -1,6 +1,6 @@
-// Measures whole kinetic runs of moving-point instances beside CGAL's static build of the same points, in
-// turn in one process. The counters are `ns` per event, `events_per_second`, `run_us`, `build_us`, and
-// `static_builds`, the cost of one run in static builds. Measures the queue of events beside Boost's heap.
+// Compares whole kinetic runs of moving-point instances with CGAL's static build of the same points, in turn
+// in one process. The counters are `ns` per event, `events_per_second`, `run_us`, `build_us`, and
+// `static_builds`, the cost of one run in static builds. Compares the queue of events with Boost's heap.
 //
 //   kds_benchmarks --benchmark_filter='power|sorted|queue'
 

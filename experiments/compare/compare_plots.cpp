@@ -194,7 +194,7 @@ std::string plots_by_kind(const Comparison& comparison) {
       if (bar.value > 0) with_any.push_back(bar.name);
     std::erase_if(plot.bars,
                   [&](const auto& bar) { return std::ranges::find(with_any, bar.name) == with_any.end(); });
-    // The bars of a kind for all inputs and motions stand together, and only the first shows the kind's name.
+    // The bars of a kind for all inputs and motions are adjacent, and only the first shows the kind's name.
     std::vector<std::string> kinds;
     for (const BarPlot::Bar& bar : plot.bars)
       if (std::ranges::find(kinds, bar.name) == kinds.end()) kinds.push_back(bar.name);

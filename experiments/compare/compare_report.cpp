@@ -257,7 +257,7 @@ std::string findings(const Comparison& comparison) {
   return html + ".</p>\n" + (list.empty() ? "" : "<ul>\n" + list + "</ul>\n");
 }
 
-// In this table the strides of a structure stand together, for each input and motion.
+// In this table the strides of a structure are adjacent, for each input and motion.
 std::string figures(const Comparison& comparison) {
   std::vector<std::string> names;
   for (const CompareRow& row : comparison.rows) names.push_back(row.structure.name);

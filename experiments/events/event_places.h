@@ -1,5 +1,5 @@
 #pragma once
-// Counts events by time and place: in bins of neighbouring steps, along the chain, and beside the
+// Counts events by time and place: in bins of neighbouring steps, along the chain, and next to the
 // displacements of beads from frame to frame.
 
 #include <Eigen/Core>

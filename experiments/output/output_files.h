@@ -1,5 +1,5 @@
 #pragma once
-// Output files that appear whole or not at all (atomic rename): each waits in a hidden folder beside its
+// Output files that appear whole or not at all (atomic rename): each waits in a hidden folder next to its
 // place until every result of the command is complete, then it is renamed. The hidden folder,
 // .kds-PROCESS-NUMBER.part, is removed at the end and if a signal ends the program. If the program is killed,
 // the next run that writes there removes the folder.
@@ -79,7 +79,7 @@ class OutputStream final : public std::ostream {
   Buffer buffer_;
 };
 
-struct StagingFolder;  // the hidden folder beside some results
+struct StagingFolder;  // the hidden folder next to some results
 
 /// Files that appear together or not at all. Without commit_together nothing remains, even if a signal ends
 /// the program. Every function throws an InputError or OutputError that names the path.

@@ -75,7 +75,7 @@ struct InputSize {
   std::optional<std::size_t> necklaces = {};  ///< empty if the result does not show it
   std::size_t frames = 0;
   int dimension = 3;
-  bool truncated = false;  ///< frames are missing at the end, as FrameSource::is_truncated tells it
+  bool truncated = false;  ///< frames are missing at the end (FrameSource::is_truncated)
 };
 /// Returns the files, the size, and the least and largest radius of an input.
 [[nodiscard]] Json input_json(const InputOptions& options, const InputSize& size, double radius_min,

@@ -85,7 +85,7 @@ class TableCommand {
 
   /// The command with its arguments, quoted for a shell.
   [[nodiscard]] const std::string& command_line() const { return command_line_; }
-  /// Returns a page without content that says how it was made and which data files lie beside it.
+  /// Returns a page without content that says how it was made and which data files lie next to it.
   [[nodiscard]] Page page(Json settings, std::vector<std::string> data = {}) const;
 
   /// Adds command, version and machine to `json` and writes all results. The page also shows the member

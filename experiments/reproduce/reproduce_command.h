@@ -1,5 +1,5 @@
 #pragma once
-// Reports measured tables beside the paper's to programs and people.
+// Reports measured tables, next to the paper's, to programs and people.
 
 #include <span>
 #include <string>

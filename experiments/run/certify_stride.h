@@ -30,7 +30,7 @@
 namespace kds {
 
 /// Records the contacts of a run. Each contact is an interval of time from its begin to its end. `holding`
-/// then tells which contacts contain a contact of the same beads in another run of the same motion with
+/// then says which contacts contain a contact of the same beads in another run of the same motion with
 /// smaller balls.
 ///
 /// Smaller balls meet only while the larger balls meet, so a contact of the smaller balls lies within exactly

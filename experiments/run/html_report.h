@@ -23,7 +23,7 @@ struct SummaryRow {
 /// Returns the number of motion steps, which is one less than the number of frames.
 [[nodiscard]] std::size_t step_count(const RunReport& report);
 
-/// `data` has the names of the files that lie beside the page.
+/// `data` has the names of the files that lie next to the page.
 [[nodiscard]] std::string html_report(const RunReport& report, const std::vector<std::string>& data = {});
 
 }  // namespace kds

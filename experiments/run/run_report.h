@@ -33,8 +33,8 @@ struct StructureReport {
   double seconds = 0;  ///< time for this structure and its certificates after the first build
   double build_seconds = 0;
   double static_seconds = 0;  ///< time to build the same structure statically at every frame (CGAL)
-  Spread of_seconds,
-      of_static_seconds;  ///< over all rounds; `seconds` and `static_seconds` are their medians
+  /// Over all rounds. `seconds` and `static_seconds` are the medians.
+  Spread of_seconds, of_static_seconds;
   Spread of_ratio;  ///< `seconds` divided by `static_seconds`, round by round; 0 if `static_seconds` is 0
   std::uint64_t rebuilds = 0;
   std::uint64_t audits_run = 0, audits_failed = 0;

@@ -31,7 +31,8 @@ class CutFile : public InputError {
 /// the file has when it is opened, and by a limit for the unpacked size of a gzipped one.
 ///
 /// A gzipped file is a sequence of members, which are unpacked one after the other. Zeros may pad the file
-/// after the last member. Anything else there is an error, because members that cannot be told would be lost.
+/// after the last member. Anything else there is an error, because members that cannot be recognised would be
+/// lost.
 class InputFile {
  public:
   /// Opens the file. Throws InputError naming the file. Never blocks on a pipe.

@@ -70,7 +70,7 @@ struct FramesOpened {
   std::vector<std::string> warnings;    ///< one line each
   BondPaths bonds;
   bool chain_like = true;  ///< consecutive beads are meant to be bonded
-  bool truncated = false;  ///< frames are missing at the end, as FramesAsked tells it
+  bool truncated = false;  ///< frames are missing at the end (FramesAsked)
   std::unique_ptr<FrameReader> frames;
 };
 

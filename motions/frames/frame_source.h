@@ -1,7 +1,7 @@
 #pragma once
-// Sources of frames: each gives the frames of all beads of a run, one after the other. All necklaces stand
-// side by side in a frame. The discrete-step adapter (motions/scene/discrete_step_adapter.h) turns the frames
-// into motion steps.
+// Sources of frames: each gives the frames of all beads of a run, one after the other. A frame holds all
+// necklaces, one after the other. The discrete-step adapter (motions/scene/discrete_step_adapter.h) turns the
+// frames into motion steps.
 //
 // | source | frames come from |
 // |---|---|

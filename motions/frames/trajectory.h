@@ -29,7 +29,7 @@ struct Trajectory {
   std::vector<std::size_t>
       breaks;                     ///< b: beads b and b+1 are joined across a chain break, in the first frame
   std::vector<std::size_t> gaps;  ///< b: beads b and b+1 are not bonded, as the names in the file say
-  bool truncated = false;         ///< frames are missing at the end, as FrameSource::is_truncated tells it
+  bool truncated = false;         ///< frames are missing at the end (FrameSource::is_truncated)
   LaterBreaks later_breaks;       ///< complete once all frames have been read
   std::vector<std::string> warnings;  ///< one line each, without trailing newline
 

@@ -98,7 +98,7 @@ inline constexpr std::array<std::uint64_t, 32> residue_folds{
     1,   31,  45,  229, 259, 283,  339,  391,  403,  465,  531,  579,  675,  759,  799,  819,
     829, 843, 859, 939, 985, 1015, 1153, 1195, 1215, 1281, 1299, 1351, 1371, 1425, 1489, 1525};
 
-/// How many residues tell all whole numbers below 2^bits in size apart.
+/// How many residues distinguish all whole numbers below 2^bits in size.
 [[nodiscard]] constexpr std::size_t residues_for(int bits) {
   // Twice that for the sign; the product of n moduli is above 2^(61 n - 1).
   return static_cast<std::size_t>((bits + 2 + Residue::bits - 1) / Residue::bits);

@@ -93,7 +93,7 @@ void guess_elements_by_name(StructureResidue& residue) {
   const bool has_no_elements = is_martini(residue);
   for (StructureAtom& atom : residue.atoms) {
     atom.element = has_no_elements ? El::X : element_by_name(residue, atom.name);
-    atom.element_is_given = true;  // nothing else in the file would tell more
+    atom.element_is_given = true;  // the file has no better information
   }
 }
 

@@ -220,8 +220,8 @@ class LammpsFrames final : public AtomFrames {
   }
 
   // Reads a box: xlo xhi; with tilt xlo_bound xhi_bound xy; or, in a general box, a vector and a coordinate
-  // of the origin. Behind the names stand two letters for each axis: p (periodic), f, s or m. Without
-  // letters, as old versions write it, the box is periodic.
+  // of the origin. Two letters for each axis follow the names: p (periodic), f, s or m. Without letters, as
+  // old versions write it, the box is periodic.
   bool read_box(std::size_t k, const std::string& names, DumpHeader& header) {
     const std::vector<std::string_view> words = split_fields(names);
     const auto begins = [&](const std::vector<std::string_view>& start) {

@@ -6,10 +6,10 @@
 // A chain consists of pieces of beads that follow one another by bonds (BondPaths). Each piece is made whole
 // on its own. Pieces that are not of a polymer, such as waters, begin in the image that the file gives.
 //
-// Chains of one file are placed beside each other in the first frame: a chain moves to its periodic image
+// Chains of one file are placed next to each other in the first frame: a chain moves to its periodic image
 // nearest to the chains before it if that is much nearer than the chain itself. From then on each chain moves
 // continuously: its image follows through all frames from the first one asked for, so that a stride finds the
-// images that the whole file has. A warning tells of other chains with a nearer image.
+// images that the whole file has. A warning names other chains with a nearer image.
 //
 // A cell is used no more from the frame on in which a chain is longer than the cell, unless bonds were joined
 // across its walls before: such a cell is not that of the coordinates.
@@ -67,7 +67,7 @@ class NecklaceStream {
     Eigen::Index first = 0, bead_count = 0;
     std::vector<Eigen::Index>
         route;           ///< columns of its beads and of the guides between them, along the bonds
-    bool placed = true;  ///< beside the pieces before it, not where the file has it
+    bool placed = true;  ///< next to the pieces before it, not where the file has it
     WholeChain whole = {};
     /// Shift that takes the centroid to its image nearest to the centroid of the first placed piece, in the
     /// first frame.
@@ -99,7 +99,7 @@ class NecklaceStream {
   std::vector<Trajectory> heads_;
   std::vector<Piece> pieces_;              ///< for all necklaces, in order
   std::vector<Notes> notes_;               ///< for each necklace
-  std::vector<Eigen::Index> bead_counts_;  ///< likewise
+  std::vector<Eigen::Index> bead_counts_;  ///< for each necklace
   bool bonds_joined_ = false;              ///< some frame had a bond across the walls of its cell
   std::string cell_unsuited_;              ///< why cells are no longer used
   std::optional<std::size_t> last_read_;   ///< number of the last frame read

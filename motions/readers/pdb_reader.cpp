@@ -16,8 +16,8 @@ namespace kds {
 
 namespace {
 
-// Reads only the first model. The models of a biological assembly (.pdb1, .pdb2) are copies that stand side
-// by side, not frames.
+// Reads only the first model. The models of a biological assembly (.pdb1, .pdb2) are copies at different
+// places, not frames.
 class FirstModel : public StructureModels {
  public:
   explicit FirstModel(std::unique_ptr<StructureModels> models) : models_(std::move(models)) {}

@@ -38,7 +38,7 @@ struct SelectedChains {
 /// Returns the beads of the chains in the comma-separated `list`, in its order. Without a list, returns the
 /// beads of the first chain with amino acids, otherwise of the first chain with nucleotides.
 ///
-/// All residues of a chain count, wherever they stand in the file, unless they are waters, ligands or sugars.
+/// All residues of a chain count, wherever they are in the file, unless they are waters, ligands or sugars.
 /// If a chain has only those, the selection `all` reads them. If an atom has alternate locations, the first
 /// one is used; if two residues are alternates, the first one is used.
 ///

@@ -32,7 +32,7 @@ struct ReadOptions {
   Selection selection = Selection::automatic;
   std::optional<std::string> chain = {};  ///< comma-separated; none: the first polymer chain
   FrameRange frames = {};
-  std::optional<std::string> format = {};  ///< name of a reader; none: told from the file
+  std::optional<std::string> format = {};  ///< name of a reader; none: found from the file
   std::optional<double> time_step = {};    ///< picoseconds between frames; none: times as in the file
   bool until_damage = false;               ///< reads the frames before a damaged one
   std::optional<LammpsUnits> units = {};   ///< for LAMMPS dumps; none: as the file says, else angstrom

@@ -118,7 +118,7 @@ void FileFrames::add_nearer_images(std::vector<std::string>& lines) const {
   for (std::size_t f = 0; f < files_.size(); ++f) {
     for (const Trajectory& head : files_[f].heads()) {
       const Eigen::Matrix3Xd& chain = head.frames.front();
-      // The chains of the first file have been placed beside each other.
+      // The chains of the first file have been placed next to each other.
       const auto beside = f == 0 ? std::nullopt : earlier.nearer_image(chain, first_cells_[f]);
       if (beside && beside->is_much_nearer())
         lines.push_back(

@@ -1,6 +1,6 @@
 #pragma once
-// The frames of several files, which are read frame by frame. The necklaces of all files stand side by side.
-// One frame of each file is in memory.
+// The frames of several files, which are read frame by frame. A frame holds the necklaces of all files, one
+// after the other. One frame of each file is in memory.
 
 #include <cstddef>
 #include <optional>
@@ -44,10 +44,10 @@ class FileFrames final : public FrameSource {
   std::vector<NecklaceStream> files_;
   std::vector<NecklaceBeads> necklaces_;
   std::vector<bool> at_rest_;                     ///< whether a file has only one frame, one per file
-  std::vector<FrameRead> present_;                ///< likewise
-  std::vector<std::optional<Cell>> first_cells_;  ///< likewise, in the first frame
+  std::vector<FrameRead> present_;                ///< the present frame of each file
+  std::vector<std::optional<Cell>> first_cells_;  ///< the cell of each file in the first frame
   std::vector<std::size_t> read_;                 ///< number of frames read from each file
-  std::vector<std::size_t> all_;                  ///< likewise, once all have been read
+  std::vector<std::size_t> all_;                  ///< number of frames of each file, once all have been read
   std::size_t next_ = 0;                          ///< number of the next frame
   std::size_t times_differ_ = 0;                  ///< frames with different times in two files
   std::string first_difference_;                  ///< about the first of these

@@ -80,7 +80,7 @@ class Scene {
   // Functions with an index of a frame, step or bead throw std::invalid_argument if it is too large. The
   // message gives the number of elements.
 
-  /// Returns whether frames are missing at the end of the input, as FrameSource::is_truncated tells it.
+  /// Returns whether frames are missing at the end of the input (FrameSource::is_truncated).
   [[nodiscard]] bool is_truncated() const { return truncated_; }
   /// Returns a frame's number in the file and its time, for messages and results.
   [[nodiscard]] FrameStamp stamp(std::size_t frame) const;
@@ -154,7 +154,7 @@ class Scene {
 
   std::vector<BeadRange> necklaces_;
   std::vector<std::string> bead_names_;  // empty, or one per bead
-  BeadGroups bead_groups_;               // likewise
+  BeadGroups bead_groups_;               // empty, or one per bead
   std::vector<double> radii_;
   bool has_radii_ = true;
   bool truncated_ = false;

@@ -39,7 +39,7 @@ double dot(const std::array<double, Dimension>& a, const std::array<double, Dime
   return sum;
 }
 
-/// Returns `a` scaled to length one, or none if its length is negligible beside one.
+/// Returns `a` scaled to length one, or none if its length is negligible compared with one.
 template <std::size_t Dimension>
 std::optional<std::array<double, Dimension>> unit(std::array<double, Dimension> a, double least) {
   const double length = std::sqrt(dot(a, a));

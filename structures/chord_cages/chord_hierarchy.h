@@ -1,6 +1,6 @@
 #pragma once
 // A hierarchy of chord cages in a run. The structure shares the clock of the others but has no certificates
-// and no events. Nothing tells when a basis changes, and there is nothing to log or to replay.
+// and no events. The times at which bases change are unknown, and there is nothing to log or to replay.
 
 #include <cstdint>
 #include <optional>

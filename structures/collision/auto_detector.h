@@ -5,8 +5,8 @@
 // pairs that can meet by now. If a few blocks of beads have moved far, only their pairs are searched again.
 // All decisions follow from counts, not from clocks, so equal frames cause equal work.
 //
-// A scene is left to a cell list if floats cannot decide it, because coordinates are huge beside radii, or if
-// very many beads are near each other.
+// A scene is left to a cell list if floats cannot decide it, because coordinates are huge compared with
+// radii, or if very many beads are near each other.
 //
 // A declared speed is an upper bound of the distance that any bead moves from one frame to the next. With it,
 // the detector does not even read the positions of beads that are too far from others, until they can have

@@ -27,7 +27,7 @@ class MortonOrder {
  public:
   /// Writes all beads to `order`, sorted by the cell that holds their centre, and by number within a cell. If
   /// the beads were evenly spread, a cell would hold about a fourth of a bead. If the scene is so small that
-  /// cells cannot be told apart, beads are sorted by number.
+  /// cells cannot be distinguished, beads are sorted by number.
   void sort(const Balls<Dimension>& balls, std::vector<BeadId>& order);
 
  private:

@@ -15,9 +15,9 @@
 // have no such directions, the beads are sorted along a Morton curve, which costs time, and blocks are made
 // in this spatial order. Both decisions are made after an eighth of the work.
 //
-// The result is exact for all finite input. The time depends on the input. Coordinates that are huge beside
-// distances and radii (10^5 times and more) make the filter less effective, and widely different radii make
-// the boxes less effective. In the worst case all pairs are tested.
+// The result is exact for all finite input. The time depends on the input. Coordinates that are huge compared
+// with distances and radii (10^5 times and more) make the filter less effective, and widely different radii
+// make the boxes less effective. In the worst case all pairs are tested.
 
 #include <cstddef>
 #include <cstdint>

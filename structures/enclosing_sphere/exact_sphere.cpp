@@ -125,8 +125,8 @@ class ExactSearch {
     }
     return std::sqrt(square) + (of_points_ ? 0 : balls_.radius(bead));
   }
-  // Returns the bead that sticks out most, if doubles can tell that it does. Otherwise returns the first bead
-  // that sticks out at all.
+  // Returns the bead that sticks out most, if doubles can decide this. Otherwise returns the first bead that
+  // sticks out at all.
   BeadId escaped_from(const ExactSphere<Dimension>& sphere, const Basis& basis) const {
     constexpr double inflation = 1 + 16 * detail::unit_roundoff;
     BeadId farthest = no_bead;

@@ -150,7 +150,7 @@ class NodeProofs {
   /// `filtered`.
   [[nodiscard]] bool proves_crossings() const { return proves_crossings_; }
   /// Returns the first failure of the certificate of a bead and a basis of two or more beads. `at_own_root`
-  /// tells that it holds just after now, its own root.
+  /// means that the certificate holds just after now, which is its own root.
   [[nodiscard]] std::optional<Failure> crossing(const Basis& basis, BeadId bead, bool inside,
                                                 bool at_own_root);
 

@@ -311,7 +311,7 @@ void NodeSlack<Dimension>::take_out_resting(const BeadPaths<Dimension>& paths, s
   }
   set_reference(paths);
   look_at(paths);
-  // A few nodes from all over the tree tell whether slack is worthwhile.
+  // A sample of nodes from the whole tree decides whether slack is worthwhile.
   std::vector<NodeId> some;
   const std::size_t stride = nodes.size() / sample_size + 1;
   for (std::size_t i = 0; i < nodes.size(); i += stride) some.push_back(nodes[i]);

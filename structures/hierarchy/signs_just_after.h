@@ -176,7 +176,7 @@ class BasisRepair {
       : kernel_(kernel), radii_(radii), relaxed_(relaxed), proofs_(proofs), signs_(signs) {}
 
   /// Returns the basis, just after now, of the beads of `old`, one of which may be superfluous, and of
-  /// `bead`. `bead` has escaped from the sphere of `old`, or is no_bead. `failed` tells that `bead` is the
+  /// `bead`. `bead` has escaped from the sphere of `old`, or is no_bead. `failed` means that `bead` is the
   /// bead whose certificate fails now. Returns none only if doubles contradict themselves, which the kernel
   /// `fast` may do.
   [[nodiscard]] std::optional<Basis> next_basis(const Basis& old, BeadId bead, bool failed);

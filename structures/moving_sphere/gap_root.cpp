@@ -205,7 +205,7 @@ struct Crossing {
     return gaps;
   }
 
-  /// Walks through four periods. `holds` tells that the gap is positive at their start, `soon` that it is
+  /// Walks through four periods. `holds` means that the gap is positive at their start, and `soon` that it is
   /// positive just after now, which lies in the first period. Returns none if it cannot decide, and a failure
   /// of kind `never` if the gap stays positive to the end.
   [[nodiscard]] std::optional<Failure> walk(const SphereEnclosure<D>& sphere, bool holds, bool soon,

@@ -66,9 +66,9 @@ template <int Dimension>
 class GapRoots {
  public:
   /// Returns, if doubles prove it, when the certificate that `bead` is inside the sphere of `basis` (outside,
-  /// unless `inside`) first fails after a time in [lower, upper]. `holds` tells that it holds just after that
-  /// time; otherwise this must be proved too. The basis has two or more beads, the paths are of degree 1, and
-  /// not all radii are equal.
+  /// unless `inside`) first fails after a time in [lower, upper]. `holds` means that the certificate holds
+  /// just after that time; otherwise this must be proved too. The basis has two or more beads, the paths are
+  /// of degree 1, and not all radii are equal.
   [[nodiscard]] std::optional<Failure> first_failure(const BeadPaths<Dimension>& paths, const Basis& basis,
                                                      BeadId bead, bool inside, double lower, double upper,
                                                      bool holds);

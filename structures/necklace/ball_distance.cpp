@@ -30,9 +30,10 @@ TwoTerms exact_difference(const Eigen::Vector3d& a, const Eigen::Vector3d& b, Ei
   return exact_sum(a[axis], -b[axis]);
 }
 
-// Returns the sign of left - right if doubles can tell it, else none. Both arguments are nonnegative and
+// Returns the sign of left - right if doubles can decide it, else none. Both arguments are nonnegative and
 // computed with at most eight roundings in a row, so their relative error is below 2^-49. Underflow in one
-// number stays below 2^-1000, which is negligible beside the larger number. Infinities and NaN give none.
+// number stays below 2^-1000, which is negligible compared with the larger number. Infinities and NaN give
+// none.
 std::optional<int> sign_told(double left, double right) {
   constexpr double margin = 1 + 0x1p-48;
   const double larger = std::max(left, right);

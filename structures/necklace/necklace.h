@@ -28,9 +28,9 @@ inline constexpr std::array kConditions{Condition::connected, Condition::disjoin
 
 /// Two beads of the scene that violate a condition together.
 ///   connected, disjoint: first < second; uncontained: `first` lies in `second`; if two balls are equal, the
-///   later one lies in the earlier; uniform_radii: `first` is too small beside `second`, the first of the
-///   largest beads of its necklace; uniform_bonds: the bond from `first` to the next bead is too short beside
-///   the bond from `second`, which is the first of the longest bonds.
+///   later one lies in the earlier; uniform_radii: `first` is too small compared with `second`, the first of
+///   the largest beads of its necklace; uniform_bonds: the bond from `first` to the next bead is too short
+///   compared with the bond from `second`, which is the first of the longest bonds.
 struct Violation {
   BeadId first = 0, second = 0;
   friend auto operator<=>(const Violation&, const Violation&) = default;

@@ -38,8 +38,8 @@ namespace kds {
 // A cell that becomes flat inside the hull needs no check of its own: it has neighbours on both sides of its
 // plane, so the power test of one of its facets is zero or negative at that time.
 //
-// Exact: all signs are those just after the present time. The kernel `fast` is not told of touches, so it
-// looks at the hull once a step, where the step ends, and in doubles.
+// Exact: all signs are those just after the present time. The kernel `fast` is not notified of touches, so it
+// checks the hull once a step, in doubles, when the step ends.
 
 /// Returns whether the hull winds once, if it did so before the present moment and only `touched` cells
 /// changed or became flat since. All facets must be regular and all finite cells positive just after now.

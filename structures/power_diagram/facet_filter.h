@@ -212,8 +212,8 @@ class FacetFilter {
       : filter_(filter), unit_(unit), rounding_(rounding) {}
 
   /// Adds the wanted facets of a finite cell, one bit each, a possibly empty subset of finite_facets. Reports
-  /// results for this cell or earlier ones by calling `found(cell, wanted, positive)`, where `positive`
-  /// tells what the filter finds for the wanted facets and for the cell (PositiveBits).
+  /// results for this cell or earlier ones by calling `found(cell, wanted, positive)`, where `positive` says
+  /// what the filter finds for the wanted facets and for the cell (PositiveBits).
   template <class Found>
   void look_at(const TriangulationCell<Dimension>& cell, CellId id, unsigned wanted, Found& found) {
     const unsigned count = count_of<Dimension>(wanted);

@@ -160,7 +160,7 @@ class FacetProofs {
   /// Called when beads are about to get other curves.
   void forget_courses() { foresight_.forget_all(); }
 
-  /// Returns whether slack tells which facets rest.
+  /// Returns whether slack decides which facets rest.
   [[nodiscard]] bool has_slack() const { return slack_.any(); }
   /// Numbers of facets that hold without a certificate.
   struct Proved {

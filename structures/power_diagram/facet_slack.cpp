@@ -129,8 +129,8 @@ double FacetSlack<Dimension>::measure(const Curves<Dimension>& curves, const Tri
     rest += among_others ? 0 : 1;
     by_beads += !among_others && !coarsely ? 1 : 0;
   });
-  // If the strays are unbounded, the slack of one cell does not tell at which of its two cells a facet is
-  // stored; the comparison by beads does.
+  // If the strays are unbounded, the slack of one cell does not determine at which of its two cells a facet
+  // is stored; the comparison by beads does.
   by_beads_ = share_of(by_beads, looked_at) > share_worth_a_look ||
               !(farthest_ < std::numeric_limits<float>::infinity());
   return share_of(rest, looked_at);

@@ -31,8 +31,8 @@ struct DumpFile {
 /// compared.
 using CombinatorialElement = std::array<BeadId, 6>;  ///< unused places hold no_bead
 struct CombinatorialElements {
-  /// The first `place_ids` ids of an element tell its place, the others its content: for example a
-  /// hierarchy's node and the basis of this node. Places are unique.
+  /// The first `place_ids` ids of an element are its place, the others its content: for example a hierarchy's
+  /// node and the basis of this node. Places are unique.
   std::size_t place_ids = 0;
   std::vector<CombinatorialElement> all;  ///< in any order
 
@@ -94,7 +94,7 @@ struct StructureSettings {
 
 struct StructureSpec {
   std::string name;
-  /// Determines the order in which structures act at one time and stand in reports: ascending, then by name.
+  /// Determines the order of structures, both in acting at one time and in reports: ascending, then by name.
   /// The framework's own structures have 10 to 40.
   int order = 100;
   /// Returns whether a run of this scene contains the structure if no structures are chosen.

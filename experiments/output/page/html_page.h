@@ -27,7 +27,7 @@ struct Page {
   std::vector<std::pair<std::string, std::string>> terms;  ///< plain text: words and their meanings
   std::string command_line;
   Json settings;                  ///< an object, or null if there are no settings
-  std::vector<std::string> data;  ///< names of the data files beside the page
+  std::vector<std::string> data;  ///< names of the data files next to the page
 };
 
 [[nodiscard]] std::string html_page(const Page& page);

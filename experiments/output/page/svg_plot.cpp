@@ -88,7 +88,7 @@ Drawing draw(const LinePlot& plot, const DrawingSize& size, const std::vector<st
   return drawing;
 }
 
-// Places names beside points, in pixels, where they cover no other name or point.
+// Places names next to points, in pixels, where they cover no other name or point.
 class Labels {
  public:
   Labels(double left, double right) : left_(left), right_(right) {}

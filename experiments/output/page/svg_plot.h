@@ -40,7 +40,7 @@ struct PanelPlot {
   std::vector<Panel> panels;
 };
 
-/// Points with their names beside them. Both axes are logarithmic. The points of a series share its colour.
+/// Points, each with its name next to it. Both axes are logarithmic. The points of a series share its colour.
 struct PointPlot {
   struct Point {
     std::string name;  ///< empty for a point without a shown name

@@ -182,7 +182,7 @@ class Table {
     for (const std::string& line : lines(rows)) text.append(indent).append(line).append("\n");
     return text;
   }
-  /// Returns an HTML table. If `group` is given, a line with the name of each group stands above the group's
+  /// Returns an HTML table. If `group` is given, a line with the name of each group precedes the group's
   /// rows.
   [[nodiscard]] std::string html(Rows rows, const std::function<std::string(const Row&)>& group = {}) const {
     std::vector<std::string> groups;

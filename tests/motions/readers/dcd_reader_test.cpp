@@ -436,7 +436,7 @@ TEST(DcdReader, TellsTheTimesOfFramesWhereTheHeaderHasThem) {
       EXPECT_EQ(times(0, 500, 2 * femtoseconds), (std::vector<double>{1, 3, 5}));
       EXPECT_EQ(times(500, 500, 2 * femtoseconds), (std::vector<double>{2, 4, 6}));
       EXPECT_EQ(times(0, 1, 20 * femtoseconds), (std::vector<double>{0.02, 3 * 0.02, 5 * 0.02}));
-      // Written by programs that do not know the step, or values that are not possible times.
+      // Programs that do not know the step write such headers. Some values are not possible times.
       EXPECT_TRUE(times(0, 1, 1).empty());
       EXPECT_TRUE(times(0, 0, 0).empty());
       EXPECT_TRUE(times(0, 1, 0).empty());

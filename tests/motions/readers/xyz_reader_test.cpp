@@ -388,7 +388,7 @@ TEST(ReadTrajectory, TellsTheFormatFromTheContentFirst) {
   }
   EXPECT_EQ(read_trajectory(test::write_file("b.pdb", dcd)).frames.size(), 2U);
   EXPECT_EQ(read_trajectory(test::write_file("c", std::string(two_frames))).frames.size(), 2U);
-  // --format overrides both.
+  // --format overrides both the content and the ending.
   EXPECT_EQ(read_trajectory(test::write_file("b.pdb", dcd), {.format = "dcd"}).warnings.size(), 0U);
   test::expect_refused([&] { (void)read_trajectory(test::write_file("b.dcd", dcd), {.format = "xyz"}); },
                        {"b.dcd:1:"});
