@@ -116,8 +116,8 @@ std::string bench_page(const std::string& subject, std::span<const BenchRow> row
   page.words =
       "Ours and the peer take turns in one process. <em>n</em>: beads or points; <em>value</em>: the median "
       "of the rounds, and for times the least and the most in brackets; times are processor times unless "
-      "threads share the work; <em>ratio</em>: ours divided by the peer's; <em>goal</em>: the upper limit "
-      "asked of the ratio, or else of the value.";
+      "threads share the work; <em>ratio</em>: ours divided by the peer's; <em>goal</em>: the upper limit of "
+      "the ratio, or of the value if there is no peer.";
   page.body =
       html_section("Beside the peer", ratios(rows)) + html_section("Figures", bench_columns().html(rows));
   return html_page(page);

@@ -137,10 +137,9 @@ std::string ClosestCourse::figure() const {
                       true};
   return html_figure(
       svg_plot(plot),
-      fmt::format("The distance of the closest pair asked for, frame by frame, in {}; below zero two beads "
-                  "overlap.{}",
-                  length_unit,
-                  width_ > 1 ? fmt::format(" Each value is the least of {} frames.", width_) : ""));
+      fmt::format(
+          "Distance of the closest pair, frame by frame, in {}. Two beads overlap if it is below zero.{}",
+          length_unit, width_ > 1 ? fmt::format(" Each value is the least of {} frames.", width_) : ""));
 }
 
 std::string collide_table(const CollideReport& report) {
@@ -153,13 +152,12 @@ std::string collide_page(const CollideReport& report, const std::string& input, 
   page.title = "kds collide: " + input;
   page.found = findings(report);
   page.words =
-      "All methods decide exactly and found the same. <em>Pairs</em>: pairs of beads that have a point in "
-      "common, or whose surfaces are at most <code>--within</code> apart, summed over all frames; "
-      "<em>family</em>: pairs of spheres of a hierarchy that prove all other pairs disjoint, or the edges of "
-      "the power diagram; <em>seconds</em>: the time to find the pairs in all frames, as the median of the "
-      "rounds with the least and the most in brackets; <em>and for closest</em>: the time to find the "
-      "closest pairs as well. The distance of two beads is the distance of their surfaces, below zero if "
-      "they overlap.";
+      "All methods decide exactly and agree. <em>Pairs</em>: pairs of beads that have a point in common, or "
+      "whose surfaces are at most <code>--within</code> apart, summed over all frames; <em>family</em>: "
+      "pairs of spheres of a hierarchy that prove all other pairs disjoint, or the edges of the power "
+      "diagram; <em>seconds</em>: the time to find the pairs in all frames, as the median of the rounds with "
+      "the least and the most in brackets; <em>and for closest</em>: the time to find the closest pairs as "
+      "well. The distance of two beads is the distance of their surfaces, below zero if they overlap.";
   std::string plots;
   if (!map.empty())
     plots += html_figure(map, "The pairs of beads that collide: the stronger the colour, the more often.");

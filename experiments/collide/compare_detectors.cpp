@@ -88,7 +88,7 @@ class ByDiagram final : public Detector<Dimension> {
  public:
   explicit ByDiagram(const CollisionQuery& query) : query_(query) {}
   std::optional<std::string> refusal(const Balls<Dimension>& balls) const override {
-    if (query_.distance > 0) return "the power diagram tells of beads that meet; expected --within 0";
+    if (query_.distance > 0) return "the power diagram finds only beads that meet; expected --within 0";
     return diagram_refusal(balls, query_.asked);
   }
   void detect(const Balls<Dimension>& balls, Detection& found) override {

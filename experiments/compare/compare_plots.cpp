@@ -142,7 +142,7 @@ std::string along_chain(const Comparison& comparison, const std::vector<const Co
     files += (files.empty() ? "" : ", ") + std::filesystem::path(input->file).filename().string();
   return html_figure(svg_plot(plot),
                      fmt::format("{}: share of a structure's events that name a bead, along the chain, each "
-                                 "row on its own scale. Under the pointer: the bead, and all shares in %.",
+                                 "row on its own scale. The pointer shows the bead and all shares in %.",
                                  html_escaped(files))) +
          html_table({"most events name", "first", "second", "third", "fourth", "fifth"}, table);
 }
@@ -166,11 +166,10 @@ std::string plots_over_strides(const Comparison& comparison) {
          over_strides(
              comparison, "events", "Events of the whole run, by stride.",
              [](const CompareRow& row) { return std::optional(static_cast<double>(row.events())); }) +
-         over_strides(
-             comparison, "events a net change",
-             "Efficiency, by stride: events a net change. What is undone before the next frame counts "
-             "here.",
-             [](const CompareRow& row) { return row.efficiency(); });
+         over_strides(comparison, "events a net change",
+                      "Efficiency, by stride: events per net change. Changes that are undone before the next "
+                      "frame make it larger.",
+                      [](const CompareRow& row) { return row.efficiency(); });
 }
 
 std::string plots_by_kind(const Comparison& comparison) {

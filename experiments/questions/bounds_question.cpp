@@ -107,12 +107,13 @@ Question ask_about_bounds(const std::filesystem::path& data, std::uint64_t seed,
   question.x_label = "skin, radii";
   question.y_label = "frames a repeated search";
   question.words =
-      "Pairs of beads at most the skin apart are found at one frame and serve until two beads may have come "
-      "nearer by more than it: how often after the first frame they are found again. By speed: all that is "
-      "known is how far any bead moves in a frame at most. By displacement: the largest of any bead since "
-      "the search is measured. Two largest: the sum of the two largest, for it takes two beads. Without "
-      "drift: the same after the mean displacement of all beads is taken away, which no distance notices. "
-      "Plots lack what is never repeated.";
+      "A search finds the pairs of beads that are at most the skin apart. The search is repeated when two "
+      "beads may have come closer by more than the skin. The figures count the repeated searches after the "
+      "first frame. By speed: only the largest distance that any bead moves in a frame is known. By "
+      "displacement: the largest displacement of a bead since the search is measured. Two largest: the sum "
+      "of the two largest displacements is measured, because two beads approach each other. Without drift: "
+      "the mean displacement of all beads, which changes no distance, is subtracted first. Plots leave out "
+      "counts of 0.";
   for (std::size_t which = 0; which < moving_subject_count; ++which) {
     const auto [name, subject] = moving_subject(which, data, seed);
     const double speed = speed_of(subject), radius = subject.radii.front();
@@ -160,7 +161,7 @@ Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, 
   Question question;
   std::vector<double> savings, slack;
   question.name = "trust";
-  question.title = "What does it save to trust bases for some frames?";
+  question.title = "How much time is saved if bases are trusted for some frames?";
   question.columns = {{"frames_trusted", "frames trusted"},
                       {"trust_per_verify", "time, trusting / verifying"},
                       {"least", "least"},
@@ -171,11 +172,11 @@ Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, 
   question.x_label = "frames trusted";
   question.y_label = "how far beads may stick out, share of the radius";
   question.words =
-      "The wrapped hierarchy is verified at one frame; so many frames later its spheres are taken from the "
-      "same bases without any test. Beads may stick out of these; by how much at most follows from how far "
-      "beads have moved, as a bound on speed or the largest measured displacement tells: mean over all "
-      "nodes, as a share of their radii, and next to it how far beads really stick out. Times are medians of "
-      "the rounds at one frame, with the least and the most.";
+      "The wrapped hierarchy is verified at one frame. Some frames later its spheres are computed from the "
+      "same bases without any test, so beads may stick out of them. A bound on speed, or the largest "
+      "measured displacement, bounds how far. The table gives these bounds and how far beads really stick "
+      "out, as means over all nodes and as shares of the radii. Times are medians of the rounds at one "
+      "frame, with the least and the most.";
   for (std::size_t which = 0; which < moving_subject_count; ++which) {
     const auto [name, subject] = moving_subject(which, data, seed);
     const double speed = speed_of(subject);
@@ -228,7 +229,7 @@ Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, 
     slack.push_back(by_displacement.points.front().second / really.points.front().second);
     question.findings.push_back(fmt::format(
         "{}: trusting for one frame is {} times as fast as verifying; beads may stick out by {} of a radius "
-        "as a bound on speed tells, {} as measured displacements tell, and do by {} (means).",
+        "by the bound on speed and by {} by measured displacements, and really stick out by {} (means).",
         name, short_decimal(saved), short_decimal(by_speed.points.front().second),
         short_decimal(by_displacement.points.front().second), short_decimal(really.points.front().second)));
     for (QuestionCurve* curve : {&by_speed, &by_displacement, &really}) {
@@ -240,8 +241,8 @@ Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, 
   }
   const Spread faster = spread_of(savings), beyond = spread_of(slack);
   question.answer = fmt::format(
-      "Spheres of trusted bases are {} to {} times as fast as verified ones; how far beads stick out of them "
-      "after a frame is proved no better than {} to {} times what it is.",
+      "Spheres of trusted bases are {} to {} times as fast as verified ones; the proved bound of how far "
+      "beads stick out after a frame is {} to {} times the true value.",
       short_decimal(faster.least), short_decimal(faster.most), short_decimal(beyond.least),
       short_decimal(beyond.most));
   return question;

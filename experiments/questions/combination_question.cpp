@@ -155,7 +155,7 @@ Question ask_about_combination(const std::filesystem::path& data, std::uint64_t 
                                const std::function<void()>& step_done) {
   Question question;
   question.name = "combination";
-  question.title = "What do diagram and hierarchy give together?";
+  question.title = "Are diagram and hierarchy together better than each alone?";
   question.columns = {{"block", "block, beads"},
                       {"left", "beads left, %"},
                       {"pairs", "pairs of spheres"},
@@ -168,14 +168,15 @@ Question ask_about_combination(const std::filesystem::path& data, std::uint64_t 
   question.x_label = "block, beads";
   question.y_label = "better alone / together";
   question.words =
-      "Pairs that must be looked at to decide whether a chain collides with itself. Alone: the separating "
-      "family of the wrapped hierarchy; of the power diagram of all beads the edges that join no neighbours "
-      "along the chain, and the beads with a common neighbour, without which the edges do not decide "
-      "(Theorem 3.5, which holds of any set of balls; with them count a few pairs of a bead and that in "
-      "whose cell its centre is). Together: the hierarchy is searched down to blocks of so many beads, and "
-      "on to beads where two blocks are near along the chain; beads in blocks that still meet others are "
-      "left to a power diagram of these beads alone, which decides likewise. Above 1 the two together look "
-      "at fewer pairs than the better of both alone.";
+      "The figures count the pairs that must be examined to decide whether a chain collides with itself. "
+      "Hierarchy alone: the separating family of the wrapped hierarchy. Diagram alone: the edges of the "
+      "power diagram of all beads that do not join neighbours along the chain, and the pairs of beads with a "
+      "common neighbour, without which the edges do not decide (Theorem 3.5, which holds for any set of "
+      "balls). A few pairs of a bead and the bead whose cell contains its centre are also counted. Together: "
+      "the hierarchy is searched down to blocks of the given number of beads, and down to beads if two "
+      "blocks are near along the chain. Beads in blocks that still meet other blocks are left to a power "
+      "diagram of these beads alone. Above 1 the two together examine fewer pairs than the better of both "
+      "alone.";
   std::vector<double> costs;
   for (std::size_t which = 0; which < kSubjects; ++which) {
     const Chain one = chain(which, data, seed);
@@ -203,8 +204,8 @@ Question ask_about_combination(const std::filesystem::path& data, std::uint64_t 
         *std::ranges::max_element(gains.points, {}, [](const auto& point) { return point.second; });
     costs.push_back(1 / best.second);
     question.findings.push_back(fmt::format(
-        "{}: hierarchy {}, diagram {} pairs; together at best {} times as many as the better alone (blocks "
-        "of {}).",
+        "{}: hierarchy {}, diagram {} pairs; together at best {} times as many as the better of both alone "
+        "(blocks of {}).",
         one.name, with_thousands(static_cast<std::uint64_t>(whole.pairs())),
         with_thousands(static_cast<std::uint64_t>(diagram)), short_decimal(1 / best.second), best.first));
     question.curves.push_back(std::move(gains));
@@ -212,7 +213,7 @@ Question ask_about_combination(const std::filesystem::path& data, std::uint64_t 
   }
   const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
   question.answer = fmt::format(
-      "Hierarchy and diagram together look at {} to {} times as many pairs as the better of both alone.",
+      "Hierarchy and diagram together examine {} to {} times as many pairs as the better of both alone.",
       short_decimal(*least), short_decimal(*most));
   return question;
 }

@@ -163,7 +163,7 @@ class Measurement {
 
   Question ask() {
     question_.name = "energy";
-    question_.title = "How many changes does a deformation energy buy?";
+    question_.title = "How does the number of changes grow with the deformation energy?";
     question_.columns = {{"step", "stride or amplitude"},
                          {"steps", "steps"},
                          {"bending", "bending energy per step"},
@@ -175,15 +175,15 @@ class Measurement {
     question_.words = fmt::format(
         "The energy of a step is half the sum of the squared changes of all bending angles and of all "
         "torsion angles of the chain, in radians, between two frames: springs of stiffness 1. Basis changes "
-        "are events of the wrapped hierarchy, flips those of the power diagram, under linear motion, all "
-        "exact. Trajectories are looked at frame by frame and over strides to {}; of the steps at stride 1 "
-        "those of like energy are also taken together, eight groups of equal size. Random chains have {} "
-        "beads, bending angles between 0.4 and 0.8 pi, any torsion; in a step all angles of one kind, or of "
-        "both, change by normal random amounts of the amplitude given, drawn again where a bending angle "
-        "would come within 0.05 pi of 0 or pi. Conformations are drawn anew for each amplitude, {} at the "
-        "largest to {} at the small ones; intervals of their exponents are of the exponents without one of "
-        "{} equal shares of them (jackknife). Those of trajectories are of the line through few points, "
-        "whose frames are the same.",
+        "are events of the wrapped hierarchy and flips are events of the power diagram, all exact, under "
+        "linear motion. Trajectories are examined frame by frame and over strides up to {}. The steps at "
+        "stride 1 are also sorted by energy into eight groups of equal size. Random chains have {} beads, "
+        "bending angles between 0.4 and 0.8 pi, any torsion; in a step all angles of one kind, or of both, "
+        "change by normal random amounts of the given amplitude. An amount is drawn again if a bending angle "
+        "would come within 0.05 pi of 0 or pi. Each amplitude has its own random conformations, from {} at "
+        "the largest to {} at the small amplitudes. The intervals of exponents of random chains come from a "
+        "jackknife over {} equal shares of the conformations. The intervals of trajectories come from a line "
+        "through few points, which share frames.",
         kStrides.back(), kChainBeads, kLeastConformations, kMostConformations, kShares);
     for (std::size_t which = 0; which < kProteins; ++which) ask(moving_subject(which, data_, seed_));
     for (const Angles angles : kAngles) ask(angles);

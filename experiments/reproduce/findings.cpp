@@ -40,13 +40,13 @@ std::vector<Finding> on_construction(const PaperTable& table) {
   const Range average = range_of(averages), least = range_of(values_of(table, "rho_min"));
   const Range layered = range_of(values_of(table, "layered_per_wrapped"));
   const Range power = range_of(values_of(table, "power_per_wrapped"));
-  return {{"cages-alike", "Cages of the two hierarchies are alike within 5% on average", mean >= 0.95,
+  return {{"cages-alike", "Cages of the two hierarchies differ by less than 5% on average", mean >= 0.95,
            fmt::format("{} over all rows, {} by row", short_decimal(mean), text_of(average))},
           {"cages-half", "Some wrapped cages are half as large as the layered ones", least.least < 0.6,
            fmt::format("least rho {}", short_decimal(least.least))},
           {"layered-cheapest", "The layered hierarchy is the cheapest to build", layered.most < 1,
            fmt::format("{} times the wrapped one's time", text_of(layered))},
-          {"diagram-dearest", "The power diagram is the dearest to build", power.least > 1,
+          {"diagram-dearest", "The power diagram is the most expensive to build", power.least > 1,
            fmt::format("{} times the wrapped hierarchy's time", text_of(power))}};
 }
 
@@ -121,8 +121,8 @@ std::vector<Finding> on_two_spirals(const PaperTable& table) {
            "Lazy updates are up to 200 times as fast as full ones where curves are far apart, say 100 times "
            "or more",
            1 / lazy.least >= 100, fmt::format("{} times", short_decimal(1 / lazy.least))},
-          {"lazy-near", "Where they nearly touch the advantage is gone, within a factor of two",
-           1 / lazy.most <= 2, fmt::format("{} times as fast", short_decimal(1 / lazy.most))},
+          {"lazy-near", "If curves nearly touch, lazy updates are at most twice as fast", 1 / lazy.most <= 2,
+           fmt::format("{} times as fast", short_decimal(1 / lazy.most))},
           on_frontier(table)};
 }
 

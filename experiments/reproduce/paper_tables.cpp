@@ -47,7 +47,7 @@ class Planner {
   }
   [[nodiscard]] Subjects other_protein() const {
     return {"1cem00", std::make_shared<Subject>(protein(data_, "paper/5h73.pdb")), 0, "",
-            "1cem was not to be had: 5h73, another protein of 1089 beads"};
+            "5h73, another protein of 1089 beads, in place of 1cem"};
   }
   [[nodiscard]] Subjects helix(std::size_t beads) const {
     Subjects helix = model("static helix", "helix", beads);
@@ -92,18 +92,18 @@ class Planner {
 
 PaperTablePlan Planner::construction() const {
   PaperTablePlan plan;
-  plan.table = {
-      1,
-      "Construction, and how tight cages are",
-      {{"layered_per_wrapped", "layered / wrapped time", true},
-       {"power_per_wrapped", "diagram / wrapped time", true},
-       {"rho_avg", "average rho"},
-       {"rho_min", "least rho"}},
-      {},
-      "Times of building each structure once from nothing, the power diagram with CGAL; rho is the "
-      "wrapped cage's radius by the layered cage's at a node. Ours starts a node with the bases of its "
-      "children, where the paper's took CGAL's sphere for each: so the diagram's time is a larger multiple "
-      "of the wrapped hierarchy's, and the layered one's, in vector lanes, a smaller one."};
+  plan.table = {1,
+                "Construction, and how tight cages are",
+                {{"layered_per_wrapped", "layered / wrapped time", true},
+                 {"power_per_wrapped", "diagram / wrapped time", true},
+                 {"rho_avg", "average rho"},
+                 {"rho_min", "least rho"}},
+                {},
+                "Times to build each structure once from scratch, the power diagram with CGAL. rho is the "
+                "radius of the wrapped cage divided by that of the layered cage at a node. kds starts a node "
+                "with the bases of its children, whereas the paper takes CGAL's sphere for each node. So the "
+                "time of the diagram is a larger multiple of the wrapped hierarchy's time, and the time of "
+                "the layered hierarchy, which uses vector lanes, a smaller one."};
   const auto row = [&](const Subjects& s, double wrapped, double layered, double rho_avg, double rho_min,
                        double power) {
     add(plan, s,
@@ -140,18 +140,17 @@ PaperTablePlan Planner::construction() const {
 
 PaperTablePlan Planner::verification() const {
   PaperTablePlan plan;
-  plan.table = {
-      2,
-      "Verifying the wrapped hierarchy",
-      {{"lazy_per_naive", "lazy / naive time", true},
-       {"cascade_per_naive", "cascade / naive time", true},
-       {"cascade_tests_per_naive", "cascade / naive tests"},
-       {"frontier", "average frontier"}},
-      {},
-      "Each model at rest. Naive tests every bead of every node, eight at a time in vector lanes where "
-      "the paper's went one by one; the cascade tests cages first and starts from its last frontier, "
-      "which is where it ended: cages and beads, the basis' own aside; lazy trusts the old bases. A "
-      "ratio to naive is therefore larger than the paper's."};
+  plan.table = {2,
+                "Verifying the wrapped hierarchy",
+                {{"lazy_per_naive", "lazy / naive time", true},
+                 {"cascade_per_naive", "cascade / naive time", true},
+                 {"cascade_tests_per_naive", "cascade / naive tests"},
+                 {"frontier", "average frontier"}},
+                {},
+                "Each model at rest. Naive tests every bead of every node, eight at a time in vector lanes; "
+                "the paper tests beads one by one, so a ratio to naive is larger here. The cascade tests "
+                "cages first and starts from its last frontier: the cages and beads at which it ended, "
+                "without those of the basis. Lazy trusts the old bases."};
   const auto row = [&](const Subjects& s, double lazy, double cascade, double naive, double frontier) {
     add(plan, s, {ratio(lazy, naive), ratio(cascade, naive), std::nullopt, frontier},
         [rounds = rounds_](const Subjects& of) -> Measured {
@@ -182,11 +181,11 @@ std::vector<PaperColumn> collision_columns() {
 }
 
 constexpr const char* kCollisionWords =
-    "Collisions of beads that are no neighbours along the chain. Quadratic tests all pairs, eight at a "
-    "time in vector lanes where the paper's went one by one; the searches split the node with more beads, "
-    "hierarchies being built. Our sets hold each pair of beads in exactly one pair of nodes, also pairs at a "
-    "distance of two along the chain; which the paper's leave out it does not say (of its proteins they have "
-    "twice the beads less one).";
+    "Collisions of beads that are not neighbours along the chain. Quadratic tests all pairs, eight at a time "
+    "in vector lanes; the paper tests pairs one by one. The searches split the node with more beads, and "
+    "their hierarchies are already built. The separating sets of kds have each pair of beads in exactly one "
+    "pair of nodes, also pairs at a distance of two along the chain. The paper does not say which pairs its "
+    "sets leave out (for its proteins, a set has twice as many pairs as there are beads, less one).";
 
 // Returns the cells of tables 3 and 4 from the paper's microseconds and counts.
 Cells collision_cells(double quadratic, double wrapped, double wrapped_pairs, double layered,
@@ -252,9 +251,9 @@ PaperTablePlan Planner::maintenance() const {
        {"cascade_per_naive", "cascade / naive time", true},
        {"cascade_tests_per_naive", "cascade / naive tests"}},
       {},
-      "Between two consecutive frames: cells of the later diagram that are not in the earlier one, and "
-      "nodes with another basis. The paper does not say which frames its rows are, nor whether cells "
-      "that go count, too. Naive goes in vector lanes here, so that ratios to it are larger."};
+      "Between two consecutive frames: cells of the later diagram that are not in the earlier one, and nodes "
+      "with another basis. The paper does not say which frames its rows show, nor whether cells that vanish "
+      "are counted. Naive uses vector lanes here, so ratios to naive are larger."};
   const auto row = [&](const Subjects& s, double cells, double bases, double lazy, double cascade,
                        double naive) {
     add(plan, s, {cells, bases, ratio(lazy, naive), ratio(cascade, naive), std::nullopt},
@@ -302,7 +301,8 @@ PaperTablePlan Planner::stability() const {
                  {"cascade_per_naive", "cascade / naive time", true},
                  {"cascade_tests_per_naive", "cascade / naive tests"}},
                 {},
-                "The random protein from frame 900 on, counted as in table 5, at frames so far apart."};
+                "The random protein from frame 900 on, counted as in table 5, at frames that are the given "
+                "number apart."};
   const Shared random = std::make_shared<Subject>(
       protein(data_, "paper/random100_400K_900to932.dcd", "trajectories/random100_400K.pdb"));
   const auto row = [&](std::size_t frames, double bases, double lazy, double cascade, double naive,
@@ -326,19 +326,19 @@ PaperTablePlan Planner::stability() const {
 
 PaperTablePlan Planner::two_spirals() const {
   PaperTablePlan plan;
-  plan.table = {
-      7,
-      "Collision between two rolling spirals",
-      {{"layered_pairs", "layered separating set"},
-       {"wrapped_pairs", "wrapped separating set"},
-       {"lazy_per_full", "lazy / full time", true},
-       {"layered_per_full", "layered / full time", true},
-       {"frontier", "average frontier"}},
-      {},
-      "Two chains of 1000 beads roll up in 1000 frames, one above the other, as their planes come from 1.5 "
-      "chain lengths to 1.05 diameters apart; how the paper's lie it does not say. Each time is that of "
-      "bringing the hierarchy from the frame before and searching it: full verifies all nodes by the "
-      "cascade, lazy recomputes the cages that the search visits, layered builds all cages anew."};
+  plan.table = {7,
+                "Collision between two rolling spirals",
+                {{"layered_pairs", "layered separating set"},
+                 {"wrapped_pairs", "wrapped separating set"},
+                 {"lazy_per_full", "lazy / full time", true},
+                 {"layered_per_full", "layered / full time", true},
+                 {"frontier", "average frontier"}},
+                {},
+                "Two chains of 1000 beads roll up in 1000 frames, one above the other, while the distance of "
+                "their planes falls from 1.5 chain lengths to 1.05 diameters. The paper does not say how its "
+                "chains lie. Each time is that of an update of the hierarchy from the previous frame and a "
+                "search: full verifies all nodes by the cascade, lazy recomputes the cages that the search "
+                "visits, layered builds all cages anew."};
   constexpr std::size_t frames = 1001;
   const Shared spirals = std::make_shared<Subject>(two_rolling_spirals(1000, frames));
   const auto row = [&](std::size_t frame, std::string at, double layered_pairs, double layered,

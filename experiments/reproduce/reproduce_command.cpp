@@ -89,7 +89,7 @@ std::string stability_plot(const PaperTable& table) {
       }
       plot.curves.push_back(std::move(curve));
     }
-  return html_figure(svg_plot(plot), "Changes between two frames, by how many frames lie between them.");
+  return html_figure(svg_plot(plot), "Changes between two frames, by the number of frames between them.");
 }
 
 }  // namespace
@@ -134,16 +134,15 @@ std::string paper_page(std::span<const PaperTable> tables, Page page) {
       list += fmt::format("<li>Table {}: {}</li>\n", table.number, html_escaped(sentence_of(finding)));
   page.title = "kds reproduce";
   page.found = fmt::format(
-      "<p><strong>{1}</strong> of {0} claims hold here, in every table that tells of them. The claims are "
-      "those "
-      "of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for deforming necklaces</em> "
+      "<p><strong>{1}</strong> of {0} claims hold in every table that measures them. The claims are those of "
+      "Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for deforming necklaces</em> "
       "(2004), that these tables can judge.</p>\n{2}</ul>\n",
       claims.all, claims.hold, list);
   page.words =
       "Each row also gives the paper's values. Times are ratios within a row, because the paper's machine is "
-      "of 2004. Works that are compared take turns, round by round; the ratio is the median of the rounds, "
-      "with the least and the most in brackets. Work of more than a second is done once, whatever the number "
-      "of rounds, and is compared with all rounds of the other work.";
+      "from 2004. The computations that are compared take turns, round by round; the ratio is the median of "
+      "the rounds, with the least and the most in brackets. A computation of more than a second runs once, "
+      "whatever the number of rounds, and is compared with all rounds of the other.";
   for (const PaperTable& table : tables)
     page.body +=
         html_section(fmt::format("Table {}: {}", table.number, table.title),

@@ -96,7 +96,7 @@ EventLogWriter::EventLogWriter(const std::filesystem::path& path, const RunOptio
                                                      {"beads", scene.bead_count()},
                                                      {"steps", scene.step_count()}});
   if (!header)
-    throw InputError("--log: a name among the arguments is not UTF-8, so that no log can tell of it");
+    throw InputError("--log: a name among the arguments is not UTF-8, so it cannot be written to a log");
   stream_ << first_line << '\n' << *header << '\n';
 }
 
@@ -130,10 +130,10 @@ EventLogReader::EventLogReader(const std::filesystem::path& path) : lines_(path)
   std::string_view line;
   const bool there = lines_.next(line);
   if (there && line == first_line_before)
-    throw InputError(fmt::format(
-        "{}:1: this log is of version 1, in which nothing tells whether its times are those of the run; "
-        "run again with --log for one of version 2",
-        lines_.name()));
+    throw InputError(
+        fmt::format("{}:1: this log has version 1, without the hashes that prove its times; run again with "
+                    "--log to write version 2",
+                    lines_.name()));
   if (!there || line != first_line)
     throw InputError(fmt::format("{}:1: expected '{}': this is no event log", lines_.name(), first_line));
   if (!lines_.next(line) || !read_header(parse_json(line), header_))

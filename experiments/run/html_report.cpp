@@ -145,14 +145,14 @@ void add_stride(std::vector<std::pair<std::string, std::string>>& lines, const S
   const StrideDeviation& deviation = stride.deviation;
   lines.emplace_back(
       "stride",
-      fmt::format("{} frames left out, beads at most {:.6g} from where the run has them (bead {}, "
-                  "frame {}): spheres made larger by that hold them at all times",
+      fmt::format("{} frames left out, in which beads are at most {:.6g} from their positions in the run "
+                  "(bead {}, frame {}): spheres enlarged by this length hold their beads at all times",
                   with_thousands(deviation.skipped), deviation.largest, deviation.bead, deviation.frame));
   if (!stride.contacts) return;
   const auto& [found, sure, possible] = *stride.contacts;
   lines.emplace_back(
       "contacts",
-      fmt::format("{} pairs found, {} of them sure; {} possible: {} at most may have been missed",
+      fmt::format("{} pairs found, {} of them sure; {} possible: at most {} are missed",
                   with_thousands(found.size()), with_thousands(sure.size()), with_thousands(possible.size()),
                   with_thousands(possible.size() - found.size())));
 }
@@ -225,14 +225,12 @@ namespace {
 
 constexpr std::string_view kWords =
     "An <em>event</em> is a change of the structure itself, found at the exact time at which one of its "
-    "<em>certificates</em> fails: sign conditions on a few beads that, while they hold, prove the structure "
-    "right. Between two frames every bead moves by a known polynomial, so nothing that happens in between is "
-    "missed; internal events are bookkeeping and not in the total. <em>Kinetic / static</em> compares the "
-    "time with building the same structure from nothing at every frame. Times are "
-    "those of one run, and vary from run to run, unless <code>--rounds</code> asks for several: then they "
-    "are the median, "
-    "and "
-    "in brackets the least and the most.";
+    "<em>certificates</em> fails. Certificates are sign conditions on a few beads, which prove the structure "
+    "correct while they hold. Between two frames every bead moves by a known polynomial, so no event in "
+    "between is missed. Internal events are bookkeeping and are not in the total. <em>Kinetic / static</em> "
+    "is the ratio to the time to build the same structure from scratch at every frame. Times are those of "
+    "one run and vary from run to run. With <code>--rounds</code> they are medians, with the least and the "
+    "most in brackets.";
 
 std::string title(const RunReport& report) {
   std::string names;
@@ -295,8 +293,8 @@ std::string over_steps(std::size_t width) {
 }
 std::string of_steps(std::size_t width) {
   return width > 1 ? fmt::format(
-                         " Each value is of {} steps: the mean over them, of the farthest bead the "
-                         "most in any of them.",
+                         " Each value is for {} steps: the mean over these steps, and for the farthest bead "
+                         "the largest value in any of them.",
                          width)
                    : "";
 }
@@ -341,7 +339,7 @@ std::string plot_of_displacement(const RunReport& report) {
   }
   return html_figure(
       svg_plot(plot),
-      fmt::format("How far beads are from where they were a frame before, in {}; the largest radius is {}.{}",
+      fmt::format("Displacements of beads from one frame to the next, in {}; the largest radius is {}.{}",
                   length_unit, short_decimal(report.radius_max), of_steps(report.displacement.width())));
 }
 
@@ -373,10 +371,9 @@ std::string plot_along_chain(const RunReport& report) {
     plot.rows.push_back({structure.name, *most == 0 ? "no events" : note, {counts.begin(), counts.end()}});
   }
   if (plot.rows.empty()) return "";
-  return html_figure(
-      svg_plot(plot),
-      "Events along the chain, each row on its own scale, an event at each bead that it names: of "
-      "a node of the wrapped hierarchy, those of its new basis.");
+  return html_figure(svg_plot(plot),
+                     "Events along the chain, each row on its own scale. An event counts for each bead that "
+                     "it names; for the wrapped hierarchy these are the beads of the new basis.");
 }
 
 }  // namespace

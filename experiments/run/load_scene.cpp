@@ -109,7 +109,7 @@ void check_inputs_of_one_frame(const std::vector<InputAtoms>& inputs, const Inpu
                                : "expected one of the two",
                       file));
     }
-    warn(fmt::format("{}: has one frame and rests while {} moves (--obstacle says so without this line)",
+    warn(fmt::format("{}: has one frame and rests while {} moves (--obstacle avoids this warning)",
                      one.file.string(), moves->file.string()));
   }
 }
@@ -239,7 +239,7 @@ void refuse_events_of_chords(const RunOptions& options, const SessionOptions& se
   for (const std::string& name : session.structures) {
     const StructureSpec* const spec = structure_registry().find(name);
     if (spec == nullptr || spec->has_events(session.settings)) continue;
-    throw InputError(fmt::format("{}: {} is of chord cages, which have no events; expected {}", asked, name,
+    throw InputError(fmt::format("{}: {} has chord cages, which have no events; expected {}", asked, name,
                                  name == "wrapped" ? "--between events" : "--structures without it"));
   }
 }
@@ -272,31 +272,30 @@ std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& sce
         "--apart: closest looks at all pairs of beads; run it without --apart, or let kds collide --apart "
         "find the closest pair of each frame");
   if (options.apart && std::find(names.begin(), names.end(), "contacts") == names.end())
-    throw InputError("--apart: it chooses pairs of contacts, which is not among the structures");
+    throw InputError("--apart: applies only to contacts, which is not among the structures");
   if (!options.reading.groups.empty() && std::find(names.begin(), names.end(), "closest") != names.end())
     throw InputError("--groups: closest looks at all pairs of beads; run it without --groups");
   if (!options.reading.groups.empty() && std::find(names.begin(), names.end(), "contacts") == names.end())
-    throw InputError("--groups: it chooses pairs of contacts, which is not among the structures");
+    throw InputError("--groups: applies only to contacts, which is not among the structures");
   const auto has = [&names](const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   if (options.relax && !has("wrapped"))
-    throw InputError("--relax: it relaxes the spheres of wrapped, which is not among the structures");
+    throw InputError("--relax: applies only to wrapped, which is not among the structures");
   if (options.relax && scene.degree() > highest_relaxed_degree)
     throw InputError(
         fmt::format("--relax: functions of relaxed spheres have too high a degree over motions of degree {}; "
                     "expected {} at most",
                     scene.degree(), highest_relaxed_degree));
   if (options.relax && session.settings.between != Between::events)
-    throw InputError("--relax: it is about events; expected --between events");
+    throw InputError("--relax: applies only to spheres with events; expected --between events");
   if (options.nodes.restricts() && !has("wrapped") && !has("layered"))
     throw InputError(
-        "--levels, --nodes: they choose nodes of wrapped and layered, neither of which is among the "
-        "structures");
+        "--levels, --nodes: apply only to wrapped and layered, neither of which is among the structures");
   if (options.between && !has("wrapped"))
-    throw InputError("--between: it is about wrapped, which is not among the structures");
+    throw InputError("--between: applies only to wrapped, which is not among the structures");
   if (options.tightness && session.settings.between != Between::chord)
-    throw InputError("--tightness: it bounds chord cages of wrapped; expected --between chord");
+    throw InputError("--tightness: applies only to chord cages of wrapped; expected --between chord");
   refuse_events_of_chords(options, session);
   refuse_nodes_behind_the_beads(options, scene);
   if (options.nodes.restricts()) {
@@ -309,10 +308,9 @@ std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& sce
                       tree.node_count(), scene.bead_count()));
   }
   if (options.kernel == Kernel::fast && scene.degree() > highest_fast_degree)
-    throw InputError(
-        fmt::format("--kernel fast: motions of degree {} (above {}) have no lanes to be fast in; "
-                    "expected filtered or exact",
-                    scene.degree(), highest_fast_degree));
+    throw InputError(fmt::format(
+        "--kernel fast: motions of degree {} (above {}) have no vector code; expected filtered or exact",
+        scene.degree(), highest_fast_degree));
   try {
     return std::make_unique<KineticRun>(scene, session);
   } catch (const StructureRefusal& refusal) {

@@ -85,7 +85,7 @@ std::optional<std::string> radius_hint(const Scene& scene, BeadId apart) {
   const std::optional<Advice> advice = advice_for(scene, apart);
   if (!advice) return std::nullopt;
   return fmt::format(
-      "contacts: there are none, as beads of a chain just touch with --radius auto, {:.3g}; worth trying is "
+      "contacts: there are none, because beads of a chain just touch with --radius auto, {:.3g}; try "
       "--radius {:.3g}{}, {}",
       scene.radii().front(), to_three_digits(advice->radius), advice->apart, half_touch);
 }
@@ -95,8 +95,7 @@ std::optional<std::string> factor_hint(const Scene& scene, double factor, BeadId
   if (!advice) return std::nullopt;
   const double radius = scene.radii().front() / factor;
   return fmt::format(
-      "contacts: there are none with radii of {:g} times --radius auto, {:.3g}; worth trying is --factors "
-      "{:.3g}{}, {}",
+      "contacts: there are none with radii of {:g} times --radius auto, {:.3g}; try --factors {:.3g}{}, {}",
       factor, radius, to_three_digits(advice->radius / radius), advice->apart, half_touch);
 }
 

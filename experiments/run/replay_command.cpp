@@ -55,12 +55,12 @@ class LogComparison final : public EventListener {
     if (entry == nullptr) {
       part(fmt::format("{}: ends before an event of {} in step {}", name_, event.structure, event.step));
     } else if (!is_event(*entry, event)) {
-      part(fmt::format("{}:{}: an event of {} in step {}, but what happens is {} {} {} in step {}", name_,
+      part(fmt::format("{}:{}: an event of {} in step {}, but the run has {} {} {} in step {}", name_,
                        entry->line, entry->structure, entry->step, event.structure, event.kind.name,
                        fmt::join(event.change.ids.begin(), event.change.ids.begin() + event.change.size, " "),
                        event.step));
     } else if (!is_time(*entry, event)) {
-      part(fmt::format("{}:{}: a time between {} and {}, but it happens between {} and {}", name_,
+      part(fmt::format("{}:{}: a time between {} and {}, but the event happens between {} and {}", name_,
                        entry->line, entry->lower, entry->upper, event.lower, event.upper));
     }
   }
@@ -120,8 +120,8 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
   HeldWarnings warnings;
   const Scene scene = load_scene(options, warnings.hold());
   if (scene.bead_count() != log.header().beads || scene.step_count() != log.header().steps) {
-    throw InputError(fmt::format("{}: the inputs have {} beads and {} steps, the log tells of {} and {}",
-                                 name, scene.bead_count(), scene.step_count(), log.header().beads,
+    throw InputError(fmt::format("{}: the inputs have {} beads and {} steps, the log has {} and {}", name,
+                                 scene.bead_count(), scene.step_count(), log.header().beads,
                                  log.header().steps));
   }
   const auto run = open_run(options, scene, options.audit);

@@ -167,18 +167,16 @@ void check_file(const std::filesystem::path& file) {
   if (file.empty()) throw InputError("-o: give the FILE to write, with the ending .xyz, .pdb or .ent");
   const std::string ending = file_ending(file);
   if (ending == ".xyz" || ending == ".pdb" || ending == ".ent") return;
-  throw InputError(
-      fmt::format("-o {}: the ending {} tells no format that is written; expected .xyz, .pdb or "
-                  ".ent",
-                  file.string(), in_quotes(ending)));
+  throw InputError(fmt::format("-o {}: no format has the ending {}; expected .xyz, .pdb or .ent",
+                               file.string(), in_quotes(ending)));
 }
 
 void check_wandering(const Settings& settings) {
   constexpr double most = 2;
   if (settings.motion == ShapeMotion::wander && *settings.step > most)
-    throw InputError(
-        fmt::format("--step: {} is not at most {}, as far as beads that keep their bonds can wander",
-                    *settings.step, most));
+    throw InputError(fmt::format(
+        "--step: {} is too large; expected at most {}, as far as beads that keep their bonds can wander",
+        *settings.step, most));
 }
 
 }  // namespace
@@ -239,7 +237,7 @@ void refuse_unnamed(const GenerateOptions& options, const fs::path& file) {
   there.read(start.data(), static_cast<std::streamsize>(start.size()));
   if (start.find("kds generate ") == std::string::npos)
     throw InputError(
-        fmt::format("-o {}: {} is there and was not written by kds generate; move it or give another FILE",
+        fmt::format("-o {}: {} exists and was not written by kds generate; move it or give another FILE",
                     options.file.string(), file.string()));
 }
 

@@ -65,7 +65,7 @@ InfoOptions parse_info_options(const Arguments& arguments) {
   const ParsedArguments parsed = read_arguments(kInfoCommand, info_options(), arguments, options);
   take_inputs(parsed, kInfoCommand.name, options);
   if (options.beads && (parsed.has("--rho") || parsed.has("--list")))
-    throw InputError("--beads: it judges no conditions, which --rho and --list are about");
+    throw InputError("--beads: lists no conditions; expected no --rho and no --list");
   return options;
 }
 

@@ -86,10 +86,9 @@ Scene FinestData::scene(const TradeSetting& setting, std::vector<double> radii) 
   }
   Scene scene(some, std::move(radii), setting.motion);
   if (!setting.projected && scene.dimension() != dimension_)
-    throw InputError(
-        fmt::format("frames of a stride of {} lie in a plane, as others do not; expected frames of {} "
-                    "dimensions",
-                    setting.stride, dimension_));
+    throw InputError(fmt::format(
+        "the frames at stride {} lie in a plane, but others do not; expected frames of {} dimensions",
+        setting.stride, dimension_));
   return scene;
 }
 

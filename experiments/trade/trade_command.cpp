@@ -118,12 +118,12 @@ void refuse_needless_options(const ParsedArguments& parsed, const std::vector<Wa
     return std::find_first_of(wants.begin(), wants.end(), some.begin(), some.end()) != wants.end();
   };
   if (parsed.value("--apart") && !wanted({Want::contacts, Want::events, Want::scenes}))
-    throw InputError("--apart: it chooses pairs of contacts; expected contacts, events or scenes in --want");
+    throw InputError("--apart: applies only to contacts; expected contacts, events or scenes in --want");
   if (parsed.has("--without-exact") && wants == std::vector{Want::scenes})
     throw InputError("--without-exact: scenes are run with one kernel; expected another word in --want");
   if (parsed.value("--cutoff") && !wanted({Want::diagram, Want::events}))
     throw InputError(
-        "--cutoff: it is about edges of the power diagram; expected diagram or events in --want");
+        "--cutoff: applies only to edges of the power diagram; expected diagram or events in --want");
 }
 
 const OptionList<TradeOptions>& trade_options() {
@@ -158,10 +158,10 @@ bool leave_out_exact_kernel(const FinestData& finest, const TradeTask& task,
   const std::size_t beads = finest.radii().size(), frames = finest.frame_count();
   if (beads <= most_beads && beads * frames <= most) return !asked_for;
   if (!asked_for) return true;
-  warn(fmt::format(
-      "`--kernel exact` is left out: {} beads in {} frames take it long; expected no more than {} beads, and "
-      "no more than {} times frames",
-      beads, frames, most_beads, most));
+  warn(
+      fmt::format("`--kernel exact` is left out: {} beads in {} frames would take too long; expected no more "
+                  "than {} beads, and no more than {} times frames",
+                  beads, frames, most_beads, most));
   return true;
 }
 

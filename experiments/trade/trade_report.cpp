@@ -231,7 +231,7 @@ std::string losses_of(const TradeRow& row) {
                     percent(e.radius_mean.value_or(0)), percent(e.radius_max.value_or(0))));
     add(e.beads_outside.value_or(0) > 0 ? fmt::format("{:.3g} beads stick out on average", *e.beads_outside)
                                         : "no bead is outside");
-    if (!row.setting.has_events()) add("it does not tell when bases change");
+    if (!row.setting.has_events()) add("it does not give the times of basis changes");
   }
   if (row.want == Want::diagram)
     add(fmt::format("{} of its cells are wrong, and it misses {} of the short edges",
@@ -240,12 +240,13 @@ std::string losses_of(const TradeRow& row) {
     add(fmt::format("{} of the contacts are missed, {} are spurious", percent(e.contacts_missed.value_or(0)),
                     percent(e.contacts_spurious.value_or(0))));
     if (e.contacts_unsure) add(fmt::format("{} of them are only possible", percent(*e.contacts_unsure)));
-    if (row.setting.calpha) add("it is another model, and tells of residues");
+    if (row.setting.calpha) add("it is another model, of residues");
   }
   if (row.want == Want::events || ((row.want == Want::diagram || row.want == Want::cages) && e.events_missed))
     add(fmt::format("{} of the events are missed, {} are invented", percent(e.events_missed.value_or(0)),
                     percent(e.events_invented.value_or(0))));
-  if (row.setting.kernel == Kernel::fast) add("it guarantees nothing: signs that doubles err in stay wrong");
+  if (row.setting.kernel == Kernel::fast)
+    add("it guarantees nothing: signs that are wrong in doubles stay wrong");
   return fmt::format("{}", fmt::join(losses, "; "));
 }
 
@@ -260,7 +261,7 @@ std::string subject_of(const TradeRow& row) {
     case Want::events:
       return "For events of " + row.setting.structure;
     case Want::scenes:
-      return "Of what can be asked of the scene";
+      return "Among these parts of the scene";
   }
   return {};
 }
@@ -298,9 +299,9 @@ std::string sentence_for(std::span<const TradeRow> group) {
   const std::string subject = subject_of(group.front());
   const Want want = group.front().want;
   if ((want == Want::contacts || want == Want::events) && group.front().cost.events == 0)
-    return fmt::format("{}, there is nothing to tell: the exact run has no event{}.", subject,
+    return fmt::format("{}, there is nothing to compare: the exact run has no event{}.", subject,
                        group.front().setting.structure == "contacts"
-                           ? "; --radius makes balls larger, and a lower --apart asks about more of them"
+                           ? "; --radius makes balls larger, and a lower --apart allows more pairs"
                            : "");
   if (best != nullptr)
     return fmt::format("{}, `{}` is {}: {}.", subject, words_of(best->setting),
@@ -318,8 +319,8 @@ std::string sentence_for(std::span<const TradeRow> group) {
     return fmt::format("{}, nothing is quicker than the exact run `{}`.", subject,
                        words_of(group.front().setting));
   return fmt::format(
-      "{}, stay with the exact run: nothing that is quicker errs by less than {}; the least harm does "
-      "`{}`, {}: {}.",
+      "{}, stay with the exact run: no quicker setting errs by less than {}; `{}` does the least harm, {}: "
+      "{}.",
       subject, percent(small_error), words_of(best->setting), times_as_fast(best->cost.ratio),
       losses_of(*best));
 }

@@ -226,8 +226,8 @@ std::size_t InputFile::unpack(char* to, std::size_t size) {
     throw InputError(fmt::format("{}: this file is compressed twice; unpack it once with gunzip", name_));
   unpacked_ += got;
   if (unpacked_ > most_unpacked && unpacked_ / most_ratio > disk_->size())
-    throw InputError(fmt::format("{}: unpacks to more than {} times its size, which no coordinates do", name_,
-                                 most_ratio));
+    throw InputError(fmt::format("{}: unpacks to more than {} times its size, more than coordinates can",
+                                 name_, most_ratio));
   const std::size_t kept = std::min(got, kept_behind);
   const std::size_t dropped = behind_.size() + kept - std::min(behind_.size() + kept, kept_behind);
   behind_.erase(behind_.begin(), behind_.begin() + static_cast<std::ptrdiff_t>(dropped));
@@ -296,9 +296,8 @@ bool LineReader::next(std::string_view& line) {
     const std::string_view left(buffer_.data() + begin_, end_ - begin_);
     const std::size_t length = left.find('\n', searched);
     if (std::min(length, left.size()) > longest)
-      throw InputError(
-          fmt::format("{}:{}: this line is longer than {} characters, which none of this format is", name(),
-                      number_ + 1, longest));
+      throw InputError(fmt::format("{}:{}: this line is longer than {} characters, the limit of this format",
+                                   name(), number_ + 1, longest));
     if (length != std::string_view::npos) {
       line = left.substr(0, length);
       begin_ += length + 1;

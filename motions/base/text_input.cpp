@@ -25,12 +25,12 @@ std::string read_whole_file(const std::filesystem::path& path) {
     const std::size_t last = now.find_last_of("\r\n");
     line = last == std::string_view::npos ? line + got : got - last - 1;
     if (line > LineReader::longest)
-      throw InputError(fmt::format("{}: a line is longer than {} characters, which none of this format is",
+      throw InputError(fmt::format("{}: a line is longer than {} characters, the limit of this format",
                                    path.string(), LineReader::longest));
     text.append(now);
     if (text.size() > most_whole)
-      throw InputError(fmt::format("{}: holds more than the {} bytes that are read of such a file",
-                                   path.string(), most_whole));
+      throw InputError(
+          fmt::format("{}: holds more than {} bytes, the limit for such a file", path.string(), most_whole));
   }
   text.erase(0, byte_order_mark(text, path.string()));
   return text;

@@ -187,8 +187,7 @@ bool FrameQueue::next(FrameRead& frame) {
 void FrameQueue::seek(std::size_t k) {
   const std::size_t next = pushed_ - waiting_.size();
   if (k < next)
-    throw InputError(
-        fmt::format("frame {} is gone: of pushed frames, only those from frame {} on are kept", k, next));
+    throw InputError(fmt::format("frame {} is gone: only pushed frames from frame {} on are kept", k, next));
   if (k > pushed_)
     throw InputError(
         fmt::format("frame {} is not pushed yet: {} pushed so far", k, counted(pushed_, "frame")));

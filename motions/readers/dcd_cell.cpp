@@ -89,12 +89,9 @@ CellRead DcdCellForm::read(const Numbers& v) const {
   if (matrix_ && !degrees_ && !no_matrix) return read_matrix(v);
   if (lengths_of(v).allFinite() && lengths_of(v).minCoeff() >= 0 && lengths_of(v).maxCoeff() <= 1) return {};
   if (matrix_ && degrees_)
-    return {
-        std::nullopt,
-        fmt::format(
-            "{:.6g} may be lengths and angles or a CHARMM shape matrix, and neither title nor version ({}) "
-            "tells which",
-            fmt::join(v, ", "), version_)};
+    return {std::nullopt, fmt::format("{:.6g} may be lengths and angles or a CHARMM shape matrix, and "
+                                      "neither title nor version ({}) decides",
+                                      fmt::join(v, ", "), version_)};
   return {
       std::nullopt,
       fmt::format("expected lengths and angles or, by version and title, a CHARMM shape matrix, found {:.6g} "

@@ -126,8 +126,8 @@ void read_lammps_times(std::int32_t first, std::int32_t steps, double length, Dc
         length);
   } else {
     layout.times_note = fmt::format(
-        "LAMMPS does not write its unit of time, and its step of {:.6g} does not show it; "
-        "frames are told by their numbers",
+        "LAMMPS does not write its unit of time, and its step of {:.6g} does not show it; frames have "
+        "numbers and no times",
         length);
   }
 }

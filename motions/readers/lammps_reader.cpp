@@ -311,7 +311,7 @@ class LammpsFrames final : public AtomFrames {
 
   void read_atoms_of_first_frame() {
     static_cast<void>(go_to(0));
-    if (!columns_.id) notes_.push_back("atoms have no ids; they are taken to keep their order in the file");
+    if (!columns_.id) notes_.push_back("atoms have no ids and are assumed to keep their order in the file");
     std::vector<std::pair<std::size_t, std::string>> atoms;
     for (std::size_t row = 0; row < first_.atoms; ++row) {
       require_row(0);

@@ -191,7 +191,7 @@ StructureModel read_prmtop(const std::filesystem::path& path) {
   if (model.lists_bonds)
     bonded = bonded_to_previous(prmtop, residue_of, residues, bonds);
   else
-    model.notes.emplace_back("no section BONDS_WITHOUT_HYDROGEN: molecules are not told apart");
+    model.notes.emplace_back("no section BONDS_WITHOUT_HYDROGEN: molecules are not distinguished");
   const std::vector<std::string>* chains = nullptr;
   if (prmtop.has("RESIDUE_CHAINID")) chains = &prmtop.texts("RESIDUE_CHAINID", residues);
   ResidueGrouping grouping;

@@ -66,9 +66,10 @@ std::vector<double> element_radii_of(const std::string& file, const std::vector<
     radii.push_back(*radius);
   }
   for (const std::string& symbol : guessed)
-    warnings.push_back(fmt::format("{}: {} is taken for {}", file, symbol,
-                                   names ? "an atom name of amino acids; the element is written as in Ca"
-                                         : "an element, as no atom name of amino acids stands beside it"));
+    warnings.push_back(
+        fmt::format("{}: {} is taken for {}", file, symbol,
+                    names ? "an atom name of amino acids; the element is written as in Ca"
+                          : "an element, because no atom name of amino acids is among the others"));
   return radii;
 }
 

@@ -71,8 +71,8 @@ double LongestBond::radius() const {
                                  any_ ? "no bond is longer than 0" : "no two consecutive beads are bonded"));
   if (!std::isfinite(longest_))
     throw InputError(
-        "--radius: auto is half the longest bond, and here that is beyond all numbers; "
-        "give --radius NUMBER");
+        "--radius: auto is half the longest bond, which is too large for a double here; give --radius "
+        "NUMBER");
   return radius_;
 }
 

@@ -21,8 +21,8 @@ std::vector<double> element_radii(const std::string& policy, Necklaces necklaces
   for (const NecklaceBeads& necklace : necklaces) {
     if (necklace.element_radii.size() != necklace.count)
       throw InputError(fmt::format(
-          "--radius: {} needs the elements of all beads, which {} does not tell; give "
-          "--radius auto or a number{}",
+          "--radius: {} needs the elements of all beads, which {} does not give; give --radius auto or a "
+          "number{}",
           policy, necklace.file,
           std::filesystem::path(necklace.file).filename().string().find(".dcd") != std::string::npos
               ? ", or --topology"
@@ -80,9 +80,9 @@ bool adjacent(const Ball& a, const Ball& b) {
     return fmt::format("bead {} of {}", ball.bead, necklaces[ball.necklace].file);
   };
   const bool in_order = std::pair(a.necklace, a.bead) < std::pair(b.necklace, b.bead);
-  throw InputError(
-      fmt::format("--radius: element:fit cannot part {} and {}, which lie in one place in the first frame",
-                  name(in_order ? a : b), name(in_order ? b : a)));
+  throw InputError(fmt::format(
+      "--radius: element:fit cannot separate {} and {}, which are at one place in the first frame",
+      name(in_order ? a : b), name(in_order ? b : a)));
 }
 
 // Returns the radii times one factor, at most 1, such that in the first frame no two beads touch except
@@ -132,10 +132,9 @@ std::vector<double> bead_radii(const std::string& policy, std::span<const Neckla
   std::vector<double> radii = radii_by(policy, necklaces, survey);
   for (const double radius : radii)
     if (!std::isfinite(radius * radius))
-      throw InputError(
-          fmt::format("--radius: {} gives {}, whose square (the weight) is beyond all numbers; "
-                      "give a smaller one",
-                      policy, radius));
+      throw InputError(fmt::format(
+          "--radius: {} gives {}, whose square (the weight) is too large for a double; give a smaller one",
+          policy, radius));
   return radii;
 }
 

@@ -140,8 +140,8 @@ RadiiWithin radii_within(const StrideDeviation& deviation, std::span<const doubl
     larger = std::nextafter(larger + by, infinity);
     if (!std::isfinite(larger * larger))
       throw InputError(
-          fmt::format("bead {} may be {} from where the run has it, too far to tell contacts by; expected "
-                      "frames closer to each other, or structures without contacts",
+          fmt::format("bead {} may be {} from its position in the run, too far to decide about contacts; "
+                      "expected frames closer to each other, or structures without contacts",
                       b, by));
     double& smaller = within.smaller[b];
     smaller = std::nextafter(smaller - by, -infinity);

@@ -159,7 +159,8 @@ TEST(Collide, PairsWithinADistance) {
     const ProgramRun run =
         run_program({"collide", square, "--radius", "1", "--json", "-", "--within", within});
     ASSERT_EQ(run.code, 0) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("--method power is left out: the power diagram tells of beads that meet"));
+    EXPECT_THAT(run.err,
+                HasSubstr("--method power is left out: the power diagram finds only beads that meet"));
     const Json json = Json::parse(run.out);
     EXPECT_EQ(json["settings"]["within"], std::stod(within));
     ASSERT_EQ(json["rows"].size(), collision_methods().size() - 1);

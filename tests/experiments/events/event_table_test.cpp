@@ -204,7 +204,7 @@ TEST(EventTable, IsRefusedWhereItWouldReplaceSomethingElse) {
   const ProgramRun chords =
       run_program({"run", kDcd, "--structures", "wrapped", "--between", "chord", "--events", scratch / "a"});
   EXPECT_EQ(chords.code, 2);
-  EXPECT_THAT(chords.err, HasSubstr("--events: wrapped is of chord cages, which have no events"));
+  EXPECT_THAT(chords.err, HasSubstr("--events: wrapped has chord cages, which have no events"));
   EXPECT_EQ(scratch.entries(), 1U);
 }
 

@@ -184,7 +184,7 @@ TEST(CertifyStride, IsReported) {
   EXPECT_LE(stride["contacts"]["found"], stride["contacts"]["possible"]);
   arguments.resize(arguments.size() - 2);
   const ProgramRun shown = run_program(arguments);
-  EXPECT_THAT(shown.out, HasSubstr("30 frames left out, beads at most"));
+  EXPECT_THAT(shown.out, HasSubstr("30 frames left out, in which beads are at most"));
   EXPECT_THAT(shown.out, HasSubstr("of them sure"));
 }
 

@@ -155,7 +155,7 @@ TEST(ChordRun, RefusesWhatHasNoEventsAndWhatDoesNotGoTogether) {
     return run.err;
   };
   const std::string log = scratch / "log";
-  EXPECT_THAT(refusal({"--between", "chord", "--log", log}), HasSubstr("--log: wrapped is of chord cages"));
+  EXPECT_THAT(refusal({"--between", "chord", "--log", log}), HasSubstr("--log: wrapped has chord cages"));
   EXPECT_THAT(refusal({"--structures", "layered,power", "--log", log}), HasSubstr("--log: layered"));
   EXPECT_THAT(refusal({"--between", "chord", "--audit", "events"}), HasSubstr("--audit events"));
   EXPECT_THAT(refusal({"--structures", "power", "--between", "chord"}), HasSubstr("--between"));

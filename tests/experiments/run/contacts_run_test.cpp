@@ -120,7 +120,7 @@ TEST(ContactsRun, NamesARadiusWhereThereAreNone) {
   };
   const ProgramRun none = run({"run", "--structures", "contacts"});
   EXPECT_EQ(none.code, 0);
-  const std::string before = "worth trying is --radius ", after = " --apart 5, at which";
+  const std::string before = "try --radius ", after = " --apart 5, at which";
   const std::size_t from = none.err.find(before), to = none.err.find(after);
   ASSERT_NE(from, std::string::npos) << none.err;
   ASSERT_NE(to, std::string::npos) << none.err;
@@ -140,7 +140,7 @@ TEST(ContactsRun, WithoutContactsMissedNamesAFactor) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_program(arguments);
   };
-  const std::string before = "worth trying is --factors ", after = " --apart 5, at which";
+  const std::string before = "try --factors ", after = " --apart 5, at which";
   const auto advised = [&](const std::string& err) {
     const std::size_t from = err.find(before), to = err.find(after);
     EXPECT_TRUE(from < to && to != std::string::npos) << err;
@@ -270,7 +270,7 @@ TEST(ContactsRun, PairsNearAlongTheChain) {
 }
 
 TEST(ContactsRun, Refusals) {
-  expect_refused({kDcd, "--apart", "5"}, "--apart: it chooses pairs of contacts");
+  expect_refused({kDcd, "--apart", "5"}, "--apart: applies only to contacts");
   expect_refused({kDcd, "--structures", "contacts", "--apart", "0"}, "--apart");
   expect_refused({kDcd, "--structures", "closest,contacts", "--apart", "5"},
                  "--apart: closest looks at all pairs of beads");
@@ -279,7 +279,7 @@ TEST(ContactsRun, Refusals) {
     return std::vector<std::string>{kDcd,           "--topology", kPdb,       "--frames", "0:3",
                                     "--structures", structures,   "--groups", first,      second};
   };
-  expect_refused(with_groups("power", "ca", "all"), "--groups: it chooses pairs of contacts");
+  expect_refused(with_groups("power", "ca", "all"), "--groups: applies only to contacts");
   expect_refused(with_groups("closest,contacts", "ca", "all"), "--groups: closest looks at all pairs");
   expect_refused(with_groups("contacts", "ca", "//B"),
                  "--groups: '//B' chooses none of the beads that are read: 108 beads (N, CA, C), from N of ");

@@ -76,7 +76,7 @@ TEST(HtmlReport, PlacesAndDisplacementsWhereTheyAreKnown) {
     report.displacement.add_frame(frame, report.displacement.bins().size() + 10);
   }
   EXPECT_EQ(report.displacement.width(), 1U);
-  EXPECT_THAT(html_report(report), Not(HasSubstr("the most in any of them")));
+  EXPECT_THAT(html_report(report), Not(HasSubstr("the largest value in any of them")));
   ASSERT_EQ(report.displacement.bins().size(), 2U);
   EXPECT_EQ(report.displacement.bins()[1].first_frame, 10U);
   EXPECT_EQ(report.displacement.bins()[1].most, 3);
@@ -98,8 +98,8 @@ TEST(HtmlReport, BinsOfDisplacementsSayWhatTheyAre) {
   for (std::size_t k = 0; k < 5; ++k)
     report.displacement.add_frame(Eigen::Matrix3Xd::Constant(3, 2, static_cast<double>(k * k)), k);
   ASSERT_EQ(report.displacement.bins().size(), 2U);
-  EXPECT_THAT(html_report(report),
-              HasSubstr("of 2 steps: the mean over them, of the farthest bead the most in any of them"));
+  EXPECT_THAT(html_report(report), HasSubstr("for 2 steps: the mean over these steps, and for the farthest "
+                                             "bead the largest value in any of them"));
 }
 
 TEST(HtmlReport, EscapesNames) {

@@ -198,7 +198,7 @@ TEST(ReplayFuzz, LogsOfVersionOneAreRefused) {
   lines[0] = "kds event log 1";
   std::string message;
   EXPECT_EQ(replay(write_log(lines, directory), &message), Outcome::refused);
-  EXPECT_THAT(message, testing::HasSubstr("spoiled.log:1: this log is of version 1"));
+  EXPECT_THAT(message, testing::HasSubstr("spoiled.log:1: this log has version 1"));
 }
 
 TEST(ReplayFuzz, LogsCutOffAreRefused) {

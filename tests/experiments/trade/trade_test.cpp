@@ -389,7 +389,7 @@ TEST(TradeCommand, LeavesOutWhatDoesNotFitTheFrames) {
       {"trade", file, "--rounds", "1", "--times", "4", "--want", "cages,scenes", "--json", "-", "--quiet"});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.err,
-              HasSubstr("`wrapped --frames ::2` is left out: frames of a stride of 2 lie in a plane"));
+              HasSubstr("`wrapped --frames ::2` is left out: the frames at stride 2 lie in a plane"));
   const ProgramRun some = run_program({"trade", file, "--rounds", "1", "--times", "4", "--want", "cages",
                                        "--json", "-", "--quiet", "--frames", "2:"});
   EXPECT_THAT(some.err, HasSubstr("`wrapped --frames 2::2` is left out"));

@@ -104,7 +104,7 @@ TEST(FrameQueue, HandsOutEachFrameOnce) {
   EXPECT_EQ(frame.stamp.number, 2U);
   EXPECT_EQ(frame.stamp.picoseconds, 0.5);
   EXPECT_THAT(refusal_of([&] { queue.seek(2); }),
-              HasSubstr("frame 2 is gone: of pushed frames, only those from frame 3 on are kept"));
+              HasSubstr("frame 2 is gone: only pushed frames from frame 3 on are kept"));
   EXPECT_THAT(refusal_of([&] { queue.seek(5); }),
               HasSubstr("frame 5 is not pushed yet: 4 frames pushed so far"));
   queue.end();

@@ -243,7 +243,7 @@ TEST(Prmtop, BondsTellMoleculesApart) {
   text.erase(text.find("%FLAG BONDS"));
   const auto one = read("a.prmtop", text, 20);
   EXPECT_EQ(one[0].bead_count(), 12U);
-  EXPECT_THAT(one[0].warnings, Contains(HasSubstr("molecules are not told apart")));
+  EXPECT_THAT(one[0].warnings, Contains(HasSubstr("molecules are not distinguished")));
 }
 
 TEST(Prmtop, DamageIsRefusedInOneLine) {

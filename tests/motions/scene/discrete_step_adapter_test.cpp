@@ -151,7 +151,7 @@ TEST(DiscreteStepAdapter, KnowsAPushedHermiteStepOneFrameLater) {
     EXPECT_EQ(step_of(pushed, frame_count - 2), step_of(expected, frame_count - 2));
     EXPECT_EQ(pushed.stamp(frame_count - 1).picoseconds, 3.0);
     test::expect_refused([&] { (void)step_of(pushed, 0); },
-                         {"frame 0 is gone", "of pushed frames, only those from frame"});
+                         {"frame 0 is gone", "only pushed frames from frame"});
     EXPECT_EQ(step_of(pushed, frame_count - 2), step_of(expected, frame_count - 2));
     EXPECT_THROW(pushed.push(numbers_of(frames[0])), std::logic_error);
   }
