@@ -1,5 +1,5 @@
 # Defines the target kds::flint, FLINT with Arb, for the build and for users of the package, because FLINT 2 has neither a CMake
-# package nor a pkg-config file. FLINT 3 contains Arb; beside FLINT 2, Arb is a library of its own.
+# package nor a pkg-config file. FLINT 3 contains Arb; with FLINT 2, Arb is a separate library.
 include(FindPackageHandleStandardArgs)
 find_package(KdsGmp QUIET)
 find_package(KdsMpfr QUIET)

@@ -6,14 +6,14 @@
 #   Replaces the rows of one subject in docs/measurements/MACHINE.csv by those that `kds bench SUBJECT --out DIR` wrote, then
 #   replaces the tables. LOAD says what else the machine was doing, as in "quiet". It must not contain a comma.
 #
-# A line of the CSV file is a line of bench.csv behind five columns: subject, sizes (of --sizes, separated by spaces), version (the
+# A line of the CSV file is a line of bench.csv after five columns: subject, sizes (of --sizes, separated by spaces), version (the
 # release and the commit), date, load.
 #
 # A table stands between a line that says what is in it and a line `<!-- end of table -->`. Regular expressions are CMake's.
 #   <!-- rows of MACHINE, SUBJECT: REGEX -->
 #     One line for each row whose text "NAME on INPUT (N) beside PEER" matches.
 #   <!-- rows of MACHINE, SUBJECT, goals in time: REGEX -->
-#     The same, where goals belong to the times even though there is a peer.
+#     The rows above, but goals belong to the times even if there is a peer.
 #   <!-- ratios of MACHINE, SUBJECT, on REGEX: HEADING = REGEX | HEADING = REGEX ... -->
 #     One line for each "INPUT (N)" that matches the first expression, and one column for each heading: the ratio of the first row
 #     whose text "NAME beside PEER" matches.
@@ -285,7 +285,7 @@ while(rest MATCHES "<!-- (rows|ratios) of ([^,\n]+), ([a-z]+)(, goals in time|, 
   string(SUBSTRING "${rest}" ${at} -1 rest)
   string(FIND "${rest}" "${end}" at)
   if(at EQUAL -1)
-    message(FATAL_ERROR "docs/measurements.md: no line '<!-- end of table -->' behind ${begin}")
+    message(FATAL_ERROR "docs/measurements.md: no line '<!-- end of table -->' after ${begin}")
   endif()
   string(SUBSTRING "${rest}" 0 ${at} shown)
   string(SUBSTRING "${rest}" ${at} -1 rest)
@@ -302,7 +302,7 @@ while(rest MATCHES "<!-- (rows|ratios) of ([^,\n]+), ([a-z]+)(, goals in time|, 
     rows_table(table ${subject} ratio "${specification}")
   endif()
   if(NOT WRITE AND NOT shown STREQUAL table)
-    message(SEND_ERROR "docs/measurements.md: the table behind ${begin}is not that of docs/measurements/${machine}.csv; "
+    message(SEND_ERROR "docs/measurements.md: the table after ${begin}is not that of docs/measurements/${machine}.csv; "
                        "cmake -DROOT=${ROOT} -DWRITE=ON -P cmake/MeasurementTables.cmake puts it there")
   endif()
   string(APPEND text "${before}${table}")

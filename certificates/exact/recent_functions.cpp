@@ -9,7 +9,7 @@ namespace kds {
 
 namespace {
 
-// Compares bit by bit: 0 and -0 make the same function, but it is not worth a special case to share it.
+// Compares bit by bit, so 0 and -0 give two entries of one function.
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -198,7 +198,7 @@ class TrrFrames final : public AtomFrames {
   std::size_t atoms_ = 0;
   bool has_box_ = false;
   std::vector<std::uint64_t> begins_;  // where the frames with positions begin
-  std::size_t left_out_ = 0;           // frames without
+  std::size_t left_out_ = 0;           // frames without positions
   FramesHeld held_;
   std::vector<char> bytes_;
 };

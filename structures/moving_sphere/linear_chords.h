@@ -28,7 +28,7 @@ namespace kds::detail {
 /// lengths, a volume or a residual by 60, which is below 2^-47.
 inline constexpr double linear_margin = 0x1p-45;
 
-/// R and Q.
+/// The parts R and Q of a bound.
 struct Stray {
   Lanes rounded, between;
 

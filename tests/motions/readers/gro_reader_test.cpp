@@ -162,7 +162,7 @@ TEST(GroReader, MoleculesAreToldApart) {
   EXPECT_EQ(molecules_of(GroText().residues(1, 4).residue(5, "SOL", {"OW", "HW1", "HW2"}).residues(6, 9)),
             2U);
   EXPECT_EQ(molecules_of(GroText().residues(1, 4).residue(5, "NA", {"NA"}).residues(6, 9)), 2U);
-  // A residue of a name that is not known belongs to the chain if its number does.
+  // A residue with an unknown name belongs to the chain if its number continues those of the chain.
   EXPECT_EQ(molecules_of(GroText().residues(1, 4).residue(5, "CHR", {"C1", "C2", "O3"}).residues(6, 9)), 1U);
   EXPECT_EQ(molecules_of(GroText().residues(1, 4).residue(1, "LIG", {"C1", "C2", "O3"}).residues(6, 9)), 2U);
   // Protein beside DNA.
