@@ -4,7 +4,7 @@
 #   Checks each table against the CSV file that it names. With WRITE it replaces the tables.
 # cmake -DROOT=<source tree> -DADD=<DIR> -DMACHINE=<name> -DLOAD=<text> -P MeasurementTables.cmake
 #   Replaces the rows of one subject in docs/measurements/MACHINE.csv by those that `kds bench SUBJECT --out DIR` wrote, then
-#   replaces the tables. LOAD says what else the machine was doing, as in "quiet". It must not contain a comma.
+#   replaces the tables. LOAD says what else the machine was doing, as in "quiet", without commas.
 #
 # A line of the CSV file is a line of bench.csv after five columns: subject, sizes (of --sizes, separated by spaces), version (the
 # release and the commit), date, load.

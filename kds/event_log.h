@@ -73,8 +73,8 @@ struct Event {
 class EventListener {
  public:
   virtual ~EventListener() = default;
-  /// Called while the change is being made: it must not change structures or let time run. If it throws,
-  /// the run is over.
+  /// Called while the change is being made: it must not change structures or let time run. If the listener
+  /// throws, the run is over.
   virtual void on_event(const Event& event) = 0;
   /// Returns whether the listener prints the time of this event. The event then carries its time in twelve
   /// certain digits (Event::rounded), which takes exact work if the bracket is wide.

@@ -24,8 +24,8 @@ int FailureOrder::compare(ScheduledFailure& a, ScheduledFailure& b, bool& one_fu
   if (b.time.upper == a.time.lower) return 1;
   if (a.source->identity(a.slot) == b.source->identity(b.slot) &&
       a.source->side(a.slot) == b.source->side(b.slot) && !a.time.touch && !b.time.touch) {
-    // Each certificate holds until it fails, so both wait for the next descent of the same function. (After a
-    // touch, a certificate may already wait for the next root of the same function.)
+    // Each certificate holds until it fails, so the two certificates wait for the next descent of the same
+    // function. (After a touch, a certificate may already wait for the next root of the same function.)
     ++counts_.by_identity;
     one_function = true;
     return 0;

@@ -3,8 +3,8 @@
 // positive, where A, B and D are polynomials of a few beads' motions. The sign follows from the signs of A, B
 // and the norm A^2 - B^2 D, each known up to a positive factor, and its zeros are zeros of the norm. D itself
 // is never evaluated. However, while the certificate is in use neither D nor an omitted factor may turn
-// negative, or the sign is meaningless. The type must explain why this holds. If it has `is_usable`, that
-// function decides whether it holds during a short time.
+// negative, or the sign is meaningless. The type must explain why neither turns negative. If the type has
+// `is_usable`, this function decides whether the certificate is usable during a short time.
 //
 // The function may be subject to a condition, which is another radical. The function counts as negative where
 // the condition is negative. While A + B sqrt(D) is positive, the condition must not change sign.

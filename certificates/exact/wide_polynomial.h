@@ -1,9 +1,9 @@
 #pragma once
 // Polynomials whose coefficients are thousands of bits long because the input numbers differ wildly in size
-// (function_values.h gives the width at which this class takes over). An answer seldom needs all bits.
-// Signs are first sought with ball arithmetic (ball_number.h) of 128 bits, then of twice as many at each
-// attempt, and common factors modulo a prime. The whole integers are formed only if these do not decide.
-// Every answer is exact, or says that it is undecided.
+// (function_values.h gives the width at which this class takes over). An answer seldom needs all bits. Ball
+// arithmetic (ball_number.h) is tried first for signs, with 128 bits and then with twice as many at each
+// attempt. Common factors are first sought modulo a prime. The whole integers are formed only if these
+// methods do not decide. Every answer is exact, or says that it is undecided.
 //
 // Results are cached. An object must therefore be used by one thread only.
 

@@ -42,9 +42,9 @@ void narrow_root(const WidePolynomial& polynomial, RootInterval& root);
 /// nearer.
 [[nodiscard]] bool has_digits(const RootInterval& root, unsigned digits);
 
-/// Returns a number with few digits between two numbers of [0,1]. If both have the same scale, it is the
-/// midpoint. Otherwise it halves the exponents, towards the end at which the interval spans many scales,
-/// because scales towards 0 and 1 are endless.
+/// Returns a number with few digits between two numbers of [0,1]. If the two numbers have the same scale, the
+/// result is the midpoint. Otherwise it halves the exponents, towards the end at which the interval spans
+/// many scales, because scales towards 0 and 1 are endless.
 [[nodiscard]] Dyadic split_point(const Dyadic& lower, const Dyadic& upper);
 
 }  // namespace kds

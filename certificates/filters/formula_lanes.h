@@ -74,10 +74,10 @@ template <class Certificate, Motion M, int Degree>
 // (1-u)^(n-k) u^k. The computed value has an error of less than (4n + 4) 2^-53 M, and within a bracket of
 // length b the difference changes by at most 2 n b M.
 //
-// If both together are below 2^-25 M, they are at most the error of rounding to float. The function of these
-// differences, evaluated in double, then has at most the error of an evaluation in float from exact
-// differences, as magnitudes of 24 digits give it (motions/numbers/rounding_error.h). The bound is proved for
-// 2^-900 <= M^h <= 2^900, as in bounded_polynomial.h. No allocation.
+// If the rounding and the change together are below 2^-25 M, they are at most the error of rounding to float.
+// The function of these differences, evaluated in double, then has at most the error of an evaluation in
+// float from exact differences, as magnitudes of 24 digits give it (motions/numbers/rounding_error.h). The
+// bound is proved for 2^-900 <= M^h <= 2^900, as in bounded_polynomial.h. No allocation.
 
 /// A view of four tuples of beads at time u.
 template <Motion M, std::size_t Places>

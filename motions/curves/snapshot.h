@@ -1,6 +1,6 @@
 #pragma once
-// The positions of beads at one moment, as a motion of degree 0. Over it, functions of beads have one
-// coefficient, their value. Centres and weights are doubles and define the snapshot exactly; there are no
+// The positions of beads at one moment, as a motion of degree 0. Over a snapshot, a function of beads has one
+// coefficient, its value. Centres and weights are doubles and define the snapshot exactly; there are no
 // radii.
 
 #include <Eigen/Core>

@@ -77,12 +77,12 @@ class FrameWalk {
   bool begun_ = false;
 };
 
-/// Returns the frames asked for. Throws InputError if they are not all there.
+/// Returns the frames asked for. Throws InputError if one of these frames is missing.
 ///
 /// A file that ends inside its last frame gives the whole frames before it, with a warning. Throws
 /// DamagedFrame if a frame asked for, or any frame of an open range, is damaged; `until_damage` reads the
-/// frames before it instead, with a warning. Warns of frames after the last one that a stride meets. The
-/// frame of a file of one is taken whatever the range: such a necklace is at rest.
+/// frames before it instead, with a warning. Warns of frames after the last one that a stride meets. If a
+/// file has one frame, the frame is taken whatever the range is, and the necklace is at rest.
 [[nodiscard]] FramesAsked select_frames(const std::string& file, const FrameRange& range,
                                         const FramesHeld& held, bool until_damage,
                                         std::vector<std::string>& warnings);

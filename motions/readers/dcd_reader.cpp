@@ -43,8 +43,8 @@ class DcdFile {
     return numbers && cell_form_.read(*numbers).cell;
   }
 
-  // Returns the frames of the file. If it ends inside a frame, records that disagree with the header may be
-  // the reason: then the first frame with such a record is damaged.
+  // Returns the frames of the file. If the file ends inside a frame, records that disagree with the header
+  // may be the reason: then the first frame with such a record is damaged.
   FramesHeld held() {
     FramesHeld held = layout_.frames_held();
     for (std::size_t k = 0; held.ends_inside && k <= held.whole; ++k) {

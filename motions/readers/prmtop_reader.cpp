@@ -41,7 +41,7 @@ struct FieldForm {
 };
 
 struct Section {
-  std::size_t line = 0;  // of %FLAG
+  std::size_t line = 0;  // the line of %FLAG
   std::vector<std::string> fields;
 };
 

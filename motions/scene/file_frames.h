@@ -37,8 +37,8 @@ class FileFrames final : public FrameSource {
  private:
   void check_frame_counts() const;
   void add_nearer_images(std::vector<std::string>& lines) const;
-  /// Returns the number and the time of the present frame: those of the first file that moves. If it has no
-  /// time, then another moving file gives the time. Notes times that differ.
+  /// Returns the number and the time of the present frame: those of the first file that moves. If this file
+  /// has no time, another moving file gives the time. Notes times that differ.
   [[nodiscard]] FrameStamp stamp();
 
   std::vector<NecklaceStream> files_;

@@ -190,8 +190,8 @@ double AutoDetector<Dimension>::most_stray(std::span<const double> strays) {
   return *most;
 }
 
-// Returns how far beads have moved since the frame before. If this is too far for keeping pairs, returns
-// instead how far all but a few blocks have moved, because repairs handle the few.
+// Returns how far beads have moved since the frame before. If beads have moved too far for keeping pairs,
+// returns how far all but a few blocks have moved, because repairs handle the few.
 template <int Dimension>
 double AutoDetector<Dimension>::usual_step(const Balls<Dimension>& balls) {
   if (speed_) return *speed_;

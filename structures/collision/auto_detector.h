@@ -8,9 +8,9 @@
 // A scene is left to a cell list if floats cannot decide it, because coordinates are huge compared with
 // radii, or if very many beads are near each other.
 //
-// A declared speed is an upper bound of the distance that any bead moves from one frame to the next. With it,
-// the detector does not even read the positions of beads that are too far from others, until they can have
-// come near.
+// A declared speed is an upper bound of the distance that any bead moves from one frame to the next. With a
+// declared speed, the detector does not even read the positions of beads that are too far from others, until
+// they can have come near.
 //
 // The result is exact for every motion: beads at rest, slow, fast, or placed anew.
 

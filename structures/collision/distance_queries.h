@@ -4,7 +4,7 @@
 // The search for the closest pair starts from a few offered pairs: the pairs that are least apart along their
 // chain and the closest pair of the last call. The least distance of the offered pairs bounds the search. All
 // pairs up to a gap are then found. The gap grows while it contains no pair, and shrinks while it contains
-// too many. If this fails, for huge numbers or for more equally close beads than memory should hold, a
+// too many. If this search fails, for huge numbers or for more equally close beads than memory should hold, a
 // layered hierarchy is searched by branch and bound.
 //
 // The result is exact: all pairs up to the gap are found (float_frame.h), and the closest of them is decided

@@ -35,10 +35,10 @@ namespace kds {
 //   |A| <= K v (T + D),  K = 2 max |sum of some g_i|,  |q| <= sum |g_i s_i| < 1.
 //
 // The g_i are rows of a pseudo-inverse P. As the balls move, P changes by at most w = sqrt(2) |P| |P'| 2 D
-// sqrt(m) (Wedin), |P'| <= |P| / (1 - 2 |P| D sqrt(m)), in Frobenius norms. So does each g_i but the first,
-// which changes by at most sqrt(m) times that. While the weights are positive, the sphere is the minimum
-// enclosing one, and its radius changes by at most t. The weights change by at most |g_i'| times the movement
-// of the centre, which continues from t = 0, where all this holds. So while
+// sqrt(m) (Wedin), |P'| <= |P| / (1 - 2 |P| D sqrt(m)), in Frobenius norms. Each g_i but the first also
+// changes by at most w, and the first by at most sqrt(m) w. While the weights are positive, the sphere is the
+// minimum enclosing one, and its radius changes by at most t. The weights change by at most |g_i'| times the
+// movement of the centre, which continues from t = 0, where all this holds. So while
 //
 //   3 t + |A| + |q| t  <=  rho - s_j - |d_j - z|     for all other balls j,
 //   max |g_i'| (|A| + |q| t) < min w,  t < min T

@@ -72,7 +72,7 @@ struct TablesOfMembership<3> {
 
 }  // namespace detail
 
-/// Tells whether a certificate belongs to a relaxed sphere. Only a relaxed hierarchy holds such certificates.
+/// Whether a certificate belongs to a relaxed sphere. Only a relaxed hierarchy holds such certificates.
 template <class Certificate>
 inline constexpr bool is_relaxed = requires(const Certificate& c) {
   c.beads.relaxation;

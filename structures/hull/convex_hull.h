@@ -9,8 +9,8 @@
 // time.
 //
 // A bead that is inserted or jumps walks along both halves to its place, with a few certificates for each
-// corner on the way. A bead that is erased or changes course costs its own certificates. If it is in a half,
-// it also costs the certificates of its neighbours there and of the beads under its edges.
+// corner on the way. A bead that is erased or changes course costs its own certificates. If the bead is in a
+// half, it also costs the certificates of its neighbours there and of the beads under its edges.
 
 #include <cstdint>
 #include <optional>

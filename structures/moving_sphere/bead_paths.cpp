@@ -39,7 +39,8 @@ template <int K>
 }
 
 // A lower bound of the distance is its component along the sum of both ends' differences, by control points.
-// If it is no small part of these differences, the roundings, below 2^-45 of them, do not matter.
+// The roundings are below 2^-45 of the differences. If the bound is no small part of the differences, the
+// roundings do not matter.
 template <int D, int K>
 [[KDS_LANES_TARGETS]] void find_apart(const BeadPaths<D>& paths, std::uint8_t* apart) {
   constexpr double up = 1 + 0x1p-30, part = 0x1p-10;

@@ -4,10 +4,10 @@
 // radii, in the plane and in space.
 //
 // The search is an interval subdivision with monotonicity tests. In a part of the step, the gap between ball
-// and sphere (find_gaps) may be known to have a sign, or to rise or fall. If it falls or rises, its signs
-// at both ends tell whether it has a root there, which is then simple and the only one. Four parts are tested
-// at once, and undecided parts are subdivided again. A root is estimated by the polynomial through the gap at
-// five times, or by the chord, and then bracketed between two of four times around it whose signs are
+// and sphere (find_gaps) may be known to have a sign, or to rise or fall. If the gap falls or rises, its
+// signs at both ends say whether it has a root there, which is then simple and the only one. Four parts are
+// tested at once, and undecided parts are subdivided again. A root is estimated by the polynomial through the
+// gap at five times, or by the chord, and then bracketed between two of four times around it whose signs are
 // certain. The norm is also proved to have only this root in the bracket.
 
 #include <array>

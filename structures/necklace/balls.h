@@ -50,7 +50,8 @@ class BallRows {
   BallRows(const Curves<Dimension>& curves, int k) { (void)move_to(curves, k); }
 
   /// Moves the balls to the k-th control points of a motion and reuses their memory. Returns whether any
-  /// radius, or the number of radii, differs from before. If this throws, the object holds no balls any more.
+  /// radius, or the number of radii, differs from before. If the function throws, the object then holds no
+  /// balls.
   bool move_to(const Curves<Dimension>& curves, int k) { return copy(curves, k, nullptr).others_radii; }
   /// Moves the balls to the first control points after the start. Returns whether `start` equals the balls at
   /// the start, bit for bit. The comparison takes place in the same pass.

@@ -51,8 +51,9 @@ struct NecklaceReport {
 };
 
 struct ValidateOptions {
-  /// The constant of uniformity, at least 1. If it is infinite, only beads of radius 0 beside larger ones and
-  /// bonds of length 0 beside longer ones violate uniformity, because no constant would bound their ratio.
+  /// The constant of uniformity, at least 1. If the constant is infinite, uniformity is violated only by
+  /// beads of radius 0 together with larger ones, and by bonds of length 0 together with longer ones, because
+  /// no constant bounds such a ratio.
   double rho = std::numeric_limits<double>::infinity();
   std::size_t most_listed = std::numeric_limits<std::size_t>::max();  ///< maximum number listed per condition
 };

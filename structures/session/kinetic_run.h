@@ -102,8 +102,8 @@ class KineticRun {
   bool run_step();
   /// Runs all known steps. Must not be called over a motion that the user sets.
   void run();
-  /// Handles all events at the next time at which something happens. If this is the time of a frame, the run
-  /// then stands at u = 0 of the step that begins there. Returns false if nothing more happens until the
+  /// Handles all events at the next time at which something happens. If the next time is that of a frame, the
+  /// run then stands at u = 0 of the step that begins there. Returns false if nothing more happens until the
   /// end of the known steps or, over a motion that the user sets, until the end of the step.
   bool next_event();
   /// Runs forward to a time. A run over a scene can also go back: it is then repeated from the start,

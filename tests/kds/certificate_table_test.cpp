@@ -387,8 +387,8 @@ class BallOwner final : public KineticStructure {
   }
   void build() override {}
   void start_step() override {
-    // The ball leaves the sphere at u = 1/3. Its certificate is watched before the contact's, although its
-    // type comes later.
+    // The ball leaves the sphere at u = 1/3. The certificate of this type is watched before the contact's,
+    // although its type comes later.
     EXPECT_TRUE(has_slot(inside.watch({{0, 1}, true}, 0)));
     EXPECT_TRUE(has_slot(contacts.watch(Contact({2, 3}, 1), 0)));
     EXPECT_EQ(contacts.watch(Contact({0, 2}, 1), 1), CertificateHandle::never);

@@ -55,7 +55,7 @@ TEST_F(SimulatorTest, RunsTimeByTime) {
   log.clear();
   EXPECT_TRUE(simulator.run_next());
   EXPECT_THAT(log, ElementsAre("a 1/3"));
-  // The time 1/3 is not a double. It stays known exactly, even after the certificate is dropped.
+  // The time 1/3 is not a double. The time stays known exactly, even after the certificate is dropped.
   EXPECT_EQ(a.retired, 1);
   ExactTime before(Dyadic(0.333)), after(Dyadic(0.334));
   EXPECT_LT(ExactTime::compare(before, simulator.now().exact()), 0);

@@ -33,7 +33,7 @@ static_assert(CertificateFor<CagesInOrder, BezierMotion<2, 1>>);
 
 constexpr std::array<BeadId, 8> in_a_row{0, 1, 2, 3, 4, 5, 6, 7};
 
-/// Makes cages of width 2 whose centroids move from 0 to 6 and from 3 to 1. They meet where 6 u = 3 - 2 u.
+/// Makes cages of width 2 whose centroids move from 0 to 6 and from 3 to 1. The two meet where 6 u = 3 - 2 u.
 template <class M>
 M crossing_cages(M motion, int degree) {
   for (BeadId b = 0; b < 8; ++b) {

@@ -120,7 +120,7 @@ class FacetsProof {
     if (auto wrong = flat_cell()) return wrong;
     if (auto wrong = bad_facet()) return wrong;
     // All facets match in pairs and the others are hull facets, so the cells cover every point of the hull
-    // equally often. They cover it once if the volume is correct.
+    // equally often. The cells cover it once if the volume is correct.
     if (volume_of(frame_, dumped_.cells) != volume_of(frame_, reference.cells)) {
       return "the cells do not fill the convex hull";
     }

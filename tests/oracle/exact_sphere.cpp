@@ -155,8 +155,8 @@ Proof prove_sphere(const Frame& frame, const Node& node) {
       d[i][c] = Rational(frame[node.basis[i + 1]].centre[c]) - Rational(base.centre[c]);
     }
   }
-  // The centre is base + sum lambda_i d_i. It is equally far from all points if sum_k (d_i . d_k) lambda_k =
-  // d_i . d_i / 2.
+  // The centre is base + sum lambda_i d_i. The point is equally far from all points if sum_k (d_i . d_k)
+  // lambda_k = d_i . d_i / 2.
   std::vector<std::vector<Rational>> rows(m, std::vector<Rational>(m + 1));
   for (std::size_t i = 0; i < m; ++i) {
     for (std::size_t k = 0; k < m; ++k) rows[i][k] = dot(d[i], d[k]);

@@ -142,9 +142,9 @@ class OfRow {
 
 template <class Row>
 struct Column {
-  /// Name in JSON and CSV. If it is empty, the column is in neither. "cost.seconds" is the member `seconds`
-  /// of the object `cost` in JSON and the column `seconds` in CSV. The object is null if none of its members
-  /// has a value.
+  /// Name in JSON and CSV. A column without a name is in neither. "cost.seconds" is the member `seconds` of
+  /// the object `cost` in JSON and the column `seconds` in CSV. The object is null if none of its members has
+  /// a value.
   std::string key = {};
   std::string heading = {};      ///< for people, with its unit; if empty, the column is not shown
   OfRow<Field, Row> value = {};  ///< if null, the column is in JSON only

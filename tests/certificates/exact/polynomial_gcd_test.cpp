@@ -47,7 +47,7 @@ TEST(PolynomialGcd, MostlySeesThatThereIsNone) {
     coprime += truth;
     seen += answer;
   }
-  // It is practically impossible that a random resultant is divisible by a prime of 61 bits.
+  // A random resultant is practically never divisible by a prime of 61 bits.
   EXPECT_EQ(seen, coprime);
 }
 

@@ -32,8 +32,8 @@ void expect_runs(const std::string& file, std::vector<std::string> options) {
   EXPECT_EQ(run.code, 0) << run.err;
 }
 
-// Two beads trade places. Their least distance is unknown, so the certificate of the third bead is not
-// relaxed.
+// Two beads trade places. The least distance of these beads is unknown, so the certificate of the third bead
+// is not relaxed.
 TEST(LeversRun, RelaxedSpheresOfBeadsThatTradePlaces) {
   const ScratchDirectory directory;
   const std::string file = directory.file("swap.xyz", xyz({{{-3, 0, 0}, {3, 0, 0}, {0, 0, 0}},

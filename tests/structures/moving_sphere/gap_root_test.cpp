@@ -214,8 +214,8 @@ TEST(SphereCrossing, ScalesWithTheInput) {
   }
 }
 
-// A pair turns and is shortest in the middle of the step. Its sphere cuts a third ball there by less than the
-// rounding error.
+// A pair turns and is shortest in the middle of the step. The sphere of the basis cuts a third ball there by
+// less than the rounding error.
 TEST(SphereCrossing, TouchesAreLeftToIntegers) {
   const Points from{{-2, -1, 0}, {2, 1, 0}, {0, 2, 0}}, to{{-2, 1, 0}, {2, -1, 0}, {0, 2, 0}};
   Space motion = moving(from, to);

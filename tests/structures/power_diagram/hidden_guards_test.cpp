@@ -34,7 +34,7 @@ void expect_housed(Kernel kernel) {
   EXPECT_EQ(diagram.state.doubt, Doubt::none);
   EXPECT_EQ(diagram.statistics.certificates.alive, diagram.expected_alive());
   for (const BeadId bead : diagram.state.hidden.beads()) EXPECT_TRUE(is_in_host(diagram.state, bead)) << bead;
-  // Displaced beads have no host and no guards. They find their cells again from any cell.
+  // Displaced beads have no host and no guards. Hidden beads find their cells again from any cell.
   const BeadId bead = diagram.state.hidden.beads()[0];
   const CellId host = diagram.state.hidden.host(bead);
   diagram.hidden.displace(std::array{host});

@@ -216,8 +216,8 @@ TEST(PlaneDiagram, RandomMotionsFullOfTies) {
   EXPECT_GT(ran, test::rounds(400));
 }
 
-// Two beads move together and one of them is hidden. It lies in each of the cells around the other, and both
-// kernels must choose the same cell.
+// Two beads move together and one of them is hidden. The bead lies in each of the cells around the other, and
+// both kernels must choose one cell.
 TEST(PlaneDiagram, KernelsHouseHiddenBeadsAtVerticesAlike) {
   std::uint64_t wandered = 0;
   for (unsigned seed = 1; seed <= rounds(12U, 3U); ++seed) {

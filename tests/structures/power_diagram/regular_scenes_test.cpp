@@ -59,7 +59,8 @@ std::vector<Eigen::Matrix3Xd> rings() {
   return {points, turn * points, turn * Eigen::Vector3d(1, 1.25, 1).asDiagonal() * points};
 }
 
-/// Makes a plane lattice that turns in space. It has a diagram only because its coordinates are rounded.
+/// Makes a plane lattice that turns in space. The scene has a diagram only because its coordinates are
+/// rounded.
 std::vector<Eigen::Matrix3Xd> turning_plane() {
   Eigen::Matrix3Xd points(3, 16);
   for (Eigen::Index b = 0; b < points.cols(); ++b)

@@ -1,6 +1,6 @@
-// Fingerprints of whole runs: the order of all events and every change. They are equal on all machines and
-// for all exact kernels. They change only for a stated reason (another event order, other kinds or ids of
-// changes).
+// Fingerprints of whole runs: the order of all events and every change. The fingerprints are equal on all
+// machines and for all exact kernels. A fingerprint changes only for a stated reason (another event order,
+// other kinds or ids of changes).
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// A failure source whose functions are handwritten polynomials. It gives the engine everything that
+// A failure source whose functions are handwritten polynomials. The source gives the engine everything that
 // certificates give it.
 
 #include <algorithm>
