@@ -83,10 +83,10 @@ class CellList {
 /// finds all pairs that are at most the skin apart. These pairs are tested at every frame until some bead has
 /// moved by more than half the skin. This method is the baseline for slow motion.
 ///
-/// The result is exact: until then, two balls that meet were at most the skin apart when the list was made.
-/// The displacement test runs in doubles with room for rounding: squares have relative errors below 2^-50,
-/// and the limit is smaller by 2^-40. If the squared limit is near underflow or overflow (below 2^-900 or
-/// above 2^900), the list is made anew at every frame.
+/// The result is exact: two balls that meet before the list is made again were at most the skin apart when it
+/// was made. The displacement test runs in doubles with room for rounding: squares have relative errors below
+/// 2^-50, and the limit is smaller by 2^-40. If the squared limit is near underflow or overflow (below 2^-900
+/// or above 2^900), the list is made anew at every frame.
 template <int Dimension>
 class VerletList {
  public:

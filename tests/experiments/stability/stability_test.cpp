@@ -295,7 +295,7 @@ TEST(Stability, FastIsWrongWhereProductsVanish) {
     EXPECT_EQ(row.fast.missed, row.events) << name_of(row);
     EXPECT_GT(row.wrong_signs, 0U);
     EXPECT_EQ(row.stages.coefficients, 0U);
-    // Only certificates that are searched again at a root that is known to be their last.
+    // Doubles isolate only certificates that are searched again at a root known to be their last.
     EXPECT_LE(row.stages.isolation, row.stages.exact / 4);
   }
 }
