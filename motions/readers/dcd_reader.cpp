@@ -25,7 +25,7 @@ class DcdFile {
 
   const DcdLayout& layout() const { return layout_; }
 
-  // Tells the form of the cells from at most 64 of these frames.
+  // Finds the form of the cells from at most 64 of these frames.
   void look_at_cells(const FramesAsked& frames) {
     constexpr std::size_t most = 64;
     if (!layout_.has_cell) return;
