@@ -8,7 +8,8 @@
 //           separate its items
 //
 // Words without '=' are skipped: the comment of a plain XYZ file is any text. Other keys are skipped as well;
-// a key that is one edit away from one of ours, or its singular or plural, is reported if ours is missing.
+// a key that is one edit away from one of these three keys, or its singular or plural, is reported if that
+// key is missing.
 
 #include <cstddef>
 #include <optional>

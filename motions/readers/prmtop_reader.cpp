@@ -130,7 +130,7 @@ class Prmtop {
 
   // Fields need not have blanks between them. Lines may lack the blanks at their end.
   static void take_fields(std::string_view line, const FieldForm& form, std::vector<std::string>& fields) {
-    // The line before this one was full, whatever blanks it lacks.
+    // The previous line was full, even if blanks at its end are missing.
     while (fields.size() % form.fields != 0) fields.emplace_back();
     for (std::size_t i = 0; i < form.fields && i * form.width < line.size(); ++i)
       fields.emplace_back(trimmed(line.substr(i * form.width, form.width)));

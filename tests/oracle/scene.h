@@ -55,7 +55,7 @@ struct SceneOptions {
 
 [[nodiscard]] Scene read_scene(const SceneOptions& options);
 
-// The readers. The readers return every frame of the file, with every bead as a point.
+// Each reader returns every frame of the file, with every bead as a point.
 using Points = std::vector<std::array<double, 3>>;
 
 struct PdbBackbone {
