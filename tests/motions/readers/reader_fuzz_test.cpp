@@ -248,6 +248,11 @@ TEST(FuzzCorpus, EachFormatHasValidFiles) {
       const ReaderSpec* const reader = reader_registry().find(file.path());
       ASSERT_NE(reader, nullptr);
       EXPECT_EQ(reader->name, format);
+      for (const std::string& other : reader_registry().names()) {
+        const auto& recognises = reader_registry().find(file.path(), other)->recognises;
+        EXPECT_FALSE(other != format && recognises && recognises(test::read_bytes(file.path())))
+            << other << " recognises it too";
+      }
       if (reader->open) read_and_check(file.path(), {.selection = Selection::all});
       if (reader->topology) {
         const Topology topology = reader->topology(file.path(), {.selection = Selection::all});
