@@ -15,96 +15,58 @@ namespace kds {
 
 namespace {
 
-template <int Dimension>
-class SortedInRun final : public RunningStructure {
+/// A structure of points in a run. Three functions say in what such structures differ: dump(structure) and
+/// elements(structure) return its state at a frame, static_seconds(structure, centers) times a static build.
+template <class Structure, class Dump, class Elements, class StaticSeconds>
+class PointsInRun final : public RunningStructure {
  public:
-  SortedInRun(Simulator& simulator, const Scene& scene, const MotionRef<Dimension>& motion)
-      : scene_(scene), list_(simulator, motion) {}
+  template <int D>
+  PointsInRun(Simulator& simulator, const Scene& scene, const MotionRef<D>& motion, Dump dump,
+              Elements elements, StaticSeconds static_seconds)
+      : scene_(scene),
+        structure_(simulator, motion),
+        dump_(dump),
+        elements_(elements),
+        static_seconds_(static_seconds) {}
 
-  [[nodiscard]] KineticStructure& kinetic() override { return list_; }
-  [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override {
-    return {dump_sorted(list_.order())};
-  }
+  [[nodiscard]] KineticStructure& kinetic() override { return structure_; }
+  [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override { return {dump_(structure_)}; }
   [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
-    return elements_in_order(list_.order());
+    return elements_(structure_);
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
-    return seconds_to_sort(scene_.centers(frame)).clock;
+    return static_seconds_(structure_, scene_.centers(frame)).clock;
   }
 
  private:
   const Scene& scene_;
-  SortedList<Dimension> list_;
+  Structure structure_;
+  Dump dump_;
+  Elements elements_;
+  StaticSeconds static_seconds_;
 };
 
-template <int Dimension>
-class BoxInRun final : public RunningStructure {
- public:
-  BoxInRun(Simulator& simulator, const Scene& scene, const MotionRef<Dimension>& motion)
-      : scene_(scene), box_(simulator, motion) {}
+/// Returns a specification's `make` for the structure Structure<D>, which exists in dimensions Least to Most.
+/// The specification must refuse other scenes beforehand.
+template <template <int> class Structure, int Least, int Most = 3, class Dump, class Elements,
+          class StaticSeconds>
+auto make_of_points(Dump dump, Elements elements, StaticSeconds static_seconds) {
+  return make_of_motion<Least>([=]<int D>(Simulator& simulator, const Scene& scene,
+                                          const MotionRef<D>& motion,
+                                          const StructureSettings&) -> std::unique_ptr<RunningStructure> {
+    if constexpr (D > Most) {
+      return nullptr;
+    } else {
+      using InRun = PointsInRun<Structure<D>, Dump, Elements, StaticSeconds>;
+      return std::make_unique<InRun>(simulator, scene, motion, dump, elements, static_seconds);
+    }
+  });
+}
 
-  [[nodiscard]] KineticStructure& kinetic() override { return box_; }
-  [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override { return {dump_box(box_.ends())}; }
-  [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
-    return elements_in_order(box_.ends());
-  }
-  [[nodiscard]] double static_seconds(std::size_t frame) const override {
-    return seconds_to_box(scene_.centers(frame)).clock;
-  }
+using Centers = Eigen::Matrix3Xd;
 
- private:
-  const Scene& scene_;
-  EnclosingBox<Dimension> box_;
-};
-
-class HullInRun final : public RunningStructure {
- public:
-  HullInRun(Simulator& simulator, const Scene& scene, const MotionRef<2>& motion)
-      : scene_(scene), hull_(simulator, motion) {}
-
-  [[nodiscard]] KineticStructure& kinetic() override { return hull_; }
-  [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override {
-    return {dump_hull(hull_.corners())};
-  }
-  [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
-    CombinatorialElements elements{1, {}};
-    for (const BeadId bead : hull_.corners()) elements.add({bead});
-    return elements;
-  }
-  [[nodiscard]] double static_seconds(std::size_t frame) const override {
-    return seconds_to_hull(scene_.centers(frame)).clock;
-  }
-
- private:
-  const Scene& scene_;
-  ConvexHull hull_;
-};
-
-template <int Dimension>
-class ClosestInRun final : public RunningStructure {
- public:
-  ClosestInRun(Simulator& simulator, const Scene& scene, const MotionRef<Dimension>& motion)
-      : scene_(scene), closest_(simulator, motion) {}
-
-  [[nodiscard]] KineticStructure& kinetic() override { return closest_; }
-  [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override {
-    return {dump_closest(closest_.pair())};
-  }
-  [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
-    CombinatorialElements elements{1, {}};
-    if (const auto& pair = closest_.pair()) elements.add({0}, *pair);
-    return elements;
-  }
-  /// Times a Delaunay triangulation, because one of its edges joins the closest pair.
-  [[nodiscard]] double static_seconds(std::size_t frame) const override {
-    const std::vector<double> no_weights(scene_.bead_count(), 0);
-    return seconds_to_triangulate<Dimension>(scene_.centers(frame), no_weights).clock;
-  }
-
- private:
-  const Scene& scene_;
-  KineticClosestPair<Dimension> closest_;
-};
+template <int>
+using ConvexHullIn = ConvexHull;
 
 }  // namespace
 
@@ -113,7 +75,10 @@ StructureSpec sorted_structure() {
   spec.name = "sorted";
   spec.order = 10;
   spec.by_default = [](const Scene& scene) { return scene.dimension() == 1; };
-  spec.make = make_of_motion<SortedInRun, 1>();
+  spec.make = make_of_points<SortedList, 1>(
+      [](const auto& list) { return dump_sorted(list.order()); },
+      [](const auto& list) { return elements_in_order(list.order()); },
+      [](const auto&, const Centers& centers) { return seconds_to_sort(centers); });
   return spec;
 }
 
@@ -121,7 +86,10 @@ StructureSpec box_structure() {
   StructureSpec spec;
   spec.name = "box";
   spec.order = 12;
-  spec.make = make_of_motion<BoxInRun, 1>();
+  spec.make = make_of_points<EnclosingBox, 1>(
+      [](const auto& box) { return dump_box(box.ends()); },
+      [](const auto& box) { return elements_in_order(box.ends()); },
+      [](const auto&, const Centers& centers) { return seconds_to_box(centers); });
   return spec;
 }
 
@@ -134,10 +102,14 @@ StructureSpec hull_structure() {
     return "needs points in the plane, this input has " + std::to_string(scene.dimension()) +
            (scene.dimension() == 1 ? " coordinate" : " coordinates");
   };
-  spec.make = [](Simulator& simulator, const Scene& scene, const SceneMotion::Ref& motion,
-                 const StructureSettings&) -> std::unique_ptr<RunningStructure> {
-    return std::make_unique<HullInRun>(simulator, scene, std::get<MotionRef<2>>(motion));
-  };
+  spec.make = make_of_points<ConvexHullIn, 2, 2>(
+      [](const ConvexHull& hull) { return dump_hull(hull.corners()); },
+      [](const ConvexHull& hull) {
+        CombinatorialElements elements{1, {}};
+        for (const BeadId bead : hull.corners()) elements.add({bead});
+        return elements;
+      },
+      [](const ConvexHull&, const Centers& centers) { return seconds_to_hull(centers); });
   return spec;
 }
 
@@ -149,7 +121,18 @@ StructureSpec closest_structure() {
     if (scene.dimension() < 2) return needs_plane_or_space(scene);
     return std::nullopt;
   };
-  spec.make = make_of_motion<ClosestInRun, 2>();
+  spec.make = make_of_points<KineticClosestPair, 2>(
+      [](const auto& closest) { return dump_closest(closest.pair()); },
+      [](const auto& closest) {
+        CombinatorialElements elements{1, {}};
+        if (const auto& pair = closest.pair()) elements.add({0}, *pair);
+        return elements;
+      },
+      // One edge of the Delaunay triangulation joins the closest pair.
+      []<int D>(const KineticClosestPair<D>&, const Centers& centers) {
+        const std::vector<double> no_weights(static_cast<std::size_t>(centers.cols()), 0);
+        return seconds_to_triangulate<D>(centers, no_weights);
+      });
   return spec;
 }
 
