@@ -26,7 +26,7 @@ using BoxRig = Rig<Box<M>, M>;
 template <int Dimension>
 std::optional<std::string> fault_of(const EnclosingBox<Dimension>& box, const ExactPoints& points) {
   for (std::size_t e = 0; e < 2 * Dimension; ++e) {
-    const Rational& end = points[box.ends()[e]][e / 2];
+    const second::Integer& end = points[box.ends()[e]][e / 2];
     for (BeadId b = 0; b < points.size(); ++b)
       if (e % 2 == 0 ? points[b][e / 2] < end : points[b][e / 2] > end)
         return text_of("bead ", b, " is beyond end ", e, ", bead ", box.ends()[e]);

@@ -22,8 +22,9 @@ template <Motion M>
 using ClosestRig = Rig<KineticClosestPair<M::dimension>, M>;
 using Pair = std::array<BeadId, 2>;
 
-Rational square_of_distance(const std::vector<Rational>& a, const std::vector<Rational>& b) {
-  Rational sum = 0;
+second::Integer square_of_distance(const std::vector<second::Integer>& a,
+                                   const std::vector<second::Integer>& b) {
+  second::Integer sum = 0;
   for (std::size_t axis = 0; axis < a.size(); ++axis) sum += (a[axis] - b[axis]) * (a[axis] - b[axis]);
   return sum;
 }
@@ -33,7 +34,7 @@ template <int Dimension>
 std::optional<std::string> fault_of(const KineticClosestPair<Dimension>& closest, const ExactPoints& at) {
   if (at.size() < 2) return closest.pair() ? std::optional("a pair of one bead") : std::nullopt;
   const auto [i, j] = *closest.pair();
-  const Rational known = square_of_distance(at[i], at[j]);
+  const second::Integer known = square_of_distance(at[i], at[j]);
   for (BeadId a = 0; a < at.size(); ++a)
     for (BeadId b = a + 1; b < at.size(); ++b)
       if (square_of_distance(at[a], at[b]) < known)
@@ -146,12 +147,12 @@ void expect_the_closest_among_candidates(const M& motion) {
   const auto candidates = candidate_pairs(Curves<M::dimension>(motion));
   ASSERT_TRUE(std::is_sorted(candidates.begin(), candidates.end()));
   for (const double u : {0.0, 0.125, 0.5, 0.75, 1.0}) {
-    const ExactPoints at = points_at(motion, Rational(u));
-    std::optional<Rational> least;
+    const ExactPoints at = points_at(motion, second::Rational(u));
+    std::optional<second::Integer> least;
     std::vector<Pair> closest;  // all pairs that tie
     for (BeadId a = 0; a < at.size(); ++a) {
       for (BeadId b = a + 1; b < at.size(); ++b) {
-        const Rational square = square_of_distance(at[a], at[b]);
+        const second::Integer square = square_of_distance(at[a], at[b]);
         if (!least || square < *least) closest.clear();
         if (closest.empty()) least = square;
         if (square == *least) closest.push_back({a, b});

@@ -1,6 +1,7 @@
 #include "structures/hull/convex_hull.h"
 
 #include <CGAL/Gmpq.h>
+#include <CGAL/Gmpz.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/convex_hull_2.h>
 #include <gmock/gmock.h>
@@ -33,7 +34,8 @@ using HullRig = Rig<ConvexHull, M>;
 std::vector<BeadId> corners_by_cgal(const ExactPoints& at) {
   using Geometry = CGAL::Simple_cartesian<CGAL::Gmpq>;
   std::vector<Geometry::Point_2> points, corners;
-  for (const auto& p : at) points.emplace_back(CGAL::Gmpq(p[0].get_mpq_t()), CGAL::Gmpq(p[1].get_mpq_t()));
+  const auto number = [](const second::Integer& x) { return CGAL::Gmpq(CGAL::Gmpz(x.str())); };
+  for (const auto& p : at) points.emplace_back(number(p[0]), number(p[1]));
   CGAL::convex_hull_2(points.begin(), points.end(), std::back_inserter(corners));
   std::vector<BeadId> beads;
   for (const auto& corner : corners)
@@ -60,7 +62,7 @@ std::optional<std::string> fault_at_ties(const std::vector<BeadId>& known, const
     bool on_edge = false;
     for (std::size_t i = 0; i < right.size(); ++i) {
       const auto &p = at[right[i]], &q = at[right[(i + 1) % right.size()]], &x = at[b];
-      const Rational turn = (q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0]);
+      const second::Integer turn = (q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0]);
       on_edge = on_edge || turn == 0;
     }
     if (!on_edge) return text_of("bead ", b, " lies inside");

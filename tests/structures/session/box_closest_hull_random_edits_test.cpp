@@ -45,11 +45,11 @@ Beads ends_of(const ExactPoints& at, const Beads& present, std::size_t dimension
 
 Beads closest_of(const ExactPoints& at, const Beads& present) {
   Beads closest;
-  Rational least;
+  second::Integer least;
   for (const BeadId a : present) {
     for (const BeadId b : present) {
       if (a >= b) continue;
-      Rational square = 0;
+      second::Integer square = 0;
       for (std::size_t axis = 0; axis < at[a].size(); ++axis)
         square += (at[a][axis] - at[b][axis]) * (at[a][axis] - at[b][axis]);
       if (!closest.empty() && least <= square) continue;
@@ -72,9 +72,9 @@ Beads corners_of(const ExactPoints& at, const Beads& present) {
     BeadId next = last;
     for (const BeadId b : present) {
       if (at[b] == at[last]) continue;
-      const Rational turn = next == last ? Rational(-1)
-                                         : (at[next][0] - at[last][0]) * (at[b][1] - at[last][1]) -
-                                               (at[next][1] - at[last][1]) * (at[b][0] - at[last][0]);
+      const second::Integer turn = next == last ? second::Integer(-1)
+                                                : (at[next][0] - at[last][0]) * (at[b][1] - at[last][1]) -
+                                                      (at[next][1] - at[last][1]) * (at[b][0] - at[last][0]);
       const bool is_between = turn == 0 && (at[next] < at[last] ? at[b] < at[next] : at[next] < at[b]);
       if (turn < 0 || is_between) next = b;  // the farthest of collinear beads
     }
@@ -261,7 +261,7 @@ class EditedRun {
   void compare() {
     if (simulator_.kernel() == Kernel::fast) return;
     const Dyadic soon = next_on_grid(simulator_.now().exact(), 200);  // before the next event
-    const ExactPoints at = points_at(motion_, soon.rational());
+    const ExactPoints at = points_at(motion_, second::of(soon));
     Simulator simulator;
     Structures<dimension> twins(simulator, motion_);
     for (std::size_t s = 0; s < twins.all.size(); ++s)

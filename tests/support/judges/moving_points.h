@@ -1,6 +1,7 @@
 #pragma once
 // Runs structures over moving points. Each audit compares the structure with the exact positions, and runs
-// with other kernels and replays must agree. This file uses nothing of the library except its numbers.
+// with other kernels and replays must agree. The positions are computed with numbers that are not the
+// library's.
 
 #include <gtest/gtest.h>
 
@@ -8,31 +9,32 @@
 #include <string>
 #include <vector>
 
-#include "motions/numbers/exact_number.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/inputs/random_motion.h"
+#include "tests/support/judges/second_numbers.h"
 
 namespace kds::test {
 
-using ExactPoints = std::vector<std::vector<Rational>>;  ///< the coordinates of each bead
+/// The coordinates of each bead, all multiplied by one positive number, which makes them whole.
+using ExactPoints = std::vector<std::vector<second::Integer>>;
 
-/// Computes the positions of the beads by de Casteljau's algorithm.
+/// Computes the positions of the beads at u in [0,1] by the definition of Bezier curves.
 template <Motion M>
-ExactPoints points_at(const M& motion, const Rational& u) {
-  const int degree = degree_of(motion);
+ExactPoints points_at(const M& motion, const second::Rational& u) {
+  const auto control_numbers = [&](BeadId b, int axis) {
+    std::vector<double> x;
+    for (int k = 0; k <= degree_of(motion); ++k) x.push_back(motion.coordinate(b, k, axis));
+    return x;
+  };
+  std::vector<double> all;
+  for (BeadId b = 0; b < motion.bead_count(); ++b)
+    for (int axis = 0; axis < M::dimension; ++axis)
+      for (const double x : control_numbers(b, axis)) all.push_back(x);
+  const int unit = second::unit_of(all);
   ExactPoints points(motion.bead_count());
-  for (BeadId b = 0; b < points.size(); ++b) {
-    for (int axis = 0; axis < M::dimension; ++axis) {
-      std::vector<Rational> x;
-      for (int k = 0; k <= degree; ++k) x.emplace_back(motion.coordinate(b, k, axis));
-      for (int left = degree; left > 0; --left)
-        for (int k = 0; k < left; ++k) {
-          const auto at = static_cast<std::size_t>(k);
-          x[at] = (1 - u) * x[at] + u * x[at + 1];
-        }
-      points[b].push_back(x.front());
-    }
-  }
+  for (BeadId b = 0; b < points.size(); ++b)
+    for (int axis = 0; axis < M::dimension; ++axis)
+      points[b].push_back(second::whole_value(control_numbers(b, axis), u, unit));
   return points;
 }
 
@@ -56,7 +58,7 @@ template <class Structure, Motion M, class Fault, class Answer>
 History expect_right_at_all_times(const std::vector<M>& steps, Fault fault, Answer answer) {
   Rig<Structure, M> filtered(steps.front(), AuditMode::events);
   const Witness witness(filtered.simulator, [&](const Dyadic& time) -> std::optional<std::string> {
-    return fault(filtered.structure, points_at(filtered.motion, time.rational()));
+    return fault(filtered.structure, points_at(filtered.motion, second::of(time)));
   });
   EXPECT_NO_THROW(filtered.run(steps));
   EXPECT_TRUE(books_balance(filtered.structure.statistics));
