@@ -9,7 +9,7 @@
 namespace kds::closer_test {
 namespace {
 
-Rational square(const test::RationalPoint& a, const test::RationalPoint& b) {
+test::second::Rational square(const test::RationalPoint& a, const test::RationalPoint& b) {
   return test::dot(test::minus(a, b), test::minus(a, b));
 }
 
@@ -22,8 +22,8 @@ void expect_sign_of_the_difference(unsigned seed) {
       const Dyadic time = test::random_dyadic(random);
       std::array<test::RationalPoint, 4> at;
       for (BeadId b = 0; b < 4; ++b) at[b] = test::point_at(motion, b, time);
-      const Rational first = square(at[0], at[1]), second = square(at[2], at[3]),
-                     shared = square(at[1], at[3]);
+      const test::second::Rational first = square(at[0], at[1]), second = square(at[2], at[3]),
+                                   shared = square(at[1], at[3]);
       EXPECT_EQ(test::sign_at(Closer({0, 1}, {2, 3}), motion, time), test::sign(second - first));
       EXPECT_EQ(test::sign_at(Closer({2, 3}, {0, 1}), motion, time), test::sign(first - second));
       EXPECT_EQ(test::sign_at(Closer({0, 1}, {1, 3}), motion, time), test::sign(shared - first));

@@ -83,7 +83,7 @@ void expect_distance(test::Random& random, test::MotionKind kind) {
   const auto motion = test::random_motion<M>(random, 2, kind);
   const Dyadic time = test::random_dyadic(random);
   const auto d = test::minus(test::point_at(motion, 1, time), test::point_at(motion, 0, time));
-  const Rational reach = exact_radius(motion, 0, time) + exact_radius(motion, 1, time);
+  const auto reach = test::radius_at(motion, 0, time) + test::radius_at(motion, 1, time);
   const int expected = test::sign(test::dot(d, d) - reach * reach);
   EXPECT_EQ(test::sign_at(Contact({1, 0}, 1), motion, time), expected);
   EXPECT_EQ(test::sign_at(Contact({1, 0}, -1), motion, time), -expected);

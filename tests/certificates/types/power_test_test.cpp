@@ -94,7 +94,7 @@ TEST(PowerTest, IsThePowerToTheOrthogonalSphere) {
       test::Matrix rows;
       for (BeadId b = 0; b < 5; ++b) {
         const auto p = test::point_at(motion, b, time);
-        rows.push_back({p[0], p[1], p[2], test::dot(p, p) - exact_position(motion, b, time)[3], 1});
+        rows.push_back({p[0], p[1], p[2], test::dot(p, p) - test::weight_at(motion, b, time), 1});
       }
       const PowerTest<3> certificate({0, 1, 2, 3, 4}, 1);
       const int found = test::sign_at(certificate, motion, time);
@@ -103,7 +103,7 @@ TEST(PowerTest, IsThePowerToTheOrthogonalSphere) {
 
       // |x|^2 - w = 2 c.x + k for the four balls; a larger value means outside.
       test::Matrix m;
-      std::vector<Rational> right;
+      std::vector<test::second::Rational> right;
       test::Matrix orientation;
       for (std::size_t b = 0; b < 4; ++b) {
         m.push_back({2 * rows[b][0], 2 * rows[b][1], 2 * rows[b][2], 1});
@@ -113,7 +113,7 @@ TEST(PowerTest, IsThePowerToTheOrthogonalSphere) {
       const auto sphere = test::solve(m, right);
       if (!sphere) continue;
       ++proper;
-      Rational power = rows[4][3] - (*sphere)[3];
+      test::second::Rational power = rows[4][3] - (*sphere)[3];
       for (std::size_t axis = 0; axis < 3; ++axis) power -= 2 * (*sphere)[axis] * rows[4][axis];
       EXPECT_EQ(found, test::sign(test::determinant_of(orientation)) * test::sign(power));
     }

@@ -18,8 +18,8 @@ TEST(Precedes, IsTheOrderAlongTheFirstAxis) {
     for (const test::MotionKind kind : test::all_motion_kinds) {
       const auto motion = test::random_motion<BezierMotion<2, 3>>(random, 2, kind);
       const Dyadic time = test::random_dyadic(random);
-      const Rational left = test::point_at(motion, 0, time)[0];
-      const Rational right = test::point_at(motion, 1, time)[0];
+      const test::second::Rational left = test::point_at(motion, 0, time)[0];
+      const test::second::Rational right = test::point_at(motion, 1, time)[0];
       EXPECT_EQ(test::sign_at(Precedes{{0, 1}}, motion, time), test::sign(right - left));
       EXPECT_EQ(test::sign_at(Precedes{{1, 0}}, motion, time), test::sign(left - right));
     }

@@ -82,7 +82,7 @@ void expect_larger_sphere(const M& motion, const Dyadic& time, double share) {
   const RationalPoint center = test::combination(basis, *weights);
   const RationalPoint radius = test::minus(basis[0], center);
   const RationalPoint reach = test::minus(test::point_at(motion, Size, time), center);
-  const Rational larger = 1 + Rational(share);
+  const test::second::Rational larger = 1 + test::second::Rational(share);
   EXPECT_EQ(found, test::sign(larger * larger * test::dot(radius, radius) - test::dot(reach, reach)));
 }
 

@@ -306,7 +306,7 @@ std::optional<std::string> ball_too_far_out(const M& motion, const BeadRange& ra
   for (BeadId b = range.first; b <= range.last; ++b) {
     const Ball ball = ball_at(motion, b, time);
     const Enclosed room = larger - Enclosed(Rational(ball.radius - members[0].radius));
-    const RationalPoint d = minus(ball.center, members[0].center);
+    const BallCenter d = minus(ball.center, members[0].center);
     Enclosed distance(0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Enclosed along = sphere->center[axis] - Enclosed(d[axis]);

@@ -1,12 +1,14 @@
 #pragma once
 // Computes the sphere that encloses and touches some balls at one time, from its definition over rationals.
 // Elimination gives the centre, and the only square root is enclosed to any requested precision. The judge
-// uses nothing of certificates/.
+// uses nothing of certificates/. Its numbers are the product's: with Boost's, its tests take several times as
+// long.
 
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "motions/curves/positions.h"
 #include "tests/support/judges/rational_geometry.h"
 
 namespace kds::test {
@@ -46,14 +48,18 @@ inline Enclosed square_root(const Rational& x, unsigned bits) {
   return {fraction(root, whole), fraction(root + 1, whole)};
 }
 
+using BallCenter = PointOf<Rational>;
 struct Ball {
-  RationalPoint center{};
+  BallCenter center{};
   Rational radius;
 };
 
 template <Motion M>
 Ball ball_at(const M& motion, BeadId bead, const Dyadic& time) {
-  return {point_at(motion, bead, time), exact_radius(motion, bead, time)};
+  Ball ball{{}, exact_radius(motion, bead, time)};
+  const auto position = exact_position(motion, bead, time);
+  std::copy_n(position.begin(), M::dimension, ball.center.begin());
+  return ball;
 }
 
 /// The smallest sphere that encloses and touches all balls of a basis, relative to the first ball.
@@ -71,7 +77,7 @@ struct TouchingSphere {
   [[nodiscard]] int holds(const Ball& first, const Ball& ball) const {
     const Enclosed room = radius - Enclosed(ball.radius - first.radius);
     if (room.sign() < 0) return -1;
-    const RationalPoint d = minus(ball.center, first.center);
+    const BallCenter d = minus(ball.center, first.center);
     Enclosed distance(0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Enclosed along = center[axis] - Enclosed(d[axis]);
@@ -84,8 +90,8 @@ struct TouchingSphere {
 /// Returns nothing if no such sphere exists or the centres are affinely dependent.
 inline std::optional<TouchingSphere> touching_sphere(std::span<const Ball> basis, unsigned bits = 300) {
   const std::size_t m = basis.size() - 1;
-  std::vector<RationalPoint> d(m);
-  Matrix gram(m, std::vector<Rational>(m));
+  std::vector<BallCenter> d(m);
+  MatrixOf<Rational> gram(m, std::vector<Rational>(m));
   std::vector<Rational> e(m);
   std::vector<Rational> s(m);
   for (std::size_t i = 0; i < m; ++i) {
@@ -100,8 +106,8 @@ inline std::optional<TouchingSphere> touching_sphere(std::span<const Ball> basis
   const auto y = solve(gram, e);
   const auto w = solve(gram, s);
   if (!y || !w) return std::nullopt;
-  const RationalPoint p = combination(d, *y);
-  const RationalPoint q = combination(d, *w);
+  const BallCenter p = combination(d, *y);
+  const BallCenter q = combination(d, *w);
   const Rational a = dot(q, q) - 1;
   const Rational b = dot(p, q);
   const Rational c = dot(p, p);
