@@ -10,18 +10,20 @@
 #include "certificates/exact/exact_polynomial.h"
 #include "motions/curves/motion.h"
 #include "motions/numbers/bernstein.h"
+#include "tests/support/judges/second_numbers.h"
 
 namespace kds::test {
 
 /// Coefficients in scaled Bernstein form.
-using RationalCurve = std::vector<Rational>;
+using RationalCurve = std::vector<second::Rational>;
 
 /// Makes the curve with these control points, or the constant curve if there is only one.
 inline RationalCurve rational_curve(std::span<const double> control_points, int degree) {
   RationalCurve curve;
   for (int k = 0; k <= degree; ++k)
-    curve.push_back(Rational(binomial(degree, k)) *
-                    Rational(control_points[control_points.size() == 1 ? 0 : static_cast<std::size_t>(k)]));
+    curve.push_back(
+        second::Rational(binomial(degree, k)) *
+        second::Rational(control_points[control_points.size() == 1 ? 0 : static_cast<std::size_t>(k)]));
   return curve;
 }
 template <Motion M>
@@ -48,10 +50,11 @@ inline RationalCurve sum(RationalCurve a, RationalCurve b, int sign = 1) {
 inline RationalCurve difference(const RationalCurve& a, const RationalCurve& b) { return sum(a, b, -1); }
 
 inline ExactPolynomial exact_polynomial(const RationalCurve& curve, int sign) {
-  Integer common = 1;
-  for (const Rational& c : curve) common = lcm(common, denominator(c));
+  second::Integer common = 1;
+  for (const second::Rational& c : curve) common = lcm(common, denominator(c));
   std::vector<Integer> whole;
-  for (const Rational& c : curve) whole.emplace_back(sign * numerator(c) * (common / denominator(c)));
+  for (const second::Rational& c : curve)
+    whole.push_back(second::as_ours(sign * numerator(c) * (common / denominator(c))));
   return ExactPolynomial(std::move(whole));
 }
 
