@@ -32,7 +32,8 @@ std::string method_help() {
 constexpr CommandSpec kCollideCommand{
     "kds collide",
     "Finds exactly which beads collide in each frame, and compares methods. Balls that just touch collide.",
-    kInputOperand, kTrajectoryHelp,
+    {},
+    {},
     "kds collide 1l2y.pdb --select all --radius element --apart 4\n"
     "kds collide a.xyz b.xyz --pairs between --method wrapped,layered --json -\n"
     "kds collide 1l2y.pdb --radius 0.1 --within 4.5 --apart 9 --method auto\n"
@@ -91,7 +92,8 @@ const OptionList<CollideOptions>& collide_options() {
 CollideOptions parse_collide_options(const Arguments& arguments) {
   CollideOptions options;
   options.methods = method_names();
-  const ParsedArguments parsed = read_arguments(kCollideCommand, collide_options(), arguments, options);
+  const ParsedArguments parsed =
+      read_arguments(with_inputs(kCollideCommand), collide_options(), arguments, options);
   take_inputs(parsed, kCollideCommand.name, options);
   if (!parsed.has("--rounds")) options.rounds = options.methods.size() > 1 ? 3 : 1;
   return options;

@@ -126,7 +126,8 @@ constexpr CommandSpec kMissedCommand{
     "kds missed",
     "Measures which share of all contacts you miss if you look only at the frames, or only at every second, "
     "fourth ... frame.",
-    kInputOperand, kTrajectoryHelp,
+    {},
+    {},
     "kds missed villin.dcd --topology villin.pdb --factors 2.2,2.5 --apart 5 --out report\n"
     "kds missed a.xyz b.xyz --radius 1.9 --strides 1,10,100 --json -"};
 
@@ -159,9 +160,11 @@ const OptionList<MissedTask>& missed_task_options() {
                               &O::apart)})
           .with(OptionList<InputOptions>({groups_option()}))
           .with({// Lifted motion is excluded because it has no radii between frames.
-                 choice_option({"--motion", "NAME",
-                                "motion of beads between frames: linear or hermite (default: linear)"},
-                               &O::motion, std::span(frame_motion_names).first(2))});
+                 choice_option(
+                     {"--motion", "NAME",
+                      "motion of beads between frames: linear or hermite (default: linear)"},
+                     &O::motion,
+                     std::span(frame_motion_names).first(static_cast<std::size_t>(FrameMotion::lifted)))});
   return list;
 }
 
@@ -175,7 +178,7 @@ MissedOptions parse_missed_options(const Arguments& arguments) {
           .with(&O::destinations,
                 destination_options("write missed.json, missed.csv and report.html to DIR (default: none)"));
   O options;
-  const ParsedArguments parsed = read_arguments(kMissedCommand, list, arguments, options);
+  const ParsedArguments parsed = read_arguments(with_inputs(kMissedCommand), list, arguments, options);
   take_inputs(parsed, kMissedCommand.name, options.task);
   return options;
 }

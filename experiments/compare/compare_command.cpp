@@ -1,6 +1,7 @@
 #include "experiments/compare/compare_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -10,6 +11,7 @@
 #include "experiments/program/commands.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
+#include "structures/session/structure_spec.h"
 
 namespace kds {
 
@@ -28,8 +30,8 @@ constexpr CommandSpec kCompareCommand{
     "  compactness     largest number of certificates at once\n"
     "  locality        largest number of certificates on one bead\n"
     "  responsiveness  seconds per event",
-    kInputOperand,
-    kTrajectoryHelp,
+    {},
+    {},
     "kds compare villin.dcd --topology villin.pdb --strides 1,2,4,8,16,32 --out report\n"
     "kds compare 300K.dcd 400K.dcd --topology villin.pdb --structures wrapped,contacts --motions "
     "linear,hermite",
@@ -57,20 +59,22 @@ Option<CompareOptions> compare_apart_option() {
 
 const OptionList<CompareOptions>& compare_options() {
   using O = CompareOptions;
+  std::vector<std::string> with_events;
+  for (const StructureSpec& spec : structure_registry().all())
+    if (spec.has_events({})) with_events.push_back(spec.name);
+  static const std::string structures_help =
+      fmt::format("comma list of {} (default: wrapped,power)", fmt::join(with_events, ", "));
+  static const std::string motions_help =
+      fmt::format("motion of beads between frames: comma list of {} (default: linear)",
+                  fmt::join(frame_motion_names, ", "));
   static const auto list =
       OptionList<O>()
           .with(input_options())
-          .with({list_option({"--structures", "LIST",
-                              "comma list of sorted, box, hull, closest, wrapped, power, contacts (default: "
-                              "wrapped,power)"},
-                             &O::structures, parse_structures),
+          .with({list_option({"--structures", "LIST", structures_help}, &O::structures, parse_structures),
                  list_option({"--strides", "LIST",
                               "run over every frame, every second, every fourth: 1,2,4 (default: 1)"},
                              &O::strides, parse_strides),
-                 list_option({"--motions", "LIST",
-                              "motion of beads between frames: comma list of linear, hermite, lifted "
-                              "(default: linear)"},
-                             &O::motions, parse_motions),
+                 list_option({"--motions", "LIST", motions_help}, &O::motions, parse_motions),
                  compare_apart_option(),
                  whole_option({"--rounds", "N",
                                "repeat each run N times and report the median time, and the shortest and "
@@ -85,7 +89,8 @@ const OptionList<CompareOptions>& compare_options() {
 
 CompareOptions parse_compare_options(const Arguments& arguments) {
   CompareOptions options;
-  const ParsedArguments parsed = read_arguments(kCompareCommand, compare_options(), arguments, options);
+  const ParsedArguments parsed =
+      read_arguments(with_inputs(kCompareCommand), compare_options(), arguments, options);
   take_inputs(parsed, kCompareCommand.name, options);
   return options;
 }

@@ -83,14 +83,25 @@ void check_exists(const std::filesystem::path& path) {
   require_regular_file(path);
 }
 
+CommandSpec with_inputs(CommandSpec command, bool or_instance) {
+  static const std::string trajectories =
+      fmt::format("a necklace: {} (also .gz)", reader_registry().endings());
+  static const std::string inputs = trajectories + ", or an instance file";
+  command.operand = kInputOperand;
+  command.operand_help = or_instance ? inputs : trajectories;
+  return command;
+}
+
 const OptionList<InputOptions>& input_options() {
+  static const std::string topology_help = fmt::format(
+      "file that names the atoms of the inputs if their format does not: {} (default: none, and every atom "
+      "is a bead)",
+      reader_registry().topology_endings());
   static const std::string format_help =
       fmt::format("format of the inputs: {} (default: by content, otherwise by ending)",
                   fmt::join(reader_registry().names_with_frames(), ", "));
   static const OptionList<InputOptions> list{{
-      {{"--topology", "FILE",
-        "file that names the atoms of the inputs if their format does not: .pdb .cif .gro .psf .prmtop "
-        "(default: none, and every atom is a bead)"},
+      {{"--topology", "FILE", topology_help},
        [](InputOptions& o, const std::string& text) { o.reading.topology = parse_path("--topology", text); },
        [](const InputOptions& o) { return o.reading.topology ? o.reading.topology->string() : ""; },
        [](const InputOptions& o) {

@@ -46,11 +46,9 @@ struct InputOptions {
 /// Returns the option --groups, for commands that follow contacts.
 [[nodiscard]] const Option<InputOptions>& groups_option();
 inline constexpr std::string_view kInputOperand = "INPUT...";
-/// The trajectory formats as the help texts list them.
-inline constexpr std::string_view kTrajectoryHelp =
-    "a necklace: .pdb .cif .gro .dcd .xtc .trr .nc .lammpstrj .xyz (also .gz)";
-inline constexpr std::string_view kInputHelp =
-    "a necklace: .pdb .cif .gro .dcd .xtc .trr .nc .lammpstrj .xyz (also .gz), or an instance file";
+/// Adds the operand INPUT... to a command. Its help lists the formats of the reader registry, and instance
+/// files if the command takes them.
+[[nodiscard]] CommandSpec with_inputs(CommandSpec command, bool or_instance = false);
 
 /// Takes the inputs from the operands of `command` (such as `kds run`) after its options have been read.
 /// Throws InputError if there are no inputs, or if the number of --chain lists does not fit the number of

@@ -11,6 +11,7 @@
 #include "experiments/program/option_values.h"
 #include "experiments/run/certify_stride.h"
 #include "motions/base/input_error.h"
+#include "structures/session/structure_spec.h"
 
 namespace kds {
 
@@ -19,8 +20,8 @@ namespace {
 constexpr CommandSpec kRunCommand{
     "kds run",
     "Runs kinetic structures over moving beads and reports every event, exactly and in order.",
-    kInputOperand,
-    kInputHelp,
+    {},
+    {},
     "kds run villin.dcd --topology villin.pdb --frames 0:200 --structures wrapped,power --out report\n"
     "kds run models.pdb --kernel exact --audit events --json -",
 };
@@ -96,9 +97,12 @@ Option<RunOptions> tolerance_option() {
 }
 
 Option<RunOptions> structures_option() {
-  return {{"--structures", "LIST",
-           "comma list of sorted, box, hull, closest, wrapped, layered, power, contacts (default: "
-           "wrapped,power; with an instance file: sorted in 1D, otherwise power)"},
+  std::vector<std::string> names;
+  for (const StructureSpec& spec : structure_registry().all()) names.push_back(spec.name);
+  static const std::string help = fmt::format(
+      "comma list of {} (default: wrapped,power; with an instance file: sorted in 1D, otherwise power)",
+      fmt::join(names, ", "));
+  return {{"--structures", "LIST", help},
           [](RunOptions& o, const std::string& text) { o.structures = parse_structures(text); },
           [](const RunOptions& o) { return fmt::format("{}", fmt::join(o.structures, ",")); }};
 }
@@ -124,14 +128,14 @@ OptionList<Destinations> run_destination_options() {
 
 const OptionList<RunOptions>& run_options() {
   using O = RunOptions;
+  static const std::string motion_help = fmt::format("motion of beads between frames: {} (default: linear)",
+                                                     fmt::join(frame_motion_names, ", "));
   static const OptionList<O> list =
       OptionList<O>()
           .with(input_options().with({obstacle_option()}))
           .with({
               structures_option(),
-              choice_option({"--motion", "NAME",
-                             "motion of beads between frames: linear, hermite or lifted (default: linear)"},
-                            &O::motion, frame_motion_names),
+              choice_option({"--motion", "NAME", motion_help}, &O::motion, frame_motion_names),
               choice_option({"--kernel", "NAME", "arithmetic: fast, filtered or exact (default: filtered)"},
                             &O::kernel, kernel_names),
               levels_option(),
@@ -183,7 +187,8 @@ const OptionList<RunOptions>& run_options() {
 
 RunOptions parse_run_options(const Arguments& arguments) {
   RunOptions options;
-  const ParsedArguments parsed = read_arguments(kRunCommand, run_options(), arguments, options);
+  const ParsedArguments parsed =
+      read_arguments(with_inputs(kRunCommand, true), run_options(), arguments, options);
   take_inputs(parsed, kRunCommand.name, options);
   refuse_needless_certificate(options);
   return options;

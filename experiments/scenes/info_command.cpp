@@ -30,8 +30,8 @@ struct BeadRow {
 constexpr CommandSpec kInfoCommand{
     "kds info",
     "Describes trajectories, and decides exactly which conditions of a proper necklace they violate.",
-    kInputOperand,
-    kInputHelp,
+    {},
+    {},
     "kds info villin.dcd --topology villin.pdb --frames ::10\n"
     "kds info 1a4y.pdb --radius element:fit --rho 2 --json -\n"
     "kds info 1a4y.pdb --beads",
@@ -62,7 +62,8 @@ const OptionList<InfoOptions>& info_options() {
 
 InfoOptions parse_info_options(const Arguments& arguments) {
   InfoOptions options;
-  const ParsedArguments parsed = read_arguments(kInfoCommand, info_options(), arguments, options);
+  const ParsedArguments parsed =
+      read_arguments(with_inputs(kInfoCommand, true), info_options(), arguments, options);
   take_inputs(parsed, kInfoCommand.name, options);
   if (options.beads && (parsed.has("--rho") || parsed.has("--list")))
     throw InputError("--beads: lists no conditions; expected no --rho and no --list");

@@ -51,8 +51,8 @@ constexpr CommandSpec kTradeCommand{
     "  time, at most               error of times, in frames: mean, maximum\n"
     "  closest, moved              largest error of the closest distance; largest distance of a bead from "
     "its true place",
-    kInputOperand,
-    kTrajectoryHelp,
+    {},
+    {},
     "kds trade villin.dcd --topology villin.pdb --frames 0:200 --out report\n"
     "kds trade villin.dcd --topology villin.pdb --want contacts --radius 2 --apart 5\n"
     "kds trade models.pdb --chain A,B --want scenes",
@@ -143,7 +143,8 @@ const OptionList<TradeOptions>& trade_options() {
 // --help. Opens no file.
 TradeOptions parse_trade_options(const Arguments& arguments) {
   TradeOptions options;
-  const ParsedArguments parsed = read_arguments(kTradeCommand, trade_options(), arguments, options);
+  const ParsedArguments parsed =
+      read_arguments(with_inputs(kTradeCommand), trade_options(), arguments, options);
   take_inputs(parsed, kTradeCommand.name, options);
   refuse_needless_options(parsed, options.task.wants);
   return options;

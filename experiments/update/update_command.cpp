@@ -35,8 +35,8 @@ constexpr CommandSpec kUpdateCommand{
     "degree\n"
     "  activate  moves only the beads of failed certificates, until no certificate fails\n"
     "  auto      chooses rebuild, kinetic or activate by the share of certificates that fail in a sample",
-    kInputOperand,
-    kTrajectoryHelp,
+    {},
+    {},
     "kds update villin.dcd --topology villin.pdb --frames 0:200 --strides 1,2,4,8 --out report\n"
     "kds update 1l2y.pdb --select all --radius element --techniques kinetic,lifted --audit frames --json -",
 };
@@ -84,7 +84,8 @@ const OptionList<UpdateOptions>& update_options() {
 
 UpdateOptions parse_update_options(const Arguments& arguments) {
   UpdateOptions options;
-  const ParsedArguments parsed = read_arguments(kUpdateCommand, update_options(), arguments, options);
+  const ParsedArguments parsed =
+      read_arguments(with_inputs(kUpdateCommand), update_options(), arguments, options);
   take_inputs(parsed, kUpdateCommand.name, options);
   return options;
 }
