@@ -1,10 +1,11 @@
 // Cuts a trajectory of two frames inside its last frame, again and again:
-// kds_cut_readers FORMAT [ATOMS [STRIDE [ENDS]]].
+// kds_cut_readers FORMAT [ATOMS [STRIDE [ENDS [READ]]]].
 //
 // The last frame is cut at each of its first and last ENDS bytes (default: 5000) and at every STRIDE-th byte
-// between (default: 1). Each time the reader must give frame 0 unchanged and say that the file is truncated.
-// Only a file whose lost bytes hold no number may give both frames, unchanged. Prints the counts; exits with
-// 1 at the first cut that is read otherwise.
+// between (default: 1). Each time the file is opened and must hold one frame. After every READ-th cut
+// (default: 1000) the frames are read: frame 0 must be unchanged, and the reader must say that the file is
+// truncated. A file whose lost bytes hold no number may give both frames, unchanged. Prints the counts; exits
+// with 1 at the first cut that is read otherwise.
 
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -23,6 +24,7 @@
 
 #include "motions/base/text_input.h"
 #include "motions/readers/necklace_stream.h"
+#include "motions/readers/reader_registry.h"
 #include "tests/motions/test_files.h"
 #include "tests/support/inputs/gromacs_files.h"
 #include "tests/support/inputs/netcdf_maker.h"
@@ -189,24 +191,31 @@ FramesFound read_frames(const std::string& path, const std::string& format) {
   return found;
 }
 
-// Returns how the file is read otherwise than it should be, or nothing. Counts the files that are whole.
-std::optional<std::string> fault(const FramesFound& found, const FramesFound& whole, std::size_t lost,
-                                 std::size_t size_of_frame, std::size_t& read_whole) {
-  if (found.frames.empty() || found.frames.size() > frame_count)
-    return fmt::format("{} frames", found.frames.size());
-  for (std::size_t k = 0; k < found.frames.size(); ++k)
-    if (found.frames[k] != whole.frames[k]) return fmt::format("frame {} has other coordinates", k);
-  if (found.frames.size() == frame_count) {
-    ++read_whole;
-    constexpr std::size_t most_behind_numbers = 8;  // bytes, as ENDMDL and its line end
-    if (lost > most_behind_numbers) return fmt::format("{} frames", frame_count);
-  } else if (!found.truncated && lost < size_of_frame) {
-    return "one frame, and no word of the other";
+// Returns whether the file holds frame 1. Reads no frame.
+bool holds_both(const std::string& path, const std::string& format) {
+  try {
+    static_cast<void>(reader_registry()
+                          .find(path, format)
+                          ->open(path, {.selection = Selection::all, .frames = {1}, .format = format}));
+    return true;
+  } catch (const InputError& error) {
+    if (std::string_view(error.what()).find("holds 1 frame") == std::string_view::npos) throw;
+    return false;
   }
-  return std::nullopt;
 }
 
-int cut_everywhere(const std::string& format, std::size_t atoms, std::size_t stride, std::size_t ends) {
+// Returns a fault of the frames that are read, or an empty text.
+std::string fault_of(const FramesFound& found, const FramesFound& whole, bool both, bool cut_at_boundary) {
+  if (found.frames.size() != (both ? frame_count : 1))
+    return fmt::format("{} frames are read, {} held", found.frames.size(), both ? frame_count : 1);
+  for (std::size_t k = 0; k < found.frames.size(); ++k)
+    if (found.frames[k] != whole.frames[k]) return fmt::format("frame {} has other coordinates", k);
+  if (!both && !found.truncated && !cut_at_boundary) return "one frame, and no word of the other";
+  return "";
+}
+
+int cut_everywhere(const std::string& format, std::size_t atoms, std::size_t stride, std::size_t ends,
+                   std::size_t read_every) {
   const auto maker = makers.find(format);
   if (maker == makers.end()) {
     std::fprintf(stderr,
@@ -222,28 +231,35 @@ int cut_everywhere(const std::string& format, std::size_t atoms, std::size_t str
   }
   const std::size_t size_of_frame = file.bytes.size() - file.last_frame;
   const auto begin = std::chrono::steady_clock::now();
-  std::size_t cuts = 0, read_whole = 0;
+  std::size_t cuts = 0, reads = 0, held_both = 0;
   for (std::size_t kept = size_of_frame; kept-- > 0;) {
     if (kept >= ends && size_of_frame - kept > ends && kept % stride != 0) continue;
     shrinking.cut_at(file.last_frame + kept);
-    ++cuts;
-    std::optional<std::string> wrong;
+    std::string wrong;
     try {
-      wrong = fault(read_frames(shrinking.path(), format), whole, size_of_frame - kept, size_of_frame,
-                    read_whole);
+      constexpr std::size_t most_behind_numbers = 8;  // bytes, as ENDMDL and its line end
+      const bool both = kept > 0 && holds_both(shrinking.path(), format);
+      if (both) ++held_both;
+      if (both && size_of_frame - kept > most_behind_numbers) wrong = "two frames are held";
+      if (both || cuts % read_every == 0) {
+        ++reads;
+        const FramesFound found = read_frames(shrinking.path(), format);
+        if (wrong.empty()) wrong = fault_of(found, whole, both, kept == 0);
+      }
     } catch (const std::exception& error) {
       wrong = error.what();
     }
-    if (!wrong) continue;
+    ++cuts;
+    if (wrong.empty()) continue;
     std::fprintf(stderr, "%s: cut after %zu of the %zu bytes of the last frame: %s\n", format.c_str(), kept,
-                 size_of_frame, wrong->c_str());
+                 size_of_frame, wrong.c_str());
     return 1;
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   std::printf(
-      "%s: %zu atoms, last frame of %zu bytes cut at %zu places: %zu times one frame, %zu times both frames "
-      "(no number lost), %.0f s\n",
-      format.c_str(), atoms, size_of_frame, cuts, cuts - read_whole, read_whole, seconds.count());
+      "%s: %zu atoms, last frame of %zu bytes cut at %zu places (read at %zu): one frame %zu times, both "
+      "frames %zu times (no number lost), %.0f s\n",
+      format.c_str(), atoms, size_of_frame, cuts, reads, cuts - held_both, held_both, seconds.count());
   return 0;
 }
 
@@ -254,10 +270,11 @@ int main(int count, char** arguments) {
     const auto given = count > place ? parse_count(arguments[place]) : std::optional(otherwise);
     return given ? *given : 0;
   };
-  const std::size_t atoms = number(2, 100'000), stride = number(3, 1), ends = number(4, 5000);
-  if (count < 2 || count > 5 || atoms == 0 || stride == 0) {
-    std::fprintf(stderr, "usage: kds_cut_readers FORMAT [ATOMS [STRIDE [ENDS]]]\n");
+  const std::size_t atoms = number(2, 100'000), stride = number(3, 1), ends = number(4, 5000),
+                    read_every = number(5, 1000);
+  if (count < 2 || count > 6 || atoms == 0 || stride == 0 || read_every == 0) {
+    std::fprintf(stderr, "usage: kds_cut_readers FORMAT [ATOMS [STRIDE [ENDS [READ]]]]\n");
     return 2;
   }
-  return cut_everywhere(arguments[1], atoms, stride, ends);
+  return cut_everywhere(arguments[1], atoms, stride, ends, read_every);
 }
