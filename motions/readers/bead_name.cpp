@@ -6,12 +6,13 @@ namespace kds {
 
 namespace {
 
-constexpr std::string_view of = " of ", in_chain = " in chain ";
+constexpr std::string_view of = " of ", in_chain = " in chain ", no_chain = "' '";
 
 }  // namespace
 
 std::string text_of(const BeadName& name) {
-  return fmt::format("{}{}{} {}{}{}", name.atom, of, name.residue, name.number, in_chain, name.chain);
+  return fmt::format("{}{}{} {}{}{}", name.atom, of, name.residue, name.number, in_chain,
+                     name.chain.empty() ? no_chain : name.chain);
 }
 
 std::optional<BeadName> bead_name_of(std::string_view text) {
@@ -22,8 +23,10 @@ std::optional<BeadName> bead_name_of(std::string_view text) {
   const std::string_view middle = text.substr(residue + of.size(), chain - residue - of.size());
   const std::size_t number = middle.rfind(' ');
   if (number == std::string_view::npos) return std::nullopt;
+  const std::string_view chain_name = text.substr(chain + in_chain.size());
   return BeadName{std::string(text.substr(0, residue)), std::string(middle.substr(0, number)),
-                  std::string(middle.substr(number + 1)), std::string(text.substr(chain + in_chain.size()))};
+                  std::string(middle.substr(number + 1)),
+                  std::string(chain_name == no_chain ? "" : chain_name)};
 }
 
 }  // namespace kds

@@ -7,14 +7,15 @@
 
 namespace kds {
 
-/// `number` is the residue's number including its insertion code, as in 52A.
+/// `number` is the residue's number including its insertion code, as in 52A. `chain` is empty if the chain
+/// has no name.
 struct BeadName {
   std::string atom, residue, number, chain;
 
   friend bool operator==(const BeadName&, const BeadName&) = default;
 };
 
-/// Returns the name as text: "CA of ALA 12 in chain A".
+/// Returns the name as text: "CA of ALA 12 in chain A". A chain without a name is ' '.
 [[nodiscard]] std::string text_of(const BeadName& name);
 /// Parses such a text. Returns nothing if the text is not a bead name; an empty text is not.
 [[nodiscard]] std::optional<BeadName> bead_name_of(std::string_view text);

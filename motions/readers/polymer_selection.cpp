@@ -384,7 +384,7 @@ PartRead read_part(const Parts& parts, const PolymerPart& part, const AtomChoice
   BondWalk walk(parts.model().lists_bonds);
   const auto selected = [&](const StructureAtom& atom, const StructureResidue& residue) {
     return SelectedAtom{&atom, is_martini(residue) ? "" : element_of(atom).name(),
-                        text_of({atom.name, residue.name, residue.number, shown(part.label)})};
+                        text_of({atom.name, residue.name, residue.number, part.label})};
   };
   const StructureResidue* last = nullptr;  // read
   for (const StructureResidue* residue : candidates) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -183,6 +184,44 @@ TEST(EventTable, SaysNothingOfResiduesWhereTheFileDoesNot) {
   EXPECT_GT(upper, 9.0 / 16 - 1e-9);
   EXPECT_THAT(std::vector<std::string>(rows[1].begin() + 3, rows[1].end()),
               ElementsAre("sorted", "interchange", "1", "", "0 1", "- -"));
+}
+
+// A blank chain name is an empty field of a residue and ' ' in texts.
+TEST(EventTable, ChainsWithoutAName) {
+  const ScratchDirectory scratch;
+  std::string pdb = content_of(kPdb);
+  for (std::size_t line = 0; line < pdb.size(); line = pdb.find('\n', line) + 1)
+    if (pdb.compare(line, 4, "ATOM") == 0) pdb[line + 21] = ' ';
+  const std::string blank = scratch.file("blank.pdb", pdb);
+  const auto run = [&](const std::string& topology, const std::string& name) {
+    const ProgramRun done =
+        run_program({"run", kDcd, "--topology", topology, "--frames", ":9", "--structures",
+                     "wrapped,contacts", "--radius", "1.9", "--apart", "4", "--events",
+                     (scratch / (name + ".csv")).string(), "--out", (scratch / name).string(), "--quiet"});
+    EXPECT_EQ(done.code, 0) << done.err;
+  };
+  run(kPdb, "named");
+  run(blank, "blank");
+  const auto named = table_of(scratch / "named.csv"), unnamed = table_of(scratch / "blank.csv");
+  ASSERT_EQ(named.size(), unnamed.size());
+  ASSERT_GT(named.size(), 5U);
+  const auto column =
+      static_cast<std::size_t>(std::find(named[0].begin(), named[0].end(), "residues") - named[0].begin());
+  for (std::size_t row = 1; row < named.size(); ++row) {
+    const std::vector<std::string> residues = parts(unnamed[row].at(column), ' ');
+    std::string with_name;
+    for (const std::string& residue : residues) {
+      EXPECT_EQ(parts(residue, ':').size(), 4U) << residue;
+      EXPECT_THAT(residue, StartsWith(":"));
+      with_name += (with_name.empty() ? "A" : " A") + residue;
+    }
+    EXPECT_EQ(with_name, named[row].at(column));
+  }
+  EXPECT_THAT(content_of(scratch / "blank/contacts.csv"), HasSubstr(" in chain ' '"));
+  const ProgramRun info =
+      run_program({"info", kDcd, "--topology", blank, "--frames", ":2", "--beads", "--json", "-"});
+  ASSERT_EQ(info.code, 0) << info.err;
+  EXPECT_TRUE(Json::parse(info.out)["rows"][0]["chain"].is_null());
 }
 
 TEST(EventTable, IsRefusedWhereItWouldReplaceSomethingElse) {

@@ -8,14 +8,14 @@ namespace kds::bead_name_test {
 namespace {
 
 TEST(BeadName, GoesToTextAndBack) {
-  for (const BeadName& name : {BeadName{"CA", "ALA", "12", "A"}, BeadName{"O5'", "DG", "-3B", "' '"},
+  for (const BeadName& name : {BeadName{"CA", "ALA", "12", "A"}, BeadName{"O5'", "DG", "-3B", ""},
                                BeadName{"N", "SEP", "52A", "AAA-2"}}) {
     const auto again = bead_name_of(text_of(name));
     ASSERT_TRUE(again) << text_of(name);
-    EXPECT_EQ(again->residue, name.residue);
-    EXPECT_EQ(again->number, name.number);
+    EXPECT_EQ(*again, name);
   }
   EXPECT_EQ(text_of({"CA", "ALA", "12", "A"}), "CA of ALA 12 in chain A");
+  EXPECT_EQ(text_of({"CA", "ALA", "12", ""}), "CA of ALA 12 in chain ' '");
 }
 
 TEST(BeadName, OtherTextsAreNone) {
