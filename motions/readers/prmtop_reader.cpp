@@ -12,9 +12,9 @@
 #include "motions/base/input_error.h"
 #include "motions/base/input_file.h"
 #include "motions/base/text_input.h"
+#include "motions/readers/bonded_residues.h"
 #include "motions/readers/element_guess.h"
 #include "motions/readers/residue_grouping.h"
-#include "motions/readers/residue_kind.h"
 #include "motions/readers/structure_models.h"
 
 namespace kds {
@@ -54,9 +54,11 @@ class Prmtop {
   explicit Prmtop(const std::filesystem::path& path) : lines_(path) {
     Section* section = nullptr;
     std::optional<FieldForm> form;
+    std::string section_name;
     for (std::string_view line; lines_.next(line);) {
       if (line.starts_with("%FLAG")) {
         const std::string name(trimmed(line.substr(5)));
+        section_name = name;
         const bool is_read =
             std::find(sections_read.begin(), sections_read.end(), name) != sections_read.end();
         section = is_read ? &sections_[name] : nullptr;
@@ -67,10 +69,16 @@ class Prmtop {
         form = FieldForm::of(trimmed(line.substr(7)));
         if (section != nullptr && !form) throw refuse("a format as in %FORMAT(20a4)", line);
       } else if (section != nullptr && !line.starts_with("%COMMENT")) {
-        if (!form) throw refuse("%FORMAT after %FLAG", line);
+        if (!form) throw refuse("%FORMAT behind %FLAG", line);
+        if (lines_.cut() && line.size() % form->width != 0)
+          throw InputError(
+              fmt::format("{}:{}: the file ends inside section {}: its last value may be cut off, expected a "
+                          "line end behind it",
+                          lines_.name(), lines_.number(), section_name));
         take_fields(line, *form, section->fields);
       }
     }
+    ends_inside_line_ = lines_.cut();
     if (sections_.empty())
       throw InputError(
           fmt::format("{}: no section POINTERS, expected a topology of AMBER 7 or later (%VERSION, %FLAG)",
@@ -78,6 +86,8 @@ class Prmtop {
   }
 
   bool has(const std::string& name) const { return sections_.count(name) > 0; }
+  // Returns whether the last line has no line end.
+  bool ends_inside_line() const { return ends_inside_line_; }
 
   // Returns `count` fields of a section. Throws InputError if the section has another number of them.
   const std::vector<std::string>& texts(const std::string& name, std::size_t count) {
@@ -138,33 +148,20 @@ class Prmtop {
 
   LineReader lines_;
   std::map<std::string, Section> sections_;
+  bool ends_inside_line_ = false;
 };
 
-// Returns for each residue whether a bond connects it with the residue before it.
-std::vector<bool> bonded_to_previous(Prmtop& prmtop, const std::vector<std::size_t>& residue_of,
-                                     std::size_t residues, std::size_t bonds) {
-  std::vector<bool> bonded(residues, false);
+BondedResidues read_bonds(Prmtop& prmtop, const std::vector<std::size_t>& residue_of, std::size_t bonds) {
+  BondedResidues bonded(residue_of);
   const std::string section = "BONDS_WITHOUT_HYDROGEN";
   static_cast<void>(prmtop.texts(section, 3 * bonds));
   for (std::size_t bond = 0; bond < bonds; ++bond) {
     // Numbers of atoms are multiplied by 3.
     const std::size_t most = 3 * (residue_of.size() - 1);
-    const std::size_t one = residue_of[prmtop.count(section, 3 * bond, 0, most) / 3];
-    const std::size_t other = residue_of[prmtop.count(section, 3 * bond + 1, 0, most) / 3];
-    if (one + 1 == other) bonded[other] = true;
-    if (other + 1 == one) bonded[one] = true;
+    bonded.add(prmtop.count(section, 3 * bond, 0, most) / 3,
+               prmtop.count(section, 3 * bond + 1, 0, most) / 3);
   }
   return bonded;
-}
-
-// Counts caps (ACE, NME) to the polymer of their molecule.
-void tell_polymers(std::vector<StructureResidue>& residues) {
-  for (std::size_t begin = 0, end = 0; begin < residues.size(); begin = end) {
-    bool is_polymer = false;
-    for (end = begin; end < residues.size() && residues[end].molecule == residues[begin].molecule; ++end)
-      is_polymer = is_polymer || is_tabulated_monomer(residues[end].name);
-    for (std::size_t i = begin; is_polymer && i < end; ++i) residues[i].entity = Entity::polymer;
-  }
 }
 
 StructureModel read_prmtop(const std::filesystem::path& path) {
@@ -186,10 +183,12 @@ StructureModel read_prmtop(const std::filesystem::path& path) {
   for (std::size_t i = 0; i < residues; ++i) residue_of.resize(begins[i + 1], i);
 
   StructureModel model;
-  std::vector<bool> bonded(residues, true);
+  if (prmtop.ends_inside_line())
+    model.notes.emplace_back("the last line has no line end; the file may be cut off");
+  std::optional<BondedResidues> bonded;
   model.lists_bonds = prmtop.has("BONDS_WITHOUT_HYDROGEN");
   if (model.lists_bonds)
-    bonded = bonded_to_previous(prmtop, residue_of, residues, bonds);
+    bonded = read_bonds(prmtop, residue_of, bonds);
   else
     model.notes.emplace_back("no section BONDS_WITHOUT_HYDROGEN: molecules are not distinguished");
   const std::vector<std::string>* chains = nullptr;
@@ -197,7 +196,7 @@ StructureModel read_prmtop(const std::filesystem::path& path) {
   ResidueGrouping grouping;
   std::size_t molecule = 0;
   for (std::size_t i = 0; i < residues; ++i) {
-    if (!bonded[i]) ++molecule;
+    if (bonded && !bonded->follows(i)) ++molecule;
     StructureResidue residue;
     if (chains != nullptr) residue.chain = (*chains)[i];
     residue.number = std::to_string(i + 1);

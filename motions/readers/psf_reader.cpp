@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +14,7 @@
 #include "motions/base/input_error.h"
 #include "motions/base/input_file.h"
 #include "motions/base/text_input.h"
+#include "motions/readers/bonded_residues.h"
 #include "motions/readers/element_guess.h"
 #include "motions/readers/residue_grouping.h"
 #include "motions/readers/structure_models.h"
@@ -37,6 +42,18 @@ struct PsfForm {
         name = 8;
       }
     }
+  }
+
+  // Returns the numbers of a line of bonds. In files of columns, numbers may touch.
+  std::vector<std::string_view> numbers_in(std::string_view line) const {
+    std::vector<std::string_view> fields = split_fields(line);
+    const bool touch = std::any_of(fields.begin(), fields.end(),
+                                   [&](std::string_view field) { return field.size() > serial; });
+    if (!has_columns || !touch) return fields;
+    fields.clear();
+    for (std::size_t place = 0; place < line.size(); place += serial)
+      fields.push_back(trimmed(line.substr(place, serial)));
+    return fields;
   }
 
   // Returns nothing if the line is not in this form.
@@ -82,10 +99,62 @@ class PsfFile {
     if (!lines_.next(line) || !looks_like_psf(line))
       throw refuse("PSF in the first line of a PSF file", line);
     const PsfForm form(line);
-    const std::size_t atoms = read_count();
+    read_atoms(form, read_count("!NATOM", 1));
+    StructureModel model;
+    const std::optional<BondedResidues> bonded = read_bonds(form, model.notes);
+    model.lists_bonds = bonded.has_value();
     ResidueGrouping grouping;
-    std::vector<double> masses;
-    StructureResidue residue;
+    std::size_t molecule = 0;
+    for (std::size_t i = 0; i < atoms_.size(); ++i) {
+      const std::size_t residue = residue_of_[i];
+      const bool begins = i == 0 || residue != residue_of_[i - 1];
+      if (bonded && begins && !bonded->follows(residue)) ++molecule;
+      StructureResidue& of_atom = residues_[residue];
+      of_atom.molecule = std::to_string(molecule);
+      grouping.add(of_atom, std::move(atoms_[i]));
+    }
+    model.atom_count = atoms_.size();
+    model.residues = grouping.take();
+    if (bonded) tell_polymers(model.residues);
+    if (const auto note = set_elements_by_mass(model.residues, masses_)) model.notes.push_back(*note);
+    return model;
+  }
+
+ private:
+  InputError refuse(std::string_view expected, std::string_view found) const {
+    return InputError(fmt::format("{}:{}: expected {}, found {}", lines_.name(), lines_.number(), expected,
+                                  in_quotes(found)));
+  }
+  InputError refuse_cut_line() const {
+    return InputError(fmt::format(
+        "{}:{}: the file ends inside this line: its last number may be cut off, expected a line end "
+        "behind it",
+        lines_.name(), lines_.number()));
+  }
+
+  // Continues behind the line of a section, as !NATOM, and returns its number. Returns nothing if the file
+  // has no such line.
+  std::optional<std::size_t> find_count(std::string_view section, std::size_t least) {
+    for (std::string_view line; lines_.next(line);) {
+      const std::size_t key = line.find(section);
+      if (key == std::string_view::npos) continue;
+      const auto count = parse_count(trimmed(line.substr(0, key)));
+      if (!count || *count < least)
+        throw refuse(fmt::format("the number of {} before {}", least == 0 ? "bonds" : "atoms", section),
+                     line);
+      return count;
+    }
+    return std::nullopt;
+  }
+  std::size_t read_count(std::string_view section, std::size_t least) {
+    if (const auto count = find_count(section, least)) return *count;
+    throw InputError(
+        fmt::format("{}: no line with {}, expected the number of atoms there", lines_.name(), section));
+  }
+
+  void read_atoms(const PsfForm& form, std::size_t atoms) {
+    std::string_view line;
+    std::set<std::string, std::less<>> names;  // of the atoms of the last residue
     for (std::size_t i = 0; i < atoms; ++i) {
       if (!lines_.next(line))
         throw InputError(fmt::format("{}: the file ends after atom {} of {}", lines_.name(), i, atoms));
@@ -96,42 +165,67 @@ class PsfFile {
                         "charge, mass)",
                         i + 1, atoms),
             line);
-      residue.chain = read->segment;
-      residue.number = read->number.empty() ? "?" : read->number;
-      residue.name = read->residue;
-      StructureAtom atom;
+      if (lines_.cut()) throw refuse_cut_line();
+      const std::string_view number = read->number.empty() ? "?" : read->number;
+      const bool continues = !residues_.empty() && residues_.back().chain == read->segment &&
+                             residues_.back().number == number && residues_.back().name == read->residue &&
+                             names.count(read->name) == 0;
+      if (!continues) {
+        StructureResidue& residue = residues_.emplace_back();
+        residue.chain = read->segment;
+        residue.number = number;
+        residue.name = read->residue;
+        names.clear();
+      }
+      names.emplace(read->name);
+      residue_of_.push_back(residues_.size() - 1);
+      StructureAtom& atom = atoms_.emplace_back();
       atom.name = read->name;
       atom.place = i;
-      masses.push_back(read->mass);
-      grouping.add(residue, std::move(atom));
+      masses_.push_back(read->mass);
     }
-    StructureModel model;
-    model.atom_count = atoms;
-    model.residues = grouping.take();
-    if (const auto note = set_elements_by_mass(model.residues, masses)) model.notes.push_back(*note);
-    return model;
   }
 
- private:
-  InputError refuse(std::string_view expected, std::string_view found) const {
-    return InputError(fmt::format("{}:{}: expected {}, found {}", lines_.name(), lines_.number(), expected,
-                                  in_quotes(found)));
-  }
-
-  // Continues after the line of !NATOM and returns its number.
-  std::size_t read_count() {
-    for (std::string_view line; lines_.next(line);) {
-      const std::size_t key = line.find("!NATOM");
-      if (key == std::string_view::npos) continue;
-      const auto count = parse_count(trimmed(line.substr(0, key)));
-      if (!count || *count == 0) throw refuse("the number of atoms before !NATOM", line);
-      return *count;
+  // Returns nothing if the file lists no bonds.
+  std::optional<BondedResidues> read_bonds(const PsfForm& form, std::vector<std::string>& notes) {
+    const std::optional<std::size_t> bonds = find_count("!NBOND", 0);
+    if (!bonds) {
+      notes.emplace_back("no section !NBOND: molecules are not told apart; the file may be cut off");
+      return std::nullopt;
     }
-    throw InputError(
-        fmt::format("{}: no line with !NATOM, expected the number of atoms there", lines_.name()));
+    if (*bonds == 0) return std::nullopt;
+    BondedResidues bonded(residue_of_);
+    std::size_t one = 0;  // the first atom of a bond whose second one follows, 0 if none
+    std::size_t read = 0;
+    for (std::string_view line; read < *bonds;) {
+      if (!lines_.next(line) || trimmed(line).empty() || line.find('!') != std::string_view::npos)
+        throw InputError(fmt::format("{}:{}: the section !NBOND ends behind bond {} of {}", lines_.name(),
+                                     lines_.number(), read, *bonds));
+      for (const std::string_view field : form.numbers_in(line)) {
+        const auto atom = parse_count(field);
+        if (!atom || *atom == 0 || *atom > atoms_.size() || read == *bonds)
+          throw refuse(read == *bonds ? fmt::format("{} bonds", *bonds)
+                                      : fmt::format("numbers of atoms from 1 to {} in bond {} of {}",
+                                                    atoms_.size(), read + 1, *bonds),
+                       field);
+        if (one > 0) {
+          bonded.add(one - 1, *atom - 1);
+          ++read;
+          one = 0;
+        } else {
+          one = *atom;
+        }
+      }
+      if (lines_.cut() && (!form.has_columns || line.size() % form.serial != 0)) throw refuse_cut_line();
+    }
+    return bonded;
   }
 
   LineReader lines_;
+  std::vector<StructureAtom> atoms_;
+  std::vector<double> masses_;
+  std::vector<std::size_t> residue_of_;     // of each atom: a place in residues_
+  std::vector<StructureResidue> residues_;  // in sequence, without atoms
 };
 
 }  // namespace

@@ -40,7 +40,9 @@ std::vector<Atom> joined(const std::vector<std::vector<Atom>>& parts) {
 
 enum class Form { standard, extended, namd };
 
-std::string psf(const std::vector<Atom>& atoms, Form form = Form::standard) {
+// Returns a PSF file. Bonds name atoms from 0.
+std::string psf(const std::vector<Atom>& atoms, Form form = Form::standard,
+                const std::vector<std::pair<std::size_t, std::size_t>>& bonds = {}) {
   constexpr const char* starts[] = {"PSF CMAP", "PSF EXT CMAP XPLOR", "PSF NAMD"};
   std::string text =
       fmt::format("{}\n\n       1 !NTITLE\n REMARKS made by a test\n\n", starts[static_cast<int>(form)]);
@@ -58,7 +60,12 @@ std::string psf(const std::vector<Atom>& atoms, Form form = Form::standard) {
       text += fmt::format("{} {} {} {} {} CT1 {} {} 0\n", i + 1, a.segment, a.number, a.residue, a.name,
                           -0.47, a.mass);
   }
-  return text + "\n       0 !NBOND: bonds\n\n";
+  const int width = form == Form::extended ? 10 : 8;
+  text += fmt::format("\n{:>{}} !NBOND: bonds\n", bonds.size(), width);
+  for (std::size_t i = 0; i < bonds.size(); ++i)
+    text += fmt::format("{:>{}}{:>{}}{}", bonds[i].first + 1, width, bonds[i].second + 1, width,
+                        i % 4 == 3 && i + 1 < bonds.size() ? "\n" : "");
+  return text + "\n\n";
 }
 
 std::vector<Trajectory> read(const std::string& file, const std::string& topology, std::size_t atoms,
@@ -118,6 +125,83 @@ TEST(Psf, ElementsFollowFromMasses) {
   EXPECT_THAT(all[0].warnings, Contains(HasSubstr("CB of ALA 1, 15.035")));
   const std::vector<Atom> ions = {{"ION", "1", "SOD", "SOD", 22.98977}, {"ION", "2", "CLA", "CLA", 35.45}};
   EXPECT_EQ(read("a.psf", psf(ions), 2, {.selection = *Selection::parse("[NA]")})[0].bead_count(), 1U);
+}
+
+// Residues of the atoms N, H, CA, C: C is bonded to N of the residues of `links`. All residues have bonds of
+// their own.
+std::vector<std::pair<std::size_t, std::size_t>> bonds_of(
+    std::size_t residues, const std::vector<std::pair<std::size_t, std::size_t>>& links) {
+  std::vector<std::pair<std::size_t, std::size_t>> bonds;
+  for (std::size_t r = 0; r < residues; ++r)
+    for (const std::size_t place : {1, 2, 3}) bonds.emplace_back(4 * r + place - 1, 4 * r + place);
+  for (const auto& [one, other] : links) bonds.emplace_back(4 * one + 3, 4 * other);
+  return bonds;
+}
+
+TEST(Psf, BondsTellMoleculesApart) {
+  const std::vector<Atom> atoms =
+      joined({residue("1"), residue("2"), residue("5"), residue("6"), residue("1", "ALA", "P2")});
+  for (const Form form : {Form::standard, Form::extended, Form::namd}) {
+    const std::string text = psf(atoms, form, bonds_of(5, {{0, 1}, {2, 3}, {0, 3}}));
+    const auto two = read("a.psf", text, 20, {.chain = "P1.1,P1.2"});
+    ASSERT_EQ(two.size(), 2U);
+    EXPECT_EQ(two[0].bead_count(), 6U);
+    EXPECT_EQ(two[1].bead_names[0], "N of ALA 5 in chain P1.2");
+    const auto whole = read("a.psf", text, 20, {.chain = "P1"});
+    EXPECT_THAT(whole[0].gaps, ElementsAre(5));
+    EXPECT_THAT(whole[0].warnings, Contains(HasSubstr("chain P1 has 2 molecules and is read as one")));
+    // Without bonds, residues of a segment are one molecule.
+    const auto one = read("a.psf", psf(atoms, form), 20, {.chain = "P1"});
+    EXPECT_THAT(one[0].gaps, testing::IsEmpty());
+    EXPECT_THAT(one[0].warnings, testing::Not(Contains(HasSubstr("molecules"))));
+  }
+  std::string text = psf(atoms);
+  text.erase(text.find("       0 !NBOND"));
+  EXPECT_THAT(read("a.psf", text, 20, {.chain = "P1"})[0].warnings,
+              Contains(HasSubstr("no section !NBOND: molecules are not told apart")));
+}
+
+// Numbers of eight digits fill the columns of a standard file and touch.
+TEST(Psf, ListsOfBondsThatAreNoneAreRefused) {
+  const std::vector<Atom> atoms = joined({residue("1"), residue("2")});
+  const std::string text = psf(atoms, Form::standard, bonds_of(2, {{0, 1}}));
+  const auto refuse = [&](std::string damaged, std::string_view from, std::string_view to,
+                          std::string_view part) {
+    const std::size_t place = damaged.find(from, damaged.find("!NBOND") - 9);
+    ASSERT_NE(place, std::string::npos) << from;
+    damaged.replace(place, from.size(), to);
+    test::expect_refused([&] { static_cast<void>(read("a.psf", damaged, 8)); }, {"a.psf:", part});
+  };
+  refuse(text, "       5       6", "       5       9", "numbers of atoms from 1 to 8 in bond 4 of 7");
+  refuse(text, "       5       6", "       5       0", "found '0'");
+  refuse(text, "       5       6", "1234567812345678", "found '12345678'");
+  refuse(text, "       7 !NBOND", "       8 !NBOND", "the section !NBOND ends behind bond 7 of 8");
+  refuse(text, "       7 !NBOND", "       6 !NBOND", "expected 6 bonds");
+  refuse(text, "       7 !NBOND", "       x !NBOND", "the number of bonds before !NBOND");
+}
+
+// A cut file is refused, warned of, or has lost nothing that is read.
+TEST(Psf, CutAnywhere) {
+  const std::vector<Atom> atoms = joined({residue("1"), residue("2"), residue("3")});
+  for (const Form form : {Form::standard, Form::extended, Form::namd}) {
+    const std::string text = psf(atoms, form, bonds_of(3, {{0, 1}}));
+    const auto whole = read("a.psf", text, 12)[0];
+    EXPECT_THAT(whole.gaps, ElementsAre(5));
+    int read_whole = 0;
+    for (std::size_t size = text.find("!NATOM"); size < text.size(); ++size) {
+      try {
+        const auto cut = read("a.psf", text.substr(0, size), 12)[0];
+        if (testing::Value(cut.warnings, Contains(HasSubstr("no section !NBOND")))) continue;
+        EXPECT_EQ(cut.gaps, whole.gaps) << size;
+        EXPECT_EQ(cut.bead_names, whole.bead_names) << size;
+        EXPECT_EQ(cut.element_radii, whole.element_radii) << size;
+        ++read_whole;
+      } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), testing::Not(HasSubstr("\n")));
+      }
+    }
+    EXPECT_EQ(read_whole, form == Form::namd ? 1 : 2) << "without the last line ends";
+  }
 }
 
 TEST(Psf, DamageIsRefusedInOneLine) {
@@ -367,15 +451,40 @@ TEST(TopologyFiles, WarnsOfAnEndingThatTheContentContradicts) {
             1);
 }
 
-// Only an AMBER topology tells which residues outside polymers are bonded.
+// A cut file is refused, warned of, or has lost nothing that is read.
+TEST(Prmtop, CutAnywhere) {
+  const Prmtop prmtop{.labels = {"ALA", "ALA", "ALA"}, .links = {{0, 1}, {1, 2}}};
+  const std::string text = prmtop.text();
+  const auto whole = read("a.prmtop", text, 12)[0];
+  for (std::size_t size = text.find("%FLAG POINTERS"); size < text.size(); ++size) {
+    try {
+      const auto cut = read("a.prmtop", text.substr(0, size), 12)[0];
+      if (testing::Value(cut.warnings, Contains(HasSubstr("no section BONDS_WITHOUT_HYDROGEN")))) continue;
+      EXPECT_EQ(size, text.size() - 1) << "only the last line end is lost";
+      EXPECT_EQ(cut.bead_names, whole.bead_names);
+      EXPECT_THAT(cut.warnings, Contains(HasSubstr("the last line has no line end")));
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::Not(HasSubstr("\n")));
+    }
+  }
+}
+
+// Topologies with bonds tell which residues outside polymers are bonded.
 TEST(Prmtop, BondsBetweenResiduesOutsidePolymers) {
   const ReadOptions every{.selection = *Selection::parse("//*")};
   const auto gaps = [&](std::vector<std::pair<int, int>> links) {
     const Prmtop prmtop{.labels = {"NAG", "NAG", "NAG", "WAT"}, .links = std::move(links)};
     return read("a.prmtop", prmtop.text(), 16, every)[0].gaps;
   };
+  const auto psf_gaps = [&](const std::vector<std::pair<std::size_t, std::size_t>>& links) {
+    const std::vector<Atom> atoms =
+        joined({residue("1", "NAG"), residue("2", "NAG"), residue("3", "NAG"), residue("4", "WAT")});
+    return read("a.psf", psf(atoms, Form::standard, bonds_of(4, links)), 16, every)[0].gaps;
+  };
   EXPECT_THAT(gaps({{0, 1}, {1, 2}}), ElementsAre(11));
   EXPECT_THAT(gaps({{1, 2}}), ElementsAre(3, 11));
+  EXPECT_THAT(psf_gaps({{0, 1}, {1, 2}}), ElementsAre(11));
+  EXPECT_THAT(psf_gaps({{1, 2}}), ElementsAre(3, 11));
   const std::vector<Atom> sugars = joined({residue("1", "NAG"), residue("2", "NAG"), residue("3", "NAG")});
   EXPECT_THAT(read("a.psf", psf(sugars), 12, every)[0].gaps, ElementsAre(3, 7));
 }
