@@ -138,6 +138,17 @@ class PdbModels : public StructureModels {
       notes_.push_back(say(reader_.near_misses(), "that begin like ATOM or HETATM but are no such records"));
     if (reader_.outside().count > 0)
       notes_.push_back(say(reader_.outside(), "with atoms outside MODEL and ENDMDL"));
+    if (held_.whole == 0 && held_.ends_inside)
+      throw InputError(
+          fmt::format("{}: the file ends inside its only model (after {} bytes): its last line may be cut "
+                      "off, expected a "
+                      "line end behind it",
+                      file_, held_.end));
+    if (reader_.lacks_end() && held_.whole == 1 && !held_.ends_inside)
+      notes_.emplace_back("MODEL begins its only model and no ENDMDL ends it; the file may be cut off");
+    if (const std::size_t models = held_.whole + (held_.ends_inside ? 1 : 0); models < reader_.announced())
+      notes_.push_back(fmt::format("NUMMDL announces {}, the file has {}; it may be cut off",
+                                   counted(reader_.announced(), "model"), models));
     if (held_.whole == 0)
       throw InputError(fmt::format("{}: no ATOM or HETATM line{}; is this a PDB file?", file_,
                                    notes_.empty() ? "" : ", " + notes_.front()));

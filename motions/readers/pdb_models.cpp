@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -30,6 +31,11 @@ bool is_record(std::string_view line, std::string_view name) {
 }
 
 bool is_atom(std::string_view line) { return is_record(line, "ATOM") || is_record(line, "HETATM"); }
+
+// Returns whether the text begins like a record of this name and may be all that is left of it.
+bool is_part_of(std::string_view text, std::string_view name) {
+  return !text.empty() && text.size() < name.size() && starts_with(name.substr(0, text.size()), text);
+}
 
 bool looks_like_atom(std::string_view line) {
   const std::string_view text = trimmed(line);
@@ -61,6 +67,7 @@ struct PdbModelReader::Run {
   bool outside_models = false;  ///< so far: no MODEL at its start and no ENDMDL at its end
   LinesLeftOut lines;
   std::size_t bytes = 0;
+  std::size_t shortest = std::string_view::npos;  // length of the shortest line of an atom
 };
 
 void PdbModelReader::open(Run& run, bool with_record) {
@@ -69,6 +76,7 @@ void PdbModelReader::open(Run& run, bool with_record) {
   run.outside_models = !with_record && has_model_records_;
   run.lines = {};
   run.bytes = 0;
+  run.shortest = std::string_view::npos;
   if (with_record) has_model_records_ = true;
   if (run.model != nullptr) run.model->cell = cell_;
 }
@@ -99,6 +107,23 @@ void PdbModelReader::add_atom(std::string_view line, Run& run) {
                     lines_.name(), lines_.number(), most_whole));
 }
 
+// Returns whether the file ends inside this line, the last one, which has no line end.
+bool PdbModelReader::is_cut_off(std::string_view line, const Run& run) const {
+  while (line.ends_with('\r')) line.remove_suffix(1);
+  if (trimmed(line).empty()) return false;
+  if (!run.inside)
+    return models_ > 0 &&
+           (is_part_of(line, "MODEL") || is_part_of(line, "ATOM") || is_part_of(line, "HETATM"));
+  constexpr std::size_t coordinates_end = 54;  // columns
+  if (is_atom(line))
+    return line.size() < coordinates_end ||
+           (run.shortest != std::string_view::npos && line.size() < run.shortest);
+  // Bonds and sums stand behind all atoms.
+  constexpr std::array<std::string_view, 6> behind_atoms{"MODEL", "ENDMDL", "END", "TER", "CONECT", "MASTER"};
+  return std::none_of(behind_atoms.begin(), behind_atoms.end(),
+                      [&](std::string_view name) { return is_record(line, name); });
+}
+
 bool PdbModelReader::read(PdbModel* model) {
   if (model != nullptr) *model = {};
   Run run;
@@ -109,6 +134,11 @@ bool PdbModelReader::read(PdbModel* model) {
     if (const std::size_t end = line.find('\r'); line.find_first_not_of('\r', end) != std::string_view::npos)
       throw InputError(fmt::format("{}:{}: a carriage return inside the line, expected line ends LF or CR LF",
                                    lines_.name(), lines_.number()));
+    if (lines_.cut() && is_cut_off(line, run)) {
+      ends_inside_line_ = true;
+      ended_ = run.inside && close(run, false);
+      return ended_;
+    }
     if (is_record(line, "CRYST1")) {
       cell_ = box_cell(line);
       has_met_cell_ = has_met_cell_ || cell_.cell;
@@ -127,7 +157,10 @@ bool PdbModelReader::read(PdbModel* model) {
       return true;
     } else if (is_atom(line)) {
       if (!run.inside) open(run, false);
+      run.shortest = std::min(run.shortest, line.size());
       add_atom(line, run);
+    } else if (is_record(line, "NUMMDL")) {
+      announced_ = std::max(announced_, parse_count(columns(line, 11, 14)).value_or(0));
     } else if (is_record(line, "TER")) {
       if (run.inside && model != nullptr) model->ends.push_back(model->atoms.size());
     } else if (looks_like_atom(line)) {
@@ -140,6 +173,7 @@ bool PdbModelReader::read(PdbModel* model) {
   }
   if (!run.inside || !close(run, false)) return false;
   ended_ = true;
+  ended_with_record_ = run.with_record;
   return true;
 }
 
@@ -147,13 +181,17 @@ void PdbModelReader::rewind() {
   lines_.rewind();
   cell_ = {};
   models_ = closed_ = 0;
-  opening_ = has_model_records_ = ended_ = false;
+  opening_ = has_model_records_ = ended_ = ended_with_record_ = ends_inside_line_ = false;
   outside_ = near_misses_ = {};
 }
 
 FramesHeld PdbModelReader::held() const {
-  const bool ends_inside = ended_ && models_ > 1 && closed_ + 1 == models_;
-  return {models_ - (ends_inside ? 1 : 0), ends_inside, lines_.place()};
+  const bool ends_inside_model = ended_ && (ends_inside_line_ || (models_ > 1 && closed_ + 1 == models_));
+  return {models_ - (ends_inside_model ? 1 : 0),
+          ends_inside_model || ends_inside_line_,
+          lines_.place(),
+          {},
+          ends_inside_line_};
 }
 
 }  // namespace kds

@@ -46,10 +46,16 @@ class PdbModelReader {
   [[nodiscard]] bool skip() { return read(nullptr); }
   void rewind();
   /// Returns the models read or skipped so far. The last model counts as truncated if the file ends inside it
-  /// and all models before it are closed by ENDMDL or END.
+  /// and all models before it are closed by ENDMDL or END, or if the file ends inside one of its lines. The
+  /// file ends inside its last line if that line has no line end and is an atom shorter than the atoms before
+  /// it, or no whole record.
   [[nodiscard]] FramesHeld held() const;
   /// Returns the atoms outside of models in the part of the file read so far.
   [[nodiscard]] const LinesLeftOut& outside() const { return outside_; }
+  /// Returns whether the last model read begins with MODEL and the file ends without ENDMDL or END behind it.
+  [[nodiscard]] bool lacks_end() const { return ended_ && ended_with_record_; }
+  /// Returns the largest number of models that a record NUMMDL announces, 0 if there is none.
+  [[nodiscard]] std::size_t announced() const { return announced_; }
   /// Returns the lines read so far that look like atoms but are not valid records.
   [[nodiscard]] const LinesLeftOut& near_misses() const { return near_misses_; }
   /// Whether a cell that is used was read so far, also before a rewind.
@@ -61,6 +67,7 @@ class PdbModelReader {
   void open(Run& run, bool with_record);
   [[nodiscard]] bool close(Run& run, bool is_model);
   void add_atom(std::string_view line, Run& run);
+  [[nodiscard]] bool is_cut_off(std::string_view line, const Run& run) const;
 
   LineReader lines_;
   bool opening_ = false;  ///< the MODEL record of the next model has been read
@@ -68,7 +75,10 @@ class PdbModelReader {
   bool has_met_cell_ = false;
   std::size_t models_ = 0, closed_ = 0;
   bool has_model_records_ = false;
-  bool ended_ = false;  ///< the file ended inside a model
+  bool ended_ = false;              ///< the file ended inside a model
+  bool ended_with_record_ = false;  ///< that model began with MODEL
+  bool ends_inside_line_ = false;   ///< the file ended inside a line of a model
+  std::size_t announced_ = 0;
   LinesLeftOut outside_, near_misses_;
 };
 

@@ -27,6 +27,63 @@ std::string models(const std::vector<std::string>& texts) {
   return all + "END\n";
 }
 
+// A cut file is refused, has lost its last model, or gives the frames of the whole file.
+TEST(PdbReader, CutAnywhere) {
+  const std::string model = pdb_residue(1) + pdb_residue(2);
+  for (const auto& [text, frames] : {std::pair(model, 1U),
+                                     {model + "TER\nCONECT    1    2\nEND\n", 1U},
+                                     {models({model}), 1U},
+                                     {models({model, model}), 2U}}) {
+    const Trajectory whole = read(text);
+    ASSERT_EQ(whole.frames.size(), frames);
+    const std::size_t last_model = text.rfind("MODEL ") == std::string::npos ? 0 : text.rfind("MODEL ");
+    const std::size_t last_atom = text.rfind("ATOM"), atoms_end = text.find('\n', last_atom);
+    for (std::size_t size = last_model + 1; size < text.size(); ++size) {
+      SCOPED_TRACE(size);
+      try {
+        const Trajectory cut = read(text.substr(0, size));
+        const bool lost = cut.frames.size() < frames;
+        EXPECT_EQ(cut.truncated, lost);
+        const bool at_line_end = text[size - 1] == '\n' || text[size] == '\n';  // cannot be noticed
+        EXPECT_TRUE(lost || size >= atoms_end || at_line_end) << "an atom is lost";
+        if (lost || size >= atoms_end)
+          for (std::size_t k = 0; k < cut.frames.size(); ++k) EXPECT_EQ(cut.frames[k], whole.frames[k]);
+      } catch (const InputError& error) {
+        EXPECT_EQ(frames, 1U) << error.what();
+        EXPECT_LT(size, text.size() - 1) << error.what();
+      }
+    }
+  }
+}
+
+TEST(PdbReader, AFileThatEndsInsideItsLastNumber) {
+  const std::string model = pdb_residue(1) + pdb_residue(2);
+  const std::size_t last = model.rfind("ATOM");
+  refuse(model.substr(0, last + 53), {"a.pdb: the file ends inside its only model", "expected a line end"});
+  refuse(model.substr(0, last + 60), {"the file ends inside its only model"});
+  refuse(model.substr(0, last + 2), {"the file ends inside its only model"});
+  const Trajectory before =
+      read("MODEL        1\n" + model + "ENDMDL\nMODEL        2\n" + model.substr(0, last + 52));
+  EXPECT_EQ(before.frames.size(), 1U);
+  EXPECT_TRUE(before.truncated);
+  EXPECT_THAT(before.warnings, testing::Contains(testing::HasSubstr("its last number may be cut off")));
+  // A topology, too.
+  const auto dcd = test::write_file("t.dcd", test::DcdMaker::chain(6, 2).bytes());
+  const auto topology = test::write_file("a.pdb", model.substr(0, last + 53));
+  test::expect_refused([&] { (void)read_trajectory(dcd, {.topology = topology}); }, {"a.pdb", "expected a line end"});
+}
+
+TEST(PdbReader, ModelsThatAreAnnouncedAndMissing) {
+  const std::string model = pdb_residue(1) + pdb_residue(2);
+  const auto warnings = [](const std::string& text) { return read(text).warnings; };
+  EXPECT_THAT(warnings("NUMMDL    3\n" + models({model, model})),
+              testing::Contains(testing::HasSubstr("NUMMDL announces 3 models, the file has 2")));
+  EXPECT_THAT(warnings("NUMMDL    2\n" + models({model, model})), testing::IsEmpty());
+  EXPECT_THAT(warnings("MODEL        1\n" + model),
+              testing::Contains(testing::HasSubstr("no ENDMDL ends it; the file may be cut off")));
+  EXPECT_THAT(warnings("MODEL        1\n" + model + "END\n"), testing::IsEmpty());
+}
+
 TEST(PdbReader, RealFiles) {
   struct Expected {
     const char* file;
