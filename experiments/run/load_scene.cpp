@@ -176,14 +176,46 @@ std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
     ReadOptions reading = reading_of(options, options.inputs.size());
     reading.topology = std::nullopt;
     reading.frames = {};
-    reading.format = std::nullopt;  // --format is that of the inputs
+    reading.format = std::nullopt;     // --format is that of the inputs
+    reading.time_step = std::nullopt;  // it has no time of its own
     NecklaceStream& obstacle = files.emplace_back(*options.obstacle, reading);
     if (!obstacle.holds_one_frame())
       throw InputError(
           fmt::format("--obstacle: {} has several frames, expected one", options.obstacle->string()));
   }
-  return std::make_unique<FileFrames>(std::move(files));
+  auto frames = std::make_unique<FileFrames>(std::move(files));
+  check_groups_have_beads(options.reading.groups, frames->necklaces());
+  return frames;
 }
+
+namespace {
+
+// Lets all necklaces end with the shortest one whose file is truncated. Necklaces at rest stay as they are.
+void end_with_truncated(std::vector<Trajectory>& necklaces,
+                        const std::function<void(const std::string&)>& warn) {
+  const auto frames_of = [](const Trajectory& necklace) {
+    return necklace.truncated ? necklace.frames.size() : std::numeric_limits<std::size_t>::max();
+  };
+  const auto shortest = std::ranges::min_element(necklaces, {}, frames_of);
+  if (shortest == necklaces.end() || !shortest->truncated) return;
+  const std::size_t frames = shortest->frames.size();
+  const std::string file = shortest->file;
+  const std::size_t last = shortest->frame_number(frames - 1);
+  bool told = false;
+  for (Trajectory& necklace : necklaces) {
+    const bool at_rest = necklace.frames.size() == 1 && !necklace.truncated;
+    if (at_rest || necklace.frames.size() <= frames) continue;
+    necklace.frames.resize(frames);
+    necklace.frame_numbers.resize(std::min(frames, necklace.frame_numbers.size()));
+    necklace.times.resize(std::min(frames, necklace.times.size()));
+    if (!told)
+      warn(fmt::format("{}: frames are missing behind frame {}, so later frames of {} are left out", file,
+                       last, necklace.file));
+    told = true;
+  }
+}
+
+}  // namespace
 
 std::vector<Trajectory> read_necklaces(const InputOptions& options,
                                        const std::function<void(const std::string&)>& warn) {
@@ -191,13 +223,18 @@ std::vector<Trajectory> read_necklaces(const InputOptions& options,
   std::vector<InputAtoms> atoms;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
     std::vector<Trajectory> of_input = read_trajectories(options.inputs[i], reading_of(options, i));
-    atoms.push_back(atoms_of(options.inputs[i], of_input, of_input.front().frames.size() == 1));
+    atoms.push_back(atoms_of(options.inputs[i], of_input,
+                             of_input.front().frames.size() == 1 && !of_input.front().truncated));
     for (Trajectory& necklace : of_input) {
       for (const std::string& warning : necklace.warnings) warn(warning);
       necklaces.push_back(std::move(necklace));
     }
   }
   check_inputs_of_one_frame(atoms, options, warn);
+  end_with_truncated(necklaces, warn);
+  std::vector<NecklaceBeads> beads;
+  for (const Trajectory& necklace : necklaces) beads.push_back(beads_of(necklace));
+  check_groups_have_beads(options.reading.groups, beads);
   return necklaces;
 }
 
@@ -205,7 +242,6 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
                      const std::function<void(const std::string&)>& warn,
                      const std::optional<MotionTolerance>& tolerance) {
   std::unique_ptr<FrameSource> frames = open_frames(input, warn);
-  check_groups_have_beads(input.reading.groups, frames->necklaces());
   const FrameSurvey survey = survey_frames(*frames, input.radius == "auto", warn);
   std::vector<double> radii = bead_radii(input.radius, frames->necklaces(), survey);
   for (double& radius : radii) radius *= radius_factor;

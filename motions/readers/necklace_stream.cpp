@@ -419,8 +419,14 @@ bool NecklaceStream::read(FrameRead& frame) {
 
 bool NecklaceStream::holds_one_frame() {
   FrameRead frame;
+  bool one = !opened_.truncated;
   opened_.frames->rewind();
-  const bool one = opened_.frames->next(frame) && !opened_.frames->next(frame);
+  try {
+    one = one && opened_.frames->next(frame) && !opened_.frames->next(frame);
+  } catch (const InputError&) {
+    if (!until_damage_) throw;
+    one = false;  // a damaged frame follows the first one
+  }
   rewind();
   return one;
 }

@@ -21,20 +21,28 @@ FileFrames::FileFrames(std::vector<NecklaceStream> files)
 }
 
 bool FileFrames::next(FrameRead& frame) {
-  bool more = false;
+  std::optional<std::size_t> more, truncated;  // files that give a frame, or have lost it
   for (std::size_t f = 0; f < files_.size(); ++f) {
     if (files_[f].next(present_[f])) {
       ++read_[f];
-      more = true;
+      more = more.value_or(f);
       if (next_ == 0) first_cells_[f] = present_[f].cell;
+    } else if (!at_rest_[f] && files_[f].is_truncated()) {
+      truncated = truncated.value_or(f);
     }
   }
-  if (!more) {
+  if (!more || truncated) {
     all_ = read_;
+    for (std::size_t& frames : all_) frames = std::min(frames, next_);
+    if (more)
+      early_end_ = fmt::format("{}: frames are missing behind frame {}, so later frames of {} are left out",
+                               files_[*truncated].heads().front().file, last_number_,
+                               files_[*more].heads().front().file);
     check_frame_counts();
     return false;
   }
   frame.stamp = stamp();
+  last_number_ = frame.stamp.number;
   ++next_;
   frame.cell.reset();
   frame.positions.resize(3, static_cast<Eigen::Index>(count_beads(necklaces_)));
@@ -86,17 +94,18 @@ void FileFrames::seek(std::size_t k) {
 }
 
 void FileFrames::check_frame_counts() const {
-  const auto longest = static_cast<std::size_t>(std::max_element(read_.begin(), read_.end()) - read_.begin());
+  const auto longest = static_cast<std::size_t>(std::max_element(all_.begin(), all_.end()) - all_.begin());
   for (std::size_t f = 0; f < files_.size(); ++f) {
-    if (read_[f] == read_[longest] || read_[f] == 1) continue;
+    if (all_[f] == all_[longest] || at_rest_[f]) continue;
     throw InputError(fmt::format(
         "{}: {} frames, but {} has {}; necklaces of a run need equal frame counts (or one frame: at rest)",
-        files_[f].heads().front().file, read_[f], files_[longest].heads().front().file, read_[longest]));
+        files_[f].heads().front().file, all_[f], files_[longest].heads().front().file, all_[longest]));
   }
 }
 
 std::vector<std::string> FileFrames::warnings() const {
   std::vector<std::string> lines;
+  if (!early_end_.empty()) lines.push_back(early_end_);
   if (times_differ_ > 0)
     lines.push_back(
         fmt::format("{} ({}; --dt PS replaces times)", first_difference_, counted(times_differ_, "frame")));

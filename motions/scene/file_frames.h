@@ -18,12 +18,14 @@ class FileFrames final : public FrameSource {
 
   [[nodiscard]] const std::vector<NecklaceBeads>& necklaces() const override { return necklaces_; }
   /// Reads the next frame of each file that has one. After the last frame, returns false, or throws
-  /// InputError unless all files have the same number of frames, or one (at rest).
+  /// InputError unless all files have the same number of frames, or one (at rest). The last frame of a
+  /// truncated or damaged file is the last one of all files.
   [[nodiscard]] bool next(FrameRead& frame) override;
   /// Reads the files again from the start to go back.
   void seek(std::size_t k) override;
-  /// Includes a line about times that differ between files, and lines about necklaces whose periodic image in
-  /// the first frame is much nearer to necklaces of earlier files.
+  /// Includes a line about frames that are left out because another file is truncated, a line about times
+  /// that differ between files, and lines about necklaces whose periodic image in the first frame is much
+  /// nearer to necklaces of earlier files.
   [[nodiscard]] std::vector<std::string> warnings() const override;
 
   [[nodiscard]] bool is_truncated() const override;
@@ -49,8 +51,10 @@ class FileFrames final : public FrameSource {
   std::vector<std::size_t> read_;                 ///< number of frames read from each file
   std::vector<std::size_t> all_;                  ///< number of frames of each file, once all have been read
   std::size_t next_ = 0;                          ///< number of the next frame
-  std::size_t times_differ_ = 0;                  ///< frames with different times in two files
-  std::string first_difference_;                  ///< about the first of these
+  std::size_t last_number_ = 0;                   ///< number in the file of the last frame read
+  std::string early_end_;         ///< about frames left out behind a truncated file's last one
+  std::size_t times_differ_ = 0;  ///< frames with different times in two files
+  std::string first_difference_;  ///< about the first of these
 };
 
 }  // namespace kds
