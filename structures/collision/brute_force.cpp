@@ -7,6 +7,7 @@
 #include "motions/base/floating_point_guard.h"
 #include "structures/collision/balls_meet.h"
 #include "structures/enclosing_sphere/sphere_scan.h"
+#include "structures/necklace/pairs_in_question.h"
 
 namespace kds {
 
@@ -46,13 +47,13 @@ std::array<Run, 2> asked_of(BeadId bead, std::size_t necklace, const PairsAsked&
   return {Run{first, asked.within ? end : first}, Run{end, asked.between ? beads : end}};
 }
 
-// Calls visit(i, j) for pairs that are not surely_apart, ascending. Reads `distance()` anew for each run of
-// beads.
+// Calls visit(i, j) for pairs asked for, ascending; without groups it leaves out pairs that are surely_apart.
+// Reads `distance()` anew for each run of beads.
 template <int Dimension, class Distance, class Visit>
 void visit_near(const Balls<Dimension>& balls, const PairsAsked& asked, const Distance& distance,
                 const Visit& visit) {
   const FloatingPointGuard to_nearest;
-  check_groups(asked);
+  if (!asked.groups.empty()) return PairsInQuestion(asked).for_each(visit);
   Found found;
   for (std::size_t n = 0; n < asked.necklaces.size(); ++n) {
     for (BeadId i = asked.necklaces[n].first; i <= asked.necklaces[n].last; ++i) {
@@ -60,8 +61,7 @@ void visit_near(const Balls<Dimension>& balls, const PairsAsked& asked, const Di
         for (BeadId first = run.first; first < run.end;) {
           const BeadId end = first + std::min(beads_at_a_time, run.end - first);
           const std::size_t count = find_near(balls, i, distance(), first, end, found);
-          for (std::size_t k = 0; k < count; ++k)
-            if (asked.joins_groups({i, found[k]})) visit(i, found[k]);
+          for (std::size_t k = 0; k < count; ++k) visit(i, found[k]);
           first = end;
         }
       }

@@ -1,6 +1,7 @@
 #pragma once
 // Finds collisions by testing all pairs of beads. This method is the simple reference for the other
 // detectors. Tests eight beads at a time in double, and exactly if doubles do not decide. Takes n^2 time.
+// With groups of beads it tests the pairs between them one by one.
 
 #include <optional>
 #include <vector>

@@ -10,6 +10,7 @@
 
 #include "motions/curves/positions.h"
 #include "motions/scene/near_pairs.h"
+#include "structures/necklace/pairs_in_question.h"
 
 namespace kds {
 
@@ -96,11 +97,7 @@ void Contacts<D>::find_pairs(typename MovingFamily<D>::Resting resting, bool lis
     family_.find_pairs(motion_.curves(), resting, list_overlapping, pairs);
   } else {
     pairs.clear();
-    const PairsAsked& asked = family_.asked();
-    const auto beads = static_cast<BeadId>(bead_count());
-    for (BeadId i = 0; i < beads; ++i)
-      for (BeadId j = i + 1; j < beads; ++j)
-        if (asked.asks({i, j})) pairs.unclear.push_back({i, j});
+    PairsInQuestion(family_.asked()).for_each([&](BeadId i, BeadId j) { pairs.unclear.push_back({i, j}); });
   }
   const std::span<const char> absent = present().absent();
   if (absent.empty()) return;

@@ -8,6 +8,7 @@
 #include "kds/stopwatch.h"
 #include "structures/collision/cell_list.h"
 #include "structures/contacts/contacts.h"
+#include "structures/necklace/pairs_in_question.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/session/own_structures.h"
 #include "structures/session/session.h"
@@ -78,19 +79,12 @@ class ContactsInRun final : public RunningStructure {
 
 // Throws if there are too many pairs for the kernel `exact`, which lists all of them.
 void check_exact_pairs(const PairsAsked& asked) {
-  constexpr double most = 1e8;  // 2.5 GB, and minutes a step
-  double before = 0, pairs = 0;
-  for (const BeadRange& range : asked.necklaces) {
-    const double beads = static_cast<double>(range.last) - range.first + 1;
-    const double starts = std::max(0.0, beads - asked.apart);
-    pairs += 0.5 * starts * (starts + 1) + before * beads;
-    before += beads;
-  }
+  constexpr std::uint64_t most = 100'000'000;  // 2.5 GB, and minutes a step
+  const std::uint64_t pairs = PairsInQuestion(asked).count();
   if (pairs > most)
-    throw StructureRefusal("contacts",
-                           fmt::format("kernel exact looks at all {:.0f} pairs of beads, more than "
-                                       "{:.0f}; expected fewer beads, or kernel filtered",
-                                       pairs, most));
+    throw StructureRefusal("contacts", fmt::format("kernel exact looks at all {} pairs of beads, more than "
+                                                   "{}; expected fewer beads, or kernel filtered",
+                                                   pairs, most));
 }
 
 }  // namespace
