@@ -81,6 +81,9 @@ const OptionList<CollideOptions>& collide_options() {
                              "repeat each method N times and report the median time, and the shortest and "
                              "longest (default: 3 if methods are compared, else 1)"},
                             &O::rounds, 1, 1000)})
+          .with(OptionList<InputOptions>({groups_option(
+              "one bead of a pair must be in SEL1 and the other in SEL2, each as --select takes it, among "
+              "the beads that are read; only brute and cells take it (default: all pairs)")}))
           .with(&O::destinations,
                 destination_options("write collide.json, collide.csv, pairs.csv, frames.csv and report.html "
                                     "to DIR (default: none)"));
@@ -109,7 +112,7 @@ CollideTask task_of(const CollideOptions& options, const CollideFrames& frames) 
     if (std::find(options.methods.begin(), options.methods.end(), method.name) != options.methods.end())
       task.methods.push_back(&method);
   task.query = {{frames.necklaces(), options.pairs != WhichPairs::between, options.apart,
-                 options.pairs != WhichPairs::within},
+                 options.pairs != WhichPairs::within, frames.bead_groups()},
                 options.within};
   task.rounds = options.rounds;
   task.leave_out_refusing = options.all_methods;
@@ -146,10 +149,11 @@ int collide_command(const Arguments& arguments) {
                              {.necklaces = frames.necklaces().size(),
                               .frames = frames.frame_count(),
                               .dimension = frames.dimension(),
-                              .truncated = frames.is_truncated()},
+                              .truncated = frames.is_truncated(),
+                              .picoseconds = times_of(frames.first_frame(), frames.last_frame())},
                              frames.radii());
   json["settings"] = collide_options().settings_json(options);
-  json["rows"] = collide_columns().json(report.rows);
+  json["rows"] = collide_columns(report.timed).json(report.rows);
   json["frames"] = Json::array();  // the results fill it in
   json["warnings"] = command.warnings();
   add_provenance(json, command.command_line());

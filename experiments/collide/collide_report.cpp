@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "experiments/events/event_places.h"
+#include "experiments/events/frame_axis.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
@@ -15,13 +16,18 @@ namespace kds {
 
 namespace {
 
+std::string frame_text(const FrameStamp& frame) {
+  if (!frame.picoseconds) return fmt::to_string(frame.number);
+  return fmt::format("{} ({:.10g} ps)", frame.number, *frame.picoseconds);
+}
+
 std::string closest_line(const CollideReport& report) {
   for (const CollideRow& row : report.rows) {
     if (!row.closest) continue;
     const ClosestPair& pair = row.closest->pair;
     const std::string_view what = pair.sign > 0 ? "apart" : pair.sign == 0 ? "they touch" : "they overlap";
     return fmt::format("closest   beads {} and {} in frame {}, distance {} ({})\n", pair.first, pair.second,
-                       row.closest->frame.number, pair.distance, what);
+                       frame_text(row.closest->frame), pair.distance, what);
   }
   return "closest   -\n";  // no method reports it, or no pair is asked for
 }
@@ -43,7 +49,7 @@ std::string findings(const CollideReport& report) {
                             : pair.sign < 0 ? fmt::format("overlap by {}", short_decimal(-pair.distance))
                                             : "touch";
     html += fmt::format(" The closest two, beads {} and {} in frame {}, {}.", pair.first, pair.second,
-                        closest->closest->frame.number, how);
+                        frame_text(closest->closest->frame), how);
   }
   html += "</p>\n";
   if (report.rows.size() > 1) {
@@ -78,7 +84,7 @@ constexpr std::string_view kCommand = "collide";
 
 }  // namespace
 
-Table<CollideRow> collide_columns() {
+Table<CollideRow> collide_columns(bool timed) {
   using Row = CollideRow;
   Table<Row> table{{
       {"method", "method", [](const Row& r) { return Field(r.method); }},
@@ -94,22 +100,25 @@ Table<CollideRow> collide_columns() {
   table.add(spread_columns<Row>("seconds", "seconds", [](const Row& r) { return r.seconds; }));
   table.add(spread_columns<Row>("closest_seconds", "and for closest",
                                 [](const Row& r) { return r.closest_seconds; }));
+  if (timed)
+    table.add(
+        {{.key = "closest.picoseconds",
+          .value = [](const Row& r) { return r.closest ? Field(r.closest->frame.picoseconds) : Field(); },
+          .optional = true}});
   return table;
 }
 
-const Table<FrameFound>& collide_frame_columns() {
+Table<FrameFound> collide_frame_columns(bool timed) {
   using Row = FrameFound;
-  static const Table<Row> columns = [] {
-    Table<Row> table{{{.key = "frame", .value = [](const Row& r) { return Field(r.stamp.number); }},
-                      {.key = "collide", .value = [](const Row& r) { return Field(r.collide); }},
-                      {.key = "pairs", .value = [](const Row& r) { return Field(r.pairs); }}}};
-    table.add(pair_columns<Row>([](const Row& r) { return r.closest; }));
-    table.add({{.key = "picoseconds",
-                .json = [](const Row& r) { return Json(r.stamp.picoseconds); },
-                .optional = true}});
-    return table;
-  }();
-  return columns;
+  Table<Row> table{{{.key = "frame", .value = [](const Row& r) { return Field(r.stamp.number); }},
+                    {.key = "collide", .value = [](const Row& r) { return Field(r.collide); }},
+                    {.key = "pairs", .value = [](const Row& r) { return Field(r.pairs); }}}};
+  table.add(pair_columns<Row>([](const Row& r) { return r.closest; }));
+  Column<Row> time{
+      .key = "picoseconds", .json = [](const Row& r) { return Json(r.stamp.picoseconds); }, .optional = true};
+  if (timed) time.value = [](const Row& r) { return Field(r.stamp.picoseconds); };
+  table.add({time});
+  return table;
 }
 
 ClosestCourse::ClosestCourse(std::size_t frames)
@@ -118,23 +127,28 @@ ClosestCourse::ClosestCourse(std::size_t frames)
 void ClosestCourse::add(const FrameFound& frame) {
   const std::size_t bin = added_++ / width_;
   if (!frame.closest) return;
-  const std::pair point(static_cast<double>(frame.stamp.number), frame.closest->distance);
-  if (points_.empty() || bin != bin_of_last_) {
-    points_.push_back(point);
-  } else if (point.second < points_.back().second) {
-    points_.back() = point;
+  const double distance = frame.closest->distance;
+  if (distances_.empty() || bin != bin_of_last_) {
+    frames_shown_.push_back(frame.stamp);
+    distances_.push_back(distance);
+  } else if (distance < distances_.back()) {
+    frames_shown_.back() = frame.stamp;
+    distances_.back() = distance;
   }
   bin_of_last_ = bin;
 }
 
 std::string ClosestCourse::figure() const {
-  if (points_.size() < 2) return "";
+  if (distances_.size() < 2) return "";
   constexpr std::size_t few = 60;  // frames; a line would suggest more of them
-  const LinePlot plot{"frame",
-                      "closest distance",
-                      frames_ > few ? Drawn::line : Drawn::points,
-                      {{"closest pair", points_}},
-                      true};
+  const FrameAxis axis(frames_shown_);
+  LinePlot plot{axis.label(),
+                "closest distance",
+                frames_ > few ? Drawn::line : Drawn::points,
+                {{"closest pair", {}}},
+                true};
+  for (std::size_t k = 0; k < distances_.size(); ++k)
+    plot.curves.front().points.emplace_back(axis.place(frames_shown_[k]), distances_[k]);
   return html_figure(
       svg_plot(plot),
       fmt::format(
@@ -144,7 +158,7 @@ std::string ClosestCourse::figure() const {
 
 std::string collide_table(const CollideReport& report) {
   return fmt::format("frames    {}\n{}\n", with_thousands(report.frames), closest_line(report)) +
-         collide_columns().text(report.rows);
+         collide_columns(false).text(report.rows);
 }
 
 std::string collide_page(const CollideReport& report, const std::string& input, const std::string& map,
@@ -162,7 +176,8 @@ std::string collide_page(const CollideReport& report, const std::string& input, 
   if (!map.empty())
     plots += html_figure(map, "The pairs of beads that collide: the stronger the colour, the more often.");
   plots += course.figure();
-  page.body = html_section("Plots", plots) + html_section("Figures", collide_columns().html(report.rows));
+  page.body =
+      html_section("Plots", plots) + html_section("Figures", collide_columns(false).html(report.rows));
   return html_page(page);
 }
 
@@ -198,35 +213,38 @@ std::string ContactMap::plot() const {
 }
 
 PairsCsv::PairsCsv(std::ostream& stream, const CollideFrames& scene) : stream_(stream), scene_(scene) {
-  stream_ << "frame,i,j,distance,name_i,name_j\n";
+  stream_ << "frame,i,j,distance,name_i,name_j" << (scene.has_times() ? ",picoseconds\n" : "\n");
 }
 
 void PairsCsv::add(const FrameRead& frame, std::span<const BeadPair> pairs) {
   const auto center = [&](BeadId b) -> Eigen::Vector3d { return frame.positions.col(Eigen::Index{b}); };
   const std::vector<double>& radii = scene_.radii();
+  std::string time = scene_.has_times() ? "," : "";
+  if (scene_.has_times() && frame.stamp.picoseconds) time += fmt::to_string(*frame.stamp.picoseconds);
   for (const auto& [i, j] : pairs) {
     const double distance = (center(i) - center(j)).stableNorm() - (radii[i] + radii[j]);
-    stream_ << fmt::format("{},{},{},{},{},{}\n", frame.stamp.number, i, j, distance,
-                           quoted(scene_.bead_name(i)), quoted(scene_.bead_name(j)));
+    stream_ << fmt::format("{},{},{},{},{},{}{}\n", frame.stamp.number, i, j, distance,
+                           quoted(scene_.bead_name(i)), quoted(scene_.bead_name(j)), time);
   }
 }
 
 void CollideResults::begin(const CollideFrames& scene) {
+  frame_columns_ = collide_frame_columns(scene.has_times());
   if (destinations_.out || destinations_.json) frames_.emplace();
   if (!destinations_.out) return;
   files_.emplace(*destinations_.out, kCommand, "--out");
   pairs_.emplace(files_->open("pairs.csv"), scene);
   frames_csv_ = &files_->open("frames.csv");
-  *frames_csv_ << collide_frame_columns().csv_header();
+  *frames_csv_ << frame_columns_.csv_header();
   course_.emplace(scene.frame_count());
   contacts_.emplace(scene.radii().size());
 }
 
 void CollideResults::add_frame(const FrameRead& frame, const FrameFound& found,
                                std::optional<std::span<const BeadPair>> pairs) {
-  if (frames_) frames_->add(collide_frame_columns().json(found));
+  if (frames_) frames_->add(frame_columns_.json(found));
   if (!files_) return;
-  *frames_csv_ << collide_frame_columns().csv_line(found);
+  *frames_csv_ << frame_columns_.csv_line(found);
   course_->add(found);
   if (pairs) pairs_->add(frame, *pairs);
   if (pairs) contacts_->add_frame(*pairs);
@@ -242,7 +260,7 @@ void CollideResults::deliver(const CollideReport& report, const Json& json, cons
   const bool table_on_stdout = !destinations_.quiet && !json_on_stdout;
   if (files_) {
     write_to(files_->open("collide.json"));
-    files_->write("collide.csv", collide_columns().csv(report.rows));
+    files_->write("collide.csv", collide_columns(report.timed).csv(report.rows));
     page.data = {"collide.json", "collide.csv", "pairs.csv", "frames.csv"};
     files_->write("report.html",
                   collide_page(report, input, contacts_->empty() ? "" : contacts_->plot(), *course_, page));

@@ -20,10 +20,12 @@
 
 namespace kds {
 
-/// Returns the columns of collide.csv, of the rows of collide.json, of the terminal and of the page.
-[[nodiscard]] Table<CollideRow> collide_columns();
-/// Returns the columns of frames.csv and of the frames in collide.json.
-[[nodiscard]] const Table<FrameFound>& collide_frame_columns();
+/// Returns the columns of collide.csv, of the rows of collide.json, of the terminal and of the page. JSON and
+/// CSV have the time of the closest pair if the input is `timed`.
+[[nodiscard]] Table<CollideRow> collide_columns(bool timed);
+/// Returns the columns of frames.csv and of the frames in collide.json. The CSV has a column of times if the
+/// input is `timed`.
+[[nodiscard]] Table<FrameFound> collide_frame_columns(bool timed);
 [[nodiscard]] std::string collide_table(const CollideReport& report);
 
 /// The closest distance over the course of the frames. If there are many frames, consecutive frames share a
@@ -37,7 +39,8 @@ class ClosestCourse {
 
  private:
   std::size_t frames_, width_, added_ = 0;
-  std::vector<std::pair<double, double>> points_;  // frame number and distance
+  std::vector<FrameStamp> frames_shown_;  // one per point
+  std::vector<double> distances_;         // likewise
   std::size_t bin_of_last_ = 0;
 };
 
@@ -64,11 +67,12 @@ class ContactMap {
   std::vector<std::uint64_t> counts_;  // for the groups i <= j, at index i * groups_ + j
 };
 
-/// Writes the colliding pairs of each frame for other programs, frame by frame during the run. The header is
-/// `frame,i,j,distance,name_i,name_j`, followed by one line per pair. `frame` is the frame's number in the
-/// file. `i` and `j` are the beads' numbers in the scene. `name_i` and `name_j` are the names in the file, in
-/// quotes, or empty if it has none. `distance` is the rounded distance between the surfaces, printed so that
-/// it reads back exactly. The distance is negative if the balls overlap.
+/// Writes the colliding pairs of each frame for other programs, frame by frame during the run.
+/// The header is `frame,i,j,distance,name_i,name_j`, and `picoseconds` if the input has times. One line per
+/// pair follows. `frame` is the frame's number in the file, and `picoseconds` its time. `i` and `j` are the
+/// beads' numbers in the scene. `name_i` and `name_j` are the names in the file, in quotes, or empty if it
+/// has none. `distance` is the rounded distance between the surfaces, printed so that it reads back exactly.
+/// It is negative if the balls overlap.
 class PairsCsv {
  public:
   /// Writes the header. Stream and scene must outlive this object.
@@ -97,6 +101,7 @@ class CollideResults {
   std::optional<AtomicFiles> files_;
   std::optional<PairsCsv> pairs_;
   std::ostream* frames_csv_ = nullptr;
+  Table<FrameFound> frame_columns_{{}};
   std::optional<JsonItems> frames_;  // empty if no JSON is requested
   std::optional<ClosestCourse> course_;
   std::optional<ContactMap> contacts_;

@@ -1,11 +1,13 @@
 #include "experiments/collide/compare_detectors.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <stdexcept>
 
+#include "experiments/output/text.h"
 #include "experiments/run/load_scene.h"
 #include "kds/stopwatch.h"
 #include "motions/base/input_error.h"
@@ -15,6 +17,7 @@
 #include "structures/collision/cell_list.h"
 #include "structures/collision/diagram_collision.h"
 #include "structures/collision/hierarchy_search.h"
+#include "structures/necklace/pairs_in_question.h"
 
 namespace kds {
 
@@ -25,6 +28,9 @@ CollideFrames::CollideFrames(const InputOptions& options, const std::function<vo
   plane_ = survey.plane;
   truncated_ = survey.truncated;
   frame_count_ = survey.frame_count;
+  first_ = survey.first;
+  last_ = survey.last;
+  bead_groups_ = kds::bead_groups(frames_->necklaces());
   necklaces_ = bead_ranges(frames_->necklaces());
   bead_names_ = names_of_beads(frames_->necklaces());
 }
@@ -41,11 +47,12 @@ template <int Dimension>
 class BruteForce final : public Detector<Dimension> {
  public:
   explicit BruteForce(const CollisionQuery& query) : query_(query) {}
-  std::optional<std::string> refusal(const Balls<Dimension>& balls) const override {
-    constexpr std::size_t most_beads = 300'000;  // takes half a minute per frame
-    if (balls.size() <= most_beads) return std::nullopt;
-    return fmt::format("looks at all pairs of {} beads; expected {} beads or fewer", balls.size(),
-                       most_beads);
+  std::optional<std::string> refusal(const Balls<Dimension>&) const override {
+    constexpr std::uint64_t most = 45'000'000'000;  // of 300,000 beads; takes half a minute per frame
+    const std::uint64_t pairs = PairsInQuestion(query_.asked).count();
+    if (pairs <= most) return std::nullopt;
+    return fmt::format("looks at {} pairs of beads; expected {} or fewer", with_thousands(pairs),
+                       with_thousands(most));
   }
   void detect(const Balls<Dimension>& balls, Detection& found) override {
     found.pairs = pairs_by_force(balls, query_.asked, query_.distance);
@@ -136,16 +143,16 @@ std::unique_ptr<Detector<Dimension>> make(const CollisionQuery& query) {
   return std::make_unique<Made<Dimension>>(query);
 }
 template <template <int> class Made>
-constexpr Method method(std::string_view name, std::string_view about) {
-  return {name, about, make<2, Made>, make<3, Made>};
+constexpr Method method(std::string_view name, std::string_view about, bool takes_groups = false) {
+  return {name, about, takes_groups, make<2, Made>, make<3, Made>};
 }
 
 constexpr std::array kMethods{
-    method<BruteForce>("brute", "all pairs of beads"),
+    method<BruteForce>("brute", "all pairs of beads", true),
     method<Wrapped>("wrapped", "hierarchy of minimum enclosing spheres"),
     method<Layered>("layered", "hierarchy of spheres around spheres"),
     method<ByDiagram>("power", "power diagram"),
-    method<Cells>("cells", "cell list"),
+    method<Cells>("cells", "cell list", true),
     method<Auto>("auto", "blocks, and near pairs kept from frame to frame"),
 };
 
@@ -167,6 +174,14 @@ std::optional<std::string> difference(const Detection& a, const Detection& b) {
   return std::nullopt;
 }
 
+// Returns the methods that take groups of beads, as in "brute or cells".
+std::string names_with_groups() {
+  std::vector<std::string_view> names;
+  for (const Method& method : kMethods)
+    if (method.takes_groups) names.push_back(method.name);
+  return fmt::format("{}", fmt::join(names, " or "));
+}
+
 template <int Dimension>
 class Comparison {
  public:
@@ -176,6 +191,7 @@ class Comparison {
                     const std::function<void(std::size_t, std::size_t)>& progress) {
     FrameRead frame;
     Balls<Dimension> balls;
+    report_.timed = frames_.has_times();
     for (std::size_t k = 0; frames_.next(frame); ++k) {
       if (k == 0) {
         balls = Balls<Dimension>(frame.positions, frames_.radii());
@@ -204,8 +220,15 @@ class Comparison {
  private:
   void make_detectors(const Balls<Dimension>& balls, const std::function<void(const std::string&)>& warn) {
     for (const Method* method : task_.methods) {
-      auto detector = method->make<Dimension>(task_.query);
-      if (const auto refusal = detector->refusal(balls)) {
+      std::unique_ptr<Detector<Dimension>> detector;
+      std::optional<std::string> refusal;
+      if (task_.query.asked.groups.empty() || method->takes_groups) {
+        detector = method->make<Dimension>(task_.query);
+        refusal = detector->refusal(balls);
+      } else {
+        refusal = fmt::format("it looks at all pairs, not at --groups; expected {}", names_with_groups());
+      }
+      if (refusal) {
         if (!task_.leave_out_refusing)
           throw InputError(fmt::format("--method {}: {}", method->name, *refusal));
         warn(fmt::format("--method {} is left out: {}", method->name, *refusal));

@@ -65,6 +65,12 @@ class CollideFrames {
   [[nodiscard]] int dimension() const { return plane_ ? 2 : 3; }
   [[nodiscard]] std::size_t frame_count() const { return frame_count_; }
   [[nodiscard]] bool is_truncated() const { return truncated_; }
+  /// Returns whether the first frame has a time.
+  [[nodiscard]] bool has_times() const { return first_.picoseconds.has_value(); }
+  [[nodiscard]] const FrameStamp& first_frame() const { return first_; }
+  [[nodiscard]] const FrameStamp& last_frame() const { return last_; }
+  /// Returns the groups of each bead, or an empty vector if none were asked for.
+  [[nodiscard]] const BeadGroups& bead_groups() const { return bead_groups_; }
   [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   /// Returns the bead's name in the file, or an empty text if the file has no names.
@@ -77,7 +83,9 @@ class CollideFrames {
   std::unique_ptr<FrameSource> frames_;
   std::optional<AxisPlane> plane_;
   std::size_t frame_count_ = 0;
+  FrameStamp first_, last_;
   bool truncated_ = false;
+  BeadGroups bead_groups_;
   std::vector<BeadRange> necklaces_;
   std::vector<double> radii_;
   std::vector<std::string> bead_names_;  // empty, or a name for every bead
@@ -88,6 +96,7 @@ class CollideFrames {
 struct Method {
   std::string_view name;
   std::string_view about;  ///< a short description
+  bool takes_groups;       ///< can look at pairs of two groups of beads only
   std::unique_ptr<Detector<2>> (*in_plane)(const CollisionQuery&);
   std::unique_ptr<Detector<3>> (*in_space)(const CollisionQuery&);
 
@@ -132,6 +141,7 @@ struct FrameFound {
 
 struct CollideReport {
   std::vector<CollideRow> rows;
+  bool timed = false;  ///< the input has times
   std::size_t frames = 0, colliding_frames = 0;
 };
 

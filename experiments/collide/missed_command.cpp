@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -42,6 +43,7 @@ struct MissedInput {
   int dimension = 3;
   bool truncated = false;
   double radius_min = 0, radius_max = 0;
+  std::optional<std::array<double, 2>> picoseconds;
 };
 
 struct MissedReport {
@@ -72,7 +74,8 @@ MissedInput input_of(const Scene& scene) {
           scene.dimension(),
           scene.is_truncated(),
           *least,
-          *most};
+          *most,
+          times_of(scene.stamp(0), scene.stamp(scene.frame_count() - 1))};
 }
 
 std::vector<SampledContacts::Sampling> samplings_of(const MissedTask& task, const Scene& scene,
@@ -288,9 +291,9 @@ int missed_command(const Arguments& arguments) {
 
   const MissedInput& input = report.input;
   Json json;
-  json["input"] =
-      input_json(task, {input.beads, input.necklaces, input.frames, input.dimension, input.truncated},
-                 input.radius_min, input.radius_max);
+  json["input"] = input_json(
+      task, {input.beads, input.necklaces, input.frames, input.dimension, input.truncated, input.picoseconds},
+      input.radius_min, input.radius_max);
   json["settings"] = missed_task_options().settings_json(task);
   json["rows"] = missed_columns().json(report.rows);
   json["warnings"] = command.warnings();

@@ -12,7 +12,7 @@ std::size_t bin_width(std::size_t steps, std::size_t most) {
   return std::max<std::size_t>(1, (steps + most - 1) / most);
 }
 
-void EventCourse::add(std::uint64_t events, std::size_t frame) {
+void EventCourse::add(std::uint64_t events, const FrameStamp& frame) {
   const std::uint64_t before = bins_.empty() ? 0 : bins_.back().cumulative;
   if (steps_ % width_ == 0) bins_.push_back({steps_, 0, frame, 0, 0});
   EventBin& bin = bins_.back();
@@ -22,9 +22,9 @@ void EventCourse::add(std::uint64_t events, std::size_t frame) {
   bin.cumulative = before + events;
 }
 
-void Displacements::add_frame(Eigen::Matrix3Xd centers, std::size_t number) {
+void Displacements::add_frame(Eigen::Matrix3Xd centers, const FrameStamp& stamp) {
   if (last_.cols() > 0) {
-    if (steps_ % width_ == 0) bins_.push_back({number_, 0, 0, 0});
+    if (steps_ % width_ == 0) bins_.push_back({last_stamp_, 0, 0, 0});
     Bin& bin = bins_.back();
     const Eigen::VectorXd moved = (centers - last_).colwise().norm();
     ++steps_;
@@ -33,7 +33,7 @@ void Displacements::add_frame(Eigen::Matrix3Xd centers, std::size_t number) {
     bin.most = std::max(bin.most, moved.maxCoeff());
   }
   last_ = std::move(centers);
-  number_ = number;
+  last_stamp_ = stamp;
 }
 
 EventPlaces::EventPlaces(const Session& session, const Scene& scene)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kds/event_log.h"
+#include "motions/frames/frame_stamp.h"
 #include "motions/scene/scene.h"
 #include "structures/necklace/necklace_tree.h"
 #include "structures/session/session.h"
@@ -17,7 +18,7 @@ namespace kds {
 
 struct EventBin {
   std::size_t first_step = 0, steps = 0;
-  std::size_t first_frame = 0;   ///< number in the file of the bin's first frame
+  FrameStamp first_frame;        ///< the bin's first frame
   std::uint64_t events = 0;      ///< in the bin
   std::uint64_t cumulative = 0;  ///< up to the end of the bin
 };
@@ -33,8 +34,8 @@ class EventCourse {
   /// `width` is the number of steps in a bin.
   explicit EventCourse(std::size_t width = 1) : width_(width) {}
 
-  /// Adds the next step, which begins at the frame with this number in the file.
-  void add(std::uint64_t events, std::size_t frame);
+  /// Adds the next step, which begins at this frame.
+  void add(std::uint64_t events, const FrameStamp& frame);
   [[nodiscard]] std::size_t steps() const { return steps_; }
   [[nodiscard]] std::size_t width() const { return width_; }
   [[nodiscard]] const std::vector<EventBin>& bins() const { return bins_; }
@@ -49,7 +50,7 @@ class EventCourse {
 class Displacements {
  public:
   struct Bin {
-    std::size_t first_frame = 0;  ///< number in the file of the bin's first frame
+    FrameStamp first_frame;  ///< the bin's first frame
     std::size_t steps = 0;
     double sum_of_means = 0;  ///< sum over the steps of the beads' mean displacement
     double most = 0;          ///< largest displacement of a bead in a step
@@ -60,14 +61,15 @@ class Displacements {
   /// `width` is the number of steps in a bin.
   explicit Displacements(std::size_t width) : width_(width) {}
 
-  /// Adds the next frame and its number in the file. Each frame has the same number of beads.
-  void add_frame(Eigen::Matrix3Xd centers, std::size_t number);
+  /// Adds the next frame. Each frame has the same number of beads.
+  void add_frame(Eigen::Matrix3Xd centers, const FrameStamp& stamp);
   [[nodiscard]] std::size_t width() const { return width_; }
   [[nodiscard]] const std::vector<Bin>& bins() const { return bins_; }
 
  private:
   std::size_t width_ = 1;
-  std::size_t steps_ = 0, number_ = 0;
+  std::size_t steps_ = 0;
+  FrameStamp last_stamp_;
   Eigen::Matrix3Xd last_;
   std::vector<Bin> bins_;
 };

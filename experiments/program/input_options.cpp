@@ -179,25 +179,18 @@ const Option<InputOptions>& obstacle_option() {
   return option;
 }
 
-const Option<InputOptions>& groups_option() {
-  static const Option<InputOptions> option = [] {
-    Option<InputOptions> groups(
-        {"--groups", "SEL1 SEL2",
-         "contacts: one bead of a pair must be in SEL1 and the other in SEL2, each as "
-         "--select takes it, among the beads that are read (default: all pairs)",
-         2});
-    groups.read_values = [](InputOptions& o, const std::vector<std::string>& texts) {
-      for (const std::string& text : texts) o.reading.groups.push_back(parse_selection("--groups", text));
-    };
-    groups.values = [](const InputOptions& o) {
-      std::vector<std::string> texts;
-      for (const Selection& group : o.reading.groups) texts.push_back(group.text());
-      return texts;
-    };
-    groups.text = [values = groups.values](const InputOptions& o) { return shell_words(values(o)); };
-    return groups;
-  }();
-  return option;
+Option<InputOptions> groups_option(std::string_view help) {
+  Option<InputOptions> groups({"--groups", "SEL1 SEL2", help, 2});
+  groups.read_values = [](InputOptions& o, const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) o.reading.groups.push_back(parse_selection("--groups", text));
+  };
+  groups.values = [](const InputOptions& o) {
+    std::vector<std::string> texts;
+    for (const Selection& group : o.reading.groups) texts.push_back(group.text());
+    return texts;
+  };
+  groups.text = [values = groups.values](const InputOptions& o) { return shell_words(values(o)); };
+  return groups;
 }
 
 void take_inputs(const ParsedArguments& parsed, std::string_view command, InputOptions& options) {
@@ -251,6 +244,8 @@ Json input_json(const InputOptions& options, const InputSize& size, double radiu
   json["truncated"] = size.truncated;
   json["radius_min"] = radius_min;
   json["radius_max"] = radius_max;
+  if (size.picoseconds)
+    json["picoseconds"] = std::vector<double>(size.picoseconds->begin(), size.picoseconds->end());
   return json;
 }
 

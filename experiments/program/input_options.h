@@ -2,6 +2,7 @@
 // The options that all trajectory-reading commands share: input files, selected beads, selected frames and
 // radii. Also the option for the project's data folder, from which some commands take their inputs.
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 #include "experiments/output/result_json.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/option.h"
+#include "motions/frames/frame_stamp.h"
 #include "motions/readers/read_trajectory.h"
 
 namespace kds {
@@ -43,8 +45,11 @@ struct InputOptions {
 [[nodiscard]] const OptionList<InputOptions>& input_options();
 /// Returns the option --obstacle, for commands that put all inputs on one clock.
 [[nodiscard]] const Option<InputOptions>& obstacle_option();
-/// Returns the option --groups, for commands that follow contacts.
-[[nodiscard]] const Option<InputOptions>& groups_option();
+/// Returns the option --groups, for commands that look at pairs of beads. `help` must outlive the option.
+[[nodiscard]] Option<InputOptions> groups_option(std::string_view help =
+                                                     "contacts: one bead of a pair must be in SEL1 and the "
+                                                     "other in SEL2, each as --select takes it, among "
+                                                     "the beads that are read (default: all pairs)");
 inline constexpr std::string_view kInputOperand = "INPUT...";
 /// Adds the operand INPUT... to a command. Its help lists the formats of the reader registry, and instance
 /// files if the command takes them.
@@ -74,7 +79,14 @@ struct InputSize {
   std::size_t frames = 0;
   int dimension = 3;
   bool truncated = false;  ///< frames are missing at the end (FrameSource::is_truncated)
+  std::optional<std::array<double, 2>> picoseconds = {};  ///< of the first and the last frame
 };
+/// Returns the times of the first and the last frame, or nothing unless both have one.
+[[nodiscard]] inline std::optional<std::array<double, 2>> times_of(const FrameStamp& first,
+                                                                   const FrameStamp& last) {
+  if (!first.picoseconds || !last.picoseconds) return std::nullopt;
+  return std::array<double, 2>{*first.picoseconds, *last.picoseconds};
+}
 /// Returns the files, the size, and the least and largest radius of an input.
 [[nodiscard]] Json input_json(const InputOptions& options, const InputSize& size, double radius_min,
                               double radius_max);

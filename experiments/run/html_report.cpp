@@ -12,6 +12,7 @@
 
 #include "certificates/base/kernel.h"
 #include "experiments/events/event_places.h"
+#include "experiments/events/frame_axis.h"
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
@@ -282,10 +283,22 @@ std::string table(const RunReport& report) {
 }
 
 // Returns the frame at which a bin ends.
-double end_of(const RunReport& report, const std::vector<EventBin>& bins, std::size_t b) {
-  if (b + 1 < bins.size()) return static_cast<double>(bins[b + 1].first_frame);
-  return static_cast<double>(report.last_frame ? report.last_frame->number
-                                               : bins[b].first_frame + bins[b].steps);
+FrameStamp end_of(const RunReport& report, const std::vector<EventBin>& bins, std::size_t b) {
+  if (b + 1 < bins.size()) return bins[b + 1].first_frame;
+  return report.last_frame.value_or(FrameStamp{bins[b].first_frame.number + bins[b].steps, std::nullopt});
+}
+
+// Returns the axis of the frames at which the bins of the structures begin and end.
+FrameAxis axis_of(const RunReport& report) {
+  std::vector<FrameStamp> frames;
+  for (const StructureReport& structure : report.structures) {  // all have the same bins
+    const std::vector<EventBin>& bins = structure.course.bins();
+    if (bins.empty()) continue;
+    for (const EventBin& bin : bins) frames.push_back(bin.first_frame);
+    frames.push_back(end_of(report, bins, bins.size() - 1));
+    break;
+  }
+  return FrameAxis(frames);
 }
 
 std::string over_steps(std::size_t width) {
@@ -301,17 +314,18 @@ std::string of_steps(std::size_t width) {
 
 std::string plots_over_time(const RunReport& report) {
   std::size_t width = 1;
-  LinePlot rate{"frame", "events per step", Drawn::staircase, {}};
-  LinePlot sum{"frame", "events so far", Drawn::line, {}};
+  const FrameAxis axis = axis_of(report);
+  LinePlot rate{axis.label(), "events per step", Drawn::staircase, {}};
+  LinePlot sum{axis.label(), "events so far", Drawn::line, {}};
   for (const StructureReport& structure : report.structures) {
     const std::vector<EventBin>& bins = structure.course.bins();
     width = std::max(width, structure.course.width());
     Curve per_step{structure.name, {}}, so_far{structure.name, {}};
-    so_far.points.emplace_back(bins.empty() ? 0.0 : static_cast<double>(bins.front().first_frame), 0.0);
+    so_far.points.emplace_back(bins.empty() ? 0.0 : axis.place(bins.front().first_frame), 0.0);
     for (std::size_t b = 0; b < bins.size(); ++b) {
       const double mean = static_cast<double>(bins[b].events) / static_cast<double>(bins[b].steps);
-      const double end = end_of(report, bins, b);
-      per_step.points.emplace_back(static_cast<double>(bins[b].first_frame), mean);
+      const double end = axis.place(end_of(report, bins, b));
+      per_step.points.emplace_back(axis.place(bins[b].first_frame), mean);
       if (b + 1 == bins.size()) per_step.points.emplace_back(end, mean);
       so_far.points.emplace_back(end, static_cast<double>(bins[b].cumulative));
     }
@@ -330,10 +344,13 @@ std::string plots_over_time(const RunReport& report) {
 std::string plot_of_displacement(const RunReport& report) {
   const auto& bins = report.displacement.bins();
   if (bins.size() < 2) return "";
+  std::vector<FrameStamp> frames;
+  for (const Displacements::Bin& bin : bins) frames.push_back(bin.first_frame);
+  const FrameAxis axis(frames);
   LinePlot plot{
-      "frame", "displacement", Drawn::staircase, {{"mean of the beads", {}}, {"farthest bead", {}}}};
+      axis.label(), "displacement", Drawn::staircase, {{"mean of the beads", {}}, {"farthest bead", {}}}};
   for (const Displacements::Bin& bin : bins) {
-    const auto x = static_cast<double>(bin.first_frame);
+    const double x = axis.place(bin.first_frame);
     plot.curves[0].points.emplace_back(x, bin.mean());
     plot.curves[1].points.emplace_back(x, bin.most);
   }

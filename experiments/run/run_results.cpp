@@ -80,7 +80,7 @@ void RunResults::add_frame(std::size_t frame, const Session& session) {
       if (file != nullptr) file->add_built(session);
   }
   if (dumps_) dumps_->write(frame, session.dump(frame));
-  if (scene_ != nullptr) displacement_.add_frame(scene_->centers(frame), scene_->frame_number(frame));
+  if (scene_ != nullptr) displacement_.add_frame(scene_->centers(frame), scene_->stamp(frame));
 }
 
 void RunResults::add_step(const FrameStamp& frame, std::string_view structure, std::uint64_t events) {

@@ -151,7 +151,7 @@ void StepCounts::end_step(std::size_t step, RunResults* results) {
     std::vector<std::uint64_t>& events_per_step = structure.statistics.events_per_step;
     const std::uint64_t events = events_per_step.empty() ? 0 : events_per_step.back();
     events_per_step.clear();
-    courses_[s].add(events, stamp.number);
+    courses_[s].add(events, stamp);
     if (results != nullptr) results->add_step(stamp, structure.name(), events);
   }
 }

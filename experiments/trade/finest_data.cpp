@@ -12,6 +12,7 @@
 #include "motions/scene/radii.h"
 #include "motions/scene/straightened_frames.h"
 #include "structures/collision/auto_detector.h"
+#include "structures/collision/brute_force.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/enclosing_sphere/integer_balls.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
@@ -54,6 +55,9 @@ TradeInput FinestData::input() const {
   const auto knows_elements = [](const Trajectory& necklace) {
     return necklace.element_radii.size() == necklace.bead_count();
   };
+  std::vector<NecklaceBeads> beads;
+  for (const Trajectory& necklace : necklaces_) beads.push_back(beads_of(necklace));
+  BeadGroups groups = bead_groups(beads);
   return {frames_,
           static_cast<BeadId>(radii_.size()),
           necklaces_.size(),
@@ -61,7 +65,10 @@ TradeInput FinestData::input() const {
           calpha_ ? static_cast<BeadId>(calpha_->bead.size()) : 0,
           calpha_ ? calpha_->largest_residue() : 0,
           calpha_ ? calpha_->covering_radius : 0,
-          std::all_of(necklaces_.begin(), necklaces_.end(), knows_elements)};
+          std::all_of(necklaces_.begin(), necklaces_.end(), knows_elements),
+          false,
+          {},
+          std::move(groups)};
 }
 
 std::vector<double> FinestData::radii_of(const TradeSetting& setting) const {
@@ -105,10 +112,9 @@ template <int Dimension>
 class TruthIn final : public Truth {
  public:
   TruthIn(const Scene& finest, const PairsAsked& asked)
-      : scene_(finest),
-        motion_(make_scene_motion(finest)),
-        hierarchy_(finest.necklaces()),
-        detector_(asked) {}
+      : scene_(finest), motion_(make_scene_motion(finest)), hierarchy_(finest.necklaces()), asked_(asked) {
+    if (asked.groups.empty()) detector_.emplace(asked);
+  }
 
   void move_to(std::size_t time) override {
     const std::size_t step = std::min(time / parts_of_frame, scene_.step_count() - 1);
@@ -165,7 +171,8 @@ class TruthIn final : public Truth {
   }
 
   [[nodiscard]] std::optional<double> closest_distance(const Eigen::Matrix3Xd& positions) override {
-    const auto closest = detector_.closest_pair(Balls<Dimension>(positions, scene_.radii()));
+    const Balls<Dimension> balls(positions, scene_.radii());
+    const auto closest = detector_ ? detector_->closest_pair(balls) : closest_pair_by_force(balls, asked_);
     return closest ? std::optional(closest->distance) : std::nullopt;
   }
 
@@ -204,7 +211,8 @@ class TruthIn final : public Truth {
   const Scene& scene_;
   std::unique_ptr<SceneMotion> motion_;
   StaticWrappedHierarchy<Dimension> hierarchy_;
-  AutoDetector<Dimension> detector_;
+  PairsAsked asked_;
+  std::optional<AutoDetector<Dimension>> detector_;  // empty if there are groups, which it does not take
   std::optional<std::size_t> step_;
   Dyadic time_;
   Eigen::Matrix3Xd positions_;

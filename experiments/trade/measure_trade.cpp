@@ -137,7 +137,8 @@ std::vector<TradeRow> measure_trade(const FinestData& finest, const TradeTask& t
   }
   const Scene truest = finest.scene();
   const double largest = *std::max_element(finest.radii().begin(), finest.radii().end());
-  const std::unique_ptr<Truth> truth = make_truth(truest, {truest.necklaces(), true, task.apart, true});
+  const std::unique_ptr<Truth> truth =
+      make_truth(truest, {truest.necklaces(), true, task.apart, true, input.groups});
   std::vector<TradeRow> all;
   for (const TradeGroup& group : groups) {
     std::vector<TradeRow> rows;

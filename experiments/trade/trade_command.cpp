@@ -119,6 +119,8 @@ void refuse_needless_options(const ParsedArguments& parsed, const std::vector<Wa
   };
   if (parsed.value("--apart") && !wanted({Want::contacts, Want::events, Want::scenes}))
     throw InputError("--apart: applies only to contacts; expected contacts, events or scenes in --want");
+  if (parsed.has("--groups") && !wanted({Want::contacts, Want::events, Want::scenes}))
+    throw InputError("--groups: applies only to contacts; expected contacts, events or scenes in --want");
   if (parsed.has("--without-exact") && wants == std::vector{Want::scenes})
     throw InputError("--without-exact: scenes are run with one kernel; expected another word in --want");
   if (parsed.value("--cutoff") && !wanted({Want::diagram, Want::events}))
@@ -132,6 +134,10 @@ const OptionList<TradeOptions>& trade_options() {
       OptionList<O>()
           .with(input_options())
           .with(&O::task, task_options())
+          .with(OptionList<InputOptions>({groups_option(
+              "contacts: one bead of a pair must be in SEL1 and the other in SEL2, each as --select takes "
+              "it, "
+              "among the beads that are read; leaves out settings with --select ca (default: all pairs)")}))
           .with(destination_options("write trade.json, trade.csv and report.html to DIR (default: none)",
                                     "write the rows to FILE; - is standard output (default: none)",
                                     "print no table and no progress bar; the bar counts runs: one of each "
@@ -241,15 +247,17 @@ int trade_command(const Arguments& arguments) {
   const bool no_contacts = std::ranges::any_of(rows, [](const TradeRow& row) {
     return row.want == Want::contacts && row.is_exact && row.cost.events == 0;
   });
-  if (no_contacts && options.radius == "auto")
+  if (no_contacts && options.radius == "auto" && options.reading.groups.empty())
     if (const auto hint = radius_hint(finest.scene(), task.apart)) command.warn()(*hint);
 
   Json json;
-  json["input"] = input_json(options,
-                             {.frames = finest.frame_count(),
-                              .dimension = finest.scene().dimension(),
-                              .truncated = finest.scene().is_truncated()},
-                             finest.radii());
+  json["input"] = input_json(
+      options,
+      {.frames = finest.frame_count(),
+       .dimension = finest.scene().dimension(),
+       .truncated = finest.scene().is_truncated(),
+       .picoseconds = times_of(finest.scene().stamp(0), finest.scene().stamp(finest.frame_count() - 1))},
+      finest.radii());
   json["settings"] = trade_options().settings_json(options);
   json["rows"] = trade_rows_json(rows);
   json["recommendation"] = recommendation(rows);

@@ -260,7 +260,9 @@ std::vector<TradeSetting> scenes(const TradeInput& input, BeadId apart) {
 
 }  // namespace
 
-std::vector<TradeGroup> groups_for(Want want, const TradeInput& input, BeadId apart) {
+namespace {
+
+std::vector<TradeGroup> groups_without_selection(Want want, const TradeInput& input, BeadId apart) {
   switch (want) {
     case Want::contacts:
       return {{want, contacts(input, apart)}};
@@ -278,6 +280,19 @@ std::vector<TradeGroup> groups_for(Want want, const TradeInput& input, BeadId ap
       return {{want, scenes(input, apart)}};
   }
   return {};
+}
+
+}  // namespace
+
+std::vector<TradeGroup> groups_for(Want want, const TradeInput& input, BeadId apart) {
+  if (input.groups.empty() || want == Want::cages || want == Want::diagram)
+    return groups_without_selection(want, input, apart);
+  TradeInput of_all_atoms = input;
+  of_all_atoms.residues = 0;  // the groups may have no CA
+  std::vector<TradeGroup> groups = groups_without_selection(want, of_all_atoms, apart);
+  for (TradeGroup& group : groups)
+    for (TradeSetting& setting : group.settings) setting.settings.groups = input.groups;
+  return groups;
 }
 
 }  // namespace kds

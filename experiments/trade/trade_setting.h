@@ -75,9 +75,10 @@ struct TradeInput {
   bool has_element_radii = false;  ///< whether the radii of the elements are known
   bool exact_kernel = false;       ///< whether the exact kernel is one of the levers
   FrameRange range{};              ///< --frames
+  BeadGroups groups{};             ///< of contacts, as in PairsAsked; empty: pairs of any beads
 };
 
-/// Returns the groups of settings. `apart` applies to contacts.
+/// Returns the groups of settings. `apart` and the input's groups of beads apply to contacts.
 [[nodiscard]] std::vector<TradeGroup> groups_for(Want want, const TradeInput& input, BeadId apart);
 
 }  // namespace kds

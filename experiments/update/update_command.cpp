@@ -272,10 +272,12 @@ int update_command(const Arguments& arguments) {
 
   const Scene scene = scene_at(1, FrameMotion::linear);
   Json json;
-  json["input"] = input_json(
-      options,
-      {.frames = scene.frame_count(), .dimension = scene.dimension(), .truncated = scene.is_truncated()},
-      scene.radii());
+  json["input"] = input_json(options,
+                             {.frames = scene.frame_count(),
+                              .dimension = scene.dimension(),
+                              .truncated = scene.is_truncated(),
+                              .picoseconds = times_of(scene.stamp(0), scene.stamp(scene.frame_count() - 1))},
+                             scene.radii());
   json["settings"] = update_options().settings_json(options);
   json["rows"] = update_columns().json(rows);
   json["warnings"] = command.warnings();

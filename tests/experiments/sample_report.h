@@ -10,7 +10,7 @@ namespace kds::test {
 /// Starts at frame 0.
 inline EventCourse course_of(std::initializer_list<std::uint64_t> events) {
   EventCourse course;
-  for (const std::uint64_t count : events) course.add(count, course.steps());
+  for (const std::uint64_t count : events) course.add(count, {course.steps(), {}});
   return course;
 }
 

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
 
 #include "experiments/collide/collide_command.h"
 #include "experiments/collide/compare_detectors.h"
@@ -206,7 +209,7 @@ TEST(Collide, OfATrajectoryWithPlots) {
   EXPECT_THAT(frames, HasSubstr("\n36,true,"));
   const std::string page = content_of(directory / "out/report.html");
   expect_sound(page);
-  for (const char* plot : {"by bead", "closest distance by frame", "overlap by 0."})
+  for (const char* plot : {"by bead", "closest distance by ", "overlap by 0."})
     EXPECT_THAT(page, HasSubstr(plot));
   EXPECT_THAT(page, Not(HasSubstr("class=\"curve\"")));  // ten frames are drawn as marks, not as a line
   // Another command must not overwrite the page.
@@ -270,16 +273,121 @@ std::unique_ptr<Detector<Dimension>> make_wrong(const CollisionQuery&) {
 }
 
 TEST(Collide, BruteForceRefusesWhatTakesMinutes) {
-  const auto refusal_of = [](std::size_t beads) {
-    const CollisionQuery query{{{{0, static_cast<BeadId>(beads - 1)}}, true, 2, true}};
+  const auto refusal_of = [](std::size_t beads, BeadGroups groups = {}) {
+    const CollisionQuery query{{{{0, static_cast<BeadId>(beads - 1)}}, true, 2, true, std::move(groups)}};
     const Balls<3> balls(Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(beads)),
                          std::vector<double>(beads, 1.0));
     return collision_methods().front().make<3>(query)->refusal(balls);
   };
-  EXPECT_FALSE(refusal_of(300'000));
-  ASSERT_TRUE(refusal_of(300'001));
-  EXPECT_THAT(*refusal_of(300'001),
-              HasSubstr("looks at all pairs of 300001 beads; expected 300000 beads or fewer"));
+  EXPECT_FALSE(refusal_of(300'001));
+  ASSERT_TRUE(refusal_of(300'002));
+  EXPECT_THAT(*refusal_of(300'002),
+              HasSubstr("looks at 45,000,150,000 pairs of beads; expected 45,000,000,000"));
+  // Only pairs between the groups count.
+  BeadGroups groups(300'002, 2);
+  for (std::size_t b = 0; b < 1000; ++b) groups[b] = 1;
+  EXPECT_FALSE(refusal_of(300'002, groups));
+}
+
+const std::string kVillin = data_file("trajectories/villin_hp36_300K.dcd");
+const std::string kVillinPdb = data_file("trajectories/villin_hp36_300K.pdb");
+
+std::vector<std::string> lines_of(const std::filesystem::path& file) {
+  std::vector<std::string> lines;
+  std::istringstream text(content_of(file));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
+// The pairs of a run with groups are those of a run without that join the groups. The beads are N, CA, C of
+// the residues 41 to 76.
+TEST(Collide, GroupsLeaveTheirPairs) {
+  const ScratchDirectory directory;
+  const auto run = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> arguments{
+        "collide", kVillin,   "--topology", kVillinPdb, "--frames", ":12:4", "--radius",
+        "1.9",     "--apart", "4",          "--rounds", "1",        "--out", (directory / name).string(),
+        "--json",  "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun done = run_program(arguments);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return done;
+  };
+  const std::vector<std::string> groups{"--groups", "//A/-60", "45-/N"};
+  static_cast<void>(run("all", {"--within", "1"}));
+  std::vector<std::string> within = groups;
+  within.insert(within.end(), {"--within", "1"});
+  const ProgramRun some = run("some", within);
+  std::vector<std::string> expected = lines_of(directory / "all/pairs.csv");
+  const std::size_t all = expected.size();
+  std::erase_if(expected, [](const std::string& line) {
+    int frame = 0, i = 0, j = 0;
+    if (std::sscanf(line.c_str(), "%d,%d,%d", &frame, &i, &j) != 3) return false;  // the header
+    const auto first = [](int bead) { return 41 + bead / 3 <= 60; };
+    const auto second = [](int bead) { return bead % 3 == 0 && 41 + bead / 3 >= 45; };
+    return !(first(i) && second(j)) && !(first(j) && second(i));
+  });
+  EXPECT_GT(expected.size(), 5U);
+  EXPECT_LT(expected.size(), all / 2);
+  EXPECT_EQ(lines_of(directory / "some/pairs.csv"), expected);
+  const Json json = Json::parse(some.out);
+  EXPECT_EQ(json["settings"]["groups"], "//A/-60 45-/N");
+  ASSERT_EQ(json["rows"].size(), 2U);
+  EXPECT_EQ(json["rows"][0]["method"], "brute");
+  EXPECT_EQ(json["rows"][1]["method"], "cells");
+  EXPECT_EQ(json["rows"][0]["pairs"], expected.size() - 1);
+  EXPECT_FALSE(json["rows"][0]["closest"].is_null());
+  for (const char* method : {"wrapped", "layered", "power", "auto"})
+    EXPECT_THAT(some.err,
+                HasSubstr(std::string("--method ") + method +
+                          " is left out: it looks at all pairs, not at --groups; expected brute or cells"));
+  const ProgramRun refused = run_program({"collide", kVillin, "--topology", kVillinPdb, "--frames", ":3",
+                                          "--method", "auto", "--groups", "ca", "all"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.err,
+            "kds: --method auto: it looks at all pairs, not at --groups; expected brute or cells\n");
+  const ProgramRun none =
+      run_program({"collide", kVillin, "--topology", kVillinPdb, "--frames", ":3", "--groups", "ca", "//B"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, HasSubstr("--groups: '//B' chooses none of the beads that are read"));
+}
+
+TEST(Collide, TimesStandInAllResults) {
+  const ScratchDirectory directory;
+  const auto run = [&](const std::string& name, std::vector<std::string> more) {
+    std::vector<std::string> arguments{
+        "collide", opening_square(directory),  "--radius", "1", "--method", "brute",
+        "--out",   (directory / name).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun done = run_program(arguments);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return done.out;
+  };
+  EXPECT_THAT(run("timed", {"--dt", "2.5"}), HasSubstr("in frame 2 (5 ps), distance -0.5"));
+  EXPECT_THAT(lines_of(directory / "timed/pairs.csv"),
+              ElementsAre("frame,i,j,distance,name_i,name_j,picoseconds", "0,0,3,0,\"\",\"\",0",
+                          "2,0,3,-0.5,\"\",\"\",5"));
+  const std::vector<std::string> frames = lines_of(directory / "timed/frames.csv");
+  EXPECT_EQ(frames[0], "frame,collide,pairs,i,j,distance,picoseconds");
+  EXPECT_EQ(frames[1], "0,true,1,0,3,0,0");
+  EXPECT_EQ(frames[3], "2,true,1,0,3,-0.5,5");
+  EXPECT_THAT(lines_of(directory / "timed/collide.csv")[0], testing::EndsWith(",picoseconds"));
+  EXPECT_THAT(lines_of(directory / "timed/collide.csv")[1], testing::EndsWith(",5"));
+  const Json timed = Json::parse(content_of(directory / "timed/collide.json"));
+  EXPECT_EQ(timed["input"]["picoseconds"], Json({0.0, 5.0}));
+  EXPECT_EQ(timed["rows"][0]["closest"]["picoseconds"], 5);
+  EXPECT_EQ(timed["frames"][1]["picoseconds"], 2.5);
+  EXPECT_THAT(content_of(directory / "timed/report.html"),
+              HasSubstr("closest distance by time in picoseconds"));
+
+  EXPECT_THAT(run("plain", {}), HasSubstr("in frame 2, distance -0.5"));
+  EXPECT_EQ(lines_of(directory / "plain/pairs.csv")[0], "frame,i,j,distance,name_i,name_j");
+  EXPECT_EQ(lines_of(directory / "plain/frames.csv")[0], "frame,collide,pairs,i,j,distance");
+  const Json plain = Json::parse(content_of(directory / "plain/collide.json"));
+  EXPECT_FALSE(plain["input"].contains("picoseconds"));
+  EXPECT_FALSE(plain["rows"][0]["closest"].contains("picoseconds"));
+  EXPECT_FALSE(plain["frames"][1].contains("picoseconds"));
+  EXPECT_THAT(content_of(directory / "plain/report.html"), HasSubstr("closest distance by frame"));
 }
 
 TEST(Collide, MethodsThatDisagreeAreAnInternalFailure) {

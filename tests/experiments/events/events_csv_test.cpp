@@ -48,13 +48,13 @@ TEST(EventsCsv, IsAHeaderWithoutSteps) {
 
 TEST(EventBins, HoldEveryStepOnce) {
   EventCourse course(2);
-  for (const std::uint64_t events : {1U, 2U, 3U, 4U, 5U}) course.add(events, 10 * course.steps());
+  for (const std::uint64_t events : {1U, 2U, 3U, 4U, 5U}) course.add(events, {10 * course.steps(), {}});
   EXPECT_EQ(course.steps(), 5U);
   const auto& bins = course.bins();
   ASSERT_EQ(bins.size(), 3U);
   EXPECT_EQ(bins[0].events, 3U);
   EXPECT_EQ(bins[1].first_step, 2U);
-  EXPECT_EQ(bins[1].first_frame, 20U);
+  EXPECT_EQ(bins[1].first_frame.number, 20U);
   EXPECT_EQ(bins[1].cumulative, 10U);
   EXPECT_EQ(bins[2].steps, 1U);
   EXPECT_EQ(bins[2].events, 5U);

@@ -73,12 +73,12 @@ TEST(HtmlReport, PlacesAndDisplacementsWhereTheyAreKnown) {
   for (const double x : {0.0, 1.0, 4.0}) {
     Eigen::Matrix3Xd frame = Eigen::Matrix3Xd::Zero(3, 2);
     frame(0, 1) = x;
-    report.displacement.add_frame(frame, report.displacement.bins().size() + 10);
+    report.displacement.add_frame(frame, {report.displacement.bins().size() + 10, {}});
   }
   EXPECT_EQ(report.displacement.width(), 1U);
   EXPECT_THAT(html_report(report), Not(HasSubstr("the largest value in any of them")));
   ASSERT_EQ(report.displacement.bins().size(), 2U);
-  EXPECT_EQ(report.displacement.bins()[1].first_frame, 10U);
+  EXPECT_EQ(report.displacement.bins()[1].first_frame.number, 10U);
   EXPECT_EQ(report.displacement.bins()[1].most, 3);
   EXPECT_EQ(report.displacement.bins()[1].mean(), 1.5);
   const std::string html = html_report(report);
@@ -91,12 +91,42 @@ TEST(HtmlReport, PlacesAndDisplacementsWhereTheyAreKnown) {
   EXPECT_THAT(html_report(report), HasSubstr("bead 2, C of ALA 59\nwrapped: 5"));
 }
 
+// Axes show times if all frames have them in ascending order.
+TEST(HtmlReport, AxesShowTimesWhereTheyAreKnown) {
+  const auto html_with = [](const std::vector<std::optional<double>>& times) {
+    RunReport report = test::sample_report();
+    for (StructureReport& structure : report.structures) structure.course = EventCourse();
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const FrameStamp stamp{100 + k, times[k]};
+      report.displacement.add_frame(Eigen::Matrix3Xd::Constant(3, 2, static_cast<double>(k)), stamp);
+      if (k == 0) report.first_frame = stamp;
+      report.last_frame = stamp;
+      if (k + 1 == times.size()) break;
+      for (StructureReport& structure : report.structures) structure.course.add(1, stamp);
+    }
+    return html_report(report);
+  };
+  const std::string timed = html_with({2.5, 7.5, 12.5, 17.5});
+  expect_sound(timed);
+  EXPECT_EQ(count_of(timed, ">time in picoseconds<"), 6U);  // three plots, wide and narrow
+  EXPECT_EQ(count_of(timed, ">frame<"), 0U);
+  EXPECT_THAT(timed, HasSubstr("17.5"));
+  EXPECT_THAT(timed, Not(HasSubstr("102")));
+  for (const std::vector<std::optional<double>>& times :
+       {std::vector<std::optional<double>>{{}, {}, {}, {}}, {2.5, {}, 12.5, 17.5}, {2.5, 7.5, 7.5, 17.5}}) {
+    const std::string numbered = html_with(times);
+    EXPECT_EQ(count_of(numbered, ">time in picoseconds<"), 0U);
+    EXPECT_EQ(count_of(numbered, ">frame<"), 6U);
+    EXPECT_THAT(numbered, HasSubstr("102"));
+  }
+}
+
 // The farthest displacement in a bin is not labelled as a mean.
 TEST(HtmlReport, BinsOfDisplacementsSayWhatTheyAre) {
   RunReport report = test::sample_report();
   report.displacement = Displacements(2);
   for (std::size_t k = 0; k < 5; ++k)
-    report.displacement.add_frame(Eigen::Matrix3Xd::Constant(3, 2, static_cast<double>(k * k)), k);
+    report.displacement.add_frame(Eigen::Matrix3Xd::Constant(3, 2, static_cast<double>(k * k)), {k, {}});
   ASSERT_EQ(report.displacement.bins().size(), 2U);
   EXPECT_THAT(html_report(report), HasSubstr("for 2 steps: the mean over these steps, and for the farthest "
                                              "bead the largest value in any of them"));

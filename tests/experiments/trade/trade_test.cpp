@@ -231,6 +231,49 @@ TEST(Trade, CalphaErrsByAnUnknownShareWithoutTrueContacts) {
   EXPECT_EQ(row.errors.contacts_spurious, 1.0);
 }
 
+// The exact run of contacts has the events of kds run with the same groups.
+TEST(Trade, GroupsChoosePairsOfContacts) {
+  const std::vector<std::string> input{data_file("trajectories/villin_hp36_300K.dcd"),
+                                       "--topology",
+                                       data_file("trajectories/villin_hp36_300K.pdb"),
+                                       "--frames",
+                                       ":6",
+                                       "--radius",
+                                       "1.9",
+                                       "--apart",
+                                       "4",
+                                       "--json",
+                                       "-"};
+  const auto json_of = [&](const std::string& command, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{command};
+    arguments.insert(arguments.end(), input.begin(), input.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.code == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
+  };
+  const std::vector<std::string> groups{"--groups", "//A/-60", "45-/N"};
+  std::vector<std::string> run_options{"--structures", "contacts"};
+  std::vector<std::string> trade_options{"--want",  "contacts", "--without-exact", "--rounds", "1",
+                                         "--times", "3"};
+  const auto all = json_of("trade", trade_options);
+  for (auto* const options : {&run_options, &trade_options})
+    options->insert(options->end(), groups.begin(), groups.end());
+  const auto run = json_of("run", run_options), trade = json_of("trade", trade_options);
+  const auto& exact = trade["rows"][0];
+  EXPECT_GT(exact["cost"]["events"], 0);
+  EXPECT_EQ(exact["cost"]["events"], run["structures"]["contacts"]["events"]["total"]);
+  EXPECT_LT(exact["cost"]["events"], all["rows"][0]["cost"]["events"]);
+  EXPECT_EQ(exact["error"]["contacts_missed"], 0);
+  EXPECT_EQ(exact["error"]["closest_distance"], 0);
+  EXPECT_EQ(trade["settings"]["groups"], "//A/-60 45-/N");
+  EXPECT_NE(all["rows"].dump().find("\"ca\""), std::string::npos);
+  EXPECT_EQ(trade["rows"].dump().find("\"ca\""), std::string::npos);
+  std::vector<std::string> refused{"trade", input[0], input[1], input[2], "--want", "cages"};
+  refused.insert(refused.end(), groups.begin(), groups.end());
+  expect_refused(refused, {"--groups: it chooses pairs of contacts", "--want"});
+}
+
 TEST(Trade, LeavesOutWhatCannotBeCertifiedAndSaysSo) {
   Trajectory chain;
   Eigen::Matrix3Xd frame = Eigen::Matrix3Xd::Random(3, 6) * 1e171;
