@@ -271,7 +271,7 @@ TEST(Trade, GroupsChoosePairsOfContacts) {
   EXPECT_EQ(trade["rows"].dump().find("\"ca\""), std::string::npos);
   std::vector<std::string> refused{"trade", input[0], input[1], input[2], "--want", "cages"};
   refused.insert(refused.end(), groups.begin(), groups.end());
-  expect_refused(refused, {"--groups: it chooses pairs of contacts", "--want"});
+  expect_refused(refused, {"--groups: applies only to contacts", "--want"});
 }
 
 TEST(Trade, LeavesOutWhatCannotBeCertifiedAndSaysSo) {
