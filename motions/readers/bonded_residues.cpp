@@ -16,12 +16,9 @@ void BondedResidues::add(std::size_t one, std::size_t other) {
 }
 
 void tell_polymers(std::vector<StructureResidue>& residues) {
-  const auto in_one_molecule = [](const StructureResidue& a, const StructureResidue& b) {
-    return a.chain == b.chain && a.molecule == b.molecule;
-  };
   for (std::size_t begin = 0, end = 0; begin < residues.size(); begin = end) {
     bool is_polymer = false;
-    for (end = begin; end < residues.size() && in_one_molecule(residues[end], residues[begin]); ++end)
+    for (end = begin; end < residues.size() && residues[end].molecule == residues[begin].molecule; ++end)
       is_polymer = is_polymer || is_tabulated_monomer(residues[end].name);
     for (std::size_t i = begin; is_polymer && i < end; ++i) residues[i].entity = Entity::polymer;
   }

@@ -24,8 +24,8 @@ class BondedResidues {
   std::vector<bool> bonded_;
 };
 
-/// Counts residues of no known kind (caps such as ACE and NME) to the polymer of their molecule. The residues
-/// of a molecule must be consecutive.
+/// Counts residues of no known kind (caps such as ACE and NME) to the polymer of their molecule. Each
+/// molecule must have a name of its own and consecutive residues.
 void tell_polymers(std::vector<StructureResidue>& residues);
 
 }  // namespace kds
