@@ -18,6 +18,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 using Json = nlohmann::ordered_json;
+using Strings = std::vector<std::string>;
 
 // Frame k of four beads that move along x, at height y.
 std::string frame_at(double y, int k) {
@@ -62,9 +63,9 @@ TEST(DamagedInputs, AllInputsEndWithTheDamagedOne) {
   for (const auto& command : {kRun, kCollide, kTrade}) {
     const ProgramRun expected = run_with(command, {three, other});
     ASSERT_EQ(expected.code, 0) << expected.err;
-    for (const std::vector<std::string>& inputs : {std::vector{whole, damaged, "--until-damage"},
-                                                   {whole, truncated},
-                                                   {whole, truncated, "--until-damage"}}) {
+    for (const Strings& inputs : {Strings{whole, damaged, "--until-damage"},
+                                  {whole, truncated},
+                                  {whole, truncated, "--until-damage"}}) {
       SCOPED_TRACE(command.front() + " " + inputs[1]);
       const ProgramRun run = run_with(command, inputs);
       ASSERT_EQ(run.code, 0) << run.err;
@@ -96,9 +97,8 @@ TEST(DamagedInputs, DamageBehindTheFirstFrame) {
   const std::string damaged = scratch.file("damaged.xyz", damaged_behind(2, 1)),
                     truncated = scratch.file("truncated.xyz", truncated_behind(2, 1)),
                     worse = scratch.file("worse.xyz", damaged_behind(2, 0));
-  for (const std::vector<std::string>& inputs : {std::vector{whole, damaged, "--until-damage"},
-                                                 {damaged, whole, "--until-damage"},
-                                                 {whole, truncated}}) {
+  for (const Strings& inputs :
+       {Strings{whole, damaged, "--until-damage"}, {damaged, whole, "--until-damage"}, {whole, truncated}}) {
     SCOPED_TRACE(inputs[1]);
     const ProgramRun run = run_with(kCollide, inputs);
     ASSERT_EQ(run.code, 0) << run.err;
@@ -107,7 +107,7 @@ TEST(DamagedInputs, DamageBehindTheFirstFrame) {
     const ProgramRun steps = run_with(kRun, inputs);
     EXPECT_EQ(steps.code, 2) << steps.err;
   }
-  for (const std::vector<std::string>& inputs : {std::vector{whole, worse}, {worse, whole}})
+  for (const Strings& inputs : {Strings{whole, worse}, {worse, whole}})
     expect_refused({"run", inputs[0], inputs[1], "--until-damage"}, {"worse.xyz:", "frame 0"});
   for (const std::string& obstacle : {damaged, truncated})
     expect_refused({"run", whole, "--obstacle", obstacle, "--until-damage", "--quiet"},

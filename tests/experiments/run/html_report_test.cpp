@@ -156,7 +156,7 @@ TEST(HtmlReport, LongRunsStaySmall) {
   constexpr std::size_t steps = 300000;
   for (StructureReport& structure : report.structures) {
     structure.course = EventCourse(bin_width(steps, EventCourse::most_bins));
-    for (std::size_t step = 0; step < steps; ++step) structure.course.add(1000000, step);
+    for (std::size_t step = 0; step < steps; ++step) structure.course.add(1000000, {step, {}});
   }
   const std::string html = html_report(report);
   EXPECT_LT(html.size(), 500000U);
