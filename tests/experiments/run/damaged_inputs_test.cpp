@@ -85,7 +85,7 @@ TEST(DamagedInputs, AllInputsEndWithTheDamagedOne) {
     ASSERT_EQ(beside.code, 0) << beside.err;
     EXPECT_EQ(Json::parse(beside.out)["input"]["frames"], 3);
   }
-  expect_refused({"run", whole, damaged}, {"damaged.xyz:", "frame 3"});
+  expect_refused({"run", whole, damaged}, {"damaged.xyz:24: expected a coordinate"});
   expect_refused({"run", whole, three}, {"3 frames, but", "6"});
   expect_refused({"run", scratch.file("two.xyz", frames_at(4, 2)), whole, truncated}, {"2 frames, but", "3"});
 }
@@ -108,7 +108,7 @@ TEST(DamagedInputs, DamageBehindTheFirstFrame) {
     EXPECT_EQ(steps.code, 2) << steps.err;
   }
   for (const Strings& inputs : {Strings{whole, worse}, {worse, whole}})
-    expect_refused({"run", inputs[0], inputs[1], "--until-damage"}, {"worse.xyz:", "frame 0"});
+    expect_refused({"run", inputs[0], inputs[1], "--until-damage"}, {"worse.xyz:6: expected a coordinate"});
   for (const std::string& obstacle : {damaged, truncated})
     expect_refused({"run", whole, "--obstacle", obstacle, "--until-damage", "--quiet"},
                    {"--obstacle", "several frames, expected one"});
