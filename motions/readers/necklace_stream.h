@@ -41,7 +41,7 @@ class NecklaceStream {
   void rewind();
   /// Returns whether consecutive beads are meant to be bonded.
   [[nodiscard]] bool chain_like() const { return opened_.chain_like; }
-  /// Returns whether the file has only one frame. A file that is truncated or damaged behind its first frame
+  /// Returns whether the file has only one frame. A file that is truncated or damaged after its first frame
   /// had more. Starts again with the first frame.
   [[nodiscard]] bool holds_one_frame();
   /// Returns the warnings about a necklace. The warnings are complete once all frames have been read.

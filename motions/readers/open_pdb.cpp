@@ -142,7 +142,7 @@ class PdbModels : public StructureModels {
       throw InputError(
           fmt::format("{}: the file ends inside its only model (after {} bytes): its last line may be cut "
                       "off, expected a "
-                      "line end behind it",
+                      "line end after it",
                       file_, held_.end));
     if (reader_.lacks_end() && held_.whole == 1 && !held_.ends_inside)
       notes_.emplace_back("MODEL begins its only model and no ENDMDL ends it; the file may be cut off");

@@ -118,7 +118,7 @@ bool PdbModelReader::is_cut_off(std::string_view line, const Run& run) const {
   if (is_atom(line))
     return line.size() < coordinates_end ||
            (run.shortest != std::string_view::npos && line.size() < run.shortest);
-  // Bonds and sums stand behind all atoms.
+  // Bonds and sums stand after all atoms.
   constexpr std::array<std::string_view, 6> behind_atoms{"MODEL", "ENDMDL", "END", "TER", "CONECT", "MASTER"};
   return std::none_of(behind_atoms.begin(), behind_atoms.end(),
                       [&](std::string_view name) { return is_record(line, name); });

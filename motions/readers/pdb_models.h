@@ -52,7 +52,7 @@ class PdbModelReader {
   [[nodiscard]] FramesHeld held() const;
   /// Returns the atoms outside of models in the part of the file read so far.
   [[nodiscard]] const LinesLeftOut& outside() const { return outside_; }
-  /// Returns whether the last model read begins with MODEL and the file ends without ENDMDL or END behind it.
+  /// Returns whether the last model read begins with MODEL and the file ends without ENDMDL or END after it.
   [[nodiscard]] bool lacks_end() const { return ended_ && ended_with_record_; }
   /// Returns the largest number of models that a record NUMMDL announces, 0 if there is none.
   [[nodiscard]] std::size_t announced() const { return announced_; }

@@ -69,11 +69,11 @@ class Prmtop {
         form = FieldForm::of(trimmed(line.substr(7)));
         if (section != nullptr && !form) throw refuse("a format as in %FORMAT(20a4)", line);
       } else if (section != nullptr && !line.starts_with("%COMMENT")) {
-        if (!form) throw refuse("%FORMAT behind %FLAG", line);
+        if (!form) throw refuse("%FORMAT after %FLAG", line);
         if (lines_.cut() && line.size() % form->width != 0)
           throw InputError(
               fmt::format("{}:{}: the file ends inside section {}: its last value may be cut off, expected a "
-                          "line end behind it",
+                          "line end after it",
                           lines_.name(), lines_.number(), section_name));
         take_fields(line, *form, section->fields);
       }

@@ -128,11 +128,11 @@ class PsfFile {
   InputError refuse_cut_line() const {
     return InputError(fmt::format(
         "{}:{}: the file ends inside this line: its last number may be cut off, expected a line end "
-        "behind it",
+        "after it",
         lines_.name(), lines_.number()));
   }
 
-  // Continues behind the line of a section, as !NATOM, and returns its number. Returns nothing if the file
+  // Continues after the line of a section, as !NATOM, and returns its number. Returns nothing if the file
   // has no such line.
   std::optional<std::size_t> find_count(std::string_view section, std::size_t least) {
     for (std::string_view line; lines_.next(line);) {
@@ -190,7 +190,7 @@ class PsfFile {
   std::optional<BondedResidues> read_bonds(const PsfForm& form, std::vector<std::string>& notes) {
     const std::optional<std::size_t> bonds = find_count("!NBOND", 0);
     if (!bonds) {
-      notes.emplace_back("no section !NBOND: molecules are not told apart; the file may be cut off");
+      notes.emplace_back("no section !NBOND: molecules are not distinguished; the file may be cut off");
       return std::nullopt;
     }
     if (*bonds == 0) return std::nullopt;
@@ -199,7 +199,7 @@ class PsfFile {
     std::size_t read = 0;
     for (std::string_view line; read < *bonds;) {
       if (!lines_.next(line) || trimmed(line).empty() || line.find('!') != std::string_view::npos)
-        throw InputError(fmt::format("{}:{}: the section !NBOND ends behind bond {} of {}", lines_.name(),
+        throw InputError(fmt::format("{}:{}: the section !NBOND ends after bond {} of {}", lines_.name(),
                                      lines_.number(), read, *bonds));
       for (const std::string_view field : form.numbers_in(line)) {
         const auto atom = parse_count(field);

@@ -158,7 +158,7 @@ TEST(Psf, BondsTellMoleculesApart) {
   std::string text = psf(atoms);
   text.erase(text.find("       0 !NBOND"));
   EXPECT_THAT(read("a.psf", text, 20, {.chain = "P1"})[0].warnings,
-              Contains(HasSubstr("no section !NBOND: molecules are not told apart")));
+              Contains(HasSubstr("no section !NBOND: molecules are not distinguished")));
 }
 
 // Numbers of eight digits fill the columns of a standard file and touch.
@@ -175,7 +175,7 @@ TEST(Psf, ListsOfBondsThatAreNoneAreRefused) {
   refuse(text, "       5       6", "       5       9", "numbers of atoms from 1 to 8 in bond 4 of 7");
   refuse(text, "       5       6", "       5       0", "found '0'");
   refuse(text, "       5       6", "1234567812345678", "found '12345678'");
-  refuse(text, "       7 !NBOND", "       8 !NBOND", "the section !NBOND ends behind bond 7 of 8");
+  refuse(text, "       7 !NBOND", "       8 !NBOND", "the section !NBOND ends after bond 7 of 8");
   refuse(text, "       7 !NBOND", "       6 !NBOND", "expected 6 bonds");
   refuse(text, "       7 !NBOND", "       x !NBOND", "the number of bonds before !NBOND");
 }
