@@ -1,10 +1,10 @@
 #pragma once
 // Kinetic tournament tree: keeps the contestant that is ahead of all others while the contestants move. The
-// contestants are the leaves of a balanced binary tree. Every inner node stores the winner of its two
-// children and one certificate, which states that the winner is ahead of the loser. So the root's winner is
-// ahead of all others. When a certificate fails, the loser wins at this node, and the contests above it are
-// updated as far as their winners change. There are n - 1 certificates, and at most one on each level names a
-// given contestant.
+// contestants are the leaves of a binary tree. Every inner node stores the winner of its two children and one
+// certificate, which states that the winner is ahead of the loser. So each node's winner is ahead of all
+// contestants below the node. When a certificate fails, the loser wins at this node, and the contests above
+// it are updated as far as their winners change. There are n - 1 certificates in a tree of n contestants, and
+// at most one on each level names a given contestant.
 //
 // Contestants may be absent: the opponent of an absent contestant wins without a certificate. A contestant
 // that is inserted, erased or changes course during a step costs at most the contests on one path to the
@@ -16,6 +16,7 @@
 #include <bit>
 #include <concepts>
 #include <cstdint>
+#include <ranges>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -25,33 +26,68 @@
 
 namespace kds {
 
+/// The tree of a tournament over any number of contestants: node 1 is the root, nodes 2i and 2i + 1 are the
+/// children of i, and the leaves follow the inner nodes. Other trees have the same members, but resize. In
+/// each tree, children have higher numbers than their parents.
+class CompleteTree {
+ public:
+  static constexpr std::uint32_t root = 1;
+  static constexpr std::uint32_t none = 0;  ///< the parent of a root
+
+  void resize(std::uint32_t contestants) { contestants_ = contestants; }
+
+  /// Returns a number above those of all nodes.
+  [[nodiscard]] std::size_t end() const { return 2 * std::size_t{contestants_}; }
+  /// Returns a number above those of the inner nodes.
+  [[nodiscard]] std::uint32_t inner_end() const { return contestants_; }
+  [[nodiscard]] std::ranges::iota_view<std::uint32_t, std::uint32_t> inner_nodes() const {
+    return {1, std::max(1U, contestants_)};
+  }
+  [[nodiscard]] std::uint32_t leaf(std::uint32_t contestant) const { return contestants_ + contestant; }
+  [[nodiscard]] std::uint32_t parent(std::uint32_t node) const { return node / 2; }
+  [[nodiscard]] std::uint32_t left(std::uint32_t node) const { return 2 * node; }
+  [[nodiscard]] std::uint32_t right(std::uint32_t node) const { return 2 * node + 1; }
+
+  /// Calls `visit` with groups of inner nodes that do not contain each other, children before their parents.
+  template <class Visit>
+  void each_level(Visit visit) const {
+    if (contestants_ < 2) return;
+    for (std::uint32_t first = std::bit_floor(contestants_ - 1); first > 0; first /= 2)
+      visit(std::ranges::iota_view(first, std::min(2 * first, contestants_)));
+  }
+
+ private:
+  std::uint32_t contestants_ = 0;
+};
+
 /// `Ahead` takes two contestants, numbered from 0, and makes the certificate that holds while the first is
-/// ahead.
-template <std::invocable<std::uint32_t, std::uint32_t> Ahead>
+/// ahead. `Tree` may be a forest, whose roots have winners of their own. `Table` holds the certificates, like
+/// a CertificateTable.
+template <std::invocable<std::uint32_t, std::uint32_t> Ahead, class Tree = CompleteTree,
+          class Table = CertificateTable<std::invoke_result_t<const Ahead&, std::uint32_t, std::uint32_t>>>
 class Tournament {
  public:
-  using Certificate = std::invoke_result_t<const Ahead&, std::uint32_t, std::uint32_t>;
-
   static constexpr std::uint32_t none = 0xffffffffU;
 
   /// Several tournaments may share a table: the places of this one are `which`, `which` + `of`, ...
-  Tournament(CertificateTable<Certificate>& table, Ahead ahead, std::uint32_t which = 0, std::uint32_t of = 1)
-      : table_(table), ahead_(std::move(ahead)), which_(which), of_(of) {}
+  Tournament(Table& table, Ahead ahead, std::uint32_t which = 0, std::uint32_t of = 1, Tree tree = {})
+      : table_(table), ahead_(std::move(ahead)), which_(which), of_(of), tree_(std::move(tree)) {}
 
   /// Starts the tournament at the start of a step, or within it after give_up_all. The contestants are 0 ...
   /// contestants-1, except those marked in `absent`, if any are marked.
   void start(std::uint32_t contestants, std::span<const char> absent = {}) {
-    contestants_ = contestants;
-    winner_.resize(2 * std::size_t{contestants});
+    if constexpr (requires { tree_.resize(contestants); }) tree_.resize(contestants);
+    winner_.resize(tree_.end());
     for (std::uint32_t i = 0; i < contestants; ++i) set_present(i, i >= absent.size() || absent[i] == 0);
-    guards_.assign(contestants, CertificateHandle::violated);
-    if (contestants < 2) return;
-    for (std::uint32_t first = std::bit_floor(contestants - 1); first > 0; first /= 2)
-      hold_contests(first, std::min(2 * first, contestants));
+    guards_.assign(tree_.inner_end(), CertificateHandle::violated);
+    tree_.each_level([this](const auto& nodes) { hold_contests(nodes); });
   }
 
-  /// Returns the winner, or `none` if all contestants are absent. There must be at least one contestant.
-  [[nodiscard]] std::uint32_t winner() const { return winner_[1]; }
+  /// Returns the winner of the whole tree, or `none` if all contestants are absent. There must be at least
+  /// one contestant.
+  [[nodiscard]] std::uint32_t winner() const { return winner_[Tree::root]; }
+  /// Returns the winner among the contestants below a node, or `none` if all of them are absent.
+  [[nodiscard]] std::uint32_t winner(std::uint32_t node) const { return winner_[node]; }
 
   /// The contest at a place of the table.
   struct Contest {
@@ -69,8 +105,8 @@ class Tournament {
     guards_[node] = watch(node, KnownAtStart::at_own_root);
     std::uint32_t before = 0;
     do {
-      node /= 2;
-      if (node == 0) return;
+      node = tree_.parent(node);
+      if (node == Tree::none) return;
       before = winner_[node];
       hold_contest(node);
     } while (winner_[node] != before);
@@ -80,21 +116,22 @@ class Tournament {
   // their curves change; then hold_again holds these contests again.
 
   void give_up(std::uint32_t contestant) {
-    for (std::uint32_t node = (contestants_ + contestant) / 2; node > 0; node /= 2) {
+    for (std::uint32_t node = tree_.parent(tree_.leaf(contestant)); node != Tree::none;
+         node = tree_.parent(node)) {
       drop(node);
       given_up_.push_back(node);
       if (winner_[node] != contestant) return;
     }
   }
   void give_up_all() {
-    for (std::uint32_t node = 1; node < contestants_; ++node) drop(node);
+    for (const std::uint32_t node : tree_.inner_nodes()) drop(node);
   }
   void set_present(std::uint32_t contestant, bool present) {
-    winner_[contestants_ + contestant] = present ? contestant : none;
+    winner_[tree_.leaf(contestant)] = present ? contestant : none;
   }
   void hold_again() {
     std::make_heap(given_up_.begin(), given_up_.end());
-    std::uint32_t held = 0;
+    std::uint32_t held = none;
     while (!given_up_.empty()) {  // children before parents
       std::pop_heap(given_up_.begin(), given_up_.end());
       const std::uint32_t node = given_up_.back();
@@ -103,8 +140,8 @@ class Tournament {
       held = node;
       const std::uint32_t before = winner_[node];
       hold_contest(node);
-      if (winner_[node] == before || node == 1) continue;
-      given_up_.push_back(node / 2);
+      if (winner_[node] == before || tree_.parent(node) == Tree::none) continue;
+      given_up_.push_back(tree_.parent(node));
       std::push_heap(given_up_.begin(), given_up_.end());
     }
   }
@@ -112,15 +149,14 @@ class Tournament {
   /// Calls `visit` with the two contestants of every contest.
   template <std::invocable<std::uint32_t, std::uint32_t> Visit>
   void each_contest(Visit visit) const {
-    for (std::uint32_t node = 1; node < contestants_; ++node)
+    for (const std::uint32_t node : tree_.inner_nodes())
       if (loser(node) != none) visit(left(node), right(node));
   }
 
  private:
-  // Node 1 is the root, nodes 2i and 2i + 1 are the children of i, and the leaves follow the inner nodes.
-
-  [[nodiscard]] std::uint32_t left(std::uint32_t node) const { return winner_[2 * std::size_t{node}]; }
-  [[nodiscard]] std::uint32_t right(std::uint32_t node) const { return winner_[2 * std::size_t{node} + 1]; }
+  // The winners of a node's children.
+  [[nodiscard]] std::uint32_t left(std::uint32_t node) const { return winner_[tree_.left(node)]; }
+  [[nodiscard]] std::uint32_t right(std::uint32_t node) const { return winner_[tree_.right(node)]; }
   /// Returns the loser, or `none` if the winner is unopposed.
   [[nodiscard]] std::uint32_t loser(std::uint32_t node) const {
     return winner_[node] == left(node) ? right(node) : left(node);
@@ -162,22 +198,22 @@ class Tournament {
   }
 
   /// Holds the contests of nodes on one level, all at once.
-  void hold_contests(std::uint32_t first, std::uint32_t end) {
-    for (std::uint32_t node = first; node < end; ++node) {
+  void hold_contests(const auto& nodes) {
+    for (const std::uint32_t node : nodes) {
       enter_contest(node);
       if (const std::uint32_t second = loser(node); second != none)
         table_.enqueue_one_of_many(ahead_(winner_[node], second), node * of_ + which_, KnownAtStart::unknown);
     }
     table_.watch_enqueued(
         [&](std::uint32_t place, CertificateHandle guard) { guards_[place / of_] = guard; });
-    for (std::uint32_t node = first; node < end; ++node)
+    for (const std::uint32_t node : nodes)
       if (!stands(node) && loser(node) != none) turn(node);
   }
 
-  CertificateTable<Certificate>& table_;
+  Table& table_;
   Ahead ahead_;
   std::uint32_t which_, of_;
-  std::uint32_t contestants_ = 0;
+  Tree tree_;
   std::vector<std::uint32_t> winner_;      // for each node
   std::vector<CertificateHandle> guards_;  // for each inner node's contest; violated: no guard
   std::vector<std::uint32_t> given_up_;    // nodes whose contests must be held again
