@@ -1,7 +1,8 @@
-// Beads are inserted, erased and change course in the enclosing box, the closest pair and the convex hull on
-// one clock: at rational times, at the irrational times of events, and at times with many simultaneous
-// events. There are two slow references: the same structures, built on the present beads and their current
-// curves and run from the start to that time; and brute force on the exact positions a moment later.
+// Beads are inserted, erased and change course in the enclosing box, the closest pair, the convex hull and
+// the hierarchy of boxes on one clock: at rational times, at the irrational times of events, and at times
+// with many simultaneous events. There are two slow references: the same structures, built on the present
+// beads and their current curves and run from the start to that time; and brute force on the exact positions
+// a moment later.
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,7 @@
 #include "certificates/exact/exact_time.h"
 #include "structures/box/enclosing_box.h"
 #include "structures/closest/kinetic_closest_pair.h"
+#include "structures/hierarchy/box_hierarchy.h"
 #include "structures/hull/convex_hull.h"
 #include "tests/support/inputs/courses.h"
 #include "tests/support/inputs/moving_beads.h"
@@ -84,6 +86,38 @@ Beads corners_of(const ExactPoints& at, const Beads& present) {
   return corners;
 }
 
+/// The radius of a bead, which only the boxes use.
+double radius_of(BeadId bead) { return 0.25 * (bead % 3); }
+
+/// Finds the supports of all nodes and sides from exact positions, as the balls' reach along each direction
+/// says; among balls that tie, the least bead counts.
+template <int D>
+Beads supports_of(const BoxHierarchy<D>& boxes, const ExactPoints& at, const Beads& present) {
+  Beads supports;
+  for (const BeadRange& range : boxes.tree().ranges())
+    for (std::uint32_t side = 0; side < boxes.side_count(); ++side) {
+      const SlabDirection& direction = boxes.directions()[side / 2];
+      BeadId support = no_bead;
+      for (const BeadId b : present) {
+        if (b < range.first || range.last < b) continue;
+        if (support == no_bead) {
+          support = b;
+          continue;
+        }
+        Rational along = 0;
+        for (std::size_t axis = 0; axis < D; ++axis)
+          along += (side % 2 == 0 ? -1 : 1) * direction.steps[axis] * (at[b][axis] - at[support][axis]);
+        const Rational larger = Rational(radius_of(b)) - radius_of(support);
+        const Rational of_radii = direction.square() * larger * larger;
+        const bool is_further =
+            larger >= 0 ? along > 0 || along * along < of_radii : along > 0 && along * along > of_radii;
+        if (is_further) support = b;
+      }
+      supports.push_back(support);
+    }
+  return supports;
+}
+
 /// A structure, its answer, and the expected answer.
 struct Subject {
   KineticStructure* structure;
@@ -100,8 +134,8 @@ struct Subject {
 };
 
 struct None {
-  template <class M>
-  None(Simulator&, const M&) {}
+  template <class M, class... Extra>
+  None(Simulator&, const M&, const Extra&...) {}
 };
 
 /// All structures that exist in the dimension.
@@ -109,7 +143,12 @@ template <int D>
 struct Structures {
   template <class M>
   Structures(Simulator& simulator, const M& motion)
-      : box(simulator, motion), closest(simulator, motion), hull(simulator, motion) {
+      : box(simulator, motion),
+        closest(simulator, motion),
+        hull(simulator, motion),
+        boxes(simulator, motion,
+              std::array<BeadRange, 2>{{{0, 2}, {3, static_cast<BeadId>(motion.bead_count() - 1)}}},
+              Radii::any, D == 3 ? 7 : 4) {
     all.push_back({&box, &box, [this] { return box.ends(); },
                    [](const ExactPoints& at, const Beads& present) { return ends_of(at, present, D); }});
     if constexpr (D > 1) {
@@ -118,12 +157,24 @@ struct Structures {
       };
       all.push_back({&closest, &closest, pair, closest_of});
     }
+    if constexpr (D > 1) {
+      const auto supports = [this] {
+        Beads of_nodes;
+        for (NodeId node = 0; node < boxes.tree().node_count(); ++node)
+          of_nodes.insert(of_nodes.end(), boxes.supports(node).begin(), boxes.supports(node).end());
+        return of_nodes;
+      };
+      all.push_back({&boxes, &boxes, supports, [this](const ExactPoints& at, const Beads& present) {
+                       return supports_of<D>(boxes, at, present);
+                     }});
+    }
     if constexpr (D == 2) all.push_back({&hull, &hull, [this] { return hull.corners(); }, corners_of});
   }
 
   EnclosingBox<D> box;
   std::conditional_t<(D > 1), KineticClosestPair<std::max(D, 2)>, None> closest;
   std::conditional_t<D == 2, ConvexHull, None> hull;
+  std::conditional_t<(D > 1), BoxHierarchy<std::max(D, 2)>, None> boxes;
   std::vector<Subject> all;
 };
 
@@ -154,7 +205,10 @@ class EditedRun {
         simulator_(kernel == Kernel::fast ? AuditMode::none : AuditMode::events, kernel),
         structures_(simulator_, motion_) {
     simulator_.listen(history_);
-    for (BeadId b = 0; b < motion_.bead_count(); ++b) set_curve(motion_, b, random_, places_);
+    for (BeadId b = 0; b < motion_.bead_count(); ++b) {
+      for (int k = 0; k <= M::degree; ++k) motion_.set_radius(b, k, radius_of(b));
+      set_curve(motion_, b, random_, places_);
+    }
     first_ = motion_;
     leave_out_ = seed % 3 == 0 ? motion_.bead_count() : 2;
     leave_some_out(structures_);
