@@ -17,6 +17,7 @@
 #include "structures/collision/cell_list.h"
 #include "structures/collision/diagram_collision.h"
 #include "structures/collision/hierarchy_search.h"
+#include "structures/hierarchy/box_hierarchy.h"
 #include "structures/necklace/pairs_in_question.h"
 
 namespace kds {
@@ -90,6 +91,31 @@ using Wrapped = BySpheres<Dimension, Hierarchy::wrapped>;
 template <int Dimension>
 using Layered = BySpheres<Dimension, Hierarchy::layered>;
 
+/// Axis-aligned boxes, or k-DOPs with all directions.
+template <int Dimension, bool all_directions>
+class ByBoxes : public Detector<Dimension> {
+ public:
+  explicit ByBoxes(const CollisionQuery& query)
+      : query_(query), tree_(query.asked.necklaces, all_directions ? most_directions() : Dimension) {}
+  void detect(const Balls<Dimension>& balls, Detection& found) override {
+    tree_.build(balls);
+    PairsFound result = find_pairs(tree_, balls, query_.asked, query_.distance);
+    found.collide = !result.pairs.empty();
+    found.pairs = std::move(result.pairs);
+    found.family = result.family;
+  }
+
+ private:
+  static int most_directions() { return box_direction_counts<Dimension>().back(); }
+
+  CollisionQuery query_;
+  BoxTree<Dimension> tree_;
+};
+template <int Dimension>
+using Boxes = ByBoxes<Dimension, false>;
+template <int Dimension>
+using Polytopes = ByBoxes<Dimension, true>;
+
 template <int Dimension>
 class ByDiagram final : public Detector<Dimension> {
  public:
@@ -151,6 +177,8 @@ constexpr std::array kMethods{
     method<BruteForce>("brute", "all pairs of beads", true),
     method<Wrapped>("wrapped", "hierarchy of minimum enclosing spheres"),
     method<Layered>("layered", "hierarchy of spheres around spheres"),
+    method<Boxes>("boxes", "hierarchy of axis-aligned boxes"),
+    method<Polytopes>("k-dops", "hierarchy of polytopes with 13 directions, 4 in the plane"),
     method<ByDiagram>("power", "power diagram"),
     method<Cells>("cells", "cell list", true),
     method<Auto>("auto", "blocks, and near pairs kept from frame to frame"),

@@ -163,16 +163,15 @@ class Stack {
   std::size_t size_ = 0;
 };
 
-template <int Dimension>
-bool splits_first(const TreeSphere<Dimension>& a, const TreeSphere<Dimension>& b) {
+template <class Node>
+bool splits_first(const Node& a, const Node& b) {
   return a.bead_count() >= b.bead_count();
 }
 
 // Calls search(root, root, apart) for the trees and pairs of trees asked about.
-template <int Dimension, class Search>
-void for_each_root(const SphereTree<Dimension>& tree, const PairsAsked& asked, const Search& search) {
-  refuse_groups(asked, "a hierarchy of spheres");
-  const auto roots = tree.roots();
+template <class Search>
+void for_each_root(std::span<const std::uint32_t> roots, const PairsAsked& asked, const Search& search) {
+  refuse_groups(asked, "a hierarchy of spheres or boxes");
   for (std::size_t n = 0; n < roots.size(); ++n) {
     if (asked.within) search(NodePair{roots[n], roots[n]}, asked.apart);
     for (std::size_t m = n + 1; asked.between && m < roots.size(); ++m)
@@ -180,24 +179,21 @@ void for_each_root(const SphereTree<Dimension>& tree, const PairsAsked& asked, c
   }
 }
 
-// Finds the pairs of beads that are at most `distance` apart, and calls apart(pair) for the pairs of nodes
-// that are farther apart.
-template <int Dimension, class Apart>
-PairsFound search(const SphereTree<Dimension>& tree, const PairsAsked& asked, double distance,
-                  const Apart& apart) {
+enum class Verdict : std::uint8_t { apart, near, unknown };
+
+// Finds the pairs of beads that are near, and calls apart(pair) for the pairs of nodes that are apart.
+// `judge` takes two nodes and knows the verdict for two beads at least.
+template <class Node, class Judge, class Apart>
+PairsFound search(std::span<const Node> nodes, std::span<const std::uint32_t> roots, const PairsAsked& asked,
+                  const Judge& judge, const Apart& apart) {
   const FloatingPointGuard to_nearest;
   PairsFound found;
-  const auto leave = [&](const NodePair& pair) {
-    ++found.family;
-    apart(pair);
-  };
-  const TreeSphere<Dimension>* const spheres = tree.spheres().data();
-  for_each_root(tree, asked, [&](const NodePair& roots, BeadId least_apart) {
+  for_each_root(roots, asked, [&](const NodePair& of_roots, BeadId least_apart) {
     Stack<NodePair> stack;
-    stack.push(roots);
+    stack.push(of_roots);
     while (!stack.empty()) {
       const NodePair pair = stack.pop();
-      const TreeSphere<Dimension>&a = spheres[pair.first], &b = spheres[pair.second];
+      const Node &a = nodes[pair.first], &b = nodes[pair.second];
       if (b.last - a.first < least_apart) continue;
       if (pair.first == pair.second) {
         stack.push({a.left, a.right});
@@ -205,19 +201,12 @@ PairsFound search(const SphereTree<Dimension>& tree, const PairsAsked& asked, do
         stack.push({a.left, a.left});
         continue;
       }
-      const Point<Dimension> d = detail::minus(a.center, b.center);
-      const double square = detail::dot(d, d), reach = a.radius + b.radius + distance;
-      if (surely_apart(square, reach)) {
-        leave(pair);
-      } else if (a.is_bead() && b.is_bead()) {
-        const bool is_near = surely_within(square, reach) ||
-                             compare_separation(in_space<Dimension>(a.center), in_space<Dimension>(b.center),
-                                                a.radius, b.radius, distance) <= 0;
-        if (is_near) {
-          found.pairs.push_back({a.first, b.first});
-        } else {
-          leave(pair);
-        }
+      const Verdict verdict = judge(pair);
+      if (verdict == Verdict::apart) {
+        ++found.family;
+        apart(pair);
+      } else if (verdict == Verdict::near) {
+        found.pairs.push_back({a.first, b.first});
       } else if (splits_first(a, b)) {
         stack.push({a.right, pair.second});
         stack.push({a.left, pair.second});
@@ -229,6 +218,25 @@ PairsFound search(const SphereTree<Dimension>& tree, const PairsAsked& asked, do
   });
   std::sort(found.pairs.begin(), found.pairs.end());
   return found;
+}
+
+// Finds the pairs of beads that are at most `distance` apart.
+template <int Dimension, class Apart>
+PairsFound search(const SphereTree<Dimension>& tree, const PairsAsked& asked, double distance,
+                  const Apart& apart) {
+  const std::span<const TreeSphere<Dimension>> spheres = tree.spheres();
+  const auto judge = [&](const NodePair& pair) {
+    const TreeSphere<Dimension>&a = spheres[pair.first], &b = spheres[pair.second];
+    const Point<Dimension> d = detail::minus(a.center, b.center);
+    const double square = detail::dot(d, d), reach = a.radius + b.radius + distance;
+    if (surely_apart(square, reach)) return Verdict::apart;
+    if (!a.is_bead() || !b.is_bead()) return Verdict::unknown;
+    const bool is_near = surely_within(square, reach) ||
+                         compare_separation(in_space<Dimension>(a.center), in_space<Dimension>(b.center),
+                                            a.radius, b.radius, distance) <= 0;
+    return is_near ? Verdict::near : Verdict::apart;
+  };
+  return search(spheres, tree.roots(), asked, judge, apart);
 }
 
 // A pair of nodes and a lower bound of the distance of their beads.
@@ -278,6 +286,30 @@ PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked
 }
 
 template <int Dimension>
+PairsFound find_pairs(const BoxTree<Dimension>& tree, const Balls<Dimension>& balls, const PairsAsked& asked,
+                      double distance, std::vector<SeparatingFamily::Pair>* family) {
+  if (family != nullptr) family->clear();
+  const auto center = [&](BeadId bead) {
+    Eigen::Vector3d c = Eigen::Vector3d::Zero();
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+      c[static_cast<Eigen::Index>(axis)] = balls.coordinate(bead, axis);
+    return c;
+  };
+  const std::span<const TreeBox> nodes = tree.nodes();
+  const auto judge = [&](const NodePair& pair) {
+    if (tree.are_apart(pair.first, pair.second, distance)) return Verdict::apart;
+    const TreeBox &a = nodes[pair.first], &b = nodes[pair.second];
+    if (!a.is_bead() || !b.is_bead()) return Verdict::unknown;
+    const int sign = compare_separation(center(a.first), center(b.first), balls.radius(a.first),
+                                        balls.radius(b.first), distance);
+    return sign <= 0 ? Verdict::near : Verdict::apart;
+  };
+  return search(nodes, tree.roots(), asked, judge, [&](const NodePair& pair) {
+    if (family != nullptr) family->push_back({pair.first, pair.second});
+  });
+}
+
+template <int Dimension>
 std::optional<ClosestPair> find_closest_pair(const SphereTree<Dimension>& tree, const Balls<Dimension>& balls,
                                              const PairsAsked& asked) {
   const FloatingPointGuard to_nearest;
@@ -286,7 +318,7 @@ std::optional<ClosestPair> find_closest_pair(const SphereTree<Dimension>& tree, 
     for (const auto& [first, last] : asked.necklaces)
       for (BeadId b = first; last - b >= asked.apart && b <= last; ++b) closest.offer(b, b + asked.apart);
   const auto spheres = tree.spheres();
-  for_each_root(tree, asked, [&](const NodePair& roots, BeadId least_apart) {
+  for_each_root(tree.roots(), asked, [&](const NodePair& roots, BeadId least_apart) {
     Stack<BoundedPair> stack;
     stack.push(bounded(tree, roots.first, roots.second));
     while (!stack.empty()) {
@@ -316,6 +348,10 @@ template PairsFound find_pairs(const SphereTree<2>&, const PairsAsked&, double);
 template PairsFound find_pairs(const SphereTree<3>&, const PairsAsked&, double);
 template PairsFound find_pairs(const SphereTree<2>&, const PairsAsked&, SeparatingFamily&);
 template PairsFound find_pairs(const SphereTree<3>&, const PairsAsked&, SeparatingFamily&);
+template PairsFound find_pairs(const BoxTree<2>&, const Balls<2>&, const PairsAsked&, double,
+                               std::vector<SeparatingFamily::Pair>*);
+template PairsFound find_pairs(const BoxTree<3>&, const Balls<3>&, const PairsAsked&, double,
+                               std::vector<SeparatingFamily::Pair>*);
 template std::optional<ClosestPair> find_closest_pair(const SphereTree<2>&, const Balls<2>&,
                                                       const PairsAsked&);
 template std::optional<ClosestPair> find_closest_pair(const SphereTree<3>&, const Balls<3>&,

@@ -1,6 +1,6 @@
 #pragma once
-// Collision by a hierarchy of spheres (Agarwal et al., figure 6), within necklaces and between them. The
-// search starts at the roots. If the spheres of two nodes are not disjoint, the node with more beads is
+// Collision by a hierarchy of spheres or boxes (Agarwal et al., figure 6), within necklaces and between them.
+// The search starts at the roots. If the spheres of two nodes are not disjoint, the node with more beads is
 // split. Pairs of single beads are decided exactly. The pairs of disjoint spheres form the separating family.
 // For the wrapped hierarchy of a proper necklace, it has O(n log n) pairs in the plane and O(n^(4/3)) in
 // space (Theorem 3.1).
@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "structures/collision/box_tree.h"
 #include "structures/collision/closest_pair.h"
 #include "structures/collision/sphere_tree.h"
 #include "structures/necklace/balls.h"
@@ -71,6 +72,14 @@ template <int Dimension>
 template <int Dimension>
 [[nodiscard]] PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked,
                                     SeparatingFamily& family);
+
+/// Returns all pairs asked for whose closed balls are at most `distance` apart, by the same search over
+/// boxes. The separating family has pairs of nodes with a direction along which they are farther apart.
+/// `balls` are those of the boxes. Writes the family, if it is asked for, as pairs of nodes of the tree.
+template <int Dimension>
+[[nodiscard]] PairsFound find_pairs(const BoxTree<Dimension>& tree, const Balls<Dimension>& balls,
+                                    const PairsAsked& asked, double distance = 0,
+                                    std::vector<SeparatingFamily::Pair>* family = nullptr);
 
 /// Returns the closest of the pairs asked for, or none if no pairs are asked for. If several are equally
 /// close, returns the first. Searches by branch and bound.
