@@ -22,9 +22,10 @@ constexpr CommandSpec kCompareCommand{
     "Compares how often structures change, by stride, motion and input. Each INPUT is a run of its own, in "
     "which all\n"
     "structures run together. Each row is one structure.\n\n"
-    "  net changes     what differs between two consecutive frames: bases of nodes (wrapped), cells "
-    "(power),\n"
-    "                  pairs in contact (contacts), ranks (sorted), ends (box), corners (hull), the pair "
+    "  net changes     what differs between two consecutive frames: bases of nodes (wrapped), supports of "
+    "nodes\n"
+    "                  (boxes), cells (power), pairs in contact (contacts), ranks (sorted), ends (box), "
+    "corners (hull), the pair "
     "(closest)\n"
     "  efficiency      events per net change\n"
     "  compactness     largest number of certificates at once\n"
@@ -75,7 +76,7 @@ const OptionList<CompareOptions>& compare_options() {
                               "run over every frame, every second, every fourth: 1,2,4 (default: 1)"},
                              &O::strides, parse_strides),
                  list_option({"--motions", "LIST", motions_help}, &O::motions, parse_motions),
-                 compare_apart_option(),
+                 directions_option(&O::directions), compare_apart_option(),
                  whole_option({"--rounds", "N",
                                "repeat each run N times and report the median time, and the shortest and "
                                "longest (default: 3)"},

@@ -50,19 +50,12 @@ RunOptions run_of(const CompareOptions& options, std::size_t input, FrameMotion 
   run.reading = reading_of(options, input);
   run.radius = options.radius;
   run.apart = options.apart;
+  run.directions = options.directions;
   return run;
 }
 
 // Returns the number of frames that remain at this stride.
 std::size_t strided(std::size_t frames, std::size_t stride) { return (frames + stride - 1) / stride; }
-
-void refuse_without_events(const Session& session) {
-  for (const KineticStructure* structure : session.structures()) {
-    const StructureSpec* const spec = structure_registry().find(structure->name());
-    if (spec != nullptr && !spec->has_events({}))
-      throw InputError(fmt::format("--structures: {} has no events to compare", spec->name));
-  }
-}
 
 // Reads an input. Throws InputError for an unsuitable input before anything runs.
 ComparedInput look_at(const CompareOptions& options, std::size_t input, const Warn& warn) {
@@ -71,7 +64,7 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const Wa
     const RunOptions run = run_of(options, input, motion);
     const Scene scene = load_scene(
         run, motion == options.motions.front() ? warn : [](const std::string&) {});
-    refuse_without_events(open_run(run, scene, AuditMode::none)->session());
+    static_cast<void>(open_run(run, scene, AuditMode::none));
     if (motion != options.motions.front()) continue;
     const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
     found = {run.inputs.front().string(),
@@ -151,8 +144,8 @@ std::optional<double> CompareRow::seconds_per_event() const {
 Comparison compare_runs(const CompareOptions& options,
                         const std::function<void(std::size_t, std::size_t)>& progress, const Warn& warn) {
   for (const auto& input : options.inputs)
-    if (is_instance_file(input))
-      throw InputError(input.string() + ": an instance file has no frames; expected a trajectory");
+    if (is_instance_file(input) && options.motions != std::vector{FrameMotion::linear})
+      throw InputError(input.string() + ": an instance file has its own motion; expected no --motions");
   Comparison comparison;
   std::size_t done = 0, total = 0;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
@@ -165,7 +158,8 @@ Comparison compare_runs(const CompareOptions& options,
       for (const std::size_t stride : options.strides) {
         RunOptions run = run_of(options, i, motion);
         run.reading.frames.stride *= stride;
-        if (run.radius == "auto") run.radius = fmt::format("{}", comparison.inputs[i].radius_min);
+        if (run.radius == "auto" && !is_instance_file(options.inputs[i]))
+          run.radius = fmt::format("{}", comparison.inputs[i].radius_min);
         const std::function<void()> step_done = [&] { progress(++done, total); };
         std::vector<CompareRow> rows = run_once(run, stride, step_done);
         std::vector<std::vector<double>> seconds(rows.size());

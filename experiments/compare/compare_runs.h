@@ -19,6 +19,7 @@ namespace kds {
 /// Returns the number of places (CombinatorialElements) whose content differs or that only one of the two
 /// frames has. The places depend on the structure:
 /// - wrapped hierarchy: nodes with another basis;
+/// - hierarchy of boxes: sides of nodes with another support;
 /// - power diagram: cells of one frame that the other does not have;
 /// - contacts: pairs that meet in only one of the frames;
 /// - sorted list: ranks with another bead;

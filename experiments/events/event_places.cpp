@@ -60,7 +60,7 @@ void EventPlaces::on_event(const Event& event) {
   event.for_roles([&](const IdRole& role, std::span<const BeadId> ids) {
     if (role.of == IdRole::Of::node) {
       if (const auto node = tree_.find({ids.front(), ids.back()})) ++places.by_level[levels_[*node]];
-    } else {
+    } else if (role.of == IdRole::Of::beads) {
       for (const BeadId bead : ids)
         if (bead < places.by_bead.size()) ++places.by_bead[bead];
     }

@@ -355,4 +355,13 @@ template <class Options, class Member>
   return whole_option({"--apart", "K", help}, apart, 1, 1'000'000'000);
 }
 
+/// Returns the option --directions of hierarchies of boxes.
+template <class Options, class Member>
+[[nodiscard]] Option<Options> directions_option(Member Options::*directions) {
+  return whole_option({"--directions", "K",
+                       "boxes: directions of the slabs around each node. In space 3 (axes: boxes), 7 or 13 "
+                       "(diagonals too: k-DOPs); in the plane 2 or 4 (default: axes)"},
+                      directions, 2, 13);
+}
+
 }  // namespace kds

@@ -299,6 +299,7 @@ std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& sce
   session.settings.apart = options.apart.value_or(session.settings.apart);
   session.settings.between = options.between.value_or(session.settings.between);
   session.settings.tightness = options.tightness;
+  session.settings.directions = options.directions;
   session.settings.groups = scene.bead_groups();
   session.settings.relax = Relaxation::of(options.relax.value_or(0));
   if (session.structures.empty()) session.structures = default_structures(scene);
@@ -325,9 +326,11 @@ std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& sce
                     scene.degree(), highest_relaxed_degree));
   if (options.relax && session.settings.between != Between::events)
     throw InputError("--relax: applies only to spheres with events; expected --between events");
-  if (options.nodes.restricts() && !has("wrapped") && !has("layered"))
+  if (options.directions && !has("boxes"))
+    throw InputError("--directions: applies only to boxes, which is not among the structures");
+  if (options.nodes.restricts() && !has("wrapped") && !has("boxes") && !has("layered"))
     throw InputError(
-        "--levels, --nodes: apply only to wrapped and layered, neither of which is among the structures");
+        "--levels, --nodes: apply only to wrapped, boxes and layered, none of which is among the structures");
   if (options.between && !has("wrapped"))
     throw InputError("--between: applies only to wrapped, which is not among the structures");
   if (options.tightness && session.settings.between != Between::chord)

@@ -35,26 +35,27 @@ std::string range_text(std::uint64_t first, std::uint64_t last) {
 }
 
 Option<RunOptions> levels_option() {
-  return {{"--levels", "RANGE",
-           "levels of wrapped and layered to keep: FIRST:LAST, counted from 0 at the roots; level LAST "
-           "itself is not kept (default: all)"},
+  return {
+      {"--levels", "RANGE",
+       "levels of wrapped, boxes and layered to keep: FIRST:LAST, counted from 0 at the roots; level LAST "
+       "itself is not kept (default: all)"},
 
-          [](RunOptions& o, const std::string& text) {
-            const auto [first, end] = parse_range("--levels", text, most_ids);
-            o.nodes.first_level = static_cast<std::uint32_t>(first);
-            o.nodes.last_level = static_cast<std::uint32_t>(end - 1);
-          },
+      [](RunOptions& o, const std::string& text) {
+        const auto [first, end] = parse_range("--levels", text, most_ids);
+        o.nodes.first_level = static_cast<std::uint32_t>(first);
+        o.nodes.last_level = static_cast<std::uint32_t>(end - 1);
+      },
 
-          [](const RunOptions& o) {
-            NodeSelection levels = o.nodes;
-            levels.beads.reset();
-            return levels.restricts() ? range_text(o.nodes.first_level, o.nodes.last_level) : "";
-          }};
+      [](const RunOptions& o) {
+        NodeSelection levels = o.nodes;
+        levels.beads.reset();
+        return levels.restricts() ? range_text(o.nodes.first_level, o.nodes.last_level) : "";
+      }};
 }
 
 Option<RunOptions> nodes_option() {
   return {{"--nodes", "RANGE",
-           "nodes of wrapped and layered to keep: those with all their beads in the range FIRST:LAST, "
+           "nodes of wrapped, boxes and layered to keep: those with all their beads in the range FIRST:LAST, "
            "counted from 0; bead LAST itself is not in it (default: all)"},
 
           [](RunOptions& o, const std::string& text) {
@@ -159,6 +160,7 @@ const OptionList<RunOptions>& run_options() {
                            "wrapped: no event until a bead sticks out of its sphere by more than EPS times "
                            "the radius, from 2^-20 to 1 (default: none)"},
                           &O::relax, {Relaxation::least_share, 1}),
+              directions_option(&O::directions),
               tolerance_option(),
               flag_option("--certify",
                           "with a stride in --frames, or with --tolerance: read all frames too, and report "

@@ -44,6 +44,7 @@ struct RunOptions : InputOptions, Destinations {
   std::optional<Between> between;               ///< --between; empty if not given
   std::optional<double> tightness;              ///< --tightness; empty if not given
   std::optional<double> relax;                  ///< --relax; empty if not given
+  std::optional<int> directions;                ///< --directions; empty if not given
   std::optional<MotionTolerance> tolerance;     ///< --tolerance; empty if not given
   bool certify = false;                         ///< --certify
   std::optional<std::filesystem::path> dump;    ///< directory for the structures at every frame

@@ -179,6 +179,10 @@ std::vector<StabilitySubject> kinetic_structures() {
       subjects.push_back(structure_subject("wrapped", Of::points, dimension, degree, few));
       subjects.push_back(structure_subject("power", Of::points, dimension, degree, few));
       subjects.push_back(structure_subject("contacts", Of::balls, dimension, degree, few));
+      StructureSettings diagonals;
+      diagonals.directions = dimension == 2 ? 4 : 7;
+      subjects.push_back(structure_subject("boxes", Of::points, dimension, degree, few, diagonals));
+      subjects.push_back(structure_subject("boxes", Of::balls, dimension, degree, few, diagonals));
       // Chord cages have no events; the audits in the middle of the step test them.
       StructureSettings chord;
       chord.between = Between::chord;

@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -6,10 +10,13 @@
 #include "kds/stopwatch.h"
 #include "motions/numbers/exact_number.h"
 #include "structures/chord_cages/chord_hierarchy.h"
+#include "structures/collision/box_tree.h"
 #include "structures/enclosing_sphere/exact_sphere.h"
 #include "structures/enclosing_sphere/integer_balls.h"
+#include "structures/hierarchy/box_hierarchy.h"
 #include "structures/hierarchy/wrapped_hierarchy.h"
 #include "structures/session/own_structures.h"
+#include "structures/session/session.h"
 #include "structures/triangulation/static_build.h"
 
 namespace kds {
@@ -166,7 +173,88 @@ class WrappedChordsInRun final : public ChordsInRun<StaticWrappedHierarchy<Dimen
   }
 };
 
+template <int Dimension>
+class BoxesInRun final : public RunningStructure {
+ public:
+  BoxesInRun(Simulator& simulator, const Scene& scene, const MotionRef<Dimension>& motion,
+             const NodeSelection& nodes, int directions)
+      : scene_(scene),
+        directions_(directions),
+        hierarchy_(simulator, motion, scene.necklaces(), scene.equal_radii() ? Radii::equal : Radii::any,
+                   directions, nodes) {}
+
+  [[nodiscard]] KineticStructure& kinetic() override { return hierarchy_; }
+  [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const override {
+    const Eigen::Matrix3Xd centers = scene_.centers(frame);
+    std::vector<BoxesNode> nodes;
+    for_each_node([&](const BeadRange& range, std::span<const BeadId> supports) {
+      if (supports.front() == no_bead) return;  // all beads of the node are absent
+      BoxesNode& node = nodes.emplace_back(BoxesNode{range, {supports.begin(), supports.end()}, {}});
+      for (std::size_t side = 0; side < supports.size(); ++side)
+        node.ends.push_back(end_of(supports[side], side, centers));
+    });
+    return {dump_boxes(nodes)};
+  }
+  [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
+    CombinatorialElements elements{3, {}};
+    for_each_node([&](const BeadRange& range, std::span<const BeadId> supports) {
+      for (BeadId side = 0; side < supports.size(); ++side)
+        elements.add({range.first, range.last, side}, supports.subspan(side, 1));
+    });
+    return elements;
+  }
+  [[nodiscard]] double static_seconds(std::size_t frame) const override {
+    const Balls<Dimension> balls(scene_.centers(frame), scene_.radii());
+    return seconds_of([&] { BoxTree<Dimension>(scene_.necklaces(), directions_).build(balls); }).clock;
+  }
+
+ private:
+  template <class Visit>
+  void for_each_node(Visit visit) const {
+    for (NodeId id = 0; id < hierarchy_.tree().node_count(); ++id)
+      if (hierarchy_.keeps(id)) visit(hierarchy_.tree().range(id), hierarchy_.supports(id));
+  }
+  /// Returns where the support's ball ends along the side's direction, rounded.
+  [[nodiscard]] double end_of(BeadId support, std::size_t side, const Eigen::Matrix3Xd& centers) const {
+    const SlabDirection& direction = hierarchy_.directions()[side / 2];
+    double along = 0;
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+      along += direction.steps[axis] * centers(static_cast<Eigen::Index>(axis), support);
+    const double reach = scene_.radii()[support] * std::sqrt(static_cast<double>(direction.square()));
+    return side % 2 == 0 ? along - reach : along + reach;
+  }
+
+  const Scene& scene_;
+  int directions_;
+  BoxHierarchy<Dimension> hierarchy_;
+};
+
+/// Throws StructureRefusal if boxes cannot have this number of directions in the scene.
+template <int Dimension>
+void check_directions(int directions) {
+  const auto counts = box_direction_counts<Dimension>();
+  if (std::find(counts.begin(), counts.end(), directions) == counts.end())
+    throw StructureRefusal("boxes", fmt::format("{} directions ({}); expected --directions {}", directions,
+                                                Dimension == 2 ? "beads in the plane" : "beads in space",
+                                                fmt::join(counts, " or ")));
+}
+
 }  // namespace
+
+StructureSpec boxes_structure() {
+  StructureSpec spec;
+  spec.name = "boxes";
+  spec.order = 22;
+  spec.refusal = refusal_of_spheres;
+  spec.make =
+      make_of_motion<2>([]<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
+                                  const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
+        const int directions = settings.directions.value_or(D);
+        check_directions<D>(directions);
+        return std::make_unique<BoxesInRun<D>>(simulator, scene, ref, settings.nodes, directions);
+      });
+  return spec;
+}
 
 StructureSpec layered_structure() {
   StructureSpec spec;

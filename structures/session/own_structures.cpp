@@ -33,6 +33,14 @@ DumpFile dump_wrapped(std::span<const WrappedNode> nodes) {
   return {"wrapped.csv", std::move(text)};
 }
 
+DumpFile dump_boxes(std::span<const BoxesNode> nodes) {
+  std::string text = "first,last,supports,ends\n";
+  for (const BoxesNode& node : nodes)
+    text += fmt::format("{},{},{},{}\n", node.range.first, node.range.last, fmt::join(node.supports, " "),
+                        fmt::join(node.ends, " "));
+  return {"boxes.csv", std::move(text)};
+}
+
 DumpFile dump_layered(std::span<const NodeSphere> nodes) {
   std::string text = "first,last,x,y,z,radius\n";
   for (const NodeSphere& node : nodes) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "structures/enclosing_sphere/basis.h"
 #include "structures/necklace/balls.h"
@@ -40,6 +41,7 @@ inline constexpr const char* fictitious_radii =
 [[nodiscard]] StructureSpec box_structure();
 [[nodiscard]] StructureSpec hull_structure();
 [[nodiscard]] StructureSpec closest_structure();
+[[nodiscard]] StructureSpec boxes_structure();
 [[nodiscard]] StructureSpec layered_structure();
 [[nodiscard]] StructureSpec wrapped_structure();
 [[nodiscard]] StructureSpec power_structure();
@@ -77,9 +79,16 @@ struct WrappedNode {
   Sphere sphere;
 };
 
+struct BoxesNode {
+  BeadRange range;
+  std::vector<BeadId> supports;  ///< one for each side
+  std::vector<double> ends;      ///< the ends of the slabs, one for each side
+};
+
 // The files written by --dump. Doubles are printed with enough digits to read back the same double.
 
 [[nodiscard]] DumpFile dump_wrapped(std::span<const WrappedNode> nodes);  ///< first,last,basis,x,y,z,radius
+[[nodiscard]] DumpFile dump_boxes(std::span<const BoxesNode> nodes);      ///< first,last,supports,ends
 [[nodiscard]] DumpFile dump_layered(std::span<const NodeSphere> nodes);   ///< first,last,x,y,z,radius
 [[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<2>> cells);   ///< a,b,c
 [[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<3>> cells);   ///< a,b,c,d

@@ -45,6 +45,7 @@ StructureRegistry& structure_registry() {
     own.add(closest_structure());
     own.add(wrapped_structure());
     own.add(layered_structure());
+    own.add(boxes_structure());
     own.add(power_structure());
     own.add(contacts_structure());
     return own;

@@ -89,6 +89,8 @@ struct StructureSettings {
   BeadId apart = 2;  ///< for contacts: pairs in one necklace are at least this far apart along it
   /// For contacts: the groups of each bead, as PairsAsked::groups has them. Empty: all pairs.
   BeadGroups groups{};
+  /// For boxes: one of box_direction_counts (box_hierarchy.h). No value: the axes.
+  std::optional<int> directions{};
   Relaxation relax{};  ///< for `wrapped`: share of a sphere's radius by which beads may stick out
 };
 

@@ -298,6 +298,25 @@ TEST(Compare, TheFirstParagraphIsWhatWasFound) {
   EXPECT_EQ(count_of(page, "<div class=\"panels\">"), 0U);
 }
 
+// An instance is one step. Boxes are compared like the other structures; layered spheres have no events.
+TEST(Compare, TakesInstancesBoxesAndLayered) {
+  const std::string instance = data_file("kinetic/d3_n20_linear.txt");
+  const ProgramRun run = run_program({"compare", instance, "--structures", "wrapped,boxes,layered",
+                                      "--directions", "7", "--rounds", "1", "--json", "-", "--quiet"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json rows = Json::parse(run.out)["rows"];
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0]["structure"], "wrapped");
+  EXPECT_EQ(rows[1]["structure"], "boxes");
+  EXPECT_EQ(rows[2]["structure"], "layered");
+  for (const Json& row : rows) EXPECT_EQ(row["steps"], 1);
+  EXPECT_GT(rows[1]["events"], 0);
+  EXPECT_GT(rows[1]["net_changes"], 0);
+  EXPECT_LE(rows[1]["net_changes"], rows[1]["events"]);
+  EXPECT_EQ(rows[2]["events"], 0);
+  EXPECT_TRUE(rows[2]["net_changes"].is_null());
+}
+
 TEST(Compare, RefusesBeforeAnythingHasRun) {
   const auto refused = [](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "compare");
@@ -308,9 +327,14 @@ TEST(Compare, RefusesBeforeAnythingHasRun) {
   };
   EXPECT_THAT(refused({kDcd, "--frames", ":9", "--strides", "1,9"}),
               HasSubstr("--strides: 9 leaves one of the 9"));
-  EXPECT_THAT(refused({data_file("kinetic/d3_n20_linear.txt")}), HasSubstr("has no frames"));
+  EXPECT_THAT(refused({data_file("kinetic/d3_n20_linear.txt"), "--motions", "hermite"}),
+              HasSubstr("an instance file has its own motion"));
+  EXPECT_THAT(refused({data_file("kinetic/d3_n20_linear.txt"), "--strides", "2"}),
+              HasSubstr("--strides: 2 leaves one of the 2 frames"));
+  EXPECT_THAT(refused({kDcd, "--structures", "boxes", "--directions", "4"}),
+              HasSubstr("boxes: 4 directions (beads in space); expected --directions 3 or 7 or 13"));
+  EXPECT_THAT(refused({kDcd, "--directions", "7"}), HasSubstr("boxes, which is not among the structures"));
   EXPECT_THAT(refused({kDcd, "--motions", "lifted"}), HasSubstr("lifted"));
-  EXPECT_THAT(refused({kDcd, "--structures", "layered"}), HasSubstr("layered has no events to compare"));
   EXPECT_THAT(refused({kDcd, "--apart", "3"}), HasSubstr("--apart"));
   EXPECT_THAT(refused({kDcd, "nowhere.dcd"}), HasSubstr("nowhere.dcd: no such file"));
 }

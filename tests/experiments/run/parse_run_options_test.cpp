@@ -147,14 +147,14 @@ TEST(RunOptions, RefusesOptionsWithoutAValue) {
 TEST(RunOptions, RefusesStructuresThatAreNotRegistered) {
   EXPECT_THAT(
       refusal({"a", "--structures", "power,heap"}),
-      HasSubstr("'heap' is not one of sorted, box, hull, closest, wrapped, layered, power, contacts"));
+      HasSubstr("'heap' is not one of sorted, box, hull, closest, wrapped, boxes, layered, power, contacts"));
   EXPECT_EQ(parse_run_options({"a", "--motion", "hermite"}).motion, FrameMotion::hermite);
   EXPECT_EQ(parse_run_options({"a", "--motion", "lifted"}).motion, FrameMotion::lifted);
 }
 
 TEST(RunOptions, RefusesUnknownNamesAndListsTheKnown) {
   EXPECT_THAT(refusal({"a", "--structures", "power,heap"}),
-              HasSubstr("'heap' is not one of sorted, box, hull, closest, wrapped, layered, power"));
+              HasSubstr("'heap' is not one of sorted, box, hull, closest, wrapped, boxes, layered, power"));
   EXPECT_THAT(refusal({"a", "--structures", "power,"}), HasSubstr("'' is not one of"));
   EXPECT_THAT(refusal({"a", "--structures", "power,power"}), HasSubstr("power is listed twice"));
   EXPECT_THAT(refusal({"a", "--motion", "cubic"}), HasSubstr("'cubic' is not one of linear, hermite"));

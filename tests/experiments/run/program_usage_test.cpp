@@ -48,7 +48,7 @@ TEST(Program, RefusesWrongUsage) {
   expect_refused({"run", kSmall, "--fly"}, {"unknown option '--fly'"});
   expect_refused({"run", kSmall, "--kernel", "slow"}, {"--kernel", "slow"});
   expect_refused({"run", kSmall, "--structures", "heaps"},
-                 {"is not one of sorted, box, hull, closest, wrapped, layered, power, contacts"});
+                 {"is not one of sorted, box, hull, closest, wrapped, boxes, layered, power, contacts"});
   expect_refused({"run", kSmall, "--motion", "hermite"}, {"--motion", "instance"});
   expect_refused({"run", kSmall, "--motion", "lifted"}, {"--motion", "instance"});
   expect_refused({"run", kTrajectory, "--motion", "lifted"}, {"--motion lifted", "fictitious", "wrapped"});
