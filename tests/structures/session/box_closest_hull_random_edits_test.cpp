@@ -148,7 +148,7 @@ struct Structures {
         hull(simulator, motion),
         boxes(simulator, motion,
               std::array<BeadRange, 2>{{{0, 2}, {3, static_cast<BeadId>(motion.bead_count() - 1)}}},
-              Radii::any, D == 3 ? 7 : 4) {
+              Radii::any, D == 3 ? 3 : 4) {
     all.push_back({&box, &box, [this] { return box.ends(); },
                    [](const ExactPoints& at, const Beads& present) { return ends_of(at, present, D); }});
     if constexpr (D > 1) {
