@@ -38,9 +38,9 @@ TEST(BoxesRun, ABeadThatComesOutOfABoxAndGoesBack) {
   EXPECT_EQ(boxes["audits"]["failed"], 0);
   EXPECT_GT(boxes["audits"]["run"], 2);
   EXPECT_EQ(content_of(scratch / "dump/frame-0.boxes.csv"),
-            "first,last,supports,ends\n0,2,0 1 0 2,-1 5 -1 3\n0,1,0 1 0 0,-1 5 -1 1\n");
+            "first,last,supports,ends\n0,2,0 1 0 2 0 0,-1 5 -1 3 -1 1\n0,1,0 1 0 0 0 0,-1 5 -1 1 -1 1\n");
   EXPECT_EQ(content_of(scratch / "dump/frame-1.boxes.csv"),
-            "first,last,supports,ends\n0,2,0 2 0 2,-1 6 -1 3\n0,1,0 1 0 0,-1 5 -1 1\n");
+            "first,last,supports,ends\n0,2,0 2 0 2 0 0,-1 6 -1 3 -1 1\n0,1,0 1 0 0 0 0,-1 5 -1 1 -1 1\n");
   EXPECT_THAT(content_of(scratch / "log"), HasSubstr("0 boxes support 0.4999"));
   EXPECT_THAT(content_of(scratch / "log"), HasSubstr(" 0 2 1 1 2\n"));
   EXPECT_THAT(content_of(scratch / "events.csv"), HasSubstr(",boxes,support,1,"));
