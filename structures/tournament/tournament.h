@@ -80,7 +80,7 @@ class Tournament {
     winner_.resize(tree_.end());
     for (std::uint32_t i = 0; i < contestants; ++i) set_present(i, i >= absent.size() || absent[i] == 0);
     guards_.assign(tree_.inner_end(), CertificateHandle::violated);
-    tree_.each_level([this](const auto& nodes) { hold_contests(nodes); });
+    tree_.each_level([this](const auto& nodes) { this->hold_contests(nodes); });
   }
 
   /// Returns the winner of the whole tree, or `none` if all contestants are absent. There must be at least
