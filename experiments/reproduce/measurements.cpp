@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <iterator>
+#include <memory>
+#include <span>
 #include <utility>
+#include <vector>
 
-#include "motions/models/model.h"
-#include "motions/models/shapes.h"
-#include "motions/readers/read_trajectory.h"
-#include "motions/scene/radii.h"
-#include "structures/collision/brute_force.h"
 #include "structures/collision/hierarchy_search.h"
-#include "structures/triangulation/diagram_edges.h"
+#include "structures/power_diagram/diagram_update.h"
 #include "structures/triangulation/regular_triangulation.h"
 #include "structures/triangulation/static_build.h"
 
@@ -19,119 +18,103 @@ namespace kds {
 
 namespace {
 
-constexpr double turns = 9;  // with 18 turns, 1000 beads would overlap
-
-Subject of_models(std::vector<Trajectory> necklaces, bool planar) {
-  Subject subject;
-  subject.planar = planar;
-  BeadId beads = 0;
-  for (const Trajectory& necklace : necklaces) {
-    const auto count = static_cast<BeadId>(necklace.bead_count());
-    subject.necklaces.push_back({beads, beads + count - 1});
-    beads += count;
-  }
-  subject.radii.assign(beads, 1.0);
-  for (std::size_t k = 0; k < necklaces.front().frames.size(); ++k) {
-    Eigen::Matrix3Xd& frame = subject.frames.emplace_back(3, beads);
-    for (std::size_t n = 0; n < necklaces.size(); ++n)
-      frame.middleCols(subject.necklaces[n].first, necklaces[n].frames[k].cols()) = necklaces[n].frames[k];
-  }
-  return subject;
-}
-
-}  // namespace
-
-Subject model_subject(std::string_view name, std::size_t beads) {
-  const models::Settings settings{.beads = beads, .frames = 1, .motion = models::ShapeMotion::rest};
-  return of_models(models::generate(*models::find_model(name), settings), name == "grill");
-}
-
-Subject rolling_spiral(std::size_t beads, std::size_t frames) {
-  const models::Settings settings{.beads = beads, .frames = frames, .turns = turns};
-  return of_models(models::generate(*models::find_model("spiral"), settings), true);
-}
-
-Subject two_rolling_spirals(std::size_t beads, std::size_t frames) {
-  const models::Settings settings{.beads = beads, .frames = frames, .turns = turns};
-  const Trajectory one = models::generate(*models::find_model("spiral"), settings).front();
-  Trajectory other = one;
-  const double length = static_cast<double>(beads - 1) * 2 * models::usual_bond;
-  for (std::size_t k = 0; k < frames; ++k) {
-    const double part = static_cast<double>(k) / static_cast<double>(frames - 1);
-    other.frames[k].row(2).array() += (1 - part) * 1.5 * length + part * 2.1;
-  }
-  return of_models({one, other}, false);
-}
-
-Subject protein(const std::filesystem::path& data, std::string_view file, std::string_view topology) {
-  ReadOptions options;
-  if (!topology.empty()) options.topology = data / topology;
-  Trajectory necklace = read_trajectory(data / file, options);
-  Subject subject;
-  subject.radii = bead_radii("auto", std::span(&necklace, 1));
-  subject.necklaces = {{0, static_cast<BeadId>(subject.radii.size() - 1)}};
-  subject.frames = std::move(necklace.frames);
-  return subject;
-}
-
-namespace {
-
-std::vector<double> weights_of(const Subject& subject) {
-  std::vector<double> weights;
-  for (const double radius : subject.radii) weights.push_back(radius * radius);
-  return weights;
-}
+std::vector<double> no_radii(const Subject& subject) { return std::vector<double>(subject.beads(), 0.0); }
 
 template <int Dimension>
-Balls<Dimension> balls_at(const Subject& subject, std::size_t frame) {
-  return Balls<Dimension>(subject.frames[frame], subject.radii);
+Balls<Dimension> centers_at(const Subject& subject, std::size_t frame) {
+  return Balls<Dimension>(subject.frames[frame], no_radii(subject));
+}
+
+// Runs the works in turn and returns their times in the same order.
+template <std::size_t Count>
+std::array<Timed, Count> timed_in_turn(std::size_t rounds,
+                                       const std::array<std::function<double()>, Count>& works) {
+  const auto seconds = seconds_in_turn(rounds, {works.begin(), works.end()});
+  std::array<Timed, Count> times;
+  for (std::size_t i = 0; i < Count; ++i) times[i] = {spread_of(seconds[i]), seconds[i]};
+  return times;
+}
+
+template <class Work>
+std::function<double()> processor_time(Work work) {
+  return [work = std::move(work)]() mutable { return processor_seconds_of(work); };
 }
 
 template <int Dimension>
 Construction construction(const Subject& subject, std::size_t frame, std::size_t rounds) {
-  const Balls<Dimension> balls = balls_at<Dimension>(subject, frame);
+  const Eigen::Matrix3Xd& centers = subject.frames[frame];
+  const std::vector<double> zeros = no_radii(subject);
+  const Balls<Dimension> balls(centers, zeros);
   StaticWrappedHierarchy<Dimension> wrapped(subject.necklaces);
   LayeredHierarchy<Dimension> layered(subject.necklaces);
-  const std::vector<double> weights = weights_of(subject);
   Construction result;
-  const auto seconds = seconds_in_turn(
-      rounds, {[&] { return processor_seconds_of([&] { wrapped.build(balls); }); },
-               [&] { return processor_seconds_of([&] { layered.build(balls); }); },
-               [&] { return seconds_to_triangulate<Dimension>(subject.frames[frame], weights).processor; }});
-  result.layered_per_wrapped = ratios_by_round(seconds[1], seconds[0]);
-  result.power_per_wrapped = ratios_by_round(seconds[2], seconds[0]);
+  const auto times = timed_in_turn<4>(
+      rounds, {processor_time([&] { wrapped.build(balls); }), processor_time([&] { layered.build(balls); }),
+               [&] { return seconds_to_wrap<Dimension>(wrapped.tree().ranges(), centers, zeros).processor; },
+               [&] { return seconds_to_triangulate<Dimension>(centers, zeros).processor; }});
+  result.wrapped = times[0];
+  result.layered = times[1];
+  result.cgal = times[2];
+  result.diagram = times[3];
   result.tightness = tightness_of(wrapped, layered);
   return result;
 }
 
+// The paper's quadratic method. The early return also keeps the compiler from testing several pairs at once.
+template <int Dimension>
+bool collides(const Balls<Dimension>& balls) {
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const BallRow<Dimension>& a = balls.rows()[i];
+    for (std::size_t j = i + 2; j < balls.size(); ++j) {
+      const BallRow<Dimension>& b = balls.rows()[j];
+      const double reach = a.radius + b.radius;
+      double squared = 0;
+      for (std::size_t axis = 0; axis < Dimension; ++axis)
+        squared += (a.center[axis] - b.center[axis]) * (a.center[axis] - b.center[axis]);
+      if (squared <= reach * reach) return true;
+    }
+  }
+  return false;
+}
+
 template <int Dimension>
 SelfCollision self_collision(const Subject& subject, std::size_t frame, std::size_t rounds) {
-  const Balls<Dimension> balls = balls_at<Dimension>(subject, frame);
-  const PairsAsked asked{subject.necklaces, true, 2, true};
   SelfCollision result;
+  {
+    const Balls<Dimension> balls(subject.frames[frame], subject.radii);
+    const PairsAsked nonadjacent{subject.necklaces, true, 2, true};
+    for (const Hierarchy kind : {Hierarchy::wrapped, Hierarchy::layered}) {
+      SphereTree<Dimension> tree(kind, subject.necklaces);
+      tree.build(balls);
+      const PairsFound found = find_pairs(tree, nonadjacent);
+      (kind == Hierarchy::wrapped ? result.wrapped_family : result.layered_family) = found.family;
+      result.collisions = found.pairs.size();
+    }
+  }
+  const Balls<Dimension> centers = centers_at<Dimension>(subject, frame);
+  const PairsAsked all{subject.necklaces, true, 1, true};
   SphereTree<Dimension> wrapped(Hierarchy::wrapped, subject.necklaces),
       layered(Hierarchy::layered, subject.necklaces);
-  wrapped.build(balls);
-  layered.build(balls);
-  const auto search = [&asked](SphereTree<Dimension>& tree, std::uint64_t& pairs) {
-    return [&] { return processor_seconds_of([&] { pairs = find_pairs(tree, asked).family; }); };
-  };
+  wrapped.build(centers);
+  layered.build(centers);
   std::size_t colliding = 0;  // used, so that the compiler keeps the work
-  const auto seconds = seconds_in_turn(
-      rounds, {search(wrapped, result.wrapped_pairs), search(layered, result.layered_pairs), [&] {
-                 return processor_seconds_of([&] { colliding += pairs_by_force(balls, asked).size(); });
-               }});
-  result.layered_per_wrapped = ratios_by_round(seconds[1], seconds[0]);
-  result.quadratic_per_wrapped = ratios_by_round(seconds[2], seconds[0]);
-  result.edges = static_edges<Dimension>(subject.frames[frame], weights_of(subject)).edges.size();
+  const auto times = timed_in_turn<3>(
+      rounds, {processor_time([&] { colliding += collides(centers) ? 1 : 0; }),
+               processor_time([&] { result.wrapped_pairs = find_pairs(wrapped, all).family; }),
+               processor_time([&] { result.layered_pairs = find_pairs(layered, all).family; })});
+  result.quadratic = times[0];
+  result.wrapped = times[1];
+  result.layered = times[2];
+  RegularTriangulation<Dimension> diagram;
+  diagram.build_bare(subject.frames[frame], no_radii(subject));
+  result.edges = diagram.finite_edges().size() + diagram.infinite_edge_count();
   return result;
 }
 
 template <int Dimension>
 std::uint64_t cells_changed(const Subject& subject, std::size_t from, std::size_t to) {
-  const std::vector<double> weights = weights_of(subject);
-  const auto before = static_triangulation<Dimension>(subject.frames[from], weights).cells;
-  const auto after = static_triangulation<Dimension>(subject.frames[to], weights).cells;
+  const auto before = static_triangulation<Dimension>(subject.frames[from], no_radii(subject)).cells;
+  const auto after = static_triangulation<Dimension>(subject.frames[to], no_radii(subject)).cells;
   std::vector<CellBeads<Dimension>> added;
   std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(added));
   return added.size();
@@ -145,13 +128,15 @@ class TimedUpdate {
   using Hierarchy = StaticWrappedHierarchy<Dimension>;
 
   TimedUpdate(const Subject& subject, std::size_t from, std::size_t to, Update how)
-      : before_(balls_at<Dimension>(subject, from)),
-        after_(balls_at<Dimension>(subject, to)),
+      : before_(centers_at<Dimension>(subject, from)),
+        after_(centers_at<Dimension>(subject, to)),
         hierarchy_(subject.necklaces),
         how_(how) {
     hierarchy_.build(before_);
     go_back();
   }
+
+  [[nodiscard]] const Balls<Dimension>& after() const { return after_; }
 
   /// The time includes `arrived`.
   template <class Arrived>
@@ -172,6 +157,30 @@ class TimedUpdate {
   Update how_;
 };
 
+// The paper's naive verification: returns the number of nodes from whose spheres a bead has escaped. It tests
+// bead by bead; the early end also keeps the compiler from testing several beads at once.
+template <int Dimension>
+std::size_t escaped_nodes(const StaticWrappedHierarchy<Dimension>& hierarchy, const Balls<Dimension>& balls) {
+  constexpr double slack = 1e-9;  // for rounding: spheres pass through the centres of their bases
+  std::size_t escaped = 0;
+  for (NodeId node = 0; node < hierarchy.tree().node_count(); ++node) {
+    const Sphere sphere = hierarchy.sphere(node);
+    const double most = sphere.radius * sphere.radius * (1 + slack);
+    const BeadRange& range = hierarchy.tree().range(node);
+    for (BeadId bead = range.first; bead <= range.last; ++bead) {
+      double squared = 0;
+      for (std::size_t axis = 0; axis < Dimension; ++axis) {
+        const double along = balls.rows()[bead].center[axis] - sphere.center[static_cast<Eigen::Index>(axis)];
+        squared += along * along;
+      }
+      if (squared <= most) continue;
+      ++escaped;
+      break;
+    }
+  }
+  return escaped;
+}
+
 template <int Dimension>
 double mean_frontier(const StaticWrappedHierarchy<Dimension>& hierarchy, const WrapCounts& counts) {
   return static_cast<double>(counts.frontier) / static_cast<double>(hierarchy.tree().node_count());
@@ -180,28 +189,51 @@ double mean_frontier(const StaticWrappedHierarchy<Dimension>& hierarchy, const W
 template <int Dimension>
 Step step(const Subject& subject, std::size_t from, std::size_t to, std::size_t rounds) {
   Step result;
-  const auto tests = [](const WrapCounts& counts) {
-    return static_cast<double>(counts.bead_tests + counts.cage_tests);
-  };
-  TimedUpdate<Dimension> lazy(subject, from, to, Update::trust), naive(subject, from, to, Update::naive),
+  TimedUpdate<Dimension> lazy(subject, from, to, Update::trust), naive(subject, from, to, Update::trust),
       cascade(subject, from, to, Update::cascade);
-  const auto seconds =
-      seconds_in_turn(rounds, {[&] { return lazy.seconds([](const auto&, const WrapCounts&) {}); },
-                               [&] {
-                                 return naive.seconds([&](const auto&, const WrapCounts& counts) {
-                                   result.naive_tests = tests(counts);
-                                 });
-                               },
-                               [&] {
-                                 return cascade.seconds([&](const auto& hierarchy, const WrapCounts& counts) {
-                                   result.bases_changed = counts.changed;
-                                   result.cascade_tests = tests(counts);
-                                   result.frontier = mean_frontier(hierarchy, counts);
-                                 });
-                               }});
-  result.lazy_per_naive = ratios_by_round(seconds[0], seconds[1]);
-  result.cascade_per_naive = ratios_by_round(seconds[2], seconds[1]);
+  std::size_t escaped = 0;  // used, so that the compiler keeps the work
+  const auto times = timed_in_turn<3>(
+      rounds, {[&] { return lazy.seconds([](const auto&, const WrapCounts&) {}); },
+               [&] {
+                 return cascade.seconds([&](const auto& hierarchy, const WrapCounts& counts) {
+                   result.bases_changed = counts.changed;
+                   result.cascade_tests = static_cast<double>(counts.bead_tests + counts.cage_tests);
+                   result.frontier = mean_frontier(hierarchy, counts);
+                 });
+               },
+               [&] {
+                 return naive.seconds([&](const auto& hierarchy, const WrapCounts&) {
+                   escaped += escaped_nodes(hierarchy, naive.after());
+                 });
+               }});
+  result.lazy = times[0];
+  result.cascade = times[1];
+  result.naive = times[2];
+  const NecklaceTree tree(subject.necklaces);
+  for (const BeadRange& range : tree.ranges()) result.naive_tests += range.last - range.first + 1;
   result.cells_changed = from == to ? 0 : cells_changed<Dimension>(subject, from, to);
+  return result;
+}
+
+template <int Dimension>
+DiagramStep diagram_step(const Subject& subject, std::size_t from, std::size_t to, std::size_t rounds) {
+  DiagramStep result;
+  const std::vector<double> zeros = no_radii(subject);
+  std::array<std::uint64_t, 3> rebuilds{};
+  const auto advance = [&](UpdateTechnique technique, std::uint64_t& rebuilt) -> std::function<double()> {
+    return [&, technique] {
+      const auto update = make_diagram_update<Dimension>(technique);
+      update->build(subject.frames[from], zeros);
+      return processor_seconds_of([&] { rebuilt = update->advance(subject.frames[to], zeros).rebuilds; });
+    };
+  };
+  const auto times = timed_in_turn<3>(rounds, {advance(UpdateTechnique::rebuild, rebuilds[0]),
+                                               advance(UpdateTechnique::reinsert, rebuilds[1]),
+                                               advance(UpdateTechnique::greedy, rebuilds[2])});
+  result.rebuild = times[0];
+  result.reinsert = times[1];
+  result.greedy = times[2];
+  result.rebuilds = rebuilds[1] + rebuilds[2];
   return result;
 }
 
@@ -230,7 +262,6 @@ class SearchBetween {
     if (node != NecklaceTree::leaf) return {node, beads, hierarchy_.sphere(node)};
     Sphere bead;
     bead.center = subject_.frames[frame_].col(beads.first);
-    bead.radius = subject_.radii[beads.first];
     return {node, beads, bead};
   }
   [[nodiscard]] Part root(std::size_t necklace) const {
@@ -265,30 +296,29 @@ class SearchBetween {
 template <int Dimension>
 CollisionBetween between(const Subject& subject, std::size_t from, std::size_t to, std::size_t rounds) {
   CollisionBetween result;
-  const Balls<Dimension> after = balls_at<Dimension>(subject, to);
+  const Balls<Dimension> after = centers_at<Dimension>(subject, to);
   LayeredHierarchy<Dimension> layered(subject.necklaces);
   TimedUpdate<Dimension> lazy(subject, from, to, Update::lazy), full(subject, from, to, Update::cascade);
   std::uint64_t lazily_found = 0;  // used, so that the compiler keeps the search
-  const auto seconds =
-      seconds_in_turn(rounds, {[&] {
-                                 return processor_seconds_of([&] {
-                                   layered.build(after);
-                                   result.layered_pairs = SearchBetween(layered, subject, to).pairs();
-                                 });
-                               },
-                               [&] {
-                                 return lazy.seconds([&](const auto& hierarchy, const WrapCounts&) {
-                                   lazily_found += SearchBetween(hierarchy, subject, to).pairs();
-                                 });
-                               },
-                               [&] {
-                                 return full.seconds([&](const auto& hierarchy, const WrapCounts& counts) {
-                                   result.wrapped_pairs = SearchBetween(hierarchy, subject, to).pairs();
-                                   result.frontier = mean_frontier(hierarchy, counts);
-                                 });
-                               }});
-  result.layered_per_full = ratios_by_round(seconds[0], seconds[2]);
-  result.lazy_per_full = ratios_by_round(seconds[1], seconds[2]);
+  const auto times =
+      timed_in_turn<3>(rounds, {processor_time([&] {
+                                  layered.build(after);
+                                  result.layered_pairs = SearchBetween(layered, subject, to).pairs();
+                                }),
+                                [&] {
+                                  return lazy.seconds([&](const auto& hierarchy, const WrapCounts&) {
+                                    lazily_found += SearchBetween(hierarchy, subject, to).pairs();
+                                  });
+                                },
+                                [&] {
+                                  return full.seconds([&](const auto& hierarchy, const WrapCounts& counts) {
+                                    result.wrapped_pairs = SearchBetween(hierarchy, subject, to).pairs();
+                                    result.frontier = mean_frontier(hierarchy, counts);
+                                  });
+                                }});
+  result.layered = times[0];
+  result.lazy = times[1];
+  result.full = times[2];
   return result;
 }
 
@@ -303,6 +333,10 @@ SelfCollision self_collision_of(const Subject& subject, std::size_t frame, std::
 }
 Step step_of(const Subject& subject, std::size_t from, std::size_t to, std::size_t rounds) {
   return subject.planar ? step<2>(subject, from, to, rounds) : step<3>(subject, from, to, rounds);
+}
+DiagramStep diagram_step_of(const Subject& subject, std::size_t from, std::size_t to, std::size_t rounds) {
+  return subject.planar ? diagram_step<2>(subject, from, to, rounds)
+                        : diagram_step<3>(subject, from, to, rounds);
 }
 CollisionBetween collision_between(const Subject& subject, std::size_t from, std::size_t to,
                                    std::size_t rounds) {

@@ -1,76 +1,77 @@
 #pragma once
-// The subjects that the paper measures, its own models and proteins from the project's data, and the figures
-// of its tables for one frame of a subject, or for the step between two frames. Times are given as ratios of
-// works that run in turn, round by round.
+// The figures of the paper's tables for one frame of a subject, or for the step between two frames. Works
+// whose times are compared run in turn, round by round.
+//
+// Beads are their centres (radius 0), except in families. The paper's counts fit centres: its straight chain
+// of 1000 beads has a set of 1000 pairs, but touching beads need at least 998 pairs for beads two apart and,
+// in a balanced tree, about 2000. With centres, neighbouring subchains of a straight chain have disjoint
+// spheres, so that a chain of n beads has n - 1 pairs, one per internal node. No set that the paper prints is
+// smaller than that. Bases, frontiers and cells do not depend on the radius if all radii are equal.
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <string_view>
-#include <vector>
 
 #include "experiments/program/timing.h"
-#include "motions/base/bead.h"
+#include "experiments/reproduce/subjects.h"
 #include "structures/hierarchy/layered_hierarchy.h"
 
 namespace kds {
 
-/// Frames of one necklace, or of two necklaces side by side.
-struct Subject {
-  std::vector<Eigen::Matrix3Xd> frames;
-  std::vector<double> radii;  ///< one per bead
-  std::vector<BeadRange> necklaces;
-  bool planar = false;  ///< in the plane z = 0, where measurements are two-dimensional
+/// Seconds of one work, and their ratio to the seconds of another work, by round.
+struct Timed {
+  Spread seconds;
+  std::vector<double> by_round;
 
-  [[nodiscard]] std::size_t beads() const { return radii.size(); }
+  [[nodiscard]] Spread per(const Timed& other) const { return ratios_by_round(by_round, other.by_round); }
 };
 
-/// Returns a model at rest with beads of radius 1: spline, helix, scaling-helix or grill.
-[[nodiscard]] Subject model_subject(std::string_view model, std::size_t beads);
-
-/// rolling_spiral returns `frames` (at least 2) stages of a straight chain that rolls up in the plane.
-/// two_rolling_spirals returns such stages for two chains, one above the other. The distance of their planes
-/// decreases from 1.5 chain lengths to a twentieth of a diameter more than touching.
-[[nodiscard]] Subject rolling_spiral(std::size_t beads, std::size_t frames);
-[[nodiscard]] Subject two_rolling_spirals(std::size_t beads, std::size_t frames);
-
-/// Returns the backbone of the first chain of a file in the folder `data`, with the radii of --radius auto.
-/// For a DCD file `topology` names the atoms, otherwise it is empty. Throws InputError.
-[[nodiscard]] Subject protein(const std::filesystem::path& data, std::string_view file,
-                              std::string_view topology = {});
-
-/// Table 1: times to build each structure.
+/// Table 1: building each structure from nothing.
 struct Construction {
-  Spread layered_per_wrapped, power_per_wrapped;
+  Timed wrapped, layered;
+  Timed cgal;     ///< the smallest sphere of each node by CGAL, from its beads: the paper's way
+  Timed diagram;  ///< by CGAL
   Tightness tightness;
 };
 [[nodiscard]] Construction construction_of(const Subject& subject, std::size_t frame, std::size_t rounds);
 
-/// Tables 3 and 4: collisions within the necklace between beads that are not neighbours along it. The times
-/// cover only the searches; the hierarchies are built beforehand.
+/// Tables 3 and 4: collisions within the necklace. The times cover only the searches; the hierarchies are
+/// built beforehand. The quadratic search tests pair by pair and stops at the first collision.
 struct SelfCollision {
-  Spread quadratic_per_wrapped, layered_per_wrapped;
-  std::uint64_t wrapped_pairs = 0, layered_pairs = 0;  ///< sizes of the separating sets
-  std::uint64_t edges = 0;                             ///< edges in the power diagram
+  Timed quadratic, wrapped, layered;
+  std::uint64_t wrapped_pairs = 0, layered_pairs = 0;    ///< sets of centres, pairs of all beads
+  std::uint64_t wrapped_family = 0, layered_family = 0;  ///< families (S1, S2) of touching beads
+  std::uint64_t collisions = 0;  ///< pairs of touching beads that families leave out, since they collide
+  std::uint64_t edges = 0;       ///< of the diagram, also those to the infinite vertex
 };
 [[nodiscard]] SelfCollision self_collision_of(const Subject& subject, std::size_t frame, std::size_t rounds);
 
 /// Tables 2, 5 and 6: the step from one frame to another, or to itself. The times are those of updating the
 /// wrapped hierarchy.
 struct Step {
-  Spread lazy_per_naive, cascade_per_naive;
-  double cascade_tests = 0, naive_tests = 0;  ///< tests of beads and cages against spheres
-  double frontier = 0;                        ///< average over all nodes
+  Timed lazy, cascade;
+  Timed naive;               ///< tests bead by bead and repairs no basis
+  double cascade_tests = 0;  ///< beads and cages tested against spheres
+  double naive_tests = 0;    ///< beads of all nodes
+  double frontier = 0;       ///< average over all nodes
   std::uint64_t bases_changed = 0;
   std::uint64_t cells_changed = 0;  ///< cells of the later diagram that the earlier one does not have
 };
 [[nodiscard]] Step step_of(const Subject& subject, std::size_t from, std::size_t to, std::size_t rounds);
 
+/// Section 3.2: bringing the power diagram from one frame to another.
+struct DiagramStep {
+  Timed rebuild, reinsert, greedy;  ///< techniques of structures/power_diagram/diagram_update.h
+  std::uint64_t rebuilds = 0;       ///< how many of the two removals rebuilt the diagram instead
+};
+[[nodiscard]] DiagramStep diagram_step_of(const Subject& subject, std::size_t from, std::size_t to,
+                                          std::size_t rounds);
+
 /// Table 7: collisions between two necklaces from one frame to the next. The times cover updating and
 /// searching the hierarchy.
 struct CollisionBetween {
-  Spread layered_per_full, lazy_per_full;
+  Timed layered;  ///< builds all spheres anew
+  Timed lazy;     ///< computes the spheres that the search visits, of the old bases
+  Timed full;     ///< verifies all nodes by the cascade and repairs their bases
   std::uint64_t layered_pairs = 0, wrapped_pairs = 0;
   double frontier = 0;  ///< average over all nodes
 };

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -12,18 +14,39 @@ namespace kds {
 namespace {
 
 using Cells = std::vector<std::optional<double>>;  // the paper's values
-using Measured = std::vector<PaperValue>;
 using Shared = std::shared_ptr<const Subject>;
 
-// Conformations of a model that several tables share.
-struct Subjects {
+constexpr std::optional<double> absent = std::nullopt;
+
+// A row to measure: a subject at a frame.
+struct Case {
   std::string name;
   Shared subject;
   std::size_t frame = 0;
   std::string at = {}, note = {};
+  Reasons reasons = {};
+
+  // Adds a reason for each of the columns.
+  Case&& why(std::initializer_list<std::string_view> columns, const std::string& reason) && {
+    for (const std::string_view column : columns) reasons.emplace_back(column, reason);
+    return std::move(*this);
+  }
 };
 
-std::optional<double> ratio(double a, double b) { return b > 0 ? std::optional(a / b) : std::nullopt; }
+struct Outcome {
+  std::vector<PaperValue> values;
+  std::string note = {};  // about this measurement
+};
+
+std::optional<double> ratio(double a, double b) { return a > 0 && b > 0 ? std::optional(a / b) : absent; }
+
+PaperValue in_unit(const Timed& time, double per_second) {
+  return Spread{time.seconds.median * per_second, time.seconds.least * per_second,
+                time.seconds.most * per_second};
+}
+PaperValue milliseconds(const Timed& time) { return in_unit(time, 1e3); }
+PaperValue microseconds(const Timed& time) { return in_unit(time, 1e6); }
+PaperValue count(std::uint64_t number) { return static_cast<double>(number); }
 
 class Planner {
  public:
@@ -35,24 +58,30 @@ class Planner {
   [[nodiscard]] PaperTablePlan self_collision_of_conformations() const;
   [[nodiscard]] PaperTablePlan maintenance() const;
   [[nodiscard]] PaperTablePlan stability() const;
-  [[nodiscard]] PaperTablePlan two_spirals() const;
+  [[nodiscard]] PaperTablePlan two_rolling_spirals() const;
 
  private:
-  [[nodiscard]] Subjects model(std::string name, std::string_view model, std::size_t beads) const {
-    return {std::move(name), std::make_shared<Subject>(model_subject(model, beads))};
+  [[nodiscard]] static Case of(std::string name, Subject subject) {
+    return {std::move(name), std::make_shared<Subject>(std::move(subject))};
   }
-  [[nodiscard]] Subjects grill() const { return model("grill", "grill", 89); }
-  [[nodiscard]] Subjects inhibitor() const {
-    return {"1a4yA0", std::make_shared<Subject>(protein(data_, "paper/1a4y_AB.pdb"))};
-  }
-  [[nodiscard]] Subjects other_protein() const {
-    return {"1cem00", std::make_shared<Subject>(protein(data_, "paper/5h73.pdb")), 0, "",
-            "5h73, another protein of 1089 beads, in place of 1cem"};
-  }
-  [[nodiscard]] Subjects helix(std::size_t beads) const {
-    Subjects helix = model("static helix", "helix", beads);
-    if (beads < 315) helix.note = "10 turns take 315 beads: these overlap";
+  [[nodiscard]] static Case grill() { return of("grill", grill_subject(89)); }
+  [[nodiscard]] static Case spline(std::size_t beads) { return of("spline", spline_subject(beads)); }
+  [[nodiscard]] static Case static_helix(std::size_t beads) {
+    Case helix = of("static helix", helix_subject(beads, static_helix_turns));
+    helix.at = fmt::format("{} turns", static_helix_turns);
     return helix;
+  }
+  [[nodiscard]] static Case scaling_helix(std::size_t beads) {
+    const double turns = scaling_helix_turns * std::sqrt(static_cast<double>(beads));
+    Case helix = of("scaling helix", helix_subject(beads, turns));
+    helix.at = fmt::format("{:.2f} turns", turns);
+    return helix;
+  }
+  [[nodiscard]] Case inhibitor() const { return of("1a4yA0", protein(data_, "paper/1a4y_AB.pdb")); }
+  [[nodiscard]] Case dehydrogenase() const {
+    Case row = of("1cem00 (5h73)", protein(data_, "paper/5h73.pdb"));
+    row.note = "5h73 stands in for 1cem: another protein of 1089 beads";
+    return row;
   }
   [[nodiscard]] Shared villin() const {
     return std::make_shared<Subject>(
@@ -62,27 +91,15 @@ class Planner {
     return std::make_shared<Subject>(
         protein(data_, "trajectories/random100_400K_first200.dcd", "trajectories/random100_400K.pdb"));
   }
-  /// Returns the conformations of tables 1 and 4.
-  [[nodiscard]] std::vector<Subjects> conformations() const {
-    const Shared spiral = std::make_shared<Subject>(rolling_spiral(1000, 50));
-    const Shared extended = std::make_shared<Subject>(protein(data_, "paper/villin_hp36_collapse.pdb"));
-    const Shared folded = villin(), random = random_protein();
-    const std::string spiral_note = "9 turns: 18 of 1000 beads would overlap";
-    return {{"spiral", spiral, 0, "straight", "exactly straight, and so is its diagram"},
-            {"spiral", spiral, 25, "half rolled", spiral_note},
-            {"spiral", spiral, 49, "rolled", spiral_note},
-            {"villin", extended, 0, "extended"},
-            {"villin", folded, 0, "folded, frame 0"},
-            {"villin", folded, 999, "folded, frame 999"},
-            {"random protein", random, 0, "frame 0", "another random sequence"},
-            {"random protein", random, 100, "frame 100", "another random sequence"},
-            {"random protein", random, 199, "frame 199", "another random sequence"}};
-  }
+  [[nodiscard]] std::vector<Case> conformations() const;
 
   template <class Measure>
-  static void add(PaperTablePlan& plan, const Subjects& s, Cells paper, const Measure& measure) {
-    plan.rows.emplace_back([s, paper = std::move(paper), measure]() -> PaperRow {
-      return {s.name, s.subject->beads(), s.at, measure(s), paper, s.note};
+  void add(PaperTablePlan& plan, const Case& c, Cells paper, const Measure& measure) const {
+    plan.rows.emplace_back([c, paper = std::move(paper), measure, rounds = rounds_]() -> PaperRow {
+      Outcome outcome = measure(c, rounds);
+      std::string note = c.note;
+      if (!outcome.note.empty()) note += (note.empty() ? "" : "; ") + outcome.note;
+      return {c.name, c.subject->beads(), c.at, std::move(outcome.values), paper, note, c.reasons};
     });
   }
 
@@ -90,42 +107,69 @@ class Planner {
   std::size_t rounds_;
 };
 
+constexpr const char* kRandomProtein = "random protein (random100)";
+constexpr const char* kOtherSequence = "random100, another random sequence, stands in for the paper's";
+
+// The conformations of tables 1 and 4. The paper does not say which frames its rows show.
+std::vector<Case> Planner::conformations() const {
+  const Shared spiral = std::make_shared<Subject>(rolling_spiral(1000, 50));
+  const Shared extended = std::make_shared<Subject>(protein(data_, "paper/villin_hp36_collapse.pdb"));
+  const Shared folded = villin(), random = random_protein();
+  return {{"spiral", spiral, 0, "straight",
+           "rolled up by a thousandth, since an exactly straight chain has only 999 edges"},
+          {"spiral", spiral, 25, "half rolled"},
+          {"spiral", spiral, 49, "rolled"},
+          {"villin", extended, 0, "extended"},
+          {"villin", folded, 0, "folded, frame 0"},
+          {"villin", folded, 999, "folded, frame 999"},
+          {kRandomProtein, random, 0, "frame 0", kOtherSequence},
+          {kRandomProtein, random, 100, "frame 100", kOtherSequence},
+          {kRandomProtein, random, 199, "frame 199", kOtherSequence}};
+}
+
 PaperTablePlan Planner::construction() const {
   PaperTablePlan plan;
-  plan.table = {1,
-                "Construction, and how tight cages are",
-                {{"layered_per_wrapped", "layered / wrapped time", true},
-                 {"power_per_wrapped", "diagram / wrapped time", true},
-                 {"rho_avg", "average rho"},
-                 {"rho_min", "least rho"}},
-                {},
-                "Times to build each structure once from scratch, the power diagram with CGAL. rho is the "
-                "radius of the wrapped cage divided by that of the layered cage at a node. kds starts a node "
-                "with the bases of its children, whereas the paper takes CGAL's sphere for each node. So the "
-                "time of the diagram is a larger multiple of the wrapped hierarchy's time, and the time of "
-                "the layered hierarchy, which uses vector lanes, a smaller one."};
-  const auto row = [&](const Subjects& s, double wrapped, double layered, double rho_avg, double rho_min,
+  plan.table = {
+      1,
+      "Construction, and how tight cages are",
+      {{"wrapped_ms", "wrapped ms", Quantity::time},
+       {"cgal_ms", "wrapped by CGAL ms", Quantity::time},
+       {"layered_ms", "layered ms", Quantity::time},
+       {"power_ms", "diagram ms", Quantity::time},
+       {"layered_per_wrapped", "layered / wrapped", Quantity::ratio, true, "REASON"},
+       {"power_per_cgal", "diagram / wrapped by CGAL", Quantity::ratio, true, "REASON"},
+       {"rho_avg", "average rho"},
+       {"rho_min", "least rho"}},
+      {},
+      "Each structure is built from nothing. The paper built the wrapped hierarchy by CGAL's smallest sphere "
+      "of each node's beads, and so does the second column. The first column is kds's own build, which "
+      "starts "
+      "a node with the bases of its children. Rho is the radius of a node's wrapped cage divided by that of "
+      "its layered cage, over internal nodes."};
+  const auto row = [&](const Case& c, double wrapped, double layered, double rho_avg, double rho_min,
                        double power) {
-    add(plan, s,
-        {ratio(layered, wrapped), power > 0 ? ratio(power, wrapped) : std::nullopt, rho_avg, rho_min},
-        [rounds = rounds_](const Subjects& of) -> Measured {
-          const Construction c = construction_of(*of.subject, of.frame, rounds);
-          return {c.layered_per_wrapped, c.power_per_wrapped, c.tightness.average, c.tightness.least};
+    add(plan, c,
+        {wrapped, wrapped, layered, power, ratio(layered, wrapped), ratio(power, wrapped), rho_avg, rho_min},
+        [](const Case& of, std::size_t rounds) -> Outcome {
+          const Construction m = construction_of(*of.subject, of.frame, rounds);
+          return {{milliseconds(m.wrapped), milliseconds(m.cgal), milliseconds(m.layered),
+                   milliseconds(m.diagram), m.layered.per(m.wrapped), m.diagram.per(m.cgal),
+                   m.tightness.average, m.tightness.least}};
         });
   };
   row(grill(), 0.24, 0.08, 0.98, 0.80, 3.2);
   row(inhibitor(), 5.00, 1.40, 0.92, 0.56, 270);
-  row(other_protein(), 2.80, 1.10, 0.92, 0.54, 210);
-  row(model("spline", "spline", 10), 0.02, 0.01, 0.97, 0.86, 0.1);
-  row(model("spline", "spline", 50), 0.12, 0.05, 0.99, 0.81, 2.4);
-  row(model("spline", "spline", 100), 0.25, 0.09, 1.00, 0.80, 9.3);
-  row(helix(10), 0.03, 0.01, 0.89, 0.70, 0);
-  row(helix(640), 2.00, 0.60, 0.98, 0.46, 310);
-  row(helix(10240), 35.00, 9.10, 1.00, 0.45, 8.8e4);
-  row(model("scaling helix", "scaling-helix", 10), 0.03, 0.01, 0.93, 0.61, 0.1);
-  row(model("scaling helix", "scaling-helix", 640), 2.10, 0.60, 0.98, 0.46, 220);
-  row(model("scaling helix", "scaling-helix", 10240), 38.00, 9.00, 0.99, 0.45, 1.8e4);
-  const std::vector<Subjects> c = conformations();
+  row(dehydrogenase(), 2.80, 1.10, 0.92, 0.54, 210);
+  row(spline(10), 0.02, 0.01, 0.97, 0.86, 0.1);
+  row(spline(50), 0.12, 0.05, 0.99, 0.81, 2.4);
+  row(spline(100), 0.25, 0.09, 1.00, 0.80, 9.3);
+  row(static_helix(10), 0.03, 0.01, 0.89, 0.70, 0);
+  row(static_helix(640), 2.00, 0.60, 0.98, 0.46, 310);
+  row(static_helix(10240), 35.00, 9.10, 1.00, 0.45, 8.8e4);
+  row(scaling_helix(10), 0.03, 0.01, 0.93, 0.61, 0.1);
+  row(scaling_helix(640), 2.10, 0.60, 0.98, 0.46, 220);
+  row(scaling_helix(10240), 38.00, 9.00, 0.99, 0.45, 1.8e4);
+  const std::vector<Case> c = conformations();
   row(c[0], 2.80, 1.00, 1.00, 1.00, 2.6);
   row(c[1], 3.00, 1.00, 0.99, 0.50, 350);
   row(c[2], 2.90, 0.90, 1.00, 0.50, 243);
@@ -138,88 +182,113 @@ PaperTablePlan Planner::construction() const {
   return plan;
 }
 
+// The columns and the words of tables 2, 5 and 6.
+constexpr PaperColumn kLazyTime{"lazy_ms", "lazy ms", Quantity::time};
+constexpr PaperColumn kCascadeTime{"cascade_ms", "cascade ms", Quantity::time};
+constexpr PaperColumn kNaiveTime{"naive_ms", "naive ms", Quantity::time};
+constexpr PaperColumn kLazyPerNaive{"lazy_per_naive", "lazy / naive", Quantity::ratio, true, "REASON"};
+constexpr PaperColumn kCascadePerNaive{"cascade_per_naive", "cascade / naive", Quantity::ratio, true,
+                                       "REASON"};
+constexpr PaperColumn kCascadeTests{"cascade_tests_per_naive", "cascade / naive tests", Quantity::number,
+                                    false};
+constexpr PaperColumn kFrontier{"frontier", "average frontier"};
+constexpr PaperColumn kCellsChanged{"cells_changed", "cells changed"};
+constexpr PaperColumn kBasesChanged{"bases_changed", "bases changed"};
+
 PaperTablePlan Planner::verification() const {
   PaperTablePlan plan;
-  plan.table = {2,
-                "Verifying the wrapped hierarchy",
-                {{"lazy_per_naive", "lazy / naive time", true},
-                 {"cascade_per_naive", "cascade / naive time", true},
-                 {"cascade_tests_per_naive", "cascade / naive tests"},
-                 {"frontier", "average frontier"}},
-                {},
-                "Each model at rest. Naive tests every bead of every node, eight at a time in vector lanes; "
-                "the paper tests beads one by one, so a ratio to naive is larger here. The cascade tests "
-                "cages first and starts from its last frontier: the cages and beads at which it ended, "
-                "without those of the basis. Lazy trusts the old bases."};
-  const auto row = [&](const Subjects& s, double lazy, double cascade, double naive, double frontier) {
-    add(plan, s, {ratio(lazy, naive), ratio(cascade, naive), std::nullopt, frontier},
-        [rounds = rounds_](const Subjects& of) -> Measured {
-          const Step step = step_of(*of.subject, of.frame, of.frame, rounds);
-          return {step.lazy_per_naive, step.cascade_per_naive, step.cascade_tests / step.naive_tests,
-                  step.frontier};
+  plan.table = {
+      2,
+      "Verifying the wrapped hierarchy",
+      {kLazyTime, kCascadeTime, kNaiveTime, kLazyPerNaive, kCascadePerNaive, kCascadeTests, kFrontier},
+      {},
+      "Each model is at rest. Lazy computes the spheres of the old bases. Naive also tests each bead of each "
+      "node, one by one. The cascade tests cages first and starts from its last frontier. Tests count beads "
+      "and "
+      "cages. The frontier of a node holds the cages and beads that the cascade found inside its sphere."};
+  const auto row = [&](const Case& c, double lazy, double cascade, double naive, double frontier) {
+    add(plan, c, {lazy, cascade, naive, ratio(lazy, naive), ratio(cascade, naive), absent, frontier},
+        [](const Case& of, std::size_t rounds) -> Outcome {
+          const Step m = step_of(*of.subject, of.frame, of.frame, rounds);
+          return {{milliseconds(m.lazy), milliseconds(m.cascade), milliseconds(m.naive), m.lazy.per(m.naive),
+                   m.cascade.per(m.naive), m.cascade_tests / m.naive_tests, m.frontier}};
         });
   };
-  row(model("spline", "spline", 10), 0.005, 0.031, 0.028, 1.5);
-  row(model("spline", "spline", 100), 0.04, 0.31, 0.34, 3.0);
-  Subjects long_spline = model("spline", "spline", 1000);
-  long_spline.note = "the paper's 4.00 ms of lazy is as long as that of 10,240 beads, and perhaps 0.40";
-  row(long_spline, 4.00, 3.10, 4.60, 2.0);
-  row(helix(10), 0.01, 0.03, 0.03, 2.0);
-  row(helix(10240), 4.00, 54.00, 51.00, 4.0);
+  row(spline(10), 0.005, 0.031, 0.028, 1.5);
+  row(spline(100), 0.04, 0.31, 0.34, 3.0);
+  row(spline(1000), 4.00, 3.10, 4.60, 2.0);
+  row(static_helix(10), 0.01, 0.03, 0.03, 2.0);
+  row(static_helix(10240), 4.00, 54.00, 51.00, 4.0);
   row(inhibitor(), 0.61, 6.00, 6.40, 2.8);
-  row(other_protein(), 0.53, 4.60, 4.90, 2.7);
+  row(dehydrogenase(), 0.53, 4.60, 4.90, 2.7);
   row(grill(), 0.04, 0.31, 0.33, 2.5);
   return plan;
 }
 
 std::vector<PaperColumn> collision_columns() {
-  return {{"quadratic_per_wrapped", "quadratic / wrapped time", true},
-          {"layered_per_wrapped", "layered / wrapped time", true},
-          {"wrapped_pairs", "wrapped separating set"},
-          {"layered_pairs", "layered separating set"},
-          {"edges", "diagram edges"}};
+  return {{"quadratic_us", "quadratic us", Quantity::time},
+          {"wrapped_us", "wrapped us", Quantity::time},
+          {"layered_us", "layered us", Quantity::time},
+          {"quadratic_per_wrapped", "quadratic / wrapped", Quantity::ratio, true, "REASON"},
+          {"layered_per_wrapped", "layered / wrapped", Quantity::ratio, true, "REASON"},
+          {"wrapped_pairs", "wrapped set"},
+          {"layered_pairs", "layered set"},
+          {"edges", "diagram edges"},
+          {"wrapped_family", "wrapped family", Quantity::number, false},
+          {"layered_family", "layered family", Quantity::number, false}};
 }
 
 constexpr const char* kCollisionWords =
-    "Collisions of beads that are not neighbours along the chain. Quadratic tests all pairs, eight at a time "
-    "in vector lanes; the paper tests pairs one by one. The searches split the node with more beads, and "
-    "their hierarchies are already built. The separating sets of kds have each pair of beads in exactly one "
-    "pair of nodes, also pairs at a distance of two along the chain. The paper does not say which pairs its "
-    "sets leave out (for its proteins, a set has twice as many pairs as there are beads, less one).";
+    "Quadratic tests all pairs one by one. The searches split the node with more beads; their hierarchies "
+    "are "
+    "built beforehand. Sets are those of bead centres, and each pair of centres lies in exactly one of their "
+    "pairs: the paper's counts fit this definition. Families are separating families as the paper defines "
+    "them "
+    "(S1, S2), for beads that touch their neighbours; no count of the paper fits them. Edges include those "
+    "to "
+    "the infinite vertex.";
 
 // Returns the cells of tables 3 and 4 from the paper's microseconds and counts.
 Cells collision_cells(double quadratic, double wrapped, double wrapped_pairs, double layered,
                       double layered_pairs, double edges) {
-  return {ratio(quadratic, wrapped), ratio(layered, wrapped), wrapped_pairs, layered_pairs, edges};
+  return {quadratic,
+          wrapped,
+          layered,
+          ratio(quadratic, wrapped),
+          ratio(layered, wrapped),
+          wrapped_pairs,
+          layered_pairs,
+          edges,
+          absent,
+          absent};
 }
 
-Measured measured_collision(const Subjects& of, std::size_t rounds) {
-  const SelfCollision s = self_collision_of(*of.subject, of.frame, rounds);
-  return {s.quadratic_per_wrapped, s.layered_per_wrapped, static_cast<double>(s.wrapped_pairs),
-          static_cast<double>(s.layered_pairs), static_cast<double>(s.edges)};
+Outcome measured_collision(const Case& of, std::size_t rounds) {
+  const SelfCollision m = self_collision_of(*of.subject, of.frame, rounds);
+  return {{microseconds(m.quadratic), microseconds(m.wrapped), microseconds(m.layered),
+           m.quadratic.per(m.wrapped), m.layered.per(m.wrapped), count(m.wrapped_pairs),
+           count(m.layered_pairs), count(m.edges), count(m.wrapped_family), count(m.layered_family)},
+          m.collisions == 0
+              ? ""
+              : fmt::format("{} pairs of touching beads collide, and families leave them out", m.collisions)};
 }
 
 PaperTablePlan Planner::self_collision() const {
   PaperTablePlan plan;
   plan.table = {3, "Detecting self-collision", collision_columns(), {}, kCollisionWords};
-  const auto row = [&](const Subjects& s, const Cells& paper) {
-    add(plan, s, paper, [rounds = rounds_](const Subjects& of) { return measured_collision(of, rounds); });
-  };
+  const auto row = [&](const Case& c, const Cells& paper) { add(plan, c, paper, measured_collision); };
   row(grill(), collision_cells(410, 70, 293, 71, 291, 264));
-  Subjects first = inhibitor();
-  first.note = "the paper's 6300 us of all pairs is a tenth of its own for fewer beads, and perhaps 63000";
-  row(first, collision_cells(6300, 770, 2759, 950, 2759, 8500));
-  row(other_protein(), collision_cells(63000, 530, 2177, 700, 2177, 8600));
-  row(model("spline", "spline", 10), collision_cells(10, 2, 9, 2, 9, 27));
-  row(model("spline", "spline", 50), collision_cells(130, 13, 52, 13, 52, 147));
-  row(model("spline", "spline", 100), collision_cells(540, 26, 103, 26, 101, 297));
-  row(helix(10), collision_cells(10, 7, 27, 7, 27, 40));
-  row(helix(640), collision_cells(21000, 360, 1500, 360, 1500, 57000));
-  row(helix(10240), collision_cells(5.6e6, 3000, 11000, 3000, 11000, 2.0e6));
-  row(model("scaling helix", "scaling-helix", 10), collision_cells(100, 3, 11, 3, 11, 55));
-  row(model("scaling helix", "scaling-helix", 640), collision_cells(3.1e5, 450, 1500, 450, 1500, 45000));
-  row(model("scaling helix", "scaling-helix", 10240),
-      collision_cells(5.6e6, 11000, 4.7e4, 11000, 4.7e4, 5.6e5));
+  row(inhibitor(), collision_cells(6300, 770, 2759, 950, 2759, 8500));
+  row(dehydrogenase(), collision_cells(63000, 530, 2177, 700, 2177, 8600));
+  row(spline(10), collision_cells(10, 2, 9, 2, 9, 27));
+  row(spline(50), collision_cells(130, 13, 52, 13, 52, 147));
+  row(spline(100), collision_cells(540, 26, 103, 26, 101, 297));
+  row(static_helix(10), collision_cells(10, 7, 27, 7, 27, 40));
+  row(static_helix(640), collision_cells(21000, 360, 1500, 360, 1500, 57000));
+  row(static_helix(10240), collision_cells(5.6e6, 3000, 11000, 3000, 11000, 2.0e6));
+  row(scaling_helix(10), collision_cells(100, 3, 11, 3, 11, 55));
+  row(scaling_helix(640), collision_cells(3.1e5, 450, 1500, 450, 1500, 45000));
+  row(scaling_helix(10240), collision_cells(5.6e6, 11000, 4.7e4, 11000, 4.7e4, 5.6e5));
   return plan;
 }
 
@@ -227,16 +296,14 @@ PaperTablePlan Planner::self_collision_of_conformations() const {
   PaperTablePlan plan;
   plan.table = {
       4, "Detecting self-collision while the necklace deforms", collision_columns(), {}, kCollisionWords};
-  const std::vector<Subjects> c = conformations();
+  const std::vector<Case> c = conformations();
   const std::vector<Cells> paper{
       collision_cells(53000, 240, 1000, 250, 1000, 3000), collision_cells(53000, 720, 2400, 740, 2400, 3000),
       collision_cells(53000, 280, 6400, 270, 7200, 3000), collision_cells(610, 28, 110, 28, 110, 731),
       collision_cells(620, 31, 120, 38, 150, 719),        collision_cells(620, 35, 140, 38, 150, 708),
       collision_cells(480, 76, 310, 78, 315, 2200),       collision_cells(470, 83, 600, 100, 600, 2100),
       collision_cells(490, 93, 380, 106, 420, 2000)};
-  for (std::size_t i = 0; i < paper.size(); ++i)
-    add(plan, c[i], paper[i],
-        [rounds = rounds_](const Subjects& of) { return measured_collision(of, rounds); });
+  for (std::size_t i = 0; i < paper.size(); ++i) add(plan, c[i], paper[i], measured_collision);
   return plan;
 }
 
@@ -245,34 +312,46 @@ PaperTablePlan Planner::maintenance() const {
   plan.table = {
       5,
       "Changes from frame to frame, and updating the wrapped hierarchy",
-      {{"cells_changed", "cells changed"},
-       {"bases_changed", "bases changed"},
-       {"lazy_per_naive", "lazy / naive time", true},
-       {"cascade_per_naive", "cascade / naive time", true},
-       {"cascade_tests_per_naive", "cascade / naive tests"}},
+      {kLazyTime,
+       kCascadeTime,
+       kNaiveTime,
+       kLazyPerNaive,
+       kCascadePerNaive,
+       {"reinsert_per_rebuild", "reinsert / rebuild", Quantity::ratio, false},
+       {"greedy_per_rebuild", "greedy / rebuild", Quantity::ratio, false},
+       kCellsChanged,
+       kBasesChanged,
+       kCascadeTests},
       {},
-      "Between two consecutive frames: cells of the later diagram that are not in the earlier one, and nodes "
-      "with another basis. The paper does not say which frames its rows show, nor whether cells that vanish "
-      "are counted. Naive uses vector lanes here, so ratios to naive are larger."};
-  const auto row = [&](const Subjects& s, double cells, double bases, double lazy, double cascade,
-                       double naive) {
-    add(plan, s, {cells, bases, ratio(lazy, naive), ratio(cascade, naive), std::nullopt},
-        [rounds = rounds_](const Subjects& of) -> Measured {
-          const Step step = step_of(*of.subject, of.frame, of.frame + 1, rounds);
-          return {static_cast<double>(step.cells_changed), static_cast<double>(step.bases_changed),
-                  step.lazy_per_naive, step.cascade_per_naive, step.cascade_tests / step.naive_tests};
+      "Each row is the step between two consecutive frames. Cells changed are those of the later diagram "
+      "that "
+      "the earlier one does not have, and bases changed are nodes with another basis. The paper does not say "
+      "which frames its rows are. Reinsert and greedy are the two ways of section 3.2 to update the diagram "
+      "by "
+      "removing beads; rebuild builds it anew."};
+  const auto row = [&](const Case& c, double cells, double bases, double lazy, double cascade, double naive) {
+    add(plan, c,
+        {lazy, cascade, naive, ratio(lazy, naive), ratio(cascade, naive), absent, absent, cells, bases,
+         absent},
+        [](const Case& of, std::size_t rounds) -> Outcome {
+          const Step m = step_of(*of.subject, of.frame, of.frame + 1, rounds);
+          const DiagramStep d = diagram_step_of(*of.subject, of.frame, of.frame + 1, rounds);
+          return {{milliseconds(m.lazy), milliseconds(m.cascade), milliseconds(m.naive), m.lazy.per(m.naive),
+                   m.cascade.per(m.naive), d.reinsert.per(d.rebuild), d.greedy.per(d.rebuild),
+                   count(m.cells_changed), count(m.bases_changed), m.cascade_tests / m.naive_tests},
+                  d.rebuilds == 0 ? ""
+                                  : "removal rebuilds the diagram, since it would take out every tenth bead"};
         });
   };
   const auto at = [](std::string name, const Shared& subject, std::size_t frame, std::string note = "") {
-    return Subjects{std::move(name), subject, frame, fmt::format("frame {}", frame), std::move(note)};
+    return Case{std::move(name), subject, frame, fmt::format("frame {}", frame), std::move(note)};
   };
   const Shared spiral = std::make_shared<Subject>(rolling_spiral(1000, 50));
-  const std::string nine = "9 turns, not 16; in the plane";
-  row(at("spiral", spiral, 0, nine), 16, 0, 0.69, 1.7, 2.0);
-  row(at("spiral", spiral, 12, nine), 1100, 9, 0.73, 2.0, 2.3);
-  row(at("spiral", spiral, 24, nine), 1400, 16, 0.72, 2.0, 2.2);
-  row(at("spiral", spiral, 36, nine), 1614, 26, 0.72, 2.0, 2.1);
-  row(at("spiral", spiral, 48, nine), 1800, 43, 0.73, 2.1, 2.2);
+  row(at("spiral", spiral, 0), 16, 0, 0.69, 1.7, 2.0);
+  row(at("spiral", spiral, 12), 1100, 9, 0.73, 2.0, 2.3);
+  row(at("spiral", spiral, 24), 1400, 16, 0.72, 2.0, 2.2);
+  row(at("spiral", spiral, 36), 1614, 26, 0.72, 2.0, 2.1);
+  row(at("spiral", spiral, 48), 1800, 43, 0.73, 2.1, 2.2);
   const Shared folded = villin();
   row(at("villin", folded, 0), 172, 0, 0.08, 0.20, 0.2);
   row(at("villin", folded, 200), 125, 4, 0.08, 0.21, 0.2);
@@ -281,13 +360,12 @@ PaperTablePlan Planner::maintenance() const {
   row(at("villin", folded, 800), 155, 4, 0.08, 0.22, 0.2);
   row(at("villin", folded, 998), 136, 6, 0.08, 0.24, 0.2);
   const Shared random = random_protein();
-  const std::string other = "another random sequence";
-  row(at("random protein", random, 0, other), 611, 0, 0.22, 0.60, 0.6);
-  row(at("random protein", random, 40, other), 428, 4, 0.21, 0.66, 0.6);
-  row(at("random protein", random, 80, other), 461, 11, 0.22, 0.66, 0.6);
-  row(at("random protein", random, 120, other), 436, 7, 0.22, 0.63, 0.6);
-  row(at("random protein", random, 160, other), 438, 11, 0.22, 0.66, 0.6);
-  row(at("random protein", random, 198, other), 480, 11, 0.22, 0.63, 0.6);
+  row(at(kRandomProtein, random, 0, kOtherSequence), 611, 0, 0.22, 0.60, 0.6);
+  row(at(kRandomProtein, random, 40, kOtherSequence), 428, 4, 0.21, 0.66, 0.6);
+  row(at(kRandomProtein, random, 80, kOtherSequence), 461, 11, 0.22, 0.66, 0.6);
+  row(at(kRandomProtein, random, 120, kOtherSequence), 436, 7, 0.22, 0.63, 0.6);
+  row(at(kRandomProtein, random, 160, kOtherSequence), 438, 11, 0.22, 0.66, 0.6);
+  row(at(kRandomProtein, random, 198, kOtherSequence), 480, 11, 0.22, 0.63, 0.6);
   return plan;
 }
 
@@ -295,27 +373,26 @@ PaperTablePlan Planner::stability() const {
   PaperTablePlan plan;
   plan.table = {6,
                 "Changes over several frames",
-                {{"bases_changed", "bases changed"},
-                 {"cells_changed", "cells changed"},
-                 {"lazy_per_naive", "lazy / naive time", true},
-                 {"cascade_per_naive", "cascade / naive time", true},
-                 {"cascade_tests_per_naive", "cascade / naive tests"}},
+                {kLazyTime, kCascadeTime, kNaiveTime, kLazyPerNaive, kCascadePerNaive, kBasesChanged,
+                 kCellsChanged, kCascadeTests},
                 {},
-                "The random protein from frame 900 on, counted as in table 5, at frames that are the given "
-                "number apart."};
+                "The random protein from frame 900 on, counted as in table 5, over so many frames."};
   const Shared random = std::make_shared<Subject>(
       protein(data_, "paper/random100_400K_900to932.dcd", "trajectories/random100_400K.pdb"));
   const auto row = [&](std::size_t frames, double bases, double lazy, double cascade, double naive,
                        double cells) {
-    const Subjects s{"random protein", random, frames, fmt::format("{} frames", frames),
-                     "another random sequence"};
-    add(plan, s, {bases, cells, ratio(lazy, naive), ratio(cascade, naive), std::nullopt},
-        [rounds = rounds_](const Subjects& of) -> Measured {
-          const Step step = step_of(*of.subject, 0, of.frame, rounds);
-          return {static_cast<double>(step.bases_changed), static_cast<double>(step.cells_changed),
-                  step.lazy_per_naive, step.cascade_per_naive, step.cascade_tests / step.naive_tests};
+    add(plan,
+        {kRandomProtein, random, frames, fmt::format("{} frame{}", frames, frames == 1 ? "" : "s"),
+         kOtherSequence},
+        {lazy, cascade, naive, ratio(lazy, naive), ratio(cascade, naive), bases, cells, absent},
+        [](const Case& of, std::size_t rounds) -> Outcome {
+          const Step m = step_of(*of.subject, 0, of.frame, rounds);
+          return {{milliseconds(m.lazy), milliseconds(m.cascade), milliseconds(m.naive), m.lazy.per(m.naive),
+                   m.cascade.per(m.naive), count(m.bases_changed), count(m.cells_changed),
+                   m.cascade_tests / m.naive_tests}};
         });
   };
+  row(1, 7, 0.25, 0.66, 0.62, 462);
   row(2, 15, 0.22, 0.66, 0.62, 608);
   row(4, 12, 0.22, 0.63, 0.61, 869);
   row(8, 16, 0.22, 0.66, 0.63, 974);
@@ -324,42 +401,83 @@ PaperTablePlan Planner::stability() const {
   return plan;
 }
 
-PaperTablePlan Planner::two_spirals() const {
+PaperTablePlan Planner::two_rolling_spirals() const {
   PaperTablePlan plan;
-  plan.table = {7,
-                "Collision between two rolling spirals",
-                {{"layered_pairs", "layered separating set"},
-                 {"wrapped_pairs", "wrapped separating set"},
-                 {"lazy_per_full", "lazy / full time", true},
-                 {"layered_per_full", "layered / full time", true},
-                 {"frontier", "average frontier"}},
-                {},
-                "Two chains of 1000 beads roll up in 1000 frames, one above the other, while the distance of "
-                "their planes falls from 1.5 chain lengths to 1.05 diameters. The paper does not say how its "
-                "chains lie. Each time is that of an update of the hierarchy from the previous frame and a "
-                "search: full verifies all nodes by the cascade, lazy recomputes the cages that the search "
-                "visits, layered builds all cages anew."};
-  constexpr std::size_t frames = 1001;
-  const Shared spirals = std::make_shared<Subject>(two_rolling_spirals(1000, frames));
-  const auto row = [&](std::size_t frame, std::string at, double layered_pairs, double layered,
-                       double wrapped_pairs, double lazy, double full, double frontier) {
-    const Subjects s{"two spirals", spirals, frame, std::move(at), "9 turns each"};
-    add(plan, s, {layered_pairs, wrapped_pairs, ratio(lazy, full), ratio(layered, full), frontier},
-        [rounds = rounds_](const Subjects& of) -> Measured {
-          const CollisionBetween c = collision_between(*of.subject, of.frame - 1, of.frame, rounds);
-          return {static_cast<double>(c.layered_pairs), static_cast<double>(c.wrapped_pairs), c.lazy_per_full,
-                  c.layered_per_full, c.frontier};
+  plan.table = {
+      7,
+      "Collision between two rolling spirals",
+      {{"layered_ms", "layered ms", Quantity::time},
+       {"lazy_ms", "lazy ms", Quantity::time},
+       {"full_ms", "full ms", Quantity::time},
+       {"lazy_per_full", "lazy / full", Quantity::ratio, true, "REASON"},
+       {"layered_per_full", "layered / full", Quantity::ratio, true, "REASON"},
+       {"layered_per_lazy", "layered / lazy", Quantity::ratio, true, "REASON"},
+       {"layered_pairs", "layered set"},
+       {"wrapped_pairs", "wrapped set"},
+       kFrontier},
+      {},
+      "Two chains of 1000 beads roll up in one plane in 1000 steps, facing each other. The gap between them "
+      "shrinks from 0.4 chain lengths to a tenth of a radius. Each time is that of bringing the hierarchy "
+      "from "
+      "the step before and searching it: layered builds all cages anew, full verifies all nodes by the "
+      "cascade, "
+      "and lazy computes only the cages that the search visits."};
+  constexpr std::size_t beads = 1000, steps = 1000;
+  // Returns the stage after `step` steps.
+  const auto stage = [](std::size_t step) {
+    const double part = static_cast<double>(step) / steps, length = 1.998 * (beads - 1);
+    return FacingStage{first_rolled + (1 - first_rolled) * part, 1, (1 - part) * 0.4 * length + part * 0.1};
+  };
+  const auto row = [&](std::string at, const FacingStage& before, const FacingStage& after, Cells paper,
+                       Reasons reasons = {}, std::string note = "") {
+    const std::vector<FacingStage> stages{before, after};
+    add(plan,
+        {"two spirals", std::make_shared<Subject>(two_spirals(beads, stages)), 0, std::move(at),
+         std::move(note), std::move(reasons)},
+        std::move(paper), [](const Case& of, std::size_t rounds) -> Outcome {
+          const CollisionBetween m = collision_between(*of.subject, 0, 1, rounds);
+          return {{milliseconds(m.layered), milliseconds(m.lazy), milliseconds(m.full), m.lazy.per(m.full),
+                   m.layered.per(m.full), m.layered.per(m.lazy), count(m.layered_pairs),
+                   count(m.wrapped_pairs), m.frontier}};
         });
   };
-  row(1, "straight", 6, 0.9, 6, 0.006, 0.7, 1.7);
-  row(500, "half rolled", 6, 1.0, 5, 0.006, 0.6, 2.1);
-  row(900, "nine tenths", 6, 1.0, 6, 0.01, 0.7, 2.3);
-  row(992, "rolled, near", 2400, 2.0, 1600, 1.0, 2.0, 2.7);
-  row(1000, "almost touching", 3700, 2.1, 2300, 2.0, 2.0, 3.0);
+  const auto cells = [](double layered_pairs, double layered, double wrapped_pairs, double lazy, double full,
+                        double frontier) {
+    return Cells{
+        layered,       lazy,          full,    ratio(lazy, full), ratio(layered, full), ratio(layered, lazy),
+        layered_pairs, wrapped_pairs, frontier};
+  };
+  row("straight", stage(0), stage(1), cells(6, 0.9, 6, 0.006, 0.7, 1.7));
+  row("half rolled", stage(499), stage(500), cells(6, 1.0, 5, 0.006, 0.6, 2.1));
+  row("nine tenths", stage(899), stage(900), cells(6, 1.0, 6, 0.01, 0.7, 2.3));
+  row("near", stage(989), stage(990), cells(2400, 2.0, 1600, 1.0, 2.0, 2.7));
+  row("almost touching", stage(999), stage(1000), cells(3700, 2.1, 2300, 2.0, 2.0, 3.0));
+  row("overlapping", {stage(999).rolled, 0.7, 0}, {1, 0.7, 0}, Cells(plan.table.columns.size()));
   return plan;
 }
 
 }  // namespace
+
+std::optional<double> deviation_of(const PaperTable& table, const PaperRow& row, std::size_t column) {
+  const std::optional<double>& paper = row.paper[column];
+  if (table.columns[column].quantity == Quantity::time || !paper || *paper == 0) return absent;
+  return row.ours[column].value / *paper - 1;
+}
+
+std::vector<Deviation> large_deviations(const PaperTable& table, const PaperRow& row) {
+  std::vector<Deviation> large;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const PaperColumn& column = table.columns[c];
+    if (column.quantity == Quantity::time || !row.paper[c]) continue;
+    const std::optional<double> share = deviation_of(table, row, c);
+    if (share ? std::abs(*share) <= explained_from : row.ours[c].value == 0) continue;
+    const auto own = std::ranges::find(row.reasons, column.name, &Reasons::value_type::first);
+    std::string reason = own != row.reasons.end() ? own->second : std::string(column.reason);
+    if (reason.empty()) reason = "no reason is known";
+    large.push_back({c, share, std::move(reason)});
+  }
+  return large;
+}
 
 PaperTablePlan plan_paper_table(int number, const std::filesystem::path& data, std::size_t rounds) {
   const Planner planner(data, rounds);
@@ -377,7 +495,7 @@ PaperTablePlan plan_paper_table(int number, const std::filesystem::path& data, s
     case 6:
       return planner.stability();
     case 7:
-      return planner.two_spirals();
+      return planner.two_rolling_spirals();
     default:
       throw std::invalid_argument(fmt::format("the paper has no table {}", number));
   }

@@ -1,6 +1,7 @@
 #include "experiments/reproduce/reproduce_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,13 +24,18 @@ namespace {
 
 using Value = std::optional<double>;
 
-// Shows counts in full and ratios with four figures.
+// Shows counts in full, and other numbers with about four figures.
 std::string shown(double value) {
   const bool is_count = value == std::floor(value) && value >= 2;
   return is_count ? with_thousands(static_cast<std::uint64_t>(value)) : short_decimal(value);
 }
-std::string shown(const PaperValue& ours) {
-  return ours.rounds ? spread_text(*ours.rounds) : shown(ours.value);
+std::string percent(double share) {
+  const double rounded = std::round(100 * std::abs(share));
+  return fmt::format("{}{}%",
+                     rounded == 0 ? ""
+                     : share < 0  ? "-"
+                                  : "+",
+                     with_thousands(static_cast<std::uint64_t>(rounded)));
 }
 
 std::string name_of(const PaperRow& row) {
@@ -37,7 +43,22 @@ std::string name_of(const PaperRow& row) {
                      row.at);
 }
 
-Table<PaperRow> columns_of(const PaperTable& table) {
+std::string reasons_in_words(const PaperTable& table, const PaperRow& row) {
+  std::string words;
+  for (const Deviation& large : large_deviations(table, row))
+    words +=
+        fmt::format("{}{}: {}", words.empty() ? "" : "; ", table.columns[large.column].name, large.reason);
+  return words;
+}
+
+// People see two tables with the same rows: times with their ratios, and numbers. Files have all columns.
+enum class People { times, numbers };
+
+bool shows(People people, const PaperColumn& column) {
+  return (column.quantity == Quantity::number) == (people == People::numbers);
+}
+
+Table<PaperRow> columns_of(const PaperTable& table, People people) {
   using Row = PaperRow;
   Table<Row> columns{{
       {.key = "table", .json = [number = table.number](const Row&) { return Json(number); }},
@@ -49,38 +70,92 @@ Table<PaperRow> columns_of(const PaperTable& table) {
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const PaperColumn& column = table.columns[c];
     const std::string name(column.name);
+    const auto heading = [shown = shows(people, column)](std::string_view text) {
+      return shown ? std::string(text) : std::string();
+    };
     const auto bound = [c](double Spread::*which) {
       return [=](const Row& r) { return r.ours[c].rounds ? Field((*r.ours[c].rounds).*which) : Field(); };
     };
     columns.add({{.key = name,
-                  .heading = std::string(column.title),
+                  .heading = heading(column.title),
                   .value = [c](const Row& r) { return Field(r.ours[c].value); },
-                  .words = [c](const Row& r) { return shown(r.ours[c]); }}});
-    if (column.timed)
+                  .words = [c](const Row& r) { return shown(r.ours[c].value); }}});
+    if (column.quantity != Quantity::number)
       columns.add({{.key = name + "_least", .value = bound(&Spread::least), .optional = true},
                    {.key = name + "_most", .value = bound(&Spread::most), .optional = true}});
-    columns.add({{name + "_paper", "paper", [c](const Row& r) { return Field(r.paper[c]); },
+    if (!column.in_paper) continue;
+    columns.add({{name + "_paper", heading("paper"), [c](const Row& r) { return Field(r.paper[c]); },
                   [](const Field& value) { return shown(value.number()); }}});
+    if (column.quantity == Quantity::time) continue;
+    columns.add({{name + "_deviation", heading("off"),
+                  [&table, c](const Row& r) { return Field(deviation_of(table, r, c)); },
+                  [](const Field& value) { return percent(value.number()); }}});
   }
-  return columns.add({{"note", "note", [](const Row& r) { return Field(r.note); }, plainly, Shown::in_text}});
+  return columns.add(
+      {{.key = "note", .value = [](const Row& r) { return Field(r.note); }},
+       {.key = "reasons", .value = [&table](const Row& r) { return Field(reasons_in_words(table, r)); }}});
 }
 
-std::string table_with_notes(const PaperTable& table) {
-  std::string html = columns_of(table).html(table.rows);
-  std::vector<std::string> notes;
+// What is said of several rows: a note, or a reason with the deviations that it explains.
+struct Remark {
+  std::string words;
+  std::vector<std::string> rows;
+};
+
+std::vector<Remark> notes_of(const PaperTable& table) {
+  std::vector<Remark> notes;
   for (const PaperRow& row : table.rows) {
     if (row.note.empty()) continue;
-    std::string note = fmt::format("<p>{}: {}.</p>\n", html_escaped(row.name), html_escaped(row.note));
-    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
+    auto place = std::ranges::find(notes, row.note, &Remark::words);
+    if (place == notes.end()) place = notes.insert(place, {row.note, {}});
+    place->rows.push_back(name_of(row));
   }
-  for (const std::string& note : notes) html += note;
-  return html;
+  return notes;
 }
+
+std::vector<Remark> reasons_of(const PaperTable& table) {
+  std::vector<Remark> reasons;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    for (const PaperRow& row : table.rows) {
+      for (const Deviation& large : large_deviations(table, row)) {
+        if (large.column != c) continue;
+        const std::string words = fmt::format("{}: {}", table.columns[c].title, large.reason);
+        auto place = std::ranges::find(reasons, words, &Remark::words);
+        if (place == reasons.end()) place = reasons.insert(place, {words, {}});
+        place->rows.push_back(
+            fmt::format("{} ({})", name_of(row),
+                        large.share ? percent(*large.share) : shown(row.ours[c].value) + " for 0"));
+      }
+    }
+  }
+  return reasons;
+}
+
+std::string text_of(const std::vector<Remark>& remarks, std::string_view heading) {
+  std::string text = remarks.empty() ? "" : fmt::format("  {}\n", heading);
+  for (const Remark& remark : remarks)
+    text += fmt::format("  - {}. Rows: {}.\n", remark.words, fmt::join(remark.rows, "; "));
+  return text;
+}
+
+std::string html_of(const std::vector<Remark>& remarks, std::string_view heading) {
+  if (remarks.empty()) return "";
+  std::string html = fmt::format("<p>{}</p>\n<ul>\n", heading);
+  for (const Remark& remark : remarks)
+    html += html_escaped(fmt::format("{}. Rows: {}.", remark.words, fmt::join(remark.rows, "; ")))
+                .insert(0, "<li>") +
+            "</li>\n";
+  return html + "</ul>\n";
+}
+
+constexpr std::string_view kNotesHeading = "How inputs differ from the paper's:";
+constexpr std::string_view kReasonsHeading = "Why values deviate by more than 25%:";
 
 // Plots table 6, whose rows differ in the number of frames.
 std::string stability_plot(const PaperTable& table) {
   LinePlot plot{"frames", "changes", Drawn::points, {}};
-  for (std::size_t c = 0; c < 2; ++c)
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (table.columns[c].quantity != Quantity::number || !table.columns[c].in_paper) continue;
     for (const bool paper : {false, true}) {
       Curve curve{fmt::format("{}{}", table.columns[c].title, paper ? ", paper" : ""), {}};
       for (const PaperRow& row : table.rows) {
@@ -89,7 +164,8 @@ std::string stability_plot(const PaperTable& table) {
       }
       plot.curves.push_back(std::move(curve));
     }
-  return html_figure(svg_plot(plot), "Changes between two frames, by the number of frames between them.");
+  }
+  return html_figure(svg_plot(plot), "Changes between two frames, by how many frames lie between them.");
 }
 
 }  // namespace
@@ -97,7 +173,7 @@ std::string stability_plot(const PaperTable& table) {
 Json paper_rows_json(std::span<const PaperTable> tables) {
   Json json = Json::array();
   for (const PaperTable& table : tables) {
-    const Table<PaperRow> columns = columns_of(table);
+    const Table<PaperRow> columns = columns_of(table, People::numbers);
     for (const PaperRow& row : table.rows) json.push_back(columns.json(row));
   }
   return json;
@@ -114,13 +190,15 @@ Json paper_findings_json(std::span<const PaperTable> tables) {
   return json;
 }
 
-std::string paper_csv(const PaperTable& table) { return columns_of(table).csv(table.rows); }
+std::string paper_csv(const PaperTable& table) { return columns_of(table, People::numbers).csv(table.rows); }
 
 std::string paper_text(std::span<const PaperTable> tables) {
   std::string text;
   for (const PaperTable& table : tables) {
-    text += fmt::format("{}table {}: {}\n{}", text.empty() ? "" : "\n", table.number, table.title,
-                        columns_of(table).text(table.rows, "  "));
+    text += fmt::format("{}table {}: {}\n{}\n{}", text.empty() ? "" : "\n", table.number, table.title,
+                        columns_of(table, People::times).text(table.rows, "  "),
+                        columns_of(table, People::numbers).text(table.rows, "  "));
+    text += text_of(notes_of(table), kNotesHeading) + text_of(reasons_of(table), kReasonsHeading);
     for (const Finding& finding : findings_of(table)) text += "  " + sentence_of(finding) + "\n";
   }
   return text;
@@ -139,15 +217,19 @@ std::string paper_page(std::span<const PaperTable> tables, Page page) {
       "(2004), that these tables can judge.</p>\n{2}</ul>\n",
       claims.all, claims.hold, list);
   page.words =
-      "Each row also gives the paper's values. Times are ratios within a row, because the paper's machine is "
-      "from 2004. The computations that are compared take turns, round by round; the ratio is the median of "
-      "the rounds, with the least and the most in brackets. A computation of more than a second runs once, "
-      "whatever the number of rounds, and is compared with all rounds of the other.";
+      "The paper's values stand beside ours. <em>off</em> is ours divided by the paper's, less one. Times "
+      "have "
+      "none, because the paper's machine is of 2004: ratios of times do. Works that are compared take turns, "
+      "round by round, and the tables show medians; the CSV files also have the least and the most. Work of "
+      "more than a second is done once, whatever the number of rounds.";
   for (const PaperTable& table : tables)
-    page.body +=
-        html_section(fmt::format("Table {}: {}", table.number, table.title),
-                     fmt::format("<p>{}</p>\n{}{}", html_escaped(table.words), table_with_notes(table),
-                                 table.number == 6 ? stability_plot(table) : ""));
+    page.body += html_section(
+        fmt::format("Table {}: {}", table.number, table.title),
+        fmt::format("<p>{}</p>\n{}{}{}{}{}", html_escaped(table.words),
+                    columns_of(table, People::times).html(table.rows),
+                    columns_of(table, People::numbers).html(table.rows),
+                    table.number == 6 ? stability_plot(table) : "", html_of(notes_of(table), kNotesHeading),
+                    html_of(reasons_of(table), kReasonsHeading)));
   return html_page(page);
 }
 
@@ -155,8 +237,8 @@ namespace {
 
 constexpr CommandSpec kReproduceCommand{
     "kds reproduce",
-    "Measures the tables of Agarwal et al. (2004) again. Shows each row next to the paper's, and times as "
-    "ratios.",
+    "Measures the tables of Agarwal et al. (2004) again. Shows each value beside the paper's, how far it is "
+    "off, and why.",
     "TABLE...",
     "table1, table2 ... table7, or all",
     "kds reproduce all --out report\nkds reproduce table1 table6 --json -",

@@ -11,7 +11,7 @@
 namespace kds {
 
 /// Returns an object per row: `table`, `name`, `beads`, `at`, each column under its name and under its name
-/// with `_paper` appended, and `note`.
+/// with `_paper` and `_deviation` appended, `note` and `reasons`.
 [[nodiscard]] Json paper_rows_json(std::span<const PaperTable> tables);
 /// Returns an object per table: `table`, `title` and `findings`. Each finding has the name of the `claim`,
 /// whether it `holds`, and `words`, a sentence.

@@ -98,11 +98,12 @@ class Occupied {
 
 }  // namespace
 
-Shape spline(std::size_t beads, double bond) {
+Shape spline(std::size_t beads, double bond, int dimension) {
   static const std::array<Eigen::Vector3d, 5> controls{Eigen::Vector3d{0, 0, 0}, Eigen::Vector3d{1, 2, 0.5},
                                                        Eigen::Vector3d{2, -1, 1}, Eigen::Vector3d{3, 2, 0.5},
                                                        Eigen::Vector3d{4, 0, 0}};
-  const auto at = [](double t) -> Eigen::Vector3d {
+  const double height = dimension == 2 ? 0 : 1;
+  const auto at = [height](double t) -> Eigen::Vector3d {
     const double part = std::min(std::floor(3 * t), 2.0);
     const double u = 3 * t - part;
     const auto i = static_cast<std::size_t>(part);
@@ -110,7 +111,9 @@ Shape spline(std::size_t beads, double bond) {
     const Eigen::Vector3d first = i == 0 ? controls[0] : Eigen::Vector3d((controls[i] + controls[i + 1]) / 2);
     const Eigen::Vector3d last =
         i == 2 ? controls[4] : Eigen::Vector3d((controls[i + 1] + controls[i + 2]) / 2);
-    return (1 - u) * (1 - u) * first + 2 * u * (1 - u) * controls[i + 1] + u * u * last;
+    Eigen::Vector3d point = (1 - u) * (1 - u) * first + 2 * u * (1 - u) * controls[i + 1] + u * u * last;
+    point.z() *= height;
+    return point;
   };
   return beads_along(at, beads, bond, pieces_for(beads, 3));
 }

@@ -35,8 +35,9 @@ inline constexpr double clear_distance = 2.002;
   return sum / static_cast<double>(shape.cols());
 }
 
-/// Returns a quadratic B-spline in space with five control points. Proper from 8 beads on.
-[[nodiscard]] Shape spline(std::size_t beads, double bond = usual_bond);
+/// Returns a quadratic B-spline with five control points, in space or in the plane z = 0 (`dimension` 2).
+/// Proper from 8 beads on.
+[[nodiscard]] Shape spline(std::size_t beads, double bond = usual_bond, int dimension = 3);
 
 /// Returns a helix with `turns` turns around the axis, in a cube. Proper while consecutive turns are apart,
 /// from about pi turns^2 beads on.

@@ -1,0 +1,86 @@
+#include "experiments/reproduce/subjects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "motions/models/model.h"
+#include "motions/models/shapes.h"
+#include "motions/readers/read_trajectory.h"
+#include "motions/scene/radii.h"
+
+namespace kds {
+
+namespace {
+
+Subject of_frames(std::vector<Eigen::Matrix3Xd> frames, bool planar) {
+  Subject subject;
+  const auto beads = static_cast<std::size_t>(frames.front().cols());
+  subject.frames = std::move(frames);
+  subject.radii.assign(beads, models::radius);
+  subject.necklaces = {{0, static_cast<BeadId>(beads - 1)}};
+  subject.planar = planar;
+  return subject;
+}
+
+// Returns the largest distance along y, measured between centroids at the origin, at which a bead of the
+// upper chain touches a bead of the lower one.
+double touching_distance(const models::Shape& lower, const models::Shape& upper) {
+  constexpr double reach = 2 * models::radius;
+  double distance = 0;
+  for (Eigen::Index i = 0; i < lower.cols(); ++i) {
+    for (Eigen::Index j = 0; j < upper.cols(); ++j) {
+      const double across = lower(0, i) - upper(0, j);
+      if (std::abs(across) > reach) continue;
+      distance = std::max(distance, lower(1, i) - upper(1, j) + std::sqrt(reach * reach - across * across));
+    }
+  }
+  return distance;
+}
+
+}  // namespace
+
+Subject spline_subject(std::size_t beads) {
+  return of_frames({models::spline(beads, models::usual_bond, 2)}, true);
+}
+
+Subject grill_subject(std::size_t beads) { return of_frames({models::grill(beads)}, true); }
+
+Subject helix_subject(std::size_t beads, double turns) {
+  return of_frames({models::helix(beads, turns)}, false);
+}
+
+Subject rolling_spiral(std::size_t beads, std::size_t frames) {
+  const models::Settings settings{
+      .beads = beads, .frames = frames, .turns = spiral_turns, .rolled = models::Span{first_rolled, 1}};
+  return of_frames(models::generate(*models::find_model("spiral"), settings).front().frames, true);
+}
+
+Subject two_spirals(std::size_t beads, std::span<const FacingStage> stages) {
+  std::vector<Eigen::Matrix3Xd> frames;
+  const auto count = static_cast<Eigen::Index>(beads);
+  for (const FacingStage& stage : stages) {
+    const models::Shape lower = models::spiral(beads, spiral_turns, stage.rolled);
+    models::Shape upper = models::facing_spiral(lower, 0);
+    upper.row(1).array() += stage.share * touching_distance(lower, upper) + stage.gap;
+    Eigen::Matrix3Xd& frame = frames.emplace_back(3, 2 * count);
+    frame << lower, upper;
+  }
+  Subject subject = of_frames(std::move(frames), true);
+  const auto first = static_cast<BeadId>(beads);
+  subject.necklaces = {{0, first - 1}, {first, 2 * first - 1}};
+  return subject;
+}
+
+Subject protein(const std::filesystem::path& data, std::string_view file, std::string_view topology) {
+  ReadOptions options;
+  if (!topology.empty()) options.topology = data / topology;
+  Trajectory necklace = read_trajectory(data / file, options);
+  Subject subject;
+  subject.radii = bead_radii("auto", std::span(&necklace, 1));
+  subject.necklaces = {{0, static_cast<BeadId>(subject.radii.size() - 1)}};
+  subject.frames = std::move(necklace.frames);
+  return subject;
+}
+
+}  // namespace kds

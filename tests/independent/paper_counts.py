@@ -1,0 +1,275 @@
+"""Recomputes counts of `kds reproduce` and `kds collide` with numpy. No code is shared with kds.
+
+Usage: paper_counts.py KDS DATA FOLDER. Exit code 77 (skipped) if numpy is not installed. Without scipy, which
+computes Delaunay triangulations, the counts of cells and edges are left out.
+
+Smallest spheres are found by pivoting: the farthest bead joins the basis, and a trial of all subsets gives the
+next basis. Families are checked by their definition, by a matrix over all pairs of beads.
+"""
+import itertools
+import json
+import os
+import subprocess
+import sys
+
+try:
+    import numpy
+except Exception as error:  # a package may be installed and broken
+    print(f"skipped: numpy cannot be imported ({error})")
+    sys.exit(77)
+try:
+    from scipy.spatial import Delaunay
+except Exception as error:
+    Delaunay = None
+    print(f"left out: cells and edges, because scipy cannot be imported ({error})")
+
+KDS, DATA, FOLDER = sys.argv[1:4]
+os.makedirs(FOLDER, exist_ok=True)
+FAILURES = []
+CHECKS = 0
+
+
+def check(name, found, expected):
+    """`found` is by kds, `expected` by this script."""
+    global CHECKS
+    CHECKS += 1
+    if found != expected:
+        FAILURES.append(name)
+        print(f"FAILED: {name}: {found} by kds, {expected} here")
+
+
+def kds(*arguments):
+    run = subprocess.run([KDS, *arguments], capture_output=True, text=True)
+    if run.returncode != 0:
+        sys.exit(f"kds {' '.join(arguments)}: {run.stderr}")
+    return run.stdout
+
+
+# --- files ---
+
+
+def read_xyz(path):
+    with open(path) as file:
+        count = int(file.readline())
+        file.readline()
+        return numpy.array([[float(word) for word in file.readline().split()[1:4]] for _ in range(count)])
+
+
+def read_backbone(path):
+    """Returns N, CA and C of the first chain of the first model."""
+    places, chain = [], None
+    for line in open(path):
+        if line.startswith("ENDMDL"):
+            break
+        if not line.startswith("ATOM") or line[12:16].strip() not in ("N", "CA", "C") or line[16] not in " A":
+            continue
+        chain = chain or line[21]
+        if line[21] == chain:
+            places.append([float(line[at : at + 8]) for at in (30, 38, 46)])
+    return numpy.array(places)
+
+
+def read_dcd(path):
+    """Returns positions (frames, beads, 3). Records are framed by their length in bytes."""
+    content, at, records = open(path, "rb").read(), 0, []
+    while at < len(content):
+        size = int.from_bytes(content[at : at + 4], "little")
+        records.append(content[at + 4 : at + 4 + size])
+        at += size + 8
+    beads = int.from_bytes(records[2], "little")
+    axes = [numpy.frombuffer(record, "<f4") for record in records[3:] if len(record) == 4 * beads]
+    return numpy.array(axes, dtype=float).reshape(-1, 3, beads).transpose(0, 2, 1)
+
+
+# --- spheres and hierarchies ---
+
+
+def sphere_through(points):
+    """Returns the smallest sphere with all points on its surface, or none if they are dependent."""
+    edges = points[1:] - points[0]
+    try:
+        weights = numpy.linalg.solve(2 * edges @ edges.T, (edges**2).sum(1))
+    except numpy.linalg.LinAlgError:
+        return None
+    offset = edges.T @ weights
+    return points[0] + offset, numpy.sqrt(offset @ offset)
+
+
+def smallest_sphere(points):
+    """Returns centre, radius and basis. The basis is the smallest subset with the same sphere."""
+    basis, center, radius = (0,), points[0], 0.0
+    while True:
+        squared = ((points - center) ** 2).sum(1)
+        farthest = int(squared.argmax())
+        if numpy.sqrt(squared[farthest]) <= radius * (1 + 1e-10) + 1e-13:
+            return center, radius, frozenset(basis)
+        beads = basis + (farthest,)
+        for size in range(2, min(4, len(beads)) + 1):
+            spheres = []
+            for subset in itertools.combinations(beads, size):
+                sphere = sphere_through(points[list(subset)])
+                if sphere is None:
+                    continue
+                reach = numpy.sqrt(((points[list(beads)] - sphere[0]) ** 2).sum(1).max())
+                if reach <= sphere[1] * (1 + 1e-10):
+                    spheres.append((sphere[1], subset, sphere[0]))
+            if spheres:
+                radius, basis, center = min(spheres, key=lambda sphere: sphere[0])
+                break
+
+
+class Node:
+    """`beads` is first and last; `children` is empty for a bead."""
+
+    def __init__(self, points, first, last, radius, layered):
+        self.first, self.last, self.children, self.basis = first, last, (), frozenset((first,))
+        self.center, self.radius = points[first], radius
+        if first == last:
+            return
+        middle = first + (last - first) // 2
+        self.children = (Node(points, first, middle, radius, layered), Node(points, middle + 1, last, radius, layered))
+        if layered:
+            self.center, self.radius = around(*self.children)
+        else:
+            self.center, inner, basis = smallest_sphere(points[first : last + 1])
+            self.radius, self.basis = inner + radius, frozenset(first + bead for bead in basis)
+
+    def nodes(self):
+        if self.children:
+            yield self
+            for child in self.children:
+                yield from child.nodes()
+
+
+def around(a, b):
+    """Returns the smallest sphere around two spheres."""
+    apart = numpy.linalg.norm(b.center - a.center)
+    if a.radius >= apart + b.radius:
+        return a.center, a.radius
+    if b.radius >= apart + a.radius:
+        return b.center, b.radius
+    radius = (apart + a.radius + b.radius) / 2
+    return a.center + (b.center - a.center) * ((radius - a.radius) / apart), radius
+
+
+def tree_over(points, radius, layered=False):
+    return Node(points, 0, len(points) - 1, radius, layered)
+
+
+def separating_pairs(root, apart):
+    """Splits the node with more beads, and the first of two equal ones. Leaves out pairs nearer than `apart`."""
+    pairs, waiting = [], [(root, root)]
+    while waiting:
+        u, v = waiting.pop()
+        if u is v:
+            if u.children:
+                left, right = u.children
+                waiting += [(left, left), (right, right), (left, right)]
+        elif v.last - u.first < apart:
+            continue
+        elif ((u.center - v.center) ** 2).sum() > (u.radius + v.radius) ** 2:
+            pairs.append((u, v))
+        elif u.children and u.last - u.first >= v.last - v.first:
+            waiting += [(child, v) for child in u.children]
+        elif v.children:
+            waiting += [(u, child) for child in v.children]
+    return pairs
+
+
+def covers_once(points, radius, pairs, apart):
+    """Checks (S1), and (S2) with each pair of beads that does not collide covered once, by brute force."""
+    count = len(points)
+    times = numpy.zeros((count, count), dtype=int)
+    for u, v in pairs:
+        if not (numpy.linalg.norm(u.center - v.center) > u.radius + v.radius):
+            return False
+        times[u.first : u.last + 1, v.first : v.last + 1] += 1
+    squared = ((points[:, None] - points[None, :]) ** 2).sum(2)
+    first, second = numpy.triu_indices(count, apart)
+    disjoint = squared[first, second] > (2 * radius) ** 2
+    return bool((times[first, second] == disjoint).all())
+
+
+def delaunay_cells(points):
+    flat = (points[:, 2] == 0).all()
+    return Delaunay(points[:, :2] if flat else points)
+
+
+def edge_count(points):
+    """Returns the number of edges, including one to the infinite vertex from each bead on the hull."""
+    cells = delaunay_cells(points)
+    corners = numpy.sort(cells.simplices, 1).astype(numpy.int64)
+    ends = itertools.combinations(range(corners.shape[1]), 2)
+    edges = numpy.unique(numpy.concatenate([corners[:, a] * len(points) + corners[:, b] for a, b in ends]))
+    return len(edges) + len(numpy.unique(cells.convex_hull))
+
+
+# --- the counts ---
+
+
+def half_longest_bond(frames):
+    return numpy.sqrt((numpy.diff(frames, axis=-2) ** 2).sum(-1).max()) / 2
+
+
+def compare_families():
+    """Families of touching beads, as `kds collide` counts them."""
+    chain = os.path.join(FOLDER, "chain.xyz")
+    kds("generate", "random-chain", "--beads", "1500", "--frames", "1", "-o", chain, "--quiet")
+    protein = os.path.join(DATA, "paper/1a4y_AB.pdb")
+    backbone = read_backbone(protein)
+    cases = [("chain", chain, read_xyz(chain), 1.0), ("1a4y", protein, backbone, half_longest_bond(backbone))]
+    for name, path, points, radius in cases:
+        rows = json.loads(kds("collide", path, "--method", "wrapped,layered", "--radius", repr(float(radius)), "--json", "-"))
+        for row in rows["rows"]:
+            root = tree_over(points, radius, row["method"] == "layered")
+            pairs = separating_pairs(root, 2)
+            check(f"family of {name}, {row['method']}", row["family"], len(pairs))
+            check(f"family of {name}, {row['method']}, covers each pair once", True, covers_once(points, radius, pairs, 2))
+
+
+def spiral(beads, turns, rolled, bond=1.998):
+    """A logarithmic spiral: curvature k / s at arc length s, from a quarter of its length on."""
+    length = bond * (beads - 1)
+    arc = length / 4 + bond * numpy.arange(beads)
+    k = 2 * numpy.pi * turns * rolled / numpy.log(5)
+    plane = arc * numpy.exp(1j * k * numpy.log(arc)) / (1 + 1j * k)
+    return numpy.stack([plane.real, plane.imag, numpy.zeros(beads)], 1)
+
+
+def compare_tables():
+    """Sets, edges, changed bases and changed cells, as `kds reproduce` counts them."""
+    rows = json.loads(kds("reproduce", "table4", "table6", "--rounds", "1", "--data", DATA, "--json", "-"))["rows"]
+    villin = read_dcd(os.path.join(DATA, "trajectories/villin_hp36_300K.dcd"))
+    random = read_dcd(os.path.join(DATA, "trajectories/random100_400K_first200.dcd"))
+    extended = read_backbone(os.path.join(DATA, "paper/villin_hp36_collapse.pdb"))[None]
+    conformations = [(spiral(1000, 16, 0.001 + 0.999 * frame / 49), None) for frame in (0, 25, 49)]
+    for frames, at in ((extended, 0), (villin, 0), (villin, 999), (random, 0), (random, 100), (random, 199)):
+        conformations.append((frames[at], half_longest_bond(frames)))
+    for row, (points, radius) in zip((row for row in rows if row["table"] == 4), conformations):
+        name = f"table 4, {row['name']}, {row['at']}"
+        for kind in ("wrapped", "layered"):
+            pairs = separating_pairs(tree_over(points, 0.0, kind == "layered"), 1)
+            check(f"{name}, {kind} set", row[f"{kind}_pairs"], len(pairs))
+            if radius is not None:
+                pairs = separating_pairs(tree_over(points, radius, kind == "layered"), 2)
+                check(f"{name}, {kind} family", row[f"{kind}_family"], len(pairs))
+        if Delaunay:
+            check(f"{name}, edges", row["edges"], edge_count(points))
+
+    later = read_dcd(os.path.join(DATA, "paper/random100_400K_900to932.dcd"))
+    trees = {}
+    for row in (row for row in rows if row["table"] == 6):
+        frame = int(row["at"].split()[0])
+        for at in (0, frame):
+            trees[at] = trees.get(at) or [node.basis for node in tree_over(later[at], 0.0).nodes()]
+        changed = sum(one != other for one, other in zip(trees[0], trees[frame]))
+        check(f"table 6, {row['at']}, bases changed", row["bases_changed"], changed)
+        if Delaunay:
+            cells = [set(map(frozenset, delaunay_cells(later[at]).simplices.tolist())) for at in (0, frame)]
+            check(f"table 6, {row['at']}, cells changed", row["cells_changed"], len(cells[1] - cells[0]))
+
+
+compare_families()
+compare_tables()
+print(f"{CHECKS - len(FAILURES)} of {CHECKS} counts agree")
+sys.exit(1 if FAILURES else 0)
