@@ -77,6 +77,21 @@ bool collides(const Balls<Dimension>& balls) {
   return false;
 }
 
+// Returns the number of edges of the centres' diagram, including those to the infinite vertex, which joins
+// every vertex of the hull. In the plane, the triangulation with the infinite vertex is a sphere of V + 1
+// vertices, which has 3V - 3 edges. In space the hull is a sphere of 2 hull - 4 facets, and 4C = 2F - facets
+// counts the facets of cells. With Euler's V - E + F - C = 1 follows hull = E - V - C + 3.
+template <int Dimension>
+std::uint64_t all_edges(const Eigen::Matrix3Xd& centers) {
+  RegularTriangulation<Dimension> diagram;
+  const auto beads = static_cast<std::size_t>(centers.cols());
+  const auto built = diagram.build_bare(centers, std::vector<double>(beads, 0.0));
+  const std::size_t edges = diagram.finite_edges().size(), vertices = beads - built.hidden.size();
+  if (built.dimension == 3) return 2 * edges + 3 - vertices - diagram.finite_cells().size();
+  if (built.dimension == 2) return 3 * vertices - 3;
+  return edges + 2;  // on a line, whose two ends are the hull
+}
+
 template <int Dimension>
 SelfCollision self_collision(const Subject& subject, std::size_t frame, std::size_t rounds) {
   SelfCollision result;
@@ -105,9 +120,7 @@ SelfCollision self_collision(const Subject& subject, std::size_t frame, std::siz
   result.quadratic = times[0];
   result.wrapped = times[1];
   result.layered = times[2];
-  RegularTriangulation<Dimension> diagram;
-  diagram.build_bare(subject.frames[frame], no_radii(subject));
-  result.edges = diagram.finite_edges().size() + diagram.infinite_edge_count();
+  result.edges = all_edges<Dimension>(subject.frames[frame]);
   return result;
 }
 
@@ -181,9 +194,12 @@ std::size_t escaped_nodes(const StaticWrappedHierarchy<Dimension>& hierarchy, co
   return escaped;
 }
 
+// Averages over all nodes of the tree, beads included, as the paper does. A bead has no frontier.
 template <int Dimension>
-double mean_frontier(const StaticWrappedHierarchy<Dimension>& hierarchy, const WrapCounts& counts) {
-  return static_cast<double>(counts.frontier) / static_cast<double>(hierarchy.tree().node_count());
+double mean_frontier(const StaticWrappedHierarchy<Dimension>& hierarchy, const WrapCounts& counts,
+                     const Subject& subject) {
+  return static_cast<double>(counts.frontier) /
+         static_cast<double>(hierarchy.tree().node_count() + subject.beads());
 }
 
 template <int Dimension>
@@ -198,7 +214,7 @@ Step step(const Subject& subject, std::size_t from, std::size_t to, std::size_t 
                  return cascade.seconds([&](const auto& hierarchy, const WrapCounts& counts) {
                    result.bases_changed = counts.changed;
                    result.cascade_tests = static_cast<double>(counts.bead_tests + counts.cage_tests);
-                   result.frontier = mean_frontier(hierarchy, counts);
+                   result.frontier = mean_frontier(hierarchy, counts, subject);
                  });
                },
                [&] {
@@ -209,8 +225,10 @@ Step step(const Subject& subject, std::size_t from, std::size_t to, std::size_t 
   result.lazy = times[0];
   result.cascade = times[1];
   result.naive = times[2];
-  const NecklaceTree tree(subject.necklaces);
-  for (const BeadRange& range : tree.ranges()) result.naive_tests += range.last - range.first + 1;
+  StaticWrappedHierarchy<Dimension> counted(subject.necklaces);
+  counted.build(centers_at<Dimension>(subject, from));
+  const WrapCounts counts = counted.update(naive.after(), Update::naive);
+  result.naive_tests = static_cast<double>(counts.bead_tests + counts.cage_tests);
   result.cells_changed = from == to ? 0 : cells_changed<Dimension>(subject, from, to);
   return result;
 }
@@ -313,7 +331,7 @@ CollisionBetween between(const Subject& subject, std::size_t from, std::size_t t
                                 [&] {
                                   return full.seconds([&](const auto& hierarchy, const WrapCounts& counts) {
                                     result.wrapped_pairs = SearchBetween(hierarchy, subject, to).pairs();
-                                    result.frontier = mean_frontier(hierarchy, counts);
+                                    result.frontier = mean_frontier(hierarchy, counts, subject);
                                   });
                                 }});
   result.layered = times[0];

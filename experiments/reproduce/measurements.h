@@ -48,11 +48,11 @@ struct SelfCollision {
 /// Tables 2, 5 and 6: the step from one frame to another, or to itself. The times are those of updating the
 /// wrapped hierarchy.
 struct Step {
-  Timed lazy, cascade;
-  Timed naive;               ///< tests bead by bead and repairs no basis
-  double cascade_tests = 0;  ///< beads and cages tested against spheres
-  double naive_tests = 0;    ///< beads of all nodes
-  double frontier = 0;       ///< average over all nodes
+  Timed lazy;                                 ///< computes the spheres of the old bases
+  Timed cascade;                              ///< verifies by cages first, and repairs bases
+  Timed naive;                                ///< verifies bead by bead, and repairs no basis
+  double cascade_tests = 0, naive_tests = 0;  ///< of beads and cages against spheres, repairs included
+  double frontier = 0;                        ///< average over all nodes, beads included
   std::uint64_t bases_changed = 0;
   std::uint64_t cells_changed = 0;  ///< cells of the later diagram that the earlier one does not have
 };
@@ -73,7 +73,7 @@ struct CollisionBetween {
   Timed lazy;     ///< computes the spheres that the search visits, of the old bases
   Timed full;     ///< verifies all nodes by the cascade and repairs their bases
   std::uint64_t layered_pairs = 0, wrapped_pairs = 0;
-  double frontier = 0;  ///< average over all nodes
+  double frontier = 0;  ///< average over all nodes, beads included
 };
 [[nodiscard]] CollisionBetween collision_between(const Subject& subject, std::size_t from, std::size_t to,
                                                  std::size_t rounds);

@@ -260,14 +260,6 @@ auto RegularTriangulation<Dimension>::finite_edges() const -> std::vector<std::p
 }
 
 template <int Dimension>
-std::size_t RegularTriangulation<Dimension>::infinite_edge_count() const {
-  const auto& triangulation = up_to_date().triangulation;
-  if (triangulation.dimension() < 1) return triangulation.number_of_vertices();
-  if (triangulation.dimension() == 1) return 2;  // the ends of the line
-  return triangulation.degree(triangulation.infinite_vertex());
-}
-
-template <int Dimension>
 StaticTriangulation<Dimension> static_triangulation(const Eigen::Matrix3Xd& centers,
                                                     std::span<const double> weights) {
   const FloatingPointGuard to_nearest;

@@ -164,9 +164,6 @@ class RegularTriangulation {
   [[nodiscard]] std::vector<Beads> finite_cells() const;
   /// Returns the two beads of each finite edge. The beads may span less than the space.
   [[nodiscard]] std::vector<std::pair<BeadId, BeadId>> finite_edges() const;
-  /// Returns the number of edges to the infinite vertex, which is the number of beads on the hull. The beads
-  /// may span less than the space. Takes time linear in the result.
-  [[nodiscard]] std::size_t infinite_edge_count() const;
 
  private:
   struct Cgal;

@@ -104,18 +104,15 @@ def smallest_sphere(points):
         if numpy.sqrt(squared[farthest]) <= radius * (1 + 1e-10) + 1e-13:
             return center, radius, frozenset(basis)
         beads = basis + (farthest,)
+        radius = numpy.inf
         for size in range(2, min(4, len(beads)) + 1):
-            spheres = []
             for subset in itertools.combinations(beads, size):
                 sphere = sphere_through(points[list(subset)])
-                if sphere is None:
+                if sphere is None or not sphere[1] < radius * (1 - 1e-9):
                     continue
                 reach = numpy.sqrt(((points[list(beads)] - sphere[0]) ** 2).sum(1).max())
                 if reach <= sphere[1] * (1 + 1e-10):
-                    spheres.append((sphere[1], subset, sphere[0]))
-            if spheres:
-                radius, basis, center = min(spheres, key=lambda sphere: sphere[0])
-                break
+                    (center, radius), basis = sphere, subset
 
 
 class Node:
