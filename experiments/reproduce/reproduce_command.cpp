@@ -47,7 +47,7 @@ std::string reasons_in_words(const PaperTable& table, const PaperRow& row) {
   std::string words;
   for (const Deviation& large : large_deviations(table, row))
     words +=
-        fmt::format("{}{}: {}", words.empty() ? "" : "; ", table.columns[large.column].name, large.reason);
+        fmt::format("{}{}: {}", words.empty() ? "" : " | ", table.columns[large.column].name, large.reason);
   return words;
 }
 
