@@ -24,10 +24,11 @@ namespace {
 
 using Value = std::optional<double>;
 
-// Shows counts in full, and other numbers with about four figures.
+// Shows large numbers in full, and others with three figures.
 std::string shown(double value) {
-  const bool is_count = value == std::floor(value) && value >= 2;
-  return is_count ? with_thousands(static_cast<std::uint64_t>(value)) : short_decimal(value);
+  return value >= 1000 || (value == std::floor(value) && value >= 2)
+             ? with_thousands(static_cast<std::uint64_t>(std::round(value)))
+             : fmt::format("{:.3g}", value);
 }
 std::string percent(double share) {
   const double rounded = std::round(100 * std::abs(share));
@@ -51,14 +52,8 @@ std::string reasons_in_words(const PaperTable& table, const PaperRow& row) {
   return words;
 }
 
-// People see two tables with the same rows: times with their ratios, and numbers. Files have all columns.
-enum class People { times, numbers };
-
-bool shows(People people, const PaperColumn& column) {
-  return (column.quantity == Quantity::number) == (people == People::numbers);
-}
-
-Table<PaperRow> columns_of(const PaperTable& table, People people) {
+// Files have all columns. People see three tables with the same rows: times, their ratios, and numbers.
+Table<PaperRow> columns_of(const PaperTable& table, Quantity for_people) {
   using Row = PaperRow;
   Table<Row> columns{{
       {.key = "table", .json = [number = table.number](const Row&) { return Json(number); }},
@@ -70,7 +65,7 @@ Table<PaperRow> columns_of(const PaperTable& table, People people) {
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const PaperColumn& column = table.columns[c];
     const std::string name(column.name);
-    const auto heading = [shown = shows(people, column)](std::string_view text) {
+    const auto heading = [shown = column.quantity == for_people](std::string_view text) {
       return shown ? std::string(text) : std::string();
     };
     const auto bound = [c](double Spread::*which) {
@@ -173,7 +168,7 @@ std::string stability_plot(const PaperTable& table) {
 Json paper_rows_json(std::span<const PaperTable> tables) {
   Json json = Json::array();
   for (const PaperTable& table : tables) {
-    const Table<PaperRow> columns = columns_of(table, People::numbers);
+    const Table<PaperRow> columns = columns_of(table, Quantity::number);
     for (const PaperRow& row : table.rows) json.push_back(columns.json(row));
   }
   return json;
@@ -190,14 +185,15 @@ Json paper_findings_json(std::span<const PaperTable> tables) {
   return json;
 }
 
-std::string paper_csv(const PaperTable& table) { return columns_of(table, People::numbers).csv(table.rows); }
+std::string paper_csv(const PaperTable& table) { return columns_of(table, Quantity::number).csv(table.rows); }
 
 std::string paper_text(std::span<const PaperTable> tables) {
   std::string text;
   for (const PaperTable& table : tables) {
-    text += fmt::format("{}table {}: {}\n{}\n{}", text.empty() ? "" : "\n", table.number, table.title,
-                        columns_of(table, People::times).text(table.rows, "  "),
-                        columns_of(table, People::numbers).text(table.rows, "  "));
+    text += fmt::format("{}table {}: {}\n{}\n{}\n{}", text.empty() ? "" : "\n", table.number, table.title,
+                        columns_of(table, Quantity::time).text(table.rows, "  "),
+                        columns_of(table, Quantity::ratio).text(table.rows, "  "),
+                        columns_of(table, Quantity::number).text(table.rows, "  "));
     text += text_of(notes_of(table), kNotesHeading) + text_of(reasons_of(table), kReasonsHeading);
     for (const Finding& finding : findings_of(table)) text += "  " + sentence_of(finding) + "\n";
   }
@@ -225,9 +221,10 @@ std::string paper_page(std::span<const PaperTable> tables, Page page) {
   for (const PaperTable& table : tables)
     page.body += html_section(
         fmt::format("Table {}: {}", table.number, table.title),
-        fmt::format("<p>{}</p>\n{}{}{}{}{}", html_escaped(table.words),
-                    columns_of(table, People::times).html(table.rows),
-                    columns_of(table, People::numbers).html(table.rows),
+        fmt::format("<p>{}</p>\n{}{}{}{}{}{}", html_escaped(table.words),
+                    columns_of(table, Quantity::time).html(table.rows),
+                    columns_of(table, Quantity::ratio).html(table.rows),
+                    columns_of(table, Quantity::number).html(table.rows),
                     table.number == 6 ? stability_plot(table) : "", html_of(notes_of(table), kNotesHeading),
                     html_of(reasons_of(table), kReasonsHeading)));
   return html_page(page);
