@@ -85,8 +85,8 @@ Finding on_shape(const PaperTable& table) {
   const Range cgal = range_of(per_n_log_n(table, "cgal_ms", is_about_equal));
   return {
       "shape",
-      "The time depends very little on the shape: for 1,000 to 1,400 beads, time / (n log n) agrees within a "
-      "factor of 1.5",
+      "The time depends very little on the shape: for 1,000 to 1,400 beads, time / (n log n) agrees within "
+      "a factor of 1.5",
       std::max(ours.most / ours.least, cgal.most / cgal.least) <= 1.5,
       fmt::format("it varies {:.2f} times for kds, {:.2f} times for CGAL, 1.36 times in the paper",
                   ours.most / ours.least, cgal.most / cgal.least)};

@@ -52,18 +52,15 @@ PaperValue count(std::uint64_t number) { return static_cast<double>(number); }
 // Why ratios of times deviate, unless a row has a reason of its own. The absolute times are beside them.
 constexpr std::string_view kLayeredBuildFaster =
     "kds builds layered nodes four at a time in vector lanes, at a few nanoseconds a node, and starts a "
-    "wrapped "
-    "node with the bases of its children";
+    "wrapped node with the bases of its children";
 constexpr std::string_view kCgalChanged =
     "both are CGAL's, whose diagrams and spheres have become faster by different factors since 2004";
 constexpr std::string_view kLazyShare =
-    "lazy and naive compute the same spheres; naive tests run through memory in order and cost about a "
-    "nanosecond "
+    "lazy and naive compute the same spheres; naive tests run through memory in order and cost 1 to 2 ns "
     "each, so that spheres are another share of naive time than in 2004";
 constexpr std::string_view kCascadeTestsDearer =
     "the cascade does fewer tests, but each costs more: it follows lists of cages, where naive tests run "
-    "through "
-    "memory in order; only the cascade's time includes the repair of bases";
+    "through memory in order; only the cascade's time includes the repair of bases";
 constexpr std::string_view kPairsCheaper =
     "testing a pair in a loop has become 110 to 150 times faster since 2004, and a search of the hierarchy "
     "20 to 50 times; searches of few beads have a fixed cost";
@@ -168,11 +165,10 @@ PaperTablePlan Planner::construction() const {
        {"rho_avg", "average rho"},
        {"rho_min", "least rho"}},
       {},
-      "Each structure is built from nothing. The paper built the wrapped hierarchy by CGAL's smallest sphere "
-      "of each node's beads, and so does the second column. The first column is kds's own build, which "
-      "starts "
-      "a node with the bases of its children. Rho is the radius of a node's wrapped cage divided by that of "
-      "its layered cage, over internal nodes."};
+      "Each structure is built from nothing. The paper built the wrapped hierarchy by CGAL's smallest "
+      "sphere of each node's beads, and so does the second column. The first column is kds's own build, "
+      "which starts a node with the bases of its children. Rho is the radius of a node's wrapped cage "
+      "divided by that of its layered cage, over internal nodes."};
   const auto row = [&](const Case& c, double wrapped, double layered, double rho_avg, double rho_min,
                        double power) {
     add(plan, c,
@@ -186,8 +182,7 @@ PaperTablePlan Planner::construction() const {
   };
   const std::string planar =
       "ours is CGAL's diagram in the plane; the paper's times are those of diagrams in space, though its "
-      "edges "
-      "(tables 3 and 4) are those of planar ones";
+      "edges (tables 3 and 4) are those of planar ones";
   const std::string digit = "the paper's times of 10 beads have one digit";
   row(grill().why({"power_per_cgal"}, planar), 0.24, 0.08, 0.98, 0.80, 3.2);
   row(inhibitor(), 5.00, 1.40, 0.92, 0.56, 270);
@@ -242,12 +237,10 @@ PaperTablePlan Planner::verification() const {
       "Verifying the wrapped hierarchy",
       {kLazyTime, kCascadeTime, kNaiveTime, kLazyPerNaive, kCascadePerNaive, kCascadeTests, kFrontier},
       {},
-      "Each model is at rest. Lazy computes the spheres of the old bases. Naive also tests each bead of each "
-      "node, one by one. The cascade tests cages first and starts from its last frontier. Tests count beads "
-      "and "
-      "cages. The frontier of a node holds the cages and beads that the cascade found inside its sphere; it "
-      "is "
-      "averaged over all nodes, beads included."};
+      "Each model is at rest. Lazy computes the spheres of the old bases. Naive also tests each bead of "
+      "each node, one by one. The cascade tests cages first and starts from its last frontier. Tests count "
+      "beads and cages. The frontier of a node holds the cages and beads that the cascade found inside its "
+      "sphere; it is averaged over all nodes, beads included."};
   const auto row = [&](const Case& c, double lazy, double cascade, double naive, double frontier) {
     add(plan, c, {lazy, cascade, naive, ratio(lazy, naive), ratio(cascade, naive), absent, frontier},
         [](const Case& of, std::size_t rounds) -> Outcome {
@@ -292,11 +285,9 @@ constexpr const char* kCollisionWords =
     "Quadratic tests all pairs one by one. The searches split the node with more beads; their hierarchies "
     "are "
     "built beforehand. Sets are those of bead centres, and each pair of centres lies in exactly one of their "
-    "pairs: the paper's counts fit this definition. Families are separating families as the paper defines "
-    "them "
-    "(S1, S2), for beads that touch their neighbours; no count of the paper fits them. Edges include those "
-    "to "
-    "the infinite vertex.";
+    "pairs. Families are separating families as the paper defines them (S1, S2), for beads that touch their "
+    "neighbours. More of the paper's counts fit sets than families. Edges include those to the infinite "
+    "vertex.";
 
 // Returns the cells of tables 3 and 4 from the paper's microseconds and counts.
 Cells collision_cells(double quadratic, double wrapped, double wrapped_pairs, double layered,
@@ -357,8 +348,8 @@ PaperTablePlan Planner::self_collision() const {
   row(static_helix(640), collision_cells(21000, 360, 1500, 360, 1500, 57000));
   row(static_helix(10240).why(
           {"edges"},
-          "with a fixed number of turns, edges grow as n^2, 256 times from 640 beads on. The "
-          "paper's grow 35 times, but its time to build them (table 1) grows 284 times"),
+          "with a fixed number of turns, edges grow as n^2, 256 times from 640 beads on. The paper's grow "
+          "35 times, but its time to build them (table 1) grows 284 times"),
       collision_cells(5.6e6, 3000, 11000, 3000, 11000, 2.0e6));
   row(scaling_helix(10).why({"quadratic_per_wrapped"}, misprint(2.2)),
       collision_cells(100, 3, 11, 3, 11, 55));
@@ -366,8 +357,8 @@ PaperTablePlan Planner::self_collision() const {
       collision_cells(3.1e5, 450, 1500, 450, 1500, 45000));
   row(scaling_helix(10240).why(
           {"edges"},
-          "if turns grow as the root of n, edges grow as n^1.5, 64 times from 640 beads on. The "
-          "paper's grow 12 times, but its time to build them (table 1) grows 82 times"),
+          "if turns grow as the root of n, edges grow as n^1.5, 64 times from 640 beads on. The paper's "
+          "grow 12 times, but its time to build them (table 1) grows 82 times"),
       collision_cells(5.6e6, 11000, 4.7e4, 11000, 4.7e4, 5.6e5));
   return plan;
 }
@@ -391,15 +382,15 @@ PaperTablePlan Planner::self_collision_of_conformations() const {
           "the paper's search takes 280 us for 6400 pairs, but 720 us for the 2400 pairs of the row above");
     if (row.name == "villin")
       row = row.why({"wrapped_pairs", "layered_pairs"},
-                    "the paper's frames go from extended (110) to folded (140) in its own simulation; "
-                    "ours is folded in frames 0 and 999");
+                    "the paper's frames go from extended (110) to folded (140) in its own simulation; ours "
+                    "is folded in frames 0 and 999");
     if (row.name == kRandomProtein)
       row =
           row.why({"wrapped_pairs", "layered_pairs"},
                   "the sequence is another one: the paper's three rows range from 310 to 600, ours are alike")
               .why({"quadratic_per_wrapped"},
-                   "the paper's time of all pairs is 0.011 us a pair, against 0.105 us in most of its rows: "
-                   "perhaps a misprint");
+                   "the paper's time of all pairs is 0.011 us a pair, against 0.105 us in most of its "
+                   "rows: perhaps a misprint");
     add(plan, row, paper[i], measured_collision);
   }
   return plan;
@@ -422,11 +413,9 @@ PaperTablePlan Planner::maintenance() const {
        kCascadeTests},
       {},
       "Each row is the step between two consecutive frames. Cells changed are those of the later diagram "
-      "that "
-      "the earlier one does not have, and bases changed are nodes with another basis. The paper does not say "
-      "which frames its rows are. Reinsert and greedy are the two ways of section 3.2 to update the diagram "
-      "by "
-      "removing beads; rebuild builds it anew."};
+      "that the earlier one does not have, and bases changed are nodes with another basis. The paper does "
+      "not say which frames its rows are. Reinsert and greedy are the two ways of section 3.2 to update "
+      "the diagram by removing beads; rebuild builds it anew."};
   const auto row = [&](const Case& c, double cells, double bases, double lazy, double cascade, double naive) {
     add(plan, c,
         {lazy, cascade, naive, ratio(lazy, naive), ratio(cascade, naive), absent, absent, cells, bases,
@@ -434,11 +423,13 @@ PaperTablePlan Planner::maintenance() const {
         [](const Case& of, std::size_t rounds) -> Outcome {
           const Step m = step_of(*of.subject, of.frame, of.frame + 1, rounds);
           const DiagramStep d = diagram_step_of(*of.subject, of.frame, of.frame + 1, rounds);
-          return {{milliseconds(m.lazy), milliseconds(m.cascade), milliseconds(m.naive), m.lazy.per(m.naive),
-                   m.cascade.per(m.naive), d.reinsert.per(d.rebuild), d.greedy.per(d.rebuild),
-                   count(m.cells_changed), count(m.bases_changed), m.cascade_tests / m.naive_tests},
-                  d.rebuilds == 0 ? ""
-                                  : "removal rebuilds the diagram, since it would take out every tenth bead"};
+          return {
+              {milliseconds(m.lazy), milliseconds(m.cascade), milliseconds(m.naive), m.lazy.per(m.naive),
+               m.cascade.per(m.naive), d.reinsert.per(d.rebuild), d.greedy.per(d.rebuild),
+               count(m.cells_changed), count(m.bases_changed), m.cascade_tests / m.naive_tests},
+              d.rebuilds == 0
+                  ? ""
+                  : "removal gives up and rebuilds, since it would take out more than a tenth of the beads"};
         });
   };
   const auto at = [](std::string name, const Shared& subject, std::size_t frame, std::string note = "") {
@@ -452,8 +443,8 @@ PaperTablePlan Planner::maintenance() const {
   const Shared spiral = std::make_shared<Subject>(rolling_spiral(1000, 50));
   row(at("spiral", spiral, 0)
           .why({"cells_changed"},
-               "a chain bent so little keeps a diagram of one fan of triangles; 207 cells change "
-               "between frames 2 and 3, so that the paper's first frame is bent more"),
+               "a chain bent so little keeps a diagram of one fan of triangles; 207 cells change between "
+               "frames 2 and 3, so that the paper's first frame is bent more"),
       16, 0, 0.69, 1.7, 2.0);
   row(at("spiral", spiral, 12).why({"cells_changed", "bases_changed"}, rows_unknown), 1100, 9, 0.73, 2.0,
       2.3);
@@ -541,12 +532,10 @@ PaperTablePlan Planner::two_rolling_spirals() const {
        {"wrapped_pairs", "wrapped set"},
        kFrontier},
       {},
-      "Two chains of 1000 beads roll up in one plane in 1000 steps, facing each other. The gap between them "
-      "shrinks from 0.4 chain lengths to a tenth of a radius. Each time is that of bringing the hierarchy "
-      "from "
-      "the step before and searching it: layered builds all cages anew, full verifies all nodes by the "
-      "cascade, "
-      "and lazy computes only the cages that the search visits."};
+      "Two chains of 1000 beads roll up in one plane in 1000 steps, facing each other. The gap between "
+      "them shrinks from 0.4 chain lengths to a tenth of a radius. Each time is that of bringing the "
+      "hierarchy from the step before and searching it: layered builds all cages anew, full verifies all "
+      "nodes by the cascade, and lazy computes only the cages that the search visits."};
   constexpr std::size_t beads = 1000, steps = 1000;
   // Returns the stage after `step` steps.
   const auto stage = [](std::size_t step) {

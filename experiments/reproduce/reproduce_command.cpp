@@ -208,16 +208,15 @@ std::string paper_page(std::span<const PaperTable> tables, Page page) {
       list += fmt::format("<li>Table {}: {}</li>\n", table.number, html_escaped(sentence_of(finding)));
   page.title = "kds reproduce";
   page.found = fmt::format(
-      "<p><strong>{1}</strong> of {0} claims hold in every table that measures them. The claims are those of "
-      "Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for deforming necklaces</em> "
-      "(2004), that these tables can judge.</p>\n{2}</ul>\n",
+      "<p><strong>{1}</strong> of {0} claims hold here, in every table that tells of them. The claims are "
+      "those of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for deforming "
+      "necklaces</em> (2004), that these tables can judge.</p>\n{2}</ul>\n",
       claims.all, claims.hold, list);
   page.words =
       "The paper's values stand beside ours. <em>off</em> is ours divided by the paper's, less one. Times "
-      "have "
-      "none, because the paper's machine is of 2004: ratios of times do. Works that are compared take turns, "
-      "round by round, and the tables show medians; the CSV files also have the least and the most. Work of "
-      "more than a second is done once, whatever the number of rounds.";
+      "have none, because the paper's machine is of 2004: ratios of times do. Works that are compared take "
+      "turns, round by round, and the tables show medians; the CSV files also have the least and the most. "
+      "Work of more than a second is done once, whatever the number of rounds.";
   for (const PaperTable& table : tables)
     page.body += html_section(
         fmt::format("Table {}: {}", table.number, table.title),
@@ -252,8 +251,8 @@ const OptionList<ReproduceOptions>& reproduce_options() {
       OptionList<O>()
           .with({data_option(&O::data),
                  whole_option({"--rounds", "N",
-                               "repeat each measurement of time N times, unless it takes more than a second, "
-                               "and report the median (default: 5)"},
+                               "repeat each measurement of time N times, unless it takes more than a "
+                               "second, and report the median (default: 5)"},
                               &O::rounds, 1, 1000)})
           .with(destination_options("write reproduce.json, report.html and table1.csv ..., a file for each "
                                     "table, to DIR (default: none)"));
