@@ -62,13 +62,13 @@ constexpr std::string_view kCascadeTestsDearer =
     "the cascade does fewer tests, but each costs more: it follows lists of cages, where naive tests run "
     "through memory in order; only the cascade's time includes the repair of bases";
 constexpr std::string_view kPairsCheaper =
-    "testing a pair in a loop has become 110 to 150 times faster since 2004, and a search of the hierarchy "
-    "20 to 50 times; searches of few beads have a fixed cost";
+    "testing a pair in a loop has become 110 to 150 times faster since 2004, and a search of the "
+    "hierarchy 20 to 50 times; searches of few beads have a fixed cost";
 constexpr std::string_view kShortSearches =
     "searches of microseconds vary by tens of percent from run to run";
 constexpr std::string_view kLazyOfFull =
-    "full time has become 15 to 40 times faster since 2004, lazy time of small sets 6 to 14 times, since it "
-    "has a fixed cost; where sets differ, lazy times do, too";
+    "full time has become 15 to 40 times faster since 2004, lazy time of small sets 6 to 14 times, since "
+    "it has a fixed cost; where sets differ, lazy times do, too";
 constexpr std::string_view kLayeredAnew =
     "kds builds a layered node in about 2 ns, in vector lanes, where the paper's took 450 ns";
 
@@ -238,9 +238,9 @@ PaperTablePlan Planner::verification() const {
       {kLazyTime, kCascadeTime, kNaiveTime, kLazyPerNaive, kCascadePerNaive, kCascadeTests, kFrontier},
       {},
       "Each model is at rest. Lazy computes the spheres of the old bases. Naive also tests each bead of "
-      "each node, one by one. The cascade tests cages first and starts from its last frontier. Tests count "
-      "beads and cages. The frontier of a node holds the cages and beads that the cascade found inside its "
-      "sphere; it is averaged over all nodes, beads included."};
+      "each node, one by one. The cascade tests cages first and starts from its last frontier. Tests "
+      "count beads and cages. The frontier of a node holds the cages and beads that the cascade found "
+      "inside its sphere; it is averaged over all nodes, beads included."};
   const auto row = [&](const Case& c, double lazy, double cascade, double naive, double frontier) {
     add(plan, c, {lazy, cascade, naive, ratio(lazy, naive), ratio(cascade, naive), absent, frontier},
         [](const Case& of, std::size_t rounds) -> Outcome {
@@ -283,11 +283,10 @@ std::vector<PaperColumn> collision_columns() {
 
 constexpr const char* kCollisionWords =
     "Quadratic tests all pairs one by one. The searches split the node with more beads; their hierarchies "
-    "are "
-    "built beforehand. Sets are those of bead centres, and each pair of centres lies in exactly one of their "
-    "pairs. Families are separating families as the paper defines them (S1, S2), for beads that touch their "
-    "neighbours. More of the paper's counts fit sets than families. Edges include those to the infinite "
-    "vertex.";
+    "are built beforehand. Sets are those of bead centres, and each pair of centres lies in exactly one "
+    "of their pairs. Families are separating families as the paper defines them (S1, S2), for beads that "
+    "touch their neighbours. More of the paper's counts fit sets than families. Edges include those to "
+    "the infinite vertex.";
 
 // Returns the cells of tables 3 and 4 from the paper's microseconds and counts.
 Cells collision_cells(double quadratic, double wrapped, double wrapped_pairs, double layered,
@@ -348,8 +347,8 @@ PaperTablePlan Planner::self_collision() const {
   row(static_helix(640), collision_cells(21000, 360, 1500, 360, 1500, 57000));
   row(static_helix(10240).why(
           {"edges"},
-          "with a fixed number of turns, edges grow as n^2, 256 times from 640 beads on. The paper's grow "
-          "35 times, but its time to build them (table 1) grows 284 times"),
+          "with a fixed number of turns, edges grow as n^2, 256 times from 640 beads on. The paper's "
+          "grow 35 times, but its time to build them (table 1) grows 284 times"),
       collision_cells(5.6e6, 3000, 11000, 3000, 11000, 2.0e6));
   row(scaling_helix(10).why({"quadratic_per_wrapped"}, misprint(2.2)),
       collision_cells(100, 3, 11, 3, 11, 55));
@@ -382,8 +381,8 @@ PaperTablePlan Planner::self_collision_of_conformations() const {
           "the paper's search takes 280 us for 6400 pairs, but 720 us for the 2400 pairs of the row above");
     if (row.name == "villin")
       row = row.why({"wrapped_pairs", "layered_pairs"},
-                    "the paper's frames go from extended (110) to folded (140) in its own simulation; ours "
-                    "is folded in frames 0 and 999");
+                    "the paper's frames go from extended (110) to folded (140) in its own simulation; "
+                    "ours is folded in frames 0 and 999");
     if (row.name == kRandomProtein)
       row =
           row.why({"wrapped_pairs", "layered_pairs"},
@@ -413,9 +412,9 @@ PaperTablePlan Planner::maintenance() const {
        kCascadeTests},
       {},
       "Each row is the step between two consecutive frames. Cells changed are those of the later diagram "
-      "that the earlier one does not have, and bases changed are nodes with another basis. The paper does "
-      "not say which frames its rows are. Reinsert and greedy are the two ways of section 3.2 to update "
-      "the diagram by removing beads; rebuild builds it anew."};
+      "that the earlier one does not have, and bases changed are nodes with another basis. The paper "
+      "does not say which frames its rows are. Reinsert and greedy are the two ways of section 3.2 to "
+      "update the diagram by removing beads; rebuild builds it anew."};
   const auto row = [&](const Case& c, double cells, double bases, double lazy, double cascade, double naive) {
     add(plan, c,
         {lazy, cascade, naive, ratio(lazy, naive), ratio(cascade, naive), absent, absent, cells, bases,
