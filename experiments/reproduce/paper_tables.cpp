@@ -181,8 +181,8 @@ PaperTablePlan Planner::construction() const {
         });
   };
   const std::string planar =
-      "ours is CGAL's diagram in the plane; the paper's times are those of diagrams in space, though its "
-      "edges (tables 3 and 4) are those of planar ones";
+      "ours is CGAL's diagram in the plane. The paper's planar diagrams take as long as those in space: "
+      "350 ms for 3000 edges of a spiral, 310 ms for 57,000 edges of a helix";
   const std::string digit = "the paper's times of 10 beads have one digit";
   row(grill().why({"power_per_cgal"}, planar), 0.24, 0.08, 0.98, 0.80, 3.2);
   row(inhibitor(), 5.00, 1.40, 0.92, 0.56, 270);
