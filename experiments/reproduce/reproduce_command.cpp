@@ -208,7 +208,7 @@ std::string paper_page(std::span<const PaperTable> tables, Page page) {
       list += fmt::format("<li>Table {}: {}</li>\n", table.number, html_escaped(sentence_of(finding)));
   page.title = "kds reproduce";
   page.found = fmt::format(
-      "<p><strong>{1}</strong> of {0} claims hold here, in every table that tells of them. The claims are "
+      "<p><strong>{1}</strong> of {0} claims hold in every table that measures them. The claims are "
       "those of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for deforming "
       "necklaces</em> (2004), that these tables can judge.</p>\n{2}</ul>\n",
       claims.all, claims.hold, list);
