@@ -4,16 +4,20 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 #include "motions/base/floating_point_guard.h"
 #include "structures/collision/balls_meet.h"
+#include "structures/collision/node_pairs.h"
 #include "structures/necklace/ball_distance.h"
 
 namespace kds {
 
 namespace {
 
+using detail::NodePair;
+using detail::Separation;
 using Fault = std::optional<std::string>;
 
 std::string name_of(const BeadRange& beads) {
@@ -144,10 +148,6 @@ class Check {
   std::map<BeadId, BeadId> separated_;  // last bead of each run, by its first bead
 };
 
-struct NodePair {
-  std::uint32_t first, second;  // the beads of `first` come first, or both are the same node
-};
-
 // A stack in a fixed array, without heap memory. A tree over 2^32 beads has 32 levels. Splitting a node
 // against itself leaves two more entries per level; splitting two nodes leaves one entry per level of either
 // tree.
@@ -168,27 +168,62 @@ bool splits_first(const Node& a, const Node& b) {
   return a.bead_count() >= b.bead_count();
 }
 
-// Calls search(root, root, apart) for the trees and pairs of trees asked about.
-template <class Search>
-void for_each_root(std::span<const std::uint32_t> roots, const PairsAsked& asked, const Search& search) {
-  refuse_groups(asked, "a hierarchy of spheres or boxes");
-  for (std::size_t n = 0; n < roots.size(); ++n) {
-    if (asked.within) search(NodePair{roots[n], roots[n]}, asked.apart);
-    for (std::size_t m = n + 1; asked.between && m < roots.size(); ++m)
-      search(NodePair{roots[n], roots[m]}, 0);
+// The paper's rule.
+struct MoreBeadsFirst {
+  template <class Node>
+  static bool first(const Node& a, const Node& b) {
+    return splits_first(a, b);
   }
-}
+  template <class Node>
+  static bool is_leaf(const Node& node) {
+    return node.is_bead();
+  }
+};
 
-enum class Verdict : std::uint8_t { apart, near, unknown };
+// Any rule.
+struct BySearchRule {
+  SearchRule rule;
+
+  template <class Node>
+  [[nodiscard]] bool first(const Node& a, const Node& b) const {
+    if (is_leaf(a) || is_leaf(b)) return is_leaf(b);
+    if (rule.split == Split::larger_sphere) return a.radius >= b.radius;
+    return rule.split == Split::first_node || splits_first(a, b);
+  }
+  template <class Node>
+  [[nodiscard]] bool is_leaf(const Node& node) const {
+    return node.bead_count() <= rule.leaf;
+  }
+};
 
 // Finds the pairs of beads that are near, and calls apart(pair) for the pairs of nodes that are apart.
-// `judge` takes two nodes and knows the verdict for two beads at least.
-template <class Node, class Judge, class Apart>
+// `judge` takes two nodes and returns how they lie.
+template <class Node, class Judge, class Apart, class Rule = MoreBeadsFirst>
 PairsFound search(std::span<const Node> nodes, std::span<const std::uint32_t> roots, const PairsAsked& asked,
-                  const Judge& judge, const Apart& apart) {
+                  const Judge& judge, const Apart& apart, const Rule& rule = {}) {
   const FloatingPointGuard to_nearest;
   PairsFound found;
-  for_each_root(roots, asked, [&](const NodePair& of_roots, BeadId least_apart) {
+  const auto first_bead =
+      static_cast<std::uint32_t>(nodes.empty() ? 0 : nodes.size() - 1 - nodes.back().last);
+  // Returns whether the two nodes have to be split.
+  const auto look_at = [&](const NodePair& pair) {
+    ++found.tests;
+    const Separation verdict = judge(pair);
+    if (verdict == Separation::apart) {
+      ++found.family;
+      apart(pair);
+    } else if (verdict == Separation::near) {
+      found.pairs.push_back({nodes[pair.first].first, nodes[pair.second].first});
+    }
+    return verdict == Separation::undecided;
+  };
+  // Looks at all pairs of beads of two leaves, or of one.
+  const auto look_at_beads = [&](const Node& a, const Node& b, BeadId least_apart) {
+    for (BeadId i = a.first; i <= a.last; ++i)
+      for (BeadId j = std::max(i + 1, b.first); j <= b.last; ++j)
+        if (j - i >= least_apart) look_at({first_bead + i, first_bead + j});
+  };
+  detail::for_each_root(roots, asked, [&](const NodePair& of_roots, BeadId least_apart) {
     Stack<NodePair> stack;
     stack.push(of_roots);
     while (!stack.empty()) {
@@ -196,18 +231,18 @@ PairsFound search(std::span<const Node> nodes, std::span<const std::uint32_t> ro
       const Node &a = nodes[pair.first], &b = nodes[pair.second];
       if (b.last - a.first < least_apart) continue;
       if (pair.first == pair.second) {
+        if (rule.is_leaf(a)) {
+          look_at_beads(a, a, least_apart);
+          continue;
+        }
         stack.push({a.left, a.right});
         stack.push({a.right, a.right});
         stack.push({a.left, a.left});
+      } else if (!look_at(pair)) {
         continue;
-      }
-      const Verdict verdict = judge(pair);
-      if (verdict == Verdict::apart) {
-        ++found.family;
-        apart(pair);
-      } else if (verdict == Verdict::near) {
-        found.pairs.push_back({a.first, b.first});
-      } else if (splits_first(a, b)) {
+      } else if (rule.is_leaf(a) && rule.is_leaf(b)) {
+        look_at_beads(a, b, least_apart);
+      } else if (rule.first(a, b)) {
         stack.push({a.right, pair.second});
         stack.push({a.left, pair.second});
       } else {
@@ -221,22 +256,14 @@ PairsFound search(std::span<const Node> nodes, std::span<const std::uint32_t> ro
 }
 
 // Finds the pairs of beads that are at most `distance` apart.
-template <int Dimension, class Apart>
+template <int Dimension, class Apart, class Rule = MoreBeadsFirst>
 PairsFound search(const SphereTree<Dimension>& tree, const PairsAsked& asked, double distance,
-                  const Apart& apart) {
+                  const Apart& apart, const Rule& rule = {}) {
   const std::span<const TreeSphere<Dimension>> spheres = tree.spheres();
   const auto judge = [&](const NodePair& pair) {
-    const TreeSphere<Dimension>&a = spheres[pair.first], &b = spheres[pair.second];
-    const Point<Dimension> d = detail::minus(a.center, b.center);
-    const double square = detail::dot(d, d), reach = a.radius + b.radius + distance;
-    if (surely_apart(square, reach)) return Verdict::apart;
-    if (!a.is_bead() || !b.is_bead()) return Verdict::unknown;
-    const bool is_near = surely_within(square, reach) ||
-                         compare_separation(in_space<Dimension>(a.center), in_space<Dimension>(b.center),
-                                            a.radius, b.radius, distance) <= 0;
-    return is_near ? Verdict::near : Verdict::apart;
+    return detail::separation(spheres[pair.first], spheres[pair.second], distance);
   };
-  return search(spheres, tree.roots(), asked, judge, apart);
+  return search(spheres, tree.roots(), asked, judge, apart, rule);
 }
 
 // A pair of nodes and a lower bound of the distance of their beads.
@@ -276,10 +303,7 @@ PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked
 
 template <int Dimension>
 PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked, SeparatingFamily& family) {
-  family = {};
-  for (const TreeSphere<Dimension>& sphere : tree.spheres())
-    family.spheres.push_back(
-        {{sphere.first, sphere.last}, in_space<Dimension>(sphere.center), sphere.radius});
+  family = detail::family_over(tree);
   return search(tree, asked, 0, [&](const NodePair& pair) {
     family.pairs.push_back({pair.first, pair.second});
   });
@@ -297,16 +321,29 @@ PairsFound find_pairs(const BoxTree<Dimension>& tree, const Balls<Dimension>& ba
   };
   const std::span<const TreeBox> nodes = tree.nodes();
   const auto judge = [&](const NodePair& pair) {
-    if (tree.are_apart(pair.first, pair.second, distance)) return Verdict::apart;
+    if (tree.are_apart(pair.first, pair.second, distance)) return Separation::apart;
     const TreeBox &a = nodes[pair.first], &b = nodes[pair.second];
-    if (!a.is_bead() || !b.is_bead()) return Verdict::unknown;
+    if (!a.is_bead() || !b.is_bead()) return Separation::undecided;
     const int sign = compare_separation(center(a.first), center(b.first), balls.radius(a.first),
                                         balls.radius(b.first), distance);
-    return sign <= 0 ? Verdict::near : Verdict::apart;
+    return sign <= 0 ? Separation::near : Separation::apart;
   };
   return search(nodes, tree.roots(), asked, judge, [&](const NodePair& pair) {
     if (family != nullptr) family->push_back({pair.first, pair.second});
   });
+}
+
+template <int Dimension>
+PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked, const SearchRule& rule,
+                      SeparatingFamily* family) {
+  if (rule.leaf == 0) throw std::invalid_argument("a leaf has at least one bead");
+  if (family != nullptr) *family = detail::family_over(tree);
+  return search(
+      tree, asked, 0,
+      [&](const NodePair& pair) {
+        if (family != nullptr) family->pairs.push_back({pair.first, pair.second});
+      },
+      BySearchRule{rule});
 }
 
 template <int Dimension>
@@ -318,7 +355,7 @@ std::optional<ClosestPair> find_closest_pair(const SphereTree<Dimension>& tree, 
     for (const auto& [first, last] : asked.necklaces)
       for (BeadId b = first; last - b >= asked.apart && b <= last; ++b) closest.offer(b, b + asked.apart);
   const auto spheres = tree.spheres();
-  for_each_root(tree.roots(), asked, [&](const NodePair& roots, BeadId least_apart) {
+  detail::for_each_root(tree.roots(), asked, [&](const NodePair& roots, BeadId least_apart) {
     Stack<BoundedPair> stack;
     stack.push(bounded(tree, roots.first, roots.second));
     while (!stack.empty()) {
@@ -352,6 +389,8 @@ template PairsFound find_pairs(const BoxTree<2>&, const Balls<2>&, const PairsAs
                                std::vector<SeparatingFamily::Pair>*);
 template PairsFound find_pairs(const BoxTree<3>&, const Balls<3>&, const PairsAsked&, double,
                                std::vector<SeparatingFamily::Pair>*);
+template PairsFound find_pairs(const SphereTree<2>&, const PairsAsked&, const SearchRule&, SeparatingFamily*);
+template PairsFound find_pairs(const SphereTree<3>&, const PairsAsked&, const SearchRule&, SeparatingFamily*);
 template std::optional<ClosestPair> find_closest_pair(const SphereTree<2>&, const Balls<2>&,
                                                       const PairsAsked&);
 template std::optional<ClosestPair> find_closest_pair(const SphereTree<3>&, const Balls<3>&,

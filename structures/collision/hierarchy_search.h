@@ -59,6 +59,21 @@ template <int Dimension>
 struct PairsFound {
   std::vector<BeadPair> pairs;  ///< ascending
   std::uint64_t family = 0;     ///< size of the separating family
+  std::uint64_t tests = 0;      ///< pairs of spheres, beads included, that were compared
+};
+
+/// SPLIT of the paper's figure 6: which of two nodes is split if their spheres are not disjoint.
+enum class Split : std::uint8_t {
+  more_beads,     ///< the node with more beads, the paper's rule
+  larger_sphere,  ///< the node with the larger sphere
+  first_node      ///< the node that comes first along the chain, down to its beads
+};
+
+/// A variant of the search. Nodes with at most `leaf` beads are not split into nodes: if two of them are not
+/// disjoint, all pairs of their beads are compared, and each disjoint pair is a pair of the family.
+struct SearchRule {
+  Split split = Split::more_beads;
+  BeadId leaf = 1;  ///< at least 1
 };
 
 /// Returns all pairs asked for whose closed balls are at most `distance` apart. At distance 0 these are the
@@ -80,6 +95,12 @@ template <int Dimension>
 [[nodiscard]] PairsFound find_pairs(const BoxTree<Dimension>& tree, const Balls<Dimension>& balls,
                                     const PairsAsked& asked, double distance = 0,
                                     std::vector<SeparatingFamily::Pair>* family = nullptr);
+
+/// Searches by another rule. Finds the same collisions. Writes the family unless `family` is null. Only
+/// Split::more_beads has the bound of Theorem 3.1.
+template <int Dimension>
+[[nodiscard]] PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked,
+                                    const SearchRule& rule, SeparatingFamily* family = nullptr);
 
 /// Returns the closest of the pairs asked for, or none if no pairs are asked for. If several are equally
 /// close, returns the first. Searches by branch and bound.
