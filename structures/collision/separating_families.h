@@ -1,0 +1,58 @@
+#pragma once
+// Two separating families beside the one that a search finds (hierarchy_search.h): the family that the proof
+// of Theorem 3.1 writes down (Agarwal et al., section 3.1), and the smallest family.
+//
+// Explicit family. The nodes of depth d of the balanced tree over n beads have at most m = ceil(n / 2^d)
+// beads. Consecutive beads meet and have radii of at most r, so m beads have a cage of radius at most
+// R = r m. The family has each pair of disjoint cages of one depth of which one lies within 8 R of the other:
+// |c - c'| + s' <= s + 8 R for centres c, c' and radii s, s' in either order. It covers all disjoint pairs of
+// nonadjacent beads:
+//
+// Let d be the least depth at which the cages of two beads are disjoint, with radii s and s'. Their parents'
+// cages meet. A parent's radius is at most R + s, since its other half has radius at most R and the two
+// halves have a common point. The centre of a wrapped cage lies in the convex hull of its beads' centres, on
+// the near side of at least one touching bead, so its distance from the parent's centre is at most the root
+// of (R + s)^2 - s^2. The centres c and c' are therefore at most
+//
+//     sqrt(R^2 + 2 R s) + (R + s) + (R + s') + sqrt(R^2 + 2 R s') <= (2 sqrt(3) + 2) R + s + s'
+//
+// apart. The farthest point of the second cage is s' farther, at most s + (2 sqrt(3) + 4) R < s + 7.47 R
+// away. So 8 R suffices although children of the wrapped hierarchy stick out of their parents. In the layered
+// hierarchy they do not.
+//
+// The proof of Theorem 3.1 needs no more of a cage than that it holds its beads and has radius at most r m.
+// The layered hierarchy has both properties: two spheres that meet have an enclosing sphere whose radius is
+// at most the sum of theirs. So its explicit family has O(n log n) pairs in the plane and O(n^(4/3)) in space
+// too, which the paper leaves open (remark after Corollary 3.3).
+//
+// Smallest family. A family that covers no pair of beads twice is a partition into products u x v of nodes.
+// If a product u' x v' of it spans the whole of u and another the whole of v, they share a pair of beads. So
+// no product crosses the halves of u, or none crosses the halves of v, and the partition arises from
+// splittings. The smallest family of u x v thus has one pair if the spheres are disjoint, and otherwise as
+// many as the better of the two splittings: dynamic programming over pairs of nodes. A family that covers
+// some pairs twice, which the paper allows, may be smaller.
+
+#include <cstdint>
+
+#include "structures/collision/hierarchy_search.h"
+#include "structures/collision/sphere_tree.h"
+#include "structures/necklace/bead_pairs.h"
+
+namespace kds {
+
+/// Returns the size of the explicit family, and writes it unless `family` is null. It covers most pairs of
+/// beads several times. Takes time linear in n log n and in the number of pairs of cages within 9 R, and
+/// memory of O(log n) besides the family. Throws std::invalid_argument unless the tree has one necklace,
+/// whose consecutive beads meet, and `asked` asks about its pairs at least 2 apart.
+template <int Dimension>
+[[nodiscard]] std::uint64_t explicit_family(const SphereTree<Dimension>& tree, const PairsAsked& asked,
+                                            SeparatingFamily* family = nullptr);
+
+/// Returns the collisions and the size of the smallest family that covers no pair of beads twice, and writes
+/// the family unless `family` is null. Takes time and memory (about 50 bytes) for each pair of nodes that any
+/// sequence of splittings reaches: on packed grids O(n^(3/2)) in the plane and O(n^(5/3)) in space.
+template <int Dimension>
+[[nodiscard]] PairsFound smallest_family(const SphereTree<Dimension>& tree, const PairsAsked& asked,
+                                         SeparatingFamily* family = nullptr);
+
+}  // namespace kds
