@@ -11,20 +11,29 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/theorems/interleaved_grids.h"
 #include "motions/models/model.h"
 #include "motions/models/shapes.h"
 #include "structures/collision/closest_pair.h"
 #include "structures/collision/hierarchy_search.h"
+#include "structures/collision/separating_families.h"
+#include "structures/hierarchy/bead_orders.h"
 #include "structures/hierarchy/layered_hierarchy.h"
+#include "structures/hierarchy/path_cages.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
 
 namespace kds {
 
 std::string_view quantity_of(Theorem theorem) {
   switch (theorem) {
+    case Theorem::paths:
+      return "tests per node of a verification";
     case Theorem::tightness:
+    case Theorem::groupings:
       return "layered / wrapped radius of the root";
     case Theorem::family:
+    case Theorem::families:
+    case Theorem::two_necklaces:
       return "pairs in the separating family";
     case Theorem::search:
       return "seconds of the search";
@@ -35,26 +44,30 @@ std::string_view quantity_of(Theorem theorem) {
 }
 
 std::optional<PowerFit> TheoremSeries::fit() const {
-  const bool per_level = dimension == 2 && (theorem == Theorem::family || theorem == Theorem::search);
+  const bool per_height = theorem == Theorem::tightness || theorem == Theorem::groupings;
+  const bool per_level = dimension == 2 && (theorem == Theorem::family || theorem == Theorem::families ||
+                                            theorem == Theorem::search || theorem == Theorem::two_necklaces);
   std::vector<std::pair<double, double>> logarithmic;
   for (const TheoremPoint& point : points) {
     const auto n = static_cast<double>(point.beads);
-    const double x = theorem == Theorem::tightness ? static_cast<double>(tree_height(point.beads)) : n;
+    const double x = per_height ? static_cast<double>(tree_height(point.beads)) : n;
     logarithmic.emplace_back(x, per_level ? point.value / std::log2(n) : point.value);
   }
   return fit_power(logarithmic);
 }
 
 std::string name_of(const TheoremSeries& series) {
-  return fmt::format("{} in {}{}{}", series.model, series.dimension == 2 ? "the plane" : "space",
-                     series.hierarchy.empty() ? "" : ", ", series.hierarchy);
+  std::string name = fmt::format("{} in {}", series.model, series.dimension == 2 ? "the plane" : "space");
+  for (const std::string& part : {series.hierarchy, series.variant})
+    if (!part.empty()) name += ", " + part;
+  return name;
 }
 
 namespace {
 
 struct FamilySize {
-  std::uint64_t family = 0;       ///< pairs of spheres
-  std::optional<Spread> seconds;  ///< time of the search, without building the hierarchy
+  PairsFound found;
+  std::optional<Spread> seconds;  ///< of the search, without building the hierarchy
 };
 
 template <int Dimension>
@@ -100,17 +113,11 @@ ClosestByDiagram closest_by_diagram(const Eigen::Matrix3Xd& centers, int dimensi
   return dimension == 2 ? measure<2>(centers, rounds) : measure<3>(centers, rounds);
 }
 
+// Searches the pairs asked about. If `rounds` is 0, no time is measured.
 template <int Dimension>
-FamilySize measure(const Eigen::Matrix3Xd& centers, Hierarchy hierarchy, std::size_t rounds) {
-  const auto beads = static_cast<std::size_t>(centers.cols());
-  const Balls<Dimension> balls(centers, std::vector<double>(beads, models::radius));
-  const PairsAsked asked{{{0, static_cast<BeadId>(beads - 1)}}, true, 2, true};
-  SphereTree<Dimension> tree(hierarchy, asked.necklaces);
-  tree.build(balls);
+FamilySize search_family(const SphereTree<Dimension>& tree, const PairsAsked& asked, std::size_t rounds) {
   FamilySize size;
-  const auto search = [&] {
-    return processor_seconds_of([&] { size.family = find_pairs(tree, asked).family; });
-  };
+  const auto search = [&] { return processor_seconds_of([&] { size.found = find_pairs(tree, asked); }); };
   if (rounds == 0)
     search();
   else
@@ -118,11 +125,110 @@ FamilySize measure(const Eigen::Matrix3Xd& centers, Hierarchy hierarchy, std::si
   return size;
 }
 
-// Measures the family of beads with radius 1. No two beads may collide except neighbours along the chain. If
-// `rounds` is 0, no time is measured.
+PairsAsked within_one_chain(std::size_t beads, BeadId apart) {
+  return {{{0, static_cast<BeadId>(beads - 1)}}, true, apart, true};
+}
+
+template <int Dimension>
+SphereTree<Dimension> tree_of_chain(const Eigen::Matrix3Xd& centers, Hierarchy hierarchy) {
+  const auto beads = static_cast<std::size_t>(centers.cols());
+  SphereTree<Dimension> tree(hierarchy, within_one_chain(beads, 2).necklaces);
+  tree.build(Balls<Dimension>(centers, std::vector<double>(beads, models::radius)));
+  return tree;
+}
+
+// Measures the family of beads with radius 1. No two beads may collide except neighbours along the chain.
 FamilySize measure_family(const Eigen::Matrix3Xd& centers, int dimension, Hierarchy hierarchy,
                           std::size_t rounds) {
-  return dimension == 2 ? measure<2>(centers, hierarchy, rounds) : measure<3>(centers, hierarchy, rounds);
+  const PairsAsked asked = within_one_chain(static_cast<std::size_t>(centers.cols()), 2);
+  return dimension == 2 ? search_family(tree_of_chain<2>(centers, hierarchy), asked, rounds)
+                        : search_family(tree_of_chain<3>(centers, hierarchy), asked, rounds);
+}
+
+// Measures the family between two chains without collisions.
+template <int Dimension>
+FamilySize measure_between(const TwoChains& chains, std::size_t rounds) {
+  Eigen::Matrix3Xd centers(3, chains.first.cols() + chains.second.cols());
+  centers << chains.first, chains.second;
+  const auto first = static_cast<BeadId>(chains.first.cols()), beads = static_cast<BeadId>(centers.cols());
+  const PairsAsked asked{{{0, first - 1}, {first, beads - 1}}, false, 2, true};
+  SphereTree<Dimension> tree(Hierarchy::wrapped, asked.necklaces);
+  tree.build(Balls<Dimension>(centers, std::vector<double>(beads, models::radius)));
+  return search_family(tree, asked, rounds);
+}
+
+// Measures the cascade verification of the second of two frames, without and with path cages.
+template <int Dimension>
+std::array<TheoremPoint, 2> measure_paths(std::span<const Eigen::Matrix3Xd> frames, std::size_t rounds) {
+  const auto beads = static_cast<std::size_t>(frames[0].cols());
+  const std::vector<double> radii(beads, models::radius);
+  const std::array necklaces{BeadRange{0, static_cast<BeadId>(beads - 1)}};
+  const Balls<Dimension> before(frames[0], radii), after(frames[1], radii);
+  StaticWrappedHierarchy<Dimension> trusted(necklaces), now(necklaces);
+  trusted.build(before);
+  now.build(after);
+  trusted.update(after, Update::trust);
+  std::array<TheoremPoint, 2> points;
+  std::array<CascadeCost, 2> costs;
+  for (const std::size_t with_paths : {0U, 1U}) {
+    CascadeCost& cost = costs[with_paths];
+    TheoremPoint& point = points[with_paths];
+    point.seconds = repeated_seconds(
+        rounds,
+        [&] {
+          return processor_seconds_of([&] { cost = cascade_cost(trusted, now, after, with_paths == 1); });
+        },
+        std::numeric_limits<double>::infinity());
+    point.beads = beads;
+    point.tests = cost.tests + cost.path_tests;
+    point.value = static_cast<double>(*point.tests) / static_cast<double>(beads - 1);
+    point.holds = cost.escaped == costs[0].escaped;
+  }
+  return points;
+}
+
+// A family that is compared with others, and the hierarchy and search that give it.
+struct FamilyVariant {
+  std::string_view name;
+  Hierarchy hierarchy;
+  enum class Kind : std::uint8_t { smallest, search, written, by_space } kind;
+  SearchRule rule = {};
+};
+// The first variant of each hierarchy is the smallest family.
+constexpr std::array kFamilyVariants{
+    FamilyVariant{"smallest", Hierarchy::wrapped, FamilyVariant::Kind::smallest},
+    FamilyVariant{"found by the search", Hierarchy::wrapped, FamilyVariant::Kind::search},
+    FamilyVariant{"explicit", Hierarchy::wrapped, FamilyVariant::Kind::written},
+    FamilyVariant{
+        "larger sphere split", Hierarchy::wrapped, FamilyVariant::Kind::search, {Split::larger_sphere, 1}},
+    FamilyVariant{
+        "first node split", Hierarchy::wrapped, FamilyVariant::Kind::search, {Split::first_node, 1}},
+    FamilyVariant{
+        "leaves of 2 beads", Hierarchy::wrapped, FamilyVariant::Kind::search, {Split::more_beads, 2}},
+    FamilyVariant{
+        "leaves of 8 beads", Hierarchy::wrapped, FamilyVariant::Kind::search, {Split::more_beads, 8}},
+    FamilyVariant{"grouped by space", Hierarchy::wrapped, FamilyVariant::Kind::by_space},
+    FamilyVariant{"smallest", Hierarchy::layered, FamilyVariant::Kind::smallest},
+    FamilyVariant{"found by the search", Hierarchy::layered, FamilyVariant::Kind::search},
+    FamilyVariant{"explicit", Hierarchy::layered, FamilyVariant::Kind::written},
+};
+
+// If beads are grouped by space, the tree's order is not the chain's. All pairs are then asked about, and the
+// pairs of neighbours, which meet, are no pairs of the family.
+template <int Dimension>
+PairsFound compared_family(const Eigen::Matrix3Xd& centers, const FamilyVariant& variant) {
+  using Kind = FamilyVariant::Kind;
+  const PairsAsked asked =
+      within_one_chain(static_cast<std::size_t>(centers.cols()), variant.kind == Kind::by_space ? 1 : 2);
+  if (variant.kind == Kind::by_space)
+    return find_pairs(tree_of_chain<Dimension>(in_order(centers, order_by_space(centers)), variant.hierarchy),
+                      asked);
+  const SphereTree<Dimension> tree = tree_of_chain<Dimension>(centers, variant.hierarchy);
+  if (variant.kind == Kind::smallest) return smallest_family(tree, asked);
+  if (variant.kind == Kind::search) return find_pairs(tree, asked, variant.rule);
+  PairsFound written;
+  written.family = explicit_family(tree, asked);
+  return written;
 }
 
 // Returns n log2 n in the plane, n^(4/3) in space.
@@ -135,6 +241,8 @@ using Centers = Eigen::Matrix3Xd;
 
 // The smallest sizes for Theorem 2.3 and for random chains. Each further size is twice as large.
 constexpr std::size_t kLeastOfRoots = 16, kLeastOfChains = 1024;
+constexpr std::size_t kMostOfSmallest = 8192;
+constexpr std::string_view kLemmaPoints = "points of Lemma 2.5";
 
 Centers random_chain(std::size_t beads, std::uint64_t seed) {
   const models::Settings settings{.beads = beads, .seed = seed, .motion = models::ShapeMotion::rest};
@@ -160,8 +268,12 @@ class Planner {
   explicit Planner(const TheoremOptions& options) : options_(options) {}
 
   TheoremPlan plan() {
+    if (asked(Theorem::paths)) plan_paths();
     if (asked(Theorem::tightness)) plan_tightness();
+    if (asked(Theorem::groupings)) plan_groupings();
     if (asked(Theorem::family) || asked(Theorem::search)) plan_families();
+    if (asked(Theorem::families)) plan_compared_families();
+    if (asked(Theorem::two_necklaces)) plan_two_necklaces();
     if (asked(Theorem::closest_pair)) plan_closest_pairs();
     return std::move(plan_);
   }
@@ -172,8 +284,9 @@ class Planner {
   }
 
   std::size_t add_series(Theorem theorem, std::string_view model, int dimension, std::string_view hierarchy,
-                         std::optional<double> expected, std::size_t sizes) {
-    plan_.series.push_back({theorem, std::string(model), dimension, std::string(hierarchy), expected, {}});
+                         std::optional<double> expected, std::size_t sizes, std::string_view variant = "") {
+    plan_.series.push_back(
+        {theorem, std::string(model), dimension, std::string(hierarchy), std::string(variant), expected, {}});
     plan_.sizes.push_back(sizes);
     return plan_.series.size() - 1;
   }
@@ -188,27 +301,73 @@ class Planner {
 
   using Made = std::function<Centers(std::size_t beads)>;
 
-  void plan_tightness() {
-    const auto add = [&](std::string_view model, int dimension, double radius, const Made& made,
-                         std::optional<double> expected = std::nullopt) {
-      const std::vector<std::size_t> sizes = powers_of_two(kLeastOfRoots, options_.most_beads);
-      const std::size_t series = add_series(Theorem::tightness, model, dimension, "", expected, sizes.size());
+  // Measures the ratio of the roots over all sizes.
+  void add_ratios(Theorem theorem, std::string_view model, int dimension, std::string_view variant,
+                  double radius, const Made& made, std::optional<double> expected = std::nullopt) {
+    const std::vector<std::size_t> sizes = powers_of_two(kLeastOfRoots, options_.most_beads);
+    const std::size_t series = add_series(theorem, model, dimension, "", expected, sizes.size(), variant);
+    for (const std::size_t beads : sizes)
+      plan_.work.emplace_back([=](std::vector<TheoremSeries>& all) {
+        const double ratio = root_ratio(made(beads), std::vector<double>(beads, radius), dimension);
+        const double bound = std::sqrt(static_cast<double>(tree_height(beads)) + 1);
+        all[series].points.push_back({beads, ratio, bound, std::nullopt, ratio <= bound});
+      });
+  }
+
+  void plan_paths() {
+    const auto add = [&](std::string_view model, int dimension, models::Settings settings) {
+      const std::vector<std::size_t> sizes = powers_of_two(kLeastOfChains, options_.most_beads);
+      const std::size_t without =
+          add_series(Theorem::paths, model, dimension, "", std::nullopt, sizes.size(), "cascade");
+      add_series(Theorem::paths, model, dimension, "", std::nullopt, sizes.size(), "path cages");
+      settings.frames = 2;
+      settings.seed = options_.seed;
       for (const std::size_t beads : sizes)
-        plan_.work.emplace_back([=](std::vector<TheoremSeries>& all) {
-          const double ratio = root_ratio(made(beads), std::vector<double>(beads, radius), dimension);
-          const double bound = std::sqrt(static_cast<double>(tree_height(beads)) + 1);
-          all[series].points.push_back({beads, ratio, bound, std::nullopt, ratio <= bound});
+        plan_.work.emplace_back([=, rounds = options_.rounds](std::vector<TheoremSeries>& all) {
+          models::Settings sized = settings;
+          sized.beads = beads;
+          const auto frames = models::generate(*models::find_model(model), sized).front().frames;
+          const auto points =
+              dimension == 2 ? measure_paths<2>(frames, rounds) : measure_paths<3>(frames, rounds);
+          for (const std::size_t with_paths : {0U, 1U})
+            all[without + with_paths].points.push_back(points[with_paths]);
         });
     };
-    add(
-        "points of Lemma 2.5", 2, 0,
-        [](std::size_t beads) { return models::tightness_points(static_cast<int>(tree_height(beads))); },
-        0.5);
+    add("spiral", 2, {.turns = 8, .rolled = models::Span{0.5, 0.52}});
+    add("random-chain", 3, {.motion = models::ShapeMotion::wander});
+  }
+
+  [[nodiscard]] static Centers lemma_points(std::size_t beads) {
+    return models::tightness_points(static_cast<int>(tree_height(beads)));
+  }
+  [[nodiscard]] Made grid(int dimension) const {
+    return [=, gap = options_.gap](std::size_t beads) { return models::packed_grid(beads, dimension, gap); };
+  }
+  [[nodiscard]] Made chain() const {
+    return [seed = options_.seed](std::size_t beads) { return random_chain(beads, seed); };
+  }
+
+  void plan_tightness() {
+    add_ratios(Theorem::tightness, kLemmaPoints, 2, "", 0, lemma_points, 0.5);
     for (const int dimension : {2, 3})
-      add("grid", dimension, models::radius,
-          [=, gap = options_.gap](std::size_t beads) { return models::packed_grid(beads, dimension, gap); });
-    add("random chain", 3, models::radius,
-        [seed = options_.seed](std::size_t beads) { return random_chain(beads, seed); });
+      add_ratios(Theorem::tightness, "grid", dimension, "", models::radius, grid(dimension));
+    add_ratios(Theorem::tightness, "random chain", 3, "", models::radius, chain());
+  }
+
+  void plan_groupings() {
+    const auto by_space = [](const Made& made) -> Made {
+      return [=](std::size_t beads) {
+        const Centers centers = made(beads);
+        return in_order(centers, order_by_space(centers));
+      };
+    };
+    add_ratios(Theorem::groupings, kLemmaPoints, 2, "antipodes paired", 0,
+               [](std::size_t beads) { return in_order(lemma_points(beads), order_by_antipodes(beads)); });
+    add_ratios(Theorem::groupings, kLemmaPoints, 2, "by space", 0, by_space(lemma_points));
+    for (const int dimension : {2, 3})
+      add_ratios(Theorem::groupings, "grid", dimension, "by space", models::radius,
+                 by_space(grid(dimension)));
+    add_ratios(Theorem::groupings, "random chain", 3, "by space", models::radius, by_space(chain()));
   }
 
   // One search serves both theorems.
@@ -222,27 +381,77 @@ class Planner {
         if (asked(theorem))
           series.push_back(add_series(theorem, model, dimension, name, expected, sizes.size()));
       for (const std::size_t beads : sizes)
-        plan_.work.emplace_back(
-            [=, rounds = asked(Theorem::search) ? options_.rounds : 0](std::vector<TheoremSeries>& all) {
-              const FamilySize size = measure_family(made(beads), dimension, hierarchy, rounds);
-              for (const std::size_t s : series) {
-                const double value = all[s].theorem == Theorem::family ? static_cast<double>(size.family)
-                                                                       : size.seconds->median;
-                const auto bound = all[s].theorem == Theorem::family
-                                       ? std::optional(family_bound(dimension, beads))
-                                       : std::nullopt;  // a time has no bound without the constant
-                all[s].points.push_back({beads, value, bound, size.seconds, std::nullopt});
-              }
-            });
+        plan_.work.emplace_back([=, rounds = asked(Theorem::search) ? options_.rounds
+                                                                    : 0](std::vector<TheoremSeries>& all) {
+          const FamilySize size = measure_family(made(beads), dimension, hierarchy, rounds);
+          for (const std::size_t s : series) {
+            const double value = all[s].theorem == Theorem::family ? static_cast<double>(size.found.family)
+                                                                   : size.seconds->median;
+            const auto bound = all[s].theorem == Theorem::family
+                                   ? std::optional(family_bound(dimension, beads))
+                                   : std::nullopt;  // a time has no bound without the constant
+            all[s].points.push_back({beads, value, bound, size.seconds, std::nullopt, size.found.tests});
+          }
+        });
     };
     for (const int dimension : {2, 3})
       for (const Hierarchy hierarchy : {Hierarchy::wrapped, Hierarchy::layered})
-        add("grid", dimension, hierarchy, sizes_of_grids(dimension),
-            [=, gap = options_.gap](std::size_t beads) {
-              return models::packed_grid(beads, dimension, gap);
-            });
-    add("random chain", 3, Hierarchy::wrapped, powers_of_two(kLeastOfChains, options_.most_beads),
-        [seed = options_.seed](std::size_t beads) { return random_chain(beads, seed); });
+        add("grid", dimension, hierarchy, sizes_of_grids(dimension, options_.most_beads), grid(dimension));
+    add("random chain", 3, Hierarchy::wrapped, powers_of_two(kLeastOfChains, options_.most_beads), chain());
+  }
+
+  void plan_compared_families() {
+    const auto add = [&](std::string_view model, int dimension, const std::vector<std::size_t>& sizes,
+                         const Made& made) {
+      const std::size_t first = plan_.series.size();
+      for (const FamilyVariant& variant : kFamilyVariants)
+        add_series(Theorem::families, model, dimension,
+                   hierarchy_names[static_cast<std::size_t>(variant.hierarchy)], std::nullopt, sizes.size(),
+                   variant.name);
+      for (const std::size_t beads : sizes)
+        plan_.work.emplace_back([=](std::vector<TheoremSeries>& all) {
+          const Centers centers = made(beads);
+          std::uint64_t smallest = 0;
+          for (std::size_t v = 0; v < kFamilyVariants.size(); ++v) {
+            const FamilyVariant& variant = kFamilyVariants[v];
+            using Kind = FamilyVariant::Kind;
+            const PairsFound found =
+                dimension == 2 ? compared_family<2>(centers, variant) : compared_family<3>(centers, variant);
+            if (variant.kind == Kind::smallest) smallest = found.family;
+            std::optional<bool> holds;  // over the same tree, no family is smaller than the smallest
+            if (variant.kind != Kind::by_space) holds = smallest <= found.family;
+            std::optional<std::uint64_t> tests;
+            if (variant.kind != Kind::written) tests = found.tests;
+            all[first + v].points.push_back({beads, static_cast<double>(found.family),
+                                             family_bound(dimension, beads), std::nullopt, holds, tests});
+          }
+        });
+    };
+    // The smallest family takes too much memory for more beads.
+    const std::size_t most = std::min(options_.most_beads, kMostOfSmallest);
+    for (const int dimension : {2, 3})
+      add("grid", dimension, sizes_of_grids(dimension, most), grid(dimension));
+    add("random chain", 3, powers_of_two(kLeastOfChains, most), chain());
+  }
+
+  void plan_two_necklaces() {
+    for (const int dimension : {2, 3}) {
+      const std::vector<std::size_t> sides = sides_of_grids(dimension, options_.most_beads);
+      const std::size_t series = add_series(Theorem::two_necklaces, "two interleaved grids", dimension,
+                                            hierarchy_names[static_cast<std::size_t>(Hierarchy::wrapped)],
+                                            dimension == 2 ? 1 : 4.0 / 3, sides.size());
+      for (const std::size_t side : sides)
+        plan_.work.emplace_back([=, gap = options_.gap,
+                                 rounds = options_.rounds](std::vector<TheoremSeries>& all) {
+          const TwoChains chains = interleaved_grids(side, dimension, gap);
+          const auto beads = static_cast<std::size_t>(std::max(chains.first.cols(), chains.second.cols()));
+          const FamilySize size =
+              dimension == 2 ? measure_between<2>(chains, rounds) : measure_between<3>(chains, rounds);
+          all[series].points.push_back({beads, static_cast<double>(size.found.family),
+                                        family_bound(dimension, beads), size.seconds, std::nullopt,
+                                        size.found.tests});
+        });
+    }
   }
 
   void plan_closest_pairs() {
@@ -260,21 +469,20 @@ class Planner {
         });
     };
     for (const int dimension : {2, 3})
-      add("grid", dimension, 1, sizes_of_grids(dimension),
+      add("grid", dimension, 1, sizes_of_grids(dimension, options_.most_beads),
           [dimension, gap = options_.gap, seed = options_.seed](std::size_t beads) {
             return jittered_grid(beads, dimension, gap, seed);
           });
-    add("random chain", 3, 1, powers_of_two(kLeastOfChains, options_.most_beads),
-        [seed = options_.seed](std::size_t beads) { return random_chain(beads, seed); });
+    add("random chain", 3, 1, powers_of_two(kLeastOfChains, options_.most_beads), chain());
     add("helix", 3, std::nullopt, powers_of_two(512, most_of_helix), [](std::size_t beads) {
       constexpr double turns = 10;
       return models::helix(beads, turns);
     });
   }
 
-  [[nodiscard]] std::vector<std::size_t> sizes_of_grids(int dimension) const {
+  [[nodiscard]] static std::vector<std::size_t> sizes_of_grids(int dimension, std::size_t most) {
     std::vector<std::size_t> sizes;
-    for (const std::size_t side : sides_of_grids(dimension, options_.most_beads))
+    for (const std::size_t side : sides_of_grids(dimension, most))
       sizes.push_back(beads_of_grid(dimension, side));
     return sizes;
   }
@@ -315,14 +523,16 @@ TheoremPlan plan_theorems(const TheoremOptions& options) { return Planner(option
 
 // The third random chain sets the limit: grids of three sizes have fewer beads.
 std::size_t least_beads_for(const std::vector<Theorem>& theorems) {
-  const bool roots_only =
-      std::ranges::all_of(theorems, [](Theorem theorem) { return theorem == Theorem::tightness; });
+  const bool roots_only = std::ranges::all_of(theorems, [](Theorem theorem) {
+    return theorem == Theorem::tightness || theorem == Theorem::groupings;
+  });
   return 4 * (roots_only ? kLeastOfRoots : kLeastOfChains);
 }
 
 bool measures_time(const std::vector<Theorem>& theorems) {
   return std::ranges::any_of(theorems, [](Theorem theorem) {
-    return theorem == Theorem::search || theorem == Theorem::closest_pair;
+    return theorem == Theorem::paths || theorem == Theorem::search || theorem == Theorem::two_necklaces ||
+           theorem == Theorem::closest_pair;
   });
 }
 

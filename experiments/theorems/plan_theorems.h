@@ -21,13 +21,18 @@ namespace kds {
 
 /// The theorems of Agarwal et al. (2004) about the growth of a quantity.
 enum class Theorem : std::uint8_t {
-  tightness,    ///< 2.3: layered root at most sqrt(h + 1) times the wrapped root, almost tight
-  family,       ///< 3.1: a separating family of O(n log n) pairs in the plane, O(n^(4/3)) in space
-  search,       ///< 3.2: collisions decided within the time of 3.1
-  closest_pair  ///< 3.5: the closest pair is among the pairs that the power diagram and the chain give
+  paths,          ///< remark in section 2.3: path cages do not speed up the verification
+  tightness,      ///< 2.3: layered root at most sqrt(h + 1) times the wrapped root, almost tight
+  groupings,      ///< remark after 2.3: the same ratio if the beads are grouped otherwise
+  family,         ///< 3.1: a separating family of O(n log n) pairs in the plane, O(n^(4/3)) in space
+  families,       ///< 3.1: the proof's family, the smallest one and those of other searches
+  search,         ///< 3.2: collisions decided within the time of 3.1
+  two_necklaces,  ///< 3.3: collisions of two necklaces decided within this time
+  closest_pair    ///< 3.5: the closest pair is among the pairs that the power diagram and the chain give
 };
 /// The names of the enumerators in order.
-inline constexpr std::array<std::string_view, 4> theorem_names{"2.3", "3.1", "3.2", "3.5"};
+inline constexpr std::array<std::string_view, 8> theorem_names{"paths",    "2.3", "groupings", "3.1",
+                                                               "families", "3.2", "3.3",       "3.5"};
 [[nodiscard]] constexpr std::string_view name_of(Theorem theorem) {
   return theorem_names[static_cast<std::size_t>(theorem)];
 }
@@ -40,7 +45,8 @@ struct TheoremPoint {
   double value = 0;             ///< quantity_of the theorem
   std::optional<double> bound;  ///< the theorem's bound, without its constant if that is unspecified
   std::optional<Spread> seconds;
-  std::optional<bool> holds;  ///< empty if one size cannot decide it
+  std::optional<bool> holds;                ///< empty if one size cannot decide it
+  std::optional<std::uint64_t> tests = {};  ///< pairs of spheres that a search compared
 };
 
 struct TheoremSeries {
@@ -48,15 +54,16 @@ struct TheoremSeries {
   std::string model;
   int dimension = 3;
   std::string hierarchy;           ///< empty if none
+  std::string variant;             ///< family, rule or grouping; empty: as in the paper
   std::optional<double> expected;  ///< exponent in the theorem; empty if it says nothing about this model
   std::vector<TheoremPoint> points;
 
-  /// Fits the growth with the number of beads n. For 2.3, fits the growth with the tree's height. For 3.1 and
-  /// 3.2 in the plane, fits the growth of value / log2 n.
+  /// Fits the growth with the number of beads n. For 2.3, fits the growth with the tree's height. For
+  /// families and searches in the plane, fits the growth of value / log2 n.
   [[nodiscard]] std::optional<PowerFit> fit() const;
 };
 
-/// Returns a name such as "grid in space, wrapped".
+/// Returns a name such as "grid in space, wrapped, smallest".
 [[nodiscard]] std::string name_of(const TheoremSeries& series);
 
 /// Measures Theorem 2.3: returns layered radius / wrapped radius of the root over all balls of a necklace

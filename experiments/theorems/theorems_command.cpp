@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <span>
 #include <string>
@@ -28,10 +29,14 @@ std::optional<double> ratio_to_bound(const TheoremPoint& point) {
   return point.value / *point.bound;
 }
 
+bool is_ratio(Theorem theorem) { return theorem == Theorem::tightness || theorem == Theorem::groupings; }
+bool is_count(Theorem theorem) {
+  return !is_ratio(theorem) && theorem != Theorem::search && theorem != Theorem::paths;
+}
+
 // Counts are written in full.
 std::string value_text(Theorem theorem, double value) {
-  const bool is_count = theorem == Theorem::family || theorem == Theorem::closest_pair;
-  return is_count ? with_thousands(static_cast<std::uint64_t>(value)) : short_decimal(value);
+  return is_count(theorem) ? with_thousands(static_cast<std::uint64_t>(value)) : short_decimal(value);
 }
 
 /// One necklace, which is a row in all forms of the report.
@@ -54,6 +59,7 @@ std::vector<Column<Row>> series_columns(SeriesOf series_of) {
       {.key = "model", .value = [=](const Row& r) { return Field(series_of(r).model); }},
       {.key = "dimension", .value = [=](const Row& r) { return Field(series_of(r).dimension); }},
       {.key = "hierarchy", .value = [=](const Row& r) { return text_or_nothing(series_of(r).hierarchy); }},
+      {.key = "variant", .value = [=](const Row& r) { return text_or_nothing(series_of(r).variant); }},
   };
 }
 
@@ -70,6 +76,7 @@ Table<PlacedPoint> point_columns(std::string_view value_heading = "value") {
        .words = [](const Row& r) { return value_text(r.series->theorem, r.point->value); }},
       {"bound", "bound", [](const Row& r) { return Field(r.point->bound); }, shortly},
       {"ratio", "ratio", [](const Row& r) { return Field(ratio_to_bound(*r.point)); }, shortly},
+      {"tests", "pairs compared", [](const Row& r) { return Field(r.point->tests); }},
   });
   table.add(spread_columns<Row>("seconds", "seconds", [](const Row& r) { return r.point->seconds; }));
   return table.add({{.key = "holds",
@@ -113,8 +120,8 @@ Table<FittedSeries> fit_columns() {
 /// Groups the series by theorem.
 std::vector<std::span<const TheoremSeries>> by_theorem(std::span<const TheoremSeries> series) {
   std::vector<std::span<const TheoremSeries>> groups;
-  for (const Theorem theorem :
-       {Theorem::tightness, Theorem::family, Theorem::search, Theorem::closest_pair}) {
+  for (std::size_t t = 0; t < theorem_names.size(); ++t) {
+    const auto theorem = static_cast<Theorem>(t);
     const auto of_it = std::ranges::find_if(series, [&](const auto& s) { return s.theorem == theorem; });
     if (of_it == series.end()) continue;
     const auto after = std::find_if(of_it, series.end(), [&](const auto& s) { return s.theorem != theorem; });
@@ -125,9 +132,14 @@ std::vector<std::span<const TheoremSeries>> by_theorem(std::span<const TheoremSe
 
 std::string growing(const TheoremSeries& series) {
   switch (series.theorem) {
+    case Theorem::paths:
+      return "the tests per node grow as n^";
     case Theorem::tightness:
+    case Theorem::groupings:
       return "the ratio grows as h^";
     case Theorem::family:
+    case Theorem::families:
+    case Theorem::two_necklaces:
       return series.dimension == 2 ? "family / log2 n grows as n^" : "the family grows as n^";
     case Theorem::search:
       return series.dimension == 2 ? "time / log2 n grows as n^" : "the time grows as n^";
@@ -137,16 +149,34 @@ std::string growing(const TheoremSeries& series) {
   return "";
 }
 
+std::string title_of(Theorem theorem) {
+  if (theorem == Theorem::paths) return "paths (remark in section 2.3)";
+  if (theorem == Theorem::groupings) return "groupings (remark after theorem 2.3)";
+  if (theorem == Theorem::families) return "families (theorem 3.1)";
+  return fmt::format("{} {}", theorem == Theorem::two_necklaces ? "corollary" : "theorem", name_of(theorem));
+}
+
 std::string_view theorem_says(Theorem theorem) {
   switch (theorem) {
+    case Theorem::paths:
+      return "testing intersections of the cages on the path to a node costs more than it saves";
     case Theorem::tightness:
       return "the layered root is at most sqrt(h + 1) times the wrapped one, h the height of the tree, and "
              "on some points sqrt(h) times";
+    case Theorem::groupings:
+      return "the upper bound of 2.3 holds for any grouping. If antipodal points of Lemma 2.5 are grouped "
+             "first, all layered spheres are equal";
     case Theorem::family:
       return "the wrapped hierarchy has a separating family of O(n log n) pairs in the plane, O(n^(4/3)) in "
              "space; tight on grids";
+    case Theorem::families:
+      return "the family of the proof, which takes all disjoint cages within 8 R, and the smallest family, "
+             "beside those of searches by other rules and over other groupings";
     case Theorem::search:
       return "collisions are decided in O(n log n) time in the plane, O(n^(4/3)) in space";
+    case Theorem::two_necklaces:
+      return "collisions of two necklaces of n beads are decided in O(n log n) time in the plane, "
+             "O(n^(4/3)) in space";
     case Theorem::closest_pair:
       return "the closest pair is an edge of the power diagram, or has a common neighbour, or a bead beside "
              "an end of the chain";
@@ -168,6 +198,13 @@ Judged judged_of(std::span<const TheoremSeries> some) {
   return judged;
 }
 
+std::string_view judgement_of(Theorem theorem) {
+  if (is_ratio(theorem)) return "The bound holds";
+  if (theorem == Theorem::paths) return "The cascade finds the same nodes to repair";
+  if (theorem == Theorem::families) return "The family is no smaller than the smallest one over its tree";
+  return "The closest pair is among them";
+}
+
 // Returns the findings as sentences.
 std::vector<std::string> findings_of(std::span<const TheoremSeries> group) {
   std::vector<std::string> findings;
@@ -176,8 +213,7 @@ std::vector<std::string> findings_of(std::span<const TheoremSeries> group) {
     const TheoremPoint& last = series.points.back();
     std::string text = fmt::format("{}: {} at {} beads", name_of(series),
                                    value_text(series.theorem, last.value), with_thousands(last.beads));
-    if (const auto ratio = ratio_to_bound(last);
-        ratio && (series.theorem == Theorem::family || series.theorem == Theorem::tightness))
+    if (const auto ratio = ratio_to_bound(last); ratio && series.theorem != Theorem::search)
       text += fmt::format(", {} of the bound", short_decimal(*ratio));
     if (const auto fit = series.fit()) {
       text += fmt::format("; {}{}", growing(series), exponent_text(*fit));
@@ -186,18 +222,24 @@ std::vector<std::string> findings_of(std::span<const TheoremSeries> group) {
     findings.push_back(text + ".");
   }
   if (const Judged judged = judged_of(group); judged.all > 0)
-    findings.insert(findings.begin(), fmt::format("{} in {} of {} necklaces.",
-                                                  group.front().theorem == Theorem::tightness
-                                                      ? "The bound holds"
-                                                      : "The closest pair is among them",
-                                                  judged.held, judged.all));
+    findings.insert(
+        findings.begin(),
+        fmt::format("{} in {} of {} {}.", judgement_of(group.front().theorem), judged.held, judged.all,
+                    group.front().theorem == Theorem::families ? "families" : "necklaces"));
   return findings;
+}
+
+// A plot has room for eight series: families are shown for one model.
+bool is_plotted(const TheoremSeries& series) {
+  return series.theorem != Theorem::families ||
+         (series.model == "grid" && series.dimension == 3 && series.hierarchy == "wrapped");
 }
 
 PointPlot plot_of(std::span<const TheoremSeries> group) {
   const Theorem theorem = group.front().theorem;
   PointPlot plot{"beads n", std::string(quantity_of(theorem)), {}, {}};
   for (const TheoremSeries& series : group) {
+    if (!is_plotted(series)) continue;
     for (const TheoremPoint& point : series.points)
       plot.points.push_back({"", static_cast<double>(point.beads), point.value, plot.series.size()});
     plot.series.push_back(name_of(series));
@@ -209,9 +251,8 @@ std::string findings_html(std::span<const TheoremSeries> series) {
   const Judged judged = judged_of(series);
   std::string html = "<p>";
   if (judged.all > 0)
-    html +=
-        fmt::format("Theorems 2.3 and 3.5, which judge single necklaces, held in <strong>{} of {}</strong>. ",
-                    judged.held, judged.all);
+    html += fmt::format("Claims that a single necklace can decide held in <strong>{} of {}</strong> cases. ",
+                        judged.held, judged.all);
   html += "The quantities that the theorems bound grow with these exponents:</p>\n";
   std::vector<FittedSeries> fits = fits_of(series);
   std::erase_if(fits, [](const FittedSeries& fitted) { return !fitted.series->expected; });
@@ -232,9 +273,8 @@ std::string theorems_table(std::span<const TheoremSeries> series) {
   std::string text;
   for (const auto& group : by_theorem(series)) {
     const Theorem theorem = group.front().theorem;
-    text +=
-        fmt::format("{}theorem {}: {}\n{}", text.empty() ? "" : "\n", name_of(theorem), theorem_says(theorem),
-                    point_columns(quantity_of(theorem)).text(points_of(group), "  "));
+    text += fmt::format("{}{}: {}\n{}", text.empty() ? "" : "\n", title_of(theorem), theorem_says(theorem),
+                        point_columns(quantity_of(theorem)).text(points_of(group), "  "));
     for (const std::string& finding : findings_of(group)) text += "  " + finding + "\n";
   }
   return text;
@@ -249,12 +289,16 @@ std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
     std::string section = fmt::format("<p>It says: {}.</p>\n<ul>\n", html_escaped(theorem_says(theorem)));
     for (const std::string& finding : findings_of(group))
       section += fmt::format("<li>{}</li>\n", html_escaped(finding));
-    section += "</ul>\n" +
-               html_figure(svg_plot(plot_of(group)),
-                           fmt::format("Theorem {}: {} by the number of beads, both axes logarithmic.",
-                                       name_of(theorem), quantity_of(theorem))) +
-               point_columns().html(points_of(group));
-    page.body += html_section(fmt::format("Theorem {}", name_of(theorem)), section);
+    section +=
+        "</ul>\n" +
+        html_figure(svg_plot(plot_of(group)),
+                    fmt::format("{}: {} by the number of beads{}, both axes logarithmic.", name_of(theorem),
+                                quantity_of(theorem),
+                                theorem == Theorem::families ? ", grid in space, wrapped hierarchy" : "")) +
+        point_columns().html(points_of(group));
+    std::string title = title_of(theorem);
+    title.front() = static_cast<char>(std::toupper(title.front()));
+    page.body += html_section(title, section);
   }
   page.words =
       "The theorems are those of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for "
@@ -266,17 +310,22 @@ std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
 
 constexpr CommandSpec kTheoremsCommand{
     "kds theorems",
-    "Measures the quantities that the theorems of Agarwal et al. (2004) bound, for growing sizes,\nand fits "
-    "exponents.\n\n"
+    "Measures, for growing sizes, what the theorems of Agarwal et al. (2004) bound, and fits exponents.\n\n"
+    "  paths  tests of a cascade verification without and with path cages\n"
     "  2.3  radius of the layered root / radius of the wrapped root: at most sqrt(h + 1), h the tree's "
     "height\n"
+    "  groupings  the same, with antipodal points paired and with beads grouped by space\n"
     "  3.1  pairs in separating families of packed grids: n log n in the plane, n^(4/3) in space\n"
-    "  3.2  time to find these families\n"
+    "  families  the family of the proof of 3.1, the smallest family, and families by other rules of "
+    "splitting, larger leaves and grouping by space, to 8192 beads\n"
+    "  3.2  time to find the families of 3.1\n"
+    "  3.3  the family between two interleaved grids of n beads each, and the time to find it\n"
     "  3.5  pairs that have to be looked at to find the closest one",
     "[THEOREM]...",
-    "2.3, 3.1, 3.2 or 3.5 (default: all)",
+    "paths, 2.3, groupings, 3.1, families, 3.2, 3.3 or 3.5 (default: all)",
     "kds theorems --out report\n"
-    "kds theorems 3.1 --beads 1000000 --json -",
+    "kds theorems 3.1 --beads 1000000 --json -\n"
+    "kds theorems groupings families",
 };
 
 struct TheoremsAsked : Destinations {
@@ -286,11 +335,12 @@ struct TheoremsAsked : Destinations {
 const OptionList<TheoremsAsked>& theorems_options() {
   using O = TheoremsAsked;
   using M = TheoremOptions;
-  Option<M> beads = whole_option({"--beads", "N",
-                                  "beads of the largest necklaces: at least 64 for 2.3 and 4096 for the "
-                                  "others, so that there are three sizes, and at most 4000000 (default: "
-                                  "100000)"},
-                                 &M::most_beads, 0, 0);
+  Option<M> beads =
+      whole_option({"--beads", "N",
+                    "beads of the largest necklaces: at least 64 for 2.3 and groupings and "
+                    "4096 for the others, so that there are three sizes, and at most 4000000 (default: "
+                    "100000)"},
+                   &M::most_beads, 0, 0);
   beads.read = [](M& m, const std::string& text) {
     m.most_beads = parse_whole_number("--beads", text, least_beads_for(m.theorems), 4'000'000);
   };
@@ -303,7 +353,8 @@ const OptionList<TheoremsAsked>& theorems_options() {
                   whole_option({"--seed", "N", "seed of random chains and of disturbed grids (default: 1)"},
                                &M::seed, 0, UINT64_MAX),
                   whole_option({"--rounds", "N",
-                                "repeat each measurement of time (3.2 and 3.5) N times and report the median "
+                                "repeat each measurement of time (paths, 3.2, 3.3 and 3.5) N times and "
+                                "report the median "
                                 "(default: 3)"},
                                &M::rounds, 1, 1000)}})
           .with(destination_options(
@@ -320,7 +371,7 @@ std::vector<Theorem> theorems_of(const std::vector<std::string>& operands) {
     theorems.push_back(theorem);
   }
   if (theorems.empty())
-    theorems = {Theorem::tightness, Theorem::family, Theorem::search, Theorem::closest_pair};
+    for (std::size_t t = 0; t < theorem_names.size(); ++t) theorems.push_back(static_cast<Theorem>(t));
   std::ranges::sort(theorems);
   return theorems;
 }
@@ -331,7 +382,7 @@ TheoremsAsked parse_theorems(const Arguments& arguments) {
   asked.measured.theorems = theorems_of(parsed.operands());  // the theorems bound --beads
   theorems_options().read(parsed, asked);
   if (parsed.has("--rounds") && !measures_time(asked.measured.theorems))
-    throw InputError("--rounds applies only to theorems 3.2 and 3.5, which measure time");
+    throw InputError("--rounds applies only to paths, 3.2, 3.3 and 3.5, which measure time");
   return asked;
 }
 

@@ -10,8 +10,11 @@
 #include <vector>
 
 #include "experiments/program/timing.h"
+#include "experiments/theorems/interleaved_grids.h"
 #include "experiments/theorems/plan_theorems.h"
 #include "motions/models/shapes.h"
+#include "structures/collision/hierarchy_search.h"
+#include "structures/necklace/necklace.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
@@ -81,11 +84,10 @@ TEST(ClosestByDiagram, IsThatOfASearchAndTellsWhatItLookedAt) {
 }
 
 TEST(TheoremPlan, ThreeSizesOfEachFromTheLeastBeads) {
-  const std::vector<std::vector<Theorem>> choices{{Theorem::tightness},
-                                                  {Theorem::family},
-                                                  {Theorem::search},
-                                                  {Theorem::closest_pair},
-                                                  {Theorem::tightness, Theorem::closest_pair}};
+  const std::vector<std::vector<Theorem>> choices{
+      {Theorem::tightness},    {Theorem::family},        {Theorem::search},
+      {Theorem::closest_pair}, {Theorem::paths},         {Theorem::groupings},
+      {Theorem::families},     {Theorem::two_necklaces}, {Theorem::tightness, Theorem::closest_pair}};
   for (const std::vector<Theorem>& theorems : choices) {
     const std::size_t least = least_beads_for(theorems);
     const auto fewest = [&](std::size_t beads) {
@@ -101,6 +103,45 @@ TEST(TheoremPlan, ThreeSizesOfEachFromTheLeastBeads) {
   std::vector<TheoremSeries> series = plan.series;
   for (const auto& work : plan.work) work(series);
   for (std::size_t s = 0; s < series.size(); ++s) EXPECT_EQ(series[s].points.size(), plan.sizes[s]);
+}
+
+TEST(InterleavedGrids, AreTwoProperNecklaces) {
+  for (const int dimension : {2, 3})
+    for (const double gap : {0.05, 0.4})
+      for (std::size_t side = 3; side < 14; ++side) {
+        const TwoChains chains = interleaved_grids(side, dimension, gap);
+        Eigen::Matrix3Xd centers(3, chains.first.cols() + chains.second.cols());
+        centers << chains.first, chains.second;
+        const std::vector<double> radii(static_cast<std::size_t>(centers.cols()), 1);
+        const auto first = static_cast<BeadId>(chains.first.cols());
+        const std::array necklaces{Necklace({0, first - 1}, centers, radii),
+                                   Necklace({first, static_cast<BeadId>(radii.size() - 1)}, centers, radii)};
+        EXPECT_TRUE(validate(necklaces).proper()) << side << " " << dimension << " " << gap;
+        const std::size_t layers = dimension == 2 ? 1 : side;
+        EXPECT_GE(first, side / 2 * side * layers);
+        EXPECT_LE(std::abs(chains.first.cols() - chains.second.cols()), static_cast<int>(8 * layers));
+      }
+}
+
+// Families between two necklaces, by brute force over all pairs of beads.
+TEST(InterleavedGrids, AreSeparatedByTheMeasuredFamily) {
+  const TheoremPlan plan = plan_theorems({{Theorem::two_necklaces}, 4096});
+  std::vector<TheoremSeries> series = plan.series;
+  plan.work.front()(series);
+  const TheoremPoint& point = series.front().points.front();
+  const std::size_t side = sides_of_grids(2, 4096).front();
+  const TwoChains chains = interleaved_grids(side, 2, 0.05);
+  Eigen::Matrix3Xd centers(3, chains.first.cols() + chains.second.cols());
+  centers << chains.first, chains.second;
+  const Balls<2> balls(centers, std::vector<double>(static_cast<std::size_t>(centers.cols()), 1));
+  const auto first = static_cast<BeadId>(chains.first.cols());
+  const PairsAsked asked{{{0, first - 1}, {first, static_cast<BeadId>(balls.size() - 1)}}, false, 2, true};
+  SphereTree<2> tree(Hierarchy::wrapped, asked.necklaces);
+  tree.build(balls);
+  SeparatingFamily family;
+  EXPECT_TRUE(find_pairs(tree, asked, family).pairs.empty());
+  EXPECT_EQ(family_fault(family, {}, balls, asked).value_or("none"), "none");
+  EXPECT_EQ(static_cast<double>(family.pairs.size()), point.value);
 }
 
 // The size of a family needs one search, so no time is reported.
@@ -146,8 +187,21 @@ TEST(Theorems, RowsFitsAndPage) {
   EXPECT_EQ(json["settings"]["seed"], 5);
   for (const Json& row : json["rows"]) {
     const std::string theorem = row["theorem"];
-    if (theorem == "2.3" || theorem == "3.5") {
+    if (theorem == "2.3" || theorem == "3.5" || theorem == "groupings" || theorem == "paths" ||
+        (theorem == "families" && row["variant"] != "grouped by space")) {
       EXPECT_EQ(row["holds"], true) << row;
+    }
+    if (row["variant"] == "antipodes paired") {
+      EXPECT_NEAR(row["value"].get<double>(), 1, 1e-9);
+    }
+    if (theorem == "families" && row["variant"] == "explicit") {
+      EXPECT_EQ(row["tests"], nullptr);
+      EXPECT_GT(row["ratio"], 1) << row;
+    }
+    if (theorem == "3.3") {
+      EXPECT_GT(row["ratio"], 0.5) << row;
+      EXPECT_LT(row["ratio"], 4) << row;
+      EXPECT_GE(row["tests"], row["value"]) << row;
     }
     if (theorem == "2.3") {
       EXPECT_GT(row["value"], 0.999) << row;
@@ -166,7 +220,7 @@ TEST(Theorems, RowsFitsAndPage) {
     EXPECT_NEAR(fit["exponent"], 0.5, 1e-6);
     EXPECT_EQ(fit["sizes"], 9);
   }
-  EXPECT_EQ(json["fits"].size(), 4 + 5 + 5 + 4U);  // one fit of each series
+  EXPECT_EQ(json["fits"].size(), 4 + 4 + 5 + 5 + 33 + 5 + 2 + 4U);  // one fit of each series
   const std::string csv = content_of(scratch / "out/theorems.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), json["rows"].size() + 1);
   const std::string page = content_of(scratch / "out/report.html");
@@ -190,7 +244,8 @@ TEST(Theorems, RowsFitsAndPage) {
 TEST(Theorems, RefusesWhatIsNoTheorem) {
   const ProgramRun run = run_program({"theorems", "2.4"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("THEOREM: '2.4' is not one of 2.3, 3.1, 3.2, 3.5"));
+  EXPECT_THAT(run.err,
+              HasSubstr("THEOREM: '2.4' is not one of paths, 2.3, groupings, 3.1, families, 3.2, 3.3, 3.5"));
   const auto error_of = [](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "theorems");
     const ProgramRun refused = run_program(arguments);
@@ -202,7 +257,7 @@ TEST(Theorems, RefusesWhatIsNoTheorem) {
   EXPECT_THAT(error_of({"2.3", "--beads", "63"}), HasSubstr("--beads: '63' is not a whole number from 64"));
   EXPECT_THAT(error_of({"3.1", "2.3", "3.1"}), HasSubstr("THEOREM: 3.1 is listed twice"));
   EXPECT_THAT(error_of({"2.3", "3.1", "--rounds", "2"}),
-              HasSubstr("--rounds applies only to theorems 3.2 and 3.5, which measure time"));
+              HasSubstr("--rounds applies only to paths, 3.2, 3.3 and 3.5, which measure time"));
 }
 
 }  // namespace
