@@ -45,6 +45,7 @@ constexpr std::array kCommands{
             reproduce_command},
     Command{"theorems", "measure the quantities that the paper's theorems bound, for growing sizes",
             theorems_command},
+    Command{"figures", "draw figures of the paper from data of kds", figures_command},
     Command{"questions", "measure answers to the paper's open questions", questions_command},
     Command{"trade", "measure how much time each accuracy option saves and how large its errors are",
             trade_command},
