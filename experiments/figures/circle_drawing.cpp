@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "experiments/output/page/html_page.h"
 
@@ -35,13 +36,16 @@ std::string group_of(const CirclePanel& panel, double scale) {
   const auto y = [&](const Sphere& s) { return kPanel / 2 - scale * (s.center[1] - square.center[1]); };
   std::string svg =
       fmt::format("<text x=\"{:.0f}\" y=\"-8\">{}</text>\n", kPanel / 2, html_escaped(panel.title));
-  svg += "<polyline class=\"backbone\" points=\"";
-  for (const auto& bead : panel.beads) svg += fmt::format("{:.1f},{:.1f} ", x(bead.ball), y(bead.ball));
-  svg += "\"/>\n";
+  if (std::ranges::any_of(panel.beads, [](const auto& bead) { return bead.ball.radius > 0; })) {
+    svg += "<polyline class=\"backbone\" points=\"";
+    for (const auto& bead : panel.beads) svg += fmt::format("{:.1f},{:.1f} ", x(bead.ball), y(bead.ball));
+    svg += "\"/>\n";
+  }
   for (const auto& bead : panel.beads) {
-    const double r = bead.ball.radius > 0 ? scale * bead.ball.radius : 3;
+    const bool is_point = bead.ball.radius == 0;
+    const double r = is_point ? 3 : scale * bead.ball.radius;
     svg += fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>\n",
-                       bead.of_basis ? "basis" : "bead", x(bead.ball), y(bead.ball), r);
+                       bead.of_basis || is_point ? "basis" : "bead", x(bead.ball), y(bead.ball), r);
   }
   for (const auto& cage : panel.cages)
     svg += fmt::format("<circle class=\"cage l{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>\n",

@@ -11,7 +11,7 @@ namespace kds {
 
 struct CirclePanel {
   struct Bead {
-    Sphere ball;            ///< drawn as a dot if its radius is 0
+    Sphere ball;            ///< drawn as a dark dot if its radius is 0
     bool of_basis = false;  ///< drawn dark
   };
   struct Cage {
@@ -19,7 +19,7 @@ struct CirclePanel {
     std::size_t level = 0;  ///< 0 for the root; selects the colour
   };
   std::string title;
-  std::vector<Bead> beads;  ///< in the order of the chain, whose backbone is drawn
+  std::vector<Bead> beads;  ///< in the order of the chain. Its backbone is drawn unless all are points
   std::vector<Cage> cages;
 };
 

@@ -41,18 +41,19 @@ std::size_t count_sticking_out(const Hierarchy& hierarchy) {
 
 constexpr std::size_t kAllLevels = std::numeric_limits<std::size_t>::max();
 
-// Draws the beads and the cages of levels 0 to `last_level`. Beads of the bases of these cages are dark if
-// `bases` are given.
+// Draws the beads and the cages of levels 0 to `last_level`. If `bases` are given, the beads of those of
+// levels 0 to `last_dark` are dark.
 template <class Hierarchy>
 CirclePanel panel_of(std::string title, const Hierarchy& hierarchy, const Eigen::Matrix3Xd& centers,
-                     double radius, std::size_t last_level, std::span<const Basis> bases = {}) {
+                     double radius, std::size_t last_level, std::span<const Basis> bases = {},
+                     std::size_t last_dark = 0) {
   CirclePanel panel{std::move(title), {}, {}};
   for (Eigen::Index b = 0; b < centers.cols(); ++b) panel.beads.push_back({{centers.col(b), radius}, false});
   const std::vector<std::size_t> levels = levels_of(hierarchy.tree());
   for (NodeId node = 0; node < levels.size(); ++node) {
     if (levels[node] > last_level) continue;
     panel.cages.push_back({hierarchy.sphere(node), levels[node]});
-    if (bases.empty()) continue;
+    if (bases.empty() || levels[node] > last_dark) continue;
     for (const BeadId bead : bases[node]) panel.beads[bead].of_basis = true;
   }
   return panel;
@@ -72,15 +73,15 @@ Hierarchy built(const Eigen::Matrix3Xd& centers, double radius) {
 std::string names_of(const Basis& basis) { return fmt::format("{}", fmt::join(basis, ", ")); }
 
 DrawnFigure draw_hierarchies() {
-  const Eigen::Matrix3Xd centers = models::spiral(16, 1.2, 0.75);
+  const Eigen::Matrix3Xd centers = models::spiral(16, 1.25, 1);
   const auto wrapped = built<StaticWrappedHierarchy<2>>(centers, models::radius);
   const auto layered = built<LayeredHierarchy<2>>(centers, models::radius);
   DrawnFigure figure;
   figure.svg =
-      svg_document({panel_of("wrapped", wrapped, centers, models::radius, 3, wrapped.bases()),
+      svg_document({panel_of("wrapped", wrapped, centers, models::radius, 3, wrapped.bases(), 1),
                     panel_of("layered", layered, centers, models::radius, 3)},
                    "Wrapped (left) and layered (right) hierarchy of a necklace of 16 beads. Beads of "
-                   "the wrapped hierarchy's bases are dark.");
+                   "the bases of the root and its children are dark.");
   std::size_t of_three = 0;
   for (const Basis& basis : wrapped.bases()) of_three += basis.size == 3 ? 1 : 0;
   figure.panels = {
@@ -105,7 +106,7 @@ DrawnFigure draw_stability(const StablePairSearch& search) {
     const Eigen::Matrix3Xd& centers = last ? pair->frames.back() : pair->frames.front();
     const auto wrapped = built<StaticWrappedHierarchy<2>>(centers, models::radius);
     panels.push_back(
-        panel_of(last ? "after" : "before", wrapped, centers, models::radius, 2, wrapped.bases()));
+        panel_of(last ? "after" : "before", wrapped, centers, models::radius, 2, wrapped.bases(), 2));
     figure.panels.push_back(
         {PaperFigure::stability, panels.back().title, search.beads, wrapped.sphere(0).radius,
          count_sticking_out(wrapped),

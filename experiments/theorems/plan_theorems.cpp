@@ -315,11 +315,12 @@ class Planner {
   }
 
   void plan_paths() {
-    const auto add = [&](std::string_view model, int dimension, models::Settings settings) {
+    const auto add = [&](std::string_view name, int dimension, std::string_view model,
+                         models::Settings settings) {
       const std::vector<std::size_t> sizes = powers_of_two(kLeastOfChains, options_.most_beads);
       const std::size_t without =
-          add_series(Theorem::paths, model, dimension, "", std::nullopt, sizes.size(), "cascade");
-      add_series(Theorem::paths, model, dimension, "", std::nullopt, sizes.size(), "path cages");
+          add_series(Theorem::paths, name, dimension, "", std::nullopt, sizes.size(), "cascade");
+      add_series(Theorem::paths, name, dimension, "", std::nullopt, sizes.size(), "path cages");
       settings.frames = 2;
       settings.seed = options_.seed;
       for (const std::size_t beads : sizes)
@@ -333,8 +334,8 @@ class Planner {
             all[without + with_paths].points.push_back(points[with_paths]);
         });
     };
-    add("spiral", 2, {.turns = 8, .rolled = models::Span{0.5, 0.52}});
-    add("random-chain", 3, {.motion = models::ShapeMotion::wander});
+    add("rolling spiral", 2, "spiral", {.turns = 8, .rolled = models::Span{0.5, 0.52}});
+    add("wandering random chain", 3, "random-chain", {.motion = models::ShapeMotion::wander});
   }
 
   [[nodiscard]] static Centers lemma_points(std::size_t beads) {

@@ -311,16 +311,16 @@ std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
 constexpr CommandSpec kTheoremsCommand{
     "kds theorems",
     "Measures, for growing sizes, what the theorems of Agarwal et al. (2004) bound, and fits exponents.\n\n"
-    "  paths  tests of a cascade verification without and with path cages\n"
-    "  2.3  radius of the layered root / radius of the wrapped root: at most sqrt(h + 1), h the tree's "
-    "height\n"
-    "  groupings  the same, with antipodal points paired and with beads grouped by space\n"
-    "  3.1  pairs in separating families of packed grids: n log n in the plane, n^(4/3) in space\n"
-    "  families  the family of the proof of 3.1, the smallest family, and families by other rules of "
-    "splitting, larger leaves and grouping by space, to 8192 beads\n"
-    "  3.2  time to find the families of 3.1\n"
-    "  3.3  the family between two interleaved grids of n beads each, and the time to find it\n"
-    "  3.5  pairs that have to be looked at to find the closest one",
+    "  paths      tests of a cascade verification, without and with path cages\n"
+    "  2.3        radius of the layered root / radius of the wrapped root: at most sqrt(h + 1), h the "
+    "tree's height\n"
+    "  groupings  the same with antipodal points paired, and with beads grouped by space\n"
+    "  3.1        pairs in separating families of packed grids: n log n in the plane, n^(4/3) in space\n"
+    "  families   pairs in the family of the proof of 3.1, in the smallest one, and in those of other\n"
+    "             searches and groupings, on at most 8192 beads\n"
+    "  3.2        time to find the families of 3.1\n"
+    "  3.3        pairs in the family between two interleaved grids of n beads each\n"
+    "  3.5        pairs that have to be looked at to find the closest one",
     "[THEOREM]...",
     "paths, 2.3, groupings, 3.1, families, 3.2, 3.3 or 3.5 (default: all)",
     "kds theorems --out report\n"
