@@ -305,7 +305,7 @@ TEST(SmallestFamily, IsThatOfAnExhaustiveSearch) {
     }
   }
   EXPECT_GT(below_the_search, 20U);
-  RecordProperty("smaller_with_overlap", static_cast<int>(smaller_with_overlap));
+  EXPECT_EQ(smaller_with_overlap, 2U);  // the paper's families may be smaller, but rarely are
 }
 
 TEST(ExplicitFamily, RefusesWhatTheTheoremDoesNotCover) {
