@@ -5,8 +5,8 @@
 // Explicit family. The nodes of depth d of the balanced tree over n beads have at most m = ceil(n / 2^d)
 // beads. Consecutive beads meet and have radii of at most r, so m beads have a cage of radius at most
 // R = r m. The family has each pair of disjoint cages of one depth of which one lies within 8 R of the other:
-// |c - c'| + s' <= s + 8 R for centres c, c' and radii s, s' in either order. It covers all disjoint pairs of
-// nonadjacent beads:
+// |c - c'| + s' <= s + 8 R for centres c, c' and radii s, s' in either order. The family covers all disjoint
+// pairs of nonadjacent beads:
 //
 // Let d be the least depth at which the cages of two beads are disjoint, with radii s and s'. Their parents'
 // cages meet. A parent's radius is at most R + s, since its other half has radius at most R and the two
@@ -40,10 +40,10 @@
 
 namespace kds {
 
-/// Returns the size of the explicit family, and writes it unless `family` is null. It covers most pairs of
-/// beads several times. Takes time linear in n log n and in the number of pairs of cages within 9 R, and
-/// memory of O(log n) besides the family. Throws std::invalid_argument unless the tree has one necklace,
-/// whose consecutive beads meet, and `asked` asks about its pairs at least 2 apart.
+/// Returns the size of the explicit family, and writes the family unless `family` is null. The family covers
+/// most pairs of beads several times. Takes time linear in n log n and in the number of pairs of cages within
+/// 9 R, and memory of O(log n) besides the family. Throws std::invalid_argument unless the tree has one
+/// necklace, whose consecutive beads meet, and `asked` asks about its pairs at least 2 apart.
 template <int Dimension>
 [[nodiscard]] std::uint64_t explicit_family(const SphereTree<Dimension>& tree, const PairsAsked& asked,
                                             SeparatingFamily* family = nullptr);
