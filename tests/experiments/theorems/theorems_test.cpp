@@ -84,10 +84,15 @@ TEST(ClosestByDiagram, IsThatOfASearchAndTellsWhatItLookedAt) {
 }
 
 TEST(TheoremPlan, ThreeSizesOfEachFromTheLeastBeads) {
-  const std::vector<std::vector<Theorem>> choices{
-      {Theorem::tightness},    {Theorem::family},        {Theorem::search},
-      {Theorem::closest_pair}, {Theorem::paths},         {Theorem::groupings},
-      {Theorem::families},     {Theorem::two_necklaces}, {Theorem::tightness, Theorem::closest_pair}};
+  const std::vector<std::vector<Theorem>> choices{{Theorem::tightness},
+                                                  {Theorem::family},
+                                                  {Theorem::search},
+                                                  {Theorem::closest_pair},
+                                                  {Theorem::paths},
+                                                  {Theorem::groupings},
+                                                  {Theorem::families},
+                                                  {Theorem::family, Theorem::two_necklaces},
+                                                  {Theorem::tightness, Theorem::closest_pair}};
   for (const std::vector<Theorem>& theorems : choices) {
     const std::size_t least = least_beads_for(theorems);
     const auto fewest = [&](std::size_t beads) {

@@ -209,6 +209,25 @@ void expect_families_of_chains(std::uint64_t seed) {
 TEST(SeparatingFamilies, OfChainsInThePlaneAreInOrder) { expect_families_of_chains<2>(7); }
 TEST(SeparatingFamilies, OfChainsInSpaceAreInOrder) { expect_families_of_chains<3>(8); }
 
+/// Grouped by space, only neighbours along the chain meet, and all other pairs are covered once.
+TEST(SeparatingFamilies, GroupedBySpaceCoverEachPairOnce) {
+  const Eigen::Matrix3Xd chain = models::packed_grid(220, 3, 0.05);
+  const std::vector<BeadId> order = order_by_space(chain);
+  CollisionScene scene;
+  scene.centers = in_order(chain, order);
+  scene.radii.assign(220, models::radius);
+  scene.asked = {{{0, 219}}, true, 1, true};
+  for (const Hierarchy kind : kinds) {
+    SeparatingFamily family;
+    const PairsFound found = find_pairs(tree_of<3>(kind, scene), scene.asked, family);
+    expect_covered(family, scene, 3, true);
+    EXPECT_EQ(found.pairs.size(), 219U);
+    for (const BeadPair& pair : found.pairs)
+      EXPECT_EQ(std::max(order[pair.first], order[pair.second]),
+                std::min(order[pair.first], order[pair.second]) + 1);
+  }
+}
+
 /// The nodes of one depth after another, by halving ranges of beads.
 std::vector<std::vector<BeadRange>> depths_of(std::size_t beads) {
   std::vector<std::vector<BeadRange>> depths{{{0, static_cast<BeadId>(beads - 1)}}};
