@@ -190,7 +190,7 @@ PairsFound smallest_family(const SphereTree<Dimension>& tree, const PairsAsked& 
   const FloatingPointGuard to_nearest;
   if (family != nullptr) *family = detail::family_over(tree);
   SmallestFamily<Dimension> smallest(tree, family);
-  detail::for_each_root(tree, asked,
+  detail::for_each_root(tree.roots(), asked,
                         [&](const NodePair& roots, BeadId least_apart) { smallest.add(roots, least_apart); });
   return smallest.result();
 }
