@@ -253,9 +253,10 @@ std::string findings_html(std::span<const TheoremSeries> series) {
   if (judged.all > 0)
     html += fmt::format("Claims that a single necklace can decide held in <strong>{} of {}</strong> cases. ",
                         judged.held, judged.all);
-  html += "The quantities that the theorems bound grow with these exponents:</p>\n";
   std::vector<FittedSeries> fits = fits_of(series);
   std::erase_if(fits, [](const FittedSeries& fitted) { return !fitted.series->expected; });
+  if (fits.empty()) return html + "</p>\n";
+  html += "The quantities that the theorems bound grow with these exponents:</p>\n";
   return html + fit_columns().html(fits);
 }
 
@@ -286,18 +287,18 @@ std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
   page.found = findings_html(series);
   for (const auto& group : by_theorem(series)) {
     const Theorem theorem = group.front().theorem;
+    std::string title = title_of(theorem);
+    title.front() = static_cast<char>(std::toupper(title.front()));
     std::string section = fmt::format("<p>It says: {}.</p>\n<ul>\n", html_escaped(theorem_says(theorem)));
     for (const std::string& finding : findings_of(group))
       section += fmt::format("<li>{}</li>\n", html_escaped(finding));
     section +=
         "</ul>\n" +
         html_figure(svg_plot(plot_of(group)),
-                    fmt::format("{}: {} by the number of beads{}, both axes logarithmic.", name_of(theorem),
+                    fmt::format("{}: {} by the number of beads{}, both axes logarithmic.", title,
                                 quantity_of(theorem),
                                 theorem == Theorem::families ? ", grid in space, wrapped hierarchy" : "")) +
         point_columns().html(points_of(group));
-    std::string title = title_of(theorem);
-    title.front() = static_cast<char>(std::toupper(title.front()));
     page.body += html_section(title, section);
   }
   page.words =
