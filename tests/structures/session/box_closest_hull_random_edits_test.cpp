@@ -86,13 +86,15 @@ Beads corners_of(const ExactPoints& at, const Beads& present) {
   return corners;
 }
 
-/// The radius of a bead, which only the boxes use.
-double radius_of(BeadId bead) { return 0.25 * (bead % 3); }
+/// The radius of a bead in quarters, which only the boxes use.
+int quarters_of_radius(BeadId bead) { return static_cast<int>(bead % 3); }
+double radius_of(BeadId bead) { return 0.25 * quarters_of_radius(bead); }
 
 /// Finds the supports of all nodes and sides from exact positions, as the balls' reach along each direction
-/// says; among balls that tie, the least bead counts.
+/// says; among balls that tie, the least bead counts. `quarter` is the length of 1/4 in units of `at`.
 template <int D>
-Beads supports_of(const BoxHierarchy<D>& boxes, const ExactPoints& at, const Beads& present) {
+Beads supports_of(const BoxHierarchy<D>& boxes, const ExactPoints& at, const second::Integer& quarter,
+                  const Beads& present) {
   Beads supports;
   for (const BeadRange& range : boxes.tree().ranges())
     for (std::uint32_t side = 0; side < boxes.side_count(); ++side) {
@@ -104,11 +106,11 @@ Beads supports_of(const BoxHierarchy<D>& boxes, const ExactPoints& at, const Bea
           support = b;
           continue;
         }
-        Rational along = 0;
+        second::Integer along = 0;
         for (std::size_t axis = 0; axis < D; ++axis)
           along += (side % 2 == 0 ? -1 : 1) * direction.steps[axis] * (at[b][axis] - at[support][axis]);
-        const Rational larger = Rational(radius_of(b)) - radius_of(support);
-        const Rational of_radii = direction.square() * larger * larger;
+        const second::Integer larger = quarter * (quarters_of_radius(b) - quarters_of_radius(support));
+        const second::Integer of_radii = direction.square() * larger * larger;
         const bool is_further =
             larger >= 0 ? along > 0 || along * along < of_radii : along > 0 && along * along > of_radii;
         if (is_further) support = b;
@@ -123,7 +125,8 @@ struct Subject {
   KineticStructure* structure;
   BeadEdits* edits;
   std::function<Beads()> answer;
-  std::function<Beads(const ExactPoints&, const Beads&)> right;
+  /// Takes positions, the length of 1/4 in their unit, and the beads that are present.
+  std::function<Beads(const ExactPoints&, const second::Integer&, const Beads&)> right;
 
   [[nodiscard]] Beads present(std::size_t beads) const {
     Beads all;
@@ -149,13 +152,17 @@ struct Structures {
         boxes(simulator, motion,
               std::array<BeadRange, 2>{{{0, 2}, {3, static_cast<BeadId>(motion.bead_count() - 1)}}},
               Radii::any, D == 3 ? 3 : 4) {
-    all.push_back({&box, &box, [this] { return box.ends(); },
-                   [](const ExactPoints& at, const Beads& present) { return ends_of(at, present, D); }});
+    using Unit = second::Integer;
+    all.push_back(
+        {&box, &box, [this] { return box.ends(); },
+         [](const ExactPoints& at, const Unit&, const Beads& present) { return ends_of(at, present, D); }});
     if constexpr (D > 1) {
       const auto pair = [this] {
         return closest.pair() ? Beads(closest.pair()->begin(), closest.pair()->end()) : Beads();
       };
-      all.push_back({&closest, &closest, pair, closest_of});
+      all.push_back({&closest, &closest, pair, [](const ExactPoints& at, const Unit&, const Beads& present) {
+                       return closest_of(at, present);
+                     }});
     }
     if constexpr (D > 1) {
       const auto supports = [this] {
@@ -164,11 +171,15 @@ struct Structures {
           of_nodes.insert(of_nodes.end(), boxes.supports(node).begin(), boxes.supports(node).end());
         return of_nodes;
       };
-      all.push_back({&boxes, &boxes, supports, [this](const ExactPoints& at, const Beads& present) {
-                       return supports_of<D>(boxes, at, present);
+      all.push_back({&boxes, &boxes, supports,
+                     [this](const ExactPoints& at, const Unit& quarter, const Beads& present) {
+                       return supports_of<D>(boxes, at, quarter, present);
                      }});
     }
-    if constexpr (D == 2) all.push_back({&hull, &hull, [this] { return hull.corners(); }, corners_of});
+    if constexpr (D == 2)
+      all.push_back(
+          {&hull, &hull, [this] { return hull.corners(); },
+           [](const ExactPoints& at, const Unit&, const Beads& present) { return corners_of(at, present); }});
   }
 
   EnclosingBox<D> box;
@@ -316,6 +327,7 @@ class EditedRun {
     if (simulator_.kernel() == Kernel::fast) return;
     const Dyadic soon = next_on_grid(simulator_.now().exact(), 200);  // before the next event
     const ExactPoints at = points_at(motion_, second::of(soon));
+    const second::Integer quarter = quarter_at(motion_, second::of(soon));
     Simulator simulator;
     Structures<dimension> twins(simulator, motion_);
     for (std::size_t s = 0; s < twins.all.size(); ++s)
@@ -329,7 +341,7 @@ class EditedRun {
       const Beads present = subject.present(motion_.bead_count());
       totals_.empty += present.empty() ? 1 : 0;
       EXPECT_EQ(subject.answer(), twins.all[s].answer()) << subject.structure->name();
-      EXPECT_EQ(subject.answer(), subject.right(at, present)) << subject.structure->name();
+      EXPECT_EQ(subject.answer(), subject.right(at, quarter, present)) << subject.structure->name();
     }
   }
 

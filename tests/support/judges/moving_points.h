@@ -18,24 +18,35 @@ namespace kds::test {
 /// The coordinates of each bead, all multiplied by one positive number, which makes them whole.
 using ExactPoints = std::vector<std::vector<second::Integer>>;
 
+/// Returns a power of two, as its exponent, of which all coordinates and 1/4 are multiples.
+template <Motion M>
+int unit_of_points(const M& motion) {
+  std::vector<double> all{0.25};
+  for (BeadId b = 0; b < motion.bead_count(); ++b)
+    for (int k = 0; k <= degree_of(motion); ++k)
+      for (int axis = 0; axis < M::dimension; ++axis) all.push_back(motion.coordinate(b, k, axis));
+  return second::unit_of(all);
+}
+
 /// Computes the positions of the beads at u in [0,1] by the definition of Bezier curves.
 template <Motion M>
 ExactPoints points_at(const M& motion, const second::Rational& u) {
-  const auto control_numbers = [&](BeadId b, int axis) {
-    std::vector<double> x;
-    for (int k = 0; k <= degree_of(motion); ++k) x.push_back(motion.coordinate(b, k, axis));
-    return x;
-  };
-  std::vector<double> all;
-  for (BeadId b = 0; b < motion.bead_count(); ++b)
-    for (int axis = 0; axis < M::dimension; ++axis)
-      for (const double x : control_numbers(b, axis)) all.push_back(x);
-  const int unit = second::unit_of(all);
+  const int unit = unit_of_points(motion);
   ExactPoints points(motion.bead_count());
   for (BeadId b = 0; b < points.size(); ++b)
-    for (int axis = 0; axis < M::dimension; ++axis)
-      points[b].push_back(second::whole_value(control_numbers(b, axis), u, unit));
+    for (int axis = 0; axis < M::dimension; ++axis) {
+      std::vector<double> x;
+      for (int k = 0; k <= degree_of(motion); ++k) x.push_back(motion.coordinate(b, k, axis));
+      points[b].push_back(second::whole_value(x, u, unit));
+    }
   return points;
+}
+
+/// Returns a length of 1/4, multiplied by the same number as the coordinates of points_at.
+template <Motion M>
+second::Integer quarter_at(const M& motion, const second::Rational& u) {
+  const std::vector<double> quarter(static_cast<std::size_t>(degree_of(motion)) + 1, 0.25);
+  return second::whole_value(quarter, u, unit_of_points(motion));
 }
 
 /// Makes steps of random motions; each starts at the end of the step before it.
