@@ -50,7 +50,8 @@ template <int Dimension>
 class EnclosingBox<Dimension>::Ends {
  public:
   virtual ~Ends() = default;
-  virtual void start(std::size_t beads, std::span<const char> absent, CertificatesPerBead& per_bead) = 0;
+  virtual void start(std::size_t beads, std::span<const char> absent) = 0;
+  virtual void count_certificates(CertificatesPerBead& per_bead) const = 0;
   /// Returns no_bead if all beads are absent.
   [[nodiscard]] virtual BeadId at(bool high) const = 0;
   /// The overtaking that a failure means; `behind` and `ahead` are the first two ids of the recorded change.
@@ -76,9 +77,11 @@ class EnclosingBox<Dimension>::EndsAlong final : public Ends {
         low_(table_, {false}, 0, 2),
         high_(table_, {true}, 1, 2) {}
 
-  void start(std::size_t beads, std::span<const char> absent, CertificatesPerBead& per_bead) override {
-    for (auto* end : {&low_, &high_}) {
-      end->start(static_cast<std::uint32_t>(beads), absent);
+  void start(std::size_t beads, std::span<const char> absent) override {
+    for (auto* end : {&low_, &high_}) end->start(static_cast<std::uint32_t>(beads), absent);
+  }
+  void count_certificates(CertificatesPerBead& per_bead) const override {
+    for (const auto* end : {&low_, &high_}) {
       end->each_contest([&](BeadId a, BeadId b) {
         per_bead.add(a);
         per_bead.add(b);
@@ -137,9 +140,15 @@ void EnclosingBox<Dimension>::build() {
 
 template <int Dimension>
 void EnclosingBox<Dimension>::start_step() {
-  CertificatesPerBead per_bead(statistics.certificates, bead_count());
-  for (const auto& axis : axes_) axis->start(bead_count(), present().absent(), per_bead);
+  for (const auto& axis : axes_) axis->start(bead_count(), present().absent());
+  count_certificates();
   needs_after_batch = true;
+}
+
+template <int Dimension>
+void EnclosingBox<Dimension>::count_certificates() {
+  CertificatesPerBead per_bead(statistics.certificates, bead_count());
+  for (const auto& axis : axes_) axis->count_certificates(per_bead);
 }
 
 template <int Dimension>

@@ -38,6 +38,8 @@ class EnclosingBox final : public EditableBase {
 
   void build() override;
   void start_step() override;
+  /// Raises statistics.certificates.per_bead_max to the most certificates that name one bead now.
+  void count_certificates();
   void fail(unsigned table, std::uint32_t slot) override;
   void after_batch() override;
   void apply(const Change& change) override;

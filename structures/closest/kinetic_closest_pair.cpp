@@ -143,6 +143,11 @@ void KineticClosestPair<Dimension>::start_step() {
   candidates_ = candidate_pairs(motion_.curves(), present().absent());
   tournament_.start(static_cast<std::uint32_t>(candidates_.size()));
   needs_after_batch = true;
+  count_certificates();
+}
+
+template <int Dimension>
+void KineticClosestPair<Dimension>::count_certificates() {
   CertificatesPerBead per_bead(statistics.certificates, bead_count());
   tournament_.each_contest([&](std::uint32_t a, std::uint32_t b) {
     for (const Pair& pair : {candidates_[a], candidates_[b]})

@@ -38,6 +38,7 @@ NodeGuards<Dimension>::NodeGuards(Simulator& simulator, KineticStructure& owner,
               }),
       signs_(simulator, motion, curves, radii, tables_, owner.statistics.stages),
       held_by_(nodes),
+      bead_count_(motion.bead_count()),
       per_bead_(owner.statistics.certificates, motion.bead_count()) {}
 
 template <int Dimension>
@@ -46,6 +47,9 @@ void NodeGuards<Dimension>::start_step() {
   held_.clear();
   free_.clear();
   named_.clear();
+  for (std::vector<BeadId>& beads : followed_) beads.clear();
+  std::fill(named_by_.begin(), named_by_.end(), 0);
+  risen_.clear();
 }
 
 template <int Dimension>
@@ -99,6 +103,12 @@ void NodeGuards<Dimension>::enqueue(NodeId id, const Basis& basis, BeadId bead, 
     }
     watched_[Tables::template number_of<C>].push_back(bead);
     for (const BeadId b : c.beads) named_.push_back({id, b});
+    if (followed_.empty()) return;
+    for (const BeadId b : c.beads) {
+      followed_[id].push_back(b);
+      ++named_by_[b];
+      risen_.push_back(b);
+    }
   };
   const std::span beads(basis.begin(), basis.end());
   if (inside && relaxation_.any()) {
@@ -168,6 +178,7 @@ double NodeGuards<Dimension>::guarded_until(NodeId id) {
 
 template <int Dimension>
 void NodeGuards<Dimension>::drop(NodeId id) {
+  forget_followed(id);
   HeldBy& by = held_by_[id];
   owner_.statistics.certificates.alive -= by.never_failing;
   by.never_failing = 0;
@@ -205,6 +216,19 @@ template <int Dimension>
 void NodeGuards<Dimension>::count_per_bead() {
   for (const NamedBead& one : named_) per_bead_.add(one.bead);
   for (const NamedBead& one : named_) per_bead_.reset(one.bead);
+}
+
+template <int Dimension>
+void NodeGuards<Dimension>::follow_names() {
+  followed_.resize(held_by_.size());
+  named_by_.resize(bead_count_);
+}
+
+template <int Dimension>
+void NodeGuards<Dimension>::count_followed() {
+  auto& most = owner_.statistics.certificates.per_bead_max;
+  for (const BeadId bead : risen_) most = std::max<std::uint64_t>(most, named_by_[bead]);
+  risen_.clear();
 }
 
 template class NodeGuards<2>;

@@ -74,10 +74,17 @@ class NodeGuards {
   }
   /// Forgets the beads of `node`, which must be the last node that enqueued.
   void forget_named_of(NodeId node) {
+    forget_followed(node);
     while (!named_.empty() && named_.back().node == node) named_.pop_back();
   }
   /// Updates the statistics with the largest number of certificates that name one bead.
   void count_per_bead();
+
+  /// From the next step on, follows how many certificates name each bead.
+  void follow_names();
+  /// Updates the statistics with the largest number now of certificates that name one of the beads for which
+  /// a certificate was made since the last call. Does nothing unless names are followed.
+  void count_followed();
 
  private:
   static constexpr std::uint32_t none = 0xffffffffU;
@@ -99,6 +106,11 @@ class NodeGuards {
   [[nodiscard]] std::optional<Failure> crossing_of(const Basis& basis, BeadId bead, bool inside,
                                                    bool at_own_root);
   void hold(NodeId node, CertificateHandle handle, unsigned table);
+  void forget_followed(NodeId node) {
+    if (followed_.empty()) return;
+    for (const BeadId bead : followed_[node]) --named_by_[bead];
+    followed_[node].clear();
+  }
 
   Simulator& simulator_;
   KineticStructure& owner_;
@@ -109,11 +121,17 @@ class NodeGuards {
   Tables tables_;
   SignsJustAfter<Dimension> signs_;
   std::vector<HeldBy> held_by_;  // per node
+  std::size_t bead_count_;
   std::vector<HeldCertificate> held_;
   std::vector<std::uint32_t> free_;
   std::array<std::vector<BeadId>, Tables::count + 1> watched_;  // enqueued subjects, per table
   std::vector<NamedBead> violated_, named_;
-  CertificatesPerBead per_bead_;        // all zero between calls
+  CertificatesPerBead per_bead_;  // all zero between calls
+  // Only if names are followed: the beads that each node's certificates name, one entry per certificate; for
+  // each bead the number of these entries; and the beads whose number has risen since count_followed.
+  std::vector<std::vector<BeadId>> followed_;
+  std::vector<std::uint32_t> named_by_;
+  std::vector<BeadId> risen_;
   std::optional<BeadId> failed_again_;  // bead whose certificate failed and would be watched again
 };
 

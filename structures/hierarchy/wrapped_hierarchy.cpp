@@ -293,6 +293,16 @@ void WrappedHierarchy<Dimension>::repair_faults() {
   guards_->count_per_bead();
 }
 
+template <int Dimension>
+void WrappedHierarchy<Dimension>::follow_certificates() {
+  guards_->follow_names();
+}
+
+template <int Dimension>
+void WrappedHierarchy<Dimension>::count_certificates() {
+  guards_->count_followed();
+}
+
 // Single nodes at any time.
 
 template <int Dimension>

@@ -83,6 +83,12 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
 
   void build() override;
   void start_step() override;
+  /// From the next step on, follows how many certificates name each bead, at any time.
+  void follow_certificates();
+  /// Raises statistics.certificates.per_bead_max to the most certificates that name one bead now. Counts at
+  /// the starts of steps only, unless certificates are followed. The certificates that slack spares are not
+  /// counted.
+  void count_certificates();
   void fail(unsigned table, std::uint32_t slot) override;
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;

@@ -115,6 +115,10 @@ void ConvexHull::start_step() {
   lower_.start();
   upper_.start();
   needs_after_batch = true;
+  count_certificates();
+}
+
+void ConvexHull::count_certificates() {
   CertificatesPerBead per_bead(statistics.certificates, bead_count());
   for (const HalfHull* half : {&lower_, &upper_}) half->count_certificates(per_bead);
 }

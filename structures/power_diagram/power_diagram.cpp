@@ -73,7 +73,7 @@ void PowerDiagram<Dimension>::start_step() {
   }
   state.flat = false;
   state.within_step = facets.all_move();
-  if (state.within_step && state.has_cells()) count_certificates_per_bead();
+  if (state.within_step) count_certificates();
 }
 
 template <int Dimension>
@@ -279,12 +279,16 @@ CellId PowerDiagram<Dimension>::some_finite_cell() const {
 /// facet is shared by two of these cells; in addition, each of its cells has one facet opposite to the bead.
 /// This makes 5/2 certificates for each cell in space, and 2 in the plane.
 template <int Dimension>
-void PowerDiagram<Dimension>::count_certificates_per_bead() {
+void PowerDiagram<Dimension>::count_certificates(std::span<const BeadId> beads) {
   const auto& state = parts_->state;
+  if (!state.has_cells()) return;
   const auto count_of = [](std::uint64_t cells) { return cells * (Dimension + 2) / 2; };
   const auto cells_at = state.triangulation.cells_at();
   std::uint64_t most = 0;
-  if (!cells_at.empty()) most = count_of(*std::max_element(cells_at.begin(), cells_at.end()));
+  if (beads.empty() && !cells_at.empty())
+    most = count_of(*std::max_element(cells_at.begin(), cells_at.end()));
+  for (const BeadId bead : beads)
+    if (bead < cells_at.size()) most = std::max(most, count_of(cells_at[bead]));
   if (!state.hidden.empty()) {
     std::vector<std::uint64_t> more(state.bead_count(), 0);
     for (const HiddenBead& hidden : state.hidden.with_hosts()) {

@@ -125,6 +125,9 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   /// Sets a hidden bead's host, if `host` is a cell.
   void house(BeadId hidden, CellId host);
   [[nodiscard]] CellId some_finite_cell() const;
+  /// Raises statistics.certificates.per_bead_max to the most certificates that name one of `beads` now. Looks
+  /// at all beads if none are given or some bead is hidden.
+  void count_certificates(std::span<const BeadId> beads = {});
 
  private:
   struct Parts;
@@ -132,7 +135,6 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   void require_release(std::span<const BeadId> beads) const override;
   void release(std::span<const BeadId> beads) override;
   void take_up(std::span<const BeadId> beads) override;
-  void count_certificates_per_bead();
 
   std::unique_ptr<Parts> parts_;
 };

@@ -25,6 +25,7 @@ class PowerInRun final : public RunningStructure {
       : scene_(scene), diagram_(simulator, motion) {}
 
   [[nodiscard]] KineticStructure& kinetic() override { return diagram_; }
+  void count_certificates(std::span<const BeadId> changed) override { diagram_.count_certificates(changed); }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const override {
     const auto at_frame = diagram_.at_frame(frame == 0);
     return {dump_cells(at_frame.cells), dump_hidden(at_frame.hidden)};

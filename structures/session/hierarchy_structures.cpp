@@ -91,6 +91,8 @@ class WrappedInRun final : public RunningStructure {
   }
 
   [[nodiscard]] KineticStructure& kinetic() override { return hierarchy_; }
+  void follow_certificates() override { hierarchy_.follow_certificates(); }
+  void count_certificates(std::span<const BeadId>) override { hierarchy_.count_certificates(); }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const override {
     // At a frame, the basis from events may contain beads that the sphere does not need; the sphere must be
     // computed from a basis without them.

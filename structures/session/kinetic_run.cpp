@@ -192,11 +192,15 @@ void KineticRun::push(std::span<const double> coordinates, std::optional<double>
   run();
 }
 
+bool KineticRun::enter_step() {
+  if (within_) return true;
+  if (!can_enter()) return false;
+  enter();
+  return true;
+}
+
 bool KineticRun::run_step() {
-  if (!within_) {
-    if (!can_enter()) return false;
-    enter();
-  }
+  if (!enter_step()) return false;
   leave();
   return true;
 }

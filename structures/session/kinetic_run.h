@@ -97,6 +97,10 @@ class KineticRun {
   /// Sets the motion to the next step, if it is not set yet. The functions below do this themselves; call it
   /// to read a step's frames apart from running the step. Returns false if no step is known.
   bool load_step();
+  /// Enters the next step, unless one is under way: the structures make their certificates for it. The run
+  /// then stands at u = 0, and Simulator::run_next goes from one time with events to the next without leaving
+  /// the step. Returns false if no step is known.
+  bool enter_step();
   /// Runs to the end of the present step or, between two steps, runs the whole next step. Returns false if no
   /// step is known.
   bool run_step();

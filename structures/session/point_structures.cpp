@@ -30,6 +30,9 @@ class PointsInRun final : public RunningStructure {
         static_seconds_(static_seconds) {}
 
   [[nodiscard]] KineticStructure& kinetic() override { return structure_; }
+  void count_certificates(std::span<const BeadId>) override {
+    if constexpr (requires { structure_.count_certificates(); }) structure_.count_certificates();
+  }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override { return {dump_(structure_)}; }
   [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
     return elements_(structure_);

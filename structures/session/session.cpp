@@ -127,6 +127,15 @@ std::optional<CombinatorialElements> Session::elements(std::size_t structure, st
   return running_[structure]->elements(frame);
 }
 
+void Session::follow_certificates() {
+  for (const auto& structure : running_) structure->follow_certificates();
+}
+
+void Session::count_certificates(std::size_t structure, std::span<const BeadId> changed) {
+  require_index("structure", structure, running_.size());
+  running_[structure]->count_certificates(changed);
+}
+
 void Session::time_static_builds(std::size_t frame, std::vector<double>& seconds) const {
   const FloatingPointGuard to_nearest;
   require_index("frame", frame, scene_.frame_count());

@@ -75,6 +75,10 @@ class Session {
   /// Returns the combinatorial elements of a structure, which can be compared from frame to frame
   /// (RunningStructure::elements).
   [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t structure, std::size_t frame) const;
+  /// Follows, from the next step on, how many certificates name each bead (RunningStructure).
+  void follow_certificates();
+  /// Updates the per_bead_max of a structure after events that named the beads `changed`.
+  void count_certificates(std::size_t structure, std::span<const BeadId> changed);
   /// Builds all structures statically at a frame, and adds the time of each to its entry in `seconds`.
   void time_static_builds(std::size_t frame, std::vector<double>& seconds) const;
 

@@ -185,5 +185,41 @@ TEST(NodeGuards, HoldACertificateUntilItIsDropped) {
   EXPECT_EQ(parts.owner.statistics.certificates.alive, 0U);
 }
 
+// Bead 2 is named by one certificate, then by a second of another node, then by two others after the first is
+// dropped. The count never exceeds two, and it is taken only when it is asked for.
+TEST(NodeGuards, FollowHowManyCertificatesNameABead) {
+  Space motion = moving({{-1, 0, 0}, {1, 0, 0}, {0, 0, 0}}, {{-1, 0, 0}, {1, 0, 0}, {0, 2, 0}});
+  Parts parts(motion, Kernel::filtered, Radii::equal);
+  const std::uint64_t& most = parts.owner.statistics.certificates.per_bead_max;
+  const Basis pair(std::array<BeadId, 2>{0, 1}), other(std::array<BeadId, 2>{1, 2});
+  const std::array<BeadId, 1> second{2}, zeroth{0};
+  parts.simulator.build();
+  parts.guards.enqueue_beyond(0, pair, second);
+  parts.guards.count_followed();
+  EXPECT_EQ(most, 0U);  // nothing is followed yet
+  static_cast<void>(parts.guards.watch_enqueued_of_one(true));
+  parts.guards.drop(0);
+  parts.guards.follow_names();
+  parts.guards.enqueue_beyond(0, pair, second);
+  static_cast<void>(parts.guards.watch_enqueued_of_one(true));
+  parts.guards.count_followed();
+  EXPECT_EQ(most, 1U);
+  parts.guards.drop(0);
+  parts.guards.enqueue_beyond(0, pair, second);
+  static_cast<void>(parts.guards.watch_enqueued_of_one(true));
+  parts.guards.count_followed();
+  EXPECT_EQ(most, 1U);  // the first certificate is gone
+  parts.guards.enqueue_beyond(1, other, zeroth);
+  static_cast<void>(parts.guards.watch_enqueued_of_one(true));
+  parts.guards.count_followed();
+  EXPECT_EQ(most, 2U);
+  parts.guards.drop(0);
+  parts.guards.drop(1);
+  parts.guards.enqueue_beyond(0, pair, second);
+  static_cast<void>(parts.guards.watch_enqueued_of_one(true));
+  parts.guards.count_followed();
+  EXPECT_EQ(most, 2U);
+}
+
 }  // namespace
 }  // namespace kds::hierarchy_parts_test
