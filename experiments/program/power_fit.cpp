@@ -2,20 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "experiments/program/mean_interval.h"
+
 namespace kds {
-
-namespace {
-
-// Returns the 97.5% quantile of Student's t distribution: the interval of this many standard errors to either
-// side has 95% confidence. `freedom` is the number of degrees of freedom.
-double student_95(std::size_t freedom) {
-  return quantile(boost::math::students_t(static_cast<double>(freedom)), 0.975);
-}
-
-}  // namespace
 
 std::optional<PowerFit> fit_power(std::span<const std::pair<double, double>> points) {
   std::vector<std::pair<double, double>> logs;
@@ -39,7 +30,8 @@ std::optional<PowerFit> fit_power(std::span<const std::pair<double, double>> poi
     left += off * off;
   }
   const std::size_t freedom = logs.size() - 2;
-  const double error = student_95(freedom) * std::sqrt(left / static_cast<double>(freedom) / spread);
+  const double error =
+      student_95(static_cast<double>(freedom)) * std::sqrt(left / static_cast<double>(freedom) / spread);
   return PowerFit{logs.size(),   points.size() - logs.size(),       slope, slope - error,
                   slope + error, std::exp2(mean_y - slope * mean_x)};
 }
@@ -58,7 +50,7 @@ std::optional<PowerFit> fit_power(std::span<const std::pair<double, double>> poi
     mean += of_rest->exponent / shares;
   }
   for (const double exponent : exponents) squares += (exponent - mean) * (exponent - mean);
-  const double error = student_95(without_a_share.size() - 1) * std::sqrt((shares - 1) / shares * squares);
+  const double error = student_95(shares - 1) * std::sqrt((shares - 1) / shares * squares);
   fit->lower = fit->exponent - error;
   fit->upper = fit->exponent + error;
   return fit;
