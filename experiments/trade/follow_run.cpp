@@ -141,16 +141,17 @@ class Follower {
     const Eigen::Matrix3Xd here = motion_.positions(step, u);
     raise(errors.displacement, displacement(here));
     if (setting_.structure == "contacts" && calpha_ == nullptr) look_at_distance(here);
-    if (setting_.structure == "power") look_at_cells(session);
-    look_at_spheres(session.spheres_at(0, Dyadic(u)), time % parts_of_frame == 0);
+    const bool at_frame = time % parts_of_frame == 0;
+    if (setting_.structure == "power" && !at_frame) look_at_cells(session);
+    look_at_spheres(session.spheres_at(0, Dyadic(u)), at_frame);
   }
   void finish() {
     if (nodes_ > 0) {
       errors.radius_mean = sum_of_excess_ / static_cast<double>(nodes_);
-      if (nodes_at_frames_ > 0)
-        errors.radius_frames_mean = sum_at_frames_ / static_cast<double>(nodes_at_frames_);
       errors.beads_outside = static_cast<double>(beads_outside_) / static_cast<double>(looks_at_spheres_);
     }
+    if (nodes_at_frames_ > 0)
+      errors.radius_frames_mean = sum_at_frames_ / static_cast<double>(nodes_at_frames_);
     if (cells_ > 0 && calpha_ == nullptr)
       errors.cells_wrong = static_cast<double>(wrong_cells_) / static_cast<double>(cells_);
     if (setting_.structure == "power")
@@ -193,15 +194,18 @@ class Follower {
       node = promised(node);
       const double smallest = truth_.smallest_radius(node.range);
       const double excess = smallest > 0 ? std::abs(node.sphere.radius / smallest - 1) : 0;
+      raise(errors.radius_max, excess);
+      if (at_frame) {
+        sum_at_frames_ += excess;
+        ++nodes_at_frames_;
+        raise(errors.radius_frames_max, excess);
+        continue;
+      }
       sum_of_excess_ += excess;
       ++nodes_;
-      raise(errors.radius_max, excess);
       beads_outside_ += truth_.balls_outside(node);
-      if (!at_frame) continue;
-      sum_at_frames_ += excess;
-      ++nodes_at_frames_;
-      raise(errors.radius_frames_max, excess);
     }
+    if (at_frame) return;
     for (const BeadRange& necklace : scene_.necklaces()) search_tests_ += cost.of(necklace);
     ++looks_at_spheres_;
   }

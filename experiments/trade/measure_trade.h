@@ -16,8 +16,9 @@
 
 namespace kds {
 
-/// The errors of a run. An error that does not apply is empty. Lengths are in the input's unit, times in
-/// finest frames.
+/// The errors of a run. Means over time, and shares of cells and edges, are those over the random times: at
+/// frames many errors are 0 by construction, and would make the mean too small. An error that does not apply
+/// is empty. Lengths are in the input's unit, times in finest frames.
 struct TradeErrors {
   std::optional<double> displacement;  ///< largest distance of a bead from its true position
   /// Relative difference of a node's radius from the smallest radius.
