@@ -55,6 +55,28 @@ Selection parse_selection(std::string_view option, const std::string& text) {
       fmt::format("one of {}, nor an atom selection as in {}", fmt::join(names, ", "), selection_example));
 }
 
+// A file whose name has a comma is a file, not a list.
+void read_topologies(InputOptions& options, const std::string& text) {
+  std::error_code none;
+  const std::vector<std::string> files = split(text, ',');
+  if (files.size() == 1 || std::filesystem::exists(text, none)) {
+    options.reading.topology = parse_path("--topology", text);
+    return;
+  }
+  for (const std::string& file : files)
+    options.topologies.push_back(file.empty() ? std::filesystem::path() : parse_path("--topology", file));
+}
+
+std::string topologies_text(const InputOptions& options, bool absolute) {
+  const auto text_of = [absolute](const std::filesystem::path& path) {
+    return (absolute && !path.empty() ? std::filesystem::absolute(path) : path).string();
+  };
+  if (options.reading.topology) return text_of(*options.reading.topology);
+  std::vector<std::string> files;
+  for (const std::filesystem::path& path : options.topologies) files.push_back(text_of(path));
+  return fmt::format("{}", fmt::join(files, ","));
+}
+
 // --chain has one list for all inputs, or one list per input and optionally one more for the obstacle.
 void check_chains(const std::string& chains, std::size_t inputs, bool obstacle) {
   const std::vector<std::string> lists = split(chains, '/');
@@ -94,19 +116,17 @@ CommandSpec with_inputs(CommandSpec command, bool or_instance) {
 
 const OptionList<InputOptions>& input_options() {
   static const std::string topology_help = fmt::format(
-      "file that names the atoms of the inputs if their format does not: {} (default: none, and every atom "
-      "is a bead)",
+      "file that names the atoms of the inputs if their format does not: {}. With several INPUTs, a comma "
+      "list has one for each: A.pdb,B.pdb (default: none, and every atom is a bead)",
       reader_registry().topology_endings());
   static const std::string format_help =
       fmt::format("format of the inputs: {} (default: by content, otherwise by ending)",
                   fmt::join(reader_registry().names_with_frames(), ", "));
   static const OptionList<InputOptions> list{{
       {{"--topology", "FILE", topology_help},
-       [](InputOptions& o, const std::string& text) { o.reading.topology = parse_path("--topology", text); },
-       [](const InputOptions& o) { return o.reading.topology ? o.reading.topology->string() : ""; },
-       [](const InputOptions& o) {
-         return o.reading.topology ? std::filesystem::absolute(*o.reading.topology).string() : "";
-       }},
+       read_topologies,
+       [](const InputOptions& o) { return topologies_text(o, false); },
+       [](const InputOptions& o) { return topologies_text(o, true); }},
       {{"--select", "NAME",
         "atoms that become beads. NAME is backbone, ca, bb, p, heavy or all; or an atom selection, as in "
         "'//A/10-40/CA,CB'. backbone: N, CA and C of each residue; bb: backbone of Martini; p: phosphorus of "
@@ -200,12 +220,22 @@ void take_inputs(const ParsedArguments& parsed, std::string_view command, InputO
     if (input.empty()) throw InputError("an INPUT is empty; give the path of a file");
     options.inputs.emplace_back(input);
   }
+  check_input_lists(options);
+}
+
+void check_input_lists(const InputOptions& options) {
+  if (!options.topologies.empty() && options.topologies.size() != options.inputs.size())
+    throw InputError(fmt::format(
+        "--topology: lists {} files for {} {}; expected one file for all, or one for each",
+        options.topologies.size(), options.inputs.size(), options.inputs.size() == 1 ? "INPUT" : "INPUTs"));
   if (options.reading.chain)
     check_chains(*options.reading.chain, options.inputs.size(), options.obstacle.has_value());
 }
 
 ReadOptions reading_of(const InputOptions& options, std::size_t input) {
   ReadOptions reading = options.reading;
+  if (input < options.topologies.size() && !options.topologies[input].empty())
+    reading.topology = options.topologies[input];
   if (!reading.chain) return reading;
   const std::vector<std::string> lists = split(*reading.chain, '/');
   // A single list holds for all inputs. The obstacle comes after the inputs and has the default chain unless
@@ -258,6 +288,8 @@ Json input_json(const InputOptions& options, InputSize size, std::span<const dou
 void check_inputs_exist(const InputOptions& options) {
   for (const std::filesystem::path& input : options.inputs) check_exists(input);
   if (options.reading.topology) check_exists(*options.reading.topology);
+  for (const std::filesystem::path& topology : options.topologies)
+    if (!topology.empty()) check_exists(topology);
   if (options.obstacle) check_exists(*options.obstacle);
 }
 

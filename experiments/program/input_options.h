@@ -36,6 +36,9 @@ std::filesystem::path folder_in_data(const std::filesystem::path& data, const ch
 
 struct InputOptions {
   std::vector<std::filesystem::path> inputs;
+  /// --topology, if it lists a file for each input; an empty path is none. Empty if it has a single file,
+  /// which is in `reading` and serves all inputs.
+  std::vector<std::filesystem::path> topologies = {};
   ReadOptions reading;  ///< --topology, --select, --chain (as given, for all inputs), --frames; --groups
   std::string radius = "auto";
   std::optional<std::filesystem::path> obstacle = {};  ///< --obstacle, for the commands that have it
@@ -57,11 +60,14 @@ inline constexpr std::string_view kInputOperand = "INPUT...";
 
 /// Takes the inputs from the operands of `command` (such as `kds run`) after its options have been read.
 /// Throws InputError if there are no inputs, or if the number of --chain lists does not fit the number of
-/// inputs. Opens no file.
+/// inputs. The same holds for the files of --topology. Opens no file.
 void take_inputs(const ParsedArguments& parsed, std::string_view command, InputOptions& options);
 
-/// Returns the reading options of input number `input`, with the chains of that input. The obstacle has the
-/// number after the last input.
+/// Throws InputError if --topology or --chain list more or fewer items than there are inputs.
+void check_input_lists(const InputOptions& options);
+
+/// Returns the reading options of input number `input`, with the chains and the topology of that input. The
+/// obstacle has the number after the last input.
 [[nodiscard]] ReadOptions reading_of(const InputOptions& options, std::size_t input);
 
 /// Returns FIRST:LAST:STRIDE, as --frames takes it.

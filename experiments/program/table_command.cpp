@@ -45,6 +45,8 @@ bool leads_to(const fs::path& path, const fs::path& directory) {
 void TakenPaths::read(const InputOptions& options) {
   for (const fs::path& input : options.inputs) add("an input", input);
   if (options.reading.topology) add("--topology", *options.reading.topology);
+  for (const fs::path& topology : options.topologies)
+    if (!topology.empty()) add("--topology", topology);
   if (options.obstacle) add("--obstacle", *options.obstacle);
   constexpr std::string_view file = "file:";
   if (options.radius.starts_with(file)) add("--radius", options.radius.substr(file.size()));

@@ -29,7 +29,7 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
     if (given) throw InputError(fmt::format("{}: has no meaning for an instance file ({})", option, file));
   };
   const ReadOptions& reading = options.reading;
-  refuse(reading.topology.has_value(), "--topology");
+  refuse(reading.topology.has_value() || !options.topologies.empty(), "--topology");
   refuse(reading.chain.has_value(), "--chain");
   refuse(reading.selection != Selection::automatic, "--select");
   refuse(reading.frames.first != 0 || reading.frames.last || reading.frames.stride != 1, "--frames");
@@ -101,7 +101,8 @@ void check_inputs_of_one_frame(const std::vector<InputAtoms>& inputs, const Inpu
     for (const InputAtoms& other : inputs) {
       if (other.one_frame || !has_atoms_of(one, other, reading_of(options, i))) continue;
       const std::string file = one.file.string(), moving = other.file.string();
-      const bool may_name = takes_topology(other.file) && !options.reading.topology;
+      const bool may_name =
+          takes_topology(other.file) && !options.reading.topology && options.topologies.empty();
       throw InputError(
           fmt::format("{}: has one frame and the atoms of {}; {} (--obstacle {} makes it a necklace at rest)",
                       file, moving,
