@@ -43,17 +43,62 @@ std::string_view quantity_of(Theorem theorem) {
   return "";
 }
 
-std::optional<PowerFit> TheoremSeries::fit() const {
-  const bool per_height = theorem == Theorem::tightness || theorem == Theorem::groupings;
-  const bool per_level = dimension == 2 && (theorem == Theorem::family || theorem == Theorem::families ||
-                                            theorem == Theorem::search || theorem == Theorem::two_necklaces);
-  std::vector<std::pair<double, double>> logarithmic;
-  for (const TheoremPoint& point : points) {
-    const auto n = static_cast<double>(point.beads);
-    const double x = per_height ? static_cast<double>(tree_height(point.beads)) : n;
-    logarithmic.emplace_back(x, per_level ? point.value / std::log2(n) : point.value);
+bool TheoremSeries::is_ratio() const {
+  return theorem == Theorem::tightness || theorem == Theorem::groupings;
+}
+
+bool TheoremSeries::has_logarithm() const {
+  return dimension == 2 && (theorem == Theorem::family || theorem == Theorem::families ||
+                            theorem == Theorem::search || theorem == Theorem::two_necklaces);
+}
+
+std::vector<GrowthTerm> TheoremSeries::lower_terms() const {
+  switch (theorem) {
+    case Theorem::tightness:
+    case Theorem::groupings:
+    case Theorem::paths:
+      return {{0}};
+    case Theorem::family:
+    case Theorem::families:
+    case Theorem::search:
+    case Theorem::two_necklaces:
+      return {{1}, {0}};
+    case Theorem::closest_pair:
+      return {{(dimension - 1.0) / dimension}};
   }
-  return fit_power(logarithmic);
+  return {};
+}
+
+GrowthPoints TheoremSeries::growth() const {
+  GrowthPoints growth;
+  for (const TheoremPoint& point : points)
+    growth.emplace_back(static_cast<double>(is_ratio() ? tree_height(point.beads) : point.beads),
+                        point.value);
+  return growth;
+}
+
+std::optional<PowerFit> TheoremSeries::fit() const {
+  GrowthPoints divided = growth();
+  if (has_logarithm())
+    for (auto& [x, y] : divided) y /= std::log2(x);
+  return fit_power(divided);
+}
+
+std::optional<GrowthExponent> TheoremSeries::exponent() const {
+  return growth_exponent(growth(), {1, has_logarithm()}, lower_terms());
+}
+
+std::optional<GrowthFit> TheoremSeries::law() const {
+  std::vector<std::vector<GrowthTerm>> forms;
+  if (expected) {
+    forms.push_back({{*expected, has_logarithm()}});
+    for (const GrowthTerm& lower : lower_terms()) {
+      forms.push_back(forms.back());
+      forms.back().push_back(lower);
+    }
+  }
+  if (!expected || at_most) forms.insert(forms.end(), usual_forms().begin(), usual_forms().end());
+  return best_growth(growth(), forms);
 }
 
 std::string name_of(const TheoremSeries& series) {
@@ -284,9 +329,16 @@ class Planner {
   }
 
   std::size_t add_series(Theorem theorem, std::string_view model, int dimension, std::string_view hierarchy,
-                         std::optional<double> expected, std::size_t sizes, std::string_view variant = "") {
-    plan_.series.push_back(
-        {theorem, std::string(model), dimension, std::string(hierarchy), std::string(variant), expected, {}});
+                         std::optional<double> expected, std::size_t sizes, std::string_view variant = "",
+                         bool at_most = false) {
+    plan_.series.push_back({theorem,
+                            std::string(model),
+                            dimension,
+                            std::string(hierarchy),
+                            std::string(variant),
+                            expected,
+                            at_most,
+                            {}});
     plan_.sizes.push_back(sizes);
     return plan_.series.size() - 1;
   }
@@ -299,18 +351,58 @@ class Planner {
     return sizes;
   }
 
-  using Made = std::function<Centers(std::size_t beads)>;
+  /// Makes a necklace of a random model. Other models ignore the seed.
+  using Made = std::function<Centers(std::size_t beads, std::uint64_t seed)>;
+
+  /// Returns the point whose value is the mean over the seeds. `measure_one` measures the necklace of a seed.
+  template <class MeasureOne>
+  [[nodiscard]] static TheoremPoint over_seeds(std::size_t beads, const std::vector<std::uint64_t>& seeds,
+                                               const MeasureOne& measure_one) {
+    TheoremPoint point = measure_one(beads, seeds.front());
+    if (seeds.size() == 1) return point;
+    std::vector<double> values{point.value};
+    std::vector<Spread> seconds;
+    if (point.seconds) seconds.push_back(*point.seconds);
+    for (std::size_t s = 1; s < seeds.size(); ++s) {
+      const TheoremPoint other = measure_one(beads, seeds[s]);
+      values.push_back(other.value);
+      if (other.seconds) seconds.push_back(*other.seconds);
+      if (other.holds) point.holds = *other.holds && point.holds.value_or(true);
+    }
+    point.over_seeds = mean_of_independent(values);
+    point.value = point.over_seeds->mean;
+    if (!seconds.empty()) point.seconds = pooled(seconds);
+    return point;
+  }
+  /// Returns the mean of the medians, the least of all and the most of all.
+  [[nodiscard]] static Spread pooled(const std::vector<Spread>& all) {
+    Spread pooled{0, all.front().least, all.front().most};
+    for (const Spread& one : all) {
+      pooled.median += one.median / static_cast<double>(all.size());
+      pooled.least = std::min(pooled.least, one.least);
+      pooled.most = std::max(pooled.most, one.most);
+    }
+    return pooled;
+  }
+  [[nodiscard]] std::vector<std::uint64_t> seeds_of(bool is_random) const {
+    std::vector<std::uint64_t> seeds;
+    for (std::size_t s = 0; s < (is_random ? options_.seeds : 1); ++s) seeds.push_back(options_.seed + s);
+    return seeds;
+  }
 
   // Measures the ratio of the roots over all sizes.
   void add_ratios(Theorem theorem, std::string_view model, int dimension, std::string_view variant,
-                  double radius, const Made& made, std::optional<double> expected = std::nullopt) {
+                  double radius, const Made& made, std::optional<double> expected = std::nullopt,
+                  bool is_random = false) {
     const std::vector<std::size_t> sizes = powers_of_two(kLeastOfRoots, options_.most_beads);
     const std::size_t series = add_series(theorem, model, dimension, "", expected, sizes.size(), variant);
     for (const std::size_t beads : sizes)
-      plan_.work.emplace_back([=](std::vector<TheoremSeries>& all) {
-        const double ratio = root_ratio(made(beads), std::vector<double>(beads, radius), dimension);
-        const double bound = std::sqrt(static_cast<double>(tree_height(beads)) + 1);
-        all[series].points.push_back({beads, ratio, bound, std::nullopt, ratio <= bound});
+      plan_.work.emplace_back([=, seeds = seeds_of(is_random)](std::vector<TheoremSeries>& all) {
+        all[series].points.push_back(over_seeds(beads, seeds, [&](std::size_t n, std::uint64_t seed) {
+          const double ratio = root_ratio(made(n, seed), std::vector<double>(n, radius), dimension);
+          const double bound = std::sqrt(static_cast<double>(tree_height(n)) + 1);
+          return TheoremPoint{n, ratio, bound, std::nullopt, ratio <= bound};
+        }));
       });
   }
 
@@ -338,67 +430,78 @@ class Planner {
     add("wandering random chain", 3, "random-chain", {.motion = models::ShapeMotion::wander});
   }
 
-  [[nodiscard]] static Centers lemma_points(std::size_t beads) {
+  [[nodiscard]] static Centers lemma_points(std::size_t beads, std::uint64_t) {
     return models::tightness_points(static_cast<int>(tree_height(beads)));
   }
   [[nodiscard]] Made grid(int dimension) const {
-    return [=, gap = options_.gap](std::size_t beads) { return models::packed_grid(beads, dimension, gap); };
+    return [=, gap = options_.gap](std::size_t beads, std::uint64_t) {
+      return models::packed_grid(beads, dimension, gap);
+    };
   }
-  [[nodiscard]] Made chain() const {
-    return [seed = options_.seed](std::size_t beads) { return random_chain(beads, seed); };
-  }
-
   void plan_tightness() {
     add_ratios(Theorem::tightness, kLemmaPoints, 2, "", 0, lemma_points, 0.5);
     for (const int dimension : {2, 3})
       add_ratios(Theorem::tightness, "grid", dimension, "", models::radius, grid(dimension));
-    add_ratios(Theorem::tightness, "random chain", 3, "", models::radius, chain());
+    add_ratios(Theorem::tightness, "random chain", 3, "", models::radius, random_chain, std::nullopt, true);
   }
 
   void plan_groupings() {
     const auto by_space = [](const Made& made) -> Made {
-      return [=](std::size_t beads) {
-        const Centers centers = made(beads);
+      return [=](std::size_t beads, std::uint64_t seed) {
+        const Centers centers = made(beads, seed);
         return in_order(centers, order_by_space(centers));
       };
     };
     add_ratios(Theorem::groupings, kLemmaPoints, 2, "antipodes paired", 0,
-               [](std::size_t beads) { return in_order(lemma_points(beads), order_by_antipodes(beads)); });
+               [](std::size_t beads, std::uint64_t seed) {
+                 return in_order(lemma_points(beads, seed), order_by_antipodes(beads));
+               });
     add_ratios(Theorem::groupings, kLemmaPoints, 2, "by space", 0, by_space(lemma_points));
     for (const int dimension : {2, 3})
       add_ratios(Theorem::groupings, "grid", dimension, "by space", models::radius,
                  by_space(grid(dimension)));
-    add_ratios(Theorem::groupings, "random chain", 3, "by space", models::radius, by_space(chain()));
+    add_ratios(Theorem::groupings, "random chain", 3, "by space", models::radius, by_space(random_chain),
+               std::nullopt, true);
   }
 
   // One search serves both theorems.
   void plan_families() {
     const auto add = [&](std::string_view model, int dimension, Hierarchy hierarchy,
-                         const std::vector<std::size_t>& sizes, const Made& made) {
+                         const std::vector<std::size_t>& sizes, const Made& made, bool is_random = false) {
       const std::string_view name = hierarchy_names[static_cast<std::size_t>(hierarchy)];
       const double expected = dimension == 2 ? 1 : 4.0 / 3;
       std::vector<std::size_t> series;
       for (const Theorem theorem : {Theorem::family, Theorem::search})
         if (asked(theorem))
-          series.push_back(add_series(theorem, model, dimension, name, expected, sizes.size()));
+          series.push_back(
+              add_series(theorem, model, dimension, name, expected, sizes.size(), "", is_random));
       for (const std::size_t beads : sizes)
-        plan_.work.emplace_back([=, rounds = asked(Theorem::search) ? options_.rounds
-                                                                    : 0](std::vector<TheoremSeries>& all) {
-          const FamilySize size = measure_family(made(beads), dimension, hierarchy, rounds);
+        plan_.work.emplace_back([=, rounds = asked(Theorem::search) ? options_.rounds : 0,
+                                 seeds = seeds_of(is_random)](std::vector<TheoremSeries>& all) {
+          std::vector<FamilySize> sizes_of_seeds;
+          for (const std::uint64_t seed : seeds)
+            sizes_of_seeds.push_back(measure_family(made(beads, seed), dimension, hierarchy, rounds));
           for (const std::size_t s : series) {
-            const double value = all[s].theorem == Theorem::family ? static_cast<double>(size.found.family)
-                                                                   : size.seconds->median;
-            const auto bound = all[s].theorem == Theorem::family
-                                   ? std::optional(family_bound(dimension, beads))
-                                   : std::nullopt;  // a time has no bound without the constant
-            all[s].points.push_back({beads, value, bound, size.seconds, std::nullopt, size.found.tests});
+            std::size_t next = 0;
+            all[s].points.push_back(over_seeds(beads, seeds, [&](std::size_t n, std::uint64_t) {
+              const FamilySize& size = sizes_of_seeds[next++];
+              const bool counts = all[s].theorem == Theorem::family;
+              // A time has no bound without the constant.
+              return TheoremPoint{n,
+                                  counts ? static_cast<double>(size.found.family) : size.seconds->median,
+                                  counts ? std::optional(family_bound(dimension, n)) : std::nullopt,
+                                  size.seconds,
+                                  std::nullopt,
+                                  size.found.tests};
+            }));
           }
         });
     };
     for (const int dimension : {2, 3})
       for (const Hierarchy hierarchy : {Hierarchy::wrapped, Hierarchy::layered})
         add("grid", dimension, hierarchy, sizes_of_grids(dimension, options_.most_beads), grid(dimension));
-    add("random chain", 3, Hierarchy::wrapped, powers_of_two(kLeastOfChains, options_.most_beads), chain());
+    add("random chain", 3, Hierarchy::wrapped, powers_of_two(kLeastOfChains, options_.most_beads),
+        random_chain, true);
   }
 
   void plan_compared_families() {
@@ -410,8 +513,8 @@ class Planner {
                    hierarchy_names[static_cast<std::size_t>(variant.hierarchy)], std::nullopt, sizes.size(),
                    variant.name);
       for (const std::size_t beads : sizes)
-        plan_.work.emplace_back([=](std::vector<TheoremSeries>& all) {
-          const Centers centers = made(beads);
+        plan_.work.emplace_back([=, seed = options_.seed](std::vector<TheoremSeries>& all) {
+          const Centers centers = made(beads, seed);
           std::uint64_t smallest = 0;
           for (std::size_t v = 0; v < kFamilyVariants.size(); ++v) {
             const FamilyVariant& variant = kFamilyVariants[v];
@@ -432,7 +535,7 @@ class Planner {
     const std::size_t most = std::min(options_.most_beads, kMostOfSmallest);
     for (const int dimension : {2, 3})
       add("grid", dimension, sizes_of_grids(dimension, most), grid(dimension));
-    add("random chain", 3, powers_of_two(kLeastOfChains, most), chain());
+    add("random chain", 3, powers_of_two(kLeastOfChains, most), random_chain);
   }
 
   void plan_two_necklaces() {
@@ -459,26 +562,32 @@ class Planner {
     // A helix with a constant number of turns has a power diagram of quadratic size.
     constexpr std::size_t most_of_helix = 4096;
     const auto add = [&](std::string_view model, int dimension, std::optional<double> expected,
-                         const std::vector<std::size_t>& sizes, const Made& made) {
+                         const std::vector<std::size_t>& sizes, const Made& made, bool is_random = true) {
       const std::size_t series =
           add_series(Theorem::closest_pair, model, dimension, "", expected, sizes.size());
       for (const std::size_t beads : sizes)
-        plan_.work.emplace_back([=, rounds = options_.rounds](std::vector<TheoremSeries>& all) {
-          const ClosestByDiagram closest = closest_by_diagram(made(beads), dimension, rounds);
-          all[series].points.push_back(
-              {beads, static_cast<double>(closest.looked_at), std::nullopt, closest.seconds, closest.same});
-        });
+        plan_.work.emplace_back(
+            [=, rounds = options_.rounds, seeds = seeds_of(is_random)](std::vector<TheoremSeries>& all) {
+              all[series].points.push_back(over_seeds(beads, seeds, [&](std::size_t n, std::uint64_t seed) {
+                const ClosestByDiagram closest = closest_by_diagram(made(n, seed), dimension, rounds);
+                return TheoremPoint{n, static_cast<double>(closest.looked_at), std::nullopt, closest.seconds,
+                                    closest.same};
+              }));
+            });
     };
     for (const int dimension : {2, 3})
       add("grid", dimension, 1, sizes_of_grids(dimension, options_.most_beads),
-          [dimension, gap = options_.gap, seed = options_.seed](std::size_t beads) {
+          [dimension, gap = options_.gap](std::size_t beads, std::uint64_t seed) {
             return jittered_grid(beads, dimension, gap, seed);
           });
-    add("random chain", 3, 1, powers_of_two(kLeastOfChains, options_.most_beads), chain());
-    add("helix", 3, std::nullopt, powers_of_two(512, most_of_helix), [](std::size_t beads) {
-      constexpr double turns = 10;
-      return models::helix(beads, turns);
-    });
+    add("random chain", 3, 1, powers_of_two(kLeastOfChains, options_.most_beads), random_chain);
+    add(
+        "helix", 3, std::nullopt, powers_of_two(512, most_of_helix),
+        [](std::size_t beads, std::uint64_t) {
+          constexpr double turns = 10;
+          return models::helix(beads, turns);
+        },
+        false);
   }
 
   [[nodiscard]] static std::vector<std::size_t> sizes_of_grids(int dimension, std::size_t most) {

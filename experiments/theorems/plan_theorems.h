@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "experiments/program/growth_fit.h"
+#include "experiments/program/mean_interval.h"
 #include "experiments/program/power_fit.h"
 #include "experiments/program/timing.h"
 #include "structures/collision/sphere_tree.h"
@@ -45,8 +47,9 @@ struct TheoremPoint {
   double value = 0;             ///< quantity_of the theorem
   std::optional<double> bound;  ///< the theorem's bound, without its constant if that is unspecified
   std::optional<Spread> seconds;
-  std::optional<bool> holds;                ///< empty if one size cannot decide it
-  std::optional<std::uint64_t> tests = {};  ///< pairs of spheres that a search compared
+  std::optional<bool> holds;                    ///< empty if one size cannot decide it
+  std::optional<std::uint64_t> tests = {};      ///< pairs of spheres that a search compared
+  std::optional<MeanInterval> over_seeds = {};  ///< of the value, if it is the mean over several seeds
 };
 
 struct TheoremSeries {
@@ -56,11 +59,26 @@ struct TheoremSeries {
   std::string hierarchy;           ///< empty if none
   std::string variant;             ///< family, rule or grouping; empty: as in the paper
   std::optional<double> expected;  ///< exponent in the theorem; empty if it says nothing about this model
+  bool at_most = false;            ///< whether `expected` only bounds the exponent of this model
   std::vector<TheoremPoint> points;
 
-  /// Fits the growth with the number of beads n. For 2.3, fits the growth with the tree's height. For
-  /// families and searches in the plane, fits the growth of value / log2 n.
+  /// Returns the value by the number of beads n or, for 2.3 and groupings, by the tree's height h.
+  [[nodiscard]] GrowthPoints growth() const;
+  /// Fits a straight line to the logarithms. For families and searches in the plane, fits that of value /
+  /// log2 n.
   [[nodiscard]] std::optional<PowerFit> fit() const;
+  /// Fits the exponent of the leading term together with lower-order terms: b n + c for families and
+  /// searches, a term for the surface for 3.5, a constant for the others. For families and searches in the
+  /// plane, the leading term has the factor log2 n.
+  [[nodiscard]] std::optional<GrowthExponent> exponent() const;
+  /// Fits the law of the theorem, with its lower-order terms or without, as AICc decides. If the theorem
+  /// names no exponent or only bounds it, the usual forms (growth_fit.h) are compared too.
+  [[nodiscard]] std::optional<GrowthFit> law() const;
+
+ private:
+  [[nodiscard]] bool is_ratio() const;
+  [[nodiscard]] bool has_logarithm() const;
+  [[nodiscard]] std::vector<GrowthTerm> lower_terms() const;
 };
 
 /// Returns a name such as "grid in space, wrapped, smallest".
@@ -96,6 +114,7 @@ struct TheoremOptions {
   double gap = 0.05;                 ///< between rows of grids, in diameters
   std::uint64_t seed = 1;            ///< for random necklaces
   std::size_t rounds = 3;            ///< for each time measurement
+  std::size_t seeds = 1;             ///< number of random necklaces of each size, from `seed` on
 };
 
 struct TheoremPlan {

@@ -12,6 +12,8 @@
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
+#include "experiments/program/growth_columns.h"
+#include "experiments/program/growth_fit.h"
 #include "experiments/program/option.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/spread_columns.h"
@@ -32,6 +34,9 @@ std::optional<double> ratio_to_bound(const TheoremPoint& point) {
 bool is_ratio(Theorem theorem) { return theorem == Theorem::tightness || theorem == Theorem::groupings; }
 bool is_count(Theorem theorem) {
   return !is_ratio(theorem) && theorem != Theorem::search && theorem != Theorem::paths;
+}
+Field end_of(const std::optional<MeanInterval>& interval, double MeanInterval::*end) {
+  return interval ? Field((*interval).*end) : Field();
 }
 
 // Counts are written in full.
@@ -74,6 +79,10 @@ Table<PlacedPoint> point_columns(std::string_view value_heading = "value") {
        .heading = std::string(value_heading),
        .value = [](const Row& r) { return Field(r.point->value); },
        .words = [](const Row& r) { return value_text(r.series->theorem, r.point->value); }},
+      {.key = "value_lower",
+       .value = [](const Row& r) { return end_of(r.point->over_seeds, &MeanInterval::lower); }},
+      {.key = "value_upper",
+       .value = [](const Row& r) { return end_of(r.point->over_seeds, &MeanInterval::upper); }},
       {"bound", "bound", [](const Row& r) { return Field(r.point->bound); }, shortly},
       {"ratio", "ratio", [](const Row& r) { return Field(ratio_to_bound(*r.point)); }, shortly},
       {"tests", "pairs compared", [](const Row& r) { return Field(r.point->tests); }},
@@ -85,36 +94,40 @@ Table<PlacedPoint> point_columns(std::string_view value_heading = "value") {
                      .words = [](const Row& r) { return *r.point->holds ? "yes" : "NO"; }}});
 }
 
+std::string_view size_of(const TheoremSeries& series) {
+  return series.theorem == Theorem::tightness ? "h" : "n";
+}
+
+std::string theorem_exponent(const TheoremSeries& series) {
+  return fmt::format("{}{:.3f}", series.at_most ? "at most " : "", *series.expected);
+}
+
 struct FittedSeries {
   const TheoremSeries* series;
-  PowerFit fit;
+  GrowthSummary growth;
 };
 std::vector<FittedSeries> fits_of(std::span<const TheoremSeries> series) {
   std::vector<FittedSeries> fits;
   for (const TheoremSeries& one : series)
-    if (const auto fit = one.fit()) fits.push_back({&one, *fit});
+    if (const auto line = one.fit())
+      fits.push_back(
+          {&one,
+           {line, local_exponents(one.growth()), one.exponent(), one.law(), std::string(size_of(one))}});
   return fits;
 }
 
 Table<FittedSeries> fit_columns() {
   using Row = FittedSeries;
   Table<Row> table(series_columns<Row>([](const Row& r) -> const TheoremSeries& { return *r.series; }));
-  return table.add({
-      {.heading = "necklaces",
-       .value =
-           [](const Row& r) {
-             return Field(fmt::format("{}, {}", name_of(r.series->theorem), name_of(*r.series)));
-           }},
-      {.key = "sizes", .value = [](const Row& r) { return Field(r.fit.points); }},
-      {"exponent", "exponent", [](const Row& r) { return Field(r.fit.exponent); }, with_decimals(3)},
-      {.key = "lower",
-       .heading = "95%",
-       .value = [](const Row& r) { return Field(r.fit.lower); },
-       .words = [](const Row& r) { return fmt::format("{:.3f} to {:.3f}", r.fit.lower, r.fit.upper); }},
-      {.key = "upper", .value = [](const Row& r) { return Field(r.fit.upper); }},
-      {.key = "factor", .value = [](const Row& r) { return Field(r.fit.factor); }},
-      {"expected", "theorem", [](const Row& r) { return Field(r.series->expected); }, with_decimals(3)},
-  });
+  table.add({{.heading = "necklaces", .value = [](const Row& r) {
+                return Field(fmt::format("{}, {}", name_of(r.series->theorem), name_of(*r.series)));
+              }}});
+  table.add(growth_columns<Row>([](const Row& r) -> const GrowthSummary& { return r.growth; }));
+  return table.add({{.key = "expected",
+                     .heading = "theorem",
+                     .value = [](const Row& r) { return Field(r.series->expected); },
+                     .words = [](const Row& r) { return theorem_exponent(*r.series); }},
+                    {.key = "at_most", .value = [](const Row& r) { return Field(r.series->at_most); }}});
 }
 
 /// Groups the series by theorem.
@@ -131,20 +144,20 @@ std::vector<std::span<const TheoremSeries>> by_theorem(std::span<const TheoremSe
 }
 
 std::string growing(const TheoremSeries& series) {
+  const std::string_view per_level = series.dimension == 2 ? "it grows as log2 n times n^" : "it grows as n^";
   switch (series.theorem) {
     case Theorem::paths:
       return "the tests per node grow as n^";
     case Theorem::tightness:
     case Theorem::groupings:
-      return "the ratio grows as h^";
+      return "it grows as h^";
     case Theorem::family:
     case Theorem::families:
     case Theorem::two_necklaces:
-      return series.dimension == 2 ? "family / log2 n grows as n^" : "the family grows as n^";
     case Theorem::search:
-      return series.dimension == 2 ? "time / log2 n grows as n^" : "the time grows as n^";
+      return std::string(per_level);
     case Theorem::closest_pair:
-      return "the pairs looked at grow as n^";
+      return "it grows as n^";
   }
   return "";
 }
@@ -215,10 +228,15 @@ std::vector<std::string> findings_of(std::span<const TheoremSeries> group) {
                                    value_text(series.theorem, last.value), with_thousands(last.beads));
     if (const auto ratio = ratio_to_bound(last); ratio && series.theorem != Theorem::search)
       text += fmt::format(", {} of the bound", short_decimal(*ratio));
-    if (const auto fit = series.fit()) {
-      text += fmt::format("; {}{}", growing(series), exponent_text(*fit));
-      if (series.expected) text += fmt::format(", theorem {:.3f}", *series.expected);
+    if (const auto local = local_exponents(series.growth()); !local.empty())
+      text += fmt::format("; from the last size but one its exponent is {:.3f}", local.back());
+    if (const auto exponent = series.exponent()) {
+      text += fmt::format("; beside lower-order terms {}{}", growing(series), exponent_text(*exponent));
+      if (series.expected) text += ", theorem " + theorem_exponent(series);
     }
+    if (const auto law = series.law())
+      text += fmt::format("; {} is right within {}", growth_text(*law, size_of(series)),
+                          in_percent(law->residual_most));
     findings.push_back(text + ".");
   }
   if (const Judged judged = judged_of(group); judged.all > 0)
@@ -303,9 +321,11 @@ std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
   }
   page.words =
       "The theorems are those of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for "
-      "deforming necklaces</em> (2004). Powers are fitted by least squares of logarithms. Their intervals of "
-      "95% confidence assume normal errors: a measurement proves no theorem. Seconds are processor times: "
-      "the median of the rounds, with the least and the most in brackets.";
+      "deforming necklaces</em> (2004). Exponents are fitted beside lower-order terms, by least squares of "
+      "relative residuals. Their intervals of 95% confidence assume independent normal relative errors: a "
+      "measurement proves no theorem. The law is the form with the least AICc: the theorem's, alone or with "
+      "lower-order terms, and the usual forms where the theorem only bounds the growth. Seconds are "
+      "processor times: the median of the rounds, with the least and the most in brackets.";
   return html_page(page);
 }
 
@@ -347,17 +367,22 @@ const OptionList<TheoremsAsked>& theorems_options() {
   };
   static const auto list =
       OptionList<O>()
-          .with(&O::measured,
-                {{beads,
-                  real_option({"--gap", "X", "gap between the rows of grids, in diameters (default: 0.05)"},
-                              &M::gap, {0.001, 0.9}),
-                  whole_option({"--seed", "N", "seed of random chains and of disturbed grids (default: 1)"},
-                               &M::seed, 0, UINT64_MAX),
-                  whole_option({"--rounds", "N",
-                                "repeat each measurement of time (paths, 3.2, 3.3 and 3.5) N times and "
-                                "report the median "
-                                "(default: 3)"},
-                               &M::rounds, 1, 1000)}})
+          .with(
+              &O::measured,
+              {{beads,
+                real_option({"--gap", "X", "gap between the rows of grids, in diameters (default: 0.05)"},
+                            &M::gap, {0.001, 0.9}),
+                whole_option({"--seed", "N", "seed of random chains and of disturbed grids (default: 1)"},
+                             &M::seed, 0, UINT64_MAX),
+                whole_option({"--seeds", "N",
+                              "measure N random necklaces of each size, of seeds from --seed on, and report "
+                              "means with 95% intervals (default: 1)"},
+                             &M::seeds, 1, 1000),
+                whole_option({"--rounds", "N",
+                              "repeat each measurement of time (paths, 3.2, 3.3 and 3.5) N times and report "
+                              "the median "
+                              "(default: 3)"},
+                             &M::rounds, 1, 1000)}})
           .with(destination_options(
               "write theorems.json, theorems.csv and report.html to DIR (default: none)"));
   return list;
