@@ -26,10 +26,14 @@ constexpr CommandSpec kCompareCommand{
     "nodes\n"
     "                  (boxes), cells (power), pairs in contact (contacts), ranks (sorted), ends (box),\n"
     "                  corners (hull), the pair (closest)\n"
-    "  efficiency      events per net change\n"
-    "  compactness     largest number of certificates at once\n"
-    "  locality        largest number of certificates on one bead\n"
-    "  responsiveness  seconds per event",
+    "  efficiency      all events, internal ones included, per external event\n"
+    "  compactness     largest number of certificates at once, at any time\n"
+    "  locality        largest number of certificates on one bead, at any time\n"
+    "  created, touched  certificates created, and created or ended, per event\n"
+    "  responsiveness  seconds per event: mean, and longest at one time\n\n"
+    "Means per step have 95% intervals from a block bootstrap over the steps. Several INPUTs are also "
+    "pooled: means\n"
+    "per step, per bead and per picosecond, with intervals from the spread between inputs.",
     {},
     {},
     "kds compare villin.dcd --topology villin.pdb --strides 1,2,4,8,16,32 --out report\n"
@@ -105,6 +109,7 @@ int compare_command(const Arguments& arguments) {
   Json json;
   json["inputs"] = compared_inputs_json(comparison);
   json["settings"] = compare_options().settings_json(options);
+  json["pooled"] = pooled_columns().json(pooled_rows(comparison));
   json["rows"] = compare_columns(comparison).json(comparison.rows);
   json["warnings"] = command.warnings();
   command.deliver(json, compare_columns(comparison).csv(comparison.rows), compare_table(comparison),

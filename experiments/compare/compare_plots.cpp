@@ -166,10 +166,33 @@ std::string plots_over_strides(const Comparison& comparison) {
          over_strides(
              comparison, "events", "Events of the whole run, by stride.",
              [](const CompareRow& row) { return std::optional(static_cast<double>(row.events())); }) +
-         over_strides(comparison, "events a net change",
-                      "Efficiency, by stride: events per net change. Changes that are undone before the next "
-                      "frame make it larger.",
-                      [](const CompareRow& row) { return row.efficiency(); });
+         over_strides(
+             comparison, "events a net change",
+             "Events per net change, by stride. Changes that are undone before the next frame make it "
+             "larger.",
+             [](const CompareRow& row) { return row.events_per_net_change(); });
+}
+
+std::string plots_over_time(const Comparison& comparison) {
+  constexpr std::size_t most_bins = 100;
+  const std::string plot =
+      plot_of(comparison, {"frame", "events per step", Drawn::line, {}}, [&](const CompareRow& row) {
+        Points points;
+        if (!at_smallest_stride(comparison, row)) return points;
+        const std::size_t width = bin_width(row.steps, most_bins);
+        const std::span<const double> steps(row.events_of_steps);
+        for (std::size_t first = 0; first < steps.size(); first += width) {
+          const auto bin = steps.subspan(first, std::min(width, steps.size() - first));
+          const auto count = static_cast<double>(bin.size());
+          const double middle = (static_cast<double>(first) + count / 2) * static_cast<double>(row.stride);
+          points.emplace_back(middle, std::accumulate(bin.begin(), bin.end(), 0.0) / count);
+        }
+        return points;
+      });
+  return plot.empty() ? ""
+                      : html_figure(plot,
+                                    "Events per step over the course of the run, as means of neighbouring "
+                                    "steps. Frames are counted from the first frame read.");
 }
 
 std::string plots_by_kind(const Comparison& comparison) {

@@ -45,59 +45,179 @@ Field count_of(const CompareRow& row, const std::string& kind) {
 Json compared_inputs_json(const Comparison& comparison) {
   Json json = Json::array();
   for (const ComparedInput& input : comparison.inputs)
-    json.push_back({{"file", input.file},
-                    {"beads", input.beads},
-                    {"frames", input.frames},
-                    {"dimension", input.dimension},
-                    {"truncated", input.truncated},
-                    {"radius_min", input.radius_min},
-                    {"radius_max", input.radius_max}});
+    json.push_back(
+        {{"file", input.file},
+         {"beads", input.beads},
+         {"frames", input.frames},
+         {"dimension", input.dimension},
+         {"truncated", input.truncated},
+         {"radius_min", input.radius_min},
+         {"radius_max", input.radius_max},
+         {"frame_picoseconds", input.frame_picoseconds ? Json(*input.frame_picoseconds) : Json()}});
   return json;
 }
 
-Table<CompareRow> compare_columns(const Comparison& comparison) {
-  using Row = CompareRow;
-  Table<Row> table{{
+namespace {
+
+using Compared = CompareRow;
+
+Field end_of_interval(const std::optional<MeanInterval>& interval, double MeanInterval::*end) {
+  return interval ? Field((*interval).*end) : Field();
+}
+
+// Returns the columns KEY, KEY_lower and KEY_upper of a mean that may lack an interval.
+template <class Of>
+std::vector<Column<Of>> interval_columns(
+    const std::string& key, const std::string& heading,
+    const std::function<std::optional<double>(const Of&)>& mean,
+    const std::function<std::optional<MeanInterval>(const Of&)>& interval) {
+  return {{.key = key,
+           .heading = heading,
+           .value = [mean](const Of& r) { return Field(mean(r)); },
+           .words =
+               [mean, interval](const Of& r) {
+                 const auto known = interval(r);
+                 return known ? fmt::format("{} ({} to {})", short_decimal(known->mean),
+                                            short_decimal(known->lower), short_decimal(known->upper))
+                              : short_decimal(*mean(r));
+               }},
+          {.key = key + "_lower",
+           .value = [interval](const Of& r) { return end_of_interval(interval(r), &MeanInterval::lower); }},
+          {.key = key + "_upper",
+           .value = [interval](const Of& r) { return end_of_interval(interval(r), &MeanInterval::upper); }}};
+}
+
+std::string microseconds(const Field& seconds) { return short_decimal(1e6 * seconds.number()); }
+
+Table<Compared> identity_columns() {
+  return {{
       {.key = "structure",
        .heading = "structure",
-       .value = [](const Row& r) { return Field(r.structure.name); },
+       .value = [](const Compared& r) { return Field(r.structure.name); },
        .shown = Shown::in_text},
       {.heading = "structure",
        .value =
-           [](const Row& r) {
+           [](const Compared& r) {
              return Field(fmt::format("{}, stride {}", r.structure.name, with_thousands(r.stride)));
            },
        .shown = Shown::on_pages},
-      {.key = "input", .value = [](const Row& r) { return Field(r.input); }},
-      {"stride", "stride", [](const Row& r) { return Field(r.stride); }, plainly, Shown::in_text},
-      {.key = "motion", .value = [](const Row& r) { return Field(name_of(r.motion)); }},
-      {"steps", "steps", [](const Row& r) { return Field(r.steps); }},
-      {"events", "events", [](const Row& r) { return Field(r.events()); }},
+      {.key = "input", .value = [](const Compared& r) { return Field(r.input); }},
+      {"stride", "stride", [](const Compared& r) { return Field(r.stride); }, plainly, Shown::in_text},
+      {.key = "motion", .value = [](const Compared& r) { return Field(name_of(r.motion)); }},
+      {.key = "beads", .value = [](const Compared& r) { return Field(r.beads); }},
+      {"steps", "steps", [](const Compared& r) { return Field(r.steps); }},
   }};
+}
+
+std::vector<Column<Compared>> event_columns(const Comparison& comparison) {
+  std::vector<Column<Compared>> columns{
+      {"events", "events", [](const Compared& r) { return Field(r.events()); }}};
+  const auto add = [&](std::vector<Column<Compared>> more) {
+    for (auto& column : more) columns.push_back(std::move(column));
+  };
   for (const std::string& kind : kinds_of(comparison))
-    table.add({{.key = kind, .value = [kind](const Row& r) { return count_of(r, kind); }, .optional = true}});
-  table.add({
-      {"internal", "internal", [](const Row& r) { return Field(r.internal()); }},
-      {"net_changes", "net changes", [](const Row& r) { return Field(r.net_changes); }},
-      {"efficiency", "efficiency", [](const Row& r) { return Field(r.efficiency()); }, shortly},
-      {"events_per_step", "events per step", [](const Row& r) { return Field(r.events_per_step()); },
-       shortly},
-      {"events_per_ps", "events per ps", [](const Row& r) { return Field(r.events_per_picosecond()); },
-       shortly},
-      {"compactness", "compactness", [](const Row& r) { return Field(r.structure.peak); }},
-      {"locality", "locality", [](const Row& r) { return Field(r.structure.per_bead_max); }},
-      {"responsiveness", "us per event", [](const Row& r) { return Field(r.seconds_per_event()); },
-       [](const Field& seconds) { return short_decimal(1e6 * seconds.number()); }},
+    add({{.key = kind, .value = [kind](const Compared& r) { return count_of(r, kind); }, .optional = true}});
+  add({
+      {"internal", "internal", [](const Compared& r) { return Field(r.internal()); }},
+      {"efficiency", "efficiency", [](const Compared& r) { return Field(r.efficiency()); }, shortly},
+      {"net_changes", "net changes", [](const Compared& r) { return Field(r.net_changes); }},
+      {"events_per_net_change", "events per net change",
+       [](const Compared& r) { return Field(r.events_per_net_change()); }, shortly},
   });
-  table.add(spread_columns<Row>("seconds", "seconds", [](const Row& r) { return r.seconds; }));
+  add(interval_columns<Compared>(
+      "events_per_step", "events per step (95%)", [](const Compared& r) { return r.events_per_step(); },
+      [](const Compared& r) { return r.events_per_step_interval(); }));
+  add({
+      {"events_per_step_first", "first quarter",
+       [](const Compared& r) { return Field(r.events_per_step_in_first_quarter()); }, shortly,
+       Shown::on_pages},
+      {"events_per_step_last", "last quarter",
+       [](const Compared& r) { return Field(r.events_per_step_in_last_quarter()); }, shortly,
+       Shown::on_pages},
+      {"events_per_ps", "events per ps", [](const Compared& r) { return Field(r.events_per_picosecond()); },
+       shortly},
+      {.key = "events_per_bead_step",
+       .value = [](const Compared& r) { return Field(r.events_per_bead_and_step()); }},
+      {.key = "events_per_bead_ps",
+       .value = [](const Compared& r) { return Field(r.events_per_bead_and_picosecond()); }},
+  });
+  return columns;
+}
+
+std::vector<Column<Compared>> cost_columns() {
+  return {
+      {"compactness", "compactness", [](const Compared& r) { return Field(r.structure.peak); }},
+      {"locality", "locality", [](const Compared& r) { return Field(r.costs.per_bead_most); }},
+      {"created_per_event", "created per event",
+       [](const Compared& r) { return Field(r.created_per_event()); }, shortly},
+      {"touched_per_event", "touched per event",
+       [](const Compared& r) { return Field(r.touched_per_event()); }, shortly},
+      {"touched_most", "at most", [](const Compared& r) { return Field(r.costs.touched_most); }},
+      {"responsiveness", "us per event", [](const Compared& r) { return Field(r.responsiveness()); },
+       microseconds},
+      {"responsiveness_worst", "worst us",
+       [](const Compared& r) { return r.costs.events == 0 ? Field() : Field(r.costs.seconds_most); },
+       microseconds},
+  };
+}
+
+Table<Compared> event_table(const Comparison& comparison) {
+  return identity_columns()
+      .add(event_columns(comparison))
+      .add({{.heading = "by kind", .value = [](const Compared& r) { return Field(kinds_text(r)); }}});
+}
+
+Table<Compared> cost_table() {
+  return identity_columns()
+      .add(cost_columns())
+      .add(spread_columns<Compared>("seconds", "seconds", [](const Compared& r) { return r.seconds; }));
+}
+
+}  // namespace
+
+Table<CompareRow> compare_columns(const Comparison& comparison) {
+  Table<Compared> table = identity_columns();
+  table.add(event_columns(comparison)).add(cost_columns());
+  table.add(spread_columns<Compared>("seconds", "seconds", [](const Compared& r) { return r.seconds; }));
   table.add({{.key = "by_level",
               .json =
-                  [](const Row& r) {
+                  [](const Compared& r) {
                     const auto& levels = r.structure.places.by_level;
                     return levels.empty() ? Json() : Json(levels);
                   }},
-             {.key = "by_bead", .json = [](const Row& r) { return Json(r.structure.places.by_bead); }},
-             {.heading = "by kind", .value = [](const Row& r) { return Field(kinds_text(r)); }}});
+             {.key = "by_bead", .json = [](const Compared& r) { return Json(r.structure.places.by_bead); }},
+             {.key = "over_time",
+              .json =
+                  [](const Compared& r) {
+                    Json events = Json::array();
+                    for (const EventBin& bin : r.structure.course.bins()) events.push_back(bin.events);
+                    return Json{{"steps", r.structure.course.width()}, {"events", events}};
+                  }},
+             {.heading = "by kind", .value = [](const Compared& r) { return Field(kinds_text(r)); }}});
+  return table;
+}
+
+Table<PooledRow> pooled_columns() {
+  using Pooled = PooledRow;
+  Table<Pooled> table{{
+      {"structure", "structure", [](const Pooled& r) { return Field(r.structure); }},
+      {"stride", "stride", [](const Pooled& r) { return Field(r.stride); }},
+      {"motion", "motion", [](const Pooled& r) { return Field(name_of(r.motion)); }},
+      {"inputs", "inputs", [](const Pooled& r) { return Field(r.inputs); }},
+  }};
+  const auto add = [&](const std::string& key, const std::string& heading,
+                       std::optional<MeanInterval> Pooled::*interval) {
+    table.add(interval_columns<Pooled>(
+        key, heading,
+        [interval](const Pooled& r) {
+          return r.*interval ? std::optional((r.*interval)->mean) : std::nullopt;
+        },
+        [interval](const Pooled& r) { return r.*interval; }));
+  };
+  add("events_per_step", "events per step (95%)", &Pooled::events_per_step);
+  add("events_per_bead_step", "per bead and step", &Pooled::events_per_bead_and_step);
+  add("events_per_bead_ps", "per bead and ps", &Pooled::events_per_bead_and_picosecond);
+  add("events_per_net_change", "per net change", &Pooled::events_per_net_change);
   return table;
 }
 
@@ -119,11 +239,15 @@ std::string compare_table(const Comparison& comparison) {
     if (row.input != input || name_of(row.motion) != motion) {
       input = row.input;
       motion = name_of(row.motion);
-      text += fmt::format("{}{}, {} motion\n  {}\n", text.empty() ? "" : "\n", one_line(input), motion,
-                          lines.front());
+      const auto& known = *std::ranges::find(comparison.inputs, input, &ComparedInput::file);
+      text += fmt::format("{}{}, {} motion ({})\n  {}\n", text.empty() ? "" : "\n", one_line(input), motion,
+                          size_text(known), lines.front());
     }
     text += "  " + lines[r + 1] + "\n";
   }
+  if (const std::vector<PooledRow> pooled = pooled_rows(comparison); !pooled.empty())
+    text += fmt::format("\nmeans over the {} inputs\n{}", comparison.inputs.size(),
+                        pooled_columns().text(pooled, "  "));
   return text;
 }
 
@@ -137,21 +261,32 @@ std::vector<std::pair<std::string, std::string>> terms() {
   return {
       {"event", "a change of the structure itself, at an exact time between two frames (an external event)"},
       {"internal", "events of the structure's bookkeeping, which are not counted among the events"},
-      {"events per step, per ps",
-       "events from one frame to the next, and for a picosecond if the file has times"},
+      {"efficiency",
+       "all events, internal ones included, divided by the external events: 1 if the structure needs no "
+       "bookkeeping of its own"},
+      {"events per step (95%)",
+       "events from one frame to the next, with the confidence interval of the mean from a block bootstrap "
+       "over the steps; without one for fewer than 50 steps. The interval assumes that the run does not "
+       "drift: compare the first quarter of the steps with the last"},
       {"net change",
        "a difference between one frame and the next, whatever happened in between: a node of the wrapped "
        "hierarchy with another basis, a cell in the power diagram of one frame only, a pair that meets in "
        "one frame only, a rank of the sorted list with another bead"},
-      {"efficiency",
-       "events divided by net changes. If every change happens once, the efficiency is 1 for nodes and "
-       "pairs, 0.5 for interchanges, and for flips 0.2 in space and 0.25 in the plane, because a flip "
-       "exchanges five or four cells. A larger efficiency means that changes were undone before the next "
-       "frame"},
-      {"compactness", "the most certificates at once"},
-      {"locality", "the most certificates on one bead, at the start of a step"},
-      {"us per event (responsiveness)",
-       "microseconds divided by events; the time includes internal events and certificates that never fail"},
+      {"events per net change",
+       "if every change happens once, 1 for nodes and pairs, 0.5 for interchanges, and for flips 0.2 in "
+       "space "
+       "and 0.25 in the plane, because a flip exchanges five or four cells. A larger number means that "
+       "changes "
+       "were undone before the next frame"},
+      {"compactness", "the most certificates at once, at any time"},
+      {"locality", "the most certificates on one bead, at any time"},
+      {"created, touched per event",
+       "certificates that the structure creates at an event, and that it creates or ends; at most: at one "
+       "time. "
+       "The certificates that a step begins with do not count"},
+      {"us per event, worst us (responsiveness)",
+       "microseconds that the structure spends at the times of events, divided by its events, internal ones "
+       "included; and the longest time that it spends at one time, the least of the rounds"},
       {"seconds",
        "time spent on this structure: the median of the rounds, with the least and the most in brackets"},
       {"share of a bead",
@@ -176,7 +311,7 @@ std::string figure_text(const Comparison& comparison, const std::string& structu
 }
 
 std::optional<double> a_step(const CompareRow& row) { return row.events_per_step(); }
-std::optional<double> efficiency(const CompareRow& row) { return row.efficiency(); }
+std::optional<double> a_net_change(const CompareRow& row) { return row.events_per_net_change(); }
 
 // Returns the events per step divided by the events per step at the smallest stride, for one structure, input
 // and motion.
@@ -248,9 +383,9 @@ std::string findings(const Comparison& comparison) {
           !times.empty())
         line += fmt::format(", {} times as often", times);
     }
-    if (const std::string of_first = text(first, efficiency); !of_first.empty())
+    if (const std::string of_first = text(first, a_net_change); !of_first.empty())
       line += fmt::format("{} {} events a net change", line.empty() ? " takes" : ";", of_first);
-    if (const std::string of_last = text(last, efficiency); last != first && !of_last.empty())
+    if (const std::string of_last = text(last, a_net_change); last != first && !of_last.empty())
       line += fmt::format(", {} at stride {}", of_last, with_thousands(last));
     if (!line.empty()) list += fmt::format("<li>{}{}.</li>\n", name, line);
   }
@@ -270,9 +405,16 @@ std::string figures(const Comparison& comparison) {
       return std::ranges::find(names, a.structure.name) < std::ranges::find(names, b.structure.name);
     });
   }
-  return compare_columns(comparison).html(rows, [&](const CompareRow& row) {
-    return distinction(comparison, row);
-  });
+  const auto group = [&](const CompareRow& row) { return distinction(comparison, row); };
+  return "<p>Events:</p>\n" + event_table(comparison).html(rows, group) + "<p>Certificates and time:</p>\n" +
+         cost_table().html(rows, group);
+}
+
+std::string inputs_html(const Comparison& comparison) {
+  std::string html = "<ul>\n";
+  for (const ComparedInput& input : comparison.inputs)
+    html += fmt::format("<li>{}: {}</li>\n", html_escaped(file_name(input)), size_text(input));
+  return html + "</ul>\n";
 }
 
 std::string title(const Comparison& comparison) {
@@ -288,7 +430,14 @@ std::string compare_page(const Comparison& comparison, Page page) {
   page.found = findings(comparison);
   page.words = kWords;
   page.terms = terms();
-  page.body = html_section("By stride", plots_over_strides(comparison));
+  page.body = html_section("Inputs", inputs_html(comparison));
+  if (const std::vector<PooledRow> pooled = pooled_rows(comparison); !pooled.empty())
+    page.body += html_section("Means over the inputs",
+                              "<p>Each input counts alike; intervals of 95% come from the "
+                              "spread between inputs.</p>\n" +
+                                  pooled_columns().html(pooled));
+  page.body += html_section("By stride", plots_over_strides(comparison));
+  page.body += html_section("Over time", plots_over_time(comparison));
   page.body += html_section("Along the chain", plots_along_chain(comparison));
   page.body += html_section("By level", plots_by_level(comparison));
   page.body += html_section("By kind", plots_by_kind(comparison));

@@ -17,6 +17,7 @@ namespace kds {
 /// has a column; JSON omits the kinds that a structure does not have. Only JSON has the arrays `by_level` and
 /// `by_bead`.
 [[nodiscard]] Table<CompareRow> compare_columns(const Comparison& comparison);
+[[nodiscard]] Table<PooledRow> pooled_columns();
 /// Returns a block for each input and motion, with a line for each stride and structure.
 [[nodiscard]] std::string compare_table(const Comparison& comparison);
 
@@ -35,6 +36,8 @@ namespace kds {
 
 /// Each function returns one or several HTML figures, or an empty text if there is nothing to show.
 [[nodiscard]] std::string plots_over_strides(const Comparison& comparison);
+/// Plots the events per step at the smallest stride, in bins of neighbouring steps.
+[[nodiscard]] std::string plots_over_time(const Comparison& comparison);
 /// Plots the events at the smallest stride by kind.
 [[nodiscard]] std::string plots_by_kind(const Comparison& comparison);
 [[nodiscard]] std::string plots_by_level(const Comparison& comparison);

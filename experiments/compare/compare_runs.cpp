@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <compare>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "experiments/events/event_places.h"
+#include "experiments/output/text.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/run_report.h"
 #include "experiments/run/run_scene.h"
@@ -73,8 +76,10 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const Wa
              scene.dimension(),
              scene.is_truncated(),
              *least,
-             *most,
-             {}};
+             *most};
+    const auto from = scene.stamp(0).picoseconds, to = scene.stamp(scene.frame_count() - 1).picoseconds;
+    if (from && to && scene.step_count() > 0)
+      found.frame_picoseconds = (*to - *from) / static_cast<double>(scene.step_count());
     for (BeadId bead = 0; bead < scene.bead_count(); ++bead)
       found.bead_names.push_back(scene.bead_name(bead));
   }
@@ -84,29 +89,77 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const Wa
   return found;
 }
 
-std::vector<CompareRow> run_once(const RunOptions& options, std::size_t stride,
+// Collects the beads of the events of each structure.
+class ChangedBeads final : public EventListener {
+ public:
+  explicit ChangedBeads(std::size_t structures) : beads_(structures) {}
+  void on_event(const Event& event) override {
+    const auto ids = event.ids();
+    beads_[event.structure_index].insert(beads_[event.structure_index].end(), ids.begin(), ids.end());
+  }
+  [[nodiscard]] std::vector<BeadId>& of(std::size_t structure) { return beads_[structure]; }
+
+ private:
+  std::vector<std::vector<BeadId>> beads_;
+};
+
+// What a structure has done so far.
+struct Done {
+  std::uint64_t events = 0, created = 0, alive = 0;
+  double seconds = 0;
+};
+
+Done done_by(const KineticRun& run, double seconds, std::size_t s) {
+  const KineticStructure& structure = *run.structures()[s];
+  const StructureStatistics& statistics = structure.statistics;
+  Done done{0, statistics.certificates.created, statistics.certificates.alive, seconds};
+  for (std::size_t k = 0; k < structure.kinds().size(); ++k)
+    if (!structure.kinds()[k].counted_apart) done.events += statistics.events_by_kind[k];
+  return done;
+}
+
+void add_difference(const Done& before, const Done& after, EventCosts& costs) {
+  const std::uint64_t created = after.created - before.created;
+  const std::uint64_t touched = created + (before.alive + created - after.alive);
+  const double seconds = after.seconds - before.seconds;
+  costs.events += after.events - before.events;
+  costs.created += created;
+  costs.touched += touched;
+  costs.touched_most = std::max(costs.touched_most, touched);
+  costs.seconds += seconds;
+  costs.seconds_most = std::max(costs.seconds_most, seconds);
+}
+
+// Runs once without looking at single events.
+std::vector<CompareRow> run_once(const Scene& scene, const RunOptions& options,
                                  const std::function<void()>& step_done) {
-  const Scene scene = load_scene(options, [](const std::string&) {});
   const auto run = open_run(options, scene, AuditMode::none);
   StepCounts counts(run->session(), scene);
   EventPlaces places(run->session(), scene);
   run->listen(places);
   std::vector<NetChanges> net(run->structures().size());
+  std::vector<CompareRow> rows(net.size());
   run_steps(*run, options, [&](std::size_t frame) {
-    for (std::size_t s = 0; s < net.size(); ++s) net[s].add(run->session().elements(s, frame));
+    for (std::size_t s = 0; s < net.size(); ++s) {
+      const std::uint64_t before = net[s].count().value_or(0);
+      net[s].add(run->session().elements(s, frame));
+      if (frame == 0) continue;
+      rows[s].events_of_steps.push_back(
+          static_cast<double>(run->structures()[s]->statistics.events_per_step.back()));
+      if (const auto count = net[s].count())
+        rows[s].net_changes_of_steps.push_back(static_cast<double>(*count - before));
+    }
     if (frame == 0) return;
     counts.end_step(frame - 1, nullptr);
     step_done();
   });
   const RunReport report = report_of(run->session(), scene, options, counts);
-  std::vector<CompareRow> rows;
   for (std::size_t s = 0; s < net.size(); ++s) {
-    CompareRow& row = rows.emplace_back();
-    row.input = report.files.front();
-    row.stride = stride;
+    CompareRow& row = rows[s];
     row.motion = options.motion;
+    row.beads = scene.bead_count();
     row.steps = scene.step_count();
-    if (report.first_frame->picoseconds && report.last_frame->picoseconds)
+    if (report.first_frame && report.first_frame->picoseconds && report.last_frame->picoseconds)
       row.picoseconds = *report.last_frame->picoseconds - *report.first_frame->picoseconds;
     row.structure = report.structures[s];
     row.net_changes = net[s].count();
@@ -115,7 +168,75 @@ std::vector<CompareRow> run_once(const RunOptions& options, std::size_t stride,
   return rows;
 }
 
+std::optional<double> per(double count, std::uint64_t of) {
+  return of == 0 ? std::nullopt : std::optional(count / static_cast<double>(of));
+}
+
+double mean_of_steps(std::span<const double> steps) {
+  return std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
+}
+
+std::size_t quarter(std::size_t steps) { return std::max<std::size_t>(1, steps / 4); }
+
 }  // namespace
+
+std::vector<EventCosts> costs_of_events(KineticRun& run, const std::function<void()>& step_done) {
+  const std::size_t structures = run.structures().size();
+  std::vector<EventCosts> costs(structures);
+  ChangedBeads changed(structures);
+  run.listen(changed);
+  run.session().follow_certificates();
+  std::vector<Done> before(structures);
+  const auto now = [&](std::size_t s) { return done_by(run, run.simulator().seconds_of(s), s); };
+  while (run.enter_step()) {
+    for (std::size_t s = 0; s < structures; ++s) {
+      changed.of(s).clear();
+      run.session().count_certificates(s, {});
+      before[s] = now(s);
+    }
+    while (run.simulator().run_next()) {
+      for (std::size_t s = 0; s < structures; ++s) {
+        const Done after = now(s);
+        if (after.events == before[s].events && after.created == before[s].created) continue;
+        add_difference(before[s], after, costs[s]);
+        run.session().count_certificates(s, changed.of(s));
+        changed.of(s).clear();
+        before[s] = now(s);
+      }
+    }
+    static_cast<void>(run.run_step());
+    step_done();
+  }
+  run.finish();
+  for (std::size_t s = 0; s < structures; ++s)
+    costs[s].per_bead_most = run.structures()[s]->statistics.certificates.per_bead_max;
+  return costs;
+}
+
+std::vector<CompareRow> measure_runs(const Scene& scene, const RunOptions& options, std::size_t rounds,
+                                     const std::function<void()>& step_done) {
+  std::vector<CompareRow> rows;
+  std::vector<std::vector<double>> seconds, at_events, worst;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    std::vector<CompareRow> plain = run_once(scene, options, step_done);
+    const auto run = open_run(options, scene, AuditMode::none);
+    const std::vector<EventCosts> costs = costs_of_events(*run, step_done);
+    for (auto* const times : {&seconds, &at_events, &worst}) times->resize(plain.size());
+    for (std::size_t s = 0; s < plain.size(); ++s) {
+      seconds[s].push_back(plain[s].structure.seconds);
+      at_events[s].push_back(costs[s].seconds);
+      worst[s].push_back(costs[s].seconds_most);
+      plain[s].costs = costs[s];
+    }
+    if (round == 0) rows = std::move(plain);
+  }
+  for (std::size_t s = 0; s < rows.size(); ++s) {
+    rows[s].seconds = spread_of(seconds[s]);
+    rows[s].costs.seconds = median_of(at_events[s]);
+    rows[s].costs.seconds_most = *std::ranges::min_element(worst[s]);
+  }
+  return rows;
+}
 
 std::uint64_t CompareRow::internal() const {
   std::uint64_t all = 0;
@@ -124,21 +245,81 @@ std::uint64_t CompareRow::internal() const {
 }
 
 std::optional<double> CompareRow::efficiency() const {
-  if (net_changes.value_or(0) == 0) return std::nullopt;
-  return ratio(events(), static_cast<double>(*net_changes));
+  return per(static_cast<double>(events() + internal()), events());
+}
+
+std::optional<double> CompareRow::events_per_net_change() const {
+  return per(static_cast<double>(events()), net_changes.value_or(0));
 }
 
 double CompareRow::events_per_step() const { return ratio(events(), static_cast<double>(steps)); }
+
+std::optional<MeanInterval> CompareRow::events_per_step_interval() const {
+  return mean_over_time(events_of_steps);
+}
+
+double CompareRow::events_per_step_in_first_quarter() const {
+  return mean_of_steps(std::span(events_of_steps).first(quarter(steps)));
+}
+
+double CompareRow::events_per_step_in_last_quarter() const {
+  return mean_of_steps(std::span(events_of_steps).last(quarter(steps)));
+}
 
 std::optional<double> CompareRow::events_per_picosecond() const {
   if (!(picoseconds.value_or(0) > 0)) return std::nullopt;
   return ratio(events(), *picoseconds);
 }
 
-std::optional<double> CompareRow::seconds_per_event() const {
-  const std::uint64_t all = events() + internal();
-  if (all == 0) return std::nullopt;
-  return seconds.median / static_cast<double>(all);
+double CompareRow::events_per_bead_and_step() const { return events_per_step() / static_cast<double>(beads); }
+
+std::optional<double> CompareRow::events_per_bead_and_picosecond() const {
+  const auto all = events_per_picosecond();
+  return all ? std::optional(*all / static_cast<double>(beads)) : std::nullopt;
+}
+
+std::optional<double> CompareRow::created_per_event() const {
+  return per(static_cast<double>(costs.created), costs.events);
+}
+
+std::optional<double> CompareRow::touched_per_event() const {
+  return per(static_cast<double>(costs.touched), costs.events);
+}
+
+std::optional<double> CompareRow::responsiveness() const { return per(costs.seconds, costs.events); }
+
+std::string size_text(const ComparedInput& input) {
+  return fmt::format("{} beads, {} frames {}", with_thousands(input.beads), with_thousands(input.frames),
+                     input.frame_picoseconds ? fmt::format("{:.4g} ps apart", *input.frame_picoseconds)
+                                             : "at times that the file does not tell (--dt gives them)");
+}
+
+std::vector<PooledRow> pooled_rows(const Comparison& comparison) {
+  std::vector<PooledRow> pooled;
+  if (comparison.inputs.size() < 2) return pooled;
+  const auto is_pooled_in = [](const CompareRow& row) {
+    return [&row](const PooledRow& one) {
+      return one.structure == row.structure.name && one.stride == row.stride && one.motion == row.motion;
+    };
+  };
+  for (const CompareRow& first : comparison.rows) {
+    if (std::ranges::any_of(pooled, is_pooled_in(first))) continue;
+    PooledRow& one = pooled.emplace_back(PooledRow{first.structure.name, first.stride, first.motion});
+    std::vector<double> steps, bead_steps, bead_picoseconds, net;
+    for (const CompareRow& row : comparison.rows) {
+      if (!is_pooled_in(row)(one)) continue;
+      ++one.inputs;
+      steps.push_back(row.events_per_step());
+      bead_steps.push_back(row.events_per_bead_and_step());
+      if (const auto value = row.events_per_bead_and_picosecond()) bead_picoseconds.push_back(*value);
+      if (const auto value = row.events_per_net_change()) net.push_back(*value);
+    }
+    one.events_per_step = mean_of_independent(steps);
+    one.events_per_bead_and_step = mean_of_independent(bead_steps);
+    one.events_per_bead_and_picosecond = mean_of_independent(bead_picoseconds);
+    one.events_per_net_change = mean_of_independent(net);
+  }
+  return pooled;
 }
 
 Comparison compare_runs(const CompareOptions& options,
@@ -151,7 +332,7 @@ Comparison compare_runs(const CompareOptions& options,
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
     const ComparedInput& input = comparison.inputs.emplace_back(look_at(options, i, warn));
     for (const std::size_t stride : options.strides)
-      total += options.rounds * options.motions.size() * (strided(input.frames, stride) - 1);
+      total += 2 * options.rounds * options.motions.size() * (strided(input.frames, stride) - 1);
   }
   for (std::size_t i = 0; i < options.inputs.size(); ++i)
     for (const FrameMotion motion : options.motions)
@@ -160,17 +341,11 @@ Comparison compare_runs(const CompareOptions& options,
         run.reading.frames.stride *= stride;
         if (run.radius == "auto" && !is_instance_file(options.inputs[i]))
           run.radius = fmt::format("{}", comparison.inputs[i].radius_min);
-        const std::function<void()> step_done = [&] { progress(++done, total); };
-        std::vector<CompareRow> rows = run_once(run, stride, step_done);
-        std::vector<std::vector<double>> seconds(rows.size());
-        for (std::size_t round = 0;; ++round) {
-          for (std::size_t s = 0; s < rows.size(); ++s) seconds[s].push_back(rows[s].structure.seconds);
-          if (round + 1 == options.rounds) break;
-          rows = run_once(run, stride, step_done);
-        }
-        for (std::size_t s = 0; s < rows.size(); ++s) {
-          rows[s].seconds = spread_of(seconds[s]);
-          comparison.rows.push_back(std::move(rows[s]));
+        const Scene scene = load_scene(run, [](const std::string&) {});
+        for (CompareRow& row : measure_runs(scene, run, options.rounds, [&] { progress(++done, total); })) {
+          row.input = options.inputs[i].string();
+          row.stride = stride;
+          comparison.rows.push_back(std::move(row));
         }
       }
   return comparison;

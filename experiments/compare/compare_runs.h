@@ -10,8 +10,12 @@
 #include <vector>
 
 #include "experiments/compare/compare_command.h"
+#include "experiments/program/mean_interval.h"
 #include "experiments/program/timing.h"
+#include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
+#include "motions/scene/scene.h"
+#include "structures/session/kinetic_run.h"
 #include "structures/session/structure_spec.h"
 
 namespace kds {
@@ -43,26 +47,59 @@ class NetChanges {
   std::uint64_t count_ = 0;
 };
 
+/// What a structure does at the times of its events, without the starts of steps. The structure handles all
+/// failures of one time together.
+struct EventCosts {
+  std::uint64_t events = 0;         ///< internal ones included
+  std::uint64_t created = 0;        ///< certificates
+  std::uint64_t touched = 0;        ///< certificates that were created or ended: failed, cancelled or dropped
+  std::uint64_t touched_most = 0;   ///< at one time
+  std::uint64_t per_bead_most = 0;  ///< most certificates that name one bead, at all times
+  double seconds = 0;
+  double seconds_most = 0;  ///< at one time
+};
+
+/// Runs the structures event by event, and returns the costs of each structure. The events are those of a
+/// plain run. `step_done` is called after each step.
+[[nodiscard]] std::vector<EventCosts> costs_of_events(KineticRun& run,
+                                                      const std::function<void()>& step_done);
+
 /// The results of one structure in one run.
 struct CompareRow {
   std::string input;
   std::size_t stride = 1;
   FrameMotion motion = FrameMotion::linear;
-  std::size_t steps = 0;
+  std::size_t beads = 0, steps = 0;
   std::optional<double> picoseconds;  ///< from the first frame to the last, if the file has times
   StructureReport structure;
   std::optional<std::uint64_t> net_changes;  ///< empty if the structure cannot be compared between frames
   Spread seconds;                            ///< time of this structure over all rounds
+  EventCosts costs;  ///< `seconds` is the median of the rounds, `seconds_most` the least of their worst times
+  std::vector<double> events_of_steps, net_changes_of_steps;
 
   [[nodiscard]] std::uint64_t events() const { return structure.events_total; }
   [[nodiscard]] std::uint64_t internal() const;
+  /// Returns the number of all events per external event, or nothing if there is no external event: the
+  /// efficiency of a kinetic structure (Basch, Guibas and Hershberger, 1999).
+  [[nodiscard]] std::optional<double> efficiency() const;
   /// Returns the number of events per net change, or nothing if there is no net change or the number is
   /// unknown.
-  [[nodiscard]] std::optional<double> efficiency() const;
+  [[nodiscard]] std::optional<double> events_per_net_change() const;
   [[nodiscard]] double events_per_step() const;
+  /// Returns the interval of events_per_step as mean_over_time gives it.
+  [[nodiscard]] std::optional<MeanInterval> events_per_step_interval() const;
+  /// Returns the mean over the first or the last quarter of the steps, at least one step. They differ if the
+  /// run drifts, and then the mean of all steps depends on how long the run is.
+  [[nodiscard]] double events_per_step_in_first_quarter() const;
+  [[nodiscard]] double events_per_step_in_last_quarter() const;
   [[nodiscard]] std::optional<double> events_per_picosecond() const;
-  /// Returns the seconds per event, internal events included, or nothing if there are no events.
-  [[nodiscard]] std::optional<double> seconds_per_event() const;
+  [[nodiscard]] double events_per_bead_and_step() const;
+  [[nodiscard]] std::optional<double> events_per_bead_and_picosecond() const;
+  /// Each of these returns nothing if there are no events at times within steps.
+  [[nodiscard]] std::optional<double> created_per_event() const;
+  [[nodiscard]] std::optional<double> touched_per_event() const;
+  /// Returns the mean seconds per event at the times of events, internal events included.
+  [[nodiscard]] std::optional<double> responsiveness() const;
 };
 
 /// An input of the comparison.
@@ -72,13 +109,39 @@ struct ComparedInput {
   int dimension = 3;
   bool truncated = false;  ///< frames are missing at the end
   double radius_min = 0, radius_max = 0;
-  std::vector<std::string> bead_names;  ///< empty names if the file has none
+  std::vector<std::string> bead_names = {};  ///< empty names if the file has none
+  std::optional<double> frame_picoseconds =
+      {};  ///< from one frame to the next, on average; empty without times
+};
+/// Returns "108 beads, 1,000 frames 0.02 ps apart".
+[[nodiscard]] std::string size_text(const ComparedInput& input);
+
+/// Means over all inputs of a structure, at one stride and with one motion. Each input counts alike, and the
+/// intervals come from the spread between inputs. The intervals are wide for few inputs.
+struct PooledRow {
+  std::string structure;
+  std::size_t stride = 1;
+  FrameMotion motion = FrameMotion::linear;
+  std::size_t inputs = 0;
+  /// Empty if fewer than two inputs have the quantity.
+  std::optional<MeanInterval> events_per_step = {}, events_per_bead_and_step = {},
+                              events_per_bead_and_picosecond = {}, events_per_net_change = {};
 };
 
 struct Comparison {
   std::vector<ComparedInput> inputs;
   std::vector<CompareRow> rows;  ///< ordered by input, motion, stride and structure
 };
+
+/// Returns a row for each structure, stride and motion; none if there is only one input.
+[[nodiscard]] std::vector<PooledRow> pooled_rows(const Comparison& comparison);
+
+/// Runs the structures that the options name over a scene, `rounds` times plainly for the times and as often
+/// event by event for the costs of events. Returns a row for each structure, with stride 1 and without the
+/// name of an input. `step_done` is called 2 * rounds times for each step.
+[[nodiscard]] std::vector<CompareRow> measure_runs(const Scene& scene, const RunOptions& options,
+                                                   std::size_t rounds,
+                                                   const std::function<void()>& step_done);
 
 /// Runs the comparison. All radii come from the frames that the options ask for, whatever the stride. Finds
 /// all errors that the user can fix before the first run and throws InputError. Each warning about an input

@@ -184,7 +184,7 @@ void expect_as_in_a_run(const Json& rows, const std::string& stride, const std::
         EXPECT_EQ(row[kind], count) << kind;
       }
     EXPECT_EQ(row["compactness"], expected["certificates"]["peak"]);
-    EXPECT_EQ(row["locality"], expected["certificates"]["per_bead_max"]);
+    EXPECT_GE(row["locality"], expected["certificates"]["per_bead_max"]);
     int net = 0;
     for (int k = 1; k <= steps; ++k) {
       const auto of_frame = [&](int frame, const std::string& ending) {
@@ -197,7 +197,8 @@ void expect_as_in_a_run(const Json& rows, const std::string& stride, const std::
     if (name == "contacts") net = pairs_changed(dump / "contacts.csv", steps);
     EXPECT_EQ(row["net_changes"], net);
     EXPECT_GT(net, 0);
-    EXPECT_DOUBLE_EQ(row["efficiency"], row["events"].get<double>() / net);
+    EXPECT_DOUBLE_EQ(row["events_per_net_change"], row["events"].get<double>() / net);
+    EXPECT_EQ(row["efficiency"], 1);  // none of these structures has internal events
     EXPECT_DOUBLE_EQ(row["events_per_step"], row["events"].get<double>() / steps);
     std::uint64_t at_levels = 0, at_beads = 0;
     for (const Json& count : row["by_bead"]) at_beads += count.get<std::uint64_t>();
@@ -226,8 +227,8 @@ TEST(Compare, CountsAsSingleRunsAndTheirDumpsDo) {
 }
 
 TEST(Compare, EventsOfVillinByStride) {
-  const ProgramRun run =
-      run_program({"compare", kDcd, "--topology", kPdb, "--strides", "1,2,4,8,16,32", "--json", "-"});
+  const ProgramRun run = run_program(
+      {"compare", kDcd, "--topology", kPdb, "--strides", "1,2,4,8,16,32", "--rounds", "1", "--json", "-"});
   ASSERT_EQ(run.code, 0) << run.err;
   std::vector<int> wrapped, power;
   const Json rows = Json::parse(run.out)["rows"];
@@ -249,8 +250,8 @@ TEST(Compare, SeveralInputsWithAPage) {
   ASSERT_EQ(both.code, 0) << both.err;
   EXPECT_THAT(both.out, HasSubstr("ends.xyz, linear motion"));
   const std::string csv = content_of(scratch / "out/compare.csv");
-  EXPECT_THAT(
-      csv, testing::StartsWith("structure,input,stride,motion,steps,events,interchange,enter,leave,pivot,"));
+  EXPECT_THAT(csv, testing::StartsWith(
+                       "structure,input,stride,motion,beads,steps,events,interchange,enter,leave,pivot,"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 9);
   const std::string page = content_of(scratch / "out/report.html");
   expect_sound(page);
@@ -270,12 +271,12 @@ TEST(Compare, ManyRowsStayLegible) {
   ASSERT_EQ(run.code, 0) << run.err;
   const std::string page = content_of(scratch / "out/report.html");
   expect_sound(page);
-  // The panels show changes per step, changes in all, and efficiency.
-  EXPECT_EQ(count_of(page, "<div class=\"panels\">"), 3U);
+  // The panels show changes per step, changes in all, events per net change, and changes over time.
+  EXPECT_EQ(count_of(page, "<div class=\"panels\">"), 4U);
   for (const char* structure : {"box", "wrapped", "power"})
-    EXPECT_EQ(count_of(page, "<h3>" + std::string(structure) + "</h3>"), 3U);
+    EXPECT_EQ(count_of(page, "<h3>" + std::string(structure) + "</h3>"), 4U);
   EXPECT_EQ(count_of(page, "along the chain, each row"), 1U);
-  EXPECT_EQ(count_of(page, "<tr class=\"detail\"><th scope=\"row\">power, stride 2</th>"), 4U);
+  EXPECT_EQ(count_of(page, "<tr class=\"detail\"><th scope=\"row\">power, stride 2</th>"), 8U);
   for (const char* part : {"wrapped, hermite, again.dcd: at most ", "overtake (internal)",
                            "<dt>locality</dt>", "of 2 inputs on 2 motions <strong>power</strong> changes "})
     EXPECT_THAT(page, HasSubstr(part));
@@ -315,6 +316,69 @@ TEST(Compare, TakesInstancesBoxesAndLayered) {
   EXPECT_LE(rows[1]["net_changes"], rows[1]["events"]);
   EXPECT_EQ(rows[2]["events"], 0);
   EXPECT_TRUE(rows[2]["net_changes"].is_null());
+}
+
+// Three beads on a line. Bead 1 overtakes both others in the first step and returns in the second. Each end
+// of the box changes once in each step, which makes 4 events. When bead 1 overtakes bead 2, or falls behind
+// it, the tournament of the high end changes inside, without a change of the end: 2 internal events.
+TEST(Compare, MeasuresAsByHand) {
+  const ScratchDirectory scratch;
+  const std::string line = scratch.file("line.xyz",
+                                        "3\na\nC 2 0 0\nC 0 0 0\nC 1 0 0\n"
+                                        "3\nb\nC 2 0 0\nC 3 0 0\nC 1 0 0\n"
+                                        "3\nc\nC 2 0 0\nC 0 0 0\nC 1 0 0\n");
+  const ProgramRun run = run_program(
+      {"compare", line, "--structures", "sorted,box", "--dt", "0.5", "--rounds", "1", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["inputs"][0]["frame_picoseconds"], 0.5);
+  EXPECT_TRUE(json["pooled"].empty());
+  const Json &sorted = json["rows"][0], &box = json["rows"][1];
+  EXPECT_EQ(sorted["events"], 4);
+  EXPECT_EQ(sorted["efficiency"], 1);
+  EXPECT_EQ(sorted["net_changes"], 6);  // three ranks change in each step
+  EXPECT_EQ(sorted["events_per_net_change"].get<double>(), 4.0 / 6);
+  EXPECT_EQ(sorted["events_per_step"], 2);
+  EXPECT_EQ(sorted["events_per_step_lower"], nullptr);  // too few steps
+  EXPECT_EQ(sorted["events_per_step_first"], 2);
+  EXPECT_EQ(sorted["events_per_ps"], 4);
+  EXPECT_EQ(sorted["events_per_bead_ps"].get<double>(), 4.0 / 3);
+  EXPECT_EQ(sorted["compactness"], 2);  // consecutive beads
+  EXPECT_EQ(sorted["locality"], 2);
+  // At an interchange the certificate that failed is replaced, and so is the one other beside it.
+  EXPECT_EQ(sorted["created_per_event"], 2);
+  EXPECT_EQ(sorted["touched_per_event"], 4);
+  EXPECT_EQ(sorted["touched_most"], 4);
+  EXPECT_GT(sorted["responsiveness_worst"], 0);
+  EXPECT_EQ(box["events"], 4);
+  EXPECT_EQ(box["internal"], 2);
+  EXPECT_EQ(box["efficiency"], 1.5);
+  EXPECT_EQ(sorted["over_time"], (Json{{"steps", 1}, {"events", {2, 2}}}));
+}
+
+TEST(Compare, InputsArePooledWithATopologyForEach) {
+  const ScratchDirectory scratch;
+  const std::string again = (scratch / "again.dcd").string(), names = (scratch / "names.pdb").string();
+  std::filesystem::copy_file(kDcd, again);
+  std::filesystem::copy_file(kPdb, names);
+  const ProgramRun run =
+      run_program({"compare", kDcd, again, "--topology", kPdb + "," + names, "--structures", "wrapped",
+                   "--frames", ":60", "--rounds", "1", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  const Json &row = json["rows"][0], &pooled = json["pooled"][0];
+  EXPECT_EQ(pooled["inputs"], 2);
+  // Two equal inputs have no spread between them.
+  for (const char* key : {"events_per_step", "events_per_step_lower", "events_per_step_upper"})
+    EXPECT_DOUBLE_EQ(pooled[key], row["events_per_step"]) << key;
+  EXPECT_DOUBLE_EQ(pooled["events_per_bead_step"].get<double>() * 108, row["events_per_step"]);
+  EXPECT_LT(row["events_per_step_lower"], row["events_per_step"]);
+  const ProgramRun bad = run_program({"compare", kDcd, "--topology", kPdb + "," + names});
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_THAT(bad.err, HasSubstr("--topology: lists 2 files for 1 INPUT"));
+  const ProgramRun missing = run_program({"compare", kDcd, again, "--topology", kPdb + ",nowhere.pdb"});
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_THAT(missing.err, HasSubstr("nowhere.pdb: no such file"));
 }
 
 TEST(Compare, RefusesBeforeAnythingHasRun) {
