@@ -81,22 +81,32 @@ Trusted looseness(const StaticWrappedHierarchy<3>& hierarchy, const Subject& sub
 }
 
 // `gains` has one entry for each subject whose search is repeated under either bound.
-std::string bounds_answer(const std::vector<double>& gains) {
+std::string bounds_answer(const std::vector<double>& gains, std::size_t subjects) {
   if (gains.empty()) return "Measured displacements never repeat a search at a skin of one radius.";
   const Spread rarer = spread_of(gains);
   return fmt::format(
       "Measured displacements repeat the search for near pairs {} to {} times more rarely than a bound on "
       "speed, at a skin of one radius, on {} of {} chains; on the others they never repeat it.",
-      short_decimal(rarer.least), short_decimal(rarer.most), gains.size(), moving_subject_count);
+      short_decimal(rarer.least), short_decimal(rarer.most), gains.size(), subjects);
+}
+
+// Returns the numbers of frames for which this subject can be trusted.
+std::vector<std::size_t> frames_trusted(const Subject& subject) {
+  std::vector<std::size_t> frames(kFramesTrusted.begin(), kFramesTrusted.end());
+  std::erase_if(frames, [&](std::size_t trusted) { return trusted >= subject.frames.size(); });
+  return frames;
 }
 
 }  // namespace
 
-std::size_t bounds_steps() { return moving_subject_count; }
-std::size_t trust_steps() { return moving_subject_count * kFramesTrusted.size(); }
+std::size_t bounds_steps(const MovingSubjects& subjects) { return subjects.size(); }
+std::size_t trust_steps(const MovingSubjects& subjects) {
+  std::size_t steps = 0;
+  for (const NamedSubject& subject : subjects) steps += frames_trusted(subject.subject).size();
+  return steps;
+}
 
-Question ask_about_bounds(const std::filesystem::path& data, std::uint64_t seed,
-                          const std::function<void()>& step_done) {
+Question ask_about_bounds(const MovingSubjects& subjects, const std::function<void()>& step_done) {
   Question question;
   std::vector<double> gains;
   question.name = "bounds";
@@ -114,8 +124,7 @@ Question ask_about_bounds(const std::filesystem::path& data, std::uint64_t seed,
       "of the two largest displacements is measured, because two beads approach each other. Without drift: "
       "the mean displacement of all beads, which changes no distance, is subtracted first. Plots leave out "
       "counts of 0.";
-  for (std::size_t which = 0; which < moving_subject_count; ++which) {
-    const auto [name, subject] = moving_subject(which, data, seed);
+  for (const auto& [name, subject] : subjects) {
     const double speed = speed_of(subject), radius = subject.radii.front();
     const auto frames = static_cast<double>(subject.frames.size());
     QuestionCurve by_speed{"", name + ", by speed", {}, {}},
@@ -152,11 +161,11 @@ Question ask_about_bounds(const std::filesystem::path& data, std::uint64_t seed,
     question.curves.push_back(std::move(best));
     step_done();
   }
-  question.answer = bounds_answer(gains);
+  question.answer = bounds_answer(gains, subjects.size());
   return question;
 }
 
-Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, std::size_t rounds,
+Question ask_about_trust(const MovingSubjects& subjects, std::size_t rounds,
                          const std::function<void()>& step_done) {
   Question question;
   std::vector<double> savings, slack;
@@ -177,13 +186,12 @@ Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, 
       "measured displacement, bounds how far. The table gives these bounds and how far beads really stick "
       "out, as means over all nodes and as shares of the radii. Times are medians of the rounds at one "
       "frame, with the least and the most.";
-  for (std::size_t which = 0; which < moving_subject_count; ++which) {
-    const auto [name, subject] = moving_subject(which, data, seed);
+  for (const auto& [name, subject] : subjects) {
     const double speed = speed_of(subject);
     QuestionCurve by_speed{name, "by speed", {}, {}}, by_displacement{name, "by displacement", {}, {}},
         really{name, "really", {}, {}};
     double saved = 0;
-    for (const std::size_t trusted : kFramesTrusted) {
+    for (const std::size_t trusted : frames_trusted(subject)) {
       Trusted sum;
       std::size_t looks = 0;
       StaticWrappedHierarchy<3> hierarchy(subject.necklaces);
@@ -233,9 +241,9 @@ Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed, 
         name, short_decimal(saved), short_decimal(by_speed.points.front().second),
         short_decimal(by_displacement.points.front().second), short_decimal(really.points.front().second)));
     for (QuestionCurve* curve : {&by_speed, &by_displacement, &really}) {
-      if (const auto fit = curve->fit())
+      for (const CurveFit& fitted : curve->fits())
         question.findings.push_back(
-            fmt::format("{}, {}: grows as frames^{}.", name, curve->name, exponent_text(*fit)));
+            fmt::format("{}, {}: grows as frames^{}.", name, curve->name, exponent_text(fitted.fit)));
       question.curves.push_back(std::move(*curve));
     }
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <string_view>
 
 #include "experiments/output/text.h"
@@ -56,46 +58,116 @@ Deformation deformation(const Eigen::Matrix3Xd& before, const Eigen::Matrix3Xd& 
   return result;
 }
 
-Eigen::Matrix3Xd chain_of(const ChainAngles& angles, double bond) {
-  const auto beads = static_cast<Eigen::Index>(angles.bending.size()) + 2;
-  Eigen::Matrix3Xd chain = Eigen::Matrix3Xd::Zero(3, beads);
-  Vector along = Vector::UnitX(), normal = Vector::UnitZ();
-  chain.col(1) = bond * along;
-  for (Eigen::Index bead = 2; bead < beads; ++bead) {
-    const auto k = static_cast<std::size_t>(bead - 2);
-    if (k > 0) normal = Eigen::AngleAxisd(angles.torsion[k - 1], along) * normal;
-    along = Eigen::AngleAxisd(std::numbers::pi - angles.bending[k], normal) * along;
+namespace {
+
+// A chain that grows bead by bead.
+class GrowingChain {
+ public:
+  explicit GrowingChain(std::size_t beads, double bond)
+      : bond_(bond), centers_(Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(beads))) {
+    centers_.col(1) = bond * along_.back();
+  }
+
+  [[nodiscard]] std::size_t beads() const { return along_.size() + 1; }
+  /// The torsion angle of the first bead added has no meaning.
+  void add(double bending, double torsion) {
+    Vector normal = normal_.back(), along = along_.back();
+    if (beads() > 2) normal = Eigen::AngleAxisd(torsion, along) * normal;
+    along = Eigen::AngleAxisd(std::numbers::pi - bending, normal) * along;
     along.normalize();
     normal = (normal - normal.dot(along) * along).normalized();
-    chain.col(bead) = chain.col(bead - 1) + bond * along;
+    const auto bead = static_cast<Eigen::Index>(beads());
+    centers_.col(bead) = centers_.col(bead - 1) + bond_ * along;
+    along_.push_back(along);
+    normal_.push_back(normal);
   }
-  return chain;
+  void remove_last() {
+    along_.pop_back();
+    normal_.pop_back();
+  }
+  /// Returns whether the last bead overlaps another bead of radius 1 but the one before it.
+  [[nodiscard]] bool overlaps() const {
+    const auto last = static_cast<Eigen::Index>(beads()) - 1;
+    for (Eigen::Index bead = 0; bead + 1 < last; ++bead)
+      if ((centers_.col(last) - centers_.col(bead)).squaredNorm() <= 4) return true;
+    return false;
+  }
+  [[nodiscard]] const Eigen::Matrix3Xd& centers() const { return centers_; }
+
+ private:
+  double bond_;
+  Eigen::Matrix3Xd centers_;
+  std::vector<Vector> along_{Vector::UnitX()}, normal_{Vector::UnitZ()};  // of each bond
+};
+
+}  // namespace
+
+Eigen::Matrix3Xd chain_of(const ChainAngles& angles, double bond) {
+  GrowingChain chain(angles.bending.size() + 2, bond);
+  for (std::size_t k = 0; k < angles.bending.size(); ++k)
+    chain.add(angles.bending[k], k == 0 ? 0 : angles.torsion[k - 1]);
+  return chain.centers();
+}
+
+ChainAngles self_avoiding_angles(std::size_t beads, double bond, const DrawAngles& draw) {
+  constexpr int tries_of_a_bead = 50, most_dead_ends = 10'000;
+  constexpr std::size_t least_shortened = 8;
+  GrowingChain chain(beads, bond);
+  std::vector<std::pair<double, double>> drawn;
+  for (int dead_ends = 0; chain.beads() < beads;) {
+    bool found = false;
+    for (int tries = 0; tries < tries_of_a_bead && !found; ++tries) {
+      drawn.push_back(draw(chain.beads()));
+      chain.add(drawn.back().first, drawn.back().second);
+      found = !chain.overlaps();
+      if (found) break;
+      chain.remove_last();
+      drawn.pop_back();
+    }
+    if (found) continue;
+    if (++dead_ends > most_dead_ends) throw std::runtime_error("a self-avoiding chain finds no room");
+    // A dead end may come from far back, so each of six shortens the chain twice as much as the one before.
+    const std::size_t shortened = least_shortened << static_cast<unsigned>(dead_ends % 6);
+    for (std::size_t k = 0; k < shortened && !drawn.empty(); ++k) {
+      chain.remove_last();
+      drawn.pop_back();
+    }
+  }
+  ChainAngles angles;
+  for (std::size_t k = 0; k < drawn.size(); ++k) {
+    angles.bending.push_back(drawn[k].first);
+    if (k > 0) angles.torsion.push_back(drawn[k].second);
+  }
+  return angles;
 }
 
 namespace {
 
 constexpr std::array<std::size_t, 6> kStrides{1, 2, 4, 8, 16, 32};
-constexpr int kAmplitudes = 9;  // 2^-10 ... 2^-2 radians
+constexpr int kAmplitudes = 11;  // 2^-10 ... 1 radian
 constexpr std::size_t kChainBeads = 128;
 // Number of conformations at the largest amplitude. Each smaller amplitude has twice as many, up to the
 // maximum, because its steps have fewer changes.
-constexpr std::size_t kLeastConformations = 32, kMostConformations = 256;
+constexpr std::size_t kLeastConformations = 16, kMostConformations = 128;
 constexpr std::size_t kShares = 16;  // shares of an amplitude's conformations, for the jackknife interval
 // Least distance of a bending angle from 0 and pi. At 0 or pi both adjacent torsion angles would jump by pi.
 constexpr double kLeastBending = 0.05 * std::numbers::pi;
 
-constexpr std::size_t kProteins = 2;  // the first of the moving subjects
+constexpr std::size_t kTimeBlocks = 8;  // of neighbouring frames of a trajectory, for the jackknife interval
 
 constexpr const char *kBases = "basis changes", *kFlips = "flips";
 
-enum class Angles { bending, torsion, both };
-constexpr std::array kAngles{Angles::bending, Angles::torsion, Angles::both};
-constexpr std::array<std::string_view, 3> kAngleNames{"bending", "torsion", "both"};
+/// Which angles of a random chain change. Self-avoiding chains change both kinds.
+enum class Angles { bending, torsion, both, self_avoiding };
+constexpr std::array kAngles{Angles::bending, Angles::torsion, Angles::both, Angles::self_avoiding};
+constexpr std::array<std::string_view, 4> kAngleNames{"random chain, bending", "random chain, torsion",
+                                                      "random chain, both", "self-avoiding chain, both"};
 
 // One step between frames.
 struct Step {
   Deformation deformation;
   double bases = 0, flips = 0;  ///< numbers of events
+  std::size_t share = 0;        ///< the share of the measurements to which the step belongs
 };
 
 std::vector<Step> steps_of(std::vector<Eigen::Matrix3Xd> frames, const std::vector<double>& radii) {
@@ -129,18 +201,33 @@ Step mean_of(std::span<const Step> steps) {
   return mean;
 }
 
+std::vector<Step> without_share(std::span<const Step> steps, std::size_t share) {
+  std::vector<Step> others;
+  for (const Step& step : steps)
+    if (step.share != share) others.push_back(step);
+  return others;
+}
+
+// Returns the strides that leave at least two steps.
+std::vector<std::size_t> strides_of(const Subject& subject) {
+  std::vector<std::size_t> strides(kStrides.begin(), kStrides.end());
+  std::erase_if(strides, [&](std::size_t stride) { return 2 * stride >= subject.frames.size(); });
+  return strides;
+}
+
 // Returns a sample of the standard normal distribution.
 double normal(models::Random& random) {
   const double u = 1 - random.uniform(), v = random.uniform();
   return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
 }
 
+double random_bending(models::Random& random) { return std::numbers::pi * (0.4 + 0.4 * random.uniform()); }
+double random_torsion(models::Random& random) { return 2 * std::numbers::pi * random.uniform(); }
+
 ChainAngles random_angles(models::Random& random) {
   ChainAngles angles;
-  for (std::size_t k = 0; k < kChainBeads - 2; ++k)
-    angles.bending.push_back(std::numbers::pi * (0.4 + 0.4 * random.uniform()));
-  for (std::size_t k = 0; k < kChainBeads - 3; ++k)
-    angles.torsion.push_back(2 * std::numbers::pi * random.uniform());
+  for (std::size_t k = 0; k < kChainBeads - 2; ++k) angles.bending.push_back(random_bending(random));
+  for (std::size_t k = 0; k < kChainBeads - 3; ++k) angles.torsion.push_back(random_torsion(random));
   return angles;
 }
 
@@ -156,12 +243,13 @@ std::size_t conformations_at(int amplitude) {
   return std::min(kMostConformations, kLeastConformations << (kAmplitudes - 1 - amplitude));
 }
 
+constexpr double kBond = 2 * models::usual_bond;
+
 class Measurement {
  public:
-  Measurement(const std::filesystem::path& data, std::uint64_t seed, const std::function<void()>& step_done)
-      : data_(data), seed_(seed), step_done_(step_done) {}
+  explicit Measurement(const std::function<void()>& step_done) : step_done_(step_done) {}
 
-  Question ask() {
+  Question ask(const MovingSubjects& subjects, const std::optional<RandomChains>& chains) {
     question_.name = "energy";
     question_.title = "How does the number of changes grow with the deformation energy?";
     question_.columns = {{"step", "stride or amplitude"},
@@ -175,94 +263,156 @@ class Measurement {
     question_.words = fmt::format(
         "The energy of a step is half the sum of the squared changes of all bending angles and of all "
         "torsion angles of the chain, in radians, between two frames: springs of stiffness 1. Basis changes "
-        "are events of the wrapped hierarchy and flips are events of the power diagram, all exact, under "
-        "linear motion. Trajectories are examined frame by frame and over strides up to {}. The steps at "
-        "stride 1 are also sorted by energy into eight groups of equal size. Random chains have {} beads, "
-        "bending angles between 0.4 and 0.8 pi, any torsion; in a step all angles of one kind, or of both, "
-        "change by normal random amounts of the given amplitude. An amount is drawn again if a bending angle "
-        "would come within 0.05 pi of 0 or pi. Each amplitude has its own random conformations, from {} at "
-        "the largest to {} at the small amplitudes. The intervals of exponents of random chains come from a "
-        "jackknife over {} equal shares of the conformations. The intervals of trajectories come from a line "
-        "through few points, which share frames.",
-        kStrides.back(), kChainBeads, kLeastConformations, kMostConformations, kShares);
-    for (std::size_t which = 0; which < kProteins; ++which) ask(moving_subject(which, data_, seed_));
-    for (const Angles angles : kAngles) ask(angles);
-    question_.answer = answer();
+        "are events of the wrapped hierarchy, flips those of the power diagram, under linear motion, all "
+        "exact. Trajectories are measured frame by frame and over strides to {}; the steps at stride 1 are "
+        "also grouped by energy, in eight groups of equal size. The intervals of trajectories leave out one "
+        "of {} "
+        "blocks of neighbouring frames at a time (block jackknife). Random chains have {} beads, bending "
+        "angles "
+        "between 0.4 and 0.8 pi and any torsion. In a step all angles of one kind, or of both, change by "
+        "normal "
+        "random amounts of the amplitude given, drawn again where a bending angle would come within 0.05 pi "
+        "of "
+        "0 or pi. Self-avoiding chains are grown bead by bead, at both ends of a step. Conformations are "
+        "drawn "
+        "anew for each amplitude, {} for each seed at the largest amplitude to {} at small ones; their "
+        "intervals leave out one of {} equal shares at a time.",
+        kStrides.back(), kTimeBlocks, kChainBeads, kLeastConformations, kMostConformations, kShares);
+    for (const NamedSubject& subject : subjects) ask_about(subject);
+    if (chains) {
+      for (const Angles angles : kAngles) ask_about(angles, *chains);
+      question_.answer = answer();
+    } else {
+      question_.answer =
+          "See the exponents over strides and by step below; energies near 0 make every number of "
+          "changes linear in the amplitude, which is an exponent of 0.5.";
+    }
     return std::move(question_);
   }
 
  private:
-  // Returns the answer for chains in which all angles change. These chains have the last two curves.
+  // Returns the answer for random chains in which all angles change.
   [[nodiscard]] std::string answer() const {
-    const std::size_t count = question_.curves.size();
-    const auto bases = question_.curves[count - 2].fit(), flips = question_.curves[count - 1].fit();
-    if (!bases || !flips) return "";
+    const auto of = [&](std::string_view plot, std::string_view name) -> std::string {
+      for (const QuestionCurve& curve : question_.curves) {
+        if (curve.plot != plot || curve.name != name) continue;
+        const auto fits = curve.fits();
+        if (fits.size() == 3)
+          return fmt::format(
+              "as energy^{} at the least amplitudes, as energy^{} at larger ones, and as energy^{} "
+              "at the largest",
+              exponent_text(fits[0].fit), exponent_text(fits[1].fit), exponent_text(fits[2].fit));
+      }
+      return "in no measured way";
+    };
+    const std::string_view both = kAngleNames[static_cast<std::size_t>(Angles::both)];
     return fmt::format(
-        "On random chains basis changes grow as energy^{} and flips as energy^{}: an exponent of 0.5 "
-        "is growth in proportion to how far angles change.",
-        exponent_text(*bases), exponent_text(*flips));
+        "On random chains basis changes grow {}, flips {}. An exponent of 0.5 is growth in proportion to how "
+        "far "
+        "angles change, which small steps always show.",
+        of(kBases, both), of(kFlips, both));
   }
 
-  void add(const std::string& subject, double step, std::span<const Step> steps, QuestionCurve& bases,
-           QuestionCurve& flips) {
+  void add(const std::string& subject, double step, std::span<const Step> steps) {
     const Step mean = mean_of(steps);
     question_.rows.push_back({subject,
                               {step, static_cast<double>(steps.size()), mean.deformation.bending,
                                mean.deformation.torsion, mean.bases, mean.flips}});
-    bases.points.emplace_back(mean.deformation.energy(), mean.bases);
-    flips.points.emplace_back(mean.deformation.energy(), mean.flips);
+  }
+
+  // Adds a point to each curve, and for each share the point without it. A share without steps changes
+  // nothing.
+  static void add_points(std::span<const Step> steps, std::size_t shares, QuestionCurve& bases,
+                         QuestionCurve& flips) {
+    const auto add = [&](std::span<const Step> some, auto& of_bases, auto& of_flips) {
+      const Step mean = mean_of(some);
+      of_bases.emplace_back(mean.deformation.energy(), mean.bases);
+      of_flips.emplace_back(mean.deformation.energy(), mean.flips);
+    };
+    add(steps, bases.points, flips.points);
+    bases.without.resize(shares);
+    flips.without.resize(shares);
+    for (std::size_t share = 0; share < shares; ++share) {
+      const std::vector<Step> others = without_share(steps, share);
+      add(others.empty() ? steps : others, bases.without[share], flips.without[share]);
+    }
   }
 
   void keep(QuestionCurve bases, QuestionCurve flips, std::string_view over) {
     for (QuestionCurve* curve : {&bases, &flips}) {
-      if (const auto fit = curve->fit())
-        question_.findings.push_back(fmt::format("{}, {}: grow as energy^{} over {}.", curve->name,
-                                                 curve->plot, exponent_text(*fit), over));
+      for (const CurveFit& fitted : curve->fits())
+        question_.findings.push_back(
+            fmt::format("{}, {}: grow as energy^{} over {}, energies from {} to {} rad².", curve->name,
+                        curve->plot, exponent_text(fitted.fit), fitted.part.empty() ? over : fitted.part,
+                        short_decimal(fitted.from), short_decimal(fitted.to)));
       question_.curves.push_back(std::move(*curve));
     }
   }
 
-  void ask(const NamedSubject& one) {
+  void ask_about(const NamedSubject& one) {
     const auto& [name, subject] = one;
     QuestionCurve bases{kBases, name, {}, {}}, flips{kFlips, name, {}, {}};
     std::vector<Step> finest;
-    for (const std::size_t stride : kStrides) {
+    for (const std::size_t stride : strides_of(subject)) {
       std::vector<Eigen::Matrix3Xd> frames;
       for (std::size_t k = 0; k < subject.frames.size(); k += stride) frames.push_back(subject.frames[k]);
-      const std::vector<Step> steps = steps_of(std::move(frames), subject.radii);
-      add(name, static_cast<double>(stride), steps, bases, flips);
-      if (stride == 1) finest = steps;
+      std::vector<Step> steps = steps_of(std::move(frames), subject.radii);
+      for (std::size_t k = 0; k < steps.size(); ++k)
+        steps[k].share = k * stride * kTimeBlocks / subject.frames.size();
+      add(name, static_cast<double>(stride), steps);
+      add_points(steps, kTimeBlocks, bases, flips);
+      if (stride == 1) finest = std::move(steps);
       step_done_();
     }
     keep(std::move(bases), std::move(flips), "strides");
     in_groups(name, std::move(finest));
   }
 
-  // Groups the steps of one trajectory by energy, to see whether a step with more energy has more changes.
-  void in_groups(const std::string& name, std::vector<Step> steps) {
+  // Returns the means of eight groups of steps of like energy.
+  static std::vector<Step> groups_of(std::vector<Step> steps) {
     constexpr std::size_t groups = 8;
-    std::ranges::sort(steps, {}, [](const Step& step) { return step.deformation.energy(); });
-    QuestionCurve bases{kBases, name + " by step", {}, {}}, flips{kFlips, name + " by step", {}, {}};
+    std::ranges::stable_sort(steps, {}, [](const Step& step) { return step.deformation.energy(); });
+    std::vector<Step> means;
     for (std::size_t g = 0; g < groups; ++g) {
       const std::size_t first = g * steps.size() / groups, end = (g + 1) * steps.size() / groups;
-      const Step mean = mean_of(std::span(steps).subspan(first, end - first));
-      bases.points.emplace_back(mean.deformation.energy(), mean.bases);
-      flips.points.emplace_back(mean.deformation.energy(), mean.flips);
+      if (first < end) means.push_back(mean_of(std::span(steps).subspan(first, end - first)));
     }
+    return means;
+  }
+
+  // Groups the steps of one trajectory by energy, to see whether a step with more energy has more changes.
+  void in_groups(const std::string& name, std::vector<Step> steps) {
+    QuestionCurve bases{kBases, name + " by step", {}, {}}, flips{kFlips, name + " by step", {}, {}};
+    const auto add = [](const std::vector<Step>& means, auto& of_bases, auto& of_flips) {
+      for (const Step& mean : means) {
+        of_bases.emplace_back(mean.deformation.energy(), mean.bases);
+        of_flips.emplace_back(mean.deformation.energy(), mean.flips);
+      }
+    };
+    add(groups_of(steps), bases.points, flips.points);
+    bases.without.resize(kTimeBlocks);
+    flips.without.resize(kTimeBlocks);
+    for (std::size_t block = 0; block < kTimeBlocks; ++block)
+      add(groups_of(without_share(steps, block)), bases.without[block], flips.without[block]);
     keep(std::move(bases), std::move(flips), "steps at stride 1");
   }
 
-  void ask(Angles angles) {
-    const std::string name = fmt::format("random chain, {}", kAngleNames[static_cast<std::size_t>(angles)]);
-    QuestionCurve bases{kBases, name, {}, {}}, flips{kFlips, name, {}, {}};
-    models::Random random(seed_ * kAngles.size() + static_cast<std::uint64_t>(angles));
+  void ask_about(Angles angles, const RandomChains& chains) {
+    const std::string name(kAngleNames[static_cast<std::size_t>(angles)]);
+    QuestionCurve bases{kBases, name, {}, {}, true}, flips{kFlips, name, {}, {}, true};
+    std::vector<models::Random> randoms;
+    for (std::size_t s = 0; s < chains.seeds; ++s)
+      randoms.emplace_back((chains.seed + s) * kAngles.size() + static_cast<std::uint64_t>(angles));
     for (int a = 0; a < kAmplitudes; ++a) {
-      const double amplitude = std::ldexp(1, a - kAmplitudes - 1);
+      const double amplitude = std::ldexp(1, a - kAmplitudes + 1);
       std::vector<Step> steps;
-      for (std::size_t c = 0; c < conformations_at(a); ++c)
-        steps.push_back(random_step(angles, amplitude, random));
-      add(name, amplitude, steps, bases, flips);
-      add_shares(steps, bases, flips);
+      for (models::Random& random : randoms)
+        for (std::size_t c = 0; c < conformations_at(a); ++c) {
+          steps.push_back(random_step(angles, amplitude, random));
+          steps.back().share = c % kShares;
+        }
+      add(name, amplitude, steps);
+      add_points(steps, kShares, bases, flips);
       step_done_();
     }
     keep(std::move(bases), std::move(flips), "amplitudes");
@@ -270,45 +420,42 @@ class Measurement {
 
   static Step random_step(Angles angles, double amplitude, models::Random& random) {
     static const std::vector<double> radii(kChainBeads, models::radius);
-    const ChainAngles from = random_angles(random);
-    ChainAngles to = from;
-    if (angles != Angles::torsion)
-      for (double& angle : to.bending) angle = changed_bending(angle, amplitude, random);
-    if (angles != Angles::bending)
-      for (double& angle : to.torsion) angle += amplitude * normal(random);
-    return steps_of({chain_of(from, 2 * models::usual_bond), chain_of(to, 2 * models::usual_bond)}, radii)
-        .front();
-  }
-
-  // Adds to each curve, for each share, the point just added as it is without that share.
-  static void add_shares(const std::vector<Step>& steps, QuestionCurve& bases, QuestionCurve& flips) {
-    bases.without.resize(kShares);
-    flips.without.resize(kShares);
-    for (std::size_t share = 0; share < kShares; ++share) {
-      std::vector<Step> others;
-      for (std::size_t c = 0; c < steps.size(); ++c)
-        if (c % kShares != share) others.push_back(steps[c]);
-      const Step mean = mean_of(others);
-      bases.without[share].emplace_back(mean.deformation.energy(), mean.bases);
-      flips.without[share].emplace_back(mean.deformation.energy(), mean.flips);
+    ChainAngles from, to;
+    if (angles == Angles::self_avoiding) {
+      from = self_avoiding_angles(kChainBeads, kBond, [&](std::size_t) {
+        const double bending = random_bending(random);
+        return std::pair(bending, random_torsion(random));
+      });
+      to = self_avoiding_angles(kChainBeads, kBond, [&](std::size_t bead) {
+        const double bending = changed_bending(from.bending[bead - 2], amplitude, random);
+        return std::pair(bending, bead < 3 ? 0 : from.torsion[bead - 3] + amplitude * normal(random));
+      });
+    } else {
+      from = random_angles(random);
+      to = from;
+      if (angles != Angles::torsion)
+        for (double& angle : to.bending) angle = changed_bending(angle, amplitude, random);
+      if (angles != Angles::bending)
+        for (double& angle : to.torsion) angle += amplitude * normal(random);
     }
+    return steps_of({chain_of(from, kBond), chain_of(to, kBond)}, radii).front();
   }
 
-  const std::filesystem::path& data_;
-  std::uint64_t seed_;
   const std::function<void()>& step_done_;
   Question question_;
 };
 
 }  // namespace
 
-std::size_t energy_steps() {
-  return kProteins * kStrides.size() + kAngles.size() * static_cast<std::size_t>(kAmplitudes);
+std::size_t energy_steps(const MovingSubjects& subjects, bool random_chains) {
+  std::size_t steps = random_chains ? kAngles.size() * static_cast<std::size_t>(kAmplitudes) : 0;
+  for (const NamedSubject& subject : subjects) steps += strides_of(subject.subject).size();
+  return steps;
 }
 
-Question ask_about_energy(const std::filesystem::path& data, std::uint64_t seed,
+Question ask_about_energy(const MovingSubjects& subjects, const std::optional<RandomChains>& random_chains,
                           const std::function<void()>& step_done) {
-  return Measurement(data, seed, step_done).ask();
+  return Measurement(step_done).ask(subjects, random_chains);
 }
 
 }  // namespace kds

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/program/input_options.h"
 #include "experiments/program/power_fit.h"
 #include "experiments/reproduce/measurements.h"
 
@@ -28,6 +29,13 @@ struct QuestionRow {
   std::vector<std::optional<double>> values;  ///< in the order of the columns
 };
 
+/// A power law that is fitted to a part of a curve.
+struct CurveFit {
+  std::string part;         ///< "", or which points: "the 4 least amplitudes"
+  double from = 0, to = 0;  ///< least and largest x of the points
+  PowerFit fit;
+};
+
 /// A curve of a plot with two logarithmic axes. A power law is fitted to the curve if it has enough points.
 struct QuestionCurve {
   std::string plot;  ///< name of the plot; curves with one name share a plot
@@ -36,9 +44,13 @@ struct QuestionCurve {
   /// Each element has the points as they are without one of several equal shares of the measurements. Empty
   /// if there are no shares.
   std::vector<std::vector<std::pair<double, double>>> without;
-  [[nodiscard]] std::optional<PowerFit> fit() const {
-    return without.empty() ? fit_power(points) : fit_power(points, without);
-  }
+  /// Whether the exponent changes along the curve, so that one power law does not describe it.
+  bool crossover = false;
+
+  /// Returns a fit to all points. For a crossover of at least eight points, returns fits to the four least,
+  /// to the four before the last two, and to the three largest. Intervals come from `without`; if it is
+  /// empty, they are those of independent normal errors.
+  [[nodiscard]] std::vector<CurveFit> fits() const;
 };
 
 struct Question {
@@ -59,22 +71,25 @@ struct NamedSubject {
   Subject subject;
 };
 
-inline constexpr std::size_t moving_subject_count = 3;
-/// Returns one of three subjects with 200 frames each: two trajectories, and a random chain that moves
-/// slowly.
-[[nodiscard]] NamedSubject moving_subject(std::size_t which, const std::filesystem::path& data,
-                                          std::uint64_t seed);
+using MovingSubjects = std::vector<NamedSubject>;
+/// Returns the subjects if the user gives none, with 200 frames each: two trajectories in the folder `data`,
+/// and a random chain that moves slowly.
+[[nodiscard]] MovingSubjects usual_subjects(const std::filesystem::path& data, std::uint64_t seed);
+/// Reads each input as a subject. Throws InputError for an input of several necklaces, of fewer than four
+/// beads or of fewer than three frames.
+[[nodiscard]] MovingSubjects subjects_of(const InputOptions& options,
+                                         const std::function<void(const std::string&)>& warn);
 
 /// "What properties of a physical model can be exploited to make hierarchy updates faster?" Measures how
 /// rarely near pairs, found within a skin, must be found again, depending on the known bound on the motion.
-[[nodiscard]] Question ask_about_bounds(const std::filesystem::path& data, std::uint64_t seed,
+[[nodiscard]] Question ask_about_bounds(const MovingSubjects& subjects,
                                         const std::function<void()>& step_done);
 /// Asks the question of ask_about_bounds too. Measures the work saved by trusting the bases of the wrapped
 /// hierarchy for several frames, and how far beads may then stick out.
-[[nodiscard]] Question ask_about_trust(const std::filesystem::path& data, std::uint64_t seed,
-                                       std::size_t rounds, const std::function<void()>& step_done);
-[[nodiscard]] std::size_t bounds_steps();
-[[nodiscard]] std::size_t trust_steps();
+[[nodiscard]] Question ask_about_trust(const MovingSubjects& subjects, std::size_t rounds,
+                                       const std::function<void()>& step_done);
+[[nodiscard]] std::size_t bounds_steps(const MovingSubjects& subjects);
+[[nodiscard]] std::size_t trust_steps(const MovingSubjects& subjects);
 
 /// "How can we best integrate the power diagram and the sphere hierarchy so as to get the advantages of
 /// each?" Measures one way: the hierarchy settles as much as it can down to blocks of beads, and a diagram of
@@ -102,11 +117,25 @@ struct ChainAngles {
 };
 [[nodiscard]] Eigen::Matrix3Xd chain_of(const ChainAngles& angles, double bond);
 
+/// Draws the angles of bead `bead` >= 2: the bending angle at the bead before it, and, from bead 3 on, the
+/// torsion angle of the bond to that bead.
+using DrawAngles = std::function<std::pair<double, double>(std::size_t bead)>;
+/// Grows a chain of beads of radius 1 bead by bead. No two beads overlap but consecutive ones. Angles are
+/// drawn again where beads would overlap, and the chain is shortened at dead ends. Throws std::runtime_error
+/// if it finds no room.
+[[nodiscard]] ChainAngles self_avoiding_angles(std::size_t beads, double bond, const DrawAngles& draw);
+
 /// "Can we prove bounds on the number of combinatorial changes in the wrapped hierarchy, assuming a physical
 /// model of deformation and a given deformation energy budget?" Measures the number of changes as a function
-/// of the energy of deformation. `data` is the data folder with the trajectories.
-[[nodiscard]] Question ask_about_energy(const std::filesystem::path& data, std::uint64_t seed,
+/// of the energy of deformation, of the subjects and of random chains of `seeds` seeds from `seed` on.
+/// Without `random_chains` only the subjects are measured.
+struct RandomChains {
+  std::uint64_t seed = 1;
+  std::size_t seeds = 1;
+};
+[[nodiscard]] Question ask_about_energy(const MovingSubjects& subjects,
+                                        const std::optional<RandomChains>& random_chains,
                                         const std::function<void()>& step_done);
-[[nodiscard]] std::size_t energy_steps();
+[[nodiscard]] std::size_t energy_steps(const MovingSubjects& subjects, bool random_chains);
 
 }  // namespace kds

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -100,14 +102,17 @@ Json questions_json(std::span<const Question> questions) {
   for (const Question& question : questions) {
     Json fits = Json::array();
     for (const QuestionCurve& curve : question.curves)
-      if (const auto fit = curve.fit())
+      for (const auto& [part, from, to, fit] : curve.fits())
         fits.push_back({{"curve", curve.plot.empty() ? curve.name : curve.plot + ", " + curve.name},
-                        {"points", fit->points},
-                        {"left_out", fit->left_out},
-                        {"exponent", fit->exponent},
-                        {"lower", fit->lower},
-                        {"upper", fit->upper},
-                        {"factor", fit->factor}});
+                        {"part", part},
+                        {"from", from},
+                        {"to", to},
+                        {"points", fit.points},
+                        {"left_out", fit.left_out},
+                        {"exponent", fit.exponent},
+                        {"lower", fit.lower},
+                        {"upper", fit.upper},
+                        {"factor", fit.factor}});
     json.push_back({{"question", question.name},
                     {"title", question.title},
                     {"answer", question.answer},
@@ -161,16 +166,19 @@ constexpr CommandSpec kQuestionsCommand{
     "  bounds       how many searches for near pairs a bound on speed or displacement saves\n"
     "  trust        time saved by not checking spheres for some frames, and how far beads then stick out\n"
     "  combination  whether diagram and hierarchy together do better than the better of the two alone",
-    "[QUESTION]...",
-    "energy, bounds, trust, combination (default: all)",
+    "[QUESTION|INPUT]...",
+    "energy, bounds, trust, combination (default: all). Other words are trajectories of one chain, which "
+    "take the place of data/ and random chains in the first three",
     "kds questions --out report\n"
-    "kds questions energy --seed 7 --json -",
+    "kds questions energy --seed 7 --json -\n"
+    "kds questions energy villin.dcd --topology villin.pdb",
 };
 
-struct QuestionsAsked : Destinations {
+struct QuestionsAsked : InputOptions, Destinations {
   std::vector<std::string> questions;
   std::filesystem::path data = source_data_folder();
   std::uint64_t seed = 1;
+  std::size_t seeds = 1;
   std::size_t rounds = 5;
 };
 
@@ -181,58 +189,113 @@ const OptionList<QuestionsAsked>& questions_options() {
           .with({data_option(&O::data),
                  whole_option({"--seed", "N", "seed of the random chains (default: 1)"}, &O::seed, 0,
                               UINT64_MAX),
+                 whole_option(
+                     {"--seeds", "N", "energy: pool random chains of N seeds, from --seed on (default: 1)"},
+                     &O::seeds, 1, 1000),
                  whole_option({"--rounds", "N",
                                "repeat each measurement of time (trust) N times and report the median "
                                "(default: 5)"},
                               &O::rounds, 1, 1000)})
+          .with(input_options())
           .with(destination_options(
               "write questions.json, questions.csv and report.html to DIR (default: none)"));
   return list;
 }
 
-// Returns the questions in the order of kQuestions.
-std::vector<std::string> questions_of(const std::vector<std::string>& operands) {
+bool is_question(const std::string& word) { return std::ranges::find(kQuestions, word) != kQuestions.end(); }
+
+// Returns whether the word can be a file: it exists, or looks like a path.
+bool may_be_file(const std::string& word) {
+  std::error_code none;
+  return std::filesystem::exists(word, none) || word.find_first_of("./") != std::string::npos;
+}
+
+// Returns the questions in the order of kQuestions. If INPUTs are given, `combination` is not among them by
+// default.
+std::vector<std::string> questions_of(const std::vector<std::string>& words, bool of_inputs) {
   std::array<bool, kQuestions.size()> asked{};
-  for (const std::string& name : operands) {
+  for (const std::string& name : words) {
     bool& is_asked = asked[place_among("QUESTION", name, kQuestions)];
     if (is_asked) throw InputError(fmt::format("QUESTION: {} is listed twice", name));
     is_asked = true;
   }
+  if (of_inputs && asked[3])
+    throw InputError("combination is asked of its own chains; expected energy, bounds or trust with INPUTs");
   std::vector<std::string> questions;
-  for (std::size_t q = 0; q < kQuestions.size(); ++q)
-    if (operands.empty() || asked[q]) questions.emplace_back(kQuestions[q]);
+  for (std::size_t q = 0; q < kQuestions.size() - (of_inputs ? 1 : 0); ++q)
+    if (words.empty() || asked[q]) questions.emplace_back(kQuestions[q]);
   return questions;
+}
+
+// Sorts the operands into questions and inputs, and checks the options that apply to one of the two.
+void take_operands(const ParsedArguments& parsed, QuestionsAsked& asked) {
+  std::vector<std::string> words;
+  for (const std::string& word : parsed.operands()) {
+    if (!is_question(word) && may_be_file(word))
+      asked.inputs.emplace_back(word);
+    else
+      words.push_back(word);
+  }
+  asked.questions = questions_of(words, !asked.inputs.empty());
+  if (asked.inputs.empty()) {
+    for (const auto& option : input_options().all())
+      if (parsed.has(option.spec.name))
+        throw InputError(
+            fmt::format("{}: applies only to INPUTs; expected a trajectory beside it", option.spec.name));
+    for (const char* needed : {"trajectories", "paper"}) folder_in_data(asked.data, needed);
+    return;
+  }
+  for (const char* of_models : {"--data", "--seed", "--seeds"})
+    if (parsed.has(of_models)) throw InputError(fmt::format("{}: has no meaning for INPUTs", of_models));
+  check_input_lists(asked);
 }
 
 QuestionsAsked parse_questions(const Arguments& arguments) {
   QuestionsAsked asked;
   const ParsedArguments parsed = read_arguments(kQuestionsCommand, questions_options(), arguments, asked);
-  asked.questions = questions_of(parsed.operands());
+  take_operands(parsed, asked);
   if (parsed.has("--rounds") && std::ranges::find(asked.questions, "trust") == asked.questions.end())
     throw InputError("--rounds applies only to the question trust, which measures time");
-  for (const char* needed : {"trajectories", "paper"}) folder_in_data(asked.data, needed);
   return asked;
 }
 
-std::size_t steps_of(const std::string& question) {
-  if (question == "energy") return energy_steps();
-  if (question == "bounds") return bounds_steps();
-  if (question == "trust") return trust_steps();
+// The subjects of the questions about moving chains. Energy is not asked of the random chain that wanders, as
+// it has random chains of its own.
+struct Subjects {
+  MovingSubjects all, of_energy;
+  std::optional<RandomChains> chains;
+};
+
+Subjects subjects_for(const QuestionsAsked& asked, const TableCommand::Warn& warn) {
+  if (!asked.inputs.empty()) {
+    const MovingSubjects inputs = subjects_of(asked, warn);
+    return {inputs, inputs, {}};
+  }
+  const MovingSubjects usual = usual_subjects(asked.data, asked.seed);
+  return {usual, {usual.begin(), usual.end() - 1}, RandomChains{asked.seed, asked.seeds}};
+}
+
+std::size_t steps_of(const std::string& question, const Subjects& subjects) {
+  if (question == "energy") return energy_steps(subjects.of_energy, subjects.chains.has_value());
+  if (question == "bounds") return bounds_steps(subjects.all);
+  if (question == "trust") return trust_steps(subjects.all);
   return combination_steps();
 }
 
-std::vector<Question> measure(const QuestionsAsked& asked, const TableCommand::Progress& progress) {
+std::vector<Question> measure(const QuestionsAsked& asked, const TableCommand::Progress& progress,
+                              const TableCommand::Warn& warn) {
+  const Subjects subjects = subjects_for(asked, warn);
   std::size_t done = 0, total = 0;
-  for (const std::string& question : asked.questions) total += steps_of(question);
+  for (const std::string& question : asked.questions) total += steps_of(question, subjects);
   const std::function<void()> step_done = [&] { progress(++done, total); };
   std::vector<Question> questions;
   for (const std::string& question : asked.questions) {
     if (question == "energy") {
-      questions.push_back(ask_about_energy(asked.data, asked.seed, step_done));
+      questions.push_back(ask_about_energy(subjects.of_energy, subjects.chains, step_done));
     } else if (question == "bounds") {
-      questions.push_back(ask_about_bounds(asked.data, asked.seed, step_done));
+      questions.push_back(ask_about_bounds(subjects.all, step_done));
     } else if (question == "trust") {
-      questions.push_back(ask_about_trust(asked.data, asked.seed, asked.rounds, step_done));
+      questions.push_back(ask_about_trust(subjects.all, asked.rounds, step_done));
     } else {
       questions.push_back(ask_about_combination(asked.data, asked.seed, step_done));
     }
@@ -246,15 +309,21 @@ int questions_command(const Arguments& arguments) {
   const QuestionsAsked asked = parse_questions(arguments);
   TableCommand command("questions", arguments, asked, "measurement");
   TakenPaths taken;
-  taken.read_folder("--data", asked.data);
-  command.check_destinations(std::move(taken));
-  const std::vector<Question> questions = measure(asked, command.progress());
+  if (asked.inputs.empty()) {
+    taken.read_folder("--data", asked.data);
+    command.check_destinations(std::move(taken));
+  } else {
+    command.check_inputs_and_destinations(asked);
+  }
+  const std::vector<Question> questions = measure(asked, command.progress(), command.warn());
   command.bar().erase();
 
   Json json;
   json["settings"] = questions_options().settings_json(asked, {{"questions", asked.questions}});
   json["rows"] = question_rows_json(questions);
   json["questions"] = questions_json(questions);
+  json["inputs"] = files_json(asked);
+  json["warnings"] = command.warnings();
   command.deliver(json, questions_csv(questions), questions_text(questions),
                   [&](Page page) { return questions_page(questions, std::move(page)); });
   return 0;

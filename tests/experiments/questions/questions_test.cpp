@@ -11,6 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -88,7 +89,7 @@ Json rows_of(const Json& all, const std::string& question) {
 }
 
 void expect_energy(const Json& rows) {
-  EXPECT_EQ(rows.size(), 2 * 6 + 3 * 9U);  // strides of two proteins, amplitudes of three kinds of angles
+  EXPECT_EQ(rows.size(), 2 * 6 + 4 * 11U);  // strides of two proteins, amplitudes of four kinds of chains
   std::map<std::string, std::size_t> of_subject;
   for (const Json& row : rows) {
     ++of_subject[row["subject"]];
@@ -102,8 +103,9 @@ void expect_energy(const Json& rows) {
       EXPECT_LT(row["bending"], 1e-20) << row;
       EXPECT_GT(row["torsion"], 1e-6) << row;
     }
-    // The expected energy is half the squared normal deviation for each of the 125 or 126 angles.
-    if (row["subject"] == "random chain, both") {
+    // The expected energy is half the squared normal deviation for each of the 125 or 126 angles. Large
+    // changes of bending angles are drawn again, and torsion goes the short way round.
+    if (row["subject"] == "random chain, both" && row["step"] <= 0.25) {
       const double amplitude = row["step"], expected = 0.5 * amplitude * amplitude * 125;
       EXPECT_NEAR(row["bending"].get<double>() / expected, 1, 0.1) << row;
       EXPECT_NEAR(row["torsion"].get<double>() / expected, 1, 0.1) << row;
@@ -111,9 +113,10 @@ void expect_energy(const Json& rows) {
   }
   EXPECT_EQ(of_subject, (std::map<std::string, std::size_t>{{"villin", 6},
                                                             {"random protein", 6},
-                                                            {"random chain, bending", 9},
-                                                            {"random chain, torsion", 9},
-                                                            {"random chain, both", 9}}));
+                                                            {"random chain, bending", 11},
+                                                            {"random chain, torsion", 11},
+                                                            {"random chain, both", 11},
+                                                            {"self-avoiding chain, both", 11}}));
 }
 
 // Stronger bounds cause fewer searches of pairs.
@@ -224,6 +227,80 @@ TEST(Questions, TheSameSeedGivesTheSameCounts) {
   const Json first = rows("5");
   EXPECT_EQ(first, rows("5"));
   EXPECT_NE(first, rows("6"));
+}
+
+TEST(SelfAvoidingAngles, NoTwoBeadsOverlap) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform;
+  constexpr std::size_t beads = 128;
+  int self_avoiding_without_care = 0;
+  for (int trial = 0; trial < 5; ++trial) {
+    const auto draw = [&](std::size_t) {
+      const double bending = pi * (0.4 + 0.4 * uniform(random));
+      return std::pair(bending, 2 * pi * uniform(random));
+    };
+    const auto overlaps = [](const Eigen::Matrix3Xd& chain) {
+      for (Eigen::Index a = 0; a < chain.cols(); ++a)
+        for (Eigen::Index b = a + 2; b < chain.cols(); ++b)
+          if ((chain.col(a) - chain.col(b)).norm() <= 2 - 1e-9) return true;
+      return false;
+    };
+    const ChainAngles angles = self_avoiding_angles(beads, 1.998, draw);
+    EXPECT_EQ(angles.bending.size(), beads - 2);
+    EXPECT_EQ(angles.torsion.size(), beads - 3);
+    EXPECT_FALSE(overlaps(chain_of(angles, 1.998)));
+    ChainAngles careless;
+    for (std::size_t k = 0; k < beads - 2; ++k) careless.bending.push_back(draw(k).first);
+    for (std::size_t k = 0; k < beads - 3; ++k) careless.torsion.push_back(draw(k).second);
+    self_avoiding_without_care += overlaps(chain_of(careless, 1.998)) ? 0 : 1;
+  }
+  EXPECT_LT(self_avoiding_without_care, 5);
+}
+
+// Amplitudes 0 to 3 lie on a line of slope 1/2, 5 to 8 on one of slope 2/3, and 8 to 10 on one of slope 1/3.
+TEST(QuestionCurve, ACrossoverHasThreeFits) {
+  QuestionCurve curve{"", "curve", {}, {}, true};
+  for (const double x : {1.0, 2.0, 4.0, 8.0}) curve.points.emplace_back(x, 3 * std::sqrt(x));
+  curve.points.emplace_back(16, 17);
+  for (const double x : {32.0, 64.0, 128.0, 256.0}) curve.points.emplace_back(x, std::cbrt(x * x));
+  for (const double x : {512.0, 1024.0}) curve.points.emplace_back(x, std::cbrt(256.0 * x));
+  const auto fits = curve.fits();
+  ASSERT_EQ(fits.size(), 3U);
+  EXPECT_NEAR(fits[0].fit.exponent, 1.0 / 2, 1e-12);
+  EXPECT_EQ(fits[0].to, 8);
+  EXPECT_NEAR(fits[1].fit.exponent, 2.0 / 3, 1e-12);
+  EXPECT_EQ(fits[1].from, 32);
+  EXPECT_NEAR(fits[2].fit.exponent, 1.0 / 3, 1e-12);
+  EXPECT_EQ(fits[2].from, 256);
+  curve.crossover = false;
+  EXPECT_EQ(curve.fits().size(), 1U);
+}
+
+TEST(Questions, TheUsersTrajectoriesTakeThePlaceOfTheData) {
+  const std::string dcd = data_file("trajectories/villin_hp36_300K.dcd"),
+                    pdb = data_file("trajectories/villin_hp36_300K.pdb");
+  const ProgramRun run = run_program(
+      {"questions", "energy", "bounds", dcd, "--topology", pdb, "--frames", ":200", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(rows_of(json, "energy").size(), 6U);
+  EXPECT_EQ(rows_of(json, "bounds").size(), 4U);
+  // The first two questions without INPUTs measure the same frames.
+  const ProgramRun usual = run_program({"questions", "bounds", "--json", "-"});
+  ASSERT_EQ(usual.code, 0) << usual.err;
+  const Json of_data = rows_of(Json::parse(usual.out), "bounds");
+  EXPECT_EQ(rows_of(json, "bounds")[0]["speed"], of_data[0]["speed"]);
+  const auto refused = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "questions");
+    const ProgramRun bad = run_program(arguments);
+    EXPECT_EQ(bad.code, 2) << bad.out;
+    return bad.err;
+  };
+  EXPECT_THAT(refused({"combination", dcd}), HasSubstr("combination is asked of its own chains"));
+  EXPECT_THAT(refused({"energy", "--topology", pdb}), HasSubstr("--topology: applies only to INPUTs"));
+  EXPECT_THAT(refused({"energy", dcd, "--seed", "3"}), HasSubstr("--seed: has no meaning for INPUTs"));
+  EXPECT_THAT(refused({"energy", pdb}), HasSubstr("at least two frames"));
+  EXPECT_THAT(refused({"energy", "nowhere.dcd"}), HasSubstr("nowhere.dcd: no such file"));
 }
 
 TEST(Questions, RefusesWhatIsNoQuestion) {
