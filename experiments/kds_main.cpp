@@ -47,6 +47,8 @@ constexpr std::array kCommands{
             theorems_command},
     Command{"figures", "draw figures of the paper from data of kds", figures_command},
     Command{"questions", "measure answers to the paper's open questions", questions_command},
+    Command{"scale", "measure how events, certificates and families grow with the number of beads",
+            scale_command},
     Command{"trade", "measure how much time each accuracy option saves and how large its errors are",
             trade_command},
     Command{"bench", "compare the speed of kds with that of other libraries", bench_command},

@@ -29,6 +29,8 @@ int replay_command(const Arguments& arguments);
 int reproduce_command(const Arguments& arguments);
 /// `kds run`: runs kinetic structures and reports their events.
 int run_command(const Arguments& arguments);
+/// `kds scale`: measures how everything that kds compare and theorems measure grows with the number of beads.
+int scale_command(const Arguments& arguments);
 /// `kds stability`: compares the kernels on inputs for which the arithmetic is hardest. Throws
 /// std::runtime_error if a row does not hold.
 int stability_command(const Arguments& arguments);
