@@ -39,7 +39,7 @@ TEST(Stages, AreThoseOfTheDocuments) {
   std::vector<std::string> documented, expected;
   bool in_table = false;
   for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("| key | what decided |")) in_table = true;
+    if (line.starts_with("| key | the decision came from |")) in_table = true;
     if (line.empty()) in_table = false;
     if (in_table && line.starts_with("| `")) documented.push_back(line.substr(3, line.find('`', 3) - 3));
   }
