@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "certificates/exact/exact_time.h"
+#include "certificates/exact/time_span.h"
 
 namespace kds {
 
@@ -76,16 +77,6 @@ Decimal common_digits(const Rational& a, const Rational& b) {
   int exponent = magnitude(std::max(abs(a), abs(b))) + 1 - most_digits;
   while (!(rounded_to(a, exponent) == rounded_to(b, exponent))) ++exponent;
   return rounded_to(a, exponent);
-}
-
-/// Returns -1, 0 or 1 if `time` is before, at or after `place`, and narrows `time` to that side. `time`
-/// must not be dyadic.
-int compare_with(ExactTime& time, const Rational& place) {
-  if (place <= time.lower().rational()) return 1;
-  if (place >= time.upper().rational()) return -1;
-  const Integer p = numerator(place), q = denominator(place);
-  ExactTime there(ExactPolynomial({p, p - q}), RootInterval{Dyadic(0.0), Dyadic(1.0)});
-  return ExactTime::compare(time, there);
 }
 
 /// A linear scale with value `begin` at u = 0 and `end` at u = 1.

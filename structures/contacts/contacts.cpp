@@ -81,13 +81,22 @@ std::optional<std::string> contact_fault(const Curves<Dimension>& curves,
 
 }  // namespace
 
+std::vector<double> contact_radii(const ContactDistance& distance, std::span<const double> radii) {
+  std::vector<double> own;
+  for (const double radius : radii)
+    own.push_back((distance.between_surfaces ? radius : 0) + 0.5 * distance.length);
+  return own;
+}
+
 template <int D>
-Contacts<D>::Contacts(Simulator& simulator, const MotionRef<D>& motion, PairsAsked asked)
+Contacts<D>::Contacts(Simulator& simulator, const MotionRef<D>& motion, PairsAsked asked,
+                      std::vector<double> radii)
     : EditableBase(simulator, motion.bead_count(), "contacts", contact_kinds),
-      motion_(motion),
+      own_radii_(radii.empty() ? nullptr : std::make_unique<OtherRadii<D>>(motion, radii)),
+      motion_(own_radii_ ? MotionRef<D>(*own_radii_) : motion),
       family_(std::move(asked), motion.degree()),
-      disjoint_(simulator, *this, index(), 0, motion, TouchPolicy::reported),
-      overlapping_(simulator, *this, index(), 1, motion),
+      disjoint_(simulator, *this, index(), 0, motion_, TouchPolicy::reported),
+      overlapping_(simulator, *this, index(), 1, motion_),
       per_bead_(statistics.certificates, motion.bead_count()) {}
 
 template <int D>

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,6 +31,8 @@
 #include "certificates/types/distances.h"
 #include "kds/certificate_table.h"
 #include "kds/structure_base.h"
+#include "motions/curves/other_radii.h"
+#include "structures/contacts/contact_distance.h"
 #include "structures/contacts/moving_family.h"
 #include "structures/necklace/bead_pairs.h"
 
@@ -115,7 +118,9 @@ class Contacts final : public EditableBase {
   /// Kinds of events. The ids are the two beads, ascending, or the edited bead.
   enum Kind : std::uint8_t { begin, end, touch, inserts, erases, changes };
 
-  Contacts(Simulator& simulator, const MotionRef<Dimension>& motion, PairsAsked asked);
+  /// Balls have these radii, one for each bead, or those of the motion if there are none.
+  Contacts(Simulator& simulator, const MotionRef<Dimension>& motion, PairsAsked asked,
+           std::vector<double> radii = {});
 
   /// Returns the pairs in contact just after the present time, ascending.
   [[nodiscard]] std::vector<BeadPair> pairs() const { return contacts_.pairs(); }
@@ -154,6 +159,7 @@ class Contacts final : public EditableBase {
   void settle_now();
   void count_per_bead();
 
+  std::unique_ptr<const OtherRadii<Dimension>> own_radii_;  // null: the motion's
   MotionRef<Dimension> motion_;
   MovingFamily<Dimension> family_;
   CertificateTable<Contact> disjoint_, overlapping_;

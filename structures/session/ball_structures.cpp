@@ -51,8 +51,11 @@ template <int Dimension>
 class ContactsInRun final : public RunningStructure {
  public:
   ContactsInRun(Simulator& simulator, const Scene& scene, const MotionRef<Dimension>& motion,
-                const PairsAsked& asked)
-      : scene_(scene), cells_(asked), contacts_(simulator, motion, asked) {}
+                const PairsAsked& asked, const std::optional<ContactDistance>& distance)
+      : scene_(scene),
+        radii_(distance ? contact_radii(*distance, scene.radii()) : scene.radii()),
+        cells_(asked),
+        contacts_(simulator, motion, asked, distance ? radii_ : std::vector<double>()) {}
 
   [[nodiscard]] KineticStructure& kinetic() override { return contacts_; }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override { return {}; }
@@ -68,12 +71,13 @@ class ContactsInRun final : public RunningStructure {
     return changes;
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
-    const Balls<Dimension> balls(scene_.centers(frame), scene_.radii());
+    const Balls<Dimension> balls(scene_.centers(frame), radii_);
     return seconds_of([&] { (void)cells_.pairs(balls); }).clock;
   }
 
  private:
   const Scene& scene_;
+  std::vector<double> radii_;
   mutable CellList<Dimension> cells_;  // its results do not depend on earlier use
   Contacts<Dimension> contacts_;
 };
@@ -120,7 +124,7 @@ StructureSpec contacts_structure() {
                                   const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
         const PairsAsked asked{scene.necklaces(), true, settings.apart, true, settings.groups};
         if (simulator.kernel() == Kernel::exact) check_exact_pairs(asked);
-        return std::make_unique<ContactsInRun<D>>(simulator, scene, ref, asked);
+        return std::make_unique<ContactsInRun<D>>(simulator, scene, ref, asked, settings.contact_distance);
       });
   return spec;
 }

@@ -15,6 +15,7 @@
 #include "certificates/base/relaxation.h"
 #include "kds/simulator.h"
 #include "motions/scene/scene.h"
+#include "structures/contacts/contact_distance.h"
 #include "structures/necklace/balls.h"
 #include "structures/necklace/necklace_tree.h"
 #include "structures/session/scene_motion.h"
@@ -99,6 +100,8 @@ struct StructureSettings {
   BeadGroups groups{};
   /// For boxes: one of box_direction_counts (box_hierarchy.h). No value: the axes.
   std::optional<int> directions{};
+  /// For contacts: the distance at which beads are in contact. No value: balls with the scene's radii meet.
+  std::optional<ContactDistance> contact_distance{};
   Relaxation relax{};  ///< for `wrapped`: share of a sphere's radius by which beads may stick out
 };
 
