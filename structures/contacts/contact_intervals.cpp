@@ -34,6 +34,7 @@ std::optional<ContactIntervals::Key> ContactIntervals::key_of(const BeadPair& pa
     if (a == b) return std::nullopt;
     if (b < a) std::swap(a, b);
   }
+  if (!rule_.chains.empty() && rule_.chains[a] == rule_.chains[b] && b - a < rule_.apart) return std::nullopt;
   return (Key{a} << 32U) | b;
 }
 
@@ -41,16 +42,28 @@ StepClock ContactIntervals::clock_of(const FrameStamp& from, const FrameStamp& t
   if (rule_.clock == ContactClock::frames)
     return {static_cast<double>(from.number), static_cast<double>(to.number)};
   if (!from.picoseconds || !to.picoseconds || !(*from.picoseconds < *to.picoseconds))
-    throw InputError(fmt::format("the time does not advance from frame {} to frame {}; lengths of time need "
-                                 "frames with ascending times",
-                                 from.number, to.number));
+    throw InputError(
+        fmt::format("the time does not advance from frame {} to frame {}; lengths of time need "
+                    "frames with ascending times",
+                    from.number, to.number));
   return {*from.picoseconds, *to.picoseconds};
 }
 
 ContactMoment ContactIntervals::moment_of(const Event& event) const {
   const Instant& now = simulator_.now();
   now.narrow();
-  return {event.step, now.lower(), now.upper(), clock_of(event.from, event.to), *event.rounded};
+  ContactMoment moment{event.step, now.lower(), now.upper(), clock_of(event.from, event.to),
+                       event.rounded.value_or(RoundedTime{event.frame(), event.picoseconds()})};
+  // Moves an end of the bracket to the only tick inside, if there is one.
+  constexpr double ticks = ticks_per_frame;
+  for (double tick = (std::floor(moment.lower * ticks) + 1) / ticks; tick < moment.upper; tick += 1 / ticks) {
+    std::optional<ExactTime> exact = now.exact_apart();
+    if (!exact) break;  // a replayed run knows brackets only
+    const int sign = compare_with(*exact, Rational(tick));
+    if (sign >= 0) moment.lower = tick;
+    if (sign <= 0) moment.upper = tick;
+  }
+  return moment;
 }
 
 void ContactIntervals::add_built(std::span<const BeadPair> inner, std::span<const BeadPair> outer,
@@ -71,8 +84,8 @@ void ContactIntervals::add_built(std::span<const BeadPair> inner, std::span<cons
 }
 
 void ContactIntervals::on_event(const Event& event) {
-  if (!is_asked(event) || event.change.kind > Contacts<3>::touch) return;
   if (simulator_.moment() != ended_moment_) tell_ended();
+  if (!is_asked(event) || event.change.kind > Contacts<3>::touch) return;
   const auto key = key_of({event.change.ids[0], event.change.ids[1]});
   if (!key) return;
   State& state = states_[*key];
@@ -107,18 +120,22 @@ void ContactIntervals::count(Key key, State& state, const Event& event) {
   }
 }
 
+/// Begins an interval. A touch at the first frame may be the end of a contact before it.
+void ContactIntervals::start(State& state, const ContactMoment& now) {
+  state.begin = now;
+  state.open_at_start = now.step == 0 && now.upper == 0;
+}
+
 void ContactIntervals::begin(Key key, State& state, const Event& event) {
   const ContactMoment now = moment_of(event);
   if (state.ended) {
     if (state.end_moment != simulator_.moment() && !is_short(state, now)) {
       tell(key, state, false);
-      state.begin = now;
-      state.open_at_start = false;
+      start(state, now);
     }
     state.ended = false;
   } else {
-    state.begin = now;
-    state.open_at_start = false;
+    start(state, now);
   }
   state.on = true;
   ++in_contact_;

@@ -1,25 +1,20 @@
 #pragma once
 // The intervals during which pairs are in contact, from the exact events of the structure `contacts`.
 //
-// A pair is a pair of elements: beads, or groups of beads such as residues. A pair is in contact while any two
-// of its beads are. Intervals are closed, so an absence of length zero ends nothing. Two rules change what
-// counts as one contact, and both are decided by exact comparison of times:
+// A pair is a pair of elements: beads, or groups of beads such as residues. A pair is in contact while any
+// two of its beads are. Intervals are closed, so an absence of length zero ends nothing. Two rules change
+// what counts as one contact, and both are decided by exact comparison of times:
 //
 // - Dual cutoff: a contact begins when the pair's least distance falls to the inner cutoff, and ends when it
 //   rises above the outer one. The run then has two structures `contacts`, one for each cutoff.
 // - Gap: an absence shorter than the gap does not end a contact.
 //
 // A contact that lasts at the first or the last frame is open there: its true length is unknown and at least
-// the length of the interval. A pair that starts between the two cutoffs is not in contact.
-//
-//   ContactIntervals intervals(run.simulator(), {.elements = residue_of_bead},
-//                              [&](const ContactInterval& i) { lifetimes.add(i); });
-//   run.listen(intervals);
-//   run.build();
-//   intervals.add_built(pairs at the first frame);
-//   run.run();
-//   intervals.finish();
+// the length of the interval. A pair that starts between the two cutoffs is not in contact. A pair that comes
+// to the cutoff exactly at the last frame is not in contact, because events at a frame belong to the step
+// that begins there. examples/contact_lifetimes.cpp is a run with such intervals.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -40,17 +35,26 @@ namespace kds {
 /// The clock by which lengths of time are measured.
 enum class ContactClock : std::uint8_t { frames, picoseconds };
 
+/// Frames are divided into ticks, at which the samples of frame_contacts.h lie.
+inline constexpr std::size_t ticks_per_frame = 256;
+
 /// An end of an interval.
 struct ContactMoment {
   std::size_t step = 0;
-  double lower = 0, upper = 0;  ///< bracket of the parameter in the step; equal if it is the time itself
-  StepClock clock;              ///< readings at the ends of the step
-  RoundedTime rounded;          ///< twelve certain digits
+  /// Bracket of the parameter in the step. Equal if they are the time itself, otherwise the time lies
+  /// strictly between. No tick lies strictly between.
+  double lower = 0, upper = 0;
+  StepClock clock;      ///< readings at the ends of the step
+  RoundedTime rounded;  ///< twelve certain digits if ContactRule::rounds_times
 
   [[nodiscard]] double u() const { return 0.5 * (lower + upper); }
-  /// Return the index of the run's last frame that is not after this time, and of the first that is not before.
-  [[nodiscard]] std::size_t frame_before() const { return step + (lower == 1 ? 1 : 0); }
-  [[nodiscard]] std::size_t frame_after() const { return step + (upper == 0 ? 0 : 1); }
+  /// Return the last tick of the run that is not after this time, and the first that is not before.
+  [[nodiscard]] std::size_t tick_before() const {
+    return step * ticks_per_frame + static_cast<std::size_t>(std::floor(lower * double{ticks_per_frame}));
+  }
+  [[nodiscard]] std::size_t tick_after() const {
+    return step * ticks_per_frame + static_cast<std::size_t>(std::ceil(upper * double{ticks_per_frame}));
+  }
 };
 
 struct ContactInterval {
@@ -68,17 +72,23 @@ struct ContactInterval {
 struct ContactRule {
   /// The element of each bead. Contacts between beads of one element do not count. Empty: each bead is one.
   std::vector<std::uint32_t> elements = {};
+  /// The chain of each element. Two elements of one chain count if their numbers differ by at least `apart`.
+  /// Empty: all pairs of elements count.
+  std::vector<std::uint32_t> chains = {};
+  std::uint32_t apart = 1;
   double gap = 0;  ///< in units of the clock
   ContactClock clock = ContactClock::frames;
   std::size_t inner = 0, outer = 0;  ///< indices of the structures; equal unless there are two cutoffs
+  bool rounds_times = true;          ///< whether ends get twelve certain digits, which takes exact work
 };
 
 class ContactIntervals final : public EventListener {
  public:
   using Sink = std::function<void(const ContactInterval&)>;
 
-  /// The simulator must outlive the listener. Each interval goes to `sink`. Intervals of one pair arrive in
-  /// their order. Throws std::invalid_argument if the gap is negative or not finite.
+  /// The simulator must outlive the listener. Each interval goes to `sink`, at the first event of the run
+  /// after the interval's end, or after the gap. Intervals of one pair arrive in their order. Throws
+  /// std::invalid_argument if the gap is negative or not finite.
   ContactIntervals(const Simulator& simulator, ContactRule rule, Sink sink);
 
   /// Adds the pairs of beads in contact at the first frame, within the inner and the outer cutoff. With one
@@ -86,10 +96,11 @@ class ContactIntervals final : public EventListener {
   void add_built(std::span<const BeadPair> inner, std::span<const BeadPair> outer, const FrameStamp& from,
                  const FrameStamp& to);
   void on_event(const Event& event) override;
-  /// Returns true, because an interval prints its ends.
-  [[nodiscard]] bool prints_time_of(const Event& event) const override { return is_asked(event); }
-  /// Ends all open contacts at the end of the run's last step, which leads from one of these frames to the other.
-  /// Call it once.
+  [[nodiscard]] bool prints_time_of(const Event& event) const override {
+    return rule_.rounds_times && is_asked(event);
+  }
+  /// Ends all open contacts at the end of the run's last step, which leads from one of these frames to the
+  /// other. Call it once.
   void finish(std::size_t last_step, const FrameStamp& from, const FrameStamp& to);
 
   /// Returns the number of pairs in contact now.
@@ -110,11 +121,11 @@ class ContactIntervals final : public EventListener {
   [[nodiscard]] bool is_asked(const Event& event) const {
     return event.structure_index == rule_.inner || event.structure_index == rule_.outer;
   }
-  [[nodiscard]] bool has_two_cutoffs() const { return rule_.inner != rule_.outer; }
   [[nodiscard]] std::optional<Key> key_of(const BeadPair& pair) const;
   [[nodiscard]] StepClock clock_of(const FrameStamp& from, const FrameStamp& to) const;
   [[nodiscard]] ContactMoment moment_of(const Event& event) const;
   void count(Key key, State& state, const Event& event);
+  static void start(State& state, const ContactMoment& now);
   void begin(Key key, State& state, const Event& event);
   void end(Key key, State& state, const Event& event);
   [[nodiscard]] bool is_short(State& state, const ContactMoment& now) const;
