@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "experiments/contacts/follow_contacts.h"
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/page/table.h"
@@ -21,7 +22,8 @@
 #include "experiments/run/radius_hint.h"
 #include "experiments/run/run_scene.h"
 #include "motions/base/input_error.h"
-#include "structures/contacts/sampled_contacts.h"
+#include "structures/contacts/contact_intervals.h"
+#include "structures/contacts/frame_contacts.h"
 
 namespace kds {
 
@@ -51,21 +53,6 @@ struct MissedReport {
   std::vector<MissedRow> rows;  ///< ordered by factor, then by stride
 };
 
-std::size_t frames_looked_at(std::size_t frames, std::size_t stride) { return (frames - 1) / stride + 1; }
-
-std::vector<std::size_t> strides_for(const MissedTask& task, std::size_t frames) {
-  const auto too_long = [&](std::size_t stride) { return frames_looked_at(frames, stride) < 2; };
-  if (!task.strides.empty()) {
-    if (too_long(task.strides.back()))
-      throw InputError(fmt::format("--strides: {} looks at one of the {} frames of {}; expected two or more",
-                                   task.strides.back(), frames, task.inputs.front().string()));
-    return task.strides;
-  }
-  std::vector<std::size_t> strides;
-  for (std::size_t stride = 1; stride <= 64 && !too_long(stride); stride *= 2) strides.push_back(stride);
-  return strides;
-}
-
 MissedInput input_of(const Scene& scene) {
   const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
   return {scene.bead_count(),
@@ -78,27 +65,40 @@ MissedInput input_of(const Scene& scene) {
           times_of(scene.stamp(0), scene.stamp(scene.frame_count() - 1))};
 }
 
-std::vector<SampledContacts::Sampling> samplings_of(const MissedTask& task, const Scene& scene,
-                                                    std::span<const std::size_t> strides,
-                                                    const std::function<void(std::size_t)>& at_frame) {
+/// Returns the rows of one factor, by stride.
+std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, double factor,
+                               std::span<const std::size_t> strides,
+                               const std::function<void(std::size_t)>& at_frame) {
   RunOptions options;
   options.inputs = task.inputs;
   options.structures = {"contacts"};
   options.motion = task.motion;
   options.apart = task.apart;
   const auto run = open_run(options, scene, AuditMode::none);
-  SampledContacts sampled(strides);
-  run->listen(sampled);
+  std::vector<std::size_t> spacings;
+  for (const std::size_t stride : strides) spacings.push_back(stride * ticks_per_frame);
+  FrameContacts frames(spacings, 0, scene.step_count());
+  ContactIntervals intervals(run->simulator(), {.rounds_times = false},
+                             [&](const ContactInterval& interval) { frames.add_inner(interval); });
+  run->listen(intervals);
   run_steps(*run, options, [&](std::size_t frame) {
     if (frame == 0) {
       std::vector<BeadPair> at_start;
       for (const Event& event : run->session().built(0)) at_start.push_back({event.ids()[0], event.ids()[1]});
-      sampled.add_built(at_start);
+      intervals.add_built(at_start, at_start, scene.stamp(0), scene.stamp(1));
     }
     at_frame(frame);
   });
-  sampled.finish(scene.step_count());
-  return sampled.samplings();
+  intervals.finish(scene.step_count() - 1, scene.stamp(scene.step_count() - 1),
+                   scene.stamp(scene.step_count()));
+  frames.finish();
+  std::vector<MissedRow> rows;
+  for (std::size_t k = 0; k < strides.size(); ++k) {
+    const FrameContacts::Row& row = frames.rows()[k];
+    rows.push_back(
+        {factor, strides[k], row.sampling.samples, frames.exact(FrameContacts::plain).contacts, row.found});
+  }
+  return rows;
 }
 
 // Counts the missed contacts. Each warning about the input goes to `warn` as one line. Throws InputError for
@@ -107,16 +107,14 @@ MissedReport count_missed(const MissedTask& task, const std::function<void(const
                           const std::function<void(std::size_t, std::size_t)>& progress) {
   MissedReport report;
   report.input = input_of(load_necklaces(task, task.motion, 1, warn));
-  const std::vector<std::size_t> strides = strides_for(task, report.input.frames);
+  const std::vector<std::size_t> strides = strides_that_fit(task.strides, report.input.frames, task);
   for (std::size_t run = 0; run < task.factors.size(); ++run) {
     const double factor = task.factors[run];
     const Scene scene = load_necklaces(task, task.motion, factor, [](const std::string&) {});
-    const auto samplings = samplings_of(task, scene, strides, [&](std::size_t frame) {
+    const auto rows = rows_of(task, scene, factor, strides, [&](std::size_t frame) {
       progress(run * scene.step_count() + frame, task.factors.size() * scene.step_count());
     });
-    for (const SampledContacts::Sampling& sampling : samplings)
-      report.rows.push_back({factor, sampling.stride, frames_looked_at(scene.frame_count(), sampling.stride),
-                             sampling.contacts, sampling.found});
+    report.rows.insert(report.rows.end(), rows.begin(), rows.end());
     const bool none = std::ranges::all_of(report.rows, [](const auto& row) { return row.contacts == 0; });
     // The hint counts pairs of all beads.
     if (none && run + 1 == task.factors.size() && task.radius == "auto" && task.reading.groups.empty())

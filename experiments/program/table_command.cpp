@@ -173,9 +173,10 @@ void TableCommand::deliver_text(const std::string& json, const Json& settings, c
     files.emplace(*out, name_, "--out");
     files->write(data.front(), json);
     for (const auto& [name, csv] : csvs) {
-      files->write(name, csv);
+      csv.write(files->open(name));
       data.push_back(name);
     }
+    files->check();
     if (page_of) files->write(std::string(kReport), page_of(page(settings, std::move(data))));
   }
   AtomicFiles json_file;

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -54,6 +55,19 @@ class TakenPaths {
   std::vector<std::pair<std::string, std::filesystem::path>> taken_, directories_;
 };
 
+/// The content of a CSV file: a text, or a function that writes it piece by piece.
+class CsvContent {
+ public:
+  using Write = std::function<void(std::ostream&)>;
+
+  CsvContent(std::string text) : write_([text = std::move(text)](std::ostream& stream) { stream << text; }) {}
+  CsvContent(Write write) : write_(std::move(write)) {}
+  void write(std::ostream& stream) const { write_(stream); }
+
+ private:
+  Write write_;
+};
+
 class TableCommand {
  public:
   using Progress = std::function<void(std::size_t done, std::size_t total)>;
@@ -94,7 +108,7 @@ class TableCommand {
   void deliver(Json json, const std::string& csv, const std::string& table, const PageOf& page_of = {}) const;
 
   /// Delivers several CSV files, given as pairs of name and content.
-  using Csvs = std::vector<std::pair<std::string, std::string>>;
+  using Csvs = std::vector<std::pair<std::string, CsvContent>>;
   void deliver(Json json, const Csvs& csvs, const std::string& table, const PageOf& page_of = {}) const;
   /// Delivers a result whose JSON is already text.
   void deliver_text(const std::string& json, const Json& settings, const Csvs& csvs, const std::string& table,

@@ -99,4 +99,14 @@ std::optional<std::string> factor_hint(const Scene& scene, double factor, BeadId
       factor, radius, to_three_digits(advice->radius / radius), advice->apart, half_touch);
 }
 
+std::optional<std::string> cutoff_hint(const Scene& scene, bool between_surfaces, BeadId apart) {
+  const std::optional<Advice> advice = advice_for(scene, apart);
+  if (!advice) return std::nullopt;
+  const double cutoff = 2 * (advice->radius - (between_surfaces ? scene.radii().front() : 0));
+  return fmt::format(
+      "worth trying is --cutoff {:.3g}{}, within which half of the beads have another in the first "
+      "frame",
+      to_three_digits(cutoff), advice->apart);
+}
+
 }  // namespace kds

@@ -222,17 +222,51 @@ Drawing draw(const MapPlot& plot, DrawingSize size) {
   drawing.script += linear('x', range, y_ticks) + linear('y', range, y_ticks) + "$squares << EOD\n";
   double most = 0;
   for (const MapPlot::Square& square : plot.squares) most = std::max(most, square.value);
-  for (const auto& [x, y, value] : plot.squares) {
+  for (const auto& [x, y, value, text] : plot.squares) {
     const double opacity = 0.25 + 0.75 * (most > 0 ? value / most : 1);
     drawing.script += fmt::format("{:.17g} {:.17g} {}\n", x, y,
                                   std::lround(255 * (1 - opacity)) << 24);  // covers the colour of series 0
-    drawing.texts.push_back(fmt::format("{} {}, {}\n{}: {}", plot.label, tick_label(x), tick_label(y),
-                                        plot.value_label, tick_label(value)));
+    const std::string place =
+        text.empty() ? fmt::format("{} {}, {}", plot.label, tick_label(x), tick_label(y)) : text;
+    drawing.texts.push_back(fmt::format("{}\n{}: {}", place, plot.value_label, tick_label(value)));
   }
   drawing.script += "EOD\nplot ";
   if (!plot.squares.empty())
     drawing.script += fmt::format(
         "$squares using 1:2:({0:.17g}):({0:.17g}):3 with boxxyerror linecolor rgb variable, ", plot.side / 2);
+  drawing.script += "NaN\n";
+  return drawing;
+}
+
+Drawing draw(const TimelinePlot& plot, DrawingSize size) {
+  constexpr double pitch = 16, letter = 7.2, beside = 14;
+  std::size_t longest = 0;
+  for (const TimelinePlot::Row& row : plot.rows) longest = std::max(longest, row.name.size());
+  size.height = pitch * static_cast<double>(plot.rows.size()) + size.bottom + 6;
+  size.top = 6;
+  size.left = std::min(letter * static_cast<double>(longest) + beside, is_wide(size) ? 260.0 : 150.0);
+  const auto room = static_cast<std::size_t>((size.left - beside) / letter + 0.5);
+  Drawing drawing{size, axes(size, plot.x_label, ""), TextsOf::marks, {}};
+  drawing.script +=
+      linear('x', {plot.from, plot.to}, x_ticks(size)) +
+      fmt::format("set yrange [{}:-0.5]\nset grid xtics noytics linetype 1 linecolor '#000009'\n",
+                  static_cast<double>(plot.rows.size()) - 0.5);
+  std::vector<std::string> names;
+  std::string data;
+  const double least = (plot.to - plot.from) / (size.width - size.left - size.right);  // a pixel
+  for (std::size_t row = 0; row < plot.rows.size(); ++row) {
+    names.push_back(gnuplot_text(shortened(plot.rows[row].name, room)) + fmt::format(" {}", row));
+    for (const auto& [begin, end] : plot.rows[row].spans) {
+      const double middle = 0.5 * (begin + end), half = 0.5 * std::max(end - begin, least);
+      data += fmt::format("{0:.17g} {1} {2:.17g} {3:.17g} {4} {5}\n", middle, row, middle - half,
+                          middle + half, static_cast<double>(row) - 0.36, static_cast<double>(row) + 0.36);
+    }
+  }
+  drawing.script += fmt::format("set ytics ({})\n", fmt::join(names, ","));
+  if (!data.empty()) drawing.script += "$spans << EOD\n" + data + "EOD\n";
+  drawing.script += "plot ";
+  if (!data.empty())
+    drawing.script += fmt::format("$spans using 1:2:3:4:5:6 with boxxyerror linecolor {}, ", colour(0));
   drawing.script += "NaN\n";
   return drawing;
 }
@@ -291,6 +325,8 @@ std::string svg_plot(const BarPlot& plot) { return drawn_once(plot, 0, plot.seri
 std::string svg_plot(const MapPlot& plot) {
   return drawn_once(plot, 0, {}, plot.value_label + " by " + plot.label);
 }
+
+std::string svg_plot(const TimelinePlot& plot) { return drawn_once(plot, 0, {}, "times by " + plot.x_label); }
 
 namespace {
 

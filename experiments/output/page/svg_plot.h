@@ -69,6 +69,7 @@ struct MapPlot {
   struct Square {
     double x, y;  ///< centre
     double value;
+    std::string text = {};  ///< shown under the pointer, with the value; if empty, the centre
   };
   std::string label;        ///< for both axes
   std::string value_label;  ///< for the colour scale
@@ -77,11 +78,23 @@ struct MapPlot {
   std::vector<Square> squares;
 };
 
+/// Rows of spans over one axis, one row below the other. They show when each of several things goes on.
+struct TimelinePlot {
+  struct Row {
+    std::string name;
+    std::vector<std::pair<double, double>> spans;
+  };
+  std::string x_label;
+  double from = 0, to = 1;  ///< range of the axis
+  std::vector<Row> rows;
+};
+
 [[nodiscard]] std::string svg_plot(const LinePlot& plot);
 [[nodiscard]] std::string svg_plot(const PanelPlot& plot);
 [[nodiscard]] std::string svg_plot(const PointPlot& plot);
 [[nodiscard]] std::string svg_plot(const BarPlot& plot);
 [[nodiscard]] std::string svg_plot(const MapPlot& plot);
+[[nodiscard]] std::string svg_plot(const TimelinePlot& plot);
 
 /// Rows of bars over one axis, each with its own scale. The rows show where along the chain several
 /// quantities occur.

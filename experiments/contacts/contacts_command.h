@@ -1,0 +1,19 @@
+#pragma once
+// The options of `kds contacts`.
+
+#include "experiments/contacts/follow_contacts.h"
+#include "experiments/output/output_files.h"
+#include "experiments/program/command_line.h"
+
+namespace kds {
+
+struct ContactsOptions {
+  ContactsTask task;
+  Destinations destinations;
+};
+
+/// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for
+/// --help. Opens no file.
+[[nodiscard]] ContactsOptions parse_contacts_options(const Arguments& arguments);
+
+}  // namespace kds

@@ -1,0 +1,421 @@
+#include "experiments/contacts/contacts_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "experiments/output/page/svg_plot.h"
+#include "experiments/output/page/table.h"
+#include "experiments/output/text.h"
+#include "motions/base/text_input.h"
+
+namespace kds {
+
+namespace {
+
+using Kind = FrameContacts::Kind;
+
+/// A pair with the names of its elements.
+struct PairRow {
+  const PairLifetimes* pair;
+  const ContactsReport* report;
+
+  [[nodiscard]] const std::string& first() const { return report->elements.names[pair->first]; }
+  [[nodiscard]] const std::string& second() const { return report->elements.names[pair->second]; }
+};
+
+/// Returns a pair's column. Numbers for people have four figures.
+Column<PairRow> pair_column(const char* key, std::string heading, Field (*value)(const PairLifetimes&),
+                            FieldFormat format = shortly) {
+  return {.key = key,
+          .heading = std::move(heading),
+          .value = [value](const PairRow& r) { return value(*r.pair); },
+          .format = std::move(format)};
+}
+
+/// Headings name the unit of time.
+Table<PairRow> pair_columns(const ContactsReport& report) {
+  using P = PairLifetimes;
+  const std::string unit = report.unit(), in_unit = " (" + unit + ")";
+  Table<PairRow> table(
+      {pair_column("i", "", [](const P& p) { return Field(p.first); }),
+       pair_column("j", "", [](const P& p) { return Field(p.second); }),
+       {.key = "first", .heading = "first", .value = [](const PairRow& r) { return Field(r.first()); }},
+       {.key = "second", .heading = "second", .value = [](const PairRow& r) { return Field(r.second()); }},
+       pair_column(
+           "contacts", "contacts", [](const P& p) { return Field(p.contacts); }, plainly),
+       pair_column(
+           "occupancy", "occupancy %", [](const P& p) { return Field(p.occupancy()); }, in_percent),
+       pair_column("total", "", [](const P& p) { return Field(p.total); }),
+       pair_column("mean", "mean" + in_unit, [](const P& p) { return Field(p.mean()); }),
+       pair_column("median", "median" + in_unit, [](const P& p) { return Field(p.median); }),
+       pair_column("longest", "longest" + in_unit, [](const P& p) { return Field(p.longest); })});
+  table.add(
+      {pair_column("first_begin_frame", "first frame",
+                   [](const P& p) { return Field(p.first_begin.rounded.frame); }),
+       pair_column("last_end_frame", "last frame",
+                   [](const P& p) { return Field(p.last_end.rounded.frame); }),
+       pair_column("first_begin_picoseconds", "",
+                   [](const P& p) { return Field(p.first_begin.rounded.picoseconds); }),
+       pair_column("last_end_picoseconds", "",
+                   [](const P& p) { return Field(p.last_end.rounded.picoseconds); }),
+       pair_column(
+           "open_at_start", "open at start", [](const P& p) { return Field(p.open_at_start > 0); }, plainly),
+       pair_column(
+           "open_at_end", "open at end", [](const P& p) { return Field(p.open_at_end > 0); }, plainly),
+       pair_column("begin_rate", "", [](const P& p) { return Field(p.begin_rate()); }),
+       pair_column("end_rate", "", [](const P& p) { return Field(p.end_rate()); }),
+       pair_column("residence", "residence" + in_unit, [](const P& p) { return Field(p.residence()); }),
+       {.key = "unit", .heading = "", .value = [unit](const PairRow&) { return Field(unit); }}});
+  return table;
+}
+
+std::vector<PairRow> rows_of(const ContactsReport& report, const ContactsFigures& figures) {
+  std::vector<PairRow> rows;
+  for (const PairLifetimes& pair : figures.pairs) rows.push_back({&pair, &report});
+  return rows;
+}
+
+/// Returns at most `most` pairs, those in contact longest first.
+std::vector<PairRow> longest_of(const ContactsReport& report, const ContactsFigures& figures,
+                                std::size_t most) {
+  std::vector<PairRow> rows = rows_of(report, figures);
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const PairRow& a, const PairRow& b) { return a.pair->total > b.pair->total; });
+  if (rows.size() > most) rows.resize(most);
+  return rows;
+}
+
+/// What one way of looking tells: the exact contacts, or those at samples.
+struct LookRow {
+  std::optional<double> frames_apart;  ///< empty: exact
+  std::optional<std::size_t> samples;
+  std::optional<std::uint64_t> found;
+  struct Told {
+    std::uint64_t contacts = 0;
+    double life = 0, occupancy = 0;
+  };
+  std::array<std::optional<Told>, FrameContacts::kinds> told;  ///< by FrameContacts::Kind
+};
+
+std::vector<LookRow> looks_of(const ContactsReport& report) {
+  const FrameContacts& frames = *report.frames;
+  const bool two = frames.exact(FrameContacts::dual).contacts > 0;
+  const auto pairs = static_cast<double>(frames.pair_count());
+  const auto exact = [&](Kind kind) {
+    const FrameContacts::Sums& sums = frames.exact(kind);
+    const double all = pairs * report.run_length;
+    return LookRow::Told{sums.contacts,
+                         sums.contacts == 0 ? 0 : sums.time / static_cast<double>(sums.contacts),
+                         all > 0 ? sums.time / all : 0};
+  };
+  LookRow first{{}, {}, {}, {exact(FrameContacts::plain), {}, {}}};
+  if (two) first.told[FrameContacts::dual] = exact(FrameContacts::dual);
+  std::vector<LookRow> rows{first};
+  const double frame = report.run_length / static_cast<double>(report.steps);
+  for (const FrameContacts::Row& row : frames.rows()) {
+    LookRow look{row.sampling.frames_apart(), row.sampling.samples, row.found, {}};
+    for (const Kind kind : {FrameContacts::plain, FrameContacts::bridged, FrameContacts::dual}) {
+      if (kind == FrameContacts::dual && !two) continue;
+      look.told[kind] = {row.sums[kind].contacts, row.life(kind) * frame,
+                         row.occupancy(kind, frames.pair_count())};
+    }
+    rows.push_back(look);
+  }
+  return rows;
+}
+
+constexpr std::array<const char*, FrameContacts::kinds> kind_keys{"plain", "bridged", "dual"};
+
+Table<LookRow> look_columns(const ContactsReport& report) {
+  Table<LookRow> table(
+      {{.key = "spacing",
+        .heading = "frames apart",
+        .value = [](const LookRow& r) { return Field(r.frames_apart); },
+        .format = shortly},
+       {.key = "samples", .heading = "samples", .value = [](const LookRow& r) { return Field(r.samples); }},
+       {.key = "found", .heading = "found", .value = [](const LookRow& r) { return Field(r.found); }}});
+  for (std::size_t kind = 0; kind < FrameContacts::kinds; ++kind) {
+    if (kind == FrameContacts::dual && report.frames->exact(FrameContacts::dual).contacts == 0) continue;
+    const std::string key = kind_keys[kind], start = kind == FrameContacts::plain ? "" : key + ": ";
+    const auto told = [kind](auto member) {
+      return [kind, member](const LookRow& r) {
+        return r.told[kind] ? Field((*r.told[kind]).*member) : Field();
+      };
+    };
+    table.add(
+        {{.key = key + ".contacts", .heading = start + "contacts", .value = told(&LookRow::Told::contacts)},
+         {.key = key + ".life",
+          .heading = start + "life (" + report.unit() + ")",
+          .value = told(&LookRow::Told::life),
+          .format = shortly},
+         {.key = key + ".occupancy",
+          .heading = start + "occupancy %",
+          .value = told(&LookRow::Told::occupancy),
+          .format = in_percent}});
+  }
+  return table;
+}
+
+Table<SurvivalPoint> survival_columns() {
+  using S = SurvivalPoint;
+  return Table<SurvivalPoint>({{.key = "length", .value = [](const S& s) { return Field(s.length); }},
+                               {.key = "at_risk", .value = [](const S& s) { return Field(s.at_risk); }},
+                               {.key = "survival", .value = [](const S& s) { return Field(s.survival); }},
+                               {.key = "lower", .value = [](const S& s) { return Field(s.lower); }},
+                               {.key = "upper", .value = [](const S& s) { return Field(s.upper); }}});
+}
+
+}  // namespace
+
+ContactsFigures figures_of(const ContactsReport& report) {
+  ContactsFigures figures;
+  report.lifetimes->visit_pairs(report.run_length,
+                                [&](const PairLifetimes& pair) { figures.pairs.push_back(pair); });
+  figures.all = report.lifetimes->all(report.run_length);
+  constexpr double least_drop = 1.0 / 300;  // a plot is about this many pixels high
+  figures.survival = report.lifetimes->survival(least_drop);
+  return figures;
+}
+
+void add_contacts(const ContactsReport& report, const ContactsFigures& figures, Json& json) {
+  const LifetimeFigures& all = figures.all;
+  json["by"] = name_of(report.by);
+  json["unit"] = report.unit();
+  json["elements"] = report.elements.names.size();
+  json["run_length"] = report.run_length;
+  Json sums{{"pairs", figures.pairs.size()}, {"contacts", all.contacts}};
+  sums["open_at_start"] = all.open_at_start;
+  sums["open_at_end"] = all.open_at_end;
+  sums["open_at_both"] = all.open_at_both;
+  sums["occupancy"] = all.occupancy();
+  sums["total"] = all.total;
+  sums["mean"] = all.mean();
+  sums["median"] = all.median;
+  sums["longest"] = all.longest;
+  sums["begin_rate"] = Field(all.begin_rate()).json();
+  sums["end_rate"] = Field(all.end_rate()).json();
+  sums["residence"] = Field(all.residence()).json();
+  json["all"] = std::move(sums);
+  json["rows"] = pair_columns(report).json(rows_of(report, figures));
+  json["frames"] = look_columns(report).json(looks_of(report));
+  json["survival"] = survival_columns().json(figures.survival);
+  Json course = Json::array();
+  const std::vector<double> means = report.course.means();
+  for (std::size_t bin = 0; bin < means.size(); ++bin)
+    course.push_back(Json{{"frame", report.frame_numbers[bin]}, {"contacts", means[bin]}});
+  json["course"] = std::move(course);
+}
+
+std::string contacts_csv(const ContactsReport& report, const ContactsFigures& figures) {
+  return pair_columns(report).csv(rows_of(report, figures));
+}
+
+std::string frames_csv(const ContactsReport& report) { return look_columns(report).csv(looks_of(report)); }
+
+void write_intervals_csv(const ContactsReport& report, std::ostream& stream) {
+  const bool timed = report.has_times();
+  std::vector<std::string> names;
+  for (const std::string& name : report.elements.names) names.push_back(csv_field(name));
+  stream << "i,j,first,second,begin_frame,end_frame" << (timed ? ",begin_picoseconds,end_picoseconds" : "")
+         << ",length,open_at_start,open_at_end\n";
+  report.intervals.for_each([&](const IntervalRecord& r) {
+    stream << fmt::format("{},{},{},{},{:.12g},{:.12g}", r.first, r.second, names[r.first], names[r.second],
+                          r.begin_frame, r.end_frame);
+    if (timed) stream << fmt::format(",{:.12g},{:.12g}", r.begin_picoseconds, r.end_picoseconds);
+    stream << fmt::format(",{},{},{}\n", r.length, r.open_at_start, r.open_at_end);
+  });
+}
+
+std::string contacts_text(const ContactsReport& report, const ContactsFigures& figures) {
+  constexpr std::size_t most = 20;
+  std::string text = look_columns(report).text(looks_of(report));
+  const auto rows = longest_of(report, figures, most);
+  if (rows.empty()) return text;
+  text += "\n" + pair_columns(report).text(rows);
+  if (figures.pairs.size() > most)
+    text += fmt::format("... {} more pairs; --out DIR writes all of them\n",
+                        with_thousands(figures.pairs.size() - most));
+  return text;
+}
+
+namespace {
+
+/// Returns the contact map: the occupancy of each pair. If there are too many pairs, squares are blocks of
+/// elements that show the largest occupancy within.
+std::string map_of(const ContactsReport& report, const ContactsFigures& figures) {
+  constexpr std::size_t most_squares = 3000;
+  const auto& names = report.elements.names;
+  std::map<std::pair<std::size_t, std::size_t>, const PairLifetimes*> squares;
+  std::size_t block = 1;
+  for (;; ++block) {
+    squares.clear();
+    for (const PairLifetimes& pair : figures.pairs) {
+      const PairLifetimes*& best = squares[{pair.first / block, pair.second / block}];
+      if (best == nullptr || best->total < pair.total) best = &pair;
+    }
+    if (squares.size() <= most_squares) break;
+  }
+  const auto side = static_cast<double>(block);
+  MapPlot map{std::string(name_of(report.by)),
+              block == 1 ? "occupancy" : fmt::format("largest occupancy of {0} x {0}", block),
+              -0.5,
+              static_cast<double>(names.size()) - 0.5,
+              side,
+              {}};
+  for (const auto& [place, pair] : squares) {
+    const auto middle = [&](std::size_t index) { return (static_cast<double>(index) + 0.5) * side - 0.5; };
+    map.squares.push_back({middle(place.first), middle(place.second), pair->occupancy(),
+                           fmt::format("{} and {}", names[pair->first], names[pair->second])});
+  }
+  return svg_plot(map);
+}
+
+/// Returns the spans of the pairs in contact longest. Spans that one pixel holds are joined.
+std::string timeline_of(const ContactsReport& report, const ContactsFigures& figures) {
+  constexpr std::size_t most_rows = 40;
+  constexpr double pixels = 600;
+  TimelinePlot plot{
+      "frame", static_cast<double>(report.first_frame), static_cast<double>(report.last_frame), {}};
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> rows;
+  for (const PairRow& row : longest_of(report, figures, most_rows)) {
+    rows[{row.pair->first, row.pair->second}] = plot.rows.size();
+    plot.rows.push_back({row.first() + ", " + row.second(), {}});
+  }
+  const double pixel = (plot.to - plot.from) / pixels;
+  report.intervals.for_each([&](const IntervalRecord& r) {
+    const auto row = rows.find({r.first, r.second});
+    if (row == rows.end()) return;
+    auto& spans = plot.rows[row->second].spans;
+    if (!spans.empty() && r.begin_frame - spans.back().second < pixel) {
+      spans.back().second = r.end_frame;
+    } else {
+      spans.emplace_back(r.begin_frame, r.end_frame);
+    }
+  });
+  return svg_plot(plot);
+}
+
+std::string survival_plot(const ContactsReport& report, const ContactsFigures& figures) {
+  LinePlot plot{
+      "length of time (" + report.unit() + ")", "share of contacts that last", Drawn::staircase, {}};
+  Curve survival{"survival", {{0, 1}}}, lower{"lower end of the 95% band", {{0, 1}}},
+      upper{"upper end of the 95% band", {{0, 1}}};
+  for (const SurvivalPoint& point : figures.survival) {
+    survival.points.emplace_back(point.length, point.survival);
+    if (point.lower) lower.points.emplace_back(point.length, *point.lower);
+    if (point.upper) upper.points.emplace_back(point.length, *point.upper);
+  }
+  plot.curves = {survival, lower, upper};
+  return svg_plot(plot);
+}
+
+std::string course_plot(const ContactsReport& report) {
+  LinePlot plot{"frame", "pairs in contact", Drawn::staircase, {{"", {}}}};
+  const std::vector<double> means = report.course.means();
+  auto& points = plot.curves.front().points;
+  for (std::size_t bin = 0; bin < means.size(); ++bin)
+    points.emplace_back(static_cast<double>(report.frame_numbers[bin]), means[bin]);
+  points.emplace_back(static_cast<double>(report.last_frame), means.back());
+  return svg_plot(plot);
+}
+
+/// Returns number, life and occupancy of contacts by the spacing of samples, divided by the exact ones.
+std::string bias_plot(const ContactsReport& report) {
+  const std::vector<LookRow> rows = looks_of(report);
+  const auto panel = [&](const char* title, auto value) {
+    LinePlot plot{"frames apart", "divided by the exact value", Drawn::points, {}};
+    for (std::size_t kind = 0; kind < FrameContacts::kinds; ++kind) {
+      const auto& exact = rows.front().told[kind == FrameContacts::dual ? kind : 0];
+      if (!exact || !(static_cast<double>((*exact).*value) > 0)) continue;
+      Curve curve{kind_keys[kind], {}};
+      for (const LookRow& row : rows)
+        if (row.frames_apart && row.told[kind])
+          curve.points.emplace_back(*row.frames_apart, static_cast<double>((*row.told[kind]).*value) /
+                                                           static_cast<double>((*exact).*value));
+      plot.curves.push_back(std::move(curve));
+    }
+    return PanelPlot::Panel{title, plot};
+  };
+  return svg_plot(
+      PanelPlot{{panel("Number of contacts", &LookRow::Told::contacts),
+                 panel("Mean life", &LookRow::Told::life), panel("Occupancy", &LookRow::Told::occupancy)}});
+}
+
+std::string findings_of(const ContactsReport& report, const ContactsFigures& figures) {
+  const LifetimeFigures& all = figures.all;
+  if (all.contacts == 0) return "<p>There are no contacts.</p>\n";
+  std::string html = fmt::format(
+      "<p><strong>{}</strong> contacts between <strong>{}</strong> pairs last {} {} on average, {} at the "
+      "median and "
+      "{} at the longest.",
+      with_thousands(all.contacts), with_thousands(figures.pairs.size()), short_decimal(all.mean()),
+      report.unit(), short_decimal(all.median), short_decimal(all.longest));
+  if (const auto residence = all.residence())
+    html += fmt::format(" The residence time is {} {}.", short_decimal(*residence), report.unit());
+  html += fmt::format(" {} contacts last at the first frame, and {} at the last.</p>\n",
+                      with_thousands(all.open_at_start), with_thousands(all.open_at_end));
+  const std::vector<LookRow> rows = looks_of(report);
+  const LookRow::Told &exact = *rows.front().told[0], &most = *rows.back().told[0];
+  html += fmt::format(
+      "<p>If only one frame in {} is examined, <strong>{}</strong> contacts are seen instead of {}, with a "
+      "mean life "
+      "of {} instead of {} {}.</p>\n",
+      short_decimal(*rows.back().frames_apart), with_thousands(most.contacts), with_thousands(exact.contacts),
+      short_decimal(most.life), short_decimal(exact.life), report.unit());
+  return html;
+}
+
+}  // namespace
+
+std::string contacts_page(const ContactsReport& report, const ContactsFigures& figures,
+                          const std::string& input, Page page) {
+  page.title = "kds contacts: " + input;
+  page.found = findings_of(report, figures);
+  page.words =
+      "A <em>contact</em> lasts as long as two beads of the pair are within the cutoff. Its beginning and "
+      "end are "
+      "exact for the motion between frames. With two cutoffs, it begins within the first and ends outside "
+      "the second. "
+      "<em>Occupancy</em> is the share of the time in contact. A contact is <em>open</em> if it lasts at the "
+      "first "
+      "or the last frame; the survival function takes open contacts as censored. The <em>residence time</em> "
+      "is the "
+      "time in contact divided by the number of ends.";
+  if (figures.all.contacts > 0) {
+    page.body += html_section("Contact map", html_figure(map_of(report, figures),
+                                                         "Occupancy of each pair. Names are "
+                                                         "shown under the pointer."));
+    page.body += html_section("When pairs are in contact",
+                              html_figure(timeline_of(report, figures),
+                                          "The pairs that are in contact longest, the longest first."));
+    page.body += html_section(
+        "Survival",
+        html_figure(survival_plot(report, figures),
+                    "Share of contacts that last longer than a length of time (Kaplan and Meier), "
+                    "with its 95% band (Greenwood, log-log). Open contacts are censored."));
+    page.body += html_section("Contacts over time",
+                              html_figure(course_plot(report), "Mean number of pairs in contact."));
+  }
+  std::string look;
+  if (figures.all.contacts > 0)
+    look =
+        html_figure(bias_plot(report),
+                    "Contacts that are counted at samples, divided by the exact ones without a gap. Below 1, "
+                    "samples divide the frames; from 1 on, one frame in so many is examined.");
+  look += look_columns(report).html(looks_of(report));
+  page.body += html_section("What frames would have told", look);
+  constexpr std::size_t most_rows = 200;
+  page.body += html_section("Pairs", pair_columns(report).html(longest_of(report, figures, most_rows)));
+  page.terms = {{"samples", "times at which frames, or times between them, are looked at"},
+                {"found", "exact contacts in which a sample lies"},
+                {"plain", "a contact is a run of samples in contact; n samples last n spacings"},
+                {"bridged", "absences of up to --intermittency samples do not end a contact"}};
+  if (report.frames->exact(FrameContacts::dual).contacts > 0)
+    page.terms.emplace_back("dual", "a contact begins within the first cutoff and ends outside the second");
+  return html_page(page);
+}
+
+}  // namespace kds

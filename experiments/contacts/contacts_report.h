@@ -1,0 +1,33 @@
+#pragma once
+// The outputs of `kds contacts`: tables of pairs and of samplings, and the page.
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "experiments/contacts/follow_contacts.h"
+#include "experiments/output/page/html_page.h"
+#include "experiments/output/result_json.h"
+
+namespace kds {
+
+/// All that is told of a report, computed once.
+struct ContactsFigures {
+  std::vector<PairLifetimes> pairs;
+  LifetimeFigures all;
+  std::vector<SurvivalPoint> survival;  ///< thinned for plots
+};
+[[nodiscard]] ContactsFigures figures_of(const ContactsReport& report);
+
+/// Adds the members of contacts.json to `json`.
+void add_contacts(const ContactsReport& report, const ContactsFigures& figures, Json& json);
+[[nodiscard]] std::string contacts_csv(const ContactsReport& report, const ContactsFigures& figures);
+[[nodiscard]] std::string frames_csv(const ContactsReport& report);
+void write_intervals_csv(const ContactsReport& report, std::ostream& stream);
+/// Returns the table on the terminal: what frames tell, and the pairs that are in contact longest.
+[[nodiscard]] std::string contacts_text(const ContactsReport& report, const ContactsFigures& figures);
+/// `input` names the input, and `page` says how the results were made.
+[[nodiscard]] std::string contacts_page(const ContactsReport& report, const ContactsFigures& figures,
+                                        const std::string& input, Page page);
+
+}  // namespace kds

@@ -1,0 +1,97 @@
+#pragma once
+// The work of `kds contacts`: one run follows the contacts of all pairs, exactly and as frames tell it.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/output/spool.h"
+#include "experiments/program/input_options.h"
+#include "motions/scene/scene.h"
+#include "structures/contacts/contact_elements.h"
+#include "structures/contacts/contact_lifetimes.h"
+#include "structures/contacts/frame_contacts.h"
+
+namespace kds {
+
+/// A contact begins within `inner` and ends outside `outer`; both are equal if there is one cutoff.
+struct ContactCutoffs {
+  double inner = 0, outer = 0;
+  [[nodiscard]] bool are_two() const { return inner < outer; }
+};
+
+struct ContactsTask : InputOptions {
+  std::optional<ContactCutoffs> cutoff;  ///< has a value after parsing
+  bool surface = false;
+  std::optional<BeadId> apart;       ///< empty if not given
+  double gap = 0;                    ///< in picoseconds if the frames have times, otherwise in frames
+  std::optional<ContactElement> by;  ///< empty if not given
+  std::vector<std::size_t> strides;  ///< ascending; empty for the default
+  std::size_t intermittency = 1;     ///< samples that an absence may have, for the frame-based figures
+  FrameMotion motion = FrameMotion::linear;
+};
+
+inline constexpr BeadId default_contacts_apart = 3;
+
+/// Returns the strides that examine at least two of the frames: the given ones, or 1, 2, 4 ... 64. Throws
+/// InputError if a given stride examines one frame only.
+[[nodiscard]] std::vector<std::size_t> strides_that_fit(const std::vector<std::size_t>& given,
+                                                        std::size_t frames, const InputOptions& input);
+
+/// An interval as it waits on disk.
+struct IntervalRecord {
+  std::uint32_t first = 0, second = 0;
+  double begin_frame = 0, end_frame = 0;              ///< in frames of the file, with a fraction
+  double begin_picoseconds = 0, end_picoseconds = 0;  ///< 0 if the frames have no times
+  double length = 0;                                  ///< in units of the clock
+  double begin = 0, end = 0;                          ///< counted in steps of the run
+  bool open_at_start = false, open_at_end = false;
+};
+
+/// The mean number of contacts in bins of neighbouring steps.
+class ContactCourse {
+ public:
+  static constexpr std::size_t most_bins = 300;
+
+  explicit ContactCourse(std::size_t steps);
+  /// Adds a contact. Times count steps.
+  void add(double begin, double end);
+  /// Returns the number of steps in a bin. The last bin may have fewer.
+  [[nodiscard]] std::size_t width() const { return width_; }
+  [[nodiscard]] std::vector<double> means() const;
+
+ private:
+  std::size_t steps_, width_;
+  std::vector<double> partial_, begun_;  // of each bin: time in it; contacts that cover all bins from it on
+};
+
+struct ContactsReport {
+  explicit ContactsReport(std::size_t step_count) : steps(step_count), course(step_count) {}
+
+  ContactElement by = ContactElement::bead;
+  ContactElements elements;
+  BeadId apart = default_contacts_apart;
+  ContactClock clock = ContactClock::frames;
+  double run_length = 0;  ///< in units of the clock
+  std::size_t steps;
+  std::vector<std::size_t> frame_numbers;  ///< in the file, of the first frame of each bin of `course`
+  std::size_t first_frame = 0, last_frame = 0;
+  std::unique_ptr<ContactLifetimes> lifetimes;
+  std::unique_ptr<FrameContacts> frames;
+  SpooledRecords<IntervalRecord> intervals;  ///< in the order of their ends
+  ContactCourse course;
+
+  [[nodiscard]] bool has_times() const { return clock == ContactClock::picoseconds; }
+  [[nodiscard]] std::string unit() const { return has_times() ? "ps" : "frames"; }
+};
+
+/// Follows the contacts over all frames of the scene. Throws InputError for faults of the input.
+[[nodiscard]] std::unique_ptr<ContactsReport> follow_contacts(
+    const ContactsTask& task, const Scene& scene,
+    const std::function<void(std::size_t done, std::size_t total)>& progress);
+
+}  // namespace kds

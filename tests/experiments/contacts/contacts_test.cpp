@@ -1,0 +1,322 @@
+// Tests `kds contacts`: its options, its figures, its files and its page.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <set>
+#include <sstream>
+
+#include "experiments/contacts/contacts_command.h"
+#include "experiments/output/sorted_records.h"
+#include "motions/base/input_error.h"
+#include "motions/readers/read_trajectory.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+#include "tests/experiments/sound_page.h"
+#include "tests/support/judges/second_numbers.h"
+
+namespace kds::test::contacts_command_test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string refusal(const Arguments& arguments) {
+  try {
+    static_cast<void>(parse_contacts_options(arguments));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ContactsOptions, DefaultsAndAll) {
+  const ContactsTask plain = parse_contacts_options({"a.pdb", "--cutoff", "8"}).task;
+  EXPECT_EQ(plain.cutoff->inner, 8);
+  EXPECT_EQ(plain.cutoff->outer, 8);
+  EXPECT_EQ(plain.gap, 0);
+  EXPECT_FALSE(plain.surface || plain.by || plain.apart);
+  const ContactsTask all = parse_contacts_options({"a.xyz", "--cutoff", "4.5:6", "--surface", "--apart", "5",
+                                                   "--gap", "1.5", "--by", "chain", "--strides", "8,1",
+                                                   "--intermittency", "0", "--motion", "hermite"})
+                               .task;
+  EXPECT_EQ(all.cutoff->inner, 4.5);
+  EXPECT_EQ(all.cutoff->outer, 6);
+  EXPECT_TRUE(all.surface);
+  EXPECT_EQ(all.apart, 5U);
+  EXPECT_EQ(all.gap, 1.5);
+  EXPECT_EQ(all.by, ContactElement::chain);
+  EXPECT_THAT(all.strides, ElementsAre(1, 8));
+  EXPECT_EQ(all.intermittency, 0U);
+  EXPECT_EQ(all.motion, FrameMotion::hermite);
+}
+
+TEST(ContactsOptions, RefusesWithTheOptionAndWhatItTakes) {
+  EXPECT_THAT(refusal({"a.pdb"}), HasSubstr("kds contacts needs --cutoff LENGTH"));
+  EXPECT_THAT(refusal({"--cutoff", "8"}), HasSubstr("kds contacts needs at least one INPUT"));
+  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "6:4.5"}), HasSubstr("expected the smaller length first, 4.5:6"));
+  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "1:2:3"}), HasSubstr("--cutoff: '1:2:3' has 3 lengths"));
+  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "-1"}), HasSubstr("--cutoff: '-1' is not a number"));
+  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "0"}), HasSubstr("expected a length above 0, or --surface"));
+  EXPECT_EQ(refusal({"a.pdb", "--cutoff", "0", "--surface"}), "accepted");
+  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "8", "--gap", "-1"}), HasSubstr("--gap: '-1' is not a number"));
+  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "8", "--by", "atom"}),
+              HasSubstr("--by: 'atom' is not one of bead"));
+}
+
+// A bead rests. The other is in contact within 2 from 0.25 to 0.75, and from 1.5 on: its places are the
+// frames'.
+struct Passing {
+  ScratchDirectory directory;
+  std::string rests = directory.file("rests.xyz", "1\n\nC 0 0 0\n");
+  std::string passes =
+      directory.file("passes.xyz", "1\n\nC -4 0 0\n1\n\nC 4 0 0\n1\n\nC 0 0 0\n1\n\nC 0 0 0\n");
+
+  ProgramRun run(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"contacts", rests, passes, "--cutoff"});
+    return run_program(options);
+  }
+  Json json(std::vector<std::string> options) const {
+    options.insert(options.end(), {"--json", "-"});
+    const ProgramRun done = run(options);
+    EXPECT_EQ(done.code, 0) << done.err;
+    return done.code == 0 ? Json::parse(done.out) : Json();
+  }
+};
+
+TEST(ContactsCommand, FiguresOfAPair) {
+  const Json json = Passing().json({"2", "--strides", "1,3"});
+  EXPECT_EQ(json["by"], "bead");
+  EXPECT_EQ(json["unit"], "frames");
+  EXPECT_EQ(json["settings"]["cutoff"], "2");
+  ASSERT_EQ(json["rows"].size(), 1U);
+  const Json& row = json["rows"][0];
+  EXPECT_EQ(row["contacts"], 2);
+  EXPECT_EQ(row["total"], 2.0);
+  EXPECT_EQ(row["occupancy"], 2 / 3.0);
+  EXPECT_EQ(row["mean"], 1.0);
+  EXPECT_EQ(row["longest"], 1.5);
+  EXPECT_EQ(row["first_begin_frame"], 0.25);
+  EXPECT_EQ(row["last_end_frame"], 3.0);
+  EXPECT_EQ(row["open_at_start"], false);
+  EXPECT_EQ(row["open_at_end"], true);
+  EXPECT_EQ(row["begin_rate"], 2.0);
+  EXPECT_EQ(row["end_rate"], 0.5);
+  EXPECT_EQ(row["residence"], 2.0);
+  const Json& frames = json["frames"];
+  ASSERT_EQ(frames.size(), 7U);  // exact, four parts of a frame, two strides
+  EXPECT_EQ(frames[0]["spacing"], nullptr);
+  EXPECT_EQ(frames[0]["plain"]["contacts"], 2);
+  EXPECT_EQ(frames[5]["spacing"], 1.0);
+  EXPECT_EQ(frames[5]["plain"]["contacts"], 1);
+  EXPECT_EQ(frames[5]["plain"]["life"], 2.0);
+  EXPECT_EQ(frames[5]["plain"]["occupancy"], 0.5);
+  EXPECT_EQ(frames[6]["samples"], 2);
+  EXPECT_EQ(json["survival"][0]["length"], 0.5);
+  EXPECT_EQ(json["survival"][0]["survival"], 0.5);
+  EXPECT_EQ(json["course"][1]["contacts"], 0.5);
+}
+
+TEST(ContactsCommand, GapsAndTwoCutoffs) {
+  const Passing passing;
+  // The absence is 0.75 frames, and 0.75 picoseconds if frames are 1 ps apart.
+  EXPECT_EQ(passing.json({"2", "--gap", "0.75"})["rows"][0]["contacts"], 2);
+  EXPECT_EQ(passing.json({"2", "--gap", "0.76"})["rows"][0]["contacts"], 1);
+  EXPECT_EQ(passing.json({"2", "--gap", "1", "--dt", "2"})["rows"][0]["contacts"], 2);
+  EXPECT_EQ(passing.json({"2", "--gap", "1", "--dt", "1"})["rows"][0]["contacts"], 1);
+  EXPECT_EQ(passing.json({"2", "--dt", "2"})["rows"][0]["total"], 4.0);
+  EXPECT_EQ(passing.json({"2", "--dt", "2"})["unit"], "ps");
+  const Json dual = passing.json({"2:3"});
+  EXPECT_EQ(dual["rows"][0]["total"], 2.125);  // from 0.25 to 0.875, and from 1.5 on
+  EXPECT_EQ(dual["frames"][0]["dual"]["contacts"], 2);
+  EXPECT_EQ(passing.json({"2:4"})["rows"][0]["contacts"], 1);
+  EXPECT_EQ(passing.json({"0.5", "--surface", "--radius", "0.75"})["rows"], passing.json({"2"})["rows"]);
+}
+
+TEST(ContactsCommand, WithoutContactsSaysWhatToTry) {
+  const ProgramRun run = Passing().run({"1e-3", "--groups", "all", "all"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  const ScratchDirectory directory;
+  const std::string path = directory.file("two.xyz", "2\n\nC 0 0 0\nC 5 0 0\n2\n\nC 0 0 0\nC 5 0 1\n");
+  const ProgramRun none = run_program({"contacts", path, "--cutoff", "1", "--apart", "1"});
+  EXPECT_EQ(none.code, 0);
+  EXPECT_THAT(none.err, HasSubstr("there are no contacts within --cutoff 1"));
+}
+
+TEST(ContactsCommand, RefusesInputsThatItCannotUse) {
+  const ScratchDirectory directory;
+  const std::string one = directory.file("one.xyz", "2\n\nC 0 0 0\nC 1 0 0\n");
+  const std::string two = directory.file("two.xyz", "2\n\nC 0 0 0\nC 1 0 0\n2\n\nC 0 0 0\nC 1 0 1\n");
+  const auto error = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"contacts", "--cutoff", "2"});
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 2) << run.err;
+    return run.err;
+  };
+  EXPECT_THAT(error({two, "--by", "residue"}), HasSubstr("bead 0 has no residue"));
+  EXPECT_THAT(error({two, "--by", "chain"}), HasSubstr("has one chain, expected two or more"));
+  EXPECT_THAT(error({two, two, "--by", "chain", "--apart", "4"}),
+              HasSubstr("--apart: it chooses pairs within a chain"));
+  EXPECT_THAT(error({two, "--strides", "2"}), HasSubstr("--strides: 2 looks at one of the 2 frames"));
+  static_cast<void>(error({one}));
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(ContactsCommand, FilesAndPage) {
+  const ScratchDirectory directory;
+  const std::string out = (directory / "report").string();
+  const ProgramRun run = run_program({"contacts", data_file("trajectories/ubiquitin_pull_first30.pdb"),
+                                      "--select", "ca", "--cutoff", "6:8", "--out", out});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("frames apart"));
+  const std::string page = text_of(out + "/report.html");
+  expect_sound(page);
+  for (const char* part : {"Contact map", "When pairs are in contact", "Survival", "Contacts over time",
+                           "What frames would have told", "VAL 5 and ILE 13"})
+    EXPECT_THAT(page, HasSubstr(part));
+  const Json json = Json::parse(text_of(out + "/contacts.json"));
+  std::map<std::string, int> contacts;
+  std::istringstream lines(text_of(out + "/intervals.csv"));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_THAT(line, HasSubstr("i,j,first,second,begin_frame,end_frame"));
+  while (std::getline(lines, line)) ++contacts[line.substr(0, line.find(',', line.find(',') + 1))];
+  ASSERT_EQ(contacts.size(), json["rows"].size());
+  for (const Json& row : json["rows"]) {
+    const std::string key = row["i"].dump() + "," + row["j"].dump();
+    EXPECT_EQ(row["contacts"], contacts[key]) << key;
+    EXPECT_GE(row["j"].get<int>() - row["i"].get<int>(), 3);
+  }
+  EXPECT_THAT(text_of(out + "/contacts.csv"), HasSubstr("i,j,first,second,contacts,occupancy"));
+  EXPECT_THAT(text_of(out + "/frames.csv"), HasSubstr("spacing,samples,found,contacts"));
+}
+
+using Second = second::Rational;
+
+/// Returns the square root, rounded down to 2^-80.
+Second root_of(const Second& x) {
+  using boost::multiprecision::denominator;
+  using boost::multiprecision::numerator;
+  const second::Integer unit = second::Integer(1) << 80;
+  const second::Integer scaled = numerator(x) * unit * unit / denominator(x);
+  return Second(boost::multiprecision::sqrt(scaled), unit);
+}
+
+/// Solves the quadratic of each pair of beads in each step, in fractions: |d0 + u (d1 - d0)|^2 = cutoff^2.
+/// Returns begin and end of every contact, rounded, in frames.
+using Spans = std::vector<std::pair<double, double>>;
+std::map<std::pair<int, int>, Spans> brute_force(const Trajectory& trajectory, double cutoff, int apart) {
+  std::map<std::pair<int, int>, Spans> all;
+  const Second square = Second(cutoff) * Second(cutoff);
+  const auto beads = static_cast<int>(trajectory.bead_count());
+  for (int i = 0; i < beads; ++i) {
+    for (int j = i + apart; j < beads; ++j) {
+      std::vector<std::pair<Second, Second>> spans;
+      for (std::size_t step = 0; step + 1 < trajectory.frames.size(); ++step) {
+        Second a = 0, b = 0, c = -square;  // a u^2 + 2 b u + c
+        const Eigen::Matrix3Xd &from = trajectory.frames[step], &to = trajectory.frames[step + 1];
+        const double near = std::min((from.col(i) - from.col(j)).norm(), (to.col(i) - to.col(j)).norm());
+        if (near > cutoff + 12) continue;  // no bead moves by 6 in a step
+        for (int axis = 0; axis < 3; ++axis) {
+          const Second start = Second(from(axis, i)) - Second(from(axis, j));
+          const Second way = Second(to(axis, i)) - Second(to(axis, j)) - start;
+          a += way * way;
+          b += start * way;
+          c += start * start;
+        }
+        const Second discriminant = b * b - a * c;
+        if (discriminant < 0 || a == 0) continue;
+        const Second root = root_of(discriminant);
+        const Second low = std::max(Second((-b - root) / a), Second(0)),
+                     high = std::min(Second((-b + root) / a), Second(1));
+        if (low > high) continue;
+        const Second begin = low + Second(step), end = high + Second(step);
+        if (!spans.empty() && spans.back().second == begin) {
+          spans.back().second = end;
+        } else {
+          spans.emplace_back(begin, end);
+        }
+      }
+      for (const auto& [begin, end] : spans)
+        all[{i, j}].emplace_back(begin.convert_to<double>(), end.convert_to<double>());
+    }
+  }
+  return all;
+}
+
+void expect_as_brute_force(const std::string& dcd, const std::string& pdb, std::size_t frames,
+                           double cutoff) {
+  ReadOptions options;
+  options.topology = data_file(pdb);
+  options.selection = Selection::ca;
+  options.frames.last = frames;
+  const Trajectory trajectory = read_trajectory(data_file(dcd), options);
+  const auto expected = brute_force(trajectory, cutoff, 4);
+  const ScratchDirectory directory;
+  const std::string out = (directory / "report").string();
+  const ProgramRun run =
+      run_program({"contacts", data_file(dcd), "--topology", data_file(pdb), "--select", "ca", "--frames",
+                   ":" + std::to_string(frames), "--by", "bead", "--apart", "4", "--cutoff",
+                   std::to_string(cutoff), "--out", out, "--quiet"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  std::map<std::pair<int, int>, Spans> found;
+  std::istringstream lines(text_of(out + "/intervals.csv"));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    std::vector<std::string> cells;
+    std::istringstream words(line);
+    for (std::string word; std::getline(words, word, ',');) cells.push_back(word);
+    found[{std::stoi(cells[0]), std::stoi(cells[1])}].emplace_back(std::stod(cells[4]), std::stod(cells[5]));
+  }
+  std::size_t intervals = 0;
+  ASSERT_EQ(found.size(), expected.size());
+  for (const auto& [pair, spans] : expected) {
+    ASSERT_EQ(found[pair].size(), spans.size()) << pair.first << " " << pair.second;
+    for (std::size_t k = 0; k < spans.size(); ++k) {
+      ASSERT_NEAR(found[pair][k].first, spans[k].first, 1e-9);
+      ASSERT_NEAR(found[pair][k].second, spans[k].second, 1e-9);
+    }
+    intervals += spans.size();
+  }
+  EXPECT_GT(intervals, 100U);
+}
+
+TEST(ContactsCommand, IntervalsAreThoseOfEachPairsQuadratic) {
+  expect_as_brute_force("trajectories/villin_hp36_300K.dcd", "trajectories/villin_hp36_300K.pdb", 40, 8);
+  expect_as_brute_force("trajectories/random100_400K_first200.dcd", "trajectories/random100_400K.pdb", 40, 8);
+}
+
+TEST(SortedRecords, AreSortedAcrossRuns) {
+  std::mt19937 random(1);
+  for (const std::size_t most : {1U, 7U, 1000U}) {
+    SortedRecords<std::uint32_t> records(most);
+    std::multiset<std::uint32_t> expected;
+    for (int k = 0; k < 500; ++k) {
+      const auto value = static_cast<std::uint32_t>(random() % 300);
+      records.add(value);
+      expected.insert(value);
+      if (k % 250 != 249) continue;
+      std::vector<std::uint32_t> visited;
+      records.visit_sorted([&](std::uint32_t value_now) { visited.push_back(value_now); });
+      EXPECT_THAT(visited, testing::ElementsAreArray(expected));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kds::test::contacts_command_test
