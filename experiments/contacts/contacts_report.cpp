@@ -146,12 +146,12 @@ Table<LookRow> look_columns(const ContactsReport& report) {
       };
     };
     table.add(
-        {{.key = key + ".contacts", .heading = start + "contacts", .value = told(&LookRow::Told::contacts)},
-         {.key = key + ".life",
+        {{.key = key + "_contacts", .heading = start + "contacts", .value = told(&LookRow::Told::contacts)},
+         {.key = key + "_life",
           .heading = start + "life (" + report.unit() + ")",
           .value = told(&LookRow::Told::life),
           .format = shortly},
-         {.key = key + ".occupancy",
+         {.key = key + "_occupancy",
           .heading = start + "occupancy %",
           .value = told(&LookRow::Told::occupancy),
           .format = in_percent}});

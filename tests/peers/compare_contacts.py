@@ -38,7 +38,7 @@ def runs_of(sets):
 
 def compare(name, row, kind, sets, pairs, frame, tolerance):
     runs, frames = runs_of(sets)
-    own = row[kind]
+    own = {key: row[f"{kind}_{key}"] for key in ("contacts", "life", "occupancy")}
     check(abs(own["contacts"] - runs) <= tolerance, f"{name}: {own['contacts']} contacts, expected {runs}")
     occupancy = frames / len(sets) / pairs
     check(abs(own["occupancy"] - occupancy) <= 1e-9 + tolerance / len(sets) / pairs,
@@ -70,9 +70,8 @@ def compare_file(dcd, pdb, frames):
         # The survival probability after one frame looked at: those still in contact, of those before.
         _, _, by_frame = autocorrelation(sets, 1, 1)
         still = sum(share * len(s) for share, s in zip(by_frame[0], [s for s in sets[:-1] if s]))
-        own = rows[stride]["plain"]
-        samples = own["occupancy"] * rows[stride]["samples"] * pairs
-        survival, expected = (samples - own["contacts"]) / (samples - len(sets[-1])), still / (in_contact - len(sets[-1]))
+        samples = rows[stride]["plain_occupancy"] * rows[stride]["samples"] * pairs
+        survival, expected = (samples - rows[stride]["plain_contacts"]) / (samples - len(sets[-1])), still / (in_contact - len(sets[-1]))
         check(abs(survival - expected) <= 1e-9 + 2 * ties / in_contact, f"{name}: survival {survival}, expected {expected}")
         bridged = correct_intermittency([set(s) for s in sets], BRIDGE)
         compare(name + ", MDAnalysis bridges", rows[stride], "bridged", bridged, pairs, frame, ties)

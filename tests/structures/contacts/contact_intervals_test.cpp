@@ -208,7 +208,7 @@ std::vector<Space> grid_steps(std::mt19937& random, std::size_t beads, int range
 TEST(ContactIntervals, AreThoseOfEachPairAlone) {
   std::mt19937 random(38);
   std::size_t intervals = 0, open = 0, touches = 0;
-  for (int round = 0; round < rounds(120) && !HasFailure(); ++round) {
+  for (int round = 0; round < rounds(60) && !HasFailure(); ++round) {
     SCOPED_TRACE(round);
     const std::size_t beads = 2 + random() % 5;
     const auto steps = grid_steps(random, beads, 3 + static_cast<int>(random() % 4), 5);
@@ -228,9 +228,9 @@ TEST(ContactIntervals, AreThoseOfEachPairAlone) {
       touches += i.length() == 0 ? 1 : 0;
     }
   }
-  EXPECT_GT(intervals, rounds(400U));
-  EXPECT_GT(open, rounds(100U));
-  EXPECT_GT(touches, rounds(10U));
+  EXPECT_GT(intervals, rounds(200U));
+  EXPECT_GT(open, rounds(50U));
+  EXPECT_GT(touches, rounds(5U));
 }
 
 // Ball 1 passes at distance 1, so it leaves and comes back at irrational times. Over linear motion an
