@@ -78,12 +78,14 @@ std::vector<PairRow> rows_of(const ContactsReport& report, const ContactsFigures
   return rows;
 }
 
-/// Returns at most `most` pairs, those in contact longest first.
-std::vector<PairRow> longest_of(const ContactsReport& report, const ContactsFigures& figures,
+/// Returns at most `most` pairs, those with the most contacts first, then those in contact longest.
+std::vector<PairRow> busiest_of(const ContactsReport& report, const ContactsFigures& figures,
                                 std::size_t most) {
   std::vector<PairRow> rows = rows_of(report, figures);
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const PairRow& a, const PairRow& b) { return a.pair->total > b.pair->total; });
+  std::stable_sort(rows.begin(), rows.end(), [](const PairRow& a, const PairRow& b) {
+    if (a.pair->contacts != b.pair->contacts) return a.pair->contacts > b.pair->contacts;
+    return a.pair->total > b.pair->total;
+  });
   if (rows.size() > most) rows.resize(most);
   return rows;
 }
@@ -127,14 +129,20 @@ std::vector<LookRow> looks_of(const ContactsReport& report) {
   return rows;
 }
 
+std::string name_of_look(const LookRow& row) {
+  if (!row.frames_apart) return "all times, exactly";
+  const double apart = *row.frames_apart;
+  return apart < 1    ? fmt::format("{} times a frame", 1 / apart)
+         : apart == 1 ? "each frame"
+                      : fmt::format("one frame in {}", apart);
+}
+
 constexpr std::array<const char*, FrameContacts::kinds> kind_keys{"plain", "bridged", "dual"};
 
 Table<LookRow> look_columns(const ContactsReport& report) {
   Table<LookRow> table(
-      {{.key = "spacing",
-        .heading = "frames apart",
-        .value = [](const LookRow& r) { return Field(r.frames_apart); },
-        .format = shortly},
+      {{.key = "spacing", .value = [](const LookRow& r) { return Field(r.frames_apart); }},
+       {.heading = "looked at", .value = [](const LookRow& r) { return Field(name_of_look(r)); }},
        {.key = "samples", .heading = "samples", .value = [](const LookRow& r) { return Field(r.samples); }},
        {.key = "found", .heading = "found", .value = [](const LookRow& r) { return Field(r.found); }}});
   for (std::size_t kind = 0; kind < FrameContacts::kinds; ++kind) {
@@ -232,7 +240,7 @@ void write_intervals_csv(const ContactsReport& report, std::ostream& stream) {
 std::string contacts_text(const ContactsReport& report, const ContactsFigures& figures) {
   constexpr std::size_t most = 20;
   std::string text = look_columns(report).text(looks_of(report));
-  const auto rows = longest_of(report, figures, most);
+  const auto rows = busiest_of(report, figures, most);
   if (rows.empty()) return text;
   text += "\n" + pair_columns(report).text(rows);
   if (figures.pairs.size() > most)
@@ -273,14 +281,14 @@ std::string map_of(const ContactsReport& report, const ContactsFigures& figures)
   return svg_plot(map);
 }
 
-/// Returns the spans of the pairs in contact longest. Spans that one pixel holds are joined.
+/// Returns the spans of the pairs with the most contacts. Spans that one pixel holds are joined.
 std::string timeline_of(const ContactsReport& report, const ContactsFigures& figures) {
   constexpr std::size_t most_rows = 40;
   constexpr double pixels = 600;
   TimelinePlot plot{
       "frame", static_cast<double>(report.first_frame), static_cast<double>(report.last_frame), {}};
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> rows;
-  for (const PairRow& row : longest_of(report, figures, most_rows)) {
+  for (const PairRow& row : busiest_of(report, figures, most_rows)) {
     rows[{row.pair->first, row.pair->second}] = plot.rows.size();
     plot.rows.push_back({row.first() + ", " + row.second(), {}});
   }
@@ -363,8 +371,8 @@ std::string findings_of(const ContactsReport& report, const ContactsFigures& fig
       "<p>If only one frame in {} is examined, <strong>{}</strong> contacts are seen instead of {}, with a "
       "mean life "
       "of {} instead of {} {}.</p>\n",
-      short_decimal(*rows.back().frames_apart), with_thousands(most.contacts), with_thousands(exact.contacts),
-      short_decimal(most.life), short_decimal(exact.life), report.unit());
+      with_thousands(static_cast<std::uint64_t>(*rows.back().frames_apart)), with_thousands(most.contacts),
+      with_thousands(exact.contacts), short_decimal(most.life), short_decimal(exact.life), report.unit());
   return html;
 }
 
@@ -388,9 +396,9 @@ std::string contacts_page(const ContactsReport& report, const ContactsFigures& f
     page.body += html_section("Contact map", html_figure(map_of(report, figures),
                                                          "Occupancy of each pair. Names are "
                                                          "shown under the pointer."));
-    page.body += html_section("When pairs are in contact",
-                              html_figure(timeline_of(report, figures),
-                                          "The pairs that are in contact longest, the longest first."));
+    page.body += html_section(
+        "When pairs are in contact",
+        html_figure(timeline_of(report, figures), "The pairs with the most contacts, the most first."));
     page.body += html_section(
         "Survival",
         html_figure(survival_plot(report, figures),
@@ -408,7 +416,7 @@ std::string contacts_page(const ContactsReport& report, const ContactsFigures& f
   look += look_columns(report).html(looks_of(report));
   page.body += html_section("What frames would have told", look);
   constexpr std::size_t most_rows = 200;
-  page.body += html_section("Pairs", pair_columns(report).html(longest_of(report, figures, most_rows)));
+  page.body += html_section("Pairs", pair_columns(report).html(busiest_of(report, figures, most_rows)));
   page.terms = {{"samples", "times at which frames, or times between them, are looked at"},
                 {"found", "exact contacts in which a sample lies"},
                 {"plain", "a contact is a run of samples in contact; n samples last n spacings"},

@@ -24,7 +24,7 @@ void add_contacts(const ContactsReport& report, const ContactsFigures& figures, 
 [[nodiscard]] std::string contacts_csv(const ContactsReport& report, const ContactsFigures& figures);
 [[nodiscard]] std::string frames_csv(const ContactsReport& report);
 void write_intervals_csv(const ContactsReport& report, std::ostream& stream);
-/// Returns the table on the terminal: what frames tell, and the pairs that are in contact longest.
+/// Returns the table on the terminal: what frames tell, and the pairs with the most contacts.
 [[nodiscard]] std::string contacts_text(const ContactsReport& report, const ContactsFigures& figures);
 /// `input` names the input, and `page` says how the results were made.
 [[nodiscard]] std::string contacts_page(const ContactsReport& report, const ContactsFigures& figures,

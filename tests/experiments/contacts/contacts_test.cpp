@@ -182,7 +182,7 @@ TEST(ContactsCommand, FilesAndPage) {
   const ProgramRun run = run_program({"contacts", data_file("trajectories/ubiquitin_pull_first30.pdb"),
                                       "--select", "ca", "--cutoff", "6:8", "--out", out});
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("frames apart"));
+  EXPECT_THAT(run.out, HasSubstr("one frame in 2"));
   const std::string page = text_of(out + "/report.html");
   expect_sound(page);
   for (const char* part : {"Contact map", "When pairs are in contact", "Survival", "Contacts over time",
