@@ -101,7 +101,8 @@ const OptionList<ContactsTask>& contacts_task_options() {
 void warn_of_none(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
                   const TableCommand::Warn& warn) {
   std::string line = fmt::format("there are no contacts within --cutoff {}", task.cutoff->inner);
-  if (task.reading.groups.empty())  // the hint looks at all pairs of beads
+  // The hint looks at pairs of all beads.
+  if (task.reading.groups.empty() && report.by != ContactElement::chain)
     if (const auto hint = cutoff_hint(scene, task.surface, report.apart)) line += "; " + *hint;
   warn(line);
 }

@@ -100,13 +100,16 @@ std::optional<std::string> factor_hint(const Scene& scene, double factor, BeadId
 }
 
 std::optional<std::string> cutoff_hint(const Scene& scene, bool between_surfaces, BeadId apart) {
-  const std::optional<Advice> advice = advice_for(scene, apart);
+  constexpr BeadId few = 5;  // as for radii
+  const BeadId farther = std::max(apart, few);
+  const std::optional<Advice> advice = advice_for(scene, farther);
   if (!advice) return std::nullopt;
   const double cutoff = 2 * (advice->radius - (between_surfaces ? scene.radii().front() : 0));
   return fmt::format(
-      "worth trying is --cutoff {:.3g}{}, within which half of the beads have another in the first "
-      "frame",
-      to_three_digits(cutoff), advice->apart);
+      "worth trying is --cutoff {:.3g}, within which half of the beads have another in the first frame that "
+      "is at "
+      "least {} beads along the chain",
+      to_three_digits(cutoff), farther);
 }
 
 }  // namespace kds

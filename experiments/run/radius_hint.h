@@ -18,7 +18,7 @@ namespace kds {
 /// the radii of --radius auto.
 [[nodiscard]] std::optional<std::string> factor_hint(const Scene& scene, double factor, BeadId apart);
 
-/// Returns a similar line that names a value of --cutoff, between centres or between surfaces.
+/// Returns a similar part of a sentence that names a value of --cutoff, between centres or between surfaces.
 [[nodiscard]] std::optional<std::string> cutoff_hint(const Scene& scene, bool between_surfaces, BeadId apart);
 
 }  // namespace kds

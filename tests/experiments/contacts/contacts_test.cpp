@@ -149,6 +149,11 @@ TEST(ContactsCommand, WithoutContactsSaysWhatToTry) {
   const ProgramRun none = run_program({"contacts", path, "--cutoff", "1", "--apart", "1"});
   EXPECT_EQ(none.code, 0);
   EXPECT_THAT(none.err, HasSubstr("there are no contacts within --cutoff 1"));
+  const ProgramRun hint = run_program({"contacts", data_file("trajectories/villin_hp36_300K.dcd"),
+                                       "--topology", data_file("trajectories/villin_hp36_300K.pdb"),
+                                       "--select", "ca", "--cutoff", "0.5", "--frames", ":3"});
+  EXPECT_EQ(hint.code, 0);
+  EXPECT_THAT(hint.err, HasSubstr("worth trying is --cutoff 7.74, within which half of the beads"));
 }
 
 TEST(ContactsCommand, RefusesInputsThatItCannotUse) {
