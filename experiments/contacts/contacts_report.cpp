@@ -368,11 +368,12 @@ std::string findings_of(const ContactsReport& report, const ContactsFigures& fig
   const std::vector<LookRow> rows = looks_of(report);
   const LookRow::Told &exact = *rows.front().told[0], &most = *rows.back().told[0];
   html += fmt::format(
-      "<p>If only one frame in {} is examined, <strong>{}</strong> contacts are seen instead of {}, with a "
-      "mean life "
-      "of {} instead of {} {}.</p>\n",
+      "<p>With one cutoff and without a gap, there are {} contacts with a mean life of {} {}. A look at one "
+      "frame in "
+      "{} tells <strong>{}</strong> contacts with a mean life of {} {}.</p>\n",
+      with_thousands(exact.contacts), short_decimal(exact.life), report.unit(),
       with_thousands(static_cast<std::uint64_t>(*rows.back().frames_apart)), with_thousands(most.contacts),
-      with_thousands(exact.contacts), short_decimal(most.life), short_decimal(exact.life), report.unit());
+      short_decimal(most.life), report.unit());
   return html;
 }
 
