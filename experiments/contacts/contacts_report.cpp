@@ -104,7 +104,7 @@ struct LookRow {
 
 std::vector<LookRow> looks_of(const ContactsReport& report) {
   const FrameContacts& frames = *report.frames;
-  const bool two = frames.exact(FrameContacts::dual).contacts > 0;
+  const bool two = report.has_two_cutoffs;
   const auto pairs = static_cast<double>(frames.pair_count());
   const auto exact = [&](Kind kind) {
     const FrameContacts::Sums& sums = frames.exact(kind);
@@ -146,7 +146,7 @@ Table<LookRow> look_columns(const ContactsReport& report) {
        {.key = "samples", .heading = "samples", .value = [](const LookRow& r) { return Field(r.samples); }},
        {.key = "found", .heading = "found", .value = [](const LookRow& r) { return Field(r.found); }}});
   for (std::size_t kind = 0; kind < FrameContacts::kinds; ++kind) {
-    if (kind == FrameContacts::dual && report.frames->exact(FrameContacts::dual).contacts == 0) continue;
+    if (kind == FrameContacts::dual && !report.has_two_cutoffs) continue;
     const std::string key = kind_keys[kind], start = kind == FrameContacts::plain ? "" : key + ": ";
     const auto told = [kind](auto member) {
       return [kind, member](const LookRow& r) {
@@ -368,12 +368,11 @@ std::string findings_of(const ContactsReport& report, const ContactsFigures& fig
   const std::vector<LookRow> rows = looks_of(report);
   const LookRow::Told &exact = *rows.front().told[0], &most = *rows.back().told[0];
   html += fmt::format(
-      "<p>With one cutoff and without a gap, there are {} contacts with a mean life of {} {}. A look at one "
-      "frame in "
-      "{} tells <strong>{}</strong> contacts with a mean life of {} {}.</p>\n",
-      with_thousands(exact.contacts), short_decimal(exact.life), report.unit(),
-      with_thousands(static_cast<std::uint64_t>(*rows.back().frames_apart)), with_thousands(most.contacts),
-      short_decimal(most.life), report.unit());
+      "<p>With one cutoff and without a gap, there are {} contacts with a mean life of {} {}. A look at {} "
+      "tells "
+      "<strong>{}</strong> contacts with a mean life of {} {}.</p>\n",
+      with_thousands(exact.contacts), short_decimal(exact.life), report.unit(), name_of_look(rows.back()),
+      with_thousands(most.contacts), short_decimal(most.life), report.unit());
   return html;
 }
 
@@ -422,7 +421,7 @@ std::string contacts_page(const ContactsReport& report, const ContactsFigures& f
                 {"found", "exact contacts in which a sample lies"},
                 {"plain", "a contact is a run of samples in contact; n samples last n spacings"},
                 {"bridged", "absences of up to --intermittency samples do not end a contact"}};
-  if (report.frames->exact(FrameContacts::dual).contacts > 0)
+  if (report.has_two_cutoffs)
     page.terms.emplace_back("dual", "a contact begins within the first cutoff and ends outside the second");
   return html_page(page);
 }

@@ -213,6 +213,7 @@ std::unique_ptr<ContactsReport> follow_contacts(
     throw InputError(
         fmt::format("{}: has one {}, expected two or more", file_names(task), name_of(report->by)));
   report->apart = report->by == ContactElement::chain ? 1 : task.apart.value_or(default_contacts_apart);
+  report->has_two_cutoffs = task.cutoff->are_two();
   const FrameStamp first = scene.stamp(0);
   report->clock = first.picoseconds ? ContactClock::picoseconds : ContactClock::frames;
   report->lifetimes =

@@ -75,6 +75,7 @@ struct ContactsReport {
   ContactElement by = ContactElement::bead;
   ContactElements elements;
   BeadId apart = default_contacts_apart;
+  bool has_two_cutoffs = false;
   ContactClock clock = ContactClock::frames;
   double run_length = 0;  ///< in units of the clock
   std::size_t steps;

@@ -14,7 +14,12 @@ namespace {
 using namespace test;
 using testing::ElementsAre;
 
-Trajectory villin() { return read_trajectory(data("trajectories/villin_hp36_300K.pdb"), {}); }
+Trajectory villin() {
+  ReadOptions options;
+  options.topology = data("trajectories/villin_hp36_300K.pdb");
+  options.frames.last = 2;
+  return read_trajectory(data("trajectories/villin_hp36_300K.dcd"), options);
+}
 
 Scene scene_of(const std::vector<Trajectory>& necklaces) {
   std::size_t beads = 0;
