@@ -35,7 +35,7 @@ TEST(ContactElements, ResiduesAreRunsOfBeads) {
   EXPECT_EQ(residues.of_bead[2], 0U);
   EXPECT_EQ(residues.of_bead[3], 1U);
   EXPECT_EQ(residues.of_bead[107], 35U);
-  EXPECT_EQ(residues.names[0], "LEU 42");
+  EXPECT_EQ(residues.names[0], "MET 41");
   EXPECT_EQ(elements_of(scene, ContactElement::bead).names[4], scene.bead_name(4));
   EXPECT_EQ(elements_of(scene, ContactElement::bead).names.size(), 108U);
 }
