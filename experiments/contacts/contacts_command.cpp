@@ -145,7 +145,10 @@ int contacts_command(const Arguments& arguments) {
   if (const auto instance = read_lone_instance(task))
     throw InputError(instance->file + ": an instance file has points and one step; expected a trajectory");
   const TableCommand::Warn warn = command.warn();
-  const Scene scene = load_necklaces(task, task.motion, 1, warn);
+  InputOptions loaded = task;
+  if (!task.surface && task.radius == "auto")
+    loaded.radius = "1";  // centres have contacts whatever the radii
+  const Scene scene = load_necklaces(loaded, task.motion, 1, warn);
   const auto report = follow_contacts(task, scene, command.progress());
   const ContactsFigures figures = figures_of(*report);
   if (figures.all.contacts == 0) warn_of_none(task, scene, *report, warn);
