@@ -68,6 +68,17 @@ TEST(SvgPlot, ColoursAreThePagesAndNoIdsAreShared) {
     EXPECT_THAT(html, Not(HasSubstr(part)));
 }
 
+TEST(PagePlot, ATimelineHasARowForEachName) {
+  const std::string html = svg_plot(
+      TimelinePlot{"frame", 0, 100, {{"ALA 1, GLY 5", {{10, 20}, {50, 50}}}, {"ALA 1, LEU 9", {{0, 100}}}}});
+  expect_nested(html);
+  for (const char* part : {"ALA 1, GLY 5", "ALA 1, LEU 9", "frame"}) EXPECT_THAT(html, HasSubstr(part));
+  const std::string less =
+      svg_plot(TimelinePlot{"frame", 0, 100, {{"ALA 1, GLY 5", {{10, 20}}}, {"ALA 1, LEU 9", {}}}});
+  EXPECT_EQ(count_of(html, "<path") + count_of(html, "<polygon"),
+            count_of(less, "<path") + count_of(less, "<polygon") + 4);  // two more spans, drawn twice
+}
+
 TEST(SvgPlot, EachSquareOfAMapHasItsValue) {
   const std::string html = svg_plot(MapPlot{"bead", "share", -0.5, 1.5, 1, {{0, 1, 0.5}, {1, 0, 1}}});
   EXPECT_EQ(count_of(html, "<title>bead 0, 1\nshare: 0.5</title>"), 2U);
@@ -166,6 +177,7 @@ TEST(SvgPlot, NothingToShowIsNoFailure) {
   test::expect_nested(svg_plot(PointPlot{"x", "y", {"a"}, {{"", 1, 0, 0}}}));
   test::expect_nested(svg_plot(BarPlot{"x", {{"a", 0}}}));
   test::expect_nested(svg_plot(MapPlot{"bead", "share", -0.5, 9.5, 1, {}}));
+  test::expect_nested(svg_plot(TimelinePlot{"frame", 0, 9, {{"ALA 1, GLY 5", {}}}}));
   EXPECT_THAT(svg_plot(LinePlot{"x", "y", Drawn::line, {{"a", {{0, 0}}}}}), Not(HasSubstr("nan")));
 }
 
