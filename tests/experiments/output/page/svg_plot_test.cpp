@@ -68,7 +68,7 @@ TEST(SvgPlot, ColoursAreThePagesAndNoIdsAreShared) {
     EXPECT_THAT(html, Not(HasSubstr(part)));
 }
 
-TEST(PagePlot, ATimelineHasARowForEachName) {
+TEST(SvgPlot, ATimelineHasARowForEachName) {
   const std::string html = svg_plot(
       TimelinePlot{"frame", 0, 100, {{"ALA 1, GLY 5", {{10, 20}, {50, 50}}}, {"ALA 1, LEU 9", {{0, 100}}}}});
   expect_nested(html);
