@@ -78,16 +78,18 @@ std::string ratios(std::span<const BenchRow> rows) {
   for (const BenchRow& row : rows) {
     if (!row.ratio() || !(*row.ratio() > 0) || row.n == 0) continue;
     const auto holds = row.holds();
-    plot.points.push_back({row.name + ", " + row.input, static_cast<double>(row.n), *row.ratio(),
-                           std::size_t{!holds   ? 2U
-                                       : *holds ? 0U
-                                                : 1U}});
+    const std::size_t series = !holds ? 2U : *holds ? 0U : 1U;
+    const double unit = *row.ratio() / row.value;
+    plot.points.push_back({row.name + ", " + row.input, static_cast<double>(row.n), *row.ratio(), series,
+                           row.spread ? unit * row.spread->least : 0,
+                           row.spread ? unit * row.spread->most : 0});
   }
   return plot.points.empty()
              ? ""
              : html_figure(svg_plot(plot),
                            "Ours as a multiple of the peer, by the number of beads or points. Both axes are "
-                           "logarithmic.");
+                           "logarithmic. Bars reach from our shortest to our longest round, compared with "
+                           "the peer's median.");
 }
 
 }  // namespace

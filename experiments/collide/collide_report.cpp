@@ -7,6 +7,7 @@
 #include "experiments/events/event_places.h"
 #include "experiments/events/frame_axis.h"
 #include "experiments/output/output_files.h"
+#include "experiments/output/page/paper.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/program/spread_columns.h"
@@ -262,8 +263,9 @@ void CollideResults::deliver(const CollideReport& report, const Json& json, cons
     write_to(files_->open("collide.json"));
     files_->write("collide.csv", collide_columns(report.timed).csv(report.rows));
     page.data = {"collide.json", "collide.csv", "pairs.csv", "frames.csv"};
-    files_->write("report.html",
-                  collide_page(report, input, contacts_->empty() ? "" : contacts_->plot(), *course_, page));
+    write_page(*files_,
+               collide_page(report, input, contacts_->empty() ? "" : contacts_->plot(), *course_, page),
+               destinations_.paper);
   }
   AtomicFiles json_file;
   if (destinations_.json && !json_on_stdout) write_to(json_file.open(*destinations_.json));

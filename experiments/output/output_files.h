@@ -39,6 +39,7 @@ struct Destinations {
   std::optional<std::filesystem::path> out;  ///< directory for the result files
   std::optional<std::string> json;           ///< a file, or - for standard output
   bool quiet = false;
+  bool paper = false;  ///< whether `out` also gets files for a paper (page/paper.h)
 };
 
 /// Throws OutputError if standard output is closed or full.

@@ -332,14 +332,28 @@ template <class Options>
 
 // The options that several commands share.
 
-/// Returns the options --out, --json and --quiet with their help.
-[[nodiscard]] inline OptionList<Destinations> destination_options(
+/// Returns the options --out, --json and --quiet with their help, for a command that writes no page.
+[[nodiscard]] inline OptionList<Destinations> data_options(
     std::string_view out,
     std::string_view json = "write the rows to FILE; - is standard output (default: none)",
     std::string_view quiet = "print no table and no progress bar") {
   return {{of_output(path_option({"--out", "DIR", out}, &Destinations::out)),
            of_output(text_option({"--json", "FILE", json}, &Destinations::json)),
            of_output(flag_option("--quiet", quiet, &Destinations::quiet))}};
+}
+
+/// Returns the options --out, --paper, --json and --quiet with their help, for a command that writes a page.
+[[nodiscard]] inline OptionList<Destinations> destination_options(
+    std::string_view out,
+    std::string_view json = "write the rows to FILE; - is standard output (default: none)",
+    std::string_view quiet = "print no table and no progress bar") {
+  std::vector<Option<Destinations>> options = data_options(out, json, quiet).all();
+  options.insert(options.begin() + 1,
+                 of_output(flag_option("--paper",
+                                       "with --out, also write the tables as LaTeX and the plots as SVG and "
+                                       "PDF (default: no)",
+                                       &Destinations::paper)));
+  return {std::move(options)};
 }
 
 template <class Options>

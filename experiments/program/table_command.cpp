@@ -7,6 +7,7 @@
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/html_page.h"
+#include "experiments/output/page/paper.h"
 #include "experiments/output/text.h"
 #include "motions/base/input_error.h"
 
@@ -113,7 +114,7 @@ void TableCommand::check_destinations(TakenPaths taken) const {
 }
 
 void TableCommand::check_destinations(TakenPaths taken, const std::vector<std::string>& files) const {
-  const auto& [out, json, quiet] = destinations_;
+  const auto& [out, json, quiet, paper] = destinations_;
   if (out) {
     taken.write_into("--out", *out);
     for (const std::string& file : files) taken.write("--out", *out / file);
@@ -121,10 +122,9 @@ void TableCommand::check_destinations(TakenPaths taken, const std::vector<std::s
   if (json) taken.write_json(*json);
 
   if (json && *json != "-") ensure_writable_file(*json, "--json");
-  if (!out) return;
   for (const std::string& file : files)
-    if (file != kReport) check_directory(*out, name_, "--out", {file});
-  if (std::ranges::find(files, kReport) != files.end()) check_page(*out, name_);
+    if (out && file != kReport) check_directory(*out, name_, "--out", {file});
+  if (std::ranges::find(files, kReport) != files.end()) check_page(destinations_, name_);
 }
 
 void TableCommand::check_inputs_and_destinations(const InputOptions& inputs) const {
@@ -165,7 +165,7 @@ void TableCommand::deliver(Json json, const Csvs& csvs, const std::string& table
 
 void TableCommand::deliver_text(const std::string& json, const Json& settings, const Csvs& csvs,
                                 const std::string& table, const PageOf& page_of) const {
-  const auto& [out, json_path, quiet] = destinations_;
+  const auto& [out, json_path, quiet, paper] = destinations_;
   const bool json_on_stdout = json_path == "-";
   std::optional<AtomicFiles> files;
   if (out) {
@@ -177,7 +177,7 @@ void TableCommand::deliver_text(const std::string& json, const Json& settings, c
       data.push_back(name);
     }
     files->check();
-    if (page_of) files->write(std::string(kReport), page_of(page(settings, std::move(data))));
+    if (page_of) write_page(*files, page_of(page(settings, std::move(data))), paper);
   }
   AtomicFiles json_file;
   if (json_path && !json_on_stdout) json_file.write(*json_path, json);

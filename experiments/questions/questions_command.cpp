@@ -61,13 +61,19 @@ Table<PlacedRow> columns_of(std::span<const Question> questions) {
   return table;
 }
 
-// Returns the plot of the curves with this plot name.
+// Returns the plot of the curves with this plot name, and of the powers that fit them.
 PointPlot plot_of(const Question& question, const std::string& name) {
   PointPlot plot{question.x_label, question.y_label, {}, {}};
   for (const QuestionCurve& curve : question.curves) {
     if (curve.plot != name) continue;
     for (const auto& [x, y] : curve.points)
       if (x > 0 && y >= 0) plot.points.push_back({"", x, y, plot.series.size()});
+    if (const auto fit = curve.fit()) {
+      PointPlot::Line law{{}, plot.series.size()};
+      for (const auto& [x, y] : curve.points)
+        if (x > 0 && y > 0) law.points.emplace_back(x, fit->factor * std::pow(x, fit->exponent));
+      plot.lines.push_back(std::move(law));
+    }
     plot.series.push_back(curve.name);
   }
   return plot;
@@ -79,10 +85,11 @@ std::string plots_of(const Question& question) {
     if (std::ranges::find(names, curve.plot) == names.end()) names.push_back(curve.plot);
   std::string html;
   for (const std::string& name : names)
-    html += html_figure(
-        svg_plot(plot_of(question, name)),
-        fmt::format("{}{}{} by {}; both axes are logarithmic.", html_escaped(name), name.empty() ? "" : ": ",
-                    html_escaped(question.y_label), html_escaped(question.x_label)));
+    html +=
+        html_figure(svg_plot(plot_of(question, name)),
+                    fmt::format("{}{}{} by {}; both axes are logarithmic. Dashed lines are fitted powers.",
+                                html_escaped(name), name.empty() ? "" : ": ", html_escaped(question.y_label),
+                                html_escaped(question.x_label)));
   return html;
 }
 

@@ -6,6 +6,7 @@
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/html_page.h"
+#include "experiments/output/page/paper.h"
 #include "experiments/run/html_report.h"
 #include "structures/session/event_writers.h"
 
@@ -20,13 +21,13 @@ constexpr std::array<std::string_view, 3> kFiles{"summary.json", "events.csv", "
 void check_destinations(const Destinations& destinations, std::string_view command,
                         const RunOptions& options) {
   if (destinations.json && *destinations.json != "-") ensure_writable_file(*destinations.json, "--json");
-  if (!destinations.out) return;
+  if (!destinations.out) return check_page(destinations, command);
   check_directory(*destinations.out, command, "--out", {kFiles[0], kFiles[1], kFiles[2]});
   if (std::ranges::count(options.structures, "contacts") > 0) {
     check_directory(*destinations.out, command, "--out", {contacts_file});
     if (options.certify) check_directory(*destinations.out, command, "--out", {possible_contacts_file});
   }
-  check_page(*destinations.out, command);
+  check_page(destinations, command);
 }
 
 void RunResults::begin(const Scene& scene, Session& session, bool certified) {
@@ -101,7 +102,7 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
     report.bead_names = std::move(bead_names_);
     std::vector<std::string> data{std::string(kFiles[0]), std::string(kFiles[1])};
     data.insert(data.end(), contacts_files_.begin(), contacts_files_.end());
-    files_->write("report.html", html_report(report, data));
+    write_page(*files_, html_report(report, data), destinations_.paper);
   }
   AtomicFiles json_file;
   if (destinations_.json && !json_on_stdout) json_file.write(*destinations_.json, json);

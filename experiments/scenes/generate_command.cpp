@@ -133,7 +133,7 @@ const OptionList<GenerateOptions>& generate_options() {
                        "last frame, in chain lengths; a single number applies to both frames (default: 1.5)"},
                       &S::distance, {0, 1e6})),
           })
-          .with(destination_options("write generate.json and generate.csv to DIR (default: none)",
+          .with(data_options("write generate.json and generate.csv to DIR (default: none)",
                                     "write a summary to FILE; - is standard output (default: none)"));
   return list;
 }

@@ -53,7 +53,7 @@ const OptionList<InfoOptions>& info_options() {
           .with({of_output(flag_option(
               "--beads", "list the beads instead, one per row: necklace, chain, residue, atom and radius",
               &O::beads))})
-          .with(destination_options("write info.json and info.csv to DIR (default: none)",
+          .with(data_options("write info.json and info.csv to DIR (default: none)",
                                     "write the results to FILE; - is standard output (default: none)"));
   return list;
 }

@@ -101,6 +101,10 @@ std::optional<GrowthFit> TheoremSeries::law() const {
   return best_growth(growth(), forms);
 }
 
+double TheoremSeries::predicted(const GrowthFit& law, std::size_t beads) const {
+  return law.at(static_cast<double>(is_ratio() ? tree_height(beads) : beads));
+}
+
 std::string name_of(const TheoremSeries& series) {
   std::string name = fmt::format("{} in {}", series.model, series.dimension == 2 ? "the plane" : "space");
   for (const std::string& part : {series.hierarchy, series.variant})

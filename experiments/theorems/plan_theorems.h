@@ -75,6 +75,9 @@ struct TheoremSeries {
   /// names no exponent or only bounds it, the usual forms (growth_fit.h) are compared too.
   [[nodiscard]] std::optional<GrowthFit> law() const;
 
+  /// Returns the quantity that a fitted law predicts for a necklace with this many beads.
+  [[nodiscard]] double predicted(const GrowthFit& law, std::size_t beads) const;
+
  private:
   [[nodiscard]] bool is_ratio() const;
   [[nodiscard]] bool has_logarithm() const;

@@ -253,13 +253,27 @@ bool is_plotted(const TheoremSeries& series) {
          (series.model == "grid" && series.dimension == 3 && series.hierarchy == "wrapped");
 }
 
+// Plots the points of each series, its fitted law and its bound. Series that share a bound share its line.
 PointPlot plot_of(std::span<const TheoremSeries> group) {
   const Theorem theorem = group.front().theorem;
   PointPlot plot{"beads n", std::string(quantity_of(theorem)), {}, {}};
   for (const TheoremSeries& series : group) {
     if (!is_plotted(series)) continue;
-    for (const TheoremPoint& point : series.points)
-      plot.points.push_back({"", static_cast<double>(point.beads), point.value, plot.series.size()});
+    const std::size_t number = plot.series.size();
+    PointPlot::Line bound{{}, number, true}, law{{}, number};
+    const auto fit = series.law();
+    for (const TheoremPoint& point : series.points) {
+      const auto n = static_cast<double>(point.beads);
+      const bool has_bars = theorem == Theorem::search && point.seconds;
+      plot.points.push_back({"", n, point.value, number, has_bars ? point.seconds->least : 0,
+                             has_bars ? point.seconds->most : 0});
+      if (point.bound && *point.bound > 0) bound.points.emplace_back(n, *point.bound);
+      if (fit) law.points.emplace_back(n, series.predicted(*fit, point.beads));
+    }
+    const bool is_new =
+        std::ranges::find(plot.lines, bound.points, &PointPlot::Line::points) == plot.lines.end();
+    if (is_new && !bound.points.empty()) plot.lines.push_back(std::move(bound));
+    if (!law.points.empty()) plot.lines.push_back(std::move(law));
     plot.series.push_back(name_of(series));
   }
   return plot;
@@ -312,10 +326,16 @@ std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
       section += fmt::format("<li>{}</li>\n", html_escaped(finding));
     section +=
         "</ul>\n" +
-        html_figure(svg_plot(plot_of(group)),
-                    fmt::format("{}: {} by the number of beads{}, both axes logarithmic.", title,
-                                quantity_of(theorem),
-                                theorem == Theorem::families ? ", grid in space, wrapped hierarchy" : "")) +
+        html_figure(
+            svg_plot(plot_of(group)),
+            fmt::format(
+                "{}: {} by the number of beads{}, both axes logarithmic. Dashed lines are fitted laws, and "
+                "dotted "
+                "lines are the theorem's bounds{}.{}",
+                title, quantity_of(theorem),
+                theorem == Theorem::families ? ", grid in space, wrapped hierarchy" : "",
+                is_ratio(theorem) ? "" : " without their constants",
+                theorem == Theorem::search ? " Bars reach from the shortest to the longest round." : "")) +
         point_columns().html(points_of(group));
     page.body += html_section(title, section);
   }

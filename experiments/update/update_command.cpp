@@ -107,9 +107,13 @@ std::string task_line(const UpdateTask& task) {
       static_cast<double>(task.hidden) / steps);
 }
 
-/// Returns a plot with a mark at each stride for each technique that has a value.
+using Bar = std::pair<double, double>;  // least and most
+
+/// Returns a plot with a mark at each stride for each technique that has a value. `bar` returns the error bar
+/// of a row; if null, there are no error bars.
 template <class Value>
-LinePlot over_strides(std::span<const UpdateRow> rows, const char* label, Value value) {
+LinePlot over_strides(std::span<const UpdateRow> rows, const char* label, Value value,
+                      Bar (*bar)(const UpdateRow&) = nullptr) {
   LinePlot plot{"stride", label, Drawn::points, {}};
   for (const UpdateRow& row : rows) {
     const std::optional<double> y = value(row);
@@ -118,6 +122,7 @@ LinePlot over_strides(std::span<const UpdateRow> rows, const char* label, Value 
                               [&](const Curve& c) { return c.name == row.technique; });
     if (curve == plot.curves.end()) curve = plot.curves.insert(curve, {row.technique, {}});
     curve->points.emplace_back(static_cast<double>(row.task.stride), *y);
+    if (bar != nullptr) curve->bars.push_back(bar(row));
   }
   return plot;
 }
@@ -130,10 +135,15 @@ std::string plots(std::span<const UpdateRow> rows) {
       plot.bars.push_back({row.technique, 1e6 * per_step(row, row.seconds.median)});
     return html_figure(svg_plot(plot), "Time of each technique from one frame to the next.");
   }
-  std::string html =
-      html_figure(svg_plot(over_strides(rows, "time / time to rebuild",
-                                        [](const UpdateRow& row) { return std::optional(row.ratio); })),
-                  "Time of each technique as a multiple of rebuilding with CGAL, by stride.");
+  std::string html = html_figure(
+      svg_plot(over_strides(
+          rows, "time / time to rebuild", [](const UpdateRow& row) { return std::optional(row.ratio); },
+          [](const UpdateRow& row) {
+            const double unit = row.ratio / row.seconds.median;
+            return Bar(unit * row.seconds.least, unit * row.seconds.most);
+          })),
+      "Time of each technique as a multiple of the median time to rebuild with CGAL, by stride. "
+      "Bars reach from the shortest to the longest round.");
   const LinePlot efficiency = over_strides(rows, "events / changed cells", [](const UpdateRow& row) {
     const bool in_order =
         row.technique == "kinetic" || row.technique == "hermite" || row.technique == "lifted";

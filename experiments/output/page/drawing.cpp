@@ -11,9 +11,62 @@
 
 namespace kds {
 
+namespace {
+
+constexpr double kHeadLine = 18;  // pixels from line to line
+
+// Where the names of a key stand: across and down from the upper left corner, in pixels.
+std::vector<std::pair<double, double>> places_of(const std::vector<std::string>& names, double width,
+                                                 bool below_title) {
+  constexpr double letter = 6.9, mark = 28, left = 10;
+  std::vector<std::pair<double, double>> places;
+  double x = left, y = 10 + (below_title ? kHeadLine : 0);
+  for (const std::string& name : names) {
+    const double length = letter * static_cast<double>(name.size()) + mark;
+    if (x > left && x + length > width) {
+      x = left;
+      y += kHeadLine;
+    }
+    places.emplace_back(x, y);
+    x += length;
+  }
+  return places;
+}
+
+std::string key_name(const std::string& name) { return shortened(name, 72); }
+
+}  // namespace
+
 bool is_wide(const DrawingSize& size) { return size.width > 500; }
 DrawingSize wide(double height) { return {860, height, 64, 32, 26, 48}; }
 DrawingSize narrow(double height) { return {360, height, 64, 32, 26, 48}; }
+
+DrawingSize paper(double height, const std::string& title, const std::vector<std::string>& names) {
+  DrawingSize size{560, height, 64, 32, 26, 48, true};
+  if (names.size() > 1)
+    size.head = places_of(names, size.width, !title.empty()).back().second + kHeadLine / 2;
+  else if (!title.empty())
+    size.head = kHeadLine;
+  size.height += size.head;
+  size.top += size.head;
+  return size;
+}
+
+std::string paper_head(const DrawingSize& size, const std::string& title,
+                       const std::vector<std::string>& names) {
+  const auto at = [&](double x, double y) {
+    return fmt::format("at screen {:.6f}, screen {:.6f} left", x / size.width, 1 - y / size.height);
+  };
+  std::string script;
+  if (!title.empty())
+    script += fmt::format("set label {} {}\n", gnuplot_text(shortened(title, 78)), at(2, 10));
+  if (names.size() < 2) return script;
+  const auto places = places_of(names, size.width, !title.empty());
+  for (std::size_t s = 0; s < names.size(); ++s)
+    script += fmt::format("set label {} {} offset 0.9,0 point pointtype 7 pointsize 0.8 linecolor {}\n",
+                          gnuplot_text(key_name(names[s])), at(places[s].first, places[s].second), colour(s));
+  return script;
+}
 
 // Returns the text in single quotes, which gnuplot takes literally. A quote within the text is doubled.
 std::string gnuplot_text(std::string_view text) {
@@ -22,7 +75,7 @@ std::string gnuplot_text(std::string_view text) {
   return result + "'";
 }
 
-std::string colour(std::size_t series) { return fmt::format("'#{:06x}'", series % series_colours); }
+std::string colour(std::size_t series) { return fmt::format("rgb c_s{}", series % series_colours); }
 
 std::string shortened(std::string text, std::size_t most) {
   if (text.size() <= most) return text;
@@ -33,26 +86,27 @@ std::string shortened(std::string text, std::size_t most) {
 std::string axes(const DrawingSize& size, std::string_view x_label, std::string_view y_label) {
   const double right = size.width - size.right, top = size.height - size.top;
   return fmt::format(
-      "reset\nset encoding utf8\n"
-      "set terminal svg size {0:.0f},{1:.0f} dynamic noenhanced font 'sans-serif,12.5'\n"
-      "set lmargin at screen {2:.6f}\nset rmargin at screen {3:.6f}\n"
-      "set bmargin at screen {4:.6f}\nset tmargin at screen {5:.6f}\n"
-      "set border 1 linecolor '#000008'\nset tics nomirror out scale 0.7 textcolor '#000008'\n"
-      "set ytics scale 0\nset xtics offset 0,0.4\nset grid ytics linetype 1 linecolor '#000009' linewidth "
+      "set lmargin at screen {:.6f}\nset rmargin at screen {:.6f}\n"
+      "set bmargin at screen {:.6f}\nset tmargin at screen {:.6f}\n"
+      "set border 1 linecolor rgb c_soft\nset tics nomirror out scale 0.7 textcolor rgb c_soft\n"
+      "set ytics scale 0\nset xtics offset 0,0.4\nset grid ytics linetype 1 linecolor rgb c_line linewidth "
       "1\nunset key\n"
-      "set format '{6}'\n"
-      "set label {7} at screen {8:.6f}, screen {9:.6f} left textcolor '#000008'\n"
-      "set label {10} at screen {11:.6f}, screen {12:.6f} center textcolor '#000008'\n"
+      "set label {} at screen {:.6f}, screen {:.6f} left textcolor rgb c_soft\n"
+      "set label {} at screen {:.6f}, screen {:.6f} center textcolor rgb c_soft\n"
       "set style fill solid 1 noborder\n",
-      size.width, size.height, size.left / size.width, right / size.width, size.bottom / size.height,
-      top / size.height, number_format, gnuplot_text(y_label), 2 / size.width, 1 - 9 / size.height,
-      gnuplot_text(x_label), (size.left + right) / 2 / size.width, 10 / size.height);
+      size.left / size.width, right / size.width, size.bottom / size.height, top / size.height,
+      gnuplot_text(y_label), 2 / size.width, 1 - (size.head + 9) / size.height, gnuplot_text(x_label),
+      (size.left + right) / 2 / size.width, 10 / size.height);
 }
 
 std::vector<std::string> drawn(const std::vector<Plotted>& plots, const std::vector<std::string>& labels) {
-  std::string script;
+  std::string script = page_colours_script();
   for (const Plotted& plot : plots)
-    for (const Drawing* drawing : {&plot.wide, &plot.narrow}) script += drawing->script + "set output\n";
+    for (const Drawing* drawing : {&plot.wide, &plot.narrow})
+      script += fmt::format(
+          "reset\nset encoding utf8\n"
+          "set terminal svg size {:.0f},{:.0f} dynamic noenhanced font 'sans-serif,12.5'\n{}set output\n",
+          drawing->size.width, drawing->size.height, drawing->script);
   const std::string output = run_gnuplot(script);
   constexpr std::string_view ending = "</svg>";
   std::size_t start = 0;
@@ -104,10 +158,13 @@ std::string set_range(char axis, const Range& range) {
 }
 
 std::string set_ticks(char axis, const std::vector<double>& values) {
-  return fmt::format("set {}tics ({:.17g})\n", axis, fmt::join(values, ","));
+  std::vector<std::string> ticks;
+  for (const double value : values) ticks.push_back(fmt::format("'{}' {:.17g}", tick_label(value), value));
+  return fmt::format("set {}tics ({})\n", axis, fmt::join(ticks, ","));
 }
 
-int x_ticks(const DrawingSize& size) { return is_wide(size) ? 8 : 4; }
+int x_ticks(const DrawingSize& size) { return size.for_paper ? 6 : is_wide(size) ? 8 : 4; }
+
 double tick_step(const Range& range, int most) {
   const double wanted = (range.most - range.least) / most;
   const double power = std::pow(10, std::floor(std::log10(wanted)));
@@ -115,7 +172,11 @@ double tick_step(const Range& range, int most) {
 }
 
 std::string linear(char axis, const Range& range, int most) {
-  return set_range(axis, range) + fmt::format("set {}tics {:.17g}\n", axis, tick_step(range, most));
+  const double apart = tick_step(range, most), tolerance = 1e-6;
+  std::vector<double> ticks;
+  for (double k = std::ceil(range.least / apart - tolerance); k <= range.most / apart + tolerance; ++k)
+    ticks.push_back(k == 0 ? 0 : k * apart);
+  return set_range(axis, range) + set_ticks(axis, ticks);
 }
 
 std::string logarithmic(char axis, const Range& range, int most) {

@@ -1,6 +1,6 @@
 #pragma once
 // Common parts of plots. A drawing is a gnuplot script with round ticks on its axes. Each plot is drawn once
-// for wide pages and once for narrow pages.
+// for wide pages, once for narrow pages and, if asked for, once for a paper.
 
 #include <cmath>
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace kds {
 
 struct Drawing {
   DrawingSize size;
-  std::string script;
+  std::string script;  ///< names the colours as page_colours says
   TextsOf of = TextsOf::marks;
   std::vector<std::string> texts;  ///< shown under the pointer
 };
@@ -23,6 +23,13 @@ struct Drawing {
 [[nodiscard]] bool is_wide(const DrawingSize& size);
 [[nodiscard]] DrawingSize wide(double height);
 [[nodiscard]] DrawingSize narrow(double height);
+/// A drawing for a paper, as wide as a column of text, with room for its head (`paper_head`).
+[[nodiscard]] DrawingSize paper(double height, const std::string& title,
+                                const std::vector<std::string>& names);
+/// Returns the script of the title and of the key of names and colours above a paper's drawing. The key is
+/// left out if there is at most one name.
+[[nodiscard]] std::string paper_head(const DrawingSize& size, const std::string& title,
+                                     const std::vector<std::string>& names);
 
 /// The two drawings of a plot. The page's style shows one of them.
 struct Plotted {
@@ -39,6 +46,7 @@ struct Plotted {
 
 /// Returns the text in single quotes for gnuplot.
 [[nodiscard]] std::string gnuplot_text(std::string_view text);
+/// Returns the colour of a series as gnuplot takes it after `linecolor`.
 [[nodiscard]] std::string colour(std::size_t series);
 /// Returns at most `most` bytes of the text followed by an ellipsis. Never cuts a character in half.
 [[nodiscard]] std::string shortened(std::string text, std::size_t most);
@@ -72,6 +80,7 @@ inline constexpr int y_ticks = 5;
 [[nodiscard]] std::string linear(char axis, const Range& range, int most);
 [[nodiscard]] std::string logarithmic(char axis, const Range& range, int most);
 [[nodiscard]] std::string set_range(char axis, const Range& range);
+/// Ticks with labels as tick_label() writes them.
 [[nodiscard]] std::string set_ticks(char axis, const std::vector<double>& values);
 
 }  // namespace kds

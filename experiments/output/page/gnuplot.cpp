@@ -88,18 +88,36 @@ std::string run_gnuplot(const std::string& script) {
   return std::move(outcome.output);
 }
 
-void require_gnuplot(std::string_view option) {
+namespace {
+
+void require_terminal(const std::string& terminal, std::string_view what) {
   std::string why;
   try {
-    static_cast<void>(run_gnuplot("set terminal svg\nset print '-'\nprint 'ready'\n"));
+    static_cast<void>(run_gnuplot(fmt::format("set terminal {}\nset print '-'\nprint 'ready'\n", terminal)));
     return;
   } catch (const OutputError&) {
     throw;
   } catch (const std::runtime_error& error) {
     why = error.what();
   }
-  throw InputError(
-      fmt::format("{} needs gnuplot for its plots (Debian package gnuplot-nox): {}", option, why));
+  throw InputError(fmt::format("{} (Debian package gnuplot-nox): {}", what, why));
+}
+
+}  // namespace
+
+void require_gnuplot(std::string_view option) {
+  require_terminal("svg", fmt::format("{} needs gnuplot for its plots", option));
+}
+
+void require_gnuplot_pdf(std::string_view option) {
+  require_terminal("pdfcairo", fmt::format("{} needs a gnuplot that has the terminal pdfcairo", option));
+}
+
+std::string page_colours_script() {
+  std::string script;
+  for (std::size_t k = 0; k < page_colours.size(); ++k)
+    script += fmt::format("c_{} = '#{:06x}'\n", page_colours[k], k);
+  return script;
 }
 
 namespace {
@@ -153,8 +171,6 @@ class Rewriter {
       if (placed_ == texts_.size()) fail("expected fewer squares");
       emit("<polygon class=\"square\"" + in_page_colours(line.substr(8, line.rfind("/>") - 8)) + ">" +
            title(texts_[placed_++]) + "</polygon>" + std::string(line.substr(line.rfind("/>") + 2)));
-    } else if (line.starts_with("<text>\x02")) {
-      emit("<text>" + tick_label(number_after<double>(line, "\x02")) + "</text>");
     } else if (line.starts_with("<g id=")) {  // a plot with its title
       emit("<g>");
     } else if (line.starts_with("<g fill=\"none\"")) {

@@ -13,6 +13,9 @@ namespace kds {
 /// Throws an InputError which says that `option` needs gnuplot if gnuplot cannot be started or cannot draw
 /// SVG.
 void require_gnuplot(std::string_view option);
+/// Throws an InputError which says that `option` needs gnuplot's terminal pdfcairo if gnuplot cannot draw
+/// PDF.
+void require_gnuplot_pdf(std::string_view option);
 
 /// Throws std::runtime_error with gnuplot's message.
 [[nodiscard]] std::string run_gnuplot(const std::string& script);
@@ -20,6 +23,8 @@ void require_gnuplot(std::string_view option);
 /// The size of a drawing and the margins around its axes, in pixels.
 struct DrawingSize {
   double width, height, left, right, top, bottom;
+  bool for_paper = false;  ///< whether nothing lies under a pointer
+  double head = 0;         ///< room above the top margin for title and key of a paper's drawing
 };
 
 /// The kind of element to which the texts of a drawing belong.
@@ -29,13 +34,17 @@ enum class TextsOf {
   squares  ///< the K-th filled polygon
 };
 
-/// The page's style variables that stand for colour #0000KK of a script.
+/// The page's style variables. A script names the colour of variable `soft` c_soft.
 inline constexpr std::array<std::string_view, 10> page_colours{"s0", "s1", "s2", "s3",   "s4",
                                                                "s5", "s6", "s7", "soft", "line"};
 inline constexpr std::size_t series_colours = 8;
-
-/// The format of numbers in a script. The page shows such a number as tick_label() does.
-inline constexpr std::string_view number_format = "\x02%.12g";
+/// The values of these variables on light pages and on paper. Colour-blind readers can tell the colours of
+/// the series apart.
+inline constexpr std::array<std::string_view, 10> light_colours{"#2563a8", "#c2600a", "#2b7a4b", "#8a3f8f",
+                                                                "#c0392b", "#5b6570", "#0b7f92", "#8a6d00",
+                                                                "#5b6570", "#dfe4ea"};
+/// Returns the beginning of a script whose drawings page_svg converts: colour K is #0000KK.
+[[nodiscard]] std::string page_colours_script();
 
 /// Returns the SVG element. `drawing` is one SVG document of gnuplot up to its </svg>. `attributes` are the
 /// attributes of the element. Throws std::runtime_error if `drawing` is not such a document or if texts are

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <string_view>
 #include <utility>
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/gnuplot.h"
+#include "experiments/output/page/latex.h"
+#include "experiments/output/page/paper.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
 
@@ -47,11 +50,17 @@ std::string html_escaped_lines(std::string_view text) {
 
 namespace {
 
-// The colours of the series can also be told apart by colour-blind readers.
+// Returns the colours of light pages that plots use.
+std::string light_style() {
+  std::string style = "\n:root {";
+  for (std::size_t k = 0; k < page_colours.size(); ++k)
+    style += fmt::format(" --{}: {};", page_colours[k], light_colours[k]);
+  return style + " }";
+}
+
 constexpr std::string_view kStyle = R"(
 :root { color-scheme: light dark;
-  --page: #ffffff; --ink: #1f2933; --soft: #5b6570; --line: #dfe4ea; --tint: #f4f6f8; --shade: #1f29332e; --link: #1d5fa8;
-  --s0: #2563a8; --s1: #c2600a; --s2: #2b7a4b; --s3: #8a3f8f; --s4: #c0392b; --s5: #5b6570; --s6: #0b7f92; --s7: #8a6d00; }
+  --page: #ffffff; --ink: #1f2933; --tint: #f4f6f8; --shade: #1f29332e; --link: #1d5fa8; }
 @media (prefers-color-scheme: dark) { :root {
   --page: #14181d; --ink: #e4e8ec; --soft: #9aa5b1; --line: #313a44; --tint: #1d232a; --shade: #e4e8ec3a; --link: #7db4f0;
   --s0: #6aa8ee; --s1: #f0a04b; --s2: #63c08a; --s3: #cf92d6; --s4: #f0857a; --s5: #a7b1bc; --s6: #52c7d8; --s7: #d6b73a; } }
@@ -72,11 +81,16 @@ dl { margin: .8rem 0 1.2rem; display: grid; grid-template-columns: max-content 1
      padding: .9rem 1.1rem; background: var(--tint); border-radius: .5rem; }
 dt { color: var(--soft); }
 dd { margin: 0; overflow-wrap: anywhere; }
-.scroll { overflow-x: auto; margin: .6rem min(0px, (58rem - 100vw) / 2) 1.2rem 0;
+.scroll { overflow-x: auto; margin: .6rem 0 1.2rem; position: relative; left: 50%; transform: translateX(-50%);
+          width: max-content; min-width: 100%; max-width: calc(100vw - 3rem);
           background: linear-gradient(to left, var(--page) 30%, transparent) right / 2.5rem 100% no-repeat local,
                       linear-gradient(to left, var(--shade), transparent) right / .8rem 100% no-repeat scroll; }
 table { border-collapse: separate; border-spacing: 0; font-size: .92rem; font-variant-numeric: tabular-nums; }
+table.many { font-size: .85rem; }
 th, td { padding: .26rem 0 .26rem 1.2rem; text-align: right; vertical-align: top; white-space: nowrap; }
+table.many th, table.many td { padding-left: .8rem; }
+th.text, td.text { text-align: left; white-space: normal; overflow-wrap: break-word; }
+td.text { max-width: 24rem; }
 td small { display: block; color: var(--soft); }
 thead th { border-bottom: 2px solid var(--ink); vertical-align: bottom; font-weight: 600; white-space: normal; }
 th:first-child { position: sticky; left: 0; background: var(--page); padding-left: 0; padding-right: .6rem;
@@ -87,6 +101,7 @@ tbody tr.detail > * { border-top: 0; }
 tbody tr.detail th:first-child { font-weight: 400; padding-left: 1.1rem; color: var(--soft); }
 figure { margin: .6rem 0 1.6rem; }
 figure svg { width: 100%; height: auto; }
+.paper { margin: 0 0 .2rem; font-size: .85rem; }
 .panels { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(20rem, 100%), 1fr)); gap: .3rem 1.5rem; }
 svg.wide { display: block; }
 svg.narrow { display: none; }
@@ -162,11 +177,14 @@ std::string how_it_was_made(const Page& page) {
 }  // namespace
 
 std::string html_figure(const std::string& svg, const std::string& caption) {
-  return fmt::format("<figure>\n{}<figcaption>{}</figcaption>\n</figure>\n", svg, caption);
+  return fmt::format("<figure>\n{}<figcaption>{}</figcaption>\n</figure>\n{}", svg, caption,
+                     caption_for_paper(caption));
 }
 
 std::string html_section(const std::string& heading, const std::string& content) {
-  return content.empty() ? "" : fmt::format("<h2>{}</h2>\n{}", html_escaped(heading), content);
+  return content.empty()
+             ? ""
+             : fmt::format("{}<h2>{}</h2>\n{}", section_for_paper(heading), html_escaped(heading), content);
 }
 
 namespace {
@@ -181,21 +199,27 @@ std::string cell_text(const std::string& cell) {
 
 }  // namespace
 
-std::string html_table(const std::vector<std::string>& columns, const std::vector<HtmlRow>& rows) {
-  std::string html = "<div class=\"scroll\"><table>\n<thead><tr>";
-  for (const std::string& column : columns)
-    html += fmt::format("<th scope=\"col\">{}</th>", html_escaped(column));
+std::string html_table(const std::vector<std::string>& columns, const std::vector<HtmlRow>& rows,
+                       std::string_view alignment) {
+  constexpr std::size_t many = 9;
+  const auto style = [&](std::size_t c) {
+    return c > 0 && alignment[std::min(c, alignment.size() - 1)] == '<' ? " class=\"text\"" : "";
+  };
+  std::string html = fmt::format("<div class=\"scroll\"><table{}>\n<thead><tr>",
+                                 columns.size() > many ? " class=\"many\"" : "");
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    html += fmt::format("<th scope=\"col\"{}>{}</th>", style(c), html_escaped(columns[c]));
   html += "</tr></thead>\n<tbody>\n";
   for (const HtmlRow& row : rows) {
     html += row.detail ? "<tr class=\"detail\">" : "<tr>";
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const std::string cell = c < row.cells.size() ? row.cells[c] : "";
       html += c == 0 ? fmt::format("<th scope=\"row\">{}</th>", html_escaped(cell))
-                     : fmt::format("<td>{}</td>", cell_text(cell));
+                     : fmt::format("<td{}>{}</td>", style(c), cell_text(cell));
     }
     html += "</tr>\n";
   }
-  return html + "</tbody>\n</table></div>\n";
+  return html + "</tbody>\n</table></div>\n" + table_for_paper(latex_table(columns, rows, alignment));
 }
 
 std::string html_terms(const std::vector<std::pair<std::string, std::string>>& terms) {
@@ -217,12 +241,7 @@ std::string html_page(const Page& page) {
       "<meta name=\"color-scheme\" content=\"light dark\">\n"
       "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n{2}</main>\n</body>\n"
       "</html>\n",
-      html_escaped(page.title), kStyle, body);
-}
-
-void check_page(const std::filesystem::path& directory, std::string_view command) {
-  check_directory(directory, command, "--out", {"report.html"});
-  require_gnuplot("--out");
+      html_escaped(page.title), light_style() + std::string(kStyle), body);
 }
 
 void print_report_path(const std::filesystem::path& directory) {

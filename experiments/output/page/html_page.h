@@ -30,6 +30,7 @@ struct Page {
   std::vector<std::string> data;  ///< names of the data files next to the page
 };
 
+/// Returns the page with copies of its tables and plots for a paper, which write_page (paper.h) takes out.
 [[nodiscard]] std::string html_page(const Page& page);
 
 [[nodiscard]] std::string html_figure(const std::string& svg, const std::string& caption);
@@ -41,18 +42,14 @@ struct HtmlRow {
   std::vector<std::string> cells;  ///< plain text; the first is the row's name; missing cells are empty
   bool detail = false;             ///< details the nearest row above that is not a detail
 };
-/// Returns a table. The table scrolls sideways if the page is too narrow, and its first column stays in
-/// place.
+/// Returns a table, with its copy for a paper. The table scrolls sideways if the page is too narrow, and its
+/// first column stays in place. `alignment` has '<' (left, text) or '>' (right) for each column, and its last
+/// character holds for all further columns. Text breaks into lines.
 [[nodiscard]] std::string html_table(const std::vector<std::string>& columns,
-                                     const std::vector<HtmlRow>& rows);
+                                     const std::vector<HtmlRow>& rows, std::string_view alignment = "<>");
 
 /// Returns a list of terms with their values, given as pairs of label and value.
 [[nodiscard]] std::string html_terms(const std::vector<std::pair<std::string, std::string>>& terms);
-
-/// Checks before work begins that the page can be written. Throws InputError if gnuplot, which draws its
-/// plots, is missing. Throws InputError also if the directory has a report.html that this command did not
-/// write.
-void check_page(const std::filesystem::path& directory, std::string_view command);
 
 /// Prints the line "report PATH", with the path of the page in this directory.
 void print_report_path(const std::filesystem::path& directory);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -12,6 +13,7 @@
 
 #include "experiments/output/page/drawing.h"
 #include "experiments/output/page/html_page.h"
+#include "experiments/output/page/paper.h"
 #include "experiments/output/text.h"
 
 namespace kds {
@@ -19,6 +21,13 @@ namespace kds {
 namespace {
 
 constexpr double kMarkSize = 0.8;  // about 4 pixels
+
+// Returns the size of the marks of a series. Marks are smaller than those of the series before, which would
+// otherwise be covered where points coincide.
+double mark_size(std::size_t series, std::size_t all) {
+  if (all < 2 || series >= all) return kMarkSize;
+  return kMarkSize + std::min(0.3, 1 / static_cast<double>(all)) * static_cast<double>(all - 1 - series);
+}
 
 // Returns the texts under the pointer: the values of all curves at each x. If there are more x than places,
 // not more than `most`.
@@ -34,51 +43,96 @@ std::map<double, std::string> values_of(const LinePlot& plot, const std::vector<
   return values;
 }
 
-// `names` has the name of each curve at the index of its colour.
-Drawing draw(const LinePlot& plot, const DrawingSize& size, const std::vector<std::string>& names) {
-  Drawing drawing{size, axes(size, plot.x_label, plot.y_label), TextsOf::strips, {}};
-  std::string& script = drawing.script;
-  std::vector<double> xs;
+// Factors between values from which an axis is logarithmic, and between curves that share no linear axis.
+constexpr double kFarInX = 8, kFarInY = 10;
+
+bool is_marks(const LinePlot& plot) { return plot.drawn == Drawn::points; }
+
+bool is_logarithmic(const LinePlot& plot) {
   Range y;
   for (const Curve& curve : plot.curves)
-    for (const auto& [px, py] : curve.points) {
-      xs.push_back(px);
-      y.add(py);
+    for (const auto& [at, value] : curve.points) y.add(value);
+  return is_marks(plot) && !plot.below_zero && !y.empty() && y.least > 0 && y.most >= kFarInY * y.least;
+}
+
+// Returns the script of vertical error bars.
+std::string bars_script(const std::string& name, const std::vector<std::array<double, 3>>& bars) {
+  std::string script = fmt::format("${} << EOD\n", name);
+  for (const auto& [x, least, most] : bars)
+    script += fmt::format("{0:.17g} {1:.17g}\n{0:.17g} {2:.17g}\n\n", x, least, most);
+  return script + "EOD\n";
+}
+
+// Sets the y axis. Returns the middle of the axis.
+double set_y_axis(const LinePlot& plot, bool logarithmic_y, std::string& script) {
+  Range y;
+  for (const Curve& curve : plot.curves) {
+    for (const auto& [at, value] : curve.points) y.add(value);
+    for (const auto& [least, most] : curve.bars) {
+      if (!logarithmic_y || least > 0) y.add(least);
+      y.add(most);
     }
-  std::sort(xs.begin(), xs.end());
-  xs.erase(std::unique(xs.begin(), xs.end()), xs.end());
+  }
+  if (logarithmic_y) {
+    y = y.with_margin(true);
+    script += logarithmic('y', y, y_ticks);
+    return std::sqrt(y.least) * std::sqrt(y.most);
+  }
   if (!plot.below_zero) y = {0, y.most > 0 ? y.most : 1};
   y = y.around();
   const double apart = tick_step(y, y_ticks);
   y = {std::floor(y.least / apart + 1e-9) * apart, std::ceil(y.most / apart - 1e-9) * apart};
   script += linear('y', y, y_ticks);
+  return (y.least + y.most) / 2;
+}
 
-  const bool marks = plot.drawn == Drawn::points;
-  const bool spread = marks && xs.size() > 2 && xs.front() > 0 && xs.back() >= 8 * xs.front();
+// `names` has the name of each curve at the index of its colour.
+Drawing draw(const LinePlot& plot, const DrawingSize& size, const std::vector<std::string>& names,
+             bool logarithmic_y) {
+  Drawing drawing{size, axes(size, plot.x_label, plot.y_label), TextsOf::strips, {}};
+  std::string& script = drawing.script;
+  std::vector<double> xs;
+  for (const Curve& curve : plot.curves)
+    for (const auto& [at, value] : curve.points) xs.push_back(at);
+  std::sort(xs.begin(), xs.end());
+  xs.erase(std::unique(xs.begin(), xs.end()), xs.end());
+  const double middle = set_y_axis(plot, logarithmic_y, script);
+
+  const bool marks = is_marks(plot);
+  const bool spread = marks && xs.size() > 2 && xs.front() > 0 && xs.back() >= kFarInX * xs.front();
   Range x = (xs.empty() ? Range{} : Range{xs.front(), xs.back()}).around();
   if (marks) x = x.with_margin(spread);
   script += spread ? logarithmic('x', x, x_ticks(size)) : linear('x', x, x_ticks(size));
   // If x takes only a few values, the ticks are at these values.
   if (marks && !xs.empty() && xs.size() <= 8) script += set_ticks('x', xs);
 
-  const std::string style = marks                            ? fmt::format("points pt 7 ps {}", kMarkSize)
-                            : plot.drawn == Drawn::staircase ? "steps linewidth 1.6"
-                                                             : "lines linewidth 1.6";
+  const auto style = [&](std::size_t series) {
+    return marks ? fmt::format("points pt 7 ps {:.3g}", mark_size(series, names.size()))
+           : plot.drawn == Drawn::staircase ? std::string("steps linewidth 1.6")
+                                            : std::string("lines linewidth 1.6");
+  };
   std::string curves;
   for (std::size_t s = 0; s < plot.curves.size(); ++s) {
-    if (plot.curves[s].points.empty()) continue;
+    const Curve& curve = plot.curves[s];
+    if (curve.points.empty()) continue;
     script += fmt::format("$curve{} << EOD\n", s);
-    for (const auto& [px, py] : plot.curves[s].points) script += fmt::format("{:.17g} {:.17g}\n", px, py);
+    for (const auto& [px, py] : curve.points) script += fmt::format("{:.17g} {:.17g}\n", px, py);
     script += "EOD\n";
-    const auto series =
-        static_cast<std::size_t>(std::ranges::find(names, plot.curves[s].name) - names.begin());
-    curves += fmt::format("$curve{} using 1:2 with {} linecolor {}, ", s, style, colour(series));
+    const auto series = static_cast<std::size_t>(std::ranges::find(names, curve.name) - names.begin());
+    if (!curve.bars.empty()) {
+      std::vector<std::array<double, 3>> bars;
+      for (std::size_t k = 0; k < curve.bars.size(); ++k)
+        bars.push_back({curve.points[k].first, curve.bars[k].first, curve.bars[k].second});
+      script += bars_script(fmt::format("bars{}", s), bars);
+      curves += fmt::format("$bars{} using 1:2 with lines linewidth 1 linecolor {}, ", s, colour(series));
+    }
+    curves += fmt::format("$curve{} using 1:2 with {} linecolor {}, ", s, style(series), colour(series));
   }
   const auto values = values_of(plot, xs, is_wide(size) ? 300 : 100);
-  if (!values.empty()) {
+  if (!values.empty() && !size.for_paper) {
     script += "$values << EOD\n";
     for (const auto& [at, text] : values) {
-      script += fmt::format("{:.17g} {:.17g} {}\n", at, (y.least + y.most) / 2, drawing.texts.size());
+      script += fmt::format("{:.17g} {:.17g} {}\n", at, middle, drawing.texts.size());
       drawing.texts.push_back(text);
     }
     script += "EOD\n";
@@ -123,7 +177,11 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
   for (const PointPlot::Point& point : plot.points) {
     xs.add(point.x);
     if (point.y > 0) ys.add(point.y);
+    if (point.least > 0) ys.add(point.least);
+    if (point.most > 0) ys.add(point.most);
   }
+  for (const PointPlot::Line& line : plot.lines)
+    for (const auto& [x, y] : line.points) ys.add(y);
   if (xs.empty()) xs.add(1);
   if (ys.empty()) ys.add(1);
   const double floor = std::max(ys.least, 1e-6 * ys.most);
@@ -148,14 +206,17 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
     labels.add_mark(across, down);
   }
   std::map<std::size_t, std::string> marks;
+  std::map<std::size_t, std::vector<std::array<double, 3>>> bars;
   for (const PointPlot::Point& point : plot.points) {
     const double at_y = std::max(point.y, bottom);
     const auto [across, down] = pixels(point);
     const std::string where =
         is_wide(size) && !point.name.empty() ? labels.label(across, down, point.name) : "";
     if (!where.empty())
-      script += fmt::format("set label {} at {:.17g},{:.17g} {} textcolor '#000008'\n",
+      script += fmt::format("set label {} at {:.17g},{:.17g} {} textcolor rgb c_soft\n",
                             gnuplot_text(point.name), point.x, at_y, where);
+    if (point.least < point.most)
+      bars[point.series].push_back({point.x, std::max(point.least, bottom), std::max(point.most, bottom)});
     marks[point.series] += fmt::format("{:.17g} {:.17g} {}\n", point.x, at_y, drawing.texts.size());
     const std::string& series = point.series < plot.series.size() ? plot.series[point.series] : point.name;
     drawing.texts.push_back(fmt::format("{}\n{}: {}\n{}: {}", point.name.empty() ? series : point.name,
@@ -163,10 +224,23 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
                                         tick_label(point.y)));
   }
   std::string curves;
+  for (std::size_t k = 0; k < plot.lines.size(); ++k) {
+    const PointPlot::Line& line = plot.lines[k];
+    script += fmt::format("$line{} << EOD\n", k);
+    for (const auto& [at, value] : line.points) script += fmt::format("{:.17g} {:.17g}\n", at, value);
+    script += "EOD\n";
+    curves += fmt::format("$line{} using 1:2 with lines linewidth 1.2 dashtype {} linecolor {}, ", k,
+                          line.is_dotted ? "(2,4)" : "(8,5)", colour(line.series));
+  }
+  for (const auto& [series, ends] : bars) {
+    script += bars_script(fmt::format("bars{}", series), ends);
+    curves += fmt::format("$bars{} using 1:2 with lines linewidth 1 linecolor {}, ", series, colour(series));
+  }
   for (const auto& [series, data] : marks) {
     script += fmt::format("$series{} << EOD\n{}EOD\n", series, data);
-    curves += fmt::format("$series{} using 1:2:3 with labels hypertext point pt 7 ps {} linecolor {}, ",
-                          series, kMarkSize, colour(series));
+    curves += fmt::format("$series{} using {} pt 7 ps {:.3g} linecolor {}, ", series,
+                          size.for_paper ? "1:2 with points" : "1:2:3 with labels hypertext point",
+                          mark_size(series, plot.series.size()), colour(series));
   }
   script += "plot " + curves + "NaN\n";
   return drawing;
@@ -180,12 +254,12 @@ Drawing draw(const BarPlot& plot, DrawingSize size) {
     most = std::max(most, bar.value);
   }
   const double pitch = plot.series.size() > 1 ? 20 : 28;
-  size.height = pitch * static_cast<double>(plot.bars.size()) + 34;
+  size.height = pitch * static_cast<double>(plot.bars.size()) + 34 + size.head;
   constexpr double letter = 7.2, beside = 14;
   size.left = std::min(letter * static_cast<double>(longest) + beside, is_wide(size) ? 300.0 : 140.0);
   const auto room = static_cast<std::size_t>((size.left - beside) / letter + 0.5);
   size.right = 90;
-  size.top = 4;
+  size.top = 4 + size.head;
   size.bottom = 28;
   Drawing drawing{size, axes(size, plot.x_label, ""), TextsOf::marks, {}};
   std::string& script = drawing.script;
@@ -196,7 +270,7 @@ Drawing draw(const BarPlot& plot, DrawingSize size) {
   std::map<std::size_t, std::string> of_series;
   for (std::size_t row = 0; row < plot.bars.size(); ++row) {
     const auto& [name, value, series] = plot.bars[row];
-    script += fmt::format("set label {} at {:.17g},{} left offset 0.8,0 textcolor '#000008'\n",
+    script += fmt::format("set label {} at {:.17g},{} left offset 0.8,0 textcolor rgb c_soft\n",
                           gnuplot_text(tick_label(value)), value, row);
     of_series[series] += fmt::format("{0:.17g} {1} 0 {0:.17g} {2} {3}\n", value, row,
                                      static_cast<double>(row) - 0.36, static_cast<double>(row) + 0.36);
@@ -213,7 +287,7 @@ Drawing draw(const BarPlot& plot, DrawingSize size) {
 }
 
 Drawing draw(const MapPlot& plot, DrawingSize size) {
-  const double side = is_wide(size) ? 540 : 292;
+  const double side = size.for_paper ? 440 : is_wide(size) ? 540 : 292;
   size.left = is_wide(size) ? 64 : 56;
   size.right = size.width - size.left - side;
   size.height = side + size.top + size.bottom;
@@ -233,7 +307,9 @@ Drawing draw(const MapPlot& plot, DrawingSize size) {
   drawing.script += "EOD\nplot ";
   if (!plot.squares.empty())
     drawing.script += fmt::format(
-        "$squares using 1:2:({0:.17g}):({0:.17g}):3 with boxxyerror linecolor rgb variable, ", plot.side / 2);
+        "$squares using 1:2:({0:.17g}):({0:.17g}):($3 + int('0x'.c_s0[2:])) with boxxyerror linecolor rgb "
+        "variable, ",
+        plot.side / 2);
   drawing.script += "NaN\n";
   return drawing;
 }
@@ -242,8 +318,8 @@ Drawing draw(const TimelinePlot& plot, DrawingSize size) {
   constexpr double pitch = 16, letter = 7.2, beside = 14;
   std::size_t longest = 0;
   for (const TimelinePlot::Row& row : plot.rows) longest = std::max(longest, row.name.size());
-  size.height = pitch * static_cast<double>(plot.rows.size()) + size.bottom + 6;
-  size.top = 6;
+  size.height = pitch * static_cast<double>(plot.rows.size()) + size.bottom + 6 + size.head;
+  size.top = 6 + size.head;
   size.left = std::min(letter * static_cast<double>(longest) + beside, is_wide(size) ? 260.0 : 150.0);
   const auto room = static_cast<std::size_t>((size.left - beside) / letter + 0.5);
   Drawing drawing{size, axes(size, plot.x_label, ""), TextsOf::marks, {}};
@@ -271,10 +347,21 @@ Drawing draw(const TimelinePlot& plot, DrawingSize size) {
   return drawing;
 }
 
-template <class Plot>
-std::string drawn_once(const Plot& plot, double height, const std::vector<std::string>& names,
-                       const std::string& label) {
-  return html_key(names) + drawn({{draw(plot, wide(height)), draw(plot, narrow(height))}}, {label}).front();
+// Returns a plot's copy for a paper, as `draw_it` draws it for a size.
+template <class Draw>
+std::string paper_copy(double height, const std::string& title, const std::vector<std::string>& names,
+                       const Draw& draw_it) {
+  Drawing drawing = draw_it(paper(height, title, names));
+  drawing.script = paper_head(drawing.size, title, names) + drawing.script;
+  return plot_for_paper(drawing);
+}
+
+// Returns the key of a plot, the plot, which `draw_it` draws for a size, and its copy for a paper.
+template <class Draw>
+std::string drawn_once(double height, const std::vector<std::string>& names, const std::string& label,
+                       const Draw& draw_it) {
+  return html_key(names) + drawn({{draw_it(wide(height)), draw_it(narrow(height))}}, {label}).front() +
+         paper_copy(height, "", names, draw_it);
 }
 
 std::string label_of(const LinePlot& plot) { return plot.y_label + " by " + plot.x_label; }
@@ -284,16 +371,61 @@ void add_names(const LinePlot& plot, std::vector<std::string>& names) {
     if (std::ranges::find(names, curve.name) == names.end()) names.push_back(curve.name);
 }
 
-Plotted drawings(const LinePlot& plot, const DrawingSize& size, const std::vector<std::string>& names) {
-  return {draw(plot, size, names), draw(plot, narrow(size.height), names)};
+double magnitude_of(const Curve& curve) {
+  double most = 0;
+  for (const auto& [x, y] : curve.points) most = std::max(most, std::abs(y));
+  return most;
+}
+
+// Returns the curves in groups of similar magnitude, in the order of their first curves. A curve that is zero
+// everywhere joins the smallest.
+std::vector<LinePlot> by_magnitude(const LinePlot& plot) {
+  std::vector<std::pair<double, std::size_t>> curves;
+  for (std::size_t k = 0; k < plot.curves.size(); ++k) curves.emplace_back(magnitude_of(plot.curves[k]), k);
+  std::ranges::stable_sort(curves, std::ranges::greater{}, &std::pair<double, std::size_t>::first);
+  std::vector<std::vector<std::size_t>> groups;
+  double most = 0;
+  for (const auto& [magnitude, k] : curves) {
+    if (groups.empty() || (magnitude > 0 && kFarInY * magnitude < most)) {
+      groups.emplace_back();
+      most = magnitude;
+    }
+    groups.back().push_back(k);
+  }
+  for (auto& group : groups) std::ranges::sort(group);
+  std::ranges::sort(groups);
+  std::vector<LinePlot> plots;
+  for (const auto& group : groups) {
+    LinePlot& part =
+        plots.emplace_back(LinePlot{plot.x_label, plot.y_label, plot.drawn, {}, plot.below_zero});
+    for (const std::size_t k : group) part.curves.push_back(plot.curves[k]);
+  }
+  return plots;
+}
+
+std::string title_of(const LinePlot& plot) {
+  std::string title;
+  for (const Curve& curve : plot.curves) title += (title.empty() ? "" : ", ") + curve.name;
+  return title;
 }
 
 }  // namespace
 
 std::string svg_plot(const LinePlot& plot) {
+  const bool is_log = is_logarithmic(plot);
+  std::vector<LinePlot> parts = is_log ? std::vector{plot} : by_magnitude(plot);
+  if (parts.size() > 1) {
+    PanelPlot panels;
+    for (LinePlot& part : parts) {
+      std::string title = title_of(part);
+      panels.panels.push_back({std::move(title), std::move(part)});
+    }
+    return svg_plot(panels);
+  }
   std::vector<std::string> names;
   add_names(plot, names);
-  return html_key(names) + drawn({drawings(plot, wide(320), names)}, {label_of(plot)}).front();
+  return drawn_once(320, names, label_of(plot),
+                    [&](const DrawingSize& size) { return draw(plot, size, names, is_log); });
 }
 
 std::string svg_plot(const PanelPlot& plot) {
@@ -301,32 +433,50 @@ std::string svg_plot(const PanelPlot& plot) {
   std::vector<std::string> all;
   for (const PanelPlot::Panel& one : plot.panels) add_names(one.plot, all);
   const bool one_key = all.size() <= series_colours;
+  // Panels side by side have axes of one kind.
+  const bool is_log = !plot.panels.empty() && std::ranges::all_of(plot.panels, [](const auto& one) {
+    return is_logarithmic(one.plot);
+  });
   std::vector<Plotted> plots;
-  std::vector<std::string> keys, labels;
+  std::vector<std::string> keys, labels, copies;
   for (const PanelPlot::Panel& one : plot.panels) {
-    std::vector<std::string> names;
-    add_names(one.plot, names);
-    keys.push_back(one_key ? "" : html_key(names));
+    std::vector<std::string> own;
+    add_names(one.plot, own);
+    keys.push_back(one_key ? "" : html_key(own));
     labels.push_back(one.title + ": " + label_of(one.plot));
-    plots.push_back(drawings(one.plot, panel, one_key ? all : names));
+    const std::vector<std::string>& names = one_key ? all : own;
+    const auto draw_it = [&](const DrawingSize& size) { return draw(one.plot, size, names, is_log); };
+    plots.push_back({draw_it(panel), draw_it(narrow(panel.height))});
+    copies.push_back(paper_copy(panel.height, one.title, own,
+                                [&](const DrawingSize& size) { return draw(one.plot, size, own, is_log); }));
   }
-  std::string html = (one_key ? html_key(all) : "") + "<div class=\"panels\">\n";
+  const bool has_titles_for_key = std::ranges::all_of(plot.panels, [](const PanelPlot::Panel& one) {
+    return one.plot.curves.size() == 1 && one.plot.curves.front().name == one.title;
+  });
+  std::string html = (one_key && !has_titles_for_key ? html_key(all) : "") + "<div class=\"panels\">\n";
   const std::vector<std::string> svgs = drawn(plots, labels);
   for (std::size_t k = 0; k < svgs.size(); ++k)
-    html +=
-        fmt::format("<div><h3>{}</h3>\n{}{}</div>\n", html_escaped(plot.panels[k].title), keys[k], svgs[k]);
+    html += fmt::format("<div><h3>{}</h3>\n{}{}{}</div>\n", html_escaped(plot.panels[k].title), keys[k],
+                        svgs[k], copies[k]);
   return html + "</div>\n";
 }
 
 std::string svg_plot(const PointPlot& plot) {
-  return drawn_once(plot, 350, plot.series, plot.y_label + " by " + plot.x_label);
+  return drawn_once(350, plot.series, plot.y_label + " by " + plot.x_label,
+                    [&](const DrawingSize& size) { return draw(plot, size); });
 }
-std::string svg_plot(const BarPlot& plot) { return drawn_once(plot, 0, plot.series, plot.x_label); }
+std::string svg_plot(const BarPlot& plot) {
+  return drawn_once(0, plot.series, plot.x_label, [&](const DrawingSize& size) { return draw(plot, size); });
+}
 std::string svg_plot(const MapPlot& plot) {
-  return drawn_once(plot, 0, {}, plot.value_label + " by " + plot.label);
+  return drawn_once(0, {}, plot.value_label + " by " + plot.label,
+                    [&](const DrawingSize& size) { return draw(plot, size); });
 }
 
-std::string svg_plot(const TimelinePlot& plot) { return drawn_once(plot, 0, {}, "times by " + plot.x_label); }
+std::string svg_plot(const TimelinePlot& plot) {
+  return drawn_once(0, {}, "times by " + plot.x_label,
+                    [&](const DrawingSize& size) { return draw(plot, size); });
+}
 
 namespace {
 
@@ -371,8 +521,8 @@ std::string column_text(const RowsPlot& plot, const Bin& bin) {
 Drawing draw(const RowsPlot& plot, DrawingSize size) {
   size.left = 10;
   size.right = 24;  // leaves room for a tick label
-  size.top = 0;
-  size.height = kRow * static_cast<double>(plot.rows.size()) + size.bottom;
+  size.top = size.head;
+  size.height = kRow * static_cast<double>(plot.rows.size()) + size.bottom + size.head;
   const std::vector<Bin> bins = bins_of(plot.columns, is_wide(size) ? 400 : 160);
 
   Drawing drawing{size, axes(size, plot.x_label, ""), TextsOf::strips, {}};
@@ -385,10 +535,10 @@ Drawing draw(const RowsPlot& plot, DrawingSize size) {
   for (std::size_t r = 0; r < plot.rows.size(); ++r) {
     const RowsPlot::Row& row = plot.rows[r];
     const double base = static_cast<double>(r) + 1;
-    script += fmt::format("set label {} at graph 0, first {:.6g} left textcolor '#000008'\n",
+    script += fmt::format("set label {} at graph 0, first {:.6g} left textcolor rgb c_soft\n",
                           gnuplot_text(heading(row, size)), base - kBars - 12 / kRow);
     script += fmt::format(
-        "set arrow from graph 0, first {0} to graph 1, first {0} nohead linecolor '#000009'\n", base);
+        "set arrow from graph 0, first {0} to graph 1, first {0} nohead linecolor rgb c_line\n", base);
     std::vector<double> means;
     for (const Bin& bin : bins) means.push_back(bin.mean(row.values));
     const double most = means.empty() ? 0 : *std::ranges::max_element(means);
@@ -401,7 +551,7 @@ Drawing draw(const RowsPlot& plot, DrawingSize size) {
     script += fmt::format("{:.17g} {:.6f}\nEOD\n", bins.back().right(), base);
     bars += fmt::format("$row{} using 1:2 with filledcurves closed linecolor {}, ", r, colour(0));
   }
-  if (!bins.empty()) {
+  if (!bins.empty() && !size.for_paper) {
     script += "$values << EOD\n";
     for (const Bin& bin : bins) {
       script += fmt::format("{:.17g} 0 {}\n", (bin.left() + bin.right()) / 2, drawing.texts.size());
@@ -417,7 +567,7 @@ Drawing draw(const RowsPlot& plot, DrawingSize size) {
 }  // namespace
 
 std::string svg_plot(const RowsPlot& plot) {
-  return drawn({{draw(plot, wide(0)), draw(plot, narrow(0))}}, {"by " + plot.x_label}).front();
+  return drawn_once(0, {}, "by " + plot.x_label, [&](const DrawingSize& size) { return draw(plot, size); });
 }
 
 }  // namespace kds

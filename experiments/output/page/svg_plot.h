@@ -1,7 +1,7 @@
 #pragma once
 // Curves, points, bars and maps for a page, without scripts. Each plot is drawn twice, for wide and for
 // narrow pages, and the page's style shows one of the two. Colours follow the page, light or dark. Values
-// appear under the pointer.
+// appear under the pointer. The page also carries a copy of each plot for a paper (paper.h).
 
 #include <cstddef>
 #include <functional>
@@ -14,6 +14,8 @@ namespace kds {
 struct Curve {
   std::string name;
   std::vector<std::pair<double, double>> points;  ///< finite, ordered by the first coordinate
+  /// An error bar for each point: its least and its largest value. Empty if there are none.
+  std::vector<std::pair<double, double>> bars = {};
 };
 
 /// How the points of a curve are drawn.
@@ -23,6 +25,9 @@ enum class Drawn {
   points      ///< marks only, because nothing is known between them
 };
 
+/// Curves over one axis. The axes of marks are logarithmic if the values lie far apart: x from a factor of 8,
+/// y from a factor of 10 if all values are above 0. If y is not logarithmic and the largest values of two
+/// curves differ by more than a factor of 10, svg_plot shows a panel for each magnitude.
 struct LinePlot {
   std::string x_label, y_label;
   Drawn drawn = Drawn::line;
@@ -40,16 +45,25 @@ struct PanelPlot {
   std::vector<Panel> panels;
 };
 
-/// Points, each with its name next to it. Both axes are logarithmic. The points of a series share its colour.
+/// Points, each with its name next to it. Both axes are logarithmic. The points and lines of a series share
+/// its colour.
 struct PointPlot {
   struct Point {
     std::string name;  ///< empty for a point without a shown name
     double x, y;       ///< x above 0; y at most a millionth of the largest, or 0, is drawn at the bottom
     std::size_t series = 0;
+    double least = 0, most = 0;  ///< the ends of an error bar; no bar if equal
+  };
+  /// A line between positions above 0, such as a fitted power or a bound.
+  struct Line {
+    std::vector<std::pair<double, double>> points;
+    std::size_t series = 0;
+    bool is_dotted = false;  ///< else dashed
   };
   std::string x_label, y_label;
   std::vector<std::string> series;
   std::vector<Point> points;
+  std::vector<Line> lines = {};
 };
 
 /// Horizontal bars, one below the other, each with its value. The bars of a series share its colour.

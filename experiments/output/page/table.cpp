@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "experiments/output/page/html_page.h"
+#include "experiments/output/page/latex.h"
 #include "experiments/output/text.h"
 #include "motions/base/text_input.h"
 
@@ -127,35 +128,49 @@ std::string TableOfCells::csv_lines() const {
   return text;
 }
 
-std::vector<std::string> TableOfCells::lines() const {
-  const std::vector<std::size_t> columns = columns_for(Shown::in_text);
+std::string TableOfCells::alignment_of(std::span<const std::size_t> columns) const {
   std::string alignment;
-  std::vector<std::vector<std::string>> lines(1);
   for (const std::size_t c : columns) {
-    lines[0].push_back(columns_[c].heading);
     const bool is_text =
         std::ranges::any_of(rows_, [&](const auto& cells) { return cells[c].field.is_text(); });
     alignment += is_text ? '<' : '>';
   }
+  return alignment;
+}
+
+std::vector<std::string> TableOfCells::lines() const {
+  const std::vector<std::size_t> columns = columns_for(Shown::in_text);
+  std::vector<std::vector<std::string>> lines(1);
+  for (const std::size_t c : columns) lines[0].push_back(columns_[c].heading);
   for (const std::vector<TableCell>& cells : rows_) {
     std::vector<std::string>& line = lines.emplace_back();
     for (const std::size_t c : columns) line.push_back(one_line(shown(cells[c], c)));
   }
-  return in_columns(lines, alignment);
+  return in_columns(lines, alignment_of(columns));
+}
+
+TableOfCells::ForPage TableOfCells::for_page(std::span<const std::string> groups) const {
+  const std::vector<std::size_t> columns = columns_for(Shown::on_pages);
+  ForPage page;
+  page.alignment = alignment_of(columns);
+  for (const std::size_t c : columns) page.headings.push_back(columns_[c].heading);
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const std::string& group = groups[row];
+    if (!group.empty() && (row == 0 || group != groups[row - 1])) page.rows.push_back({{group}});
+    HtmlRow& line = page.rows.emplace_back(HtmlRow{{}, !group.empty()});
+    for (const std::size_t c : columns) line.cells.push_back(shown(rows_[row][c], c));
+  }
+  return page;
 }
 
 std::string TableOfCells::html(std::span<const std::string> groups) const {
-  const std::vector<std::size_t> columns = columns_for(Shown::on_pages);
-  std::vector<std::string> headings;
-  for (const std::size_t c : columns) headings.push_back(columns_[c].heading);
-  std::vector<HtmlRow> lines;
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const std::string& group = groups[row];
-    if (!group.empty() && (row == 0 || group != groups[row - 1])) lines.push_back({{group}});
-    HtmlRow& line = lines.emplace_back(HtmlRow{{}, !group.empty()});
-    for (const std::size_t c : columns) line.cells.push_back(shown(rows_[row][c], c));
-  }
-  return html_table(headings, lines);
+  const auto [headings, rows, alignment] = for_page(groups);
+  return html_table(headings, rows, alignment);
+}
+
+std::string TableOfCells::latex(std::span<const std::string> groups) const {
+  const auto [headings, rows, alignment] = for_page(groups);
+  return latex_table(headings, rows, alignment);
 }
 
 }  // namespace kds

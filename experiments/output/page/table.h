@@ -1,6 +1,6 @@
 #pragma once
-// A table whose columns are declared once. The table writes its rows as JSON, as CSV, as text for a terminal
-// and as HTML for a page.
+// A table whose columns are declared once. The table writes its rows as JSON, as CSV, as text for a terminal,
+// as HTML for a page and as LaTeX for a paper.
 //
 //   const Table<Row> table{{
 //       {.key = "seconds", .heading = "seconds", .value = [](const Row& r) { return Field(r.seconds); },
@@ -20,6 +20,7 @@
 #include <variant>
 #include <vector>
 
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
 
 namespace kds {
@@ -104,8 +105,16 @@ class TableOfCells {
   [[nodiscard]] std::string csv_lines() const;
   [[nodiscard]] std::vector<std::string> lines() const;
   [[nodiscard]] std::string html(std::span<const std::string> groups) const;
+  [[nodiscard]] std::string latex(std::span<const std::string> groups) const;
 
  private:
+  struct ForPage {
+    std::vector<std::string> headings;
+    std::vector<HtmlRow> rows;
+    std::string alignment;
+  };
+  [[nodiscard]] ForPage for_page(std::span<const std::string> groups) const;
+  [[nodiscard]] std::string alignment_of(std::span<const std::size_t> columns) const;
   [[nodiscard]] std::vector<std::size_t> columns_for(Shown reader) const;
   [[nodiscard]] std::string shown(const TableCell& cell, std::size_t column) const;
 
@@ -182,15 +191,24 @@ class Table {
     for (const std::string& line : lines(rows)) text.append(indent).append(line).append("\n");
     return text;
   }
-  /// Returns an HTML table. If `group` is given, a line with the name of each group precedes the group's
-  /// rows.
-  [[nodiscard]] std::string html(Rows rows, const std::function<std::string(const Row&)>& group = {}) const {
-    std::vector<std::string> groups;
-    for (const Row& row : rows) groups.push_back(group ? group(row) : "");
-    return filled(rows).html(groups);
+  using Group = std::function<std::string(const Row&)>;
+  /// Returns an HTML table with its copy for a paper. If `group` is given, a line with the name of each group
+  /// precedes the group's rows.
+  [[nodiscard]] std::string html(Rows rows, const Group& group = {}) const {
+    return filled(rows).html(groups_of(rows, group));
+  }
+  /// Returns the table of `html` as a LaTeX tabular environment (latex.h).
+  [[nodiscard]] std::string latex(Rows rows, const Group& group = {}) const {
+    return filled(rows).latex(groups_of(rows, group));
   }
 
  private:
+  [[nodiscard]] static std::vector<std::string> groups_of(Rows rows, const Group& group) {
+    std::vector<std::string> groups;
+    for (const Row& row : rows) groups.push_back(group ? group(row) : "");
+    return groups;
+  }
+
   [[nodiscard]] TableOfCells filled(Rows rows) const {
     TableOfCells table;
     for (const auto& c : columns_)

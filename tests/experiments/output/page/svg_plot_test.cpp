@@ -153,10 +153,10 @@ TEST(PageSvg, WhatIsNoDrawingIsAFailure) {
 
 TEST(SvgPlot, ValuesAreShownUnderThePointer) {
   LinePlot plot{
-      "frame", "events", Drawn::line, {{"wrapped", {{0, 3}, {1, 4}}}, {"power", {{1, 40}, {2, 50}}}}};
+      "frame", "events", Drawn::line, {{"wrapped", {{0, 3}, {1, 4}}}, {"power", {{1, 30}, {2, 20}}}}};
   const std::string html = svg_plot(plot);
   EXPECT_THAT(html, HasSubstr("<title>frame 0\nwrapped: 3</title>"));
-  EXPECT_THAT(html, HasSubstr("<title>frame 1\nwrapped: 4\npower: 40</title>"));
+  EXPECT_THAT(html, HasSubstr("<title>frame 1\nwrapped: 4\npower: 30</title>"));
   EXPECT_EQ(count_of(html, "class=\"curve"), 4U);  // two curves, in the wide and the narrow plot
   EXPECT_EQ(count_of(html, "<span"), 2U);          // the key appears once
   test::expect_nested(html);
@@ -168,6 +168,51 @@ TEST(SvgPlot, MarksAloneWhereNothingIsKnownBetween) {
   EXPECT_THAT(html, Not(HasSubstr("class=\"curve")));
   EXPECT_EQ(count_of(html, "class=\"mark"), 6U);
   for (const char* tick : {">1</text>", ">4</text>", ">32</text>"}) EXPECT_EQ(count_of(html, tick), 2U);
+}
+
+// A curve that is far below another would be a flat line on zero.
+TEST(SvgPlot, CurvesOfOtherMagnitudeHavePanelsOfTheirOwn) {
+  LinePlot plot{
+      "frame", "events", Drawn::staircase, {{"box", {{0, 0}, {1, 2}}}, {"power", {{0, 0}, {1, 21}}}}};
+  std::string html = svg_plot(plot);
+  test::expect_nested(html);
+  EXPECT_EQ(count_of(html, "<svg class=\"wide\""), 2U);
+  EXPECT_THAT(html, HasSubstr("<h3>box</h3>"));
+  EXPECT_THAT(html, HasSubstr("<h3>power</h3>"));
+  EXPECT_THAT(html, Not(HasSubstr("class=\"key\"")));  // the headings tell the curves apart
+  expect_ticks(html, {"20"});
+  plot.curves.push_back({"sorted", {{0, 0}, {1, 19}}});
+  html = svg_plot(plot);
+  EXPECT_EQ(count_of(html, "<svg class=\"wide\""), 2U);
+  EXPECT_THAT(html, HasSubstr("<h3>power, sorted</h3>"));
+  plot.curves = {{"box", {{0, 0}, {1, 2}}}, {"power", {{0, 0}, {1, 20}}}};  // not more than ten times
+  EXPECT_EQ(count_of(svg_plot(plot), "<svg class=\"wide\""), 1U);
+  plot.curves = {{"none", {{0, 0}, {1, 0}}}, {"power", {{0, 0}, {1, 20}}}};  // zero is no magnitude
+  EXPECT_EQ(count_of(svg_plot(plot), "<svg class=\"wide\""), 1U);
+}
+
+TEST(SvgPlot, MarksFarApartHaveALogarithmicAxis) {
+  LinePlot plot{
+      "stride", "events", Drawn::points, {{"box", {{1, 0.5}, {2, 0.7}}}, {"power", {{1, 40}, {2, 50}}}}};
+  const std::string html = svg_plot(plot);
+  EXPECT_EQ(count_of(html, "<svg class=\"wide\""), 1U);
+  expect_ticks(html, {"1", "10"});
+  plot.curves.front().points.front().second = 0;  // zero has no logarithm
+  EXPECT_EQ(count_of(svg_plot(plot), "<svg class=\"wide\""), 2U);
+}
+
+TEST(SvgPlot, ErrorBarsAndFittedLinesAreCurves) {
+  LinePlot plot{"stride", "time", Drawn::points, {{"a", {{1, 2}, {2, 3}}, {{1, 3}, {2, 4.5}}}}};
+  std::string html = svg_plot(plot);
+  EXPECT_GE(count_of(html, "class=\"curve\""), 2U);
+  expect_ticks(html, {"4"});  // the axis is as long as the bars
+  PointPlot points{"n", "time", {"a"}, {{"", 1, 2, 0, 1, 3}, {"", 100, 20, 0}}};
+  EXPECT_EQ(count_of(svg_plot(points), "class=\"curve\""), 2U);
+  points.lines.push_back({{{1, 2}, {100, 20}}, 0});
+  html = svg_plot(points);
+  test::expect_nested(html);
+  EXPECT_EQ(count_of(html, "class=\"curve\""), 4U);
+  EXPECT_EQ(count_of(html, "stroke-dasharray"), 2U);
 }
 
 TEST(SvgPlot, NothingToShowIsNoFailure) {
