@@ -121,7 +121,7 @@ std::string bench_page(const std::string& subject, std::span<const BenchRow> row
       "threads share the work; <em>ratio</em>: ours divided by the peer's; <em>goal</em>: the upper limit of "
       "the ratio, or of the value if there is no peer.";
   page.body =
-      html_section("Beside the peer", ratios(rows)) + html_section("Figures", bench_columns().html(rows));
+      html_section("Beside the peer", ratios(rows)) + html_section("Numbers", bench_columns().html(rows));
   return html_page(page);
 }
 

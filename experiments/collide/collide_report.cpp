@@ -178,7 +178,7 @@ std::string collide_page(const CollideReport& report, const std::string& input, 
     plots += html_figure(map, "The pairs of beads that collide: the stronger the colour, the more often.");
   plots += course.figure();
   page.body =
-      html_section("Plots", plots) + html_section("Figures", collide_columns(false).html(report.rows));
+      html_section("Plots", plots) + html_section("Numbers", collide_columns(false).html(report.rows));
   return html_page(page);
 }
 

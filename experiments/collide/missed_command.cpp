@@ -271,7 +271,7 @@ std::string missed_page(std::span<const MissedRow> rows, const std::string& inpu
     page.body = html_section(
         "By stride",
         html_figure(plot, "Contacts that are missed if one frame in <em>stride</em> is examined."));
-  page.body += html_section("Figures", missed_columns().html(rows));
+  page.body += html_section("Numbers", missed_columns().html(rows));
   return html_page(page);
 }
 

@@ -144,7 +144,7 @@ std::string along_chain(const Comparison& comparison, const std::vector<const Co
                      fmt::format("{}: share of a structure's events that name a bead, along the chain, each "
                                  "row on its own scale. The pointer shows the bead and all shares in %.",
                                  html_escaped(files))) +
-         html_table({"most events name", "first", "second", "third", "fourth", "fifth"}, table);
+         html_table({"most events name", "first", "second", "third", "fourth", "fifth"}, table, "<");
 }
 
 }  // namespace

@@ -441,7 +441,7 @@ std::string compare_page(const Comparison& comparison, Page page) {
   page.body += html_section("Along the chain", plots_along_chain(comparison));
   page.body += html_section("By level", plots_by_level(comparison));
   page.body += html_section("By kind", plots_by_kind(comparison));
-  page.body += html_section("Figures", figures(comparison));
+  page.body += html_section("Numbers", figures(comparison));
   return html_page(page);
 }
 

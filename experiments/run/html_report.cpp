@@ -406,7 +406,7 @@ std::string html_report(const RunReport& report, const std::vector<std::string>&
   if (step_count(report) > 1 && !report.structures.empty())
     page.body += html_section("Over time", plots_over_time(report) + plot_of_displacement(report));
   page.body += html_section("Along the chain", plot_along_chain(report));
-  page.body += html_section("Figures", table(report));
+  page.body += html_section("Numbers", table(report));
   auto inputs = input_lines(report);
   inputs.emplace_back("fingerprint", hex_digits(report.fingerprint));
   page.body += html_section("Input", html_terms(inputs));

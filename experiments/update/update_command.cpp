@@ -257,7 +257,7 @@ std::string update_page(std::span<const UpdateRow> rows, const std::string& inpu
       "diagrams; "
       "<em>ratio</em>: time as a multiple of building the diagram anew with CGAL; <em>us per step</em>: the "
       "median of the rounds, with the <em>least</em> and the <em>most</em>.";
-  page.body = html_section("Plots", plots(rows)) + html_section("Figures", tables(rows));
+  page.body = html_section("Plots", plots(rows)) + html_section("Numbers", tables(rows));
   return html_page(page);
 }
 

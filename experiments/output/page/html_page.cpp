@@ -91,6 +91,7 @@ th, td { padding: .26rem 0 .26rem 1.2rem; text-align: right; vertical-align: top
 table.many th, table.many td { padding-left: .8rem; }
 th.text, td.text { text-align: left; white-space: normal; overflow-wrap: break-word; }
 td.text { max-width: 24rem; }
+td.long { min-width: 9rem; }
 td small { display: block; color: var(--soft); }
 thead th { border-bottom: 2px solid var(--ink); vertical-align: bottom; font-weight: 600; white-space: normal; }
 th:first-child { position: sticky; left: 0; background: var(--page); padding-left: 0; padding-right: .6rem;
@@ -125,6 +126,7 @@ footer { margin-top: 2.4rem; padding-top: .8rem; border-top: 1px solid var(--lin
 @media (max-width: 40rem) {
   body { font-size: 15px; }
   main { padding: 1.3rem 1rem 2rem; }
+  .scroll { max-width: calc(100vw - 2rem); }
   h1 { font-size: 1.3rem; }
   dl { grid-template-columns: 1fr; gap: 0; padding: .7rem .9rem; }
   dd { margin-bottom: .45rem; }
@@ -202,8 +204,12 @@ std::string cell_text(const std::string& cell) {
 std::string html_table(const std::vector<std::string>& columns, const std::vector<HtmlRow>& rows,
                        std::string_view alignment) {
   constexpr std::size_t many = 9;
+  constexpr std::size_t long_text = 20;  // characters
   const auto style = [&](std::size_t c) {
-    return c > 0 && alignment[std::min(c, alignment.size() - 1)] == '<' ? " class=\"text\"" : "";
+    if (c == 0 || alignment[std::min(c, alignment.size() - 1)] != '<') return "";
+    const bool is_long = std::ranges::any_of(
+        rows, [&](const HtmlRow& row) { return c < row.cells.size() && row.cells[c].size() > long_text; });
+    return is_long ? " class=\"text long\"" : " class=\"text\"";
   };
   std::string html = fmt::format("<div class=\"scroll\"><table{}>\n<thead><tr>",
                                  columns.size() > many ? " class=\"many\"" : "");

@@ -80,15 +80,23 @@ const Replacement* replacement_at(const std::array<Replacement, Size>& all, std:
   return found == all.end() ? nullptr : &*found;
 }
 
-bool is_number(std::string_view cell) {
+bool is_negative_number(std::string_view cell) {
   return cell.size() > 1 && cell.front() == '-' && (('0' <= cell[1] && cell[1] <= '9') || cell[1] == '.');
 }
 
 // A lone hyphen is a cell without a value. A hyphen before a digit is a minus sign.
 std::string latex_cell(std::string_view cell) {
   if (cell == "-") return "--";
-  if (is_number(cell)) return "$-$" + latex_escaped(cell.substr(1));
+  if (is_negative_number(cell)) return "$-$" + latex_escaped(cell.substr(1));
   return latex_escaped(cell);
+}
+
+// Puts text in brackets after a value, such as its spread, on the line below.
+std::string latex_cell_of_two_lines(std::string_view cell) {
+  const std::size_t bracket = cell.find(" (");
+  if (bracket == std::string_view::npos || !cell.ends_with(')')) return latex_cell(cell);
+  return fmt::format("\\shortstack[r]{{{}\\\\{{\\scriptsize {}}}}}", latex_cell(cell.substr(0, bracket)),
+                     latex_escaped(cell.substr(bracket + 1)));
 }
 
 // Breaks a heading between words into lines of about `most` characters.
@@ -170,15 +178,18 @@ std::string latex_of_html(std::string_view html) {
 std::string latex_table(const std::vector<std::string>& columns, const std::vector<HtmlRow>& rows,
                         std::string_view alignment) {
   constexpr std::size_t long_text = 44;  // characters
+  constexpr std::size_t many = 8;        // columns
   if (columns.empty()) return "";
-  std::string format, headings;
+  std::string formats, format, headings;  // `formats` has l, r or p for each column
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const bool left = alignment.empty() || alignment[std::min(c, alignment.size() - 1)] == '<';
-    const bool is_long = std::ranges::any_of(rows, [&](const HtmlRow& row) {
-      return row.cells.size() > 1 && c < row.cells.size() && row.cells[c].size() > long_text;
-    });
-    format += is_long ? "p{0.4\\linewidth}" : left ? "l" : "r";
-    headings += (c == 0 ? "" : " & ") + latex_heading(columns[c], left || is_long);
+    const bool is_long =
+        left && std::ranges::any_of(rows, [&](const HtmlRow& row) {
+          return row.cells.size() > 1 && c < row.cells.size() && row.cells[c].size() > long_text;
+        });
+    formats += is_long ? 'p' : left ? 'l' : 'r';
+    format += is_long ? "p{0.4\\linewidth}" : std::string(1, formats.back());
+    headings += (c == 0 ? "" : " & ") + latex_heading(columns[c], left);
   }
   std::string table =
       fmt::format("\\begin{{tabular}}{{@{{}}{}@{{}}}}\n\\toprule\n{} \\\\\n\\midrule\n", format, headings);
@@ -191,7 +202,9 @@ std::string latex_table(const std::vector<std::string>& columns, const std::vect
       for (std::size_t c = 0; c < columns.size(); ++c) {
         if (c > 0) table += " & ";
         if (c == 0 && row.detail) table += "\\quad ";
-        if (c < row.cells.size()) table += latex_cell(row.cells[c]);
+        if (c >= row.cells.size()) continue;
+        table += columns.size() > many && formats[c] == 'r' ? latex_cell_of_two_lines(row.cells[c])
+                                                            : latex_cell(row.cells[c]);
       }
       table += " \\\\\n";
     }

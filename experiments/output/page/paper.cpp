@@ -84,18 +84,24 @@ class PaperFiles {
 
   void finish(std::string_view title) {
     flush();
-    files_.write(std::string(kFilesOfPapers) + "all.tex",
-                 fmt::format("% All tables and plots of report.html. To compile: pdflatex paper-all.tex\n"
-                             "\\documentclass{{article}}\n\\usepackage[T1]{{fontenc}}\n"
-                             "\\usepackage[utf8]{{inputenc}}\n\\usepackage[margin=25mm]{{geometry}}\n"
-                             "\\usepackage{{booktabs}}\n\\usepackage{{graphicx}}\n\\extrafloats{{500}}\n"
-                             "% Shrinks what is wider than a line.\n"
-                             "\\newsavebox{{\\kdsbox}}\n"
-                             "\\newcommand{{\\kdsfit}}[1]{{\\sbox{{\\kdsbox}}{{#1}}%\n"
-                             "  \\ifdim\\wd\\kdsbox>\\linewidth\\resizebox{{\\linewidth}}{{!}}"
-                             "{{\\usebox{{\\kdsbox}}}}\\else\\usebox{{\\kdsbox}}\\fi}}\n"
-                             "\\begin{{document}}\n\\section*{{{}}}\n{}\\end{{document}}\n",
-                             title, document_));
+    files_.write(
+        std::string(kFilesOfPapers) + "all.tex",
+        fmt::format(
+            "% All tables and plots of report.html. To compile: pdflatex paper-all.tex\n"
+            "\\documentclass{{article}}\n\\usepackage[T1]{{fontenc}}\n"
+            "\\usepackage[utf8]{{inputenc}}\n\\usepackage[margin=25mm]{{geometry}}\n"
+            "\\usepackage{{booktabs}}\n\\usepackage{{graphicx}}\n\\extrafloats{{500}}\n"
+            "\\IfFileExists{{lmodern.sty}}{{\\usepackage{{lmodern}}}}{{}}\n"
+            "% Shrinks what is wider than a line or higher than a page.\n"
+            "\\newsavebox{{\\kdsbox}}\n"
+            "\\newcommand{{\\kdsfit}}[1]{{\\sbox{{\\kdsbox}}{{#1}}%\n"
+            "  \\ifdim\\wd\\kdsbox>\\linewidth\n"
+            "    \\sbox{{\\kdsbox}}{{\\resizebox{{\\linewidth}}{{!}}{{\\usebox{{\\kdsbox}}}}}}\\fi\n"
+            "  \\ifdim\\dimexpr\\ht\\kdsbox+\\dp\\kdsbox\\relax>0.9\\textheight\n"
+            "    \\sbox{{\\kdsbox}}{{\\resizebox{{!}}{{0.9\\textheight}}{{\\usebox{{\\kdsbox}}}}}}\\fi\n"
+            "  \\usebox{{\\kdsbox}}}}\n"
+            "\\begin{{document}}\n\\section*{{{}}}\n{}\\end{{document}}\n",
+            title, document_));
   }
 
  private:

@@ -26,7 +26,7 @@ constexpr double kMarkSize = 0.8;  // about 4 pixels
 // otherwise be covered where points coincide.
 double mark_size(std::size_t series, std::size_t all) {
   if (all < 2 || series >= all) return kMarkSize;
-  return kMarkSize + std::min(0.3, 1 / static_cast<double>(all)) * static_cast<double>(all - 1 - series);
+  return kMarkSize + std::min(0.2, 0.5 / static_cast<double>(all)) * static_cast<double>(all - 1 - series);
 }
 
 // Returns the texts under the pointer: the values of all curves at each x. If there are more x than places,
@@ -447,7 +447,8 @@ std::string svg_plot(const PanelPlot& plot) {
     const std::vector<std::string>& names = one_key ? all : own;
     const auto draw_it = [&](const DrawingSize& size) { return draw(one.plot, size, names, is_log); };
     plots.push_back({draw_it(panel), draw_it(narrow(panel.height))});
-    copies.push_back(paper_copy(panel.height, one.title, own,
+    const bool key_says_title = own.size() > 1 && one.title == title_of(one.plot);
+    copies.push_back(paper_copy(panel.height, key_says_title ? "" : one.title, own,
                                 [&](const DrawingSize& size) { return draw(one.plot, size, own, is_log); }));
   }
   const bool has_titles_for_key = std::ranges::all_of(plot.panels, [](const PanelPlot::Panel& one) {

@@ -71,6 +71,14 @@ TEST(Latex, LongTextIsAParagraph) {
   EXPECT_THAT(table.latex(rows), Not(HasSubstr("linewidth")));
 }
 
+// In tables of many columns a spread goes below its value, as on pages.
+TEST(Latex, SpreadsOfWideTablesHaveTheirOwnLine) {
+  const std::vector<HtmlRow> one{{{"x", "0.2 (0.1 to -0.3)"}}};
+  EXPECT_THAT(latex_table(std::vector<std::string>(9, "y"), one, "<>"),
+              HasSubstr("x & \\shortstack[r]{0.2\\\\{\\scriptsize (0.1 to -0.3)}} & "));
+  EXPECT_THAT(latex_table({"a", "b"}, one, "<>"), HasSubstr("x & 0.2 (0.1 to -0.3) "));
+}
+
 // Each line of a tabular has as many cells as the tabular has columns.
 TEST(Latex, LinesHaveACellForEachColumn) {
   const std::vector<HtmlRow> uneven{{{"one", "2", "3"}}, {{"a&b", "4"}, true}, {{"group"}}};

@@ -69,9 +69,11 @@ TEST(Paper, FilesStandBesideThePageThatLinksThem) {
   EXPECT_EQ(names_in(out), expected);
   const std::string page = content_of((out / "report.html").string());
   test::expect_sound(page);
-  for (const std::string& name : expected)
-    if (name.starts_with("paper-") && name != "paper-all.tex")
+  for (const std::string& name : expected) {
+    if (name.starts_with("paper-") && name != "paper-all.tex") {
       EXPECT_THAT(page, HasSubstr("href=\"" + name + "\"")) << name;
+    }
+  }
 
   const std::string all = content_of((out / "paper-all.tex").string());
   EXPECT_THAT(all, HasSubstr("\\section*{kds run: 50\\% \\& more}"));
