@@ -21,12 +21,17 @@ namespace {
 
 constexpr std::string_view kFilesOfPapers = "paper-";
 
-// A copy is kStart, a letter, the content and kEnd.
-constexpr char kStart = '\x01', kEnd = '\x02';
+// A copy is kStart, a letter, the content and kEnd. The page stays well formed while it carries copies,
+// because kLess and kGreater stand for < and > of their content.
+constexpr char kStart = '\x01', kEnd = '\x02', kLess = '\x03', kGreater = '\x04';
 enum CopyOf : char { of_section = 's', of_caption = 'c', of_table = 't', of_plot = 'p' };
 
 std::string copy_of(CopyOf kind, std::string_view content) {
-  return std::string{kStart, kind} + std::string(content) + kEnd;
+  std::string copy{kStart, kind};
+  copy += content;
+  std::ranges::replace(copy, '<', kLess);
+  std::ranges::replace(copy, '>', kGreater);
+  return copy + kEnd;
 }
 
 // Returns letters and digits in lower case, and a hyphen for everything between them.
@@ -191,7 +196,12 @@ void write_page(AtomicFiles& files, const std::string& page, bool paper) {
     if (rest.empty()) break;
     const std::size_t end = rest.find(kEnd);
     if (end == std::string_view::npos || end < 2) throw std::logic_error("a copy on a page does not end");
-    if (paper) html += copies.add(rest[1], rest.substr(2, end - 2));
+    if (paper) {
+      std::string content(rest.substr(2, end - 2));
+      std::ranges::replace(content, kLess, '<');
+      std::ranges::replace(content, kGreater, '>');
+      html += copies.add(rest[1], content);
+    }
     rest.remove_prefix(end + 1);
   }
   files.write("report.html", html);

@@ -126,7 +126,8 @@ Drawing draw(const LinePlot& plot, const DrawingSize& size, const std::vector<st
       script += bars_script(fmt::format("bars{}", s), bars);
       curves += fmt::format("$bars{} using 1:2 with lines linewidth 1 linecolor {}, ", s, colour(series));
     }
-    curves += fmt::format("$curve{} using 1:2 with {} linecolor {}, ", s, style(series), colour(series));
+    curves += fmt::format("$curve{} using 1:2 with {} linecolor {} title {}, ", s, style(series),
+                          colour(series), gnuplot_text(curve.name));
   }
   const auto values = values_of(plot, xs, is_wide(size) ? 300 : 100);
   if (!values.empty() && !size.for_paper) {
