@@ -86,9 +86,9 @@ dd { margin: 0; overflow-wrap: anywhere; }
           background: linear-gradient(to left, var(--page) 30%, transparent) right / 2.5rem 100% no-repeat local,
                       linear-gradient(to left, var(--shade), transparent) right / .8rem 100% no-repeat scroll; }
 table { border-collapse: separate; border-spacing: 0; font-size: .92rem; font-variant-numeric: tabular-nums; }
-table.many { font-size: .85rem; }
+.many table { font-size: .85rem; }
 th, td { padding: .26rem 0 .26rem 1.2rem; text-align: right; vertical-align: top; white-space: nowrap; }
-table.many th, table.many td { padding-left: .8rem; }
+.many th, .many td { padding-left: .8rem; }
 th.text, td.text { text-align: left; white-space: normal; overflow-wrap: break-word; }
 td.text { max-width: 24rem; }
 td.long { min-width: 9rem; }
@@ -211,8 +211,8 @@ std::string html_table(const std::vector<std::string>& columns, const std::vecto
         rows, [&](const HtmlRow& row) { return c < row.cells.size() && row.cells[c].size() > long_text; });
     return is_long ? " class=\"text long\"" : " class=\"text\"";
   };
-  std::string html = fmt::format("<div class=\"scroll\"><table{}>\n<thead><tr>",
-                                 columns.size() > many ? " class=\"many\"" : "");
+  std::string html =
+      fmt::format("<div class=\"scroll{}\"><table>\n<thead><tr>", columns.size() > many ? " many" : "");
   for (std::size_t c = 0; c < columns.size(); ++c)
     html += fmt::format("<th scope=\"col\"{}>{}</th>", style(c), html_escaped(columns[c]));
   html += "</tr></thead>\n<tbody>\n";

@@ -119,10 +119,11 @@ Drawing draw(const LinePlot& plot, const DrawingSize& size, const std::vector<st
     for (const auto& [px, py] : curve.points) script += fmt::format("{:.17g} {:.17g}\n", px, py);
     script += "EOD\n";
     const auto series = static_cast<std::size_t>(std::ranges::find(names, curve.name) - names.begin());
-    if (!curve.bars.empty()) {
-      std::vector<std::array<double, 3>> bars;
-      for (std::size_t k = 0; k < curve.bars.size(); ++k)
-        bars.push_back({curve.points[k].first, curve.bars[k].first, curve.bars[k].second});
+    std::vector<std::array<double, 3>> bars;
+    for (std::size_t k = 0; k < curve.bars.size(); ++k)
+      if (const auto& [least, most] = curve.bars[k]; least < most)
+        bars.push_back({curve.points[k].first, least, most});
+    if (!bars.empty()) {
       script += bars_script(fmt::format("bars{}", s), bars);
       curves += fmt::format("$bars{} using 1:2 with lines linewidth 1 linecolor {}, ", s, colour(series));
     }

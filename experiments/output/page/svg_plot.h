@@ -14,7 +14,8 @@ namespace kds {
 struct Curve {
   std::string name;
   std::vector<std::pair<double, double>> points;  ///< finite, ordered by the first coordinate
-  /// An error bar for each point: its least and its largest value. Empty if there are none.
+  /// An error bar for each point: its least and its largest value. Empty if there are none. A bar of equal
+  /// values is not drawn.
   std::vector<std::pair<double, double>> bars = {};
 };
 
