@@ -134,7 +134,7 @@ const OptionList<GenerateOptions>& generate_options() {
                       &S::distance, {0, 1e6})),
           })
           .with(data_options("write generate.json and generate.csv to DIR (default: none)",
-                                    "write a summary to FILE; - is standard output (default: none)"));
+                             "write a summary to FILE; - is standard output (default: none)"));
   return list;
 }
 

@@ -54,7 +54,7 @@ const OptionList<InfoOptions>& info_options() {
               "--beads", "list the beads instead, one per row: necklace, chain, residue, atom and radius",
               &O::beads))})
           .with(data_options("write info.json and info.csv to DIR (default: none)",
-                                    "write the results to FILE; - is standard output (default: none)"));
+                             "write the results to FILE; - is standard output (default: none)"));
   return list;
 }
 
