@@ -229,7 +229,7 @@ std::string scale_page(const ScaleOptions& options, std::span<const ScaleSeries>
       "usual ones.";
   page.body = html_section("Growth", growth_table().html(growth_of(all)));
   page.body += html_section("Plots", scale_plots(all));
-  page.body += html_section("Figures", size_columns().html(sizes_of(all)));
+  page.body += html_section("Numbers", size_columns().html(sizes_of(all)));
   return html_page(page);
 }
 
