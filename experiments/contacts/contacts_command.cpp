@@ -22,9 +22,9 @@ namespace {
 constexpr CommandSpec kContactsCommand{
     "kds contacts",
     "Measures how long contacts last: exact intervals for each pair of residues, beads or chains, their "
-    "survival "
-    "function, and what a look at frames alone would have told.",
-    kInputOperand, kTrajectoryHelp,
+    "survival function, and what a look at frames alone would have told.",
+    {},
+    {},
     "kds contacts villin.dcd --topology villin.pdb --cutoff 8 --select ca --out report\n"
     "kds contacts a.xyz --cutoff 4.5:6 --gap 2 --by bead --json -"};
 
@@ -118,7 +118,7 @@ ContactsOptions parse_contacts_options(const Arguments& arguments) {
                 destination_options("write contacts.json, contacts.csv, intervals.csv, frames.csv "
                                     "and report.html to DIR (default: none)"));
   O options;
-  const ParsedArguments parsed = read_arguments(kContactsCommand, list, arguments, options);
+  const ParsedArguments parsed = read_arguments(with_inputs(kContactsCommand), list, arguments, options);
   take_inputs(parsed, kContactsCommand.name, options.task);
   const ContactsTask& task = options.task;
   if (!task.cutoff)

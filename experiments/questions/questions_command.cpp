@@ -68,10 +68,10 @@ PointPlot plot_of(const Question& question, const std::string& name) {
     if (curve.plot != name) continue;
     for (const auto& [x, y] : curve.points)
       if (x > 0 && y >= 0) plot.points.push_back({"", x, y, plot.series.size()});
-    if (const auto fit = curve.fit()) {
+    for (const CurveFit& part : curve.fits()) {
       PointPlot::Line law{{}, plot.series.size()};
-      for (const auto& [x, y] : curve.points)
-        if (x > 0 && y > 0) law.points.emplace_back(x, fit->factor * std::pow(x, fit->exponent));
+      for (const double x : {part.from, part.to})
+        law.points.emplace_back(x, part.fit.factor * std::pow(x, part.fit.exponent));
       plot.lines.push_back(std::move(law));
     }
     plot.series.push_back(curve.name);
