@@ -71,7 +71,7 @@ TEST(SvgPlot, ColoursAreThePagesAndNoIdsAreShared) {
 TEST(SvgPlot, ATimelineHasARowForEachName) {
   const std::string html = svg_plot(
       TimelinePlot{"frame", 0, 100, {{"ALA 1, GLY 5", {{10, 20}, {50, 50}}}, {"ALA 1, LEU 9", {{0, 100}}}}});
-  expect_nested(html);
+  test::expect_nested(html);
   for (const char* part : {"ALA 1, GLY 5", "ALA 1, LEU 9", "frame"}) EXPECT_THAT(html, HasSubstr(part));
   const std::string less =
       svg_plot(TimelinePlot{"frame", 0, 100, {{"ALA 1, GLY 5", {{10, 20}}}, {"ALA 1, LEU 9", {}}}});
