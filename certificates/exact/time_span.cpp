@@ -8,7 +8,8 @@ namespace kds {
 
 namespace {
 
-/// The affine map from a step's parameter to that of another step with the same reading, u -> offset + rate u.
+/// The affine map from a step's parameter to that of another step with the same reading, u -> offset + rate
+/// u.
 struct AffineMap {
   Rational offset, rate;  // rate > 0
 
@@ -23,8 +24,9 @@ std::vector<Integer> product(const std::vector<Integer>& a, const std::vector<In
   return c;
 }
 
-/// Returns the polynomial p(a + (b - a) v) in v, times a positive number, in scaled Bernstein form. The form is
-/// homogeneous in v and 1 - v, so u = a (1 - v) + b v and 1 - u = (1 - a) (1 - v) + (1 - b) v are substituted.
+/// Returns the polynomial p(a + (b - a) v) in v, times a positive number, in scaled Bernstein form. The form
+/// is homogeneous in v and 1 - v, so u = a (1 - v) + b v and 1 - u = (1 - a) (1 - v) + (1 - b) v are
+/// substituted.
 ExactPolynomial between(const ExactPolynomial& p, const Rational& a, const Rational& b) {
   Integer unit;
   mpz_lcm(unit.get_mpz_t(), a.get_den_mpz_t(), b.get_den_mpz_t());
@@ -50,11 +52,12 @@ Dyadic dyadic_in(const Rational& low, const Rational& high) {
   return {below + 1, places};  // in (low, low + 2^-places], and 2^-places < room
 }
 
-/// Returns the image of an irrational time as a root on [0, 1], or nothing if the time proves to be dyadic. The
-/// image of the time's interval must lie in [0, 1].
+/// Returns the image of an irrational time as a root on [0, 1], or nothing if the time proves to be dyadic.
+/// The image of the time's interval must lie in [0, 1].
 std::optional<ExactTime> image(const ExactTime& time, const AffineMap& map) {
   ExactTime inner = time;
-  while (!inner.is_dyadic() && (inner.lower() == time.lower() || inner.upper() == time.upper())) inner.refine();
+  while (!inner.is_dyadic() && (inner.lower() == time.lower() || inner.upper() == time.upper()))
+    inner.refine();
   if (inner.is_dyadic()) return std::nullopt;
   const auto of = [&map](const Dyadic& u) { return map.at(u.rational()); };
   return ExactTime(between(time.polynomial(), map.back(Rational(0)), map.back(Rational(1))),
@@ -96,8 +99,7 @@ int compare_span(ExactTime& earlier, const StepClock& earlier_clock, ExactTime& 
   // An irrational `earlier` lies strictly between 0 and 1.
   if (compare_with(later, map.back(Rational(0))) <= 0) return -1;
   if (compare_with(later, map.back(Rational(1))) >= 0) return 1;
-  while (!later.is_dyadic() &&
-         (map.at(later.lower().rational()) < 0 || map.at(later.upper().rational()) > 1))
+  while (!later.is_dyadic() && (map.at(later.lower().rational()) < 0 || map.at(later.upper().rational()) > 1))
     later.refine();
   if (!later.is_dyadic())
     if (auto there = image(later, map)) return ExactTime::compare(*there, earlier);

@@ -9,8 +9,8 @@
 
 namespace kds {
 
-/// Follows the other motion through all its steps. Each bead has one radius at all times. Copies no curves. The
-/// other motion must outlive it and must not be lifted.
+/// Follows the other motion through all its steps. Each bead has one radius at all times. Copies no curves.
+/// The other motion must outlive it and must not be lifted.
 template <int DimensionValue>
 class OtherRadii {
  public:

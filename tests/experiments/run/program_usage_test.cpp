@@ -60,8 +60,8 @@ TEST(Program, RefusesWrongUsage) {
 TEST(Program, SuggestsTheNearestName) {
   expect_refused({"rnu"}, {"unknown command 'rnu', did you mean run?"});
   expect_refused({"help", "colide"}, {"did you mean collide?"});
-  expect_refused({"contacts", kSmall},
-                 {"unknown command 'contacts', did you mean run INPUT --structures contacts?"});
+  expect_refused({"layered", kSmall},
+                 {"unknown command 'layered', did you mean run INPUT --structures layered?"});
   expect_refused({"Wrapped"}, {"did you mean run INPUT --structures wrapped?"});
   expect_refused({"run", kSmall, "--radii", "3"}, {"unknown option '--radii', did you mean --radius?"});
   expect_refused({"--versoin"}, {"did you mean --version?"});
