@@ -11,7 +11,7 @@
 #include "experiments/program/commands.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
-#include "structures/session/structure_spec.h"
+#include "experiments/run/run_options.h"
 
 namespace kds {
 
@@ -63,11 +63,7 @@ Option<CompareOptions> compare_apart_option() {
 
 const OptionList<CompareOptions>& compare_options() {
   using O = CompareOptions;
-  std::vector<std::string> with_events;
-  for (const StructureSpec& spec : structure_registry().all())
-    if (spec.has_events({})) with_events.push_back(spec.name);
-  static const std::string structures_help =
-      fmt::format("comma list of {} (default: wrapped,power)", fmt::join(with_events, ", "));
+  static const std::string structures_help = kds::structures_help();
   static const std::string motions_help =
       fmt::format("motion of beads between frames: comma list of {} (default: linear)",
                   fmt::join(frame_motion_names, ", "));
@@ -94,7 +90,7 @@ const OptionList<CompareOptions>& compare_options() {
 CompareOptions parse_compare_options(const Arguments& arguments) {
   CompareOptions options;
   const ParsedArguments parsed =
-      read_arguments(with_inputs(kCompareCommand), compare_options(), arguments, options);
+      read_arguments(with_inputs(kCompareCommand, true), compare_options(), arguments, options);
   take_inputs(parsed, kCompareCommand.name, options);
   return options;
 }

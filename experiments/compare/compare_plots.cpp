@@ -67,7 +67,7 @@ std::string over_strides(const Comparison& comparison, const char* label, const 
                          const std::function<std::optional<double>(const CompareRow&)>& value) {
   const std::string plot =
       plot_of(comparison, {"stride", label, Drawn::points, {}}, [&](const CompareRow& row) {
-        const std::optional<double> y = value(row);
+        const std::optional<double> y = row.has_events() ? value(row) : std::nullopt;
         return y ? Points{{static_cast<double>(row.stride), *y}} : Points{};
       });
   return plot.empty() ? "" : html_figure(plot, caption);

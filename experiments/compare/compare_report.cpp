@@ -103,7 +103,7 @@ Table<Compared> identity_columns() {
        .shown = Shown::on_pages},
       {.key = "input", .value = [](const Compared& r) { return Field(r.input); }},
       {"stride", "stride", [](const Compared& r) { return Field(r.stride); }, plainly, Shown::in_text},
-      {.key = "motion", .value = [](const Compared& r) { return Field(name_of(r.motion)); }},
+      {.key = "motion", .value = [](const Compared& r) { return Field(r.motion_name()); }},
       {.key = "beads", .value = [](const Compared& r) { return Field(r.beads); }},
       {"steps", "steps", [](const Compared& r) { return Field(r.steps); }},
   }};
@@ -202,7 +202,7 @@ Table<PooledRow> pooled_columns() {
   Table<Pooled> table{{
       {"structure", "structure", [](const Pooled& r) { return Field(r.structure); }},
       {"stride", "stride", [](const Pooled& r) { return Field(r.stride); }},
-      {"motion", "motion", [](const Pooled& r) { return Field(name_of(r.motion)); }},
+      {"motion", "motion", [](const Pooled& r) { return Field(r.motion); }},
       {"inputs", "inputs", [](const Pooled& r) { return Field(r.inputs); }},
   }};
   const auto add = [&](const std::string& key, const std::string& heading,
@@ -225,7 +225,7 @@ std::string distinction(const Comparison& comparison, const CompareRow& row) {
   std::string text;
   if (std::ranges::any_of(comparison.rows,
                           [&](const CompareRow& other) { return other.motion != row.motion; }))
-    text = name_of(row.motion);
+    text = row.motion_name();
   if (comparison.inputs.size() > 1)
     text += (text.empty() ? "" : ", ") + std::filesystem::path(row.input).filename().string();
   return text;
@@ -236,9 +236,9 @@ std::string compare_table(const Comparison& comparison) {
   std::string text, input, motion;
   for (std::size_t r = 0; r < comparison.rows.size(); ++r) {
     const CompareRow& row = comparison.rows[r];
-    if (row.input != input || name_of(row.motion) != motion) {
+    if (row.input != input || row.motion_name() != motion) {
       input = row.input;
-      motion = name_of(row.motion);
+      motion = row.motion_name();
       const auto& known = *std::ranges::find(comparison.inputs, input, &ComparedInput::file);
       text += fmt::format("{}{}, {} motion ({})\n  {}\n", text.empty() ? "" : "\n", one_line(input), motion,
                           size_text(known), lines.front());
@@ -346,11 +346,11 @@ std::string scope(const Comparison& comparison) {
                      count_text(cases / inputs, "motion"));
 }
 
-// Returns the structures in descending order of their changes.
+// Returns the structures that have events, in descending order of their changes.
 std::vector<std::string> structures_of(const Comparison& comparison) {
   std::vector<std::pair<double, std::string>> found;
   for (const CompareRow& row : comparison.rows) {
-    if (row.stride != comparison.rows.front().stride) continue;
+    if (row.stride != comparison.rows.front().stride || !row.has_events()) continue;
     const auto same = std::ranges::find(found, row.structure.name, &std::pair<double, std::string>::second);
     double& most = (same != found.end() ? *same : found.emplace_back(0, row.structure.name)).first;
     most = std::max(most, row.events_per_step());
@@ -361,10 +361,20 @@ std::vector<std::string> structures_of(const Comparison& comparison) {
   return names;
 }
 
+// Returns the structures that have no events, in the order of the rows.
+std::vector<std::string> eventless_structures(const Comparison& comparison) {
+  std::vector<std::string> names;
+  for (const CompareRow& row : comparison.rows)
+    if (!row.has_events() && std::ranges::find(names, row.structure.name) == names.end())
+      names.push_back(row.structure.name);
+  return names;
+}
+
 std::string findings(const Comparison& comparison) {
   const std::size_t first = comparison.rows.front().stride, last = comparison.rows.back().stride;
   const std::vector<std::string> names = structures_of(comparison);
-  std::string html = "<p>" + scope(comparison), list;
+  std::string html = "<p>", list;
+  if (!names.empty()) html += scope(comparison);
   for (std::size_t k = 0; k < names.size(); ++k) {
     const auto text = [&](std::size_t stride, const Figure& figure) {
       return figure_text(comparison, names[k], stride, figure);
@@ -389,7 +399,10 @@ std::string findings(const Comparison& comparison) {
       line += fmt::format(", {} at stride {}", of_last, with_thousands(last));
     if (!line.empty()) list += fmt::format("<li>{}{}.</li>\n", name, line);
   }
-  return html + ".</p>\n" + (list.empty() ? "" : "<ul>\n" + list + "</ul>\n");
+  if (!names.empty()) html += ".";
+  for (const std::string& name : eventless_structures(comparison))
+    html += fmt::format("{}<strong>{}</strong> has no events.", html == "<p>" ? "" : " ", html_escaped(name));
+  return html + "</p>\n" + (list.empty() ? "" : "<ul>\n" + list + "</ul>\n");
 }
 
 // In this table the strides of a structure are adjacent, for each input and motion.

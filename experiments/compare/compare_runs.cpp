@@ -156,7 +156,7 @@ std::vector<CompareRow> run_once(const Scene& scene, const RunOptions& options,
   const RunReport report = report_of(run->session(), scene, options, counts);
   for (std::size_t s = 0; s < net.size(); ++s) {
     CompareRow& row = rows[s];
-    row.motion = options.motion;
+    if (!is_instance_file(options.inputs.front())) row.motion = options.motion;
     row.beads = scene.bead_count();
     row.steps = scene.step_count();
     if (report.first_frame && report.first_frame->picoseconds && report.last_frame->picoseconds)
@@ -179,6 +179,8 @@ double mean_of_steps(std::span<const double> steps) {
 std::size_t quarter(std::size_t steps) { return std::max<std::size_t>(1, steps / 4); }
 
 }  // namespace
+
+std::string CompareRow::motion_name() const { return motion ? std::string(name_of(*motion)) : "own"; }
 
 std::vector<EventCosts> costs_of_events(KineticRun& run, const std::function<void()>& step_done) {
   const std::size_t structures = run.structures().size();
@@ -299,12 +301,13 @@ std::vector<PooledRow> pooled_rows(const Comparison& comparison) {
   if (comparison.inputs.size() < 2) return pooled;
   const auto is_pooled_in = [](const CompareRow& row) {
     return [&row](const PooledRow& one) {
-      return one.structure == row.structure.name && one.stride == row.stride && one.motion == row.motion;
+      return one.structure == row.structure.name && one.stride == row.stride &&
+             one.motion == row.motion_name();
     };
   };
   for (const CompareRow& first : comparison.rows) {
     if (std::ranges::any_of(pooled, is_pooled_in(first))) continue;
-    PooledRow& one = pooled.emplace_back(PooledRow{first.structure.name, first.stride, first.motion});
+    PooledRow& one = pooled.emplace_back(PooledRow{first.structure.name, first.stride, first.motion_name()});
     std::vector<double> steps, bead_steps, bead_picoseconds, net;
     for (const CompareRow& row : comparison.rows) {
       if (!is_pooled_in(row)(one)) continue;

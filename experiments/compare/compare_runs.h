@@ -68,7 +68,7 @@ struct EventCosts {
 struct CompareRow {
   std::string input;
   std::size_t stride = 1;
-  FrameMotion motion = FrameMotion::linear;
+  std::optional<FrameMotion> motion;  ///< empty for an instance file, which has its own motion
   std::size_t beads = 0, steps = 0;
   std::optional<double> picoseconds;  ///< from the first frame to the last, if the file has times
   StructureReport structure;
@@ -78,6 +78,10 @@ struct CompareRow {
   std::vector<double> events_of_steps, net_changes_of_steps;
 
   [[nodiscard]] std::uint64_t events() const { return structure.events_total; }
+  /// Returns whether the structure has kinds of events. Layered spheres have none.
+  [[nodiscard]] bool has_events() const { return !structure.events_by_kind.empty(); }
+  /// Returns the name of the motion, "own" for an instance file.
+  [[nodiscard]] std::string motion_name() const;
   [[nodiscard]] std::uint64_t internal() const;
   /// Returns the number of all events per external event, or nothing if there is no external event: the
   /// efficiency of a kinetic structure (Basch, Guibas and Hershberger, 1999).
@@ -121,7 +125,7 @@ struct ComparedInput {
 struct PooledRow {
   std::string structure;
   std::size_t stride = 1;
-  FrameMotion motion = FrameMotion::linear;
+  std::string motion;  ///< name of the motion, "own" for instance files
   std::size_t inputs = 0;
   /// Empty if fewer than two inputs have the quantity.
   std::optional<MeanInterval> events_per_step = {}, events_per_bead_and_step = {},

@@ -15,6 +15,14 @@
 
 namespace kds {
 
+std::string structures_help() {
+  std::vector<std::string> names;
+  for (const StructureSpec& spec : structure_registry().all()) names.push_back(spec.name);
+  return fmt::format(
+      "comma list of {} (default: wrapped,power; with an instance file: sorted in 1D, otherwise power)",
+      fmt::join(names, ", "));
+}
+
 namespace {
 
 constexpr CommandSpec kRunCommand{
@@ -98,11 +106,7 @@ Option<RunOptions> tolerance_option() {
 }
 
 Option<RunOptions> structures_option() {
-  std::vector<std::string> names;
-  for (const StructureSpec& spec : structure_registry().all()) names.push_back(spec.name);
-  static const std::string help = fmt::format(
-      "comma list of {} (default: wrapped,power; with an instance file: sorted in 1D, otherwise power)",
-      fmt::join(names, ", "));
+  static const std::string help = structures_help();
   return {{"--structures", "LIST", help},
           [](RunOptions& o, const std::string& text) { o.structures = parse_structures(text); },
           [](const RunOptions& o) { return fmt::format("{}", fmt::join(o.structures, ",")); }};

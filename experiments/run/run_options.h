@@ -57,6 +57,9 @@ struct RunOptions : InputOptions, Destinations {
 /// Returns the options --out, --json and --quiet of a run. The replay of a run has the same options.
 [[nodiscard]] OptionList<Destinations> run_destination_options();
 
+/// Returns the help of --structures, with the names of all structures.
+[[nodiscard]] std::string structures_help();
+
 /// Returns all options of `kds run`.
 [[nodiscard]] const OptionList<RunOptions>& run_options();
 

@@ -70,6 +70,9 @@ RunReport report_of(Session& session, const Scene& scene, const RunOptions& opti
   report.radius_min = *least;
   report.radius_max = *most;
   report.settings = run_options().settings(options);
+  if (std::ranges::any_of(options.inputs, is_instance_file))
+    for (auto& [name, value] : report.settings)
+      if (name == "motion") value = "own";
   report.command_line = "kds run " + shell_words(repeating_arguments(options));
   for (std::size_t s = 0; s < session.structures().size(); ++s) {
     report.structures.push_back(

@@ -58,7 +58,7 @@ TEST(Extension, AProgramRunsThemByName) {
       kds::test::run_program({"compare", file("beads.table"), "--structures", "nearest", "--json", "-"});
   EXPECT_EQ(compared.code, 0) << compared.err;
   EXPECT_THAT(compared.out, HasSubstr("\"net_changes\": 1,"));
-  EXPECT_THAT(compared.out, HasSubstr("\"efficiency\": 2.0"));
+  EXPECT_THAT(compared.out, HasSubstr("\"events_per_net_change\": 2.0"));
   const auto refused = kds::test::run_program({"run", file("beads.table"), "--structures", "farthest"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.err, HasSubstr("nearest"));

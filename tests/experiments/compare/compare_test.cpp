@@ -379,6 +379,36 @@ TEST(Compare, InputsArePooledWithATopologyForEach) {
   const ProgramRun missing = run_program({"compare", kDcd, again, "--topology", kPdb + ",nowhere.pdb"});
   EXPECT_EQ(missing.code, 2);
   EXPECT_THAT(missing.err, HasSubstr("nowhere.pdb: no such file"));
+
+TEST(Compare, NamesTheMotionOfAnInstanceItsOwn) {
+  const std::string instance = data_file("kinetic/d2_n20_degree2.txt");
+  const ProgramRun run =
+      run_program({"compare", instance, "--structures", "wrapped", "--rounds", "1", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(Json::parse(run.out)["rows"][0]["motion"], "own");
+  const ProgramRun table = run_program({"compare", instance, "--structures", "wrapped", "--rounds", "1"});
+  EXPECT_THAT(table.out, HasSubstr("d2_n20_degree2.txt, own motion\n"));
+  const ProgramRun alone = run_program({"run", instance, "--structures", "wrapped", "--json", "-"});
+  ASSERT_EQ(alone.code, 0) << alone.err;
+  EXPECT_EQ(Json::parse(alone.out)["settings"]["motion"], "own");
+}
+
+// A structure without events has no curve and no number of changes on the page.
+TEST(Compare, ThePageSaysThatLayeredHasNoEvents) {
+  const ScratchDirectory scratch;
+  const auto page_of = [&](const std::string& structures) {
+    const ProgramRun run =
+        run_program({"compare", kDcd, "--topology", kPdb, "--frames", ":9", "--strides", "1,2", "--rounds",
+                     "1", "--structures", structures, "--out", scratch / structures});
+    EXPECT_EQ(run.code, 0) << run.err;
+    const std::string page = content_of(scratch / structures / "report.html");
+    expect_sound(page);
+    return page;
+  };
+  const std::string both = page_of("wrapped,layered");
+  EXPECT_THAT(both, HasSubstr(" times. <strong>layered</strong> has no events.</p>"));
+  EXPECT_THAT(both, testing::Not(HasSubstr("<li><strong>layered")));
+  EXPECT_THAT(page_of("layered"), HasSubstr("<p><strong>layered</strong> has no events.</p>"));
 }
 
 TEST(Compare, RefusesBeforeAnythingHasRun) {
