@@ -203,11 +203,11 @@ std::optional<std::string> difference(const Detection& a, const Detection& b) {
 }
 
 // Returns the methods that take groups of beads, as in "brute or cells".
-std::string names_with_groups() {
+std::string names_with_groups(std::string_view between = " or ") {
   std::vector<std::string_view> names;
   for (const Method& method : kMethods)
     if (method.takes_groups) names.push_back(method.name);
-  return fmt::format("{}", fmt::join(names, " or "));
+  return fmt::format("{}", fmt::join(names, between));
 }
 
 template <int Dimension>
@@ -247,6 +247,7 @@ class Comparison {
 
  private:
   void make_detectors(const Balls<Dimension>& balls, const std::function<void(const std::string&)>& warn) {
+    std::vector<std::string_view> without_groups;
     for (const Method* method : task_.methods) {
       std::unique_ptr<Detector<Dimension>> detector;
       std::optional<std::string> refusal;
@@ -254,6 +255,10 @@ class Comparison {
         detector = method->make<Dimension>(task_.query);
         refusal = detector->refusal(balls);
       } else {
+        if (task_.leave_out_refusing) {
+          without_groups.push_back(method->name);
+          continue;
+        }
         refusal = fmt::format("it looks at all pairs, not at --groups; expected {}", names_with_groups());
       }
       if (refusal) {
@@ -271,6 +276,9 @@ class Comparison {
       CollideRow& row = report_.rows.emplace_back();
       row.method = method->name;
     }
+    if (!without_groups.empty())
+      warn(fmt::format("--groups: the methods {} look at all pairs and are left out; {} are compared",
+                       fmt::join(without_groups, ", "), names_with_groups(" and ")));
   }
 
   std::vector<Detection> detect(const Balls<Dimension>& balls, const FrameStamp& stamp) {
