@@ -379,6 +379,7 @@ TEST(Compare, InputsArePooledWithATopologyForEach) {
   const ProgramRun missing = run_program({"compare", kDcd, again, "--topology", kPdb + ",nowhere.pdb"});
   EXPECT_EQ(missing.code, 2);
   EXPECT_THAT(missing.err, HasSubstr("nowhere.pdb: no such file"));
+}
 
 TEST(Compare, NamesTheMotionOfAnInstanceItsOwn) {
   const std::string instance = data_file("kinetic/d2_n20_degree2.txt");
