@@ -115,6 +115,33 @@ void check_inputs_of_one_frame(const std::vector<InputAtoms>& inputs, const Inpu
   }
 }
 
+// Throws InputError if all files hold one frame and it is not the range of --frames. Beside a moving file,
+// such a file is at rest, whatever the range.
+void check_range_of_one_frame(const std::vector<NecklaceStream>& files, const FrameRange& range) {
+  const bool all_at_rest = std::all_of(files.begin(), files.end(),
+                                       [](const NecklaceStream& file) { return file.holds_one_frame(); });
+  const std::size_t last = range.last.value_or(range.first + 1) - 1;  // the last frame asked for
+  if (!all_at_rest || last == 0) return;
+  throw InputError(fmt::format("--frames: frame {} is asked for, {} holds 1 frame",
+                               range.first > 0 ? range.first : last, files.front().heads().front().file));
+}
+
+// Throws InputError if one frame of a longer file is selected while other necklaces move.
+void check_frames_beside(const std::vector<Trajectory>& necklaces, const std::vector<InputAtoms>& inputs) {
+  const Trajectory& longest = *std::ranges::max_element(
+      necklaces, {}, [](const Trajectory& necklace) { return necklace.frames.size(); });
+  for (const Trajectory& necklace : necklaces) {
+    const bool at_rest = std::any_of(inputs.begin(), inputs.end(), [&](const InputAtoms& input) {
+      return input.one_frame && input.file.string() == necklace.file;
+    });
+    if (at_rest || necklace.frames.size() > 1 || longest.frames.size() == 1) continue;
+    throw InputError(
+        fmt::format("{}: 1 frame, but {} has {}; necklaces of a run need equal frame counts (or files of one "
+                    "frame: at rest)",
+                    necklace.file, longest.file, longest.frames.size()));
+  }
+}
+
 // Describes the beads by the names of their atoms, the first and the last bead.
 std::string described(const std::vector<std::string>& names) {
   constexpr std::size_t most = 6;
@@ -168,6 +195,7 @@ std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
       atoms.push_back(atoms_of(options.inputs[i], file.heads(), file.holds_one_frame()));
   }
   check_inputs_of_one_frame(atoms, options, warn);
+  check_range_of_one_frame(files, options.reading.frames);
   if (takes_side_chains(files, options.reading.selection) && options.radius == "auto")
     warn(fmt::format(
         "--select {} with --radius auto: consecutive atoms need not be bonded, and the radius is half of "
@@ -210,7 +238,7 @@ void end_with_truncated(std::vector<Trajectory>& necklaces,
     necklace.frame_numbers.resize(std::min(frames, necklace.frame_numbers.size()));
     necklace.times.resize(std::min(frames, necklace.times.size()));
     if (!told)
-      warn(fmt::format("{}: frames are missing behind frame {}, so later frames of {} are left out", file,
+      warn(fmt::format("{}: frames are missing after frame {}, so later frames of {} are left out", file,
                        last, necklace.file));
     told = true;
   }
@@ -224,8 +252,10 @@ std::vector<Trajectory> read_necklaces(const InputOptions& options,
   std::vector<InputAtoms> atoms;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
     std::vector<Trajectory> of_input = read_trajectories(options.inputs[i], reading_of(options, i));
-    atoms.push_back(atoms_of(options.inputs[i], of_input,
-                             of_input.front().frames.size() == 1 && !of_input.front().truncated));
+    atoms.push_back(
+        atoms_of(options.inputs[i], of_input,
+                 of_input.front().frames.size() == 1 &&
+                     NecklaceStream(options.inputs[i], reading_of(options, i)).holds_one_frame()));
     for (Trajectory& necklace : of_input) {
       for (const std::string& warning : necklace.warnings) warn(warning);
       necklaces.push_back(std::move(necklace));
@@ -233,6 +263,7 @@ std::vector<Trajectory> read_necklaces(const InputOptions& options,
   }
   check_inputs_of_one_frame(atoms, options, warn);
   end_with_truncated(necklaces, warn);
+  check_frames_beside(necklaces, atoms);
   std::vector<NecklaceBeads> beads;
   for (const Trajectory& necklace : necklaces) beads.push_back(beads_of(necklace));
   check_groups_have_beads(options.reading.groups, beads);
@@ -242,8 +273,11 @@ std::vector<Trajectory> read_necklaces(const InputOptions& options,
 Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
                      const std::function<void(const std::string&)>& warn,
                      const std::optional<MotionTolerance>& tolerance) {
-  std::unique_ptr<FrameSource> frames = open_frames(input, warn);
-  const FrameSurvey survey = survey_frames(*frames, input.radius == "auto", warn);
+  std::unique_ptr<FileFrames> files = open_frames(input, warn);
+  const FrameSurvey survey = survey_frames(*files, input.radius == "auto", warn);
+  if (survey.frame_count < 2 && !files->early_end().empty())
+    throw InputError(fmt::format("{}; a run needs at least two frames", files->early_end()));
+  std::unique_ptr<FrameSource> frames = std::move(files);
   std::vector<double> radii = bead_radii(input.radius, frames->necklaces(), survey);
   for (double& radius : radii) radius *= radius_factor;
   if (tolerance) frames = std::make_unique<StraightenedFrames>(std::move(frames), tolerance->length(radii));

@@ -71,6 +71,7 @@ struct FramesOpened {
   BondPaths bonds;
   bool chain_like = true;  ///< consecutive beads are meant to be bonded
   bool truncated = false;  ///< frames are missing at the end (FramesAsked)
+  bool at_rest = false;    ///< the file holds only one frame
   std::unique_ptr<FrameReader> frames;
 };
 

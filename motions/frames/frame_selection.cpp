@@ -77,7 +77,8 @@ FramesAsked select_frames(const std::string& file, const FrameRange& range, cons
     warnings.push_back(message);
   }
   if (held.whole == 0) throw InputError(fmt::format("{}: the file holds no frame", file));
-  if (held.whole == 1 && !held.ends_inside && !held.damage) return {0, 1, 1};  // at rest, whatever the range
+  if (held.whole == 1 && !held.ends_inside && !held.damage)
+    return {0, 1, 1, false, true};  // whatever the range
   if (range.first >= held.whole)
     throw InputError(fmt::format("--frames: frame {} is asked for, {} holds {}", range.first, file,
                                  counted(held.whole, "frame")));

@@ -49,6 +49,7 @@ struct FramesHeld {
 struct FramesAsked {
   std::size_t first = 0, stride = 1, count = 0;
   bool truncated = false;  ///< the file ends inside a frame, or frames asked for are damaged and left out
+  bool at_rest = false;    ///< the file holds only one frame
 
   [[nodiscard]] std::size_t operator[](std::size_t i) const { return first + i * stride; }
 };

@@ -176,6 +176,7 @@ FramesOpened open_atom_frames(const std::filesystem::path& path, const ReadOptio
   const FramesAsked asked =
       select_frames(opened.file, options.frames, held, options.until_damage, opened.warnings);
   opened.truncated = asked.truncated;
+  opened.at_rest = asked.at_rest;
   for (const std::string& note : frames->notes())
     opened.warnings.push_back(fmt::format("{}: {}", opened.file, note));
   FrameRead first;

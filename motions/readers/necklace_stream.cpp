@@ -417,20 +417,6 @@ bool NecklaceStream::read(FrameRead& frame) {
   return true;
 }
 
-bool NecklaceStream::holds_one_frame() {
-  FrameRead frame;
-  bool one = !opened_.truncated;
-  opened_.frames->rewind();
-  try {
-    one = one && opened_.frames->next(frame) && !opened_.frames->next(frame);
-  } catch (const InputError&) {
-    if (!until_damage_) throw;
-    one = false;  // a damaged frame follows the first one
-  }
-  rewind();
-  return one;
-}
-
 void NecklaceStream::rewind() {
   opened_.frames->rewind();
   for (Piece& piece : pieces_) {

@@ -41,9 +41,9 @@ class NecklaceStream {
   void rewind();
   /// Returns whether consecutive beads are meant to be bonded.
   [[nodiscard]] bool chain_like() const { return opened_.chain_like; }
-  /// Returns whether the file has only one frame. A file that is truncated or damaged after its first frame
-  /// had more. Starts again with the first frame.
-  [[nodiscard]] bool holds_one_frame();
+  /// Returns whether the file has only one frame, whatever ReadOptions::frames selects. A file that is
+  /// truncated or damaged after its first frame had more.
+  [[nodiscard]] bool holds_one_frame() const { return opened_.at_rest; }
   /// Returns the warnings about a necklace. The warnings are complete once all frames have been read.
   [[nodiscard]] std::vector<std::string> warnings(std::size_t necklace) const;
   /// Returns whether frames are missing at the end: the file ends inside a frame, or a damaged frame has

@@ -164,6 +164,7 @@ FramesOpened open_models(const std::filesystem::path& path, const ReadOptions& o
   const FramesAsked asked =
       select_frames(opened.file, options.frames, held, options.until_damage, opened.warnings);
   opened.truncated = asked.truncated;
+  opened.at_rest = asked.at_rest;
   auto frames = std::make_unique<StructureFrames>(opened.file, std::move(models), options, asked);
   frames->describe(opened);
   opened.frames = std::move(frames);

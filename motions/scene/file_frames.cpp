@@ -35,7 +35,7 @@ bool FileFrames::next(FrameRead& frame) {
     all_ = read_;
     for (std::size_t& frames : all_) frames = std::min(frames, next_);
     if (more)
-      early_end_ = fmt::format("{}: frames are missing behind frame {}, so later frames of {} are left out",
+      early_end_ = fmt::format("{}: frames are missing after frame {}, so later frames of {} are left out",
                                files_[*truncated].heads().front().file, last_number_,
                                files_[*more].heads().front().file);
     check_frame_counts();

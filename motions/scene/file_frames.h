@@ -29,6 +29,9 @@ class FileFrames final : public FrameSource {
   [[nodiscard]] std::vector<std::string> warnings() const override;
 
   [[nodiscard]] bool is_truncated() const override;
+  /// Returns the line about frames that are left out because another file is truncated. Empty if there are
+  /// none; complete once all frames have been read.
+  [[nodiscard]] const std::string& early_end() const { return early_end_; }
 
   /// Returns one trajectory per necklace: its names, radii and warnings, and only its first frame. Complete
   /// once all frames have been read.
@@ -52,9 +55,9 @@ class FileFrames final : public FrameSource {
   std::vector<std::size_t> all_;                  ///< number of frames of each file, once all have been read
   std::size_t next_ = 0;                          ///< number of the next frame
   std::size_t last_number_ = 0;                   ///< number in the file of the last frame read
-  std::string early_end_;         ///< about frames left out behind a truncated file's last one
-  std::size_t times_differ_ = 0;  ///< frames with different times in two files
-  std::string first_difference_;  ///< about the first of these
+  std::string early_end_;                         ///< about frames left out after a truncated file's last one
+  std::size_t times_differ_ = 0;                  ///< frames with different times in two files
+  std::string first_difference_;                  ///< about the first of these
 };
 
 }  // namespace kds

@@ -69,7 +69,7 @@ TEST(DamagedInputs, AllInputsEndWithTheDamagedOne) {
       SCOPED_TRACE(command.front() + " " + inputs[1]);
       const ProgramRun run = run_with(command, inputs);
       ASSERT_EQ(run.code, 0) << run.err;
-      EXPECT_THAT(run.err, HasSubstr("frames are missing behind frame 2, so later frames of"));
+      EXPECT_THAT(run.err, HasSubstr("frames are missing after frame 2, so later frames of"));
       const Json json = Json::parse(run.out), of_expected = Json::parse(expected.out);
       EXPECT_EQ(json["input"]["frames"], 3);
       EXPECT_EQ(json["input"]["truncated"], true);
@@ -106,6 +106,7 @@ TEST(DamagedInputs, DamageBehindTheFirstFrame) {
     EXPECT_EQ(Json::parse(run.out)["input"]["frames"], 1);
     const ProgramRun steps = run_with(kRun, inputs);
     EXPECT_EQ(steps.code, 2) << steps.err;
+    EXPECT_THAT(steps.err, HasSubstr("frames are missing after frame 0, so later frames of"));
   }
   for (const Strings& inputs : {Strings{whole, worse}, {worse, whole}})
     expect_refused({"run", inputs[0], inputs[1], "--until-damage"}, {"worse.xyz:6: expected a coordinate"});

@@ -55,6 +55,30 @@ TEST(Obstacle, AtomsAreCountedToo) {
                  {"first.pdb", "--obstacle"});
 }
 
+// Frames that the only input does not hold are not replaced by its one frame.
+TEST(Obstacle, LoneInputsOfOneFrameRefuseOtherFrames) {
+  const ScratchDirectory directory;
+  const std::string wall = directory.file("wall.xyz", "2\n\nC 0 0 0\nC 2 0 0\n");
+  for (const char* command : {"collide", "info"}) {
+    expect_refused({command, wall, "--frames", "5:9"}, {"--frames", "frame 5", "wall.xyz holds 1 frame"});
+    expect_refused({command, wall, "--frames", ":200"}, {"--frames", "frame 199", "wall.xyz holds 1 frame"});
+    for (const char* range : {":1", "::3", "0:1:2"})
+      EXPECT_EQ(run_program({command, wall, "--frames", range, "--quiet"}).code, 0) << range;
+  }
+}
+
+// --frames selects one frame of a file that moves.
+TEST(Obstacle, IsNoLongerFileOfWhichOneFrameIsRead) {
+  const ScratchDirectory directory;
+  const std::string frame = "2\n\nC 0 0 0\nC 2 0 0\n";
+  const std::string three = directory.file("three.xyz", frame + frame + frame);
+  const std::string six = directory.file("six.xyz", frame + frame + frame + frame + frame + frame);
+  for (const char* command : {"run", "collide", "missed", "trade"})
+    for (const char* range : {"2:", "::4"})
+      expect_refused({command, three, six, "--radius", "1", "--frames", range},
+                     {"three.xyz: 1 frame", "six.xyz has", "equal frame counts"});
+}
+
 TEST(Obstacle, IsANecklaceAtRest) {
   const ScratchDirectory directory;
   const auto run = [&](const std::vector<std::string>& inputs) {

@@ -116,6 +116,21 @@ TEST(FileFrames, RefusesUnlikeFrameCountsAndFramesThatAreNone) {
       {"one.xyz", "at least two frames"});
 }
 
+// A range or a stride that selects one frame of a longer file does not put it to rest.
+TEST(FileFrames, OnlyFilesOfOneFrameAreAtRest) {
+  std::mt19937 random(20);
+  const auto three = test::write_file("three.xyz", xyz_frames(random, 3, 4, false));
+  const auto six = test::write_file("six.xyz", xyz_frames(random, 6, 4, false));
+  const auto one = test::write_file("one.xyz", xyz_frames(random, 1, 4, false));
+  for (const FrameRange& range : {FrameRange{2, std::nullopt, 1}, {0, std::nullopt, 4}}) {
+    const ReadOptions options{.frames = range};
+    test::expect_refused([&] { (void)open({three, six}, options); }, {"three.xyz: 1 frames", "six.xyz has"});
+    EXPECT_GT(open({one, six}, options).survey.frame_count, 1U);
+  }
+  const ReadOptions of_one{.frames = {2, 3, 1}};
+  EXPECT_EQ(open({three, six}, of_one).survey.frame_count, 1U);
+}
+
 TEST(FileFrames, TellsOfAFileThatLosesFramesMeanwhile) {
   std::mt19937 random(19);
   const std::string text = xyz_frames(random, 4000, 10, false);
