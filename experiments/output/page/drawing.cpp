@@ -138,12 +138,18 @@ void Range::add(double value) {
   most = std::max(most, value);
 }
 
-bool Range::wide() const { return least + 1e-9 * std::max(std::abs(least), std::abs(most)) < most; }
+namespace {
+constexpr double least_width = 1e-290;  // gnuplot draws no axis of less than about 1e-306
+}
+
+bool Range::wide() const {
+  return least + std::max(least_width, 1e-9 * std::max(std::abs(least), std::abs(most))) < most;
+}
 
 Range Range::around() const {
   if (empty()) return {0, 1};
   if (wide()) return *this;
-  const double by = least == 0 ? 1 : std::abs(least) / 2;
+  const double by = least == 0 ? 1 : std::max(least_width, std::abs(least) / 2);
   return {least - by, most + by};
 }
 

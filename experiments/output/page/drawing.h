@@ -59,7 +59,7 @@ struct Range {
 
   void add(double value);
   [[nodiscard]] bool empty() const { return least > most; }
-  /// Returns whether the width exceeds the resolution of doubles.
+  /// Returns whether the width exceeds the resolution of doubles, and is one that gnuplot can draw.
   [[nodiscard]] bool wide() const;
   /// Returns a range around this one that is wide in any case.
   [[nodiscard]] Range around() const;

@@ -112,8 +112,10 @@ TEST(HtmlReport, AxesShowTimesWhereTheyAreKnown) {
   EXPECT_EQ(count_of(timed, ">frame<"), 0U);
   EXPECT_THAT(timed, HasSubstr("17.5"));
   EXPECT_THAT(timed, Not(HasSubstr(">102<")));
-  for (const std::vector<std::optional<double>>& times :
-       {std::vector<std::optional<double>>{{}, {}, {}, {}}, {2.5, {}, 12.5, 17.5}, {2.5, 7.5, 7.5, 17.5}}) {
+  for (const std::vector<std::optional<double>>& times : {std::vector<std::optional<double>>{{}, {}, {}, {}},
+                                                          {2.5, {}, 12.5, 17.5},
+                                                          {2.5, 7.5, 7.5, 17.5},
+                                                          {1e300, 1.1e300, 1.2e300, 1.7e308}}) {
     const std::string numbered = html_with(times);
     EXPECT_EQ(count_of(numbered, ">time in picoseconds<"), 0U);
     EXPECT_EQ(count_of(numbered, ">frame<"), 6U);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiments/output/page/gnuplot.h"
@@ -42,6 +43,15 @@ TEST(SvgPlot, LogarithmicTicksArePowersOfTenWhereThereAreTwo) {
   expect_ticks(svg_plot(PointPlot{"x", "y", {"a"}, {{"", 1, 1.2, 0}, {"", 90, 3.2, 0}}}),
                {"1.5", "2", "2.5", "3"});
   test::expect_nested(svg_plot(PointPlot{"x", "y", {"a"}, {{"", 1e-12, 1, 0}, {"", 1e12, 1, 0}}}));
+}
+
+// gnuplot draws no axis of width 1e-310.
+TEST(SvgPlot, ValuesTooCloseForGnuplot) {
+  for (const bool below_zero : {false, true}) {
+    const std::vector<std::pair<double, double>> points{{1e-310, 0}, {2e-310, 3e-320}, {3e-310, 1e-320}};
+    const std::string html = svg_plot(LinePlot{"x", "y", Drawn::line, {{"a", points}}, below_zero});
+    EXPECT_EQ(count_of(html, "class=\"hot\""), 6U);
+  }
 }
 
 // Steps smaller than a unit in the last place would never reach the end of an axis, and rounded ends would
