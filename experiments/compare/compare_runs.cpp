@@ -67,7 +67,12 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const Wa
     const RunOptions run = run_of(options, input, motion);
     const Scene scene = load_scene(
         run, motion == options.motions.front() ? warn : [](const std::string&) {});
-    static_cast<void>(open_run(run, scene, AuditMode::none));
+    try {
+      static_cast<void>(open_run(run, scene, AuditMode::none));
+    } catch (const InputError& error) {
+      if (options.inputs.size() == 1) throw;
+      throw InputError(fmt::format("{}: {}", run.inputs.front().string(), error.what()));
+    }
     if (motion != options.motions.front()) continue;
     const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
     found = {run.inputs.front().string(),

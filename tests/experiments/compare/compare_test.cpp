@@ -432,6 +432,19 @@ TEST(Compare, RefusesBeforeAnythingHasRun) {
   EXPECT_THAT(refused({kDcd, "--motions", "lifted"}), HasSubstr("lifted"));
   EXPECT_THAT(refused({kDcd, "--apart", "3"}), HasSubstr("--apart"));
   EXPECT_THAT(refused({kDcd, "nowhere.dcd"}), HasSubstr("nowhere.dcd: no such file"));
+  // With several inputs the line names the one at fault.
+  const std::string plane = data_file("kinetic/d2_n20_linear.txt"),
+                    space = data_file("kinetic/d3_n20_linear.txt");
+  EXPECT_THAT(refused({plane, space, "--structures", "hull"}),
+              HasSubstr("d3_n20_linear.txt: --structures hull"));
+  EXPECT_THAT(refused({plane, space, "--structures", "boxes", "--directions", "7"}),
+              HasSubstr("d2_n20_linear.txt: --structures boxes: 7 directions"));
+}
+
+TEST(Compare, HelpNamesAllStructuresAndInputs) {
+  const ProgramRun help = run_program({"compare", "--help"});
+  EXPECT_THAT(help.out, HasSubstr("wrapped, boxes, layered, power"));
+  EXPECT_THAT(help.out, HasSubstr("or an instance file"));
 }
 
 }  // namespace
