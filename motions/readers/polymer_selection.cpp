@@ -605,7 +605,7 @@ InputError no_beads(const std::string& file, const Parts& parts, const PolymerPa
   const std::string names = atoms_of(selection);
   return InputError(fmt::format(
       "--select: chain {} of {} does not hold {} in any residue of a polymer; {}--select all reads its {}",
-      in_quotes(part.label), file,
+      in_quotes(part.label.empty() ? " " : part.label), file,
       selection == Selection::heavy          ? "an atom heavier than hydrogen"
       : names.find(',') == std::string::npos ? "an atom " + names
                                              : names,

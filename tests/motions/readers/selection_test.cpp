@@ -307,6 +307,12 @@ TEST(Selection, NucleicAcidsByTheirPhosphorus) {
   test::expect_refused(
       [&] { static_cast<void>(read_trajectories(test::write_file("a.pdb", dna), {})); },
       {"does not hold N, CA and C", "--select p reads its P atoms", "--select all reads its 4 residues"});
+  // A blank chain name is shown as --chain takes it.
+  test::expect_refused(
+      [&] {
+        static_cast<void>(read_trajectories(test::write_file("blank.pdb", atom("N", 1, ' ', "ALA")), {}));
+      },
+      {"chain ' ' of", "does not hold N, CA and C"});
   EXPECT_EQ(beads(dna, "heavy"), beads(dna, "all"));
   // A protein that comes first is not asked for.
   EXPECT_EQ(beads(residue(1, 'B') + dna, "p"), "A: P2 P3 P4");
