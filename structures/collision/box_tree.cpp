@@ -10,8 +10,8 @@ namespace kds {
 
 namespace {
 
-// Returns the extent of a ball along a direction. At most seven roundings enter each end, none of them of a
-// number larger than `size`.
+// Returns the slab of a ball along a direction. At most seven roundings enter each end, each by at most 2^-53
+// of `size + reach`.
 template <int Dimension>
 typename BoxTree<Dimension>::Slab slab_of(const Balls<Dimension>& balls, BeadId bead,
                                           const SlabDirection& direction) {

@@ -29,12 +29,13 @@ class BoxTree {
   /// numbers.
   BoxTree(std::span<const BeadRange> necklaces, int directions);
 
-  /// Builds the slabs of all nodes from scratch. Each direction takes one comparison per node.
+  /// Builds the slabs of all nodes from scratch, in time linear in nodes times directions. `balls` are the
+  /// beads of the necklaces. If the slab of a ball is beyond the range of doubles, the slab is unbounded.
   void build(const Balls<Dimension>& balls);
 
   /// Returns the nodes of the hierarchy, then all beads, in their order.
   [[nodiscard]] std::span<const TreeBox> nodes() const { return nodes_; }
-  /// The root of each necklace.
+  /// Returns the root of each necklace, as an index of nodes().
   [[nodiscard]] std::span<const std::uint32_t> roots() const { return roots_; }
   [[nodiscard]] std::span<const SlabDirection> directions() const { return directions_; }
 
@@ -46,12 +47,14 @@ class BoxTree {
   [[nodiscard]] std::span<const Slab> slabs(std::uint32_t node) const {
     return std::span(slabs_).subspan(node * directions_.size(), directions_.size());
   }
-  /// Returns whether some direction proves that the balls of the two nodes are farther apart than `distance`.
+  /// Returns whether some direction proves that the balls of the two nodes are farther apart than `distance`,
+  /// which is not negative.
   [[nodiscard]] bool are_apart(std::uint32_t a, std::uint32_t b, double distance = 0) const {
     const std::span<const Slab> of_a = slabs(a), of_b = slabs(b);
     for (std::size_t k = 0; k < of_a.size(); ++k) {
       const double gap = std::max(of_b[k].low - of_a[k].high, of_a[k].low - of_b[k].high);
-      // At distance 0 the sign of the gap is exact. Otherwise few roundings enter, and they are below 2^-51.
+      // At distance 0 the sign of the gap is exact. Otherwise the gap and the product are rounded once each,
+      // by less than the 2^-49 of lengths_.
       if (gap > distance * lengths_[k]) return true;
     }
     return false;
@@ -59,7 +62,7 @@ class BoxTree {
 
  private:
   std::vector<SlabDirection> directions_;
-  std::vector<double> lengths_;  // |d| of each direction d, rounded up
+  std::vector<double> lengths_;  // |d| (1 + 2^-49) of each direction d
   std::uint32_t internal_ = 0;   // number of internal nodes
   std::vector<TreeBox> nodes_;
   std::vector<std::uint32_t> roots_;

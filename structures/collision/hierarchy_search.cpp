@@ -313,12 +313,7 @@ template <int Dimension>
 PairsFound find_pairs(const BoxTree<Dimension>& tree, const Balls<Dimension>& balls, const PairsAsked& asked,
                       double distance, std::vector<SeparatingFamily::Pair>* family) {
   if (family != nullptr) family->clear();
-  const auto center = [&](BeadId bead) {
-    Eigen::Vector3d c = Eigen::Vector3d::Zero();
-    for (std::size_t axis = 0; axis < Dimension; ++axis)
-      c[static_cast<Eigen::Index>(axis)] = balls.coordinate(bead, axis);
-    return c;
-  };
+  const auto center = [&](BeadId bead) { return in_space<Dimension>(balls.rows()[bead].center); };
   const std::span<const TreeBox> nodes = tree.nodes();
   const auto judge = [&](const NodePair& pair) {
     if (tree.are_apart(pair.first, pair.second, distance)) return Separation::apart;

@@ -31,7 +31,8 @@ namespace kds {
 ///   (S2) each pair of beads asked for that does not collide is covered: its beads lie one in each node of
 ///   some pair of the family.
 ///
-/// The paper requires at least one covering pair. Our families have exactly one.
+/// The paper requires at least one covering pair. Families that a search finds have exactly one; the explicit
+/// family (separating_families.h) has several.
 struct FamilySphere {
   BeadRange beads;
   Eigen::Vector3d center;  ///< its third coordinate is 0 in the plane
@@ -59,7 +60,7 @@ template <int Dimension>
 struct PairsFound {
   std::vector<BeadPair> pairs;  ///< ascending
   std::uint64_t family = 0;     ///< size of the separating family
-  std::uint64_t tests = 0;      ///< pairs of spheres, beads included, that were compared
+  std::uint64_t tests = 0;      ///< pairs of nodes, beads included, that were compared
 };
 
 /// SPLIT of the paper's figure 6: which of two nodes is split if their spheres are not disjoint.
@@ -89,15 +90,16 @@ template <int Dimension>
                                     SeparatingFamily& family);
 
 /// Returns all pairs asked for whose closed balls are at most `distance` apart, by the same search over
-/// boxes. The separating family has pairs of nodes with a direction along which they are farther apart.
-/// `balls` are those of the boxes. Writes the family, if it is asked for, as pairs of nodes of the tree.
+/// boxes. The separating family has pairs of nodes with a direction along which the nodes are farther apart,
+/// and pairs of beads that are farther apart. The boxes must be built over `balls`. Writes the family, as
+/// indices of nodes of the tree, unless `family` is null.
 template <int Dimension>
 [[nodiscard]] PairsFound find_pairs(const BoxTree<Dimension>& tree, const Balls<Dimension>& balls,
                                     const PairsAsked& asked, double distance = 0,
                                     std::vector<SeparatingFamily::Pair>* family = nullptr);
 
 /// Searches by another rule. Finds the same collisions. Writes the family unless `family` is null. Only
-/// Split::more_beads has the bound of Theorem 3.1.
+/// Split::more_beads has the bound of Theorem 3.1. Throws std::invalid_argument if `rule.leaf` is 0.
 template <int Dimension>
 [[nodiscard]] PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked,
                                     const SearchRule& rule, SeparatingFamily* family = nullptr);

@@ -17,13 +17,20 @@
 //     sqrt(R^2 + 2 R s) + (R + s) + (R + s') + sqrt(R^2 + 2 R s') <= (2 sqrt(3) + 2) R + s + s'
 //
 // apart. The farthest point of the second cage is s' farther, at most s + (2 sqrt(3) + 4) R < s + 7.47 R
-// away. So 8 R suffices although children of the wrapped hierarchy stick out of their parents. In the layered
-// hierarchy they do not.
+// away. So 8 R suffices although children of the wrapped hierarchy stick out of their parents. Children of
+// the layered hierarchy do not, so their centres are within R of their parent's centre.
+//
+// On a complete tree (n a power of two) the family that the search finds is no larger. The search compares
+// nodes x and y of one depth, or x one level below y, after it has split two nodes above them that are of one
+// depth and not disjoint. If x and y are disjoint, follow the cages of the first bead of x and of the last
+// bead of y, from the depth of the deeper node on, to the first depth at which the two cages are disjoint.
+// Their parents meet, so the explicit family has these two cages, which hold beads of x and y only. Pairs
+// that the search finds share no pair of beads, so different pairs lead to different cages.
 //
 // The proof of Theorem 3.1 needs no more of a cage than that it holds its beads and has radius at most r m.
 // The layered hierarchy has both properties: two spheres that meet have an enclosing sphere whose radius is
 // at most the sum of theirs. So its explicit family has O(n log n) pairs in the plane and O(n^(4/3)) in space
-// too, which the paper leaves open (remark after Corollary 3.3).
+// too. The paper leaves open whether a subquadratic family exists (remark after Corollary 3.3).
 //
 // Smallest family. A family that covers no pair of beads twice is a partition into products u x v of nodes.
 // If a product u' x v' of it spans the whole of u and another the whole of v, they share a pair of beads. So
@@ -41,16 +48,18 @@
 namespace kds {
 
 /// Returns the size of the explicit family, and writes the family unless `family` is null. The family covers
-/// most pairs of beads several times. Takes time linear in n log n and in the number of pairs of cages within
-/// 9 R, and memory of O(log n) besides the family. Throws std::invalid_argument unless the tree has one
-/// necklace, whose consecutive beads meet, and `asked` asks about its pairs at least 2 apart.
+/// most pairs of beads several times. Takes O(n log n) time, and constant time for each two cages of one
+/// depth whose centres are within 9 R. Takes O(log n) memory besides the family. Throws std::invalid_argument
+/// unless the tree has one necklace, whose consecutive beads meet, and `asked` asks about its pairs at least
+/// 2 apart, without groups.
 template <int Dimension>
 [[nodiscard]] std::uint64_t explicit_family(const SphereTree<Dimension>& tree, const PairsAsked& asked,
                                             SeparatingFamily* family = nullptr);
 
 /// Returns the collisions and the size of the smallest family that covers no pair of beads twice, and writes
 /// the family unless `family` is null. Takes time and memory (about 50 bytes) for each pair of nodes that any
-/// sequence of splittings reaches: on packed grids O(n^(3/2)) in the plane and O(n^(5/3)) in space.
+/// sequence of splittings reaches: on packed grids O(n^(3/2)) in the plane and O(n^(5/3)) in space. Throws
+/// std::invalid_argument if `asked` has groups.
 template <int Dimension>
 [[nodiscard]] PairsFound smallest_family(const SphereTree<Dimension>& tree, const PairsAsked& asked,
                                          SeparatingFamily* family = nullptr);
