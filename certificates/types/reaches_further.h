@@ -79,7 +79,8 @@ template <MotionView View>
 
 }  // namespace detail
 
-/// Base of both types: the beads ascending, a canonical direction, and the signs that this brings about.
+/// Base of both types: the beads ascending, a canonical direction, and the signs that undo the two
+/// exchanges.
 struct AlongDirection {
   DirectedBeads beads{};
   int sign = 1;     ///< 1, or -1 if the beads were exchanged

@@ -145,7 +145,8 @@ BoxHierarchy<Dimension>::BoxHierarchy(Simulator& simulator, const MotionRef<Dime
       order_(tree_),
       keeps_(select_nodes(tree_, selection)),
       parents_(tree_.node_count() + motion.bead_count(), NodesAndBeads::none),
-      tables_(std::make_unique<SupportTables<Dimension>>(simulator, *this, index(), motion, radii)) {
+      tables_(std::make_unique<SupportTables<Dimension>>(simulator, *this, index(), motion, radii)),
+      supports_(tree_.node_count() * side_count(), no_bead) {
   const NodesAndBeads tree(tree_, order_, parents_);
   for (NodeId node = 0; node < tree_.node_count(); ++node)
     parents_[tree.left(node)] = parents_[tree.right(node)] = node;
@@ -180,7 +181,6 @@ void BoxHierarchy<Dimension>::build() {
   std::vector<BeadId> further(tree.end());
   for (BeadId bead = 0; bead < bead_count(); ++bead)
     further[tree.leaf(bead)] = is_absent(bead) ? no_bead : bead;
-  supports_.resize(tree_.node_count() * side_count());
   for (std::uint32_t side = 0; side < side_count(); ++side) {
     for (NodeId node = tree.inner_end(); node-- > 0;) {  // children before their parents
       const BeadId left = further[tree.left(node)], right = further[tree.right(node)];
@@ -217,8 +217,7 @@ template <int Dimension>
 void BoxHierarchy<Dimension>::fail(unsigned table, std::uint32_t slot) {
   const std::uint32_t place = tables_->place_in_structure(table, slot), side = place % side_count();
   contests_->of_side[side].fail(place);
-  for (std::uint32_t node = place / side_count(); node != NodesAndBeads::none; node = parents_[node])
-    changed_.push_back(node * side_count() + side);
+  look_from(place / side_count(), side);
   needs_after_batch = true;
 }
 
@@ -277,16 +276,14 @@ template <int Dimension>
 void BoxHierarchy<Dimension>::follow(std::span<const BeadId> beads) {
   for (std::uint32_t side = 0; side < side_count(); ++side) {
     contests_->of_side[side].hold_again();
-    for (const BeadId bead : beads) look_above(bead, side);
+    for (const BeadId bead : beads) look_from(parents_[tree_.node_count() + bead], side);
   }
   after_batch();
 }
 
 template <int Dimension>
-void BoxHierarchy<Dimension>::look_above(BeadId bead, std::uint32_t side) {
-  for (std::uint32_t node = parents_[tree_.node_count() + bead]; node != NodesAndBeads::none;
-       node = parents_[node])
-    changed_.push_back(node * side_count() + side);
+void BoxHierarchy<Dimension>::look_from(std::uint32_t node, std::uint32_t side) {
+  for (; node != NodesAndBeads::none; node = parents_[node]) changed_.push_back(node * side_count() + side);
 }
 
 template <int Dimension>

@@ -3,7 +3,7 @@
 // fixed directions over the same balanced tree as the wrapped hierarchy. With the directions of the axes, a
 // node's volume is the smallest axis-aligned box around its balls. With more directions, it is a discrete
 // oriented polytope (k-DOP, Klosowski et al. 1998): the smallest intersection of slabs across these
-// directions.
+// directions. k counts the sides, two for each direction: 7 directions make 14-DOPs, and 13 make 26-DOPs.
 //
 // A node stores, for each end of each direction, its support: the bead whose ball reaches furthest that way.
 // A node's support is the support of one of its children, so the tree is a kinetic tournament for each end
@@ -14,9 +14,10 @@
 // one time, each changes at most once: changes are recorded after all events at that time, ascending by node
 // and side. With any kernel but `fast` the result is exact.
 //
-// With n beads and s sides there are (n - 1) s certificates, at most s on each level name a bead, and an
-// event costs at most one certificate on each level above the node. A bead that is inserted, erased or
-// changes course costs the contests on one path to the root, for each side.
+// With n beads of one necklace and s sides there are (n - 1) s certificates, all of which are made at the
+// start of each step. At most s certificates on each level name a bead. An event costs one certificate at its
+// node and at most one on each level above the node. A bead that is inserted, erased or changes course costs
+// the contests on one path to the root, for each side. Memory grows with n s.
 
 #include <cstdint>
 #include <memory>
@@ -77,8 +78,9 @@ class BoxHierarchy final : public EditableBase {
   [[nodiscard]] std::uint32_t side_count() const {
     return static_cast<std::uint32_t>(2 * directions_.size());
   }
-  /// Returns the supports of a selected node, one for each side. All are no_bead if all beads of the node are
-  /// absent. Throws std::invalid_argument if there is no such node.
+  /// Returns the supports of a selected node, one for each side. Each support is no_bead if all beads of the
+  /// node are absent, and before the structure is built. Throws std::invalid_argument if there is no such
+  /// node.
   [[nodiscard]] std::span<const BeadId> supports(NodeId node) const;
 
   void build() override;
@@ -96,8 +98,8 @@ class BoxHierarchy final : public EditableBase {
   void release(std::span<const BeadId> beads) override;
   void follow(std::span<const BeadId> beads) override;
   void edit(std::uint8_t kind, BeadId bead) override;
-  /// Notes that supports may have changed, at nodes that hold the bead, for one side.
-  void look_above(BeadId bead, std::uint32_t side);
+  /// Notes that the supports of a node and of all nodes above it may have changed, for one side.
+  void look_from(std::uint32_t node, std::uint32_t side);
 
   MotionRef<Dimension> motion_;
   Radii radii_;

@@ -198,7 +198,7 @@ TEST(BoxHierarchy, ReportsWhereASupportChanges) {
   EXPECT_NEAR(event.lower, 0.5, 1e-12);
 }
 
-// Of balls that reach equally far for the rest of a step, the least is the support.
+// If balls reach equally far for the rest of a step, the least ball is the support.
 TEST(BoxHierarchy, OfBallsThatTieTheLeastIsTheSupport) {
   const Points all_in_one(5, {1, 1, 1});
   const std::vector steps{moving(all_in_one, Points(5, {2, 0, 1}))};
