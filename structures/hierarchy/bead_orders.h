@@ -12,9 +12,9 @@
 
 namespace kds {
 
-/// Returns an order in which each node of the balanced tree holds the beads of one half of its parent's
-/// bounding box: a k-d tree that cuts the longest side at the median. Ties are broken by bead. Takes
-/// O(n log n) time.
+/// Returns the order of a k-d tree: each node of the balanced tree cuts the longest side of the bounding box
+/// of its centres at the median, and its children hold the beads on either side. Ties are broken by bead.
+/// `centers` has one column per bead; in the plane the third row is 0. Takes O(n log n) expected time.
 [[nodiscard]] std::vector<BeadId> order_by_space(const Eigen::Matrix3Xd& centers);
 
 /// Returns the order 0, n/2, 1, n/2 + 1, ... For the points of Lemma 2.5 (models::tightness_points), beads i
@@ -22,7 +22,7 @@ namespace kds {
 /// std::invalid_argument if n is odd.
 [[nodiscard]] std::vector<BeadId> order_by_antipodes(std::size_t n);
 
-/// Returns the columns in this order.
+/// Returns the columns in this order: column k of the result is column order[k] of `centers`.
 [[nodiscard]] Eigen::Matrix3Xd in_order(const Eigen::Matrix3Xd& centers, std::span<const BeadId> order);
 
 }  // namespace kds
