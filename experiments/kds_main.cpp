@@ -95,10 +95,13 @@ const Command& command_of(const std::string& name) {
 
 // Handles `kds help` and `kds help COMMAND`.
 int help(const Arguments& of) {
-  if (of.empty()) throw HelpRequest{program_help()};
   if (of.size() > 1)
     throw InputError(fmt::format("kds help takes one command, not {} (see kds --help)", of.size()));
-  return command_of(of.front()).run({"--help"});
+  const std::string name = of.empty() ? "help" : of.front();
+  if (name == "help" || name == "--help" || name == "-h") throw HelpRequest{program_help()};
+  if (name.starts_with('-'))
+    throw InputError(fmt::format("kds help takes a command, not the option '{}' (see kds --help)", name));
+  return command_of(name).run({"--help"});
 }
 
 int run_program(const Arguments& arguments) {

@@ -34,9 +34,12 @@ TEST(Program, HelpAndVersionSucceed) {
     EXPECT_THAT(run.out, HasSubstr("kds"));
   }
   EXPECT_EQ(run_program({"help"}).out, run_program({"--help"}).out);
+  EXPECT_EQ(run_program({"help", "--help"}).out, run_program({"--help"}).out);
+  EXPECT_EQ(run_program({"help", "help"}).out, run_program({"--help"}).out);
   EXPECT_EQ(run_program({"help", "run"}).out, run_program({"run", "--help"}).out);
   expect_refused({"help", "fly"}, {"unknown command 'fly'"});
   expect_refused({"help", "run", "info"}, {"one command"});
+  expect_refused({"help", "--version"}, {"takes a command, not the option '--version'"});
 }
 
 TEST(Program, RefusesWrongUsage) {
