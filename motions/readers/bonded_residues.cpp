@@ -15,7 +15,7 @@ void BondedResidues::add(std::size_t one, std::size_t other) {
   if (b + 1 == a) bonded_[a] = true;
 }
 
-void tell_polymers(std::vector<StructureResidue>& residues) {
+void mark_polymers(std::vector<StructureResidue>& residues) {
   for (std::size_t begin = 0, end = 0; begin < residues.size(); begin = end) {
     bool is_polymer = false;
     for (end = begin; end < residues.size() && residues[end].molecule == residues[begin].molecule; ++end)

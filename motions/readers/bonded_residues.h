@@ -8,8 +8,8 @@
 
 namespace kds {
 
-/// Finds which residues are bonded to the residue before them. Bonds between other residues, as disulfide
-/// bridges, do not count.
+/// Finds which residues are bonded to the residue before them. Bonds between other residues, such as
+/// disulfide bridges, do not count.
 class BondedResidues {
  public:
   /// `residue_of` gives the residue of each atom, in ascending order.
@@ -17,6 +17,7 @@ class BondedResidues {
 
   /// Adds a bond between two atoms, numbered from 0.
   void add(std::size_t one, std::size_t other);
+  /// Returns whether a bond joins the residue to the one before it.
   [[nodiscard]] bool follows(std::size_t residue) const { return bonded_[residue]; }
 
  private:
@@ -24,8 +25,9 @@ class BondedResidues {
   std::vector<bool> bonded_;
 };
 
-/// Counts residues of no known kind (caps such as ACE and NME) to the polymer of their molecule. Each
-/// molecule must have a name of its own and consecutive residues.
-void tell_polymers(std::vector<StructureResidue>& residues);
+/// Marks all residues of a molecule as polymer if one of them is a known monomer, so that caps such as ACE
+/// and NME belong to the chain. The residues of a molecule must be consecutive, and molecules need different
+/// names.
+void mark_polymers(std::vector<StructureResidue>& residues);
 
 }  // namespace kds

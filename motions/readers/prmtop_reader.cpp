@@ -211,7 +211,7 @@ StructureModel read_prmtop(const std::filesystem::path& path) {
   }
   model.atom_count = atoms;
   model.residues = grouping.take();
-  tell_polymers(model.residues);
+  mark_polymers(model.residues);
   if (prmtop.has("ATOMIC_NUMBER")) {
     static_cast<void>(prmtop.texts("ATOMIC_NUMBER", atoms));
     for (StructureResidue& residue : model.residues)

@@ -115,7 +115,7 @@ class PsfFile {
     }
     model.atom_count = atoms_.size();
     model.residues = grouping.take();
-    if (bonded) tell_polymers(model.residues);
+    if (bonded) mark_polymers(model.residues);
     if (const auto note = set_elements_by_mass(model.residues, masses_)) model.notes.push_back(*note);
     return model;
   }
