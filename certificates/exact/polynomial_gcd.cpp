@@ -84,7 +84,7 @@ class FlintPolynomial {
   }
   /// Sets this to the primitive gcd of two others.
   void set_to_gcd(const FlintPolynomial& a, const FlintPolynomial& b) {
-    // As many images modulo primes as the shorter coefficients have words, each by Euclid's algorithm.
+    // Brown's modular gcd: Euclid's algorithm modulo as many primes as the shorter coefficients have words.
     const auto words = [](const FlintPolynomial& p) {
       return static_cast<std::size_t>(std::abs(fmpz_poly_max_bits(p.value_)) / FLINT_BITS + 1);
     };

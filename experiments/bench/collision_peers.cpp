@@ -16,7 +16,8 @@ namespace kds {
 
 namespace {
 
-// Both libraries find pairs of boxes. The same test in doubles then decides for both whether the balls meet.
+// Both libraries find pairs of boxes. A test in doubles then decides for both libraries whether
+// the balls meet.
 [[maybe_unused]] bool are_counted(const Balls<3>& balls, std::size_t a, std::size_t b) {
   if ((a > b ? a - b : b - a) < 2) return false;
   double square = 0;

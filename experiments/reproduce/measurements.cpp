@@ -80,7 +80,7 @@ bool collides(const Balls<Dimension>& balls) {
 // Returns the number of edges of the centres' diagram, including those to the infinite vertex, which joins
 // every vertex of the hull. In the plane, the triangulation with the infinite vertex is a sphere of V + 1
 // vertices, which has 3V - 3 edges. In space the hull is a sphere of 2 hull - 4 facets, and 4C = 2F - facets
-// counts the facets of cells. With Euler's V - E + F - C = 1 follows hull = E - V - C + 3.
+// counts the facets of cells. Euler's V - E + F - C = 1 then gives hull = E - V - C + 3.
 template <int Dimension>
 std::uint64_t all_edges(const Eigen::Matrix3Xd& centers) {
   RegularTriangulation<Dimension> diagram;

@@ -49,7 +49,7 @@ PaperValue milliseconds(const Timed& time) { return in_unit(time, 1e3); }
 PaperValue microseconds(const Timed& time) { return in_unit(time, 1e6); }
 PaperValue count(std::uint64_t number) { return static_cast<double>(number); }
 
-// Why ratios of times deviate, unless a row has a reason of its own. The absolute times are beside them.
+// Reasons why ratios of times deviate, for rows without a reason of their own.
 constexpr std::string_view kLayeredBuildFaster =
     "kds builds layered nodes four at a time in vector lanes, at a few nanoseconds a node, and starts a "
     "wrapped node with the bases of its children";

@@ -16,7 +16,7 @@
 
 namespace kds {
 
-/// What a column holds.
+/// The kind of the values of a column.
 enum class Quantity : std::uint8_t {
   time,   ///< in the unit that its title names; machines differ, so it has no deviation
   ratio,  ///< of two times of the row

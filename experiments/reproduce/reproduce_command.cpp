@@ -91,7 +91,7 @@ Table<PaperRow> columns_of(const PaperTable& table, Quantity for_people) {
        {.key = "reasons", .value = [&table](const Row& r) { return Field(reasons_in_words(table, r)); }}});
 }
 
-// What is said of several rows: a note, or a reason with the deviations that it explains.
+// A note on several rows, or a reason with the deviations that it explains.
 struct Remark {
   std::string words;
   std::vector<std::string> rows;
