@@ -52,7 +52,9 @@ TEST(Scale, ModelsAreMeasuredAsCompareMeasuresThem) {
   EXPECT_FALSE(json["fits"].empty());
   for (const Json& fit : json["fits"]) {
     EXPECT_LE(fit["sizes"], 6) << fit;  // fewer if a measure is zero or has no value at small sizes
-    if (fit["measure"] == "compactness") EXPECT_EQ(fit["sizes"], 6) << fit;
+    if (fit["measure"] == "compactness") {
+      EXPECT_EQ(fit["sizes"], 6) << fit;
+    }
   }
   const std::string page = content_of(scratch / "out/report.html");
   expect_sound(page);
