@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "experiments/events/contact_map.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/page/table.h"
 #include "experiments/output/text.h"
@@ -251,34 +252,11 @@ std::string contacts_text(const ContactsReport& report, const ContactsFigures& f
 
 namespace {
 
-/// Returns the contact map: the occupancy of each pair. If there are too many pairs, squares are blocks of
-/// elements that show the largest occupancy within.
 std::string map_of(const ContactsReport& report, const ContactsFigures& figures) {
-  constexpr std::size_t most_squares = 3000;
-  const auto& names = report.elements.names;
-  std::map<std::pair<std::size_t, std::size_t>, const PairLifetimes*> squares;
-  std::size_t block = 1;
-  for (;; ++block) {
-    squares.clear();
-    for (const PairLifetimes& pair : figures.pairs) {
-      const PairLifetimes*& best = squares[{pair.first / block, pair.second / block}];
-      if (best == nullptr || best->total < pair.total) best = &pair;
-    }
-    if (squares.size() <= most_squares) break;
-  }
-  const auto side = static_cast<double>(block);
-  MapPlot map{std::string(name_of(report.by)),
-              block == 1 ? "occupancy" : fmt::format("largest occupancy of {0} x {0}", block),
-              -0.5,
-              static_cast<double>(names.size()) - 0.5,
-              side,
-              {}};
-  for (const auto& [place, pair] : squares) {
-    const auto middle = [&](std::size_t index) { return (static_cast<double>(index) + 0.5) * side - 0.5; };
-    map.squares.push_back({middle(place.first), middle(place.second), pair->occupancy(),
-                           fmt::format("{} and {}", names[pair->first], names[pair->second])});
-  }
-  return svg_plot(map);
+  std::vector<PairOccupancy> pairs;
+  for (const PairLifetimes& pair : figures.pairs)
+    pairs.push_back({pair.first, pair.second, pair.occupancy()});
+  return contact_map(std::string(name_of(report.by)), report.elements.names, pairs);
 }
 
 /// Returns the spans of the pairs with the most contacts. Spans that one pixel holds are joined.

@@ -34,7 +34,7 @@ inline constexpr std::string_view possible_contacts_file = "possible_contacts.cs
 /// contacts.
 [[nodiscard]] std::optional<std::uint64_t> contacts_at(const Session& session, std::size_t frame);
 
-/// Listens to all events and writes a line for each event of a contact.
+/// Listens to all events and passes each event of a contact on.
 class ContactsCsv : public EventListener {
  public:
   /// Adds the contacts that begin with the first frame. Call it once, when the structures have been built.

@@ -36,6 +36,16 @@ void Displacements::add_frame(Eigen::Matrix3Xd centers, const FrameStamp& stamp)
   last_stamp_ = stamp;
 }
 
+EventGrid::EventGrid(const Scene& scene)
+    : steps_per_bin(bin_width(scene.step_count(), most_bins)),
+      beads_per_block(bin_width(scene.bead_count(), most_blocks)) {
+  for (std::size_t step = 0; step < scene.step_count(); step += steps_per_bin)
+    edges.push_back(scene.stamp(step));
+  counts.assign(edges.size(),
+                std::vector<std::uint64_t>((scene.bead_count() + beads_per_block - 1) / beads_per_block));
+  edges.push_back(scene.stamp(scene.step_count()));
+}
+
 EventPlaces::EventPlaces(const Session& session, const Scene& scene)
     : tree_(scene.necklaces()), levels_(tree_.node_count(), 0) {
   std::size_t level_count = 0;
@@ -47,6 +57,7 @@ EventPlaces::EventPlaces(const Session& session, const Scene& scene)
   for (const KineticStructure* structure : session.structures()) {
     PlacesOfEvents& places = places_.emplace_back();
     places.by_bead.resize(scene.bead_count(), 0);
+    places.grid = EventGrid(scene);
     for (const EventKind& kind : structure->kinds())
       for (const IdRole& role : kind.roles)
         if (role.of == IdRole::Of::node) places.by_level.resize(level_count, 0);
@@ -61,8 +72,11 @@ void EventPlaces::on_event(const Event& event) {
     if (role.of == IdRole::Of::node) {
       if (const auto node = tree_.find({ids.front(), ids.back()})) ++places.by_level[levels_[*node]];
     } else if (role.of == IdRole::Of::beads) {
-      for (const BeadId bead : ids)
-        if (bead < places.by_bead.size()) ++places.by_bead[bead];
+      for (const BeadId bead : ids) {
+        if (bead >= places.by_bead.size()) continue;
+        ++places.by_bead[bead];
+        ++places.grid.counts[event.step / places.grid.steps_per_bin][bead / places.grid.beads_per_block];
+      }
     }
   });
 }

@@ -74,7 +74,20 @@ class Displacements {
   std::vector<Bin> bins_;
 };
 
-/// Records where along the chain, and at which depth of its tree, a structure changes.
+/// Counts events by time and place at once. Bins of neighbouring steps are the columns, blocks of
+/// neighbouring beads are the rows. An event counts once for each of its beads, as in
+/// `PlacesOfEvents::by_bead`.
+struct EventGrid {
+  static constexpr std::size_t most_bins = 36, most_blocks = 24;  ///< keep pages below a megabyte
+
+  std::size_t steps_per_bin = 1, beads_per_block = 1;  ///< the last bin and the last block may have fewer
+  std::vector<FrameStamp> edges;                       ///< frames at which the bins begin, and the last frame
+  std::vector<std::vector<std::uint64_t>> counts;      ///< by bin, then by block
+
+  EventGrid() = default;
+  explicit EventGrid(const Scene& scene);
+};
+
 /// The places of a structure's external events: along the chain, and by depth in its tree.
 struct PlacesOfEvents {
   /// Number of events that name each bead. A node's event names the beads of its new basis. An event counts
@@ -83,6 +96,7 @@ struct PlacesOfEvents {
   /// Number of events at the nodes of each tree level, where roots have level 0. Empty if events do not occur
   /// at nodes.
   std::vector<std::uint64_t> by_level;
+  EventGrid grid;
 };
 
 /// Listens to all events of a session.

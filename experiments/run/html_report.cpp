@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <iterator>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "certificates/base/kernel.h"
+#include "experiments/events/contact_map.h"
 #include "experiments/events/event_places.h"
 #include "experiments/events/frame_axis.h"
 #include "experiments/output/page/html_page.h"
@@ -142,13 +144,20 @@ std::string which_frames(const RunReport& report) {
   return text.empty() ? text : fmt::format(" ({})", text);
 }
 
-void add_stride(std::vector<std::pair<std::string, std::string>>& lines, const StrideCertificate& stride) {
+// Returns the number of a bead with its name, if the input has names.
+std::string name_of(const RunReport& report, std::size_t bead) {
+  return bead_text(bead, bead < report.bead_names.size() ? report.bead_names[bead] : "");
+}
+
+void add_stride(std::vector<std::pair<std::string, std::string>>& lines, const RunReport& report) {
+  const StrideCertificate& stride = *report.stride;
   const StrideDeviation& deviation = stride.deviation;
   lines.emplace_back(
       "stride",
       fmt::format("{} frames left out, in which beads are at most {:.6g} from their positions in the run "
-                  "(bead {}, frame {}): spheres enlarged by this length hold their beads at all times",
-                  with_thousands(deviation.skipped), deviation.largest, deviation.bead, deviation.frame));
+                  "({}, frame {}): spheres enlarged by this length hold their beads at all times",
+                  with_thousands(deviation.skipped), deviation.largest, name_of(report, deviation.bead),
+                  deviation.frame));
   if (!stride.contacts) return;
   const auto& [found, sure, possible] = *stride.contacts;
   lines.emplace_back(
@@ -160,9 +169,9 @@ void add_stride(std::vector<std::pair<std::string, std::string>>& lines, const S
 
 void add_approach(std::vector<std::pair<std::string, std::string>>& lines, const RunReport& report) {
   const ClosestApproach& approach = *report.approach;
-  std::string text =
-      fmt::format("beads {} and {} come nearest, to {:.6g}, at u = {:.3g} of the step from frame {}",
-                  approach.beads[0], approach.beads[1], approach.distance.upper, approach.u, approach.frame);
+  std::string text = fmt::format("{} and {} come nearest, to {:.6g}, at u = {:.3g} of the step from frame {}",
+                                 name_of(report, approach.beads[0]), name_of(report, approach.beads[1]),
+                                 approach.distance.upper, approach.u, approach.frame);
   if (const auto& range = report.approach_in_all_frames)
     text += fmt::format("; over all frames the least distance is between {:.6g} and {:.6g}", range->lower,
                         range->upper);
@@ -210,7 +219,7 @@ std::vector<std::pair<std::string, std::string>> input_lines(const RunReport& re
       {"input", fmt::format("{}", fmt::join(report.files, ", "))},
       {"scene", scene},
       {"settings", fmt::format("{}", fmt::join(settings, ", "))}};
-  if (report.stride) add_stride(lines, *report.stride);
+  if (report.stride) add_stride(lines, report);
   if (report.approach) add_approach(lines, report);
   return lines;
 }
@@ -233,10 +242,18 @@ constexpr std::string_view kWords =
     "one run and vary from run to run. With <code>--rounds</code> they are medians, with the least and the "
     "most in brackets.";
 
+// Names as many files as fit on a line, at least one, and counts the others.
 std::string title(const RunReport& report) {
+  constexpr std::size_t most_letters = 48;
   std::string names;
-  for (const std::string& file : report.files)
-    names += (names.empty() ? "" : ", ") + std::filesystem::path(file).filename().string();
+  std::size_t named = 0;
+  for (const std::string& file : report.files) {
+    const std::string name = std::filesystem::path(file).filename().string();
+    if (named > 0 && names.size() + 2 + name.size() > most_letters) break;
+    names += (named == 0 ? "" : ", ") + name;
+    ++named;
+  }
+  if (named < report.files.size()) names += fmt::format(" and {} more", report.files.size() - named);
   return "kds run: " + names;
 }
 
@@ -244,25 +261,27 @@ double a_step(std::uint64_t events, std::size_t steps) {
   return static_cast<double>(events) / static_cast<double>(std::max<std::size_t>(1, steps));
 }
 
+// Returns where a structure changes most often, or an empty text if no event names a bead.
+std::string busiest_bead(const RunReport& report, const StructureReport& structure) {
+  const auto& counts = structure.places.by_bead;
+  const auto most = std::ranges::max_element(counts);
+  if (most == counts.end() || *most == 0) return "";
+  return fmt::format(", most often at {} ({})",
+                     html_escaped(name_of(report, static_cast<std::size_t>(most - counts.begin()))),
+                     with_thousands(*most));
+}
+
 std::string findings(const RunReport& report) {
   const std::size_t steps = step_count(report);
   std::string html = fmt::format("<p>In {} {} of {} beads", with_thousands(steps),
                                  steps == 1 ? "motion step" : "motion steps", with_thousands(report.beads));
-  const StructureReport* first = nullptr;
-  for (const StructureReport& structure : report.structures) {
-    html += fmt::format("{} the <strong>{}</strong> structure changed {} times ({} per step{})",
-                        first == nullptr ? "" : ",", html_escaped(structure.name),
-                        with_thousands(structure.events_total),
-                        short_decimal(a_step(structure.events_total, steps)),
-                        first == nullptr || first->events_total == 0 || structure.events_total == 0
-                            ? ""
-                            : fmt::format(", {} times as often as {}",
-                                          short_decimal(static_cast<double>(structure.events_total) /
-                                                        static_cast<double>(first->events_total)),
-                                          html_escaped(first->name)));
-    if (first == nullptr) first = &structure;
-  }
-  html += report.structures.empty() ? " nothing was maintained.</p>\n" : ".</p>\n";
+  html += report.structures.empty() ? " nothing was maintained.</p>\n" : ":</p>\n<ul>\n";
+  for (const StructureReport& structure : report.structures)
+    html +=
+        fmt::format("<li>The <strong>{}</strong> structure changed {} times ({} per step){}.</li>\n",
+                    html_escaped(structure.name), with_thousands(structure.events_total),
+                    short_decimal(a_step(structure.events_total, steps)), busiest_bead(report, structure));
+  if (!report.structures.empty()) html += "</ul>\n";
   for (const StructureReport& structure : report.structures)
     if (report.rounds > 1 && structure.static_seconds > 0)
       html += fmt::format(
@@ -312,6 +331,17 @@ std::string of_steps(std::size_t width) {
                    : "";
 }
 
+// Returns the plot if it has one curve; otherwise one panel a curve, each with its own scale.
+std::string one_scale_each(LinePlot plot) {
+  if (plot.curves.size() == 1) return svg_plot(plot);
+  PanelPlot panels;
+  for (Curve& curve : plot.curves) {
+    const std::string name = curve.name;
+    panels.panels.push_back({name, {plot.x_label, plot.y_label, plot.drawn, {std::move(curve)}}});
+  }
+  return svg_plot(panels);
+}
+
 std::string plots_over_time(const RunReport& report) {
   std::size_t width = 1;
   const FrameAxis axis = axis_of(report);
@@ -337,8 +367,8 @@ std::string plots_over_time(const RunReport& report) {
       report.last_frame->picoseconds)
     span = fmt::format(" The frames are those from {:.6g} to {:.6g} ps.", *report.first_frame->picoseconds,
                        *report.last_frame->picoseconds);
-  return html_figure(svg_plot(rate), "Events between each frame and the next." + over_steps(width)) +
-         html_figure(svg_plot(sum), "Events since the first frame." + span);
+  return html_figure(one_scale_each(rate), "Events between each frame and the next." + over_steps(width)) +
+         html_figure(one_scale_each(sum), "Events since the first frame." + span);
 }
 
 std::string plot_of_displacement(const RunReport& report) {
@@ -360,31 +390,103 @@ std::string plot_of_displacement(const RunReport& report) {
                   length_unit, short_decimal(report.radius_max), of_steps(report.displacement.width())));
 }
 
+// Kinds of events that undo each other.
+constexpr std::array<std::array<std::string_view, 2>, 5> kOpposites{
+    {{"enter", "leave"}, {"begin", "end"}, {"2-3", "3-2"}, {"1-4", "4-1"}, {"1-3", "3-1"}}};
+
+std::string_view opposite_of(std::string_view kind) {
+  for (const auto& [one, other] : kOpposites) {
+    if (kind == one) return other;
+    if (kind == other) return one;
+  }
+  return "";
+}
+
+// Returns the kinds of a structure that occur, each opposite in the row of its kind.
+MirrorPlot rows_by_kind(const StructureReport& structure) {
+  MirrorPlot plot{"events", {}};
+  const auto& kinds = structure.events_by_kind;
+  for (auto kind = kinds.begin(); kind != kinds.end(); ++kind) {
+    const auto is_opposite = [&](const auto& other) { return other.first == opposite_of(kind->first); };
+    if (std::any_of(kinds.begin(), kind, is_opposite)) continue;  // in a row above
+    MirrorPlot::Row row{{structure.label_of(kind->first), static_cast<double>(kind->second)}};
+    if (const auto other = std::find_if(kind, kinds.end(), is_opposite); other != kinds.end())
+      row.left = {structure.label_of(other->first), static_cast<double>(other->second)};
+    if (row.right.value > 0 || row.left.value > 0) plot.rows.push_back(std::move(row));
+  }
+  return plot;
+}
+
 std::string plots_by_kind(const RunReport& report) {
   std::string html;
   for (const StructureReport& structure : report.structures) {
-    BarPlot plot{"events", {}};
-    for (const auto& [kind, count] : structure.events_by_kind)
-      if (count > 0) plot.bars.push_back({structure.label_of(kind), static_cast<double>(count)});
-    if (!plot.bars.empty())
-      html += html_figure(svg_plot(plot),
-                          fmt::format("Events of the {} structure by kind.", html_escaped(structure.name)));
+    const MirrorPlot plot = rows_by_kind(structure);
+    if (plot.rows.empty()) continue;
+    const std::string name = html_escaped(structure.name);
+    if (std::ranges::any_of(plot.rows, [](const auto& row) { return !row.left.name.empty(); })) {
+      html += html_figure(
+          svg_plot(plot),
+          fmt::format("Events of the {} structure by kind, with opposite kinds in one row.", name));
+      continue;
+    }
+    BarPlot bars{plot.x_label, {}};
+    for (const MirrorPlot::Row& row : plot.rows) bars.bars.push_back({row.right.name, row.right.value});
+    html += html_figure(svg_plot(bars), fmt::format("Events of the {} structure by kind.", name));
+  }
+  return html;
+}
+
+std::string contact_map_of(const RunReport& report) {
+  if (report.contact_pairs.empty()) return "";
+  std::vector<std::string> names;
+  for (std::size_t bead = 0; bead < report.beads; ++bead) names.push_back(name_of(report, bead));
+  return html_figure(
+      contact_map("bead", names, report.contact_pairs),
+      "Occupancy of each pair of beads: the share of the time from the first to the last frame, "
+      "counted in frames, in which the pair is in contact.");
+}
+
+std::string maps_over_time(const RunReport& report) {
+  std::string html;
+  for (const StructureReport& structure : report.structures) {
+    const EventGrid& grid = structure.places.grid;
+    const auto& by_bead = structure.places.by_bead;
+    if (grid.counts.size() < 2 || std::ranges::all_of(by_bead, [](auto count) { return count == 0; }))
+      continue;
+    const FrameAxis axis(grid.edges);
+    HeatPlot plot{axis.label(), "bead", "events", {}, {}, {}, {}};
+    for (const FrameStamp& frame : grid.edges) plot.x_edges.push_back(axis.place(frame));
+    const auto first_of = [&](std::size_t block) {
+      return std::min(block * grid.beads_per_block, by_bead.size());
+    };
+    for (std::size_t block = 0; block <= grid.counts.front().size(); ++block)
+      plot.y_edges.push_back(static_cast<double>(first_of(block)) - 0.5);
+    for (const auto& bin : grid.counts) plot.values.emplace_back(bin.begin(), bin.end());
+    plot.text = [&](std::size_t bin, std::size_t block) {
+      const std::size_t first = first_of(block), last = first_of(block + 1) - 1;
+      return fmt::format("{}{}\nframes {} to {}", name_of(report, first),
+                         first == last ? "" : " to " + name_of(report, last), grid.edges[bin].number,
+                         grid.edges[bin + 1].number);
+    };
+    html += html_figure(
+        svg_plot(plot),
+        fmt::format("Events of the {} structure by time and bead, {} a rectangle.",
+                    html_escaped(structure.name),
+                    grid.beads_per_block == 1 ? "one bead" : fmt::format("{} beads", grid.beads_per_block)));
   }
   return html;
 }
 
 std::string plot_along_chain(const RunReport& report) {
-  const auto name_of = [&report](std::size_t bead) {
-    return bead_text(bead, bead < report.bead_names.size() ? report.bead_names[bead] : "");
-  };
-  RowsPlot plot{"bead", 0, name_of, {}};
+  const auto name_here = [&report](std::size_t bead) { return name_of(report, bead); };
+  RowsPlot plot{"bead", 0, name_here, {}};
   for (const StructureReport& structure : report.structures) {
     const auto& counts = structure.places.by_bead;
     if (counts.empty()) continue;
     plot.columns = counts.size();
     const auto most = std::ranges::max_element(counts);
     const std::string note = fmt::format("at most {} events, at {}", with_thousands(*most),
-                                         name_of(static_cast<std::size_t>(most - counts.begin())));
+                                         name_here(static_cast<std::size_t>(most - counts.begin())));
     plot.rows.push_back({structure.name, *most == 0 ? "no events" : note, {counts.begin(), counts.end()}});
   }
   if (plot.rows.empty()) return "";
@@ -406,6 +508,8 @@ std::string html_report(const RunReport& report, const std::vector<std::string>&
   if (step_count(report) > 1 && !report.structures.empty())
     page.body += html_section("Over time", plots_over_time(report) + plot_of_displacement(report));
   page.body += html_section("Along the chain", plot_along_chain(report));
+  page.body += html_section("Over time along the chain", maps_over_time(report));
+  page.body += html_section("Contact map", contact_map_of(report));
   page.body += html_section("Numbers", table(report));
   auto inputs = input_lines(report);
   inputs.emplace_back("fingerprint", hex_digits(report.fingerprint));

@@ -65,6 +65,7 @@ RunReport report_of(Session& session, const Scene& scene, const RunOptions& opti
   report.first_frame = scene.stamp(0);
   report.last_frame = scene.stamp(scene.frame_count() - 1);
   report.dimension = scene.dimension();
+  for (BeadId bead = 0; bead < scene.bead_count(); ++bead) report.bead_names.push_back(scene.bead_name(bead));
   report.truncated = scene.is_truncated();
   const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
   report.radius_min = *least;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "experiments/events/closest_approach.h"
+#include "experiments/events/contact_map.h"
 #include "experiments/events/event_places.h"
 #include "experiments/program/timing.h"
 #include "experiments/run/certify_stride.h"
@@ -65,9 +66,10 @@ struct RunReport {
   std::optional<ClosestApproach> approach;  ///< only if the run has the closest pair and does not use `fast`
   /// The least distance over all frames. Known with --certify, or with --tolerance if no frame is left out.
   std::optional<DistanceRange> approach_in_all_frames;
-  std::string command_line;             ///< asks for the same run, without outputs
-  Displacements displacement;           ///< empty if not recorded
-  std::vector<std::string> bead_names;  ///< empty if not recorded; an unknown name is an empty text
+  std::string command_line;                  ///< asks for the same run, without outputs
+  Displacements displacement;                ///< empty if not recorded
+  std::vector<std::string> bead_names;       ///< an unknown name is an empty text
+  std::vector<PairOccupancy> contact_pairs;  ///< pairs that are ever in contact; empty if not recorded
 };
 
 /// The result of a replay.

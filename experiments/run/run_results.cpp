@@ -41,8 +41,8 @@ void RunResults::begin(const Scene& scene, Session& session, bool certified) {
   scene_ = &scene;
   displacement_ = Displacements(bin_width(scene.step_count(), EventCourse::most_bins));
   places_.emplace(session, scene);
-  for (BeadId bead = 0; bead < scene.bead_count(); ++bead) bead_names_.push_back(scene.bead_name(bead));
   session.simulator().listen(*places_);
+  if (has_contacts(session)) session.simulator().listen(occupancy_.emplace());
   if (has_contacts(session)) contacts_files_.emplace_back(contacts_file);
   if (has_contacts(session) && certified) contacts_files_.emplace_back(possible_contacts_file);
   if (!has_contacts(session) || certified) return;
@@ -76,9 +76,10 @@ void RunResults::begin_dump_and_log(const RunOptions& options, const Scene& scen
 
 void RunResults::add_frame(std::size_t frame, const Session& session) {
   if (frame == 0) {
-    for (ContactsCsv* const file : std::array<ContactsCsv*, 2>{
-             contacts_ ? &*contacts_ : nullptr, dumped_contacts_ ? &*dumped_contacts_ : nullptr})
-      if (file != nullptr) file->add_built(session);
+    for (ContactsCsv* const listener :
+         std::array<ContactsCsv*, 3>{occupancy_ ? &*occupancy_ : nullptr, contacts_ ? &*contacts_ : nullptr,
+                                     dumped_contacts_ ? &*dumped_contacts_ : nullptr})
+      if (listener != nullptr) listener->add_built(session);
   }
   if (dumps_) dumps_->write(frame, session.dump(frame));
   if (scene_ != nullptr) displacement_.add_frame(scene_->centers(frame), scene_->stamp(frame));
@@ -99,7 +100,9 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
     for (std::size_t s = 0; s < report.structures.size(); ++s)
       report.structures[s].places = places_->places()[s];
     report.displacement = displacement_;
-    report.bead_names = std::move(bead_names_);
+    if (occupancy_ && report.first_frame && report.last_frame)
+      report.contact_pairs = occupancy_->pairs(static_cast<double>(report.first_frame->number),
+                                               static_cast<double>(report.last_frame->number));
     std::vector<std::string> data{std::string(kFiles[0]), std::string(kFiles[1])};
     data.insert(data.end(), contacts_files_.begin(), contacts_files_.end());
     write_page(*files_, html_report(report, data), destinations_.paper);

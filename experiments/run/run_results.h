@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "experiments/events/contact_map.h"
 #include "experiments/events/event_files.h"
 #include "experiments/events/event_places.h"
 #include "experiments/output/output_files.h"
@@ -59,7 +60,7 @@ class RunResults {
   std::optional<EventsCsv> events_;
   std::optional<EventPlaces> places_;
   Displacements displacement_;
-  std::vector<std::string> bead_names_;
+  std::optional<ContactOccupancy> occupancy_;
   std::optional<ContactsTable> contacts_;
   std::vector<std::string> contacts_files_;
   std::optional<AtomicFiles> every_event_file_;

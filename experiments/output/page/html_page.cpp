@@ -85,7 +85,7 @@ dd { margin: 0; overflow-wrap: anywhere; }
           width: max-content; min-width: 100%; max-width: calc(100vw - 3rem);
           background: linear-gradient(to left, var(--page) 30%, transparent) right / 2.5rem 100% no-repeat local,
                       linear-gradient(to left, var(--shade), transparent) right / .8rem 100% no-repeat scroll; }
-table { border-collapse: separate; border-spacing: 0; font-size: .92rem; font-variant-numeric: tabular-nums; }
+table { width: 100%; border-collapse: separate; border-spacing: 0; font-size: .92rem; font-variant-numeric: tabular-nums; }
 .many table { font-size: .85rem; }
 th, td { padding: .26rem 0 .26rem 1.2rem; text-align: right; vertical-align: top; white-space: nowrap; }
 .many th, .many td { padding-left: .8rem; }

@@ -288,6 +288,92 @@ Drawing draw(const BarPlot& plot, DrawingSize size) {
   return drawing;
 }
 
+Drawing draw(const MirrorPlot& plot, DrawingSize size) {
+  constexpr double letter = 7.2, beside = 14;
+  const double most_room = is_wide(size) ? 300 : 140;
+  double most = 0;
+  const auto room = [&](MirrorPlot::Bar MirrorPlot::Row::*side) {
+    std::size_t longest = 0;
+    for (const MirrorPlot::Row& row : plot.rows) {
+      const MirrorPlot::Bar& bar = row.*side;
+      most = std::max(most, bar.value);
+      longest = std::max(longest, bar.name.size() + 1 + tick_label(bar.value).size());
+    }
+    return std::min(letter * static_cast<double>(longest) + beside, most_room);
+  };
+  size.left = room(&MirrorPlot::Row::left);
+  size.right = room(&MirrorPlot::Row::right);
+  size.top = 4 + size.head;
+  size.bottom = 28;
+  size.height = 28 * static_cast<double>(plot.rows.size()) + 34 + size.head;
+  Drawing drawing{size, axes(size, plot.x_label, ""), TextsOf::marks, {}};
+  const double end = most > 0 ? most : 1;
+  drawing.script += fmt::format(
+      "unset border\nunset grid\nunset xtics\nunset ytics\nset xrange [{:.17g}:{:.17g}]\n"
+      "set yrange [{}:-0.5]\nset arrow from 0, graph 0 to 0, graph 1 nohead linecolor rgb c_soft\n",
+      -end, end, static_cast<double>(plot.rows.size()) - 0.5);
+  std::string data;
+  const auto add = [&](const MirrorPlot::Bar& bar, std::size_t row, int sign) {
+    if (bar.name.empty()) return;
+    const std::string value = tick_label(bar.value);
+    const auto letters = static_cast<std::size_t>((most_room - beside) / letter) - value.size() - 1;
+    drawing.script += fmt::format("set label {} at {:.17g},{} {} textcolor rgb c_soft\n",
+                                  gnuplot_text(shortened(bar.name, letters) + " " + value), sign * bar.value,
+                                  row, sign > 0 ? "left offset 0.8,0" : "right offset -0.8,0");
+    data += fmt::format("{:.17g} {} {:.17g} 0.36\n", sign * bar.value / 2, row, bar.value / 2);
+  };
+  for (std::size_t row = 0; row < plot.rows.size(); ++row) {
+    add(plot.rows[row].right, row, 1);
+    add(plot.rows[row].left, row, -1);
+  }
+  drawing.script += fmt::format("$bars << EOD\n{}EOD\n", data);
+  drawing.script += fmt::format("plot $bars using 1:2:3:4 with boxxyerror linecolor {}, NaN\n", colour(0));
+  return drawing;
+}
+
+// A rectangle that shows a value by its colour.
+struct Box {
+  double x, y, half_width, half_height, value;
+  std::string text;
+};
+
+// Draws boxes with their values under the pointer, and nothing else.
+void add_boxes(Drawing& drawing, const std::vector<Box>& boxes, const std::string& value_label) {
+  double most = 0;
+  for (const Box& box : boxes) most = std::max(most, box.value);
+  drawing.script += "$boxes << EOD\n";
+  for (const Box& box : boxes) {
+    const double opacity = 0.25 + 0.75 * (most > 0 ? box.value / most : 1);
+    drawing.script +=
+        fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {}\n", box.x, box.y, box.half_width, box.half_height,
+                    std::lround(255 * (1 - opacity)) << 24);  // covers the colour of series 0
+    drawing.texts.push_back(fmt::format("{}\n{}: {}", box.text, value_label, tick_label(box.value)));
+  }
+  drawing.script += "EOD\nplot ";
+  if (!boxes.empty())
+    drawing.script +=
+        "$boxes using 1:2:3:4:($5 + int('0x'.c_s0[2:])) with boxxyerror linecolor rgb variable, ";
+  drawing.script += "NaN\n";
+}
+
+Drawing draw(const HeatPlot& plot, const DrawingSize& size) {
+  Drawing drawing{size, axes(size, plot.x_label, plot.y_label), TextsOf::squares, {}};
+  drawing.script += linear('x', {plot.x_edges.front(), plot.x_edges.back()}, x_ticks(size)) +
+                    linear('y', {plot.y_edges.front(), plot.y_edges.back()}, y_ticks) + "unset grid\n";
+  std::vector<Box> boxes;
+  for (std::size_t c = 0; c < plot.values.size(); ++c) {
+    const double left = plot.x_edges[c], right = plot.x_edges[c + 1];
+    for (std::size_t r = 0; r < plot.values[c].size(); ++r) {
+      const double low = plot.y_edges[r], high = plot.y_edges[r + 1], value = plot.values[c][r];
+      if (value > 0)
+        boxes.push_back({(left + right) / 2, (low + high) / 2, (right - left) / 2, (high - low) / 2, value,
+                         plot.text(c, r)});
+    }
+  }
+  add_boxes(drawing, boxes, plot.value_label);
+  return drawing;
+}
+
 Drawing draw(const MapPlot& plot, DrawingSize size) {
   const double side = size.for_paper ? 440 : is_wide(size) ? 540 : 292;
   size.left = is_wide(size) ? 64 : 56;
@@ -295,24 +381,13 @@ Drawing draw(const MapPlot& plot, DrawingSize size) {
   size.height = side + size.top + size.bottom;
   Drawing drawing{size, axes(size, plot.label, plot.label), TextsOf::squares, {}};
   const Range range{plot.from, plot.to};
-  drawing.script += linear('x', range, y_ticks) + linear('y', range, y_ticks) + "$squares << EOD\n";
-  double most = 0;
-  for (const MapPlot::Square& square : plot.squares) most = std::max(most, square.value);
-  for (const auto& [x, y, value, text] : plot.squares) {
-    const double opacity = 0.25 + 0.75 * (most > 0 ? value / most : 1);
-    drawing.script += fmt::format("{:.17g} {:.17g} {}\n", x, y,
-                                  std::lround(255 * (1 - opacity)) << 24);  // covers the colour of series 0
-    const std::string place =
-        text.empty() ? fmt::format("{} {}, {}", plot.label, tick_label(x), tick_label(y)) : text;
-    drawing.texts.push_back(fmt::format("{}\n{}: {}", place, plot.value_label, tick_label(value)));
-  }
-  drawing.script += "EOD\nplot ";
-  if (!plot.squares.empty())
-    drawing.script += fmt::format(
-        "$squares using 1:2:({0:.17g}):({0:.17g}):($3 + int('0x'.c_s0[2:])) with boxxyerror linecolor rgb "
-        "variable, ",
-        plot.side / 2);
-  drawing.script += "NaN\n";
+  drawing.script += linear('x', range, y_ticks) + linear('y', range, y_ticks);
+  std::vector<Box> boxes;
+  for (const auto& [x, y, value, text] : plot.squares)
+    boxes.push_back(
+        {x, y, plot.side / 2, plot.side / 2, value,
+         text.empty() ? fmt::format("{} {}, {}", plot.label, tick_label(x), tick_label(y)) : text});
+  add_boxes(drawing, boxes, plot.value_label);
   return drawing;
 }
 
@@ -470,6 +545,13 @@ std::string svg_plot(const PointPlot& plot) {
 }
 std::string svg_plot(const BarPlot& plot) {
   return drawn_once(0, plot.series, plot.x_label, [&](const DrawingSize& size) { return draw(plot, size); });
+}
+std::string svg_plot(const MirrorPlot& plot) {
+  return drawn_once(0, {}, plot.x_label, [&](const DrawingSize& size) { return draw(plot, size); });
+}
+std::string svg_plot(const HeatPlot& plot) {
+  return drawn_once(320, {}, fmt::format("{} by {} and {}", plot.value_label, plot.x_label, plot.y_label),
+                    [&](const DrawingSize& size) { return draw(plot, size); });
 }
 std::string svg_plot(const MapPlot& plot) {
   return drawn_once(0, {}, plot.value_label + " by " + plot.label,

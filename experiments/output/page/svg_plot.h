@@ -79,6 +79,30 @@ struct BarPlot {
   std::vector<std::string> series = {};  ///< names of the series; empty if there is only one
 };
 
+/// Horizontal bars to both sides of a line, for changes and their opposites. Both sides have one scale. Each
+/// bar has its name and its value.
+struct MirrorPlot {
+  struct Bar {
+    std::string name;
+    double value = 0;
+  };
+  struct Row {
+    Bar right;
+    Bar left = {};  ///< not drawn if the name is empty
+  };
+  std::string x_label;
+  std::vector<Row> rows;
+};
+
+/// Rectangles that fill a map. Colours show the values; a place with value 0 stays empty.
+struct HeatPlot {
+  std::string x_label, y_label;
+  std::string value_label;                  ///< for the colour scale
+  std::vector<double> x_edges, y_edges;     ///< ends of the columns and of the rows, ascending
+  std::vector<std::vector<double>> values;  ///< by column, then by row; at least 0
+  std::function<std::string(std::size_t column, std::size_t row)> text;  ///< shown under the pointer
+};
+
 /// Squares of equal size within a square map. Colours show the values; a place without a value stays empty.
 struct MapPlot {
   struct Square {
@@ -108,6 +132,8 @@ struct TimelinePlot {
 [[nodiscard]] std::string svg_plot(const PanelPlot& plot);
 [[nodiscard]] std::string svg_plot(const PointPlot& plot);
 [[nodiscard]] std::string svg_plot(const BarPlot& plot);
+[[nodiscard]] std::string svg_plot(const MirrorPlot& plot);
+[[nodiscard]] std::string svg_plot(const HeatPlot& plot);
 [[nodiscard]] std::string svg_plot(const MapPlot& plot);
 [[nodiscard]] std::string svg_plot(const TimelinePlot& plot);
 

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/experiments/run_program.h"
@@ -36,6 +39,18 @@ std::string frames_at(const std::vector<std::string>& beads, const std::vector<d
     for (const std::string& bead : beads) frames += "C " + std::to_string(shift) + " " + bead + "\n";
   }
   return frames;
+}
+
+// Returns the numbers of the lines of a CSV in these columns.
+std::vector<std::vector<std::string>> cells_of(const std::filesystem::path& path) {
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& line : lines_of(path)) {
+    std::vector<std::string>& row = rows.emplace_back();
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, ',');) row.push_back(cell);
+  }
+  rows.erase(rows.begin());
+  return rows;
 }
 
 void expect_refused(std::vector<std::string> arguments, const std::string& reason) {
@@ -296,6 +311,55 @@ TEST(ContactsRun, Refusals) {
   expect_refused(
       {many, "--structures", "contacts", "--radius", "1", "--kernel", "exact"},
       "--structures contacts: kernel exact looks at all 112477501 pairs of beads, more than 100000000");
+}
+
+// The maps of the page are compared with sums over contacts.csv and events.csv.
+TEST(ContactsRun, MapsAgreeWithTheFiles) {
+  const ScratchDirectory directory;
+  const std::string out = directory / "out";
+  constexpr int frames = 60, begin = 10;  // 49 steps: two in each bin but the last
+  const ProgramRun run =
+      run_program({"run", kDcd, "--topology", kPdb, "--frames", "10:60", "--structures", "power,contacts",
+                   "--apart", "5", "--radius", "2.8", "--out", out, "--quiet"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  std::map<std::pair<int, int>, double> lengths;
+  for (const auto& row : cells_of(std::filesystem::path(out) / "contacts.csv")) {
+    const double frame = std::stod(row[5]);
+    double& length = lengths[{std::stoi(row[1]), std::stoi(row[2])}];
+    if (row[0] == "begin") length += frames - 1 - frame;
+    if (row[0] == "end") length -= frames - 1 - frame;
+  }
+  std::map<int, int> events;  // by the first frame of the bin
+  for (const auto& row : cells_of(std::filesystem::path(out) / "events.csv"))
+    if (row[1] == "contacts") events[begin + (std::stoi(row[0]) - begin) / 2 * 2] += std::stoi(row[2]);
+
+  const std::string html = content_of(std::filesystem::path(out) / "report.html");
+  std::size_t pairs = 0;
+  std::map<int, int> drawn;
+  const auto contacts_begin = html.find("Events of the power structure by time and bead");
+  ASSERT_NE(contacts_begin, std::string::npos);
+  for (std::size_t at = 0; (at = html.find("<title>bead ", at)) != std::string::npos; ++at) {
+    const std::string text = html.substr(at + 7, html.find('<', at + 7) - at - 7);
+    const std::size_t line = text.rfind('\n');
+    int first = 0, second = 0, from = 0, to = 0;
+    const std::string last = text.substr(line + 1);
+    if (last.starts_with("occupancy: ")) {
+      ASSERT_EQ(std::sscanf(text.c_str(), "bead %d,", &first), 1) << text;
+      ASSERT_EQ(std::sscanf(text.c_str() + text.find(" and bead "), " and bead %d,", &second), 1) << text;
+      const double share = lengths.at({first, second}) / (frames - 1 - begin);
+      if (share >= 0.001) EXPECT_NEAR(std::stod(last.substr(11)), share, 5e-4 * share) << text;
+      ++pairs;
+    } else if (at > contacts_begin && last.starts_with("events: ")) {
+      const std::size_t middle = text.find("\nframes ");
+      ASSERT_EQ(std::sscanf(text.c_str() + middle, "\nframes %d to %d", &from, &to), 2) << text;
+      drawn[from] += std::stoi(last.substr(8));
+    }
+  }
+  EXPECT_GT(pairs, 100U);
+  EXPECT_EQ(pairs, 2 * lengths.size());  // wide and narrow
+  std::erase_if(events, [](const auto& bin) { return bin.second == 0; });
+  for (auto& [frame, count] : events) count *= 4;  // two beads an event, wide and narrow
+  EXPECT_EQ(drawn, events);
 }
 
 }  // namespace

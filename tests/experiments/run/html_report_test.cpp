@@ -30,12 +30,80 @@ TEST(HtmlReport, ShowsTableAndPlots) {
 
 TEST(HtmlReport, BeginsWithWhatWasFound) {
   const std::string html = html_report(test::sample_report());
-  EXPECT_THAT(
-      html,
-      HasSubstr("<div class=\"found\">\n<p>In 3 motion steps of 36 beads the "
-                "<strong>wrapped</strong> structure changed 6 times (2.000 per step), the "
-                "<strong>power</strong> structure changed 30 times (10.00 per step, 5.000 times as often as "
-                "wrapped).</p>\n</div>"));
+  EXPECT_THAT(html,
+              HasSubstr("<div class=\"found\">\n<p>In 3 motion steps of 36 beads:</p>\n<ul>\n"
+                        "<li>The <strong>wrapped</strong> structure changed 6 times (2.000 per step).</li>\n"
+                        "<li>The <strong>power</strong> structure changed 30 times (10.00 per step).</li>\n"
+                        "</ul>\n</div>"));
+}
+
+TEST(HtmlReport, SentencesNameResidues) {
+  RunReport report = test::sample_report();
+  report.structures[1].places.by_bead = {1, 0, 5};
+  report.approach = ClosestApproach{{0, 2}, 7, 0.5, {1, 2}};
+  EXPECT_THAT(html_report(report), HasSubstr("(10.00 per step), most often at bead 2 (5).</li>"));
+  EXPECT_THAT(html_report(report), HasSubstr("<dd>bead 0 and bead 2 come nearest, to 2,"));
+  report.bead_names = {"N of ALA 59", "CA of ALA 59", "C of ALA 59"};
+  EXPECT_THAT(html_report(report), HasSubstr("most often at bead 2, C of ALA 59 (5).</li>"));
+  EXPECT_THAT(html_report(report),
+              HasSubstr("<dd>bead 0, N of ALA 59 and bead 2, C of ALA 59 come nearest, to 2,"));
+}
+
+TEST(HtmlReport, TitlesOfManyInputsAreShort) {
+  RunReport report = test::sample_report();
+  report.files = {"dir/a.pdb", "b.pdb"};
+  EXPECT_THAT(html_report(report), HasSubstr("<title>kds run: a.pdb, b.pdb</title>"));
+  report.files.assign(40, "a_trajectory_of_villin.dcd");
+  report.files[0] = "first_trajectory_of_villin.dcd";
+  EXPECT_THAT(html_report(report),
+              HasSubstr("<title>kds run: first_trajectory_of_villin.dcd and 39 more</title>"));
+}
+
+TEST(HtmlReport, OppositeKindsShareARow) {
+  RunReport report = test::sample_report();
+  report.structures[1].events_by_kind.emplace_back("4-1", 4);  // without its opposite
+  report.structures[0].events_by_kind.emplace_back("begin", 0);
+  report.structures[0].events_by_kind.emplace_back("end", 0);
+  const std::string html = html_report(report);
+  for (const char* bar : {"enter 3", "leave 2", "pivot 1", "2-3 17", "3-2 13", "4-1 4"})
+    EXPECT_EQ(count_of(html, ">" + std::string(bar) + "</text>"), 2U) << bar;  // wide and narrow
+  EXPECT_EQ(count_of(html, ">begin 0<") + count_of(html, ">end 0<"), 0U);
+  EXPECT_EQ(count_of(html, "with opposite kinds in one row"), 2U);
+}
+
+TEST(HtmlReport, EachStructureHasItsOwnScale) {
+  const std::string html = html_report(test::sample_report());
+  for (const char* name : {"wrapped", "power"})
+    EXPECT_EQ(count_of(html, "<h3>" + std::string(name) + "</h3>"), 2U);  // events per step, and so far
+  RunReport one = test::sample_report();
+  one.structures.pop_back();
+  EXPECT_EQ(count_of(html_report(one), "<h3>"), 0U);
+}
+
+TEST(HtmlReport, MapsOfEventsAndContacts) {
+  RunReport report = test::sample_report();
+  report.beads = 3;
+  EXPECT_THAT(html_report(report), Not(HasSubstr("Contact map")));
+  EXPECT_THAT(html_report(report), Not(HasSubstr("Over time along the chain")));
+  PlacesOfEvents& places = report.structures[1].places;
+  places.by_bead = {2, 0, 5};
+  places.grid.beads_per_block = 2;
+  places.grid.edges = {{10, {}}, {11, {}}, {14, {}}};
+  places.grid.counts = {{2, 0}, {0, 5}};
+  report.contact_pairs = {{0, 2, 0.5}, {1, 2, 0}};
+  report.bead_names = {"N of ALA 59", "CA of ALA 59", "C of ALA 59"};
+  const std::string html = html_report(report);
+  expect_sound(html);
+  for (const char* text : {"bead 0, N of ALA 59 to bead 1, CA of ALA 59\nframes 10 to 11\nevents: 2",
+                           "bead 2, C of ALA 59\nframes 11 to 14\nevents: 5",
+                           "bead 0, N of ALA 59 and bead 2, C of ALA 59\noccupancy: 0.5",
+                           "bead 1, CA of ALA 59 and bead 2, C of ALA 59\noccupancy: 0"})
+    EXPECT_EQ(count_of(html, "<title>" + std::string(text) + "</title>"), 2U) << text;
+  EXPECT_THAT(html, Not(HasSubstr("frames 10 to 11\nevents: 0")));
+}
+
+TEST(HtmlReport, TablesFillThePage) {
+  EXPECT_THAT(html_report(test::sample_report()), HasSubstr("\ntable { width: 100%;"));
 }
 
 // The time of a single run is one sample: the table shows it, but the findings do not.
@@ -108,7 +176,7 @@ TEST(HtmlReport, AxesShowTimesWhereTheyAreKnown) {
   };
   const std::string timed = html_with({2.5, 7.5, 12.5, 17.5});
   expect_sound(timed);
-  EXPECT_EQ(count_of(timed, ">time in picoseconds<"), 6U);  // three plots, wide and narrow
+  EXPECT_EQ(count_of(timed, ">time in picoseconds<"), 10U);  // five plots, wide and narrow
   EXPECT_EQ(count_of(timed, ">frame<"), 0U);
   EXPECT_THAT(timed, HasSubstr("17.5"));
   EXPECT_THAT(timed, Not(HasSubstr(">102<")));
@@ -118,7 +186,7 @@ TEST(HtmlReport, AxesShowTimesWhereTheyAreKnown) {
                                                           {1e300, 1.1e300, 1.2e300, 1.7e308}}) {
     const std::string numbered = html_with(times);
     EXPECT_EQ(count_of(numbered, ">time in picoseconds<"), 0U);
-    EXPECT_EQ(count_of(numbered, ">frame<"), 6U);
+    EXPECT_EQ(count_of(numbered, ">frame<"), 10U);
     EXPECT_THAT(numbered, HasSubstr("102"));
   }
 }

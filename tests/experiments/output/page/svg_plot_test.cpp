@@ -95,6 +95,29 @@ TEST(SvgPlot, EachSquareOfAMapHasItsValue) {
   EXPECT_EQ(count_of(html, "<title>bead 1, 0\nshare: 1</title>"), 2U);
 }
 
+TEST(SvgPlot, OppositeBarsStandOnBothSides) {
+  const std::string html = svg_plot(MirrorPlot{"events", {{{"in", 1200}, {"out", 30}}, {{"turn", 5}}}});
+  test::expect_nested(html);
+  for (const char* bar : {"in 1,200", "out 30", "turn 5"})
+    EXPECT_EQ(count_of(html, ">" + std::string(bar) + "</text>"), 2U) << bar;
+  EXPECT_EQ(count_of(html, "text-anchor=\"end\""), 2U);  // only `out`
+  test::expect_nested(svg_plot(MirrorPlot{"events", {{{"in", 0}, {"out", 0}}}}));
+}
+
+TEST(SvgPlot, HeatShowsItsValuesButNoZeros) {
+  const auto text = [](std::size_t c, std::size_t r) {
+    return "c" + std::to_string(c) + " r" + std::to_string(r);
+  };
+  HeatPlot plot{"frame", "bead", "events", {0, 1, 5}, {-0.5, 1.5, 2.5}, {{4, 0}, {1, 2}}, text};
+  const std::string html = svg_plot(plot);
+  test::expect_nested(html);
+  for (const char* square : {"c0 r0\nevents: 4", "c1 r0\nevents: 1", "c1 r1\nevents: 2"})
+    EXPECT_EQ(count_of(html, "<title>" + std::string(square) + "</title>"), 2U) << square;
+  EXPECT_THAT(html, Not(HasSubstr("c0 r1")));
+  plot.values = {{0, 0}, {0, 0}};
+  EXPECT_EQ(count_of(svg_plot(plot), "<title>"), 0U);
+}
+
 TEST(SvgPlot, BarsHaveTheirNamesAndValues) {
   const std::string html = svg_plot(BarPlot{"events", {{"tip 'edge'", 1200}, {"`date` $b @c", 0}}});
   expect_ticks(html, {"tip 'edge'", "`date` $b @c", "1,200", "0"});
