@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "experiments/output/page/svg_plot.h"
 
 namespace kds {
@@ -31,7 +33,7 @@ std::string contact_map(const std::string& label, const std::vector<std::string>
   constexpr std::size_t most_squares = 3000;
   std::map<std::pair<std::size_t, std::size_t>, const PairOccupancy*> squares;
   std::size_t block = 1;
-  for (;; ++block) {
+  for (;; block += std::max<std::size_t>(1, block / 4)) {
     squares.clear();
     for (const PairOccupancy& pair : pairs) {
       const PairOccupancy*& best = squares[{pair.first / block, pair.second / block}];

@@ -297,7 +297,7 @@ Drawing draw(const MirrorPlot& plot, DrawingSize size) {
     for (const MirrorPlot::Row& row : plot.rows) {
       const MirrorPlot::Bar& bar = row.*side;
       most = std::max(most, bar.value);
-      longest = std::max(longest, bar.name.size() + 1 + tick_label(bar.value).size());
+      longest = std::max(longest, bar.name.size() + 2 + tick_label(bar.value).size());
     }
     return std::min(letter * static_cast<double>(longest) + beside, most_room);
   };
@@ -316,9 +316,9 @@ Drawing draw(const MirrorPlot& plot, DrawingSize size) {
   const auto add = [&](const MirrorPlot::Bar& bar, std::size_t row, int sign) {
     if (bar.name.empty()) return;
     const std::string value = tick_label(bar.value);
-    const auto letters = static_cast<std::size_t>((most_room - beside) / letter) - value.size() - 1;
+    const auto letters = static_cast<std::size_t>((most_room - beside) / letter) - value.size() - 2;
     drawing.script += fmt::format("set label {} at {:.17g},{} {} textcolor rgb c_soft\n",
-                                  gnuplot_text(shortened(bar.name, letters) + " " + value), sign * bar.value,
+                                  gnuplot_text(shortened(bar.name, letters) + ": " + value), sign * bar.value,
                                   row, sign > 0 ? "left offset 0.8,0" : "right offset -0.8,0");
     data += fmt::format("{:.17g} {} {:.17g} 0.36\n", sign * bar.value / 2, row, bar.value / 2);
   };

@@ -65,9 +65,9 @@ TEST(HtmlReport, OppositeKindsShareARow) {
   report.structures[0].events_by_kind.emplace_back("begin", 0);
   report.structures[0].events_by_kind.emplace_back("end", 0);
   const std::string html = html_report(report);
-  for (const char* bar : {"enter 3", "leave 2", "pivot 1", "2-3 17", "3-2 13", "4-1 4"})
+  for (const char* bar : {"enter: 3", "leave: 2", "pivot: 1", "2-3: 17", "3-2: 13", "4-1: 4"})
     EXPECT_EQ(count_of(html, ">" + std::string(bar) + "</text>"), 2U) << bar;  // wide and narrow
-  EXPECT_EQ(count_of(html, ">begin 0<") + count_of(html, ">end 0<"), 0U);
+  EXPECT_EQ(count_of(html, ">begin: 0<") + count_of(html, ">end: 0<"), 0U);
   EXPECT_EQ(count_of(html, "with opposite kinds in one row"), 2U);
 }
 

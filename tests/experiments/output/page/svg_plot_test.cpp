@@ -98,7 +98,7 @@ TEST(SvgPlot, EachSquareOfAMapHasItsValue) {
 TEST(SvgPlot, OppositeBarsStandOnBothSides) {
   const std::string html = svg_plot(MirrorPlot{"events", {{{"in", 1200}, {"out", 30}}, {{"turn", 5}}}});
   test::expect_nested(html);
-  for (const char* bar : {"in 1,200", "out 30", "turn 5"})
+  for (const char* bar : {"in: 1,200", "out: 30", "turn: 5"})
     EXPECT_EQ(count_of(html, ">" + std::string(bar) + "</text>"), 2U) << bar;
   EXPECT_EQ(count_of(html, "text-anchor=\"end\""), 2U);  // only `out`
   test::expect_nested(svg_plot(MirrorPlot{"events", {{{"in", 0}, {"out", 0}}}}));
