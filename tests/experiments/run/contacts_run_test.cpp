@@ -347,7 +347,9 @@ TEST(ContactsRun, MapsAgreeWithTheFiles) {
       ASSERT_EQ(std::sscanf(text.c_str(), "bead %d,", &first), 1) << text;
       ASSERT_EQ(std::sscanf(text.c_str() + text.find(" and bead "), " and bead %d,", &second), 1) << text;
       const double share = lengths.at({first, second}) / (frames - 1 - begin);
-      if (share >= 0.001) EXPECT_NEAR(std::stod(last.substr(11)), share, 5e-4 * share) << text;
+      if (share >= 0.001) {
+        EXPECT_NEAR(std::stod(last.substr(11)), share, 5e-4 * share) << text;
+      }
       ++pairs;
     } else if (at > contacts_begin && last.starts_with("events: ")) {
       const std::size_t middle = text.find("\nframes ");
