@@ -256,7 +256,7 @@ std::string map_of(const ContactsReport& report, const ContactsFigures& figures)
   std::vector<PairOccupancy> pairs;
   for (const PairLifetimes& pair : figures.pairs)
     pairs.push_back({pair.first, pair.second, pair.occupancy()});
-  return contact_map(std::string(name_of(report.by)), report.elements.names, pairs);
+  return contact_map(std::string(name_of(report.by)), report.elements.names, pairs, 1000);
 }
 
 /// Returns the spans of the pairs with the most contacts. Spans that one pixel holds are joined.

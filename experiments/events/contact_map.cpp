@@ -29,10 +29,10 @@ std::vector<PairOccupancy> ContactOccupancy::pairs(double first, double last) co
 }
 
 std::string contact_map(const std::string& label, const std::vector<std::string>& names,
-                        const std::vector<PairOccupancy>& pairs) {
+                        const std::vector<PairOccupancy>& pairs, std::size_t most_names) {
   constexpr std::size_t most_squares = 3000;
   std::map<std::pair<std::size_t, std::size_t>, const PairOccupancy*> squares;
-  std::size_t block = 1;
+  std::size_t block = 1 + (names.size() - 1) / most_names;
   for (;; block += std::max<std::size_t>(1, block / 4)) {
     squares.clear();
     for (const PairOccupancy& pair : pairs) {

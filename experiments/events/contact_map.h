@@ -35,8 +35,9 @@ class ContactOccupancy final : public ContactsCsv {
 };
 
 /// Returns the map of these pairs as SVG. `names` are shown under the pointer. `label` says what they name,
-/// such as residue. If there are too many pairs, squares are blocks that show the largest occupancy within.
+/// such as residue. Squares are blocks that show the largest occupancy within if there are more names than
+/// `most_names`, or too many pairs.
 [[nodiscard]] std::string contact_map(const std::string& label, const std::vector<std::string>& names,
-                                      const std::vector<PairOccupancy>& pairs);
+                                      const std::vector<PairOccupancy>& pairs, std::size_t most_names);
 
 }  // namespace kds

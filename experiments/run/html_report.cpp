@@ -441,7 +441,7 @@ std::string contact_map_of(const RunReport& report) {
   std::vector<std::string> names;
   for (std::size_t bead = 0; bead < report.beads; ++bead) names.push_back(name_of(report, bead));
   return html_figure(
-      contact_map("bead", names, report.contact_pairs),
+      contact_map("bead", names, report.contact_pairs, 150),
       "Occupancy of each pair of beads: the share of the time from the first to the last frame, "
       "counted in frames, in which the pair is in contact.");
 }
