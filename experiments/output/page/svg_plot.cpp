@@ -290,7 +290,7 @@ Drawing draw(const BarPlot& plot, DrawingSize size) {
 
 Drawing draw(const MirrorPlot& plot, DrawingSize size) {
   constexpr double letter = 7.2, beside = 14;
-  const double most_room = is_wide(size) ? 300 : 140;
+  const double most_room = is_wide(size) ? 300 : 170;
   double most = 0;
   const auto room = [&](MirrorPlot::Bar MirrorPlot::Row::*side) {
     std::size_t longest = 0;
