@@ -41,7 +41,7 @@ std::string frames_at(const std::vector<std::string>& beads, const std::vector<d
   return frames;
 }
 
-// Returns the numbers of the lines of a CSV in these columns.
+// Returns the cells of each line of a CSV, without its header.
 std::vector<std::vector<std::string>> cells_of(const std::filesystem::path& path) {
   std::vector<std::vector<std::string>> rows;
   for (const std::string& line : lines_of(path)) {
