@@ -78,7 +78,8 @@ class Displacements {
 /// neighbouring beads are the rows. An event counts once for each of its beads, as in
 /// `PlacesOfEvents::by_bead`.
 struct EventGrid {
-  static constexpr std::size_t most_bins = 36, most_blocks = 24;  ///< keep pages below a megabyte
+  static constexpr std::size_t most_bins = 36,
+                               most_blocks = 24;  ///< keep the page of a structure below half a megabyte
 
   std::size_t steps_per_bin = 1, beads_per_block = 1;  ///< the last bin and the last block may have fewer
   std::vector<FrameStamp> edges;                       ///< frames at which the bins begin, and the last frame
