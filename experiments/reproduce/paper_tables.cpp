@@ -62,7 +62,7 @@ constexpr std::string_view kCascadeTestsDearer =
     "the cascade does fewer tests, but each costs more: it follows lists of cages, where naive tests run "
     "through memory in order; only the cascade's time includes the repair of bases";
 constexpr std::string_view kPairsCheaper =
-    "testing a pair in a loop has become 110 to 150 times faster since 2004, and a search of the "
+    "testing a pair in a loop has become about a hundred times faster since 2004, and a search of the "
     "hierarchy 20 to 50 times; searches of few beads have a fixed cost";
 constexpr std::string_view kShortSearches =
     "searches of microseconds vary by tens of percent from run to run";
