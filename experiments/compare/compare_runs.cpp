@@ -161,7 +161,8 @@ std::vector<CompareRow> run_once(const Scene& scene, const RunOptions& options,
   const RunReport report = report_of(run->session(), scene, options, counts);
   for (std::size_t s = 0; s < net.size(); ++s) {
     CompareRow& row = rows[s];
-    if (!is_instance_file(options.inputs.front())) row.motion = options.motion;
+    const bool has_own_motion = !options.inputs.empty() && is_instance_file(options.inputs.front());
+    if (!has_own_motion) row.motion = options.motion;
     row.beads = scene.bead_count();
     row.steps = scene.step_count();
     if (report.first_frame && report.first_frame->picoseconds && report.last_frame->picoseconds)

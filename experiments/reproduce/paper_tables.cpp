@@ -16,7 +16,7 @@ namespace {
 using Cells = std::vector<std::optional<double>>;  // the paper's values
 using Shared = std::shared_ptr<const Subject>;
 
-constexpr std::optional<double> absent = std::nullopt;
+constexpr std::optional<double> no_value = std::nullopt;
 
 // A row to measure: a subject at a frame.
 struct Case {
@@ -39,7 +39,7 @@ struct Outcome {
   std::string note = {};  // about this measurement
 };
 
-std::optional<double> ratio(double a, double b) { return a > 0 && b > 0 ? std::optional(a / b) : absent; }
+std::optional<double> ratio(double a, double b) { return a > 0 && b > 0 ? std::optional(a / b) : no_value; }
 
 PaperValue in_unit(const Timed& time, double per_second) {
   return Spread{time.seconds.median * per_second, time.seconds.least * per_second,
@@ -242,7 +242,7 @@ PaperTablePlan Planner::verification() const {
       "count beads and cages. The frontier of a node holds the cages and beads that the cascade found "
       "inside its sphere; it is averaged over all nodes, beads included."};
   const auto row = [&](const Case& c, double lazy, double cascade, double naive, double frontier) {
-    add(plan, c, {lazy, cascade, naive, ratio(lazy, naive), ratio(cascade, naive), absent, frontier},
+    add(plan, c, {lazy, cascade, naive, ratio(lazy, naive), ratio(cascade, naive), no_value, frontier},
         [](const Case& of, std::size_t rounds) -> Outcome {
           const Step m = step_of(*of.subject, of.frame, of.frame, rounds);
           return {{milliseconds(m.lazy), milliseconds(m.cascade), milliseconds(m.naive), m.lazy.per(m.naive),
@@ -299,8 +299,8 @@ Cells collision_cells(double quadratic, double wrapped, double wrapped_pairs, do
           wrapped_pairs,
           layered_pairs,
           edges,
-          absent,
-          absent};
+          no_value,
+          no_value};
 }
 
 Outcome measured_collision(const Case& of, std::size_t rounds) {
@@ -417,8 +417,8 @@ PaperTablePlan Planner::maintenance() const {
       "update the diagram by removing beads; rebuild builds it anew."};
   const auto row = [&](const Case& c, double cells, double bases, double lazy, double cascade, double naive) {
     add(plan, c,
-        {lazy, cascade, naive, ratio(lazy, naive), ratio(cascade, naive), absent, absent, cells, bases,
-         absent},
+        {lazy, cascade, naive, ratio(lazy, naive), ratio(cascade, naive), no_value, no_value, cells, bases,
+         no_value},
         [](const Case& of, std::size_t rounds) -> Outcome {
           const Step m = step_of(*of.subject, of.frame, of.frame + 1, rounds);
           const DiagramStep d = diagram_step_of(*of.subject, of.frame, of.frame + 1, rounds);
@@ -499,7 +499,7 @@ PaperTablePlan Planner::stability() const {
              kOtherSequence}
             .why({"bases_changed", "cells_changed"},
                  "another sequence, in vacuum at 400 K; the paper states neither solvent nor temperature"),
-        {lazy, cascade, naive, ratio(lazy, naive), ratio(cascade, naive), bases, cells, absent},
+        {lazy, cascade, naive, ratio(lazy, naive), ratio(cascade, naive), bases, cells, no_value},
         [](const Case& of, std::size_t rounds) -> Outcome {
           const Step m = step_of(*of.subject, 0, of.frame, rounds);
           return {{milliseconds(m.lazy), milliseconds(m.cascade), milliseconds(m.naive), m.lazy.per(m.naive),
@@ -581,7 +581,7 @@ PaperTablePlan Planner::two_rolling_spirals() const {
 
 std::optional<double> deviation_of(const PaperTable& table, const PaperRow& row, std::size_t column) {
   const std::optional<double>& paper = row.paper[column];
-  if (table.columns[column].quantity == Quantity::time || !paper || *paper == 0) return absent;
+  if (table.columns[column].quantity == Quantity::time || !paper || *paper == 0) return no_value;
   return row.ours[column].value / *paper - 1;
 }
 
