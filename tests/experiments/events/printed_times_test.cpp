@@ -29,7 +29,7 @@ std::string last_field(const std::string& line) { return line.substr(line.rfind(
 /// A ball of radius 1 that passes another ball and almost misses it.
 class Pass {
  public:
-  Pass(const ScratchDirectory& scratch, double y) : scratch_(scratch), y_(y) {
+  Pass(const ScratchDirectory& scratch, double y) : y_(y) {
     file_ = scratch.file("pass.xyz",
                          fmt::format("2\n\nC 0 0 0\nC {} {} 0\n2\n\nC 0 0 0\nC {} {} 0\n", from, y, to, y));
   }
@@ -50,7 +50,6 @@ class Pass {
 
  private:
   static constexpr double from = -10.3, to = 9.7;
-  const ScratchDirectory& scratch_;
   double y_;
   std::string file_;
 };

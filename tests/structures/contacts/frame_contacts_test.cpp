@@ -196,7 +196,7 @@ TEST(FrameContacts, AreThoseOfEachSampleAlone) {
     EXPECT_EQ(frames.exact(FrameContacts::plain).contacts, exact);
     EXPECT_EQ(frames.exact(FrameContacts::dual).contacts, dual);
   }
-  EXPECT_GT(contacts, rounds(1000U));
+  EXPECT_GT(contacts, rounds(400U));
 }
 
 // Contacts of a protein, sampled up to 256 times a frame: number, life and occupancy come to the exact ones.

@@ -134,8 +134,8 @@ TEST(BoxHierarchy, BallsInSpace) {
   EXPECT_GT((try_random_motions<BezierMotion<3, 1>>(6, Radii::any, 5)), 100U);
 }
 TEST(BoxHierarchy, BallsOnCurves) {
-  EXPECT_GT((try_random_motions<BezierMotion<2, 3>>(7, Radii::any, 3)), 100U);
-  EXPECT_GT((try_random_motions<BezierMotion<3, 3>>(8, Radii::any, 3)), 100U);
+  EXPECT_GT((try_random_motions<BezierMotion<2, 3>>(7, Radii::any, 3)), rounds(100U));
+  EXPECT_GT((try_random_motions<BezierMotion<3, 3>>(8, Radii::any, 3)), rounds(100U));
 }
 
 /// The events of a node, as (step, side, was, is), in order.
