@@ -108,7 +108,7 @@ class ChangedBeads final : public EventListener {
   std::vector<std::vector<BeadId>> beads_;
 };
 
-// What a structure has done so far.
+// The counts of a structure up to now.
 struct Done {
   std::uint64_t events = 0, created = 0, alive = 0;
   double seconds = 0;

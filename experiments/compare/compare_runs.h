@@ -47,7 +47,7 @@ class NetChanges {
   std::uint64_t count_ = 0;
 };
 
-/// What a structure does at the times of its events, without the starts of steps. The structure handles all
+/// The work of a structure at the times of its events, without the starts of steps. The structure handles all
 /// failures of one time together.
 struct EventCosts {
   std::uint64_t events = 0;         ///< internal ones included

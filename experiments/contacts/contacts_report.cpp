@@ -91,7 +91,7 @@ std::vector<PairRow> busiest_of(const ContactsReport& report, const ContactsFigu
   return rows;
 }
 
-/// What one way of looking tells: the exact contacts, or those at samples.
+/// The figures of one way of looking: the exact contacts, or those at samples.
 struct LookRow {
   std::optional<double> frames_apart;  ///< empty: exact
   std::optional<std::size_t> samples;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kHeadLine = 18;  // pixels from line to line
 
-// Where the names of a key stand: across and down from the upper left corner, in pixels.
+// Positions of the names of a key: across and down from the upper left corner, in pixels.
 std::vector<std::pair<double, double>> places_of(const std::vector<std::string>& names, double width,
                                                  bool below_title) {
   constexpr double letter = 6.9, mark = 28, left = 10;
