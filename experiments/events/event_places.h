@@ -79,7 +79,7 @@ class Displacements {
 /// `PlacesOfEvents::by_bead`.
 struct EventGrid {
   static constexpr std::size_t most_bins = 36,
-                               most_blocks = 24;  ///< keep the page of a structure below half a megabyte
+                               most_blocks = 24;  ///< bound the size of the page
 
   std::size_t steps_per_bin = 1, beads_per_block = 1;  ///< the last bin and the last block may have fewer
   std::vector<FrameStamp> edges;                       ///< frames at which the bins begin, and the last frame
