@@ -104,6 +104,10 @@ bool tells_no_cell(const Eigen::Vector3d& lengths) {
   return lengths.minCoeff() >= 0 && lengths.maxCoeff() <= 1;
 }
 
+// Returns whether a vector of this length may span a cell. Beyond 1e8 the rounding of a skewed cell may
+// exceed its shortest vector, and the search for the nearest image might take a step for each unit of length.
+bool is_length_of_cell(double length) { return length > 1 && length < 1e8; }
+
 // Returns the sum of the deviations of the logarithms of bond lengths from their median.
 double unlikeness(const Eigen::Matrix3Xd& chain) {
   std::vector<double> logs;
@@ -185,9 +189,8 @@ CellRead read_cell(const Eigen::Matrix3d& vectors, const std::array<bool, 3>& pe
     of_periodic.push_back(lengths[i]);
   }
   if (of_periodic.empty() || (lengths.allFinite() && tells_no_cell(lengths))) return {};
-  constexpr std::string_view expected = "finite and linearly independent vectors longer than 1";
-  const bool usable = cell.allFinite() && std::all_of(of_periodic.begin(), of_periodic.end(),
-                                                      [](double length) { return length > 1; });
+  constexpr std::string_view expected = "linearly independent vectors longer than 1 and shorter than 1e8";
+  const bool usable = cell.allFinite() && std::ranges::all_of(of_periodic, is_length_of_cell);
   if (!usable) return {std::nullopt, doubt_of(lengths, expected)};
   const ReducedBasis basis = LatticeReduction(cell).reduce();
   if (!is_independent(basis) || !(basis.vectors.col(0).norm() > 1))
@@ -197,8 +200,8 @@ CellRead read_cell(const Eigen::Matrix3d& vectors, const std::array<bool, 3>& pe
 
 CellRead read_cell_from_lengths(const Eigen::Vector3d& lengths, const Eigen::Vector3d& cosines) {
   if (lengths.allFinite() && tells_no_cell(lengths)) return {};
-  if (!lengths.allFinite() || lengths.minCoeff() <= 1)
-    return {std::nullopt, doubt_of(lengths, "finite lengths above 1")};
+  if (!(is_length_of_cell(lengths.minCoeff()) && is_length_of_cell(lengths.maxCoeff())))
+    return {std::nullopt, doubt_of(lengths, "lengths above 1 and below 1e8")};
   const auto [cos_alpha, cos_beta, cos_gamma] = std::array{cosines[0], cosines[1], cosines[2]};
   const double sin_gamma = std::sqrt(1 - cos_gamma * cos_gamma);
   const double y = (cos_alpha - cos_beta * cos_gamma) / sin_gamma;

@@ -24,8 +24,8 @@ struct CellRead {
 [[nodiscard]] bool is_space_group_p1(std::string_view group);
 
 /// Reads a cell from its three vectors (columns) and the axes that are periodic. A cell is used if its
-/// periodic vectors are finite and linearly independent, and no lattice vector is shorter than 1. Files
-/// without a cell write lengths from 0 to 1: these give no cell and no doubt.
+/// periodic vectors are linearly independent and shorter than 1e8, and no lattice vector is shorter than 1.
+/// Files without a cell write lengths from 0 to 1: these give no cell and no doubt.
 [[nodiscard]] CellRead read_cell(const Eigen::Matrix3d& vectors,
                                  const std::array<bool, 3>& periodic = {true, true, true});
 /// Reads a cell from the lengths of its vectors and the cosines of the angles between b and c, a and c, a

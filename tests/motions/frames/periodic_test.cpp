@@ -137,6 +137,29 @@ TEST(Periodic, NearestImagesInCellsOfAnyShape) {
   }
 }
 
+// The search for the nearest image ends, whatever the shape of a cell in use.
+TEST(Periodic, NearestImagesInExtremeCells) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> magnitude(0, 7.7), place(-1, 1);
+  int used = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    Cell cell;
+    for (Eigen::Index i = 0; i < 3; ++i)
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        cell(axis, i) = random() % 3 == 0 ? 0 : place(random) * std::pow(10, magnitude(random));
+    const CellRead read = read_cell(cell);
+    if (!read.cell) continue;
+    ++used;
+    const Images images(cell);
+    Eigen::Vector3d difference(place(random), place(random), place(random));
+    difference *= std::pow(10, magnitude(random));
+    const Eigen::Vector3d shift = images.nearest(difference);
+    EXPECT_EQ(shift, shift.array().round().matrix());
+    EXPECT_LE((difference + cell * shift).norm(), difference.norm() * (1 + 1e-9));
+  }
+  EXPECT_GT(used, 1000);
+}
+
 TEST(Periodic, VerySkewCellsMakeChainsWhole) {
   std::mt19937 random(6);
   const Frames truth = walk(random, 60, 10, {1.3, -0.7, 2.1});
@@ -193,6 +216,9 @@ TEST(Periodic, CellsThatAreNotUsedSayWhy) {
   EXPECT_NE(doubt({20, 0, 0}, {20.5, 0, 0}, {0, 0, 20}), "");  // a vector is shorter than 1 after reduction
   EXPECT_NE(doubt({20, 0, 0}, {20, 0.5, 0}, {0, 0, 20}), "");  // a vector is shorter than 1 after reduction
   EXPECT_NE(doubt({1e300, 0, 0}, {0, 1e300, 0}, {0, 0, 1e300}), "");  // the squares overflow
+  EXPECT_NE(doubt({-5e24, 0, 3e37}, {1.6e36, 1920, 0}, {20, 0, 40}),
+            "");  // steps to the image would be endless
+  EXPECT_NE(read_cell_from_lengths({20, 20, 1e30}, {0, 0, 0}).doubt, "");
   EXPECT_NE(read_cell_from_lengths({-9, 20, 20}, {0, 0, 0}).doubt, "");
   EXPECT_NE(read_cell_from_lengths({20, 20, nan}, {0, 0, 0}).doubt, "");
   EXPECT_NE(read_cell_from_angles({20, 20, 20}, {30, 30, 90}).doubt, "");
