@@ -14,6 +14,7 @@
 #include "experiments/scenes/info_command.h"
 #include "experiments/update/update_command.h"
 #include "motions/base/input_error.h"
+#include "tests/support/rounds.h"
 
 namespace kds::parse_options_fuzz_test {
 namespace {
@@ -133,7 +134,7 @@ template <class Parse>
 Outcomes fuzz(const std::vector<Arguments>& starts, Parse&& parse) {
   std::mt19937 random(20040614);
   Outcomes outcomes;
-  for (int round = 0; round < 6000; ++round) {
+  for (int round = 0; round < test::rounds(6000); ++round) {
     Arguments arguments = starts[random() % starts.size()];
     const std::size_t more = random() % 6;
     for (std::size_t i = 0; i < more; ++i) {
@@ -151,9 +152,9 @@ Outcomes fuzz(const std::vector<Arguments>& starts, Parse&& parse) {
       ++outcomes.refused;
     }
   }
-  EXPECT_GT(outcomes.accepted, 100U);
-  EXPECT_GT(outcomes.refused, 1000U);
-  EXPECT_GT(outcomes.helped, 100U);
+  EXPECT_GT(outcomes.accepted, test::rounds(100U));
+  EXPECT_GT(outcomes.refused, test::rounds(1000U));
+  EXPECT_GT(outcomes.helped, test::rounds(100U));
   return outcomes;
 }
 

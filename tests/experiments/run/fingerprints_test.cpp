@@ -164,7 +164,7 @@ void replay_all(Source source, const std::string& kernel) {
   std::string model;  // the model whose files are in the directory
   Words inputs;
   int rows = 0, replayed = 0;
-  constexpr int every = 3 / test::rounds(3);
+  constexpr int every = 7 / test::rounds(7);
   for (const Row& row : read_rows()) {
     if (source_of(row) != source || row.run.find("--kernel " + kernel) == std::string::npos) continue;
     if (!all_rows && row.replayed != "always") continue;

@@ -9,6 +9,7 @@
 #include "experiments/output/text.h"
 #include "experiments/run/run_options.h"
 #include "motions/base/input_error.h"
+#include "tests/support/rounds.h"
 
 namespace kds::parse_run_options_fuzz_test {
 namespace {
@@ -47,7 +48,7 @@ std::string random_word(std::mt19937& random) {
 TEST(RunOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
   std::mt19937 random(20040614);
   std::size_t accepted = 0, refused = 0, helped = 0;
-  for (int round = 0; round < 6000; ++round) {
+  for (int round = 0; round < test::rounds(6000); ++round) {
     Arguments arguments(random() % 7);
     for (std::string& word : arguments) word = random_word(random);
     try {
@@ -62,9 +63,9 @@ TEST(RunOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
       ++refused;
     }
   }
-  EXPECT_GT(accepted, 100U);
-  EXPECT_GT(refused, 1000U);
-  EXPECT_GT(helped, 100U);
+  EXPECT_GT(accepted, test::rounds(100U));
+  EXPECT_GT(refused, test::rounds(1000U));
+  EXPECT_GT(helped, test::rounds(100U));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <vector>
 
 #include "experiments/scenes/generate_command.h"
 #include "motions/base/input_error.h"
@@ -129,7 +131,13 @@ TEST(Generate, ShortGrillsAndSplinesMeet) {
                                         "-o", (directory / "g.xyz").string(), "--json", "-", "--quiet"});
     return Json::parse(run.out)["proper"].get<bool>();
   };
-  for (std::size_t beads = 2; beads < 90; ++beads) {
+#ifdef KDS_SANITIZED  // each case starts a process
+  const std::vector<std::size_t> counts{2, 3, 6, 7, 8, 39, 40, 41, 43, 44, 89};
+#else
+  std::vector<std::size_t> counts(88);
+  std::iota(counts.begin(), counts.end(), 2);
+#endif
+  for (const std::size_t beads : counts) {
     EXPECT_EQ(is_proper("grill", beads), beads == 2 || beads == 40 || beads >= 44) << beads;
     EXPECT_EQ(is_proper("spline", beads), beads != 7) << beads;
   }

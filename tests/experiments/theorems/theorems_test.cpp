@@ -215,11 +215,20 @@ TEST(Theorems, TimesHaveTheLeastAndTheMostOfTheRounds) {
 // Equal seeds give equal figures, except for times.
 TEST(Theorems, RowsFitsAndPage) {
   const ScratchDirectory scratch;
-  const ProgramRun run =
-      run_program({"theorems", "paths", "2.3", "groupings", "3.1", "3.2", "3.3", "3.5", "--beads", "4096",
-                   "--rounds", "1", "--seed", "5", "--out", scratch / "out"});
+  std::vector<std::string> arguments{"theorems", "paths", "2.3", "groupings", "3.1", "3.2", "3.3"};
+#ifdef KDS_SANITIZED
+  const bool closest_pair = false;  // takes nine tenths of the time; ClosestByDiagram.* covers it
+#else
+  const bool closest_pair = true;
+#endif
+  if (closest_pair) arguments.emplace_back("3.5");
+  for (const char* word : {"--beads", "4096", "--rounds", "1", "--seed", "5", "--out"})
+    arguments.push_back(word);
+  arguments.push_back(scratch / "out");
+  const ProgramRun run = run_program(arguments);
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("theorem 3.5: the closest pair is an edge"));
+  EXPECT_THAT(run.out,
+              HasSubstr(closest_pair ? "theorem 3.5: the closest pair is an edge" : "theorem 3.2: "));
   const Json json = Json::parse(content_of(scratch / "out/theorems.json"));
   EXPECT_EQ(json["command"].get<std::string>().rfind("kds theorems paths 2.3", 0), 0U);
   EXPECT_EQ(json["settings"]["seed"], 5);
@@ -252,12 +261,13 @@ TEST(Theorems, RowsFitsAndPage) {
     EXPECT_NEAR(fit["exponent"], 0.5, 1e-6);
     EXPECT_EQ(fit["sizes"], 9);
   }
-  EXPECT_EQ(json["fits"].size(), 4 + 4 + 5 + 5 + 5 + 2 + 4U);  // one fit of each series
+  EXPECT_EQ(json["fits"].size(), 4 + 4 + 5 + 5 + 5 + 2 + (closest_pair ? 4U : 0U));  // one fit of each series
   const std::string csv = content_of(scratch / "out/theorems.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), json["rows"].size() + 1);
   const std::string page = content_of(scratch / "out/report.html");
   expect_sound(page);
-  for (const char* part : {"Theorem 2.3", "Theorem 3.5", "<svg", "3.5 --beads 4096"})
+  for (const char* part :
+       {"Theorem 2.3", closest_pair ? "Theorem 3.5" : "Theorem 3.2", "<svg", " --beads 4096"})
     EXPECT_THAT(page, HasSubstr(part));
 
   const ProgramRun again = run_program({"theorems", "3.1", "--beads", "4096", "--seed", "5", "--json", "-"});

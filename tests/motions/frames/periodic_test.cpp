@@ -8,6 +8,7 @@
 #include <random>
 
 #include "tests/support/inputs/cells.h"
+#include "tests/support/rounds.h"
 
 namespace kds::periodic_test {
 namespace {
@@ -118,7 +119,7 @@ TEST(Periodic, NearestImagesInCellsOfAnyShape) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(-60, 60);
   std::uniform_int_distribution<int> multiple(-4, 4);
-  for (int round = 0; round < 40; ++round) {
+  for (int round = 0; round < test::rounds(40); ++round) {
     const Cell small =
         *test::cell_from_angles({12.0 + round % 3, 11, 13.0 + round % 5}, {60.0 + round, 70, 75});
     // These vectors span the same lattice, and may be arbitrarily oblique.
