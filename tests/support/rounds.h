@@ -1,7 +1,8 @@
 #pragma once
-// Sets how many rounds tests of random cases run.
+// Sets how many cases tests try in normal builds and under the sanitizers.
 
 #include <algorithm>
+#include <cstddef>
 
 namespace kds::test {
 
@@ -15,5 +16,13 @@ template <class Count>
   return all;
 #endif
 }
+
+/// The step from place to place in a file that a test damages at each place. Normal builds try every place.
+/// Under the sanitizers, tests `fuzz.readers.*` try thousands of damaged files of each format besides.
+#ifdef KDS_SANITIZED
+inline constexpr std::size_t step_of_places = 7;
+#else
+inline constexpr std::size_t step_of_places = 1;
+#endif
 
 }  // namespace kds::test

@@ -14,6 +14,7 @@
 #include "tests/motions/test_files.h"
 #include "tests/support/inputs/gro_text.h"
 #include "tests/support/inputs/netcdf_maker.h"
+#include "tests/support/rounds.h"
 
 namespace kds::reader_fuzz_test {
 namespace {
@@ -66,12 +67,16 @@ void expect_sound(const Trajectory& trajectory) {
   for (const std::string& warning : trajectory.warnings) ASSERT_EQ(warning.find('\n'), std::string::npos);
 }
 
+// A test needs more readable files than this, so that it does not see refusals alone. A tenth of the rounds
+// may have none.
+constexpr int least_accepted = test::rounds(100) == 100 ? 10 : -1;
+
 // Returns the number of files that could be read.
 template <class Read>
 int fuzz(const std::string& name, const std::string& bytes, int rounds, const Read& read) {
   std::mt19937 random(20);
   int accepted = 0;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < test::rounds(rounds); ++round) {
     const auto path = test::write_file(name, mutated(bytes, random));
     try {
       read(path);
@@ -118,7 +123,8 @@ void read_and_check(const std::filesystem::path& path, const ReadOptions& option
 
 TEST(ReaderFuzz, Dcd) {
   test::DcdMaker maker = test::DcdMaker::chain(4, 3);
-  EXPECT_GT(fuzz("a.dcd", maker.bytes(), 1500, [](const auto& path) { read_and_check(path); }), 10);
+  EXPECT_GT(fuzz("a.dcd", maker.bytes(), 1500, [](const auto& path) { read_and_check(path); }),
+            least_accepted);
   maker.cell = true;
   maker.free_atoms = {2, 4};
   maker.big_endian = true;
@@ -137,7 +143,7 @@ TEST(ReaderFuzz, Pdb) {
   for (const Selection selection : {Selection::automatic, Selection::all})
     EXPECT_GT(
         fuzz("a.pdb", text, 1500, [&](const auto& path) { read_and_check(path, {.selection = selection}); }),
-        10);
+        least_accepted);
 }
 
 TEST(ReaderFuzz, Gro) {
@@ -149,7 +155,7 @@ TEST(ReaderFuzz, Gro) {
   for (const Selection& selection : {Selection(), *Selection::parse("/")})
     EXPECT_GT(
         fuzz("a.gro", text, 1500, [&](const auto& path) { read_and_check(path, {.selection = selection}); }),
-        10);
+        least_accepted);
 }
 
 TEST(ReaderFuzz, Mmcif) {
@@ -160,7 +166,7 @@ TEST(ReaderFuzz, Mmcif) {
   const std::size_t end = text.find('\n', loop + 4000);
   text = "data_X\n_cell.length_a 1\nloop_\n_entity.id\n_entity.type\n1 polymer\n" +
          text.substr(loop, end - loop + 1);
-  EXPECT_GT(fuzz("a.cif", text, 1500, [](const auto& path) { read_and_check(path); }), 10);
+  EXPECT_GT(fuzz("a.cif", text, 1500, [](const auto& path) { read_and_check(path); }), least_accepted);
 }
 
 TEST(ReaderFuzz, Netcdf) {
@@ -168,7 +174,8 @@ TEST(ReaderFuzz, Netcdf) {
     test::NetcdfMaker maker = test::NetcdfMaker::chain(4, 3);
     maker.version = version;
     maker.cell = {30, 40, 50, 90, 90, 90};
-    EXPECT_GT(fuzz("a.nc", maker.bytes(), 1000, [](const auto& path) { read_and_check(path); }), 10);
+    EXPECT_GT(fuzz("a.nc", maker.bytes(), 1000, [](const auto& path) { read_and_check(path); }),
+              least_accepted);
   }
 }
 
@@ -179,14 +186,14 @@ TEST(ReaderFuzz, Lammps) {
       "ITEM: ATOMS id xs ys zs ix iy iz element \n3 0.3 0.1 0 0 0 0 C \n1 0.1 0.1 0 0 1 0 N \n2 0.2 0 0 0 0 "
       "0 O \n";
   const std::string text = "ITEM: UNITS\nreal\nITEM: TIME\n0.5\n" + frame + "ITEM: TIME\n1.5\n" + frame;
-  EXPECT_GT(fuzz("a.dump", text, 1500, [](const auto& path) { read_and_check(path); }), 10);
+  EXPECT_GT(fuzz("a.dump", text, 1500, [](const auto& path) { read_and_check(path); }), least_accepted);
 }
 
 TEST(ReaderFuzz, Xyz) {
   const std::string text =
       "3\nLattice=\"10 0 0 0 10 0 0 0 10\"\nC 0 0 0\nN 1.5 0 0\nO 3 0 0\n3\nnext\nC 0 1 0\nN 1.5 1 0\nO 3 1 "
       "0\n";
-  EXPECT_GT(fuzz("a.xyz", text, 2000, [](const auto& path) { read_and_check(path); }), 10);
+  EXPECT_GT(fuzz("a.xyz", text, 2000, [](const auto& path) { read_and_check(path); }), least_accepted);
 }
 
 TEST(ReaderFuzz, ExtendedXyz) {
@@ -196,7 +203,7 @@ TEST(ReaderFuzz, ExtendedXyz) {
       "1 N 0 0 0\n2 CA 9.5 0 1d0\n2\nlattice=\"10 0 0 45 10 0 0 0 10\" tags={a b} "
       "Properties=id:I:1:species:S:1:pos:R:3\n"
       "1 N 0 1 0\n2 CA 1.5 1 0\n";
-  EXPECT_GT(fuzz("a.extxyz", text, 3000, [](const auto& path) { read_and_check(path); }), 10);
+  EXPECT_GT(fuzz("a.extxyz", text, 3000, [](const auto& path) { read_and_check(path); }), least_accepted);
 }
 
 TEST(ReaderFuzz, Gzipped) {
@@ -225,7 +232,7 @@ TEST(ReaderFuzz, Instance) {
                              instance.point_count() * static_cast<std::size_t>(instance.columns) *
                                  static_cast<std::size_t>(instance.degree + 1));
                  }),
-            10);
+            least_accepted);
 }
 
 TEST(ReaderFuzz, Topology) {
