@@ -128,7 +128,7 @@ TEST_P(BoundedPolynomials, WellConditionedOnesAreSettled) {
 
 TEST_P(BoundedPolynomials, VerdictsHoldWithinTheError) {
   Random random(402);
-  const int cases = degree() > 6 ? 200 : 1000;
+  const int cases = test::rounds(degree() > 6 ? 200 : 1000);
   for (int i = 0; i < cases && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE("seed 402, case " + std::to_string(i));
     Coefficients<double> c = fresh();
@@ -172,7 +172,7 @@ TEST_P(BoundedPolynomials, ValuesErrAsLittleAsClaimed) {
 // Uncertain coefficients between certain ones: their signs may alternate.
 TEST_P(BoundedPolynomials, DoubtfulCoefficientsProveNothing) {
   Random random(403);
-  const int cases = degree() > 6 ? 100 : 400;
+  const int cases = test::rounds(degree() > 6 ? 100 : 400);
   for (int i = 0; i < cases && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE("seed 403, case " + std::to_string(i));
     Coefficients<double> c = fresh();

@@ -98,8 +98,8 @@ TYPED_TEST(ChordCagesIn, HoldEveryBeadAtAllTimesOnHardMotions) {
         set_radii(motion, random, which);
         const bool fits = kind != MotionKind::mixed_scales || exponent == 0;
         if (fits) scale(motion, exponent);
-        expect_to_hold<Wrapped>(std::vector{motion}, random, 6);
-        expect_to_hold<Layered>(std::vector{motion}, random, 6);
+        expect_to_hold<Wrapped>(std::vector{motion}, random, rounds(6, 3));
+        expect_to_hold<Layered>(std::vector{motion}, random, rounds(6, 3));
         ASSERT_FALSE(this->HasFatalFailure())
             << "kind " << static_cast<int>(kind) << ", radii " << which << ", 2^" << exponent;
       }
@@ -111,7 +111,7 @@ TYPED_TEST(ChordCagesIn, HoldEveryBeadAtAllTimesOnHardMotions) {
 TYPED_TEST(ChordCagesIn, HoldBeadsThatTurnFast) {
   constexpr int d = TypeParam::dimension;
   Random random(2);
-  for (int round = 0; round < 20; ++round) {
+  for (int round = 0; round < rounds(20, 4); ++round) {
     TypeParam motion(12);
     for (BeadId b = 0; b < 12; ++b) {
       const double angle = uniform(random, 0, 7), turn = (b % 2 == 0 ? 1 : -1) * uniform(random, 2, 4);
@@ -133,7 +133,7 @@ TYPED_TEST(ChordCagesIn, HoldBeadsThatTurnFast) {
 TYPED_TEST(ChordCagesIn, AreTheSmallestSpheresAtControlPoints) {
   constexpr int d = TypeParam::dimension;
   Random random(3);
-  for (int round = 0; round < 6; ++round) {
+  for (int round = 0; round < rounds(6, 3); ++round) {
     std::vector<TypeParam> steps;
     for (int s = 0; s < 4; ++s) {
       auto motion = random_motion<TypeParam>(random, 17, MotionKind::generic);
@@ -201,7 +201,7 @@ TEST(ChordCages, HoldEveryBeadOfTrajectories) {
 TEST(ChordCages, RadiiAreRoundedUpOnHardSets) {
   std::mt19937 random(5);
   for (std::size_t which = 0; which < hard_ball_sets; ++which) {
-    for (int round = 0; round < 6; ++round) {
+    for (int round = 0; round < rounds(6, 2); ++round) {
       const BallSet set = hard_ball_set(random, which, 9, round % 2 == 0, false);
       BezierMotion<3, 1> motion(9);
       for (BeadId b = 0; b < 9; ++b) {
@@ -242,7 +242,7 @@ TEST(ChordHierarchy, PassesItsAuditsAndRefusesChanges) {
 
 TEST(RoundedUp, IsNeverTooSmall) {
   Random random(7);
-  for (int round = 0; round < 20000; ++round) {
+  for (int round = 0; round < rounds(20000); ++round) {
     const int exponent = pick(random, -1070, 1020);
     Point<3> a, b;
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -153,8 +153,8 @@ TEST(Detectors, OfGridsThatTouch) {
     ask_all_about_a_grid<2>(5, scale, {0, 0, 0});
     ask_all_about_a_grid<3>(3, scale, {0, 0, 0});
   }
-  ask_all_about_a_grid<2>(30, 1, {0, 0, 0});
-  ask_all_about_a_grid<3>(10, 1, {0, 0, 0});
+  ask_all_about_a_grid<2>(rounds(30U, 12U), 1, {0, 0, 0});
+  ask_all_about_a_grid<3>(rounds(10U, 6U), 1, {0, 0, 0});
 }
 
 TEST(Detectors, OfCoincidentBeadsAndPoints) {
