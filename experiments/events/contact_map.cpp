@@ -41,10 +41,14 @@ std::string contact_map(const std::string& label, const std::vector<std::string>
     }
     if (squares.size() <= most_squares) break;
   }
+  constexpr std::size_t most_letters = 8;  // of a name at a tick
+  const bool are_short =
+      std::ranges::all_of(names, [](const std::string& name) { return name.size() <= most_letters; });
   const auto side = static_cast<double>(block);
   MapPlot map{label, block == 1 ? "occupancy" : fmt::format("largest occupancy of {0} x {0}", block),
               -0.5,  static_cast<double>(names.size()) - 0.5,
               side,  {}};
+  if (are_short) map.name_of = [&](std::size_t place) { return names[std::min(place, names.size() - 1)]; };
   for (const auto& [place, pair] : squares) {
     const auto middle = [&](std::size_t index) { return (static_cast<double>(index) + 0.5) * side - 0.5; };
     map.squares.push_back({middle(place.first), middle(place.second), pair->occupancy,

@@ -34,9 +34,9 @@ class ContactOccupancy final : public ContactsCsv {
   std::map<std::pair<BeadId, BeadId>, double> open_;     // frames at which the others began
 };
 
-/// Returns the map of these pairs as SVG. `names` are shown under the pointer. `label` says what they name,
-/// such as residue. Squares are blocks that show the largest occupancy within if there are more names than
-/// `most_names`, or too many pairs.
+/// Returns the map of these pairs as SVG. `names` are shown under the pointer, and at the ticks if they are
+/// short enough. `label` says what they name, such as residue. Squares are blocks that show the largest
+/// occupancy within if there are more names than `most_names`, or too many pairs.
 [[nodiscard]] std::string contact_map(const std::string& label, const std::vector<std::string>& names,
                                       const std::vector<PairOccupancy>& pairs, std::size_t most_names);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -36,9 +37,11 @@ void Displacements::add_frame(Eigen::Matrix3Xd centers, const FrameStamp& stamp)
   last_stamp_ = stamp;
 }
 
-EventGrid::EventGrid(const Scene& scene)
-    : steps_per_bin(bin_width(scene.step_count(), most_bins)),
-      beads_per_block(bin_width(scene.bead_count(), most_blocks)) {
+EventGrid::EventGrid(const Scene& scene, std::size_t grids) {
+  const double share = std::sqrt(std::min(1.0, 2.0 / static_cast<double>(grids)));
+  const auto most = [share](std::size_t all) { return static_cast<std::size_t>(share * double(all)); };
+  steps_per_bin = bin_width(scene.step_count(), std::max<std::size_t>(2, most(most_bins)));
+  beads_per_block = bin_width(scene.bead_count(), std::max<std::size_t>(2, most(most_blocks)));
   for (std::size_t step = 0; step < scene.step_count(); step += steps_per_bin)
     edges.push_back(scene.stamp(step));
   counts.assign(edges.size(),
@@ -57,7 +60,7 @@ EventPlaces::EventPlaces(const Session& session, const Scene& scene)
   for (const KineticStructure* structure : session.structures()) {
     PlacesOfEvents& places = places_.emplace_back();
     places.by_bead.resize(scene.bead_count(), 0);
-    places.grid = EventGrid(scene);
+    places.grid = EventGrid(scene, session.structures().size());
     for (const EventKind& kind : structure->kinds())
       for (const IdRole& role : kind.roles)
         if (role.of == IdRole::Of::node) places.by_level.resize(level_count, 0);

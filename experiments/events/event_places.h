@@ -78,15 +78,16 @@ class Displacements {
 /// neighbouring beads are the rows. An event counts once for each of its beads, as in
 /// `PlacesOfEvents::by_bead`.
 struct EventGrid {
-  static constexpr std::size_t most_bins = 36,
-                               most_blocks = 24;  ///< bound the size of the page
+  /// Bound the size of the page. More than two grids share the places of two.
+  static constexpr std::size_t most_bins = 36, most_blocks = 24;
 
   std::size_t steps_per_bin = 1, beads_per_block = 1;  ///< the last bin and the last block may have fewer
   std::vector<FrameStamp> edges;                       ///< frames at which the bins begin, and the last frame
   std::vector<std::vector<std::uint64_t>> counts;      ///< by bin, then by block
 
   EventGrid() = default;
-  explicit EventGrid(const Scene& scene);
+  /// `grids` is the number of grids of the run.
+  EventGrid(const Scene& scene, std::size_t grids);
 };
 
 /// The places of a structure's external events: along the chain, and by depth in its tree.

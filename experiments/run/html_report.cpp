@@ -18,6 +18,7 @@
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
+#include "motions/readers/bead_name.h"
 
 namespace kds {
 
@@ -436,10 +437,37 @@ std::string plots_by_kind(const RunReport& report) {
   return html;
 }
 
+// Returns the parts of a bead's name, or nothing if the input has no names.
+std::optional<BeadName> parts_of(const RunReport& report, std::size_t bead) {
+  return bead < report.bead_names.size() ? bead_name_of(report.bead_names[bead]) : std::nullopt;
+}
+
+// Returns "LEU 69", with the chain if the input has several.
+std::string residue_of(const RunReport& report, const BeadName& bead) {
+  const auto first = parts_of(report, 0), last = parts_of(report, report.beads - 1);
+  const bool one_chain = first && last && first->chain == last->chain;
+  return fmt::format("{} {}{}", bead.residue, bead.number, one_chain ? "" : " in chain " + bead.chain);
+}
+
+// Names a bead by its atom and residue, or by its number if the input has no names.
+std::string short_name_of(const RunReport& report, std::size_t bead) {
+  const auto parts = parts_of(report, bead);
+  return parts ? parts->atom + " of " + residue_of(report, *parts) : name_of(report, bead);
+}
+
+// Names a block of neighbouring beads by its residues, or by numbers of beads if the input has no names.
+std::string block_text(const RunReport& report, std::size_t first, std::size_t last) {
+  const auto from = parts_of(report, first), to = parts_of(report, last);
+  if (first == last) return short_name_of(report, first);
+  if (!from || !to) return fmt::format("beads {} to {}", first, last);
+  const std::string one = residue_of(report, *from), other = residue_of(report, *to);
+  return one == other ? one : one + " to " + other;
+}
+
 std::string contact_map_of(const RunReport& report) {
   if (report.contact_pairs.empty()) return "";
   std::vector<std::string> names;
-  for (std::size_t bead = 0; bead < report.beads; ++bead) names.push_back(name_of(report, bead));
+  for (std::size_t bead = 0; bead < report.beads; ++bead) names.push_back(short_name_of(report, bead));
   return html_figure(
       contact_map("bead", names, report.contact_pairs, 150),
       "Occupancy of each pair of beads: the share of the time from the first to the last frame, "
@@ -464,8 +492,7 @@ std::string maps_over_time(const RunReport& report) {
     for (const auto& bin : grid.counts) plot.values.emplace_back(bin.begin(), bin.end());
     plot.text = [&](std::size_t bin, std::size_t block) {
       const std::size_t first = first_of(block), last = first_of(block + 1) - 1;
-      return fmt::format("{}{}\nframes {} to {}", name_of(report, first),
-                         first == last ? "" : " to " + name_of(report, last), grid.edges[bin].number,
+      return fmt::format("{}\nframes {} to {}", block_text(report, first, last), grid.edges[bin].number,
                          grid.edges[bin + 1].number);
     };
     html += html_figure(

@@ -39,10 +39,10 @@ std::string key_name(const std::string& name) { return shortened(name, 72); }
 
 bool is_wide(const DrawingSize& size) { return size.width > 500; }
 DrawingSize wide(double height) { return {860, height, 64, 32, 26, 48}; }
-DrawingSize narrow(double height) { return {360, height, 64, 32, 26, 48}; }
+DrawingSize narrow(double height) { return {360, height, 64, 32, 26, 48, false, 0, false}; }
 
 DrawingSize paper(double height, const std::string& title, const std::vector<std::string>& names) {
-  DrawingSize size{560, height, 64, 32, 26, 48, true};
+  DrawingSize size{560, height, 64, 32, 26, 48, true, 0, false};
   if (names.size() > 1)
     size.head = places_of(names, size.width, !title.empty()).back().second + kHeadLine / 2;
   else if (!title.empty())

@@ -19,7 +19,7 @@ struct Drawing {
   std::vector<std::string> texts;  ///< shown under the pointer
 };
 
-/// Drawings as wide as the page's column, and as wide as a telephone's screen.
+/// Drawings as wide as the page's column, and as wide as a telephone's screen, which has no pointer.
 [[nodiscard]] bool is_wide(const DrawingSize& size);
 [[nodiscard]] DrawingSize wide(double height);
 [[nodiscard]] DrawingSize narrow(double height);

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <system_error>
@@ -155,49 +156,137 @@ std::string in_page_colours(std::string_view line) {
   }
 }
 
+// Returns the number with `digits` decimals and without zeros at its end.
+std::string tenths(double value, int digits = 1) {
+  std::string text = fmt::format("{:.{}f}", value, digits);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  if (text.starts_with("0.")) text.erase(0, 1);
+  return text == "-0" ? "0" : text;
+}
+
+// A path of straight lines as it is written: M x y, L x y, or H x and V y if one coordinate stays.
+class PathText {
+ public:
+  void move(double x, double y) { put('M', tenths(x), tenths(y)); }
+  void line(double x, double y) {
+    const std::string to_x = tenths(x), to_y = tenths(y);
+    if (to_x == x_ && to_y == y_) return;
+    if (to_y == y_) {
+      text_ += 'H' + (x_ = to_x);
+    } else if (to_x == x_) {
+      text_ += 'V' + (y_ = to_y);
+    } else {
+      put('L', to_x, to_y);
+    }
+  }
+  void close() { text_ += 'Z'; }
+  [[nodiscard]] std::string take() { return std::move(text_); }
+
+ private:
+  void put(char command, const std::string& x, const std::string& y) {
+    text_ += command + x + ' ' + y;
+    x_ = x;
+    y_ = y;
+  }
+  std::string text_, x_, y_;
+};
+
+// Reads "x,y", with or without a letter before it.
+std::pair<double, double> point_of(std::string_view word) {
+  return {number_after<double>(word, ""), number_after<double>(word, ",")};
+}
+
+// Returns the path of a polygon that gnuplot writes as "x,y x,y ...".
+std::string polygon_path(std::string_view points) {
+  PathText path;
+  bool is_first = true;
+  for (const std::string& word : split(points, ' ')) {
+    if (word.find(',') == std::string::npos) continue;
+    const auto [x, y] = point_of(word);
+    std::exchange(is_first, false) ? path.move(x, y) : path.line(x, y);
+  }
+  path.close();
+  return path.take();
+}
+
+// Shortens the path of a line of gnuplot, which consists of Mx,y and Lx,y.
+std::string compact(std::string_view line) {
+  constexpr std::string_view before = "d='";
+  const std::size_t start = line.find(before);
+  const std::size_t end = start == std::string_view::npos ? start : line.find('\'', start + before.size());
+  if (end == std::string_view::npos) return std::string(line);
+  PathText path;
+  for (const std::string& word :
+       split(line.substr(start + before.size(), end - start - before.size()), ' ')) {
+    if (word.empty()) continue;
+    if (word[0] != 'M' && word[0] != 'L') return std::string(line);
+    const auto [x, y] = point_of(std::string_view(word).substr(1));
+    word[0] == 'M' ? path.move(x, y) : path.line(x, y);
+  }
+  return std::string(line.substr(0, start)) + "d='" + path.take() + std::string(line.substr(end));
+}
+
 class Rewriter {
  public:
   Rewriter(TextsOf of, const std::vector<std::string>& texts) : of_(of), texts_(texts) {}
 
   void add(std::string_view line) {
     line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-    if (line.empty() || line.starts_with("<rect")) return;  // the page provides the background
-    if (line.starts_with("<g onmousemove")) {
-      text_ = number_after<std::size_t>(line, "showHypertext(evt,'");
-      if (text_ >= texts_.size()) fail("expected fewer hypertexts");
-    } else if (line.starts_with("<use")) {
-      mark(line);
-    } else if (line.starts_with("<polygon") && of_ == TextsOf::squares && !texts_.empty()) {
-      if (placed_ == texts_.size()) fail("expected fewer squares");
-      emit("<polygon class=\"square\"" + in_page_colours(line.substr(8, line.rfind("/>") - 8)) + ">" +
-           title(texts_[placed_++]) + "</polygon>" + std::string(line.substr(line.rfind("/>") + 2)));
-    } else if (line.starts_with("<g id=")) {  // a plot with its title
-      emit("<g>");
-    } else if (line.starts_with("<g fill=\"none\"")) {
-      groups_.emplace_back(line);
-    } else if (line == "</g>" && !groups_.empty()) {
-      groups_.pop_back();  // a group without content
-    } else if (line.starts_with("<path") && number_of_colour(line) < series_colours) {
-      emit("<path class=\"curve\"" + in_page_colours(line.substr(5)));
-    } else {
-      emit(in_page_colours(line));
-    }
+    if (unfinished_.empty() && !line.starts_with("<path") && !line.starts_with("<polygon"))
+      return add_element(line);
+    unfinished_ += (unfinished_.empty() ? "" : " ") + std::string(line);  // gnuplot breaks long paths
+    if (unfinished_.find("/>") != std::string::npos) add_element(std::exchange(unfinished_, ""));
   }
 
   std::string finish(const DrawingSize& size) {
+    end_squares();
     for (std::size_t k = 0; k < strips_.size(); ++k) {
       const auto& [at, text] = strips_[k];
       const double from = k == 0 ? size.left : (strips_[k - 1].first + at) / 2;
       const double to = k + 1 == strips_.size() ? size.width - size.right : (at + strips_[k + 1].first) / 2;
-      emit(fmt::format("<rect class=\"hot\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\">",
-                       from, size.top, to - from, size.height - size.bottom - size.top) +
-           title(texts_[text]) + "</rect>");
+      emit(fmt::format("<path class=\"hot\" d=\"M{} {}H{}V{}H{}Z\">", tenths(from), tenths(size.top),
+                       tenths(to), tenths(size.height - size.bottom), tenths(from)) +
+           title(texts_[text]) + "</path>");
     }
     if (placed_ != texts_.size()) fail(fmt::format("expected {} texts, found {}", texts_.size(), placed_));
     return std::move(svg_);
   }
 
  private:
+  void add_element(std::string_view line) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (const std::size_t end = line.find("/>"); line.starts_with("<path") && end + 2 < line.size()) {
+      add_element(line.substr(0, end + 2));  // a group may begin or end behind a path
+      line.remove_prefix(end + 2);
+      return add_element(line);
+    }
+    if (line.empty() || line.starts_with("<rect")) return;  // the page provides the background
+    if (!line.starts_with("<polygon")) end_squares();
+    if (line.starts_with("<g onmousemove")) {
+      text_ = number_after<std::size_t>(line, "showHypertext(evt,'");
+      if (text_ >= texts_.size()) fail("expected fewer hypertexts");
+    } else if (line.starts_with("<use")) {
+      mark(line);
+    } else if (line.starts_with("<polygon") && of_ == TextsOf::squares) {
+      square(line);
+    } else if (line.starts_with("<g id=")) {  // a plot with its title
+      emit("<g>");
+    } else if (line.starts_with("<g fill=\"none\"")) {
+      groups_.push_back(group(line));
+    } else if (line == "</g>" && !groups_.empty()) {
+      groups_.pop_back();  // a group without content
+    } else if (line.starts_with("<polygon")) {
+      polygon(line);
+    } else if (line.starts_with("<g transform=")) {
+      emit(group_of_text(line));
+    } else if (line.starts_with("<path") && number_of_colour(line) < series_colours) {
+      emit("<path class=\"curve\"" + in_page_colours(compact(line.substr(5))));
+    } else {
+      emit(in_page_colours(line));
+    }
+  }
+
   static std::size_t number_of_colour(std::string_view line) {
     const std::size_t start = line.find("rgb(");
     if (start == std::string_view::npos) return page_colours.size();
@@ -210,6 +299,59 @@ class Rewriter {
     groups_.clear();
     svg_ += line;
     svg_ += '\n';
+  }
+
+  // Return the start of a group, without what the page's style says.
+  static std::string group(std::string_view line) {
+    const auto width = number_after<double>(line, "stroke-width=\"");
+    return width == 1 ? "<g>" : fmt::format("<g stroke-width=\"{}\">", tenths(width));
+  }
+  static std::string group_of_text(std::string_view line) {
+    const std::size_t style = line.find(" stroke="), anchor = line.find(" text-anchor=");
+    if (style > anchor || anchor == std::string_view::npos) return in_page_colours(line);
+    return std::string(line.substr(0, style)) + std::string(line.substr(anchor));
+  }
+
+  // Returns where the points of a polygon begin and end in its line.
+  static std::pair<std::size_t, std::size_t> points_of(std::string_view line) {
+    constexpr std::string_view before = "points = '";
+    const std::size_t start = line.find(before);
+    const std::size_t end = start == std::string_view::npos ? start : line.find('\'', start + before.size());
+    if (end == std::string_view::npos) fail("expected a polygon");
+    return {start + before.size(), end};
+  }
+
+  void polygon(std::string_view line) {
+    const auto [points, end] = points_of(line);
+    const std::size_t name = line.find("points"), first = std::string_view("<polygon").size();
+    emit("<path" + in_page_colours(line.substr(first, name - first)) + "d='" +
+         polygon_path(line.substr(points, end - points)) + std::string(line.substr(end)));
+  }
+
+  // Writes a square with its text. Without texts, collects the squares of each opacity.
+  void square(std::string_view line) {
+    constexpr std::string_view before_opacity = "fill-opacity='";
+    const auto [points, points_end] = points_of(line);
+    const std::string path = polygon_path(line.substr(points, points_end - points));
+    const std::string opacity =
+        line.find(before_opacity) == std::string_view::npos
+            ? ""
+            : fmt::format(" opacity=\"{}\"", tenths(number_after<double>(line, before_opacity), 2));
+    if (!std::exchange(in_squares_, true)) emit("<g class=\"squares\">");
+    if (texts_.empty()) {
+      joined_[opacity] += path;
+    } else {
+      if (placed_ == texts_.size()) fail("expected fewer squares");
+      emit(fmt::format("<path{} d=\"{}\">", opacity, path) + title(texts_[placed_++]) + "</path>");
+    }
+    if (const std::string_view tail = line.substr(line.rfind("/>") + 2); !tail.empty()) add_element(tail);
+  }
+
+  void end_squares() {
+    if (!std::exchange(in_squares_, false)) return;
+    for (const auto& [opacity, path] : joined_) emit(fmt::format("<path{} d=\"{}\"/>", opacity, path));
+    joined_.clear();
+    emit("</g>");
   }
 
   // Writes a mark, which is a circle.
@@ -238,6 +380,9 @@ class Rewriter {
   const std::vector<std::string>& texts_;
   std::vector<std::string> groups_;  ///< opened groups that have no content yet
   std::size_t text_ = no_text, placed_ = 0;
+  bool in_squares_ = false;
+  std::string unfinished_;                     ///< the first lines of an element
+  std::map<std::string, std::string> joined_;  ///< paths of the squares by opacity
   std::vector<std::pair<double, std::size_t>> strips_;
   std::string svg_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 // Runs gnuplot, and converts its drawings into elements of a page: with the page's colours and font, with
-// texts under the pointer, and without ids, which could clash between two drawings.
+// texts under the pointer, and without ids, which could clash between two drawings. Coordinates are rounded
+// to a tenth of a pixel, because pages have many of them.
 
 #include <array>
 #include <cstddef>
@@ -23,15 +24,16 @@ void require_gnuplot_pdf(std::string_view option);
 /// The size of a drawing and the margins around its axes, in pixels.
 struct DrawingSize {
   double width, height, left, right, top, bottom;
-  bool for_paper = false;  ///< whether nothing lies under a pointer
-  double head = 0;         ///< room above the top margin for title and key of a paper's drawing
+  bool for_paper = false;
+  double head = 0;        ///< room above the top margin for title and key of a paper's drawing
+  bool has_texts = true;  ///< whether texts lie under the pointer: not on paper, nor on telephones
 };
 
 /// The kind of element to which the texts of a drawing belong.
 enum class TextsOf {
   marks,   ///< text K belongs to hypertext label K, which has a point
   strips,  ///< as `marks`, but over the full height and halfway to both neighbours
-  squares  ///< the K-th filled polygon
+  squares  ///< the K-th filled polygon; all have the colour of series 0. Without texts, they are joined
 };
 
 /// The page's style variables. A script names the colour of variable `soft` c_soft.

@@ -108,9 +108,12 @@ svg.wide { display: block; }
 svg.narrow { display: none; }
 svg text { font-size: 12.5px; fill: var(--soft); }
 svg g { font: inherit; }
+svg.wide, svg.narrow { fill: none; stroke-linejoin: miter; }
 svg .curve { stroke-linejoin: round; }
 svg .mark { stroke: none; }
-svg .mark:hover, svg .square:hover { stroke: var(--ink); stroke-width: 2; }
+svg .squares { fill: var(--s0); stroke: none; }
+svg .mark:hover, svg .squares path:hover { stroke: var(--ink); stroke-width: 2; }
+.rows { max-height: 36rem; overflow-y: auto; border-bottom: 1px solid var(--line); }
 svg .hot { fill: var(--ink); fill-opacity: 0; stroke: none; }
 svg .hot:hover { fill-opacity: .08; }
 .s0 { color: var(--s0); } .s1 { color: var(--s1); } .s2 { color: var(--s2); } .s3 { color: var(--s3); }

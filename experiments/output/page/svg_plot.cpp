@@ -131,7 +131,7 @@ Drawing draw(const LinePlot& plot, const DrawingSize& size, const std::vector<st
                           colour(series), gnuplot_text(curve.name));
   }
   const auto values = values_of(plot, xs, is_wide(size) ? 300 : 100);
-  if (!values.empty() && !size.for_paper) {
+  if (!values.empty() && size.has_texts) {
     script += "$values << EOD\n";
     for (const auto& [at, text] : values) {
       script += fmt::format("{:.17g} {:.17g} {}\n", at, middle, drawing.texts.size());
@@ -220,6 +220,7 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
     if (point.least < point.most)
       bars[point.series].push_back({point.x, std::max(point.least, bottom), std::max(point.most, bottom)});
     marks[point.series] += fmt::format("{:.17g} {:.17g} {}\n", point.x, at_y, drawing.texts.size());
+    if (!size.has_texts) continue;
     const std::string& series = point.series < plot.series.size() ? plot.series[point.series] : point.name;
     drawing.texts.push_back(fmt::format("{}\n{}: {}\n{}: {}", point.name.empty() ? series : point.name,
                                         plot.x_label, tick_label(point.x), plot.y_label,
@@ -241,7 +242,7 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
   for (const auto& [series, data] : marks) {
     script += fmt::format("$series{} << EOD\n{}EOD\n", series, data);
     curves += fmt::format("$series{} using {} pt 7 ps {:.3g} linecolor {}, ", series,
-                          size.for_paper ? "1:2 with points" : "1:2:3 with labels hypertext point",
+                          size.has_texts ? "1:2:3 with labels hypertext point" : "1:2 with points",
                           mark_size(series, plot.series.size()), colour(series));
   }
   script += "plot " + curves + "NaN\n";
@@ -347,7 +348,8 @@ void add_boxes(Drawing& drawing, const std::vector<Box>& boxes, const std::strin
     drawing.script +=
         fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {}\n", box.x, box.y, box.half_width, box.half_height,
                     std::lround(255 * (1 - opacity)) << 24);  // covers the colour of series 0
-    drawing.texts.push_back(fmt::format("{}\n{}: {}", box.text, value_label, tick_label(box.value)));
+    if (drawing.size.has_texts)
+      drawing.texts.push_back(fmt::format("{}\n{}: {}", box.text, value_label, tick_label(box.value)));
   }
   drawing.script += "EOD\nplot ";
   if (!boxes.empty())
@@ -374,18 +376,31 @@ Drawing draw(const HeatPlot& plot, const DrawingSize& size) {
   return drawing;
 }
 
+// Returns the ticks of an axis of a map, with the names of the places.
+std::string named_ticks(char axis, const MapPlot& plot, int most) {
+  const double apart = std::max(1.0, tick_step({plot.from, plot.to}, most));
+  std::vector<std::string> ticks;
+  for (double place = std::ceil(plot.from / apart) * apart; place <= plot.to; place += apart)
+    ticks.push_back(gnuplot_text(plot.name_of(static_cast<std::size_t>(place))) +
+                    fmt::format(" {:.17g}", place));
+  return fmt::format("set {}tics ({})\n", axis, fmt::join(ticks, ","));
+}
+
 Drawing draw(const MapPlot& plot, DrawingSize size) {
-  const double side = size.for_paper ? 440 : is_wide(size) ? 540 : 292;
-  size.left = is_wide(size) ? 64 : 56;
+  const double side = size.for_paper ? 440 : is_wide(size) ? 700 : 280;
+  size.left = 68;
   size.right = size.width - size.left - side;
   size.height = side + size.top + size.bottom;
   Drawing drawing{size, axes(size, plot.label, plot.label), TextsOf::squares, {}};
   const Range range{plot.from, plot.to};
-  drawing.script += linear('x', range, y_ticks) + linear('y', range, y_ticks);
+  const int most_ticks = is_wide(size) ? 8 : 4;
+  drawing.script += linear('x', range, most_ticks) + linear('y', range, most_ticks);
+  if (plot.name_of) drawing.script += named_ticks('x', plot, most_ticks) + named_ticks('y', plot, most_ticks);
+  const double half = std::max(plot.side / 2, (plot.to - plot.from) / side);  // at least two pixels wide
   std::vector<Box> boxes;
   for (const auto& [x, y, value, text] : plot.squares)
     boxes.push_back(
-        {x, y, plot.side / 2, plot.side / 2, value,
+        {x, y, half, half, value,
          text.empty() ? fmt::format("{} {}, {}", plot.label, tick_label(x), tick_label(y)) : text});
   add_boxes(drawing, boxes, plot.value_label);
   return drawing;
@@ -399,7 +414,7 @@ Drawing draw(const TimelinePlot& plot, DrawingSize size) {
   size.top = 6 + size.head;
   size.left = std::min(letter * static_cast<double>(longest) + beside, is_wide(size) ? 260.0 : 150.0);
   const auto room = static_cast<std::size_t>((size.left - beside) / letter + 0.5);
-  Drawing drawing{size, axes(size, plot.x_label, ""), TextsOf::marks, {}};
+  Drawing drawing{size, axes(size, plot.x_label, ""), TextsOf::squares, {}};
   drawing.script +=
       linear('x', {plot.from, plot.to}, x_ticks(size)) +
       fmt::format("set yrange [{}:-0.5]\nset grid xtics noytics linetype 1 linecolor '#000009'\n",
@@ -636,7 +651,7 @@ Drawing draw(const RowsPlot& plot, DrawingSize size) {
     script += fmt::format("{:.17g} {:.6f}\nEOD\n", bins.back().right(), base);
     bars += fmt::format("$row{} using 1:2 with filledcurves closed linecolor {}, ", r, colour(0));
   }
-  if (!bins.empty() && !size.for_paper) {
+  if (!bins.empty() && size.has_texts) {
     script += "$values << EOD\n";
     for (const Bin& bin : bins) {
       script += fmt::format("{:.17g} 0 {}\n", (bin.left() + bin.right()) / 2, drawing.texts.size());

@@ -1,7 +1,8 @@
 #pragma once
 // Curves, points, bars and maps for a page, without scripts. Each plot is drawn twice, for wide and for
 // narrow pages, and the page's style shows one of the two. Colours follow the page, light or dark. Values
-// appear under the pointer. The page also carries a copy of each plot for a paper (paper.h).
+// appear under the pointer on wide pages; telephones have no pointer. The page also carries a copy of each
+// plot for a paper (paper.h).
 
 #include <cstddef>
 #include <functional>
@@ -104,6 +105,7 @@ struct HeatPlot {
 };
 
 /// Squares of equal size within a square map. Colours show the values; a place without a value stays empty.
+/// Squares are drawn two pixels wide or wider, so neighbours may overlap on a small screen.
 struct MapPlot {
   struct Square {
     double x, y;  ///< centre
@@ -115,6 +117,8 @@ struct MapPlot {
   double from = 0, to = 1;  ///< range of each axis
   double side = 1;          ///< the side of one square
   std::vector<Square> squares;
+  /// Short name of a whole place of the axes, for the ticks. Null: ticks are numbers.
+  std::function<std::string(std::size_t place)> name_of = {};
 };
 
 /// Rows of spans over one axis, one row below the other. They show when each of several things goes on.
