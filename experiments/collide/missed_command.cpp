@@ -16,6 +16,7 @@
 #include "experiments/output/page/table.h"
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
+#include "experiments/program/contact_options.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
@@ -29,9 +30,20 @@ namespace kds {
 
 namespace {
 
+/// What makes two beads a contact in one run: balls that meet, with radii times a factor, or a cutoff.
+struct MissedRule {
+  double factor = 1;
+  std::optional<double> cutoff = {};
+
+  friend bool operator==(const MissedRule&, const MissedRule&) = default;
+  [[nodiscard]] std::string text() const {
+    return cutoff ? fmt::format("cutoff {}", *cutoff) : fmt::format("radii times {}", factor);
+  }
+};
+
 /// The result of one stride of one run.
 struct MissedRow {
-  double factor = 1;
+  MissedRule rule;
   std::size_t stride = 1;
   std::size_t frames = 0;  ///< number of frames examined
   std::uint64_t contacts = 0, found = 0;
@@ -50,7 +62,7 @@ struct MissedInput {
 
 struct MissedReport {
   MissedInput input;
-  std::vector<MissedRow> rows;  ///< ordered by factor, then by stride
+  std::vector<MissedRow> rows;  ///< ordered by factor or cutoff, then by stride
 };
 
 MissedInput input_of(const Scene& scene) {
@@ -65,8 +77,8 @@ MissedInput input_of(const Scene& scene) {
           times_of(scene.stamp(0), scene.stamp(scene.frame_count() - 1))};
 }
 
-/// Returns the rows of one factor, by stride.
-std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, double factor,
+/// Returns the rows of one rule, by stride.
+std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, const MissedRule& rule,
                                std::span<const std::size_t> strides,
                                const std::function<void(std::size_t)>& at_frame) {
   RunOptions options;
@@ -74,6 +86,8 @@ std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, doubl
   options.structures = {"contacts"};
   options.motion = task.motion;
   options.apart = task.apart;
+  options.cutoff = rule.cutoff;
+  options.surface = task.surface;
   const auto run = open_run(options, scene, AuditMode::none);
   std::vector<std::size_t> spacings;
   for (const std::size_t stride : strides) spacings.push_back(stride * ticks_per_frame);
@@ -96,9 +110,27 @@ std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, doubl
   for (std::size_t k = 0; k < strides.size(); ++k) {
     const FrameContacts::Row& row = frames.rows()[k];
     rows.push_back(
-        {factor, strides[k], row.sampling.samples, frames.exact(FrameContacts::plain).contacts, row.found});
+        {rule, strides[k], row.sampling.samples, frames.exact(FrameContacts::plain).contacts, row.found});
   }
   return rows;
+}
+
+std::vector<MissedRule> rules_of(const MissedTask& task) {
+  std::vector<MissedRule> rules;
+  for (const double cutoff : task.cutoffs) rules.push_back({1, cutoff});
+  if (rules.empty())
+    for (const double factor : task.factors) rules.push_back({factor});
+  return rules;
+}
+
+/// Returns a hint for a run without contacts.
+std::optional<std::string> hint_of(const MissedTask& task, const Scene& scene, const MissedRule& rule) {
+  if (!task.reading.groups.empty()) return std::nullopt;  // the hint counts pairs of all beads
+  if (!rule.cutoff) return task.radius == "auto" ? factor_hint(scene, rule.factor, task.apart) : std::nullopt;
+  const auto hint = cutoff_hint(scene, task.surface, task.apart);
+  return hint
+             ? std::optional(fmt::format("there are no contacts within --cutoff {}; {}", *rule.cutoff, *hint))
+             : std::nullopt;
 }
 
 // Counts the missed contacts. Each warning about the input goes to `warn` as one line. Throws InputError for
@@ -108,17 +140,17 @@ MissedReport count_missed(const MissedTask& task, const std::function<void(const
   MissedReport report;
   report.input = input_of(load_necklaces(task, task.motion, 1, warn));
   const std::vector<std::size_t> strides = strides_that_fit(task.strides, report.input.frames, task);
-  for (std::size_t run = 0; run < task.factors.size(); ++run) {
-    const double factor = task.factors[run];
-    const Scene scene = load_necklaces(task, task.motion, factor, [](const std::string&) {});
-    const auto rows = rows_of(task, scene, factor, strides, [&](std::size_t frame) {
-      progress(run * scene.step_count() + frame, task.factors.size() * scene.step_count());
+  const std::vector<MissedRule> rules = rules_of(task);
+  for (std::size_t run = 0; run < rules.size(); ++run) {
+    const MissedRule& rule = rules[run];
+    const Scene scene = load_necklaces(task, task.motion, rule.factor, [](const std::string&) {});
+    const auto rows = rows_of(task, scene, rule, strides, [&](std::size_t frame) {
+      progress(run * scene.step_count() + frame, rules.size() * scene.step_count());
     });
     report.rows.insert(report.rows.end(), rows.begin(), rows.end());
     const bool none = std::ranges::all_of(report.rows, [](const auto& row) { return row.contacts == 0; });
-    // The hint counts pairs of all beads.
-    if (none && run + 1 == task.factors.size() && task.radius == "auto" && task.reading.groups.empty())
-      if (const auto hint = factor_hint(scene, factor, task.apart)) warn(*hint);
+    if (none && run + 1 == rules.size())
+      if (const auto hint = hint_of(task, scene, rule)) warn(*hint);
   }
   return report;
 }
@@ -130,16 +162,16 @@ constexpr CommandSpec kMissedCommand{
     {},
     {},
     "kds missed villin.dcd --topology villin.pdb --factors 2.2,2.5 --apart 5 --out report\n"
+    "kds missed villin.dcd --topology villin.pdb --select ca --cutoff 6.5,8 --apart 3\n"
     "kds missed a.xyz b.xyz --radius 1.9 --strides 1,10,100 --json -"};
 
-std::vector<double> parse_factors(const std::string& list) {
-  std::vector<double> factors;
-  for (const std::string& text : split(list, ','))
-    factors.push_back(parse_real("--factors", text, {0, 1e6, true}));
-  std::sort(factors.begin(), factors.end());
-  if (const auto twice = std::adjacent_find(factors.begin(), factors.end()); twice != factors.end())
-    throw InputError(fmt::format("--factors: {} is listed twice", *twice));
-  return factors;
+std::vector<double> parse_reals(std::string_view option, const std::string& list, const RealRange& range) {
+  std::vector<double> values;
+  for (const std::string& text : split(list, ',')) values.push_back(parse_real(option, text, range));
+  std::sort(values.begin(), values.end());
+  if (const auto twice = std::adjacent_find(values.begin(), values.end()); twice != values.end())
+    throw InputError(fmt::format("{}: {} is listed twice", option, *twice));
+  return values;
 }
 
 // Returns the options that appear as settings in the JSON.
@@ -155,7 +187,18 @@ const OptionList<MissedTask>& missed_task_options() {
                  list_option({"--factors", "LIST",
                               "multiply the radii by each factor, one run each. With --radius auto, contacts "
                               "appear from 2.2 to 2.5 on (default: 1)"},
-                             &O::factors, parse_factors),
+                             &O::factors,
+                             [](const std::string& text) {
+                               return parse_reals("--factors", text, {0, 1e6, true});
+                             }),
+                 list_option({"--cutoff", "LIST",
+                              "two beads are in contact while their centres are at most this far apart; each "
+                              "length is one run (default: while their balls meet)"},
+                             &O::cutoffs,
+                             [](const std::string& text) {
+                               return parse_reals("--cutoff", text, {0, largest_cutoff});
+                             }),
+                 surface_option(&O::surface),
                  apart_option("pairs of beads of one chain must be at least K apart along it; with factors "
                               "above 2 take 5, or near neighbours are always in contact (default: 2)",
                               &O::apart)})
@@ -181,6 +224,13 @@ MissedOptions parse_missed_options(const Arguments& arguments) {
   O options;
   const ParsedArguments parsed = read_arguments(with_inputs(kMissedCommand), list, arguments, options);
   take_inputs(parsed, kMissedCommand.name, options.task);
+  const MissedTask& task = options.task;
+  if (!task.cutoffs.empty() && parsed.has("--factors"))
+    throw InputError(
+        "--factors: multiplies the radii of balls, in place of which --cutoff has lengths; "
+        "expected one of the two options");
+  static_cast<void>(contact_distance_of(
+      task.cutoffs.empty() ? std::nullopt : std::optional(task.cutoffs.front()), task.surface));
   return options;
 }
 
@@ -192,13 +242,13 @@ std::optional<double> missed_fraction(const MissedRow& row) {
   return static_cast<double>(row.missed()) / static_cast<double>(row.contacts);
 }
 
-/// Returns a plot with a curve over strides for each factor that has contacts.
+/// Returns a plot with a curve over strides for each rule that has contacts.
 std::string plot_of(std::span<const MissedRow> rows) {
   LinePlot plot{"stride", "% of contacts missed", Drawn::points, {}};
   for (const MissedRow& row : rows) {
     const auto fraction = missed_fraction(row);
     if (!fraction) continue;
-    const std::string name = fmt::format("radii times {}", row.factor);
+    const std::string name = row.rule.text();
     if (plot.curves.empty() || plot.curves.back().name != name) plot.curves.push_back({name, {}});
     plot.curves.back().points.emplace_back(static_cast<double>(row.stride), 100 * *fraction);
   }
@@ -215,21 +265,21 @@ std::string frames_at(std::size_t stride) {
   return stride == 1 ? "every frame" : fmt::format("one frame in {}", stride);
 }
 
-// Returns a sentence for each factor about its smallest and its largest stride.
+// Returns a sentence for each rule about its smallest and its largest stride.
 std::string findings(std::span<const MissedRow> rows) {
   std::string html;
   for (std::size_t first = 0; first < rows.size();) {
     std::size_t end = first;
-    while (end < rows.size() && rows[end].factor == rows[first].factor) ++end;
+    while (end < rows.size() && rows[end].rule == rows[first].rule) ++end;
     const MissedRow &least = rows[first], &most = rows[end - 1];
     if (least.contacts == 0) {
-      html += fmt::format("<p>With radii times {} there are no contacts to miss.</p>\n", least.factor);
+      html += fmt::format("<p>With {} there are no contacts to miss.</p>\n", least.rule.text());
       first = end;
       continue;
     }
     html += fmt::format(
-        "<p>With radii times {0}, <strong>{2}</strong> of {1} contacts are missed if only {3} is examined",
-        least.factor, with_thousands(least.contacts), percent_text(least), frames_at(least.stride));
+        "<p>With {0}, <strong>{2}</strong> of {1} contacts are missed if only {3} is examined",
+        least.rule.text(), with_thousands(least.contacts), percent_text(least), frames_at(least.stride));
     if (end - first > 1)
       html += fmt::format(", <strong>{}</strong> if only {} is", percent_text(most), frames_at(most.stride));
     html += ".</p>\n";
@@ -239,10 +289,12 @@ std::string findings(std::span<const MissedRow> rows) {
 }
 
 // Returns the columns of missed.json and missed.csv, of the terminal and of the page.
-const Table<MissedRow>& missed_columns() {
+Table<MissedRow> missed_columns(const MissedTask& task) {
   using Row = MissedRow;
-  static const Table<Row> table{{
-      {"factor", "radii times", [](const Row& r) { return Field(r.factor); }},
+  Table<Row> table({{"factor", "radii times", [](const Row& r) { return Field(r.rule.factor); }}});
+  if (!task.cutoffs.empty())
+    table = Table<Row>({{"cutoff", "cutoff", [](const Row& r) { return Field(r.rule.cutoff); }}});
+  table.add({
       {"stride", "stride", [](const Row& r) { return Field(r.stride); }},
       {"frames", "frames", [](const Row& r) { return Field(r.frames); }},
       {"contacts", "contacts", [](const Row& r) { return Field(r.contacts); }},
@@ -252,17 +304,18 @@ const Table<MissedRow>& missed_columns() {
        .heading = "missed %",
        .value = [](const Row& r) { return Field(missed_fraction(r)); },
        .words = percent_text},
-  }};
+  });
   return table;
 }
 
 // `page` says how the results were made.
-std::string missed_page(std::span<const MissedRow> rows, const std::string& input, Page page) {
-  page.title = "kds missed: " + input;
+std::string missed_page(std::span<const MissedRow> rows, const MissedTask& task, Page page) {
+  page.title = "kds missed: " + file_names(task);
   page.found = findings(rows);
   page.words =
       "A <em>contact</em> of two beads lasts from the moment at which their closed balls begin to meet to "
-      "the moment at which they part. A touch is a contact too, and so is a contact that lasts at the first "
+      "the moment at which they part; with a cutoff, the balls are those that meet within this distance. A "
+      "touch is a contact too, and so is a contact that lasts at the first "
       "or the last frame. The times are exact for the motion between frames that the run was asked for. One "
       "frame in <em>stride</em> is examined, beginning with the first; <em>frames</em> is their number. A "
       "contact is <em>found</em> if an examined frame lies in it, its ends included, and <em>missed</em> "
@@ -271,7 +324,7 @@ std::string missed_page(std::span<const MissedRow> rows, const std::string& inpu
     page.body = html_section(
         "By stride",
         html_figure(plot, "Contacts that are missed if one frame in <em>stride</em> is examined."));
-  page.body += html_section("Numbers", missed_columns().html(rows));
+  page.body += html_section("Numbers", missed_columns(task).html(rows));
   return html_page(page);
 }
 
@@ -293,10 +346,11 @@ int missed_command(const Arguments& arguments) {
       task, {input.beads, input.necklaces, input.frames, input.dimension, input.truncated, input.picoseconds},
       input.radius_min, input.radius_max);
   json["settings"] = missed_task_options().settings_json(task);
-  json["rows"] = missed_columns().json(report.rows);
+  json["rows"] = missed_columns(task).json(report.rows);
   json["warnings"] = command.warnings();
-  command.deliver(json, missed_columns().csv(report.rows), missed_columns().text(report.rows),
-                  [&](Page page) { return missed_page(report.rows, file_names(task), std::move(page)); });
+  const auto columns = missed_columns(task);
+  command.deliver(json, columns.csv(report.rows), columns.text(report.rows),
+                  [&](Page page) { return missed_page(report.rows, task, std::move(page)); });
   return 0;
 }
 

@@ -14,7 +14,9 @@ namespace kds {
 
 struct MissedTask : InputOptions {
   FrameMotion motion = FrameMotion::linear;
-  std::vector<double> factors{1};  ///< factors of the radii; each is a run
+  std::vector<double> factors{1};  ///< factors of the radii; each is a run unless there are cutoffs
+  std::vector<double> cutoffs;     ///< --cutoff; each is a run
+  bool surface = false;            ///< --surface
   /// Ascending. If empty, the strides are 1, 2, 4 ... 64, as far as at least two frames are examined.
   std::vector<std::size_t> strides;
   BeadId apart = 2;

@@ -10,11 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/program/contact_options.h"
 #include "experiments/program/input_options.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/run_scene.h"
 #include "motions/base/input_error.h"
 #include "motions/scene/straightened_frames.h"
+#include "structures/contacts/contact_distance.h"
 
 namespace kds {
 
@@ -101,13 +103,15 @@ PairsMet pairs_of(ContactSpan contacts) {
 void bound_contacts(const RunOptions& options, const Scene& scene, const std::optional<double>& tolerance,
                     StrideCertificate& certificate) {
   const FrameSurvey survey = survey_frames(*frames_of(options, options.reading.frames.stride), false);
+  const auto distance = contact_distance_of(options.cutoff, options.surface);
+  const std::vector<double> own = distance ? contact_radii(*distance, scene.radii()) : scene.radii();
   RadiiWithin radii;
   try {
-    radii = radii_within(certificate.deviation, scene.radii());
+    radii = radii_within(certificate.deviation, own);
   } catch (const InputError& error) {
     throw InputError(std::string("--certify: ") + error.what());
   }
-  const auto found = contacts_met(options, survey, scene.radii(), tolerance);
+  const auto found = contacts_met(options, survey, own, tolerance);
   const auto possible = contacts_met(options, survey, std::move(radii.larger), tolerance);
   const auto smaller = contacts_met(options, survey, std::move(radii.smaller), tolerance);
   std::vector<MetContacts::Contact> sure(smaller->contacts().begin(), smaller->contacts().end());

@@ -8,7 +8,8 @@
 // most the sum of their deviations. A pair that truly comes within the sum of its radii is therefore in
 // contact in the run with enlarged balls: the pair is *possible*. A pair in contact in the run with shrunk
 // balls is truly in contact at that time: the pair is *sure*. The argument holds for each single contact of a
-// pair too (MetContacts). Deviations are rounded up and radii outward.
+// pair too (MetContacts). Deviations are rounded up and radii outward. With --cutoff, the balls are those
+// that meet while two beads are within the cutoff (contact_distance.h).
 
 #include <cstddef>
 #include <cstdint>

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "experiments/program/contact_options.h"
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/bead_name.h"
@@ -335,6 +336,7 @@ std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& sce
   session.settings.between = options.between.value_or(session.settings.between);
   session.settings.tightness = options.tightness;
   session.settings.directions = options.directions;
+  session.settings.contact_distance = contact_distance_of(options.cutoff, options.surface);
   session.settings.groups = scene.bead_groups();
   session.settings.relax = Relaxation::of(options.relax.value_or(0));
   if (session.structures.empty()) session.structures = default_structures(scene);
@@ -352,6 +354,8 @@ std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& sce
   const auto has = [&names](const char* name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
+  if (options.cutoff && !has("contacts"))
+    throw InputError("--cutoff: applies only to contacts, which is not among the structures");
   if (options.relax && !has("wrapped"))
     throw InputError("--relax: applies only to wrapped, which is not among the structures");
   if (options.relax && scene.degree() > highest_relaxed_degree)

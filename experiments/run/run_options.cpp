@@ -7,6 +7,7 @@
 
 #include "certificates/base/relaxation.h"
 #include "certificates/exact/exact_work.h"
+#include "experiments/program/contact_options.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option_values.h"
 #include "experiments/run/certify_stride.h"
@@ -157,6 +158,11 @@ const OptionList<RunOptions>& run_options() {
               apart_option(
                   "contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",
                   &O::apart),
+              real_option({"--cutoff", "LENGTH",
+                           "contacts: two beads are in contact while their centres are at most this far "
+                           "apart (default: while their balls meet)"},
+                          &O::cutoff, {0, largest_cutoff}),
+              surface_option(&O::surface),
           })
           .with(OptionList<InputOptions>({groups_option()}))
           .with({
@@ -196,6 +202,7 @@ RunOptions parse_run_options(const Arguments& arguments) {
   const ParsedArguments parsed =
       read_arguments(with_inputs(kRunCommand, true), run_options(), arguments, options);
   take_inputs(parsed, kRunCommand.name, options);
+  static_cast<void>(contact_distance_of(options.cutoff, options.surface));  // refuses a distance of 0
   refuse_needless_certificate(options);
   return options;
 }

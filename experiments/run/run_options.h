@@ -41,6 +41,8 @@ struct RunOptions : InputOptions, Destinations {
   AuditMode audit = AuditMode::none;
   NodeSelection nodes;                          ///< --levels, --nodes
   std::optional<BeadId> apart;                  ///< --apart; empty if not given
+  std::optional<double> cutoff;                 ///< --cutoff; empty if not given
+  bool surface = false;                         ///< --surface
   std::optional<Between> between;               ///< --between; empty if not given
   std::optional<double> tightness;              ///< --tightness; empty if not given
   std::optional<double> relax;                  ///< --relax; empty if not given

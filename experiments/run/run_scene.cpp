@@ -92,14 +92,20 @@ std::optional<double> deviation_of_run(const RunOptions& options, const Scene& s
   return std::nullopt;
 }
 
-/// Returns a hint if the automatic radius leaves a run without contacts.
+/// Returns a hint if the cutoff or the automatic radius leaves a run without contacts.
 std::optional<std::string> hint_of(const RunOptions& options, const Scene& scene, const RunReport& report) {
-  if (options.radius != "auto") return std::nullopt;
+  if (!options.cutoff && options.radius != "auto") return std::nullopt;
   if (!options.reading.groups.empty()) return std::nullopt;  // the hint counts pairs of all beads
-  for (const StructureReport& structure : report.structures)
-    if (structure.name == "contacts" && structure.events_total == 0 && structure.contacts_at_start == 0U)
-      return radius_hint(scene, options.apart.value_or(StructureSettings().apart));
-  return std::nullopt;
+  const auto has_none = [](const StructureReport& structure) {
+    return structure.name == "contacts" && structure.events_total == 0 && structure.contacts_at_start == 0U;
+  };
+  if (std::ranges::none_of(report.structures, has_none)) return std::nullopt;
+  const BeadId apart = options.apart.value_or(StructureSettings().apart);
+  if (!options.cutoff) return radius_hint(scene, apart);
+  const auto hint = cutoff_hint(scene, options.surface, apart);
+  return hint ? std::optional(
+                    fmt::format("contacts: there are none within --cutoff {}; {}", *options.cutoff, *hint))
+              : std::nullopt;
 }
 
 // Seconds of each structure by round: kinetic (`kept`), and built statically at every frame (`built`).

@@ -54,6 +54,10 @@ TEST(MissedOptions, RefusesWithTheOptionAndWhatItTakes) {
   EXPECT_THAT(refusal({"a.pdb", "--factors", "0"}), HasSubstr("--factors: '0' is not a number above 0"));
   EXPECT_THAT(refusal({"a.pdb", "--factors", "nan"}), HasSubstr("--factors: 'nan'"));
   EXPECT_THAT(refusal({"a.pdb", "--factors", "1,1.0"}), HasSubstr("--factors: 1 is listed twice"));
+  EXPECT_THAT(refusal({"a.pdb", "--factors", "2", "--cutoff", "8"}),
+              HasSubstr("expected one of the two options"));
+  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "8,8"}), HasSubstr("--cutoff: 8 is listed twice"));
+  EXPECT_THAT(refusal({"a.pdb", "--surface"}), HasSubstr("expected --cutoff LENGTH as well"));
   EXPECT_THAT(refusal({"a.pdb", "--motion", "lifted"}),
               HasSubstr("--motion: 'lifted' is not one of linear, hermite"));
 }
@@ -104,6 +108,23 @@ TEST(Missed, ARunAFactor) {
   // With factor 10 the beads are in contact throughout.
   EXPECT_THAT(column(json["rows"], "contacts"), ElementsAre(2, 1));
   EXPECT_THAT(column(json["rows"], "found"), ElementsAre(0, 1));
+}
+
+TEST(Missed, ARunACutoff) {
+  const Passing passing;
+  const ProgramRun run = passing.run({"--json", "-", "--cutoff", "20,1", "--strides", "4"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  EXPECT_THAT(column(json["rows"], "cutoff"), ElementsAre(1, 20));
+  EXPECT_FALSE(json["rows"][0].contains("factor"));
+  EXPECT_THAT(column(json["rows"], "contacts"), ElementsAre(2, 1));
+  EXPECT_THAT(column(json["rows"], "found"), ElementsAre(0, 1));
+  // Between surfaces, both radii of 1 are added.
+  const Json surface = Json::parse(passing.run({"--json", "-", "--cutoff", "18", "--surface"}).out);
+  EXPECT_THAT(column(surface["rows"], "contacts"), ElementsAre(1, 1, 1));
+  EXPECT_THAT(passing.run({"--cutoff", "1"}).out, HasSubstr("cutoff"));
+  EXPECT_EQ(passing.run({"--cutoff", "1", "--out", passing.directory / "report"}).code, 0);
+  EXPECT_THAT(content_of(passing.directory / "report/report.html"), HasSubstr("With cutoff 1, "));
 }
 
 TEST(Missed, WithoutContactsNoShare) {

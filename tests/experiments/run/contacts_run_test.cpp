@@ -364,5 +364,56 @@ TEST(ContactsRun, MapsAgreeWithTheFiles) {
   EXPECT_EQ(drawn, events);
 }
 
+// A cutoff of 3.8 between centres finds what balls of radius 1.9 find. The wrapped hierarchy keeps its radii.
+TEST(ContactsRun, ACutoffIsADistanceOfItsOwn) {
+  const ScratchDirectory scratch;
+  const auto run_of = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"run", kDcd, "--topology", kPdb, "--frames", "0:12", "--apart", "5",
+                                     "--structures", "contacts,wrapped", "--json", "-"});
+    const ProgramRun run = run_program(options);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.code == 0 ? Json::parse(run.out) : Json();
+  };
+  const auto events_of = [](const Json& run, const char* name) { return run["structures"][name]["events"]; };
+  const Json balls = run_of({"--radius", "1.9"}), plain = run_of({"--radius", "1"});
+  for (const char* kernel : {"filtered", "exact", "fast"}) {
+    const Json cutoff = run_of({"--radius", "1", "--cutoff", "3.8", "--kernel", kernel, "--audit", "frames"});
+    EXPECT_EQ(events_of(cutoff, "contacts"), events_of(balls, "contacts")) << kernel;
+    EXPECT_EQ(events_of(cutoff, "wrapped"), events_of(plain, "wrapped")) << kernel;
+    EXPECT_EQ(cutoff["structures"]["contacts"]["audits"]["failed"], 0);
+  }
+  EXPECT_GT(events_of(balls, "contacts")["total"], 10);
+  const Json surface = run_of({"--radius", "1", "--cutoff", "1.75", "--surface", "--log", scratch / "log"});
+  EXPECT_EQ(events_of(surface, "contacts"), events_of(run_of({"--radius", "1.875"}), "contacts"));
+  EXPECT_EQ(surface["settings"]["cutoff"], 1.75);
+  const Json replay = Json::parse(run_program({"replay", scratch / "log", "--json", "-"}).out);
+  EXPECT_EQ(replay["replay"]["same"], true);
+  EXPECT_EQ(replay["fingerprint"], surface["fingerprint"]);
+}
+
+TEST(ContactsRun, CertifiesACutoff) {
+  const auto counts = [](std::vector<std::string> options) {
+    options.insert(options.begin(), {"run", kDcd, "--topology", kPdb, "--frames", "0:33:4", "--apart", "5",
+                                     "--structures", "contacts", "--certify", "--json", "-"});
+    const ProgramRun run = run_program(options);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return Json::parse(run.out)["stride"]["contacts"];
+  };
+  const Json balls = counts({"--radius", "4"});
+  EXPECT_EQ(counts({"--radius", "1", "--cutoff", "8"}), balls);
+  EXPECT_GT(balls["sure"], 0);
+  EXPECT_LT(balls["sure"], balls["possible"]);
+}
+
+TEST(ContactsRun, RefusesACutoffWithoutUse) {
+  expect_refused({kDcd, "--topology", kPdb, "--cutoff", "8", "--structures", "sorted"},
+                 "--cutoff: applies only to contacts, which is not among the structures");
+  expect_refused({kDcd, "--cutoff", "0", "--structures", "contacts"},
+                 "expected a length above 0, or --surface");
+  expect_refused({kDcd, "--surface", "--structures", "contacts"},
+                 "--surface: measures --cutoff between surfaces; expected --cutoff LENGTH as well");
+  expect_refused({kDcd, "--cutoff", "-1"}, "--cutoff: '-1' is not a number");
+}
+
 }  // namespace
 }  // namespace kds::test::contacts_run_test
