@@ -40,7 +40,7 @@ constexpr std::array kCommands{
     Command{"update", "compare techniques that update the power diagram from frame to frame", update_command},
     Command{"compare", "compare how often structures change, by stride, motion and input", compare_command},
     Command{"collide", "find the beads that collide in each frame, by several methods", collide_command},
-    Command{"contacts", "measure how long contacts last, exactly and as frames tell it", contacts_command},
+    Command{"contacts", "measure how long contacts last, exactly and as frames show it", contacts_command},
     Command{"missed", "measure which contacts are missed if only frames are examined", missed_command},
     Command{"reproduce", "measure the paper's tables again and compare them with the paper's",
             reproduce_command},

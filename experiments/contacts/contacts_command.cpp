@@ -8,12 +8,14 @@
 #include "experiments/contacts/contacts_report.h"
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
+#include "experiments/program/contact_options.h"
 #include "experiments/program/option.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/radius_hint.h"
 #include "motions/base/input_error.h"
+#include "structures/necklace/pairs_in_question.h"
 
 namespace kds {
 
@@ -22,7 +24,7 @@ namespace {
 constexpr CommandSpec kContactsCommand{
     "kds contacts",
     "Measures how long contacts last: exact intervals for each pair of residues, beads or chains, their "
-    "survival function, and what a look at frames alone would have told.",
+    "survival function, and what frames alone would have shown.",
     {},
     {},
     "kds contacts villin.dcd --topology villin.pdb --cutoff 8 --select ca --out report\n"
@@ -34,8 +36,8 @@ ContactCutoffs parse_cutoffs(const std::string& text) {
     throw InputError(
         fmt::format("--cutoff: '{}' has {} lengths; expected one, or two as in 4.5:6", text, lengths.size()));
   ContactCutoffs cutoffs;
-  cutoffs.inner = parse_real("--cutoff", lengths.front(), {0, 1e9});
-  cutoffs.outer = parse_real("--cutoff", lengths.back(), {0, 1e9});
+  cutoffs.inner = parse_real("--cutoff", lengths.front(), {0, largest_cutoff});
+  cutoffs.outer = parse_real("--cutoff", lengths.back(), {0, largest_cutoff});
   if (cutoffs.outer < cutoffs.inner)
     throw InputError(
         fmt::format("--cutoff: '{}' ends contacts within the distance at which they begin; expected "
@@ -65,9 +67,7 @@ const OptionList<ContactsTask>& contacts_task_options() {
       OptionList<O>()
           .with(input_options().with({obstacle_option()}))
           .with(
-              {cutoff_option(),
-               flag_option("--surface", "measure the cutoff between the surfaces of beads (default: centres)",
-                           &O::surface),
+              {cutoff_option(), surface_option(&O::surface),
                real_option(
                    {"--gap", "TIME",
                     "an absence shorter than this does not end a contact; in picoseconds if the frames have "
@@ -84,22 +84,45 @@ const OptionList<ContactsTask>& contacts_task_options() {
           .with(OptionList<InputOptions>({groups_option()}))
           .with({of_output(list_option(
                      {"--strides", "LIST",
-                      "also tell what a look at every frame, every second, ... would tell (default: "
+                      "also report what every frame, every second frame, ... would show (default: "
                       "1,2,4,8,16,32,64, as far as at least two frames remain)"},
                      &O::strides, parse_strides)),
-                 whole_option(
-                     {"--intermittency", "K",
-                      "in the figures of frames, bridge absences of up to K frames looked at (default: 1)"},
-                     &O::intermittency, 0, 1'000'000),
+                 whole_option({"--intermittency", "K",
+                               "in the figures of samples, bridge absences of up to K samples (default: 1)"},
+                              &O::intermittency, 0, 1'000'000),
                  // Lifted motion is excluded because it has no radii between frames.
                  choice_option({"--motion", "NAME",
                                 "motion of beads between frames: linear or hermite (default: linear)"},
-                               &O::motion, std::span(frame_motion_names).first(2))});
+                               &O::motion, std::span(frame_motion_names).first(2)),
+                 flag_option("--certify",
+                             "with a stride in --frames: read all frames too, and report which contacts are "
+                             "sure, and bounds of the time in contact",
+                             &O::certify)});
   return list;
+}
+
+/// Returns the number of pairs of elements that the task asks about.
+std::uint64_t pairs_asked(const Scene& scene, const ContactsReport& report) {
+  const ContactElements& elements = report.elements;
+  const auto size = static_cast<BeadId>(elements.names.size());
+  PairsAsked asked{{}, report.by != ContactElement::chain, report.apart, true, {}};
+  for (BeadId element = 0; element < size; ++element) {
+    if (element == 0 || elements.chains[element] != elements.chains[element - 1])
+      asked.necklaces.push_back({element, element});
+    asked.necklaces.back().last = element;
+  }
+  if (!scene.bead_groups().empty()) asked.groups.assign(size, 0);
+  for (BeadId bead = 0; bead < scene.bead_groups().size(); ++bead)
+    asked.groups[elements.of_bead[bead]] |= scene.bead_groups()[bead];
+  return PairsInQuestion(asked).count();
 }
 
 void warn_of_none(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
                   const TableCommand::Warn& warn) {
+  if (pairs_asked(scene, report) == 0)
+    return warn(fmt::format("there are no contacts, because none of {} {}s are a pair; --apart is {}{}",
+                            report.elements.names.size(), name_of(report.by), report.apart,
+                            task.reading.groups.empty() ? "" : ", and --groups leaves out pairs"));
   std::string line = fmt::format("there are no contacts within --cutoff {}", task.cutoff->inner);
   // The hint looks at pairs of all beads.
   if (task.reading.groups.empty() && report.by != ContactElement::chain)
@@ -115,8 +138,9 @@ ContactsOptions parse_contacts_options(const Arguments& arguments) {
       OptionList<O>()
           .with(&O::task, contacts_task_options())
           .with(&O::destinations,
-                destination_options("write contacts.json, contacts.csv, intervals.csv, frames.csv "
-                                    "and report.html to DIR (default: none)"));
+                destination_options("write contacts.json, contacts.csv, intervals.csv, frames.csv, "
+                                    "report.html and, with --certify, possible_intervals.csv to DIR "
+                                    "(default: none)"));
   O options;
   const ParsedArguments parsed = read_arguments(with_inputs(kContactsCommand), list, arguments, options);
   take_inputs(parsed, kContactsCommand.name, options.task);
@@ -126,9 +150,8 @@ ContactsOptions parse_contacts_options(const Arguments& arguments) {
         "kds contacts needs --cutoff LENGTH, the distance within which two beads are in contact, such as "
         "--cutoff 8 "
         "between C-alpha atoms or --cutoff 4.5 between heavy atoms");
-  if (task.cutoff->inner == 0 && !task.surface)
-    throw InputError(
-        "--cutoff: centres that coincide are no contact; expected a length above 0, or --surface");
+  check_contact_distance({task.cutoff->inner, task.surface});
+  refuse_needless_certificate(task);
   return options;
 }
 
@@ -139,8 +162,10 @@ int contacts_command(const Arguments& arguments) {
   check_inputs_exist(task);
   TakenPaths taken;
   taken.read(task);
-  command.check_destinations(std::move(taken),
-                             {"contacts.json", "contacts.csv", "intervals.csv", "frames.csv", "report.html"});
+  std::vector<std::string> files{"contacts.json", "contacts.csv", "intervals.csv", "frames.csv",
+                                 "report.html"};
+  if (task.certify) files.emplace_back("possible_intervals.csv");
+  command.check_destinations(std::move(taken), files);
 
   if (const auto instance = read_lone_instance(task))
     throw InputError(instance->file + ": an instance file has points and one step; expected a trajectory");
@@ -150,7 +175,8 @@ int contacts_command(const Arguments& arguments) {
     loaded.radius = "1";  // centres have contacts whatever the radii
   const Scene scene = load_necklaces(loaded, task.motion, 1, warn);
   const auto report = follow_contacts(task, scene, command.progress());
-  const ContactsFigures figures = figures_of(*report);
+  ContactsFigures figures = figures_of(*report);
+  if (task.certify) figures.certificate = certify_contacts(task, scene, *report, command.progress());
   if (figures.all.contacts == 0) warn_of_none(task, scene, *report, warn);
 
   Json json;
@@ -164,7 +190,11 @@ int contacts_command(const Arguments& arguments) {
   TableCommand::Csvs csvs{{"contacts.csv", contacts_csv(*report, figures)},
                           {"frames.csv", frames_csv(*report)}};
   csvs.emplace_back("intervals.csv",
-                    CsvContent([&](std::ostream& stream) { write_intervals_csv(*report, stream); }));
+                    CsvContent([&](std::ostream& stream) { write_intervals_csv(*report, figures, stream); }));
+  if (figures.certificate)
+    csvs.emplace_back("possible_intervals.csv", CsvContent([&](std::ostream& stream) {
+                        write_possible_csv(*report, *figures.certificate, stream);
+                      }));
   command.deliver(json, csvs, contacts_text(*report, figures), [&](Page page) {
     return contacts_page(*report, figures, file_names(task), std::move(page));
   });

@@ -1,21 +1,24 @@
 #pragma once
 // The outputs of `kds contacts`: tables of pairs and of samplings, and the page.
 
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "experiments/contacts/certify_contacts.h"
 #include "experiments/contacts/follow_contacts.h"
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
 
 namespace kds {
 
-/// All that is told of a report, computed once.
+/// The figures of a report, computed once.
 struct ContactsFigures {
   std::vector<PairLifetimes> pairs;
   LifetimeFigures all;
   std::vector<SurvivalPoint> survival;  ///< thinned for plots
+  std::optional<ContactsCertificate> certificate = {};
 };
 [[nodiscard]] ContactsFigures figures_of(const ContactsReport& report);
 
@@ -23,8 +26,12 @@ struct ContactsFigures {
 void add_contacts(const ContactsReport& report, const ContactsFigures& figures, Json& json);
 [[nodiscard]] std::string contacts_csv(const ContactsReport& report, const ContactsFigures& figures);
 [[nodiscard]] std::string frames_csv(const ContactsReport& report);
-void write_intervals_csv(const ContactsReport& report, std::ostream& stream);
-/// Returns the table on the terminal: what frames tell, and the pairs with the most contacts.
+void write_intervals_csv(const ContactsReport& report, const ContactsFigures& figures, std::ostream& stream);
+/// Writes the possible contacts of a certificate.
+void write_possible_csv(const ContactsReport& report, const ContactsCertificate& certificate,
+                        std::ostream& stream);
+/// Returns the text on the terminal: the table of samples, the certificate, and the pairs with the most
+/// contacts.
 [[nodiscard]] std::string contacts_text(const ContactsReport& report, const ContactsFigures& figures);
 /// `input` names the input, and `page` says how the results were made.
 [[nodiscard]] std::string contacts_page(const ContactsReport& report, const ContactsFigures& figures,

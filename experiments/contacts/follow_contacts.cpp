@@ -11,6 +11,7 @@
 #include "experiments/run/run_scene.h"
 #include "motions/base/input_error.h"
 #include "motions/readers/bead_name.h"
+#include "structures/contacts/contact_distance.h"
 #include "structures/contacts/contacts.h"
 #include "structures/session/kinetic_run.h"
 
@@ -29,6 +30,8 @@ class LivesOnDisk final : public LifeStore {
   SortedRecords<ContactLife> lives_;
 };
 
+}  // namespace
+
 IntervalRecord record_of(const ContactInterval& interval) {
   const auto at = [](const ContactMoment& moment) { return static_cast<double>(moment.step) + moment.u(); };
   const RoundedTime &begin = interval.begin.rounded, &end = interval.end.rounded;
@@ -45,6 +48,8 @@ IntervalRecord record_of(const ContactInterval& interval) {
           interval.open_at_end};
 }
 
+namespace {
+
 /// Returns the spacings of samples in ticks: parts of a frame first, then the strides.
 std::vector<std::size_t> spacings_of(const std::vector<std::size_t>& strides) {
   std::vector<std::size_t> spacings{1, 4, 16, 64};
@@ -52,101 +57,128 @@ std::vector<std::size_t> spacings_of(const std::vector<std::size_t>& strides) {
   return spacings;
 }
 
-/// The two structures of a run, or one that stands for both.
-template <int D>
-class Cutoffs {
- public:
-  Cutoffs(KineticRun& run, const ContactsTask& task, const PairsAsked& asked) {
-    const auto structure = [&](double length) -> const Contacts<D>* {
-      return &run.add<Contacts<D>>(asked, contact_radii({length, task.surface}, run.scene().radii()));
-    };
-    inner_ = outer_ = structure(task.cutoff->inner);
-    if (task.cutoff->are_two()) outer_ = structure(task.cutoff->outer);
-  }
-  [[nodiscard]] std::vector<BeadPair> inner() const { return inner_->pairs(); }
-  [[nodiscard]] std::vector<BeadPair> outer() const { return outer_->pairs(); }
-
- private:
-  const Contacts<D>*inner_, *outer_;
-};
-
 /// The frames at both ends of a step.
 struct StepStamps {
   FrameStamp from, to;
   StepStamps(const Scene& scene, std::size_t step) : from(scene.stamp(step)), to(scene.stamp(step + 1)) {}
 };
 
+/// Returns the rule of the task. Structure 0 of the run has the inner cutoff, structure 1 the outer one.
+ContactRule rule_of(const ContactsTask& task, const ContactsReport& report) {
+  return {.elements = report.elements.of_bead,
+          .chains = report.elements.chains,
+          .apart = report.apart,
+          .gap = task.gap,
+          .clock = report.clock,
+          .inner = 0,
+          .outer = task.cutoff->are_two() ? 1U : 0U};
+}
+
+/// A run with a structure for each cutoff, whose contacts are followed by several rules.
+template <int D>
+class ContactsRun {
+ public:
+  ContactsRun(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
+              const CutoffRadii& radii, const BeadGroups& groups)
+      : task_(task), scene_(scene), run_(scene, {.by_default = false}) {
+    const PairsAsked asked{scene.necklaces(), report.by != ContactElement::chain, report.apart, true, groups};
+    structures_.push_back(&run_.add<Contacts<D>>(asked, radii.inner));
+    if (!radii.outer.empty()) structures_.push_back(&run_.add<Contacts<D>>(asked, radii.outer));
+  }
+
+  /// Follows the contacts by one more rule. Rules are served in the order of these calls.
+  void follow(const ContactRule& rule, ContactIntervals::Sink sink) {
+    followed_.push_back({rule.inner, rule.outer,
+                         std::make_unique<ContactIntervals>(run_.simulator(), rule, std::move(sink))});
+    run_.listen(*followed_.back().intervals);
+  }
+
+  void run(const std::function<void(std::size_t frame)>& at_frame) {
+    RunOptions options;
+    static_cast<InputOptions&>(options) = task_;
+    run_steps(run_, options, [&](std::size_t frame) {
+      if (frame == 0) add_built();
+      at_frame(frame);
+    });
+    const StepStamps last(scene_, scene_.step_count() - 1);
+    for (const Followed& one : followed_) one.intervals->finish(scene_.step_count() - 1, last.from, last.to);
+  }
+
+ private:
+  struct Followed {
+    std::size_t inner, outer;
+    std::unique_ptr<ContactIntervals> intervals;
+  };
+
+  void add_built() {
+    const StepStamps first(scene_, 0);
+    std::vector<std::vector<BeadPair>> pairs;
+    for (const Contacts<D>* structure : structures_) pairs.push_back(structure->pairs());
+    for (const Followed& one : followed_)
+      one.intervals->add_built(pairs[one.inner], pairs[one.outer], first.from, first.to);
+  }
+
+  const ContactsTask& task_;
+  const Scene& scene_;
+  KineticRun run_;
+  std::vector<const Contacts<D>*> structures_;
+  std::vector<Followed> followed_;
+};
+
+/// Throws InputError if lengths of time have no meaning, because a frame is not later than the one before.
+void check_times_ascend(const ContactsTask& task, const Scene& scene) {
+  for (std::size_t frame = 1; frame < scene.frame_count(); ++frame) {
+    const FrameStamp before = scene.stamp(frame - 1), now = scene.stamp(frame);
+    if (!before.picoseconds || !now.picoseconds || *before.picoseconds < *now.picoseconds) continue;
+    throw InputError(
+        fmt::format("{}: the time does not advance from frame {}, {} ps, to frame {}, {} ps; lengths of time "
+                    "need ascending times, expected --dt PS or other --frames",
+                    file_names(task), before.number, *before.picoseconds, now.number, *now.picoseconds));
+  }
+}
+
 template <int D>
 void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report,
             const std::function<void(std::size_t, std::size_t)>& progress) {
-  KineticRun run(scene, {.by_default = false});
-  const bool by_chain = report.by == ContactElement::chain;
-  PairsAsked asked{scene.necklaces(), !by_chain, report.apart, true, scene.bead_groups()};
-  const Cutoffs<D> cutoffs(run, task, asked);
-
-  ContactRule rule{.elements = report.elements.of_bead,
-                   .chains = report.elements.chains,
-                   .apart = report.apart,
-                   .gap = task.gap,
-                   .clock = report.clock,
-                   .inner = 0,
-                   .outer = task.cutoff->are_two() ? 1U : 0U};
+  ContactsRun<D> run(task, scene, report, radii_of(task, scene), scene.bead_groups());
+  const ContactRule rule = rule_of(task, report);
   ContactRule inner_rule = rule, outer_rule = rule;
   inner_rule.gap = outer_rule.gap = 0;
   inner_rule.outer = 0;
   outer_rule.inner = 1;
   inner_rule.rounds_times = outer_rule.rounds_times = false;
   FrameContacts& frames = *report.frames;
-  Simulator& simulator = run.simulator();
-  ContactIntervals of_inner(simulator, inner_rule, [&](const ContactInterval& i) { frames.add_inner(i); });
-  ContactIntervals of_outer(simulator, outer_rule, [&](const ContactInterval& i) { frames.add_outer(i); });
-  ContactIntervals of_rule(simulator, rule, [&](const ContactInterval& interval) {
+  run.follow(inner_rule, [&](const ContactInterval& interval) { frames.add_inner(interval); });
+  if (task.cutoff->are_two())
+    run.follow(outer_rule, [&](const ContactInterval& interval) { frames.add_outer(interval); });
+  run.follow(rule, [&](const ContactInterval& interval) {
     report.lifetimes->add(interval);
     const IntervalRecord record = record_of(interval);
     report.course.add(record.begin, record.end);
     report.intervals.add(record);
   });
-  run.listen(of_inner);
-  if (task.cutoff->are_two()) run.listen(of_outer);
-  run.listen(of_rule);
-
-  FrameStamp before;
-  RunOptions options;
-  static_cast<InputOptions&>(options) = task;
-  run_steps(run, options, [&](std::size_t frame) {
-    if (frame == 0) {
-      const StepStamps first(scene, 0);
-      const std::vector<BeadPair> inner = cutoffs.inner(), outer = cutoffs.outer();
-      of_inner.add_built(inner, inner, first.from, first.to);
-      if (task.cutoff->are_two()) of_outer.add_built(outer, outer, first.from, first.to);
-      of_rule.add_built(inner, outer, first.from, first.to);
-    }
-    const FrameStamp now = scene.stamp(frame);
-    if (frame > 0 && report.has_times() && !(before.picoseconds < now.picoseconds))
-      throw InputError(
-          fmt::format("{}: the time does not advance from frame {} to frame {}; lengths of time need "
-                      "ascending times, expected --dt PS or other --frames",
-                      file_names(task), before.number, now.number));
-    before = now;
+  run.run([&](std::size_t frame) {
     if (frame < scene.step_count() && frame % report.course.width() == 0)
-      report.frame_numbers.push_back(now.number);
+      report.frame_numbers.push_back(scene.frame_number(frame));
     progress(frame, scene.step_count());
   });
-  const StepStamps last(scene, scene.step_count() - 1);
-  of_inner.finish(scene.step_count() - 1, last.from, last.to);
-  if (task.cutoff->are_two()) of_outer.finish(scene.step_count() - 1, last.from, last.to);
-  of_rule.finish(scene.step_count() - 1, last.from, last.to);
   frames.finish();
 }
 
-}  // namespace
+template <int D>
+void follow_rule_again(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
+                       const CutoffRadii& radii, const BeadGroups& groups, const ContactIntervals::Sink& sink,
+                       const std::function<void(std::size_t)>& at_frame) {
+  ContactsRun<D> run(task, scene, report, radii, groups);
+  run.follow(rule_of(task, report), sink);
+  run.run(at_frame);
+}
 
-namespace {
-
-bool names_residues(const Scene& scene) {
+/// Returns the first bead without a residue, or nothing if all have one.
+std::optional<BeadId> bead_without_residue(const Scene& scene) {
   for (BeadId bead = 0; bead < scene.bead_count(); ++bead)
-    if (!bead_name_of(scene.bead_name(bead))) return false;
-  return true;
+    if (!bead_name_of(scene.bead_name(bead))) return bead;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -198,20 +230,41 @@ std::vector<double> ContactCourse::means() const {
   return means;
 }
 
+CutoffRadii radii_of(const ContactsTask& task, const Scene& scene) {
+  const auto radii = [&](double length) { return contact_radii({length, task.surface}, scene.radii()); };
+  CutoffRadii of_cutoffs{radii(task.cutoff->inner), {}};
+  if (task.cutoff->are_two()) of_cutoffs.outer = radii(task.cutoff->outer);
+  return of_cutoffs;
+}
+
+void follow_again(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
+                  const CutoffRadii& radii, const BeadGroups& groups, const ContactIntervals::Sink& sink,
+                  const std::function<void(std::size_t)>& at_frame) {
+  scene.dimension() == 2 ? follow_rule_again<2>(task, scene, report, radii, groups, sink, at_frame)
+                         : follow_rule_again<3>(task, scene, report, radii, groups, sink, at_frame);
+}
+
 std::unique_ptr<ContactsReport> follow_contacts(
     const ContactsTask& task, const Scene& scene,
     const std::function<void(std::size_t, std::size_t)>& progress) {
   if (scene.frame_count() < 2)
     throw InputError(fmt::format("{}: has one frame, expected two or more", file_names(task)));
+  check_times_ascend(task, scene);
   const auto strides = strides_that_fit(task.strides, scene.frame_count(), task);
   auto report = std::make_unique<ContactsReport>(scene.step_count());
-  report->by = task.by.value_or(names_residues(scene) ? ContactElement::residue : ContactElement::bead);
+  const std::optional<BeadId> nameless = bead_without_residue(scene);
+  report->by = task.by.value_or(nameless ? ContactElement::bead : ContactElement::residue);
+  if (report->by == ContactElement::residue && nameless)
+    throw InputError(
+        fmt::format("--by residue: {} names no residue of bead {}; expected --by bead, or --topology FILE",
+                    file_names(task), *nameless));
   if (report->by == ContactElement::chain && task.apart)
     throw InputError("--apart: it chooses pairs within a chain, which --by chain does not count");
   report->elements = elements_of(scene, report->by);
   if (report->elements.names.size() < 2)
-    throw InputError(
-        fmt::format("{}: has one {}, expected two or more", file_names(task), name_of(report->by)));
+    throw InputError(fmt::format("{}: has one {}, expected two or more{}", file_names(task),
+                                 name_of(report->by),
+                                 report->by == ContactElement::chain ? ", or --by residue or bead" : ""));
   report->apart = report->by == ContactElement::chain ? 1 : task.apart.value_or(default_contacts_apart);
   report->has_two_cutoffs = task.cutoff->are_two();
   const FrameStamp first = scene.stamp(0);

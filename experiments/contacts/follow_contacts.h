@@ -1,5 +1,6 @@
 #pragma once
-// The work of `kds contacts`: one run follows the contacts of all pairs, exactly and as frames tell it.
+// The work of `kds contacts`: one run follows the contacts of all pairs exactly, and counts them at
+// samples too.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +12,10 @@
 
 #include "experiments/output/spool.h"
 #include "experiments/program/input_options.h"
+#include "motions/base/bead_groups.h"
 #include "motions/scene/scene.h"
 #include "structures/contacts/contact_elements.h"
+#include "structures/contacts/contact_intervals.h"
 #include "structures/contacts/contact_lifetimes.h"
 #include "structures/contacts/frame_contacts.h"
 
@@ -33,6 +36,7 @@ struct ContactsTask : InputOptions {
   std::vector<std::size_t> strides;  ///< ascending; empty for the default
   std::size_t intermittency = 1;     ///< samples that an absence may have, for the frame-based figures
   FrameMotion motion = FrameMotion::linear;
+  bool certify = false;
 };
 
 inline constexpr BeadId default_contacts_apart = 3;
@@ -44,13 +48,15 @@ inline constexpr BeadId default_contacts_apart = 3;
 
 /// An interval as it waits on disk.
 struct IntervalRecord {
-  std::uint32_t first = 0, second = 0;
+  std::uint32_t first = 0, second = 0;                ///< elements
   double begin_frame = 0, end_frame = 0;              ///< in frames of the file, with a fraction
   double begin_picoseconds = 0, end_picoseconds = 0;  ///< 0 if the frames have no times
   double length = 0;                                  ///< in units of the clock
   double begin = 0, end = 0;                          ///< counted in steps of the run
   bool open_at_start = false, open_at_end = false;
 };
+
+[[nodiscard]] IntervalRecord record_of(const ContactInterval& interval);
 
 /// The mean number of contacts in bins of neighbouring steps.
 class ContactCourse {
@@ -89,6 +95,20 @@ struct ContactsReport {
   [[nodiscard]] bool has_times() const { return clock == ContactClock::picoseconds; }
   [[nodiscard]] std::string unit() const { return has_times() ? "ps" : "frames"; }
 };
+
+/// Radii of balls that meet while two beads are within the inner or the outer cutoff, one for each bead.
+struct CutoffRadii {
+  std::vector<double> inner;
+  std::vector<double> outer;  ///< empty unless there are two cutoffs
+};
+/// Returns the radii for the task's cutoffs.
+[[nodiscard]] CutoffRadii radii_of(const ContactsTask& task, const Scene& scene);
+
+/// Follows the contacts by the rule of the task once more, with other radii or groups. The report comes from
+/// follow_contacts. Intervals arrive at `sink` as ContactIntervals says.
+void follow_again(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
+                  const CutoffRadii& radii, const BeadGroups& groups, const ContactIntervals::Sink& sink,
+                  const std::function<void(std::size_t frame)>& at_frame);
 
 /// Follows the contacts over all frames of the scene. Throws InputError for faults of the input.
 [[nodiscard]] std::unique_ptr<ContactsReport> follow_contacts(

@@ -70,8 +70,10 @@ struct LifetimeFigures {
   [[nodiscard]] std::uint64_t begins() const { return contacts - open_at_start; }
   [[nodiscard]] std::uint64_t ends() const { return contacts - open_at_end; }
   [[nodiscard]] double mean() const { return contacts == 0 ? 0 : total / static_cast<double>(contacts); }
-  /// Returns the share of time in contact, 0 to 1.
-  [[nodiscard]] double occupancy() const { return total < run_length ? total / run_length : 1; }
+  /// Returns the share of time in contact, 0 to 1; 0 if there is no pair.
+  [[nodiscard]] double occupancy() const {
+    return total < run_length ? total / run_length : run_length > 0 ? 1 : 0;
+  }
   // Return nothing if there is no time to divide by, or no end.
   [[nodiscard]] std::optional<double> begin_rate() const;
   [[nodiscard]] std::optional<double> end_rate() const;

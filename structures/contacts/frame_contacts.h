@@ -1,8 +1,8 @@
 #pragma once
-// The contacts that a look at frames alone would tell: at every frame, every second, every fourth, and so on,
+// The contacts that frames alone would show: at every frame, every second, every fourth, and so on,
 // or at several evenly spaced times of each step.
 //
-// The exact intervals (contact_intervals.h) tell at which of the samples a pair is in contact, ends included.
+// The exact intervals (contact_intervals.h) say at which of the samples a pair is in contact, ends included.
 // Contacts are then counted as programs count them that see the samples only:
 //
 // - plain: a contact is a run of consecutive samples within the inner cutoff;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -149,6 +150,10 @@ TEST(ContactsCommand, WithoutContactsSaysWhatToTry) {
   const ProgramRun none = run_program({"contacts", path, "--cutoff", "1", "--apart", "1"});
   EXPECT_EQ(none.code, 0);
   EXPECT_THAT(none.err, HasSubstr("there are no contacts within --cutoff 1"));
+  const ProgramRun no_pairs = run_program({"contacts", path, "--cutoff", "9", "--apart", "2", "--json", "-"});
+  EXPECT_EQ(no_pairs.code, 0);
+  EXPECT_THAT(no_pairs.err, HasSubstr("none of 2 beads are a pair; --apart is 2"));
+  EXPECT_EQ(Json::parse(no_pairs.out)["all"]["occupancy"], 0.0);
   const ProgramRun hint = run_program({"contacts", data_file("trajectories/villin_hp36_300K.dcd"),
                                        "--topology", data_file("trajectories/villin_hp36_300K.pdb"),
                                        "--select", "ca", "--cutoff", "0.5", "--frames", ":3"});
@@ -166,12 +171,22 @@ TEST(ContactsCommand, RefusesInputsThatItCannotUse) {
     EXPECT_EQ(run.code, 2) << run.err;
     return run.err;
   };
-  EXPECT_THAT(error({two, "--by", "residue"}), HasSubstr("bead 0 has no residue"));
+  EXPECT_THAT(error({two, "--by", "residue"}),
+              HasSubstr("--by residue: two.xyz names no residue of bead 0; expected --by bead"));
   EXPECT_THAT(error({two, "--by", "chain"}), HasSubstr("has one chain, expected two or more"));
   EXPECT_THAT(error({two, two, "--by", "chain", "--apart", "4"}),
               HasSubstr("--apart: it chooses pairs within a chain"));
   EXPECT_THAT(error({two, "--strides", "2"}), HasSubstr("--strides: 2 looks at one of the 2 frames"));
   static_cast<void>(error({one}));
+  // Frames 2 and 3 have one time.
+  const auto frame = [](int time) {
+    return "title t= " + std::to_string(time) +
+           "\n1\n    1ALA     CA    1   0.000   0.000   0.000\n   9 9 9\n";
+  };
+  const std::string still = directory.file("still.gro", frame(0) + frame(1) + frame(1));
+  EXPECT_THAT(
+      error({still, still, "--by", "bead"}),
+      HasSubstr("still.gro, still.gro: the time does not advance from frame 1, 1 ps, to frame 2, 1 ps"));
 }
 
 std::string text_of(const std::filesystem::path& path) {
@@ -191,7 +206,7 @@ TEST(ContactsCommand, FilesAndPage) {
   const std::string page = text_of(out + "/report.html");
   expect_sound(page);
   for (const char* part : {"Contact map", "When pairs are in contact", "Survival", "Contacts over time",
-                           "What frames would have told", "VAL 5 and ILE 13"})
+                           "Contacts counted at frames", "VAL 5 and ILE 13"})
     EXPECT_THAT(page, HasSubstr(part));
   const Json json = Json::parse(text_of(out + "/contacts.json"));
   std::map<std::string, int> contacts;
@@ -306,6 +321,147 @@ void expect_as_brute_force(const std::string& dcd, const std::string& pdb, std::
 TEST(ContactsCommand, IntervalsAreThoseOfEachPairsQuadratic) {
   expect_as_brute_force("trajectories/villin_hp36_300K.dcd", "trajectories/villin_hp36_300K.pdb", 80, 8);
   expect_as_brute_force("trajectories/random100_400K_first200.dcd", "trajectories/random100_400K.pdb", 60, 8);
+}
+
+/// A line of intervals.csv or possible_intervals.csv.
+struct Span {
+  double begin = 0, end = 0;
+  std::string flag;
+};
+using SpansOfPairs = std::map<std::pair<int, int>, std::vector<Span>>;
+
+SpansOfPairs spans_in(const std::filesystem::path& path) {
+  SpansOfPairs spans;
+  std::istringstream lines(text_of(path));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    std::vector<std::string> cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+    spans[{std::stoi(cells[0]), std::stoi(cells[1])}].push_back(
+        {std::stod(cells[4]), std::stod(cells[5]), cells.back()});
+  }
+  return spans;
+}
+
+double time_of(const std::vector<Span>& spans) {
+  double time = 0;
+  for (const Span& span : spans) time += span.end - span.begin;
+  return time;
+}
+
+// Compares a certificate with the contacts of all frames.
+void expect_true_certificate(const std::vector<std::string>& rule, const std::string& stride) {
+  SCOPED_TRACE(testing::PrintToString(rule) + " " + stride);
+  const ScratchDirectory directory;
+  const auto report = [&](const std::string& frames, bool certify) {
+    const std::filesystem::path out = directory / (certify ? "certified" : "truth");
+    std::vector<std::string> arguments{"contacts",   data_file("trajectories/villin_hp36_300K.dcd"),
+                                       "--topology", data_file("trajectories/villin_hp36_300K.pdb"),
+                                       "--select",   "ca",
+                                       "--frames",   frames,
+                                       "--out",      out.string()};
+    arguments.insert(arguments.end(), rule.begin(), rule.end());
+    if (certify) arguments.emplace_back("--certify");
+    const ProgramRun run = run_program(arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return out;
+  };
+  const auto truth = spans_in(report("0:97", false) / "intervals.csv");
+  const std::filesystem::path out = report("0:97:" + stride, true);
+  const auto found = spans_in(out / "intervals.csv"), possible = spans_in(out / "possible_intervals.csv");
+  const Json json = Json::parse(text_of(out / "contacts.json"));
+  constexpr double rounded = 1e-9;  // of printed times
+  const auto meets = [&](const Span& a, const Span& b) {
+    return a.begin <= b.end + rounded && b.begin <= a.end + rounded;
+  };
+  std::size_t sure = 0, contacts = 0;
+  for (const auto& [pair, spans] : truth) {
+    ASSERT_TRUE(possible.contains(pair));
+    for (const Span& span : spans)
+      EXPECT_EQ(std::ranges::count_if(possible.at(pair),
+                                      [&](const Span& one) {
+                                        return one.begin <= span.begin + rounded &&
+                                               span.end <= one.end + rounded;
+                                      }),
+                1);
+  }
+  for (const auto& [pair, spans] : found) {
+    for (const Span& span : spans) {
+      ++contacts;
+      if (span.flag != "sure") continue;
+      ++sure;
+      ASSERT_TRUE(truth.contains(pair));
+      EXPECT_TRUE(std::ranges::any_of(truth.at(pair), [&](const Span& one) { return meets(one, span); }));
+    }
+    EXPECT_EQ(std::ranges::count(possible.at(pair), "yes", &Span::flag),
+              std::ranges::count_if(possible.at(pair), [&](const Span& one) {
+                return std::ranges::any_of(spans, [&](const Span& inner) { return meets(one, inner); });
+              }));
+  }
+  for (const Json& row : json["rows"]) {
+    const auto of_pair = truth.find({row["i"], row["j"]});
+    const double share = of_pair == truth.end() ? 0 : time_of(of_pair->second) / 96;
+    EXPECT_LE(row["least_occupancy"].get<double>(), share + rounded);
+    EXPECT_GE(row["most_occupancy"].get<double>(), share - rounded);
+    EXPECT_LE(row["least_occupancy"], row["occupancy"]);
+    EXPECT_GE(row["most_occupancy"], row["occupancy"]);
+  }
+  std::size_t in_truth = 0;
+  double time_in_truth = 0;
+  for (const auto& [pair, spans] : truth) {
+    in_truth += spans.size();
+    time_in_truth += time_of(spans);
+  }
+  const Json& stated = json["stride"];
+  EXPECT_EQ(stated["contacts"]["found"], contacts);
+  EXPECT_EQ(stated["contacts"]["sure"], sure);
+  EXPECT_EQ(stated["pairs"]["possible"], possible.size());
+  EXPECT_LE(stated["contacts"]["least"], in_truth);
+  EXPECT_LE(stated["time"]["least"], time_in_truth + rounded);
+  EXPECT_GE(stated["time"]["most"].get<double>(), time_in_truth - rounded);
+  EXPECT_GT(sure, 0U);
+  EXPECT_LT(sure, contacts);
+  EXPECT_GT(stated["contacts"]["least"], 0);
+}
+
+TEST(ContactsCommand, CertificatesBoundTheContactsOfAllFrames) {
+  expect_true_certificate({"--cutoff", "8"}, "4");
+  expect_true_certificate({"--cutoff", "7:9", "--by", "bead"}, "2");
+  expect_true_certificate({"--cutoff", "8", "--gap", "3"}, "8");
+  expect_true_certificate({"--cutoff", "5", "--surface", "--groups", "//A/41-60", "//A/50-76"}, "3");
+}
+
+// In all frames, the bead comes within 1 at frames 1 and 3 and stays 3 away at frame 2. The run leaves out
+// frames 1 and 3, in which the bead is 2 from its place in the run.
+TEST(ContactsCommand, ACertificateOfOnePair) {
+  const ScratchDirectory directory;
+  const std::string rests = directory.file("rests.xyz", "1\n\nC 0 0 0\n");
+  const std::string moves =
+      directory.file("moves.xyz", "1\n\nC 3 0 0\n1\n\nC 1 0 0\n1\n\nC 3 0 0\n1\n\nC 1 0 0\n1\n\nC 3 0 0\n");
+  const auto json = [&](const char* cutoff) {
+    const ProgramRun run = run_program(
+        {"contacts", rests, moves, "--cutoff", cutoff, "--frames", "::2", "--certify", "--json", "-"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    return Json::parse(run.out);
+  };
+  // Balls that are two smaller meet within 0, which is no certain contact.
+  const Json near = json("2");
+  EXPECT_EQ(near["stride"]["skipped"], 2);
+  EXPECT_NEAR(near["stride"]["deviation"]["largest"].get<double>(), 2, 1e-9);
+  EXPECT_EQ(near["stride"]["pairs"], Json::parse(R"({"found": 0, "sure": 0, "possible": 1})"));
+  EXPECT_EQ(near["stride"]["contacts"], Json::parse(R"({"found": 0, "sure": 0, "possible": 1, "least": 0})"));
+  EXPECT_NEAR(near["stride"]["time"]["most"].get<double>(), 4, 1e-12);
+  const Json far = json("7");
+  EXPECT_EQ(far["stride"]["contacts"], Json::parse(R"({"found": 1, "sure": 1, "possible": 1, "least": 1})"));
+  EXPECT_EQ(far["rows"][0]["sure"], 1);
+  EXPECT_EQ(far["rows"][0]["least_occupancy"], 1.0);
+}
+
+TEST(ContactsCommand, CertifyNeedsAStride) {
+  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "8", "--certify"}),
+              HasSubstr("--certify: the command leaves out no frame; expected --frames FIRST:LAST:STRIDE"));
 }
 
 TEST(SortedRecords, AreSortedAcrossRuns) {
