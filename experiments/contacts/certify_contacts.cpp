@@ -15,7 +15,8 @@ namespace kds {
 
 namespace {
 
-enum class RunOfBalls : std::uint8_t { shrunk, own, enlarged };
+/// Where an interval comes from: a run with shrunk, own or enlarged balls, or a frame within an interval.
+enum class Source : std::uint8_t { shrunk, own, enlarged, frame };
 
 /// A step and a parameter in it, below 1.
 struct StepMoment {
@@ -28,17 +29,17 @@ StepMoment step_moment(std::size_t step, double u) {
   return u < 1 ? StepMoment{step, u} : StepMoment{step + 1, 0};
 }
 
-/// An interval that is sorted by pair, by run, and by its place in the run.
+/// An interval that is sorted by pair, by source, and by its place in the source.
 struct PlacedInterval {
   std::uint64_t pair = 0;
-  RunOfBalls run = RunOfBalls::own;
-  std::size_t place = 0;        // among all intervals of the run
+  Source source = Source::own;
+  std::size_t place = 0;        // among all intervals of the source
   StepMoment earliest, latest;  // bounds of its begin and of its end
   double length = 0;
 
   friend bool operator<(const PlacedInterval& a, const PlacedInterval& b) {
     if (a.pair != b.pair) return a.pair < b.pair;
-    return a.run != b.run ? a.run < b.run : a.place < b.place;
+    return a.source != b.source ? a.source < b.source : a.place < b.place;
   }
 };
 
@@ -59,56 +60,73 @@ const PlacedInterval* container_of(const PlacedInterval& inner, const std::vecto
   return second == all.end() || inner.latest < second->earliest ? &*first : nullptr;
 }
 
-/// Calls `visit` for each interval of `all` that certainly contains one of `inner`, once.
-template <class Visit>
-void for_each_container(const std::vector<PlacedInterval>& inner, const std::vector<PlacedInterval>& all,
-                        const Visit& visit) {
-  const PlacedInterval* last = nullptr;
-  for (const PlacedInterval& one : inner) {
-    const PlacedInterval* const container = container_of(one, all);
-    if (container == nullptr || container == last) continue;
-    last = container;
-    visit(*container);
-  }
+/// Marks each interval of `all` that certainly contains one of `inner`. Marks stand at the places.
+void mark_containers(const std::vector<PlacedInterval>& inner, const std::vector<PlacedInterval>& all,
+                     std::vector<std::uint8_t>& marks) {
+  for (const PlacedInterval& one : inner)
+    if (const PlacedInterval* const container = container_of(one, all)) marks[container->place] = 1;
+}
+
+std::uint64_t marked(const std::vector<PlacedInterval>& intervals, const std::vector<std::uint8_t>& marks) {
+  std::uint64_t count = 0;
+  for (const PlacedInterval& one : intervals) count += marks[one.place];
+  return count;
+}
+
+/// Returns the first frame used within an interval, or nothing if there is none.
+std::optional<std::size_t> frame_within(const ContactInterval& interval) {
+  const std::size_t frame = (interval.begin.tick_after() + ticks_per_frame - 1) / ticks_per_frame;
+  return frame * ticks_per_frame <= interval.end.tick_before() ? std::optional(frame) : std::nullopt;
 }
 
 class ContactBounder {
  public:
   explicit ContactBounder(ContactsCertificate& certificate) : certificate_(certificate) {}
 
-  /// Adds an interval of a run. Intervals come in the order in which the run reports them.
-  void add(RunOfBalls run, std::uint32_t first, std::uint32_t second, const StepMoment& earliest,
-           const StepMoment& latest, double length) {
-    auto& place = places_[static_cast<std::size_t>(run)];
-    sorted_.add({(std::uint64_t{first} << 32U) | second, run, place++, earliest, latest, length});
+  /// Adds an interval. Intervals of one pair come in their order.
+  void add(Source source, const ContactInterval& interval) {
+    add(source, interval, step_moment(interval.begin.step, interval.begin.lower),
+        step_moment(interval.end.step, interval.end.upper), interval.length());
+  }
+  /// Adds a frame within an interval of the inner cutoff, if a frame lies in it.
+  void add_frame(const ContactInterval& interval) {
+    if (const auto frame = frame_within(interval)) add(Source::frame, interval, {*frame, 0}, {*frame, 0}, 0);
   }
 
   void finish() {
-    certificate_.is_sure.assign(places_[static_cast<std::size_t>(RunOfBalls::own)], 0);
-    certificate_.is_found.assign(places_[static_cast<std::size_t>(RunOfBalls::enlarged)], 0);
+    certificate_.is_sure.assign(places_[static_cast<std::size_t>(Source::own)], 0);
+    certificate_.is_found.assign(places_[static_cast<std::size_t>(Source::enlarged)], 0);
+    is_certain_.assign(certificate_.is_found.size(), 0);
     std::optional<std::uint64_t> pair;
     sorted_.visit_sorted([&](const PlacedInterval& interval) {
       if (pair && *pair != interval.pair) finish_pair(*pair);
       pair = interval.pair;
-      of_pair_[static_cast<std::size_t>(interval.run)].push_back(interval);
+      of_pair_[static_cast<std::size_t>(interval.source)].push_back(interval);
     });
     if (pair) finish_pair(*pair);
   }
 
  private:
+  void add(Source source, const ContactInterval& interval, const StepMoment& earliest,
+           const StepMoment& latest, double length) {
+    const std::size_t place = places_[static_cast<std::size_t>(source)]++;
+    sorted_.add(
+        {(std::uint64_t{interval.first} << 32U) | interval.second, source, place, earliest, latest, length});
+  }
+
   void finish_pair(std::uint64_t pair) {
     for (auto& intervals : of_pair_) sharpen(intervals);
-    const auto& [shrunk, own, enlarged] = of_pair_;
+    const auto& [shrunk, own, enlarged, frames] = of_pair_;
     ContactBoundsOfPair bounds;
     for (const PlacedInterval& one : shrunk) bounds.least_time += one.length;
     for (const PlacedInterval& one : enlarged) bounds.most_time += one.length;
-    for_each_container(shrunk, own, [&](const PlacedInterval& one) {
-      certificate_.is_sure[one.place] = 1;
-      ++bounds.sure;
-    });
-    for_each_container(own, enlarged,
-                       [&](const PlacedInterval& one) { certificate_.is_found[one.place] = 1; });
-    for_each_container(shrunk, enlarged, [&](const PlacedInterval&) { ++bounds.least; });
+    for (const auto* certain : {&shrunk, &frames}) {
+      mark_containers(*certain, own, certificate_.is_sure);
+      mark_containers(*certain, enlarged, is_certain_);
+    }
+    mark_containers(own, enlarged, certificate_.is_found);
+    bounds.sure = marked(own, certificate_.is_sure);
+    bounds.least = marked(enlarged, is_certain_);
     certificate_.pairs[{static_cast<std::uint32_t>(pair >> 32U), static_cast<std::uint32_t>(pair)}] = bounds;
     certificate_.sure_pairs += bounds.sure > 0 ? 1 : 0;
     ContactBoundsOfPair& all = certificate_.all;
@@ -121,8 +139,9 @@ class ContactBounder {
 
   ContactsCertificate& certificate_;
   SortedRecords<PlacedInterval> sorted_;
-  std::array<std::size_t, 3> places_{};
-  std::array<std::vector<PlacedInterval>, 3> of_pair_;  // by RunOfBalls
+  std::array<std::size_t, 4> places_{};                 // by Source: intervals so far
+  std::array<std::vector<PlacedInterval>, 4> of_pair_;  // by Source
+  std::vector<std::uint8_t> is_certain_;  // of enlarged balls: whether a true contact lies in it
 };
 
 /// Returns groups with which only pairs of these beads are asked about, and among them the pairs of `groups`.
@@ -176,20 +195,20 @@ ContactsCertificate certify_contacts(const ContactsTask& task, const Scene& scen
 
   ContactBounder bounder(certificate);
   const std::size_t steps = scene.step_count();
-  const auto follow_balls = [&](RunOfBalls run, const CutoffRadii& radii, const BeadGroups& groups) {
+  const auto follow_balls = [&](Source source, const CutoffRadii& radii, const BeadGroups& groups,
+                                const ContactIntervals::Sink& inner_sink) {
     const auto sink = [&](const ContactInterval& interval) {
-      bounder.add(run, interval.first, interval.second,
-                  step_moment(interval.begin.step, interval.begin.lower),
-                  step_moment(interval.end.step, interval.end.upper), interval.length());
-      if (run == RunOfBalls::enlarged) certificate.possible.add(record_of(interval));
+      bounder.add(source, interval);
+      if (source == Source::enlarged) certificate.possible.add(record_of(interval));
     };
-    const std::size_t done = static_cast<std::size_t>(run) * steps;
-    follow_again(task, scene, report, radii, groups, sink,
+    const std::size_t done = static_cast<std::size_t>(source) * steps;
+    follow_again(task, scene, report, radii, groups, sink, inner_sink,
                  [&](std::size_t frame) { progress(done + frame, 3 * steps); });
   };
-  follow_balls(RunOfBalls::shrunk, smaller, with_balls);
-  follow_balls(RunOfBalls::own, own, scene.bead_groups());
-  follow_balls(RunOfBalls::enlarged, larger, scene.bead_groups());
+  follow_balls(Source::shrunk, smaller, with_balls, nullptr);
+  follow_balls(Source::own, own, scene.bead_groups(),
+               [&](const ContactInterval& interval) { bounder.add_frame(interval); });
+  follow_balls(Source::enlarged, larger, scene.bead_groups(), nullptr);
   bounder.finish();
   return certificate;
 }

@@ -11,11 +11,14 @@
 // that is monotone: more times within a cutoff give more times in contact. For two cutoffs, a time is in
 // contact if some earlier time is within the inner cutoff and all times from there on are within the outer
 // one. For a gap, a time is in contact too if it lies in an absence shorter than the gap, and more times in
-// contact make absences shorter. So S lies in F and in T, and F and T lie in P. This means:
+// contact make absences shorter. So S lies in F and in T, and F and T lie in P. Besides, beads of the run are
+// at their true positions in each frame used. A pair that is within the inner cutoff there is in contact in
+// the run, in truth and in P: the frame is a sure moment. This means:
 //
-// - A contact of the run that contains a contact of S is *sure*: the pair is truly in contact during it.
+// - A contact of the run that contains a contact of S or a sure moment is *sure*: the pair is truly in
+//   contact during it.
 // - Each true contact lies within one contact of P, a *possible* contact.
-// - Contacts of P that contain one of S are at most as many as true contacts.
+// - Contacts of P that contain a contact of S or a sure moment are at most as many as true contacts.
 // - The true time in contact is at least that of S and at most that of P.
 
 #include <cstddef>

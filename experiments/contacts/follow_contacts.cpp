@@ -74,6 +74,15 @@ ContactRule rule_of(const ContactsTask& task, const ContactsReport& report) {
           .outer = task.cutoff->are_two() ? 1U : 0U};
 }
 
+/// Returns the rule of contacts within the inner cutoff, without any gap.
+ContactRule inner_rule_of(const ContactsTask& task, const ContactsReport& report) {
+  ContactRule rule = rule_of(task, report);
+  rule.gap = 0;
+  rule.outer = rule.inner;
+  rule.rounds_times = false;
+  return rule;
+}
+
 /// A run with a structure for each cutoff, whose contacts are followed by several rules.
 template <int D>
 class ContactsRun {
@@ -141,17 +150,14 @@ template <int D>
 void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report,
             const std::function<void(std::size_t, std::size_t)>& progress) {
   ContactsRun<D> run(task, scene, report, radii_of(task, scene), scene.bead_groups());
-  const ContactRule rule = rule_of(task, report);
-  ContactRule inner_rule = rule, outer_rule = rule;
-  inner_rule.gap = outer_rule.gap = 0;
-  inner_rule.outer = 0;
-  outer_rule.inner = 1;
-  inner_rule.rounds_times = outer_rule.rounds_times = false;
+  ContactRule outer_rule = inner_rule_of(task, report);
+  outer_rule.inner = outer_rule.outer = rule_of(task, report).outer;
   FrameContacts& frames = *report.frames;
-  run.follow(inner_rule, [&](const ContactInterval& interval) { frames.add_inner(interval); });
+  run.follow(inner_rule_of(task, report),
+             [&](const ContactInterval& interval) { frames.add_inner(interval); });
   if (task.cutoff->are_two())
     run.follow(outer_rule, [&](const ContactInterval& interval) { frames.add_outer(interval); });
-  run.follow(rule, [&](const ContactInterval& interval) {
+  run.follow(rule_of(task, report), [&](const ContactInterval& interval) {
     report.lifetimes->add(interval);
     const IntervalRecord record = record_of(interval);
     report.course.add(record.begin, record.end);
@@ -168,9 +174,11 @@ void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report
 template <int D>
 void follow_rule_again(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
                        const CutoffRadii& radii, const BeadGroups& groups, const ContactIntervals::Sink& sink,
+                       const ContactIntervals::Sink& inner_sink,
                        const std::function<void(std::size_t)>& at_frame) {
   ContactsRun<D> run(task, scene, report, radii, groups);
   run.follow(rule_of(task, report), sink);
+  if (inner_sink) run.follow(inner_rule_of(task, report), inner_sink);
   run.run(at_frame);
 }
 
@@ -239,9 +247,10 @@ CutoffRadii radii_of(const ContactsTask& task, const Scene& scene) {
 
 void follow_again(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
                   const CutoffRadii& radii, const BeadGroups& groups, const ContactIntervals::Sink& sink,
+                  const ContactIntervals::Sink& inner_sink,
                   const std::function<void(std::size_t)>& at_frame) {
-  scene.dimension() == 2 ? follow_rule_again<2>(task, scene, report, radii, groups, sink, at_frame)
-                         : follow_rule_again<3>(task, scene, report, radii, groups, sink, at_frame);
+  const auto follow_rules = scene.dimension() == 2 ? &follow_rule_again<2> : &follow_rule_again<3>;
+  follow_rules(task, scene, report, radii, groups, sink, inner_sink, at_frame);
 }
 
 std::unique_ptr<ContactsReport> follow_contacts(

@@ -105,9 +105,11 @@ struct CutoffRadii {
 [[nodiscard]] CutoffRadii radii_of(const ContactsTask& task, const Scene& scene);
 
 /// Follows the contacts by the rule of the task once more, with other radii or groups. The report comes from
-/// follow_contacts. Intervals arrive at `sink` as ContactIntervals says.
+/// follow_contacts. Intervals arrive at `sink` as ContactIntervals says. Intervals within the inner cutoff,
+/// without any gap, arrive at `inner_sink` if it is not null.
 void follow_again(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
                   const CutoffRadii& radii, const BeadGroups& groups, const ContactIntervals::Sink& sink,
+                  const ContactIntervals::Sink& inner_sink,
                   const std::function<void(std::size_t frame)>& at_frame);
 
 /// Follows the contacts over all frames of the scene. Throws InputError for faults of the input.
