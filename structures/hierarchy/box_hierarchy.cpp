@@ -198,6 +198,7 @@ template <int Dimension>
 void BoxHierarchy<Dimension>::start_step() {
   CertificatesPerBead per_bead(statistics.certificates, bead_count());
   changed_.clear();
+  risen_.clear();
   for (std::uint32_t side = 0; side < side_count(); ++side) {
     auto& contests = contests_->of_side[side];
     contests.start(static_cast<std::uint32_t>(bead_count()), present().absent());
@@ -211,6 +212,28 @@ void BoxHierarchy<Dimension>::start_step() {
     }
   }
   needs_after_batch = true;
+}
+
+// A bead takes part in the contests of the nodes above it, up to the first that it loses.
+template <int Dimension>
+std::uint64_t BoxHierarchy<Dimension>::certificates_of(BeadId bead) const {
+  std::uint64_t named = 0;
+  for (const auto& contests : contests_->of_side) {
+    std::uint32_t child = static_cast<std::uint32_t>(tree_.node_count()) + bead;
+    for (std::uint32_t node = parents_[child]; node != NodesAndBeads::none; node = parents_[child]) {
+      if (contests.is_contested(node)) ++named;
+      if (contests.winner(node) != bead) break;
+      child = node;
+    }
+  }
+  return named;
+}
+
+template <int Dimension>
+void BoxHierarchy<Dimension>::count_certificates() {
+  auto& most = statistics.certificates.per_bead_max;
+  for (const BeadId bead : risen_) most = std::max(most, certificates_of(bead));
+  risen_.clear();
 }
 
 template <int Dimension>
@@ -235,6 +258,8 @@ void BoxHierarchy<Dimension>::after_batch() {
     const auto [first, last] = tree_.range(node);
     if (keeps_[node] != 0) record(support_changes, {first, last, side, supports_[place], now});
     supports_[place] = now;
+    // Only a bead that becomes a support of a node enters another contest.
+    if (follows_certificates_ && now != no_bead) risen_.push_back(now);
   }
   changed_.clear();
 }
@@ -278,6 +303,9 @@ void BoxHierarchy<Dimension>::follow(std::span<const BeadId> beads) {
     contests_->of_side[side].hold_again();
     for (const BeadId bead : beads) look_from(parents_[tree_.node_count() + bead], side);
   }
+  if (follows_certificates_)
+    for (BeadId bead = 0; bead < bead_count(); ++bead)
+      if (!is_absent(bead)) risen_.push_back(bead);
   after_batch();
 }
 

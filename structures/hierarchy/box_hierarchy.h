@@ -83,6 +83,13 @@ class BoxHierarchy final : public EditableBase {
   /// node.
   [[nodiscard]] std::span<const BeadId> supports(NodeId node) const;
 
+  /// Keeps, from the next step on, the beads whose certificates may have become more, for count_certificates.
+  void follow_certificates() { follows_certificates_ = true; }
+  /// Raises statistics.certificates.per_bead_max to the most certificates that name one bead now. Starts of
+  /// steps count without this call. Costs O(height) per side for each support that has changed since the last
+  /// call, and for each bead after an edit.
+  void count_certificates();
+
   void build() override;
   void start_step() override;
   void fail(unsigned table, std::uint32_t slot) override;
@@ -100,6 +107,7 @@ class BoxHierarchy final : public EditableBase {
   void edit(std::uint8_t kind, BeadId bead) override;
   /// Notes that the supports of a node and of all nodes above it may have changed, for one side.
   void look_from(std::uint32_t node, std::uint32_t side);
+  [[nodiscard]] std::uint64_t certificates_of(BeadId bead) const;
 
   MotionRef<Dimension> motion_;
   Radii radii_;
@@ -112,6 +120,8 @@ class BoxHierarchy final : public EditableBase {
   std::unique_ptr<Contests> contests_;
   std::vector<BeadId> supports_;        // reported, at node * side_count() + side
   std::vector<std::uint32_t> changed_;  // places in supports_ that may differ from the contests' winners
+  bool follows_certificates_ = false;
+  std::vector<BeadId> risen_;  // beads that may have more certificates than when they were last counted
 };
 
 static_assert(EditableStructure<BoxHierarchy<2>>);

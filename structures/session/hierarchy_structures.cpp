@@ -186,6 +186,8 @@ class BoxesInRun final : public RunningStructure {
                    directions, nodes) {}
 
   [[nodiscard]] KineticStructure& kinetic() override { return hierarchy_; }
+  void follow_certificates() override { hierarchy_.follow_certificates(); }
+  void count_certificates(std::span<const BeadId>) override { hierarchy_.count_certificates(); }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const override {
     const Eigen::Matrix3Xd centers = scene_.centers(frame);
     std::vector<BoxesNode> nodes;

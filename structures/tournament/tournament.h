@@ -89,6 +89,9 @@ class Tournament {
   /// Returns the winner among the contestants below a node, or `none` if all of them are absent.
   [[nodiscard]] std::uint32_t winner(std::uint32_t node) const { return winner_[node]; }
 
+  /// Returns whether both children of an inner node have winners.
+  [[nodiscard]] bool is_contested(std::uint32_t node) const { return loser(node) != none; }
+
   /// The contest at a place of the table.
   struct Contest {
     std::uint32_t winner, loser;

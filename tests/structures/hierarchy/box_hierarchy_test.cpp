@@ -287,6 +287,49 @@ TEST(BoxHierarchy, ABeadHasFewCertificates) {
   EXPECT_LT(rig.structure.statistics.stages.exact, counts.created / 100);
 }
 
+/// Returns the most certificates that name one bead, counted anew: each node has one for each side, which
+/// compares the supports of its children.
+template <int Dimension>
+std::uint64_t most_on_one_bead(const BoxHierarchy<Dimension>& boxes) {
+  std::map<BeadId, std::uint64_t> named;
+  const NecklaceTree& tree = boxes.tree();
+  for (NodeId node = 0; node < tree.node_count(); ++node)
+    for (std::uint32_t side = 0; side < boxes.side_count(); ++side) {
+      const auto [first, last] = tree.range(node);
+      const NodeId left = tree.left(node), right = tree.right(node);
+      ++named[left == NecklaceTree::leaf ? first : boxes.supports(left)[side]];
+      ++named[right == NecklaceTree::leaf ? last : boxes.supports(right)[side]];
+    }
+  std::uint64_t most = 0;
+  for (const auto& [bead, count] : named) most = std::max(most, count);
+  return most;
+}
+
+TEST(BoxHierarchy, FollowsTheCertificatesOfABeadAtAllTimes) {
+  using M = BezierMotion<2, 1>;
+  Random random(5);
+  int above = 0;  // runs in which a bead has most certificates between starts of steps
+  for (int round = 0; round < 20; ++round) {
+    std::vector<M> steps{random_motion<M>(random, 12, all_motion_kinds[0])};
+    steps.push_back(next_step(random, steps.front(), all_motion_kinds[0]));
+    BoxesRig<M> rig(steps.front(), AuditMode::events, one_necklace(12), Radii::equal, 4);
+    rig.structure.follow_certificates();
+    std::uint64_t most = 0;
+    const Witness witness(rig.simulator, [&](const Dyadic&) {
+      most = std::max(most, most_on_one_bead(rig.structure));
+      rig.structure.count_certificates();
+      return std::nullopt;
+    });
+    rig.run(steps);
+    EXPECT_EQ(rig.structure.statistics.certificates.per_bead_max, most);
+    BoxesRig<M> plain(steps.front(), AuditMode::none, one_necklace(12), Radii::equal, 4);
+    plain.run(steps);
+    EXPECT_LE(plain.structure.statistics.certificates.per_bead_max, most);
+    above += plain.structure.statistics.certificates.per_bead_max < most ? 1 : 0;
+  }
+  EXPECT_GT(above, 0);
+}
+
 TEST(BoxHierarchy, AuditsNoticeEveryWrongSupport) {
   const Points points{{0, 0, 0}, {1, 2, 4}, {2, 4, 8}};
   BoxesRig<Space> rig(moving(points, points), AuditMode::none, one_necklace(3), Radii::equal, 13);
