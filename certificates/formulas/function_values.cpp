@@ -217,6 +217,22 @@ struct BallNumbers {
 template <Motion M>
 using BallView = ExactView<M, BallNumbers>;
 
+/// Appends the numbers that tell a function's own formula from its type's: those of its multiples. Exact
+/// functions are cached by the type's formula and these numbers. Throws std::logic_error if the formulas
+/// differ in anything else, as those of a type do that branches on its numbers.
+void add_own_numbers(const BeadFunction& function, std::vector<double>& numbers) {
+  if (&function.formula == &function.known.formula()) return;
+  const auto own = function.formula.steps(), common = function.known.formula().steps();
+  const auto is_same = [](const FormulaStep& a, const FormulaStep& b) {
+    return a.kind == b.kind && a.a == b.a && a.b == b.b &&
+           (a.kind == FormulaStep::Kind::multiple || a.number == b.number);
+  };
+  if (!std::ranges::equal(own, common, is_same))
+    throw std::logic_error("formulas of one certificate type differ in more than their multiples");
+  for (const FormulaStep& step : own)
+    if (step.kind == FormulaStep::Kind::multiple) numbers.push_back(static_cast<double>(step.number));
+}
+
 /// The coefficients of a wide function's formula, computed from copies of its beads' curves.
 template <class C>
 class WideFunction final : public CoefficientSource {
@@ -231,13 +247,8 @@ class WideFunction final : public CoefficientSource {
     std::iota(beads_.begin(), beads_.end(), BeadId{0});
   }
 
-  /// Returns all numbers that the formula depends on: the beads' curves and its own numbers.
-  [[nodiscard]] std::vector<double> numbers() const {
-    std::vector<double> numbers = curves_.numbers();
-    for (const FormulaStep& step : formula_.steps())
-      if (step.kind == FormulaStep::Kind::multiple) numbers.push_back(static_cast<double>(step.number));
-    return numbers;
-  }
+  /// Returns the numbers of the beads' curves.
+  [[nodiscard]] std::vector<double> numbers() const { return curves_.numbers(); }
 
   [[nodiscard]] std::vector<BallNumber> balls(std::size_t bits) const override {
     const C curves = curves_.curves();
@@ -269,10 +280,7 @@ std::vector<double> numbers_of(const BeadFunction& function, const C& curves) {
   numbers.push_back(lifted<C> ? -degree_of(curves) : degree_of(curves));
   each_control(curves, function.beads, function.known.channels(),
                [&](double value, int) { numbers.push_back(value); });
-  if (&function.formula != &function.known.formula()) {
-    for (const FormulaStep& step : function.formula.steps())
-      if (step.kind == FormulaStep::Kind::multiple) numbers.push_back(static_cast<double>(step.number));
-  }
+  add_own_numbers(function, numbers);
   return numbers;
 }
 
@@ -305,7 +313,8 @@ ExactPolynomial exact_function(const BeadFunction& function, const C& curves) {
     return ExactPolynomial(std::move(scaled));
   }
   auto source = std::make_unique<WideFunction<C>>(function, curves, size, scale);
-  const std::vector<double> numbers = source->numbers();
+  std::vector<double> numbers = source->numbers();
+  add_own_numbers(function, numbers);
   return ExactPolynomial(ExactWork::current().recent_functions().of(&function.known, numbers,
                                                                     std::move(source), function.negative));
 }

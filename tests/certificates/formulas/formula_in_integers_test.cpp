@@ -9,6 +9,7 @@
 #include "certificates/exact/recent_functions.h"
 #include "certificates/exact/wide_polynomial.h"
 #include "certificates/types/bead_in_sphere.h"
+#include "certificates/types/reaches_further.h"
 #include "motions/curves/lifted_motion.h"
 #include "motions/views/integer_view.h"
 #include "tests/support/inputs/any_certificate.h"
@@ -178,6 +179,35 @@ TEST(FormulaInIntegers, OfRelaxedBeadsKnowsTheirRelaxation) {
     if (i % 2 == 0) motion.set_coordinate(0, 0, 0, 0x1p-300);
     for (const double share : {0.5, 0.25, 0.5})
       expect_same(RelaxedBeadInSphere<3>({0, 1, 2, 3}, Relaxation::of(share)), motion);
+  }
+}
+
+/// A function whose formula branches on its direction, which types must not do.
+struct BranchesOnItsDirection {
+  DirectedBeads beads{};
+
+  template <MotionView View>
+  [[nodiscard]] static auto formula(const View& view, const DirectedBeads& beads) {
+    const auto d = view.difference(beads[1], beads[0]);
+    return beads.direction.steps[0] == 0 ? d[1] + d[2] : d[1] - d[2];
+  }
+};
+
+// Without this refusal the second function would get the coefficients of the first.
+TEST(FormulaInIntegers, TypesWhoseFormulasBranchAreRefused) {
+  Random random(907);
+  using M = BezierMotion<3, 1>;
+  using Values = FunctionValues<BranchesOnItsDirection, Curves<3>>;
+  M motion = test::random_motion<M>(random, 2, test::MotionKind::generic);
+  for (const double length : {1.0, 0x1p-300}) {  // ordinary and wide
+    motion.set_coordinate(0, 0, 0, length);
+    const CurvesOf<M> curves(motion);
+    BranchesOnItsDirection function{{{0, 1}, {{1, 1, 1}}}};
+    EXPECT_NO_THROW(static_cast<void>(Values::exact(function, curves)));
+    function.beads.direction = {{1, 0, 1}};
+    EXPECT_NO_THROW(static_cast<void>(Values::exact(function, curves)));
+    function.beads.direction = {{0, 1, 1}};
+    EXPECT_THROW(static_cast<void>(Values::exact(function, curves)), std::logic_error);
   }
 }
 
