@@ -45,6 +45,13 @@ std::optional<MeanInterval> mean_of_independent(std::span<const double> values) 
   return MeanInterval{mean, mean - error, mean + error, values.size()};
 }
 
+std::optional<MeanInterval> above_zero(const std::optional<MeanInterval>& interval) {
+  if (!interval || !(interval->mean > 0) || !(interval->lower < interval->upper)) return std::nullopt;
+  const double mean = interval->mean, factor = std::exp((interval->upper - mean) / mean);
+  if (!std::isfinite(mean * factor)) return std::nullopt;
+  return MeanInterval{mean, mean / factor, mean * factor, interval->samples};
+}
+
 std::optional<MeanInterval> mean_over_time(std::span<const double> series) {
   if (series.size() < least_series) return std::nullopt;
   const double mean = mean_of(series);

@@ -23,6 +23,14 @@ struct MeanInterval {
 /// Returns nothing for fewer than two measurements.
 [[nodiscard]] std::optional<MeanInterval> mean_of_independent(std::span<const double> values);
 
+/// Returns the same mean with an interval that stays above 0, for a quantity that is never negative, such as
+/// a count. An interval of mean +- e becomes mean exp(-e / mean) to mean exp(e / mean): it is symmetric for
+/// the logarithm of the mean (delta method), and nearly the given one if e is small. For few and skewed
+/// values it holds the mean more often than the given one (test AboveZero.*). Returns nothing if there is no
+/// interval, if the mean is not above 0, if the interval has no width, because equal values do not tell their
+/// spread, or if an end is not finite.
+[[nodiscard]] std::optional<MeanInterval> above_zero(const std::optional<MeanInterval>& interval);
+
 /// The least number of values for which mean_over_time gives an interval.
 inline constexpr std::size_t least_series = 50;
 

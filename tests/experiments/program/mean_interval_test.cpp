@@ -22,6 +22,46 @@ TEST(MeanOfIndependent, IntervalAsByHand) {
   EXPECT_FALSE(mean_of_independent(std::vector<double>{1}));
 }
 
+TEST(AboveZero, KeepsTheMeanAndStaysAboveZero) {
+  const auto plain = mean_of_independent(std::vector<double>{1, 3});
+  ASSERT_LT(plain->lower, 0);
+  const auto above = above_zero(plain);
+  ASSERT_TRUE(above);
+  EXPECT_EQ(above->mean, 2);
+  EXPECT_GT(above->lower, 0);
+  EXPECT_NEAR(std::log(above->upper / 2), (plain->upper - 2) / 2, 1e-12);
+  EXPECT_NEAR(above->lower * above->upper, 4, 1e-12);  // symmetric for the logarithm
+  const auto narrow = above_zero(MeanInterval{100, 99, 101, 9});
+  EXPECT_NEAR(narrow->lower, 99, 0.01);
+  EXPECT_NEAR(narrow->upper, 101, 0.01);
+  EXPECT_FALSE(above_zero(std::nullopt));
+  EXPECT_FALSE(above_zero(mean_of_independent(std::vector<double>{2, 2})));  // no spread
+  EXPECT_FALSE(above_zero(MeanInterval{0, -1, 1, 3}));
+  EXPECT_FALSE(above_zero(MeanInterval{1, -9999, 10001, 2}));  // no finite end
+}
+
+// Log-normal values, as of inputs whose rates differ by factors, and 95% intervals of their mean.
+TEST(AboveZero, CoversMeansOfFewSkewedValuesMoreOften) {
+  constexpr double sigma = 0.7;
+  constexpr int trials = 4000;
+  const double mean = std::exp(sigma * sigma / 2);
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal(0, sigma);
+  for (const std::size_t count : {2U, 4U, 8U}) {
+    int plain_covers = 0, covers = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+      std::vector<double> values;
+      for (std::size_t k = 0; k < count; ++k) values.push_back(std::exp(normal(random)));
+      const auto plain = mean_of_independent(values), above = above_zero(plain);
+      plain_covers += plain->lower <= mean && mean <= plain->upper ? 1 : 0;
+      covers += above->lower <= mean && mean <= above->upper ? 1 : 0;
+    }
+    EXPECT_GT(covers, plain_covers) << count;
+    EXPECT_GT(covers, 0.9 * trials) << count;
+    EXPECT_LT(covers, 0.97 * trials) << count;
+  }
+}
+
 // Returns an autoregressive process of order 1 with mean 3. Its integrated correlation time is
 // (1 + memory) / (1 - memory).
 std::vector<double> process(double memory, std::size_t count, std::mt19937_64& random) {
