@@ -18,6 +18,10 @@ namespace kds {
 namespace {
 
 using Points = std::vector<std::pair<double, double>>;
+// The points of a row, with an error bar for each or none.
+struct PlottedRow {
+  Points points, bars = {};
+};
 
 bool at_smallest_stride(const Comparison& comparison, const CompareRow& row) {
   return row.stride == comparison.rows.front().stride;
@@ -37,16 +41,17 @@ Curve& curve_of(LinePlot& plot, const std::string& name) {
 // Returns one plot if there are few curves. Otherwise returns a small plot for each structure and each group
 // of eight inputs and motions.
 std::string plot_of(const Comparison& comparison, const LinePlot& empty,
-                    const std::function<Points(const CompareRow&)>& points_of) {
+                    const std::function<PlottedRow(const CompareRow&)>& points_of) {
   constexpr std::size_t few = 4, most = 8;
   const std::vector<std::string> cases = cases_of(comparison);
   LinePlot together = empty;
   std::vector<std::pair<std::string, LinePlot>> apart;  // by structure and group of eight
   for (const CompareRow& row : comparison.rows) {
-    const Points points = points_of(row);
-    if (points.empty()) continue;
+    const PlottedRow plotted = points_of(row);
+    if (plotted.points.empty()) continue;
     const auto add_to = [&](Curve& curve) {
-      curve.points.insert(curve.points.end(), points.begin(), points.end());
+      curve.points.insert(curve.points.end(), plotted.points.begin(), plotted.points.end());
+      curve.bars.insert(curve.bars.end(), plotted.bars.begin(), plotted.bars.end());
     };
     add_to(curve_of(together, curve_name(comparison, row)));
     const std::string of_case = distinction(comparison, row);
@@ -63,14 +68,25 @@ std::string plot_of(const Comparison& comparison, const LinePlot& empty,
   return svg_plot(panels);
 }
 
+// `interval` is none, or the interval of `value`.
 std::string over_strides(const Comparison& comparison, const char* label, const char* caption,
-                         const std::function<std::optional<double>(const CompareRow&)>& value) {
+                         const std::function<std::optional<double>(const CompareRow&)>& value,
+                         const std::function<std::optional<MeanInterval>(const CompareRow&)>& interval = {}) {
+  bool has_bars = false;
   const std::string plot =
       plot_of(comparison, {"stride", label, Drawn::points, {}}, [&](const CompareRow& row) {
         const std::optional<double> y = row.has_events() ? value(row) : std::nullopt;
-        return y ? Points{{static_cast<double>(row.stride), *y}} : Points{};
+        if (!y) return PlottedRow{};
+        const auto known = interval ? interval(row) : std::nullopt;
+        has_bars = has_bars || known;
+        return PlottedRow{{{static_cast<double>(row.stride), *y}},
+                          {known ? std::pair(known->lower, known->upper) : std::pair(*y, *y)}};
       });
-  return plot.empty() ? "" : html_figure(plot, caption);
+  if (plot.empty()) return "";
+  return html_figure(
+      plot, std::string(caption) + (has_bars ? " Error bars are 95% intervals; values of fewer than 50 steps "
+                                               "have none."
+                                             : ""));
 }
 
 // Groups the inputs by chain. Trajectories of one chain at several temperatures, for example, belong
@@ -123,7 +139,7 @@ std::string along_chain(const Comparison& comparison, const std::vector<const Co
   std::vector<HtmlRow> table;
   for (const CompareRow& row : by_structure(comparison)) {
     const bool here =
-        std::ranges::any_of(inputs, [&](const ComparedInput* input) { return input->file == row.input; });
+        std::ranges::any_of(inputs, [&](const ComparedInput* input) { return input->name == row.input; });
     if (!here || !at_smallest_stride(comparison, row) || row.events() == 0) continue;
     const std::vector<std::size_t> beads = busiest(row, listed);
     if (beads.empty()) continue;
@@ -138,8 +154,7 @@ std::string along_chain(const Comparison& comparison, const std::vector<const Co
   }
   if (plot.rows.empty()) return "";
   std::string files;
-  for (const ComparedInput* input : inputs)
-    files += (files.empty() ? "" : ", ") + std::filesystem::path(input->file).filename().string();
+  for (const ComparedInput* input : inputs) files += (files.empty() ? "" : ", ") + input->short_name;
   return html_figure(svg_plot(plot),
                      fmt::format("{}: share of a structure's events that name a bead, along the chain, each "
                                  "row on its own scale. The pointer shows the bead and all shares in %.",
@@ -159,8 +174,10 @@ std::vector<std::string> cases_of(const Comparison& comparison) {
 
 std::string plots_over_strides(const Comparison& comparison) {
   if (comparison.rows.front().stride == comparison.rows.back().stride) return "";
-  return over_strides(comparison, "events per step", "Events from one frame to the next, by stride.",
-                      [](const CompareRow& row) { return std::optional(row.events_per_step()); }) +
+  return over_strides(
+             comparison, "events per step", "Events from one frame to the next, by stride.",
+             [](const CompareRow& row) { return std::optional(row.events_per_step()); },
+             [](const CompareRow& row) { return row.events_per_step_interval(); }) +
          over_strides(comparison, "events a ps", "Events in a picosecond, by stride.",
                       [](const CompareRow& row) { return row.events_per_picosecond(); }) +
          over_strides(
@@ -170,7 +187,8 @@ std::string plots_over_strides(const Comparison& comparison) {
              comparison, "events a net change",
              "Events per net change, by stride. Changes that are undone before the next frame make it "
              "larger.",
-             [](const CompareRow& row) { return row.events_per_net_change(); });
+             [](const CompareRow& row) { return row.events_per_net_change(); },
+             [](const CompareRow& row) { return row.events_per_net_change_interval(); });
 }
 
 std::string plots_over_time(const Comparison& comparison) {
@@ -178,7 +196,7 @@ std::string plots_over_time(const Comparison& comparison) {
   const std::string plot =
       plot_of(comparison, {"frame", "events per step", Drawn::line, {}}, [&](const CompareRow& row) {
         Points points;
-        if (!at_smallest_stride(comparison, row)) return points;
+        if (!at_smallest_stride(comparison, row)) return PlottedRow{};
         const std::size_t width = bin_width(row.steps, most_bins);
         const std::span<const double> steps(row.events_of_steps);
         for (std::size_t first = 0; first < steps.size(); first += width) {
@@ -187,7 +205,7 @@ std::string plots_over_time(const Comparison& comparison) {
           const double middle = (static_cast<double>(first) + count / 2) * static_cast<double>(row.stride);
           points.emplace_back(middle, std::accumulate(bin.begin(), bin.end(), 0.0) / count);
         }
-        return points;
+        return PlottedRow{std::move(points)};
       });
   return plot.empty() ? ""
                       : html_figure(plot,
@@ -236,11 +254,11 @@ std::string plots_by_level(const Comparison& comparison) {
       plot_of(comparison, {"level of the tree, root 0", "% of events", Drawn::points, {}},
               [&](const CompareRow& row) {
                 Points points;
-                if (!at_smallest_stride(comparison, row) || row.events() == 0) return points;
+                if (!at_smallest_stride(comparison, row) || row.events() == 0) return PlottedRow{};
                 for (const std::uint64_t count : row.structure.places.by_level)
                   points.emplace_back(static_cast<double>(points.size()),
                                       100 * static_cast<double>(count) / static_cast<double>(row.events()));
-                return points;
+                return PlottedRow{std::move(points)};
               });
   return plot.empty() ? "" : html_figure(plot, "Share of the events at each level of the tree.");
 }

@@ -47,6 +47,7 @@ Json compared_inputs_json(const Comparison& comparison) {
   for (const ComparedInput& input : comparison.inputs)
     json.push_back(
         {{"file", input.file},
+         {"name", input.name},
          {"beads", input.beads},
          {"frames", input.frames},
          {"dimension", input.dimension},
@@ -110,6 +111,8 @@ Table<Compared> identity_columns() {
 }
 
 std::vector<Column<Compared>> event_columns(const Comparison& comparison) {
+  const bool has_times = std::ranges::any_of(
+      comparison.rows, [](const Compared& row) { return row.events_per_picosecond().has_value(); });
   std::vector<Column<Compared>> columns{
       {"events", "events", [](const Compared& r) { return Field(r.events()); }}};
   const auto add = [&](std::vector<Column<Compared>> more) {
@@ -118,12 +121,16 @@ std::vector<Column<Compared>> event_columns(const Comparison& comparison) {
   for (const std::string& kind : kinds_of(comparison))
     add({{.key = kind, .value = [kind](const Compared& r) { return count_of(r, kind); }, .optional = true}});
   add({
-      {"internal", "internal", [](const Compared& r) { return Field(r.internal()); }},
-      {"efficiency", "efficiency", [](const Compared& r) { return Field(r.efficiency()); }, shortly},
+      {"internal", "internal", [](const Compared& r) { return Field(r.internal()); }, plainly,
+       Shown::on_pages},
+      {"efficiency", "efficiency", [](const Compared& r) { return Field(r.efficiency()); }, shortly,
+       Shown::on_pages},
       {"net_changes", "net changes", [](const Compared& r) { return Field(r.net_changes); }},
-      {"events_per_net_change", "events per net change",
-       [](const Compared& r) { return Field(r.events_per_net_change()); }, shortly},
   });
+  add(interval_columns<Compared>(
+      "events_per_net_change", "events per net change (95%)",
+      [](const Compared& r) { return r.events_per_net_change(); },
+      [](const Compared& r) { return r.events_per_net_change_interval(); }));
   add(interval_columns<Compared>(
       "events_per_step", "events per step (95%)", [](const Compared& r) { return r.events_per_step(); },
       [](const Compared& r) { return r.events_per_step_interval(); }));
@@ -135,7 +142,7 @@ std::vector<Column<Compared>> event_columns(const Comparison& comparison) {
        [](const Compared& r) { return Field(r.events_per_step_in_last_quarter()); }, shortly,
        Shown::on_pages},
       {"events_per_ps", "events per ps", [](const Compared& r) { return Field(r.events_per_picosecond()); },
-       shortly},
+       shortly, has_times ? Shown::everywhere : Shown::on_pages},
       {.key = "events_per_bead_step",
        .value = [](const Compared& r) { return Field(r.events_per_bead_and_step()); }},
       {.key = "events_per_bead_ps",
@@ -147,17 +154,19 @@ std::vector<Column<Compared>> event_columns(const Comparison& comparison) {
 std::vector<Column<Compared>> cost_columns() {
   return {
       {"compactness", "compactness", [](const Compared& r) { return Field(r.structure.peak); }},
-      {"locality", "locality", [](const Compared& r) { return Field(r.costs.per_bead_most); }},
+      {"locality", "locality", [](const Compared& r) { return Field(r.costs.per_bead_most); }, plainly,
+       Shown::on_pages},
       {"created_per_event", "created per event",
-       [](const Compared& r) { return Field(r.created_per_event()); }, shortly},
+       [](const Compared& r) { return Field(r.created_per_event()); }, shortly, Shown::on_pages},
       {"touched_per_event", "touched per event",
-       [](const Compared& r) { return Field(r.touched_per_event()); }, shortly},
-      {"touched_most", "at most", [](const Compared& r) { return Field(r.costs.touched_most); }},
+       [](const Compared& r) { return Field(r.touched_per_event()); }, shortly, Shown::on_pages},
+      {"touched_most", "at most", [](const Compared& r) { return Field(r.costs.touched_most); }, plainly,
+       Shown::on_pages},
       {"responsiveness", "us per event", [](const Compared& r) { return Field(r.responsiveness()); },
-       microseconds},
+       microseconds, Shown::on_pages},
       {"responsiveness_worst", "worst us",
        [](const Compared& r) { return r.costs.events == 0 ? Field() : Field(r.costs.seconds_most); },
-       microseconds},
+       microseconds, Shown::on_pages},
   };
 }
 
@@ -186,14 +195,11 @@ Table<CompareRow> compare_columns(const Comparison& comparison) {
                     return levels.empty() ? Json() : Json(levels);
                   }},
              {.key = "by_bead", .json = [](const Compared& r) { return Json(r.structure.places.by_bead); }},
-             {.key = "over_time",
-              .json =
-                  [](const Compared& r) {
-                    Json events = Json::array();
-                    for (const EventBin& bin : r.structure.course.bins()) events.push_back(bin.events);
-                    return Json{{"steps", r.structure.course.width()}, {"events", events}};
-                  }},
-             {.heading = "by kind", .value = [](const Compared& r) { return Field(kinds_text(r)); }}});
+             {.key = "over_time", .json = [](const Compared& r) {
+                Json events = Json::array();
+                for (const EventBin& bin : r.structure.course.bins()) events.push_back(bin.events);
+                return Json{{"steps", r.structure.course.width()}, {"events", events}};
+              }}});
   return table;
 }
 
@@ -206,13 +212,11 @@ Table<PooledRow> pooled_columns() {
       {"inputs", "inputs", [](const Pooled& r) { return Field(r.inputs); }},
   }};
   const auto add = [&](const std::string& key, const std::string& heading,
-                       std::optional<MeanInterval> Pooled::*interval) {
+                       std::optional<PooledMean> Pooled::*pooled) {
     table.add(interval_columns<Pooled>(
         key, heading,
-        [interval](const Pooled& r) {
-          return r.*interval ? std::optional((r.*interval)->mean) : std::nullopt;
-        },
-        [interval](const Pooled& r) { return r.*interval; }));
+        [pooled](const Pooled& r) { return r.*pooled ? std::optional((r.*pooled)->mean) : std::nullopt; },
+        [pooled](const Pooled& r) { return r.*pooled ? (r.*pooled)->interval : std::nullopt; }));
   };
   add("events_per_step", "events per step (95%)", &Pooled::events_per_step);
   add("events_per_bead_step", "per bead and step", &Pooled::events_per_bead_and_step);
@@ -221,13 +225,16 @@ Table<PooledRow> pooled_columns() {
   return table;
 }
 
+const ComparedInput& input_of(const Comparison& comparison, const CompareRow& row) {
+  return *std::ranges::find(comparison.inputs, row.input, &ComparedInput::name);
+}
+
 std::string distinction(const Comparison& comparison, const CompareRow& row) {
   std::string text;
   if (std::ranges::any_of(comparison.rows,
                           [&](const CompareRow& other) { return other.motion != row.motion; }))
     text = row.motion_name();
-  if (comparison.inputs.size() > 1)
-    text += (text.empty() ? "" : ", ") + std::filesystem::path(row.input).filename().string();
+  if (comparison.inputs.size() > 1) text += (text.empty() ? "" : ", ") + input_of(comparison, row).short_name;
   return text;
 }
 
@@ -239,9 +246,8 @@ std::string compare_table(const Comparison& comparison) {
     if (row.input != input || row.motion_name() != motion) {
       input = row.input;
       motion = row.motion_name();
-      const auto& known = *std::ranges::find(comparison.inputs, input, &ComparedInput::file);
       text += fmt::format("{}{}, {} motion ({})\n  {}\n", text.empty() ? "" : "\n", one_line(input), motion,
-                          size_text(known), lines.front());
+                          size_text(input_of(comparison, row)), lines.front());
     }
     text += "  " + lines[r + 1] + "\n";
   }
@@ -266,8 +272,9 @@ std::vector<std::pair<std::string, std::string>> terms() {
        "bookkeeping of its own"},
       {"events per step (95%)",
        "events from one frame to the next, with the confidence interval of the mean from a block bootstrap "
-       "over the steps; without one for fewer than 50 steps. The interval assumes that the run does not "
-       "drift: compare the first quarter of the steps with the last"},
+       "over the steps, on a logarithmic scale; without one for fewer than 50 steps, or if all steps have "
+       "equally many events. The interval assumes that the run does not drift: compare the first quarter of "
+       "the steps with the last. Events per net change have such an interval, too"},
       {"net change",
        "a difference between one frame and the next, whatever happened in between: a node of the wrapped "
        "hierarchy with another basis, a cell in the power diagram of one frame only, a pair that meets in "
@@ -328,10 +335,6 @@ std::string count_text(std::size_t count, const char* one) {
   return fmt::format("{} {}{}", with_thousands(count), one, count == 1 ? "" : "s");
 }
 
-std::string file_name(const ComparedInput& input) {
-  return std::filesystem::path(input.file).filename().string();
-}
-
 // Returns the frames and inputs that the first findings are about.
 std::string scope(const Comparison& comparison) {
   const CompareRow& first = comparison.rows.front();
@@ -340,7 +343,7 @@ std::string scope(const Comparison& comparison) {
                         : fmt::format("From every frame in {} to the next", with_thousands(first.stride));
   const std::size_t inputs = comparison.inputs.size(), cases = cases_of(comparison).size();
   if (cases == 1)
-    return fmt::format("{} of {} ({})", steps, html_escaped(file_name(comparison.inputs.front())),
+    return fmt::format("{} of {} ({})", steps, html_escaped(comparison.inputs.front().short_name),
                        count_text(first.steps, "step"));
   return fmt::format("{} of {} on {}", steps, count_text(inputs, "input"),
                      count_text(cases / inputs, "motion"));
@@ -426,13 +429,13 @@ std::string figures(const Comparison& comparison) {
 std::string inputs_html(const Comparison& comparison) {
   std::string html = "<ul>\n";
   for (const ComparedInput& input : comparison.inputs)
-    html += fmt::format("<li>{}: {}</li>\n", html_escaped(file_name(input)), size_text(input));
+    html += fmt::format("<li>{}: {}</li>\n", html_escaped(input.short_name), size_text(input));
   return html + "</ul>\n";
 }
 
 std::string title(const Comparison& comparison) {
   std::vector<std::string> names;
-  for (const ComparedInput& input : comparison.inputs) names.push_back(file_name(input));
+  for (const ComparedInput& input : comparison.inputs) names.push_back(input.short_name);
   return fmt::format("kds compare: {}", fmt::join(names, ", "));
 }
 
@@ -445,10 +448,12 @@ std::string compare_page(const Comparison& comparison, Page page) {
   page.terms = terms();
   page.body = html_section("Inputs", inputs_html(comparison));
   if (const std::vector<PooledRow> pooled = pooled_rows(comparison); !pooled.empty())
-    page.body += html_section("Means over the inputs",
-                              "<p>Each input counts alike; intervals of 95% come from the "
-                              "spread between inputs.</p>\n" +
-                                  pooled_columns().html(pooled));
+    page.body +=
+        html_section("Means over the inputs",
+                     "<p>Each input counts alike. Intervals of 95% come from the spread between "
+                     "inputs, on a logarithmic scale, so they are wide for few inputs and stay above "
+                     "0.</p>\n" +
+                         pooled_columns().html(pooled));
   page.body += html_section("By stride", plots_over_strides(comparison));
   page.body += html_section("Over time", plots_over_time(comparison));
   page.body += html_section("Along the chain", plots_along_chain(comparison));

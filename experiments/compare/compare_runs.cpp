@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <compare>
+#include <filesystem>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -60,8 +61,44 @@ RunOptions run_of(const CompareOptions& options, std::size_t input, FrameMotion 
 // Returns the number of frames that remain at this stride.
 std::size_t strided(std::size_t frames, std::size_t stride) { return (frames + stride - 1) / stride; }
 
+// The names of the inputs, as ComparedInput has them.
+class InputNames {
+ public:
+  // Throws InputError if two inputs are the same run.
+  explicit InputNames(const CompareOptions& options) : options_(options) {
+    for (std::size_t i = 0; i < options.inputs.size(); ++i)
+      for (std::size_t other = 0; other < i; ++other)
+        if (name(other) == name(i))
+          throw InputError(fmt::format(
+              "{} is listed twice; expected different files, or other chains of one file (--chain A/B)",
+              name(i)));
+  }
+
+  [[nodiscard]] std::string name(std::size_t input) const {
+    const std::filesystem::path& file = options_.inputs[input];
+    return file.string() + (std::ranges::count(options_.inputs, file) > 1 ? chains_of(input) : "");
+  }
+  [[nodiscard]] std::string short_name(std::size_t input) const {
+    const std::filesystem::path& file = options_.inputs[input];
+    const bool is_shared = std::ranges::any_of(options_.inputs, [&](const std::filesystem::path& other) {
+      return other.filename() == file.filename() && other != file;
+    });
+    if (is_shared) return name(input);
+    return file.filename().string() + (std::ranges::count(options_.inputs, file) > 1 ? chains_of(input) : "");
+  }
+
+ private:
+  [[nodiscard]] std::string chains_of(std::size_t input) const {
+    const std::optional<std::string> chain = reading_of(options_, input).chain;
+    return chain ? fmt::format(" (chain {})", *chain) : "";
+  }
+
+  const CompareOptions& options_;
+};
+
 // Reads an input. Throws InputError for an unsuitable input before anything runs.
-ComparedInput look_at(const CompareOptions& options, std::size_t input, const Warn& warn) {
+ComparedInput look_at(const CompareOptions& options, std::size_t input, const InputNames& names,
+                      const Warn& warn) {
   ComparedInput found;
   for (const FrameMotion motion : options.motions) {
     const RunOptions run = run_of(options, input, motion);
@@ -76,6 +113,8 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const Wa
     if (motion != options.motions.front()) continue;
     const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
     found = {run.inputs.front().string(),
+             names.name(input),
+             names.short_name(input),
              scene.bead_count(),
              scene.frame_count(),
              scene.dimension(),
@@ -263,7 +302,11 @@ std::optional<double> CompareRow::events_per_net_change() const {
 double CompareRow::events_per_step() const { return ratio(events(), static_cast<double>(steps)); }
 
 std::optional<MeanInterval> CompareRow::events_per_step_interval() const {
-  return mean_over_time(events_of_steps);
+  return above_zero(mean_over_time(events_of_steps));
+}
+
+std::optional<MeanInterval> CompareRow::events_per_net_change_interval() const {
+  return above_zero(ratio_over_time(events_of_steps, net_changes_of_steps));
 }
 
 double CompareRow::events_per_step_in_first_quarter() const {
@@ -302,6 +345,17 @@ std::string size_text(const ComparedInput& input) {
                                              : "at times that the file does not tell (--dt gives them)");
 }
 
+namespace {
+
+// Returns nothing for fewer than two values.
+std::optional<PooledMean> pooled_mean(std::span<const double> values) {
+  const auto interval = mean_of_independent(values);
+  if (!interval) return std::nullopt;
+  return PooledMean{interval->mean, above_zero(interval)};
+}
+
+}  // namespace
+
 std::vector<PooledRow> pooled_rows(const Comparison& comparison) {
   std::vector<PooledRow> pooled;
   if (comparison.inputs.size() < 2) return pooled;
@@ -323,10 +377,10 @@ std::vector<PooledRow> pooled_rows(const Comparison& comparison) {
       if (const auto value = row.events_per_bead_and_picosecond()) bead_picoseconds.push_back(*value);
       if (const auto value = row.events_per_net_change()) net.push_back(*value);
     }
-    one.events_per_step = mean_of_independent(steps);
-    one.events_per_bead_and_step = mean_of_independent(bead_steps);
-    one.events_per_bead_and_picosecond = mean_of_independent(bead_picoseconds);
-    one.events_per_net_change = mean_of_independent(net);
+    one.events_per_step = pooled_mean(steps);
+    one.events_per_bead_and_step = pooled_mean(bead_steps);
+    one.events_per_bead_and_picosecond = pooled_mean(bead_picoseconds);
+    one.events_per_net_change = pooled_mean(net);
   }
   return pooled;
 }
@@ -336,10 +390,11 @@ Comparison compare_runs(const CompareOptions& options,
   for (const auto& input : options.inputs)
     if (is_instance_file(input) && options.motions != std::vector{FrameMotion::linear})
       throw InputError(input.string() + ": an instance file has its own motion; expected no --motions");
+  const InputNames names(options);
   Comparison comparison;
   std::size_t done = 0, total = 0;
   for (std::size_t i = 0; i < options.inputs.size(); ++i) {
-    const ComparedInput& input = comparison.inputs.emplace_back(look_at(options, i, warn));
+    const ComparedInput& input = comparison.inputs.emplace_back(look_at(options, i, names, warn));
     for (const std::size_t stride : options.strides)
       total += 2 * options.rounds * options.motions.size() * (strided(input.frames, stride) - 1);
   }
@@ -352,7 +407,7 @@ Comparison compare_runs(const CompareOptions& options,
           run.radius = fmt::format("{}", comparison.inputs[i].radius_min);
         const Scene scene = load_scene(run, [](const std::string&) {});
         for (CompareRow& row : measure_runs(scene, run, options.rounds, [&] { progress(++done, total); })) {
-          row.input = options.inputs[i].string();
+          row.input = comparison.inputs[i].name;
           row.stride = stride;
           comparison.rows.push_back(std::move(row));
         }

@@ -66,7 +66,7 @@ struct EventCosts {
 
 /// The results of one structure in one run.
 struct CompareRow {
-  std::string input;
+  std::string input;  ///< the input's name
   std::size_t stride = 1;
   std::optional<FrameMotion> motion;  ///< empty for an instance file, which has its own motion
   std::size_t beads = 0, steps = 0;
@@ -90,8 +90,10 @@ struct CompareRow {
   /// unknown.
   [[nodiscard]] std::optional<double> events_per_net_change() const;
   [[nodiscard]] double events_per_step() const;
-  /// Returns the interval of events_per_step as mean_over_time gives it.
+  /// Return the intervals of events_per_step and of events_per_net_change: mean_over_time and
+  /// ratio_over_time, above 0 (above_zero).
   [[nodiscard]] std::optional<MeanInterval> events_per_step_interval() const;
+  [[nodiscard]] std::optional<MeanInterval> events_per_net_change_interval() const;
   /// Returns the mean over the first or the last quarter of the steps, at least one step. They differ if the
   /// run drifts, and then the mean of all steps depends on how long the run is.
   [[nodiscard]] double events_per_step_in_first_quarter() const;
@@ -109,6 +111,11 @@ struct CompareRow {
 /// An input of the comparison.
 struct ComparedInput {
   std::string file;
+  /// The name in results, which no other input has: the path, followed by the chains if several inputs are of
+  /// one file.
+  std::string name;
+  /// The name on pages: without the folder, if the file names of all inputs differ.
+  std::string short_name;
   std::size_t beads = 0, frames = 0;
   int dimension = 3;
   bool truncated = false;  ///< frames are missing at the end
@@ -120,6 +127,12 @@ struct ComparedInput {
 /// Returns "108 beads, 1,000 frames 0.02 ps apart".
 [[nodiscard]] std::string size_text(const ComparedInput& input);
 
+/// A mean over inputs. The interval is above 0 (above_zero), and missing if all inputs have one value.
+struct PooledMean {
+  double mean = 0;
+  std::optional<MeanInterval> interval;
+};
+
 /// Means over all inputs of a structure, at one stride and with one motion. Each input counts alike, and the
 /// intervals come from the spread between inputs. The intervals are wide for few inputs.
 struct PooledRow {
@@ -128,8 +141,8 @@ struct PooledRow {
   std::string motion;  ///< name of the motion, "own" for instance files
   std::size_t inputs = 0;
   /// Empty if fewer than two inputs have the quantity.
-  std::optional<MeanInterval> events_per_step = {}, events_per_bead_and_step = {},
-                              events_per_bead_and_picosecond = {}, events_per_net_change = {};
+  std::optional<PooledMean> events_per_step = {}, events_per_bead_and_step = {},
+                            events_per_bead_and_picosecond = {}, events_per_net_change = {};
 };
 
 struct Comparison {

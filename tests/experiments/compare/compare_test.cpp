@@ -1,5 +1,6 @@
 // Tests `kds compare`: its options, and its counts compared with those of single runs and of their dumps.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -368,9 +369,10 @@ TEST(Compare, InputsArePooledWithATopologyForEach) {
   const Json json = Json::parse(run.out);
   const Json &row = json["rows"][0], &pooled = json["pooled"][0];
   EXPECT_EQ(pooled["inputs"], 2);
-  // Two equal inputs have no spread between them.
-  for (const char* key : {"events_per_step", "events_per_step_lower", "events_per_step_upper"})
-    EXPECT_DOUBLE_EQ(pooled[key], row["events_per_step"]) << key;
+  // Two equal inputs do not tell their spread.
+  EXPECT_DOUBLE_EQ(pooled["events_per_step"], row["events_per_step"]);
+  EXPECT_EQ(pooled["events_per_step_lower"], nullptr);
+  EXPECT_EQ(pooled["events_per_step_upper"], nullptr);
   EXPECT_DOUBLE_EQ(pooled["events_per_bead_step"].get<double>() * 108, row["events_per_step"]);
   EXPECT_LT(row["events_per_step_lower"], row["events_per_step"]);
   const ProgramRun bad = run_program({"compare", kDcd, "--topology", kPdb + "," + names});
@@ -379,6 +381,69 @@ TEST(Compare, InputsArePooledWithATopologyForEach) {
   const ProgramRun missing = run_program({"compare", kDcd, again, "--topology", kPdb + ",nowhere.pdb"});
   EXPECT_EQ(missing.code, 2);
   EXPECT_THAT(missing.err, HasSubstr("nowhere.pdb: no such file"));
+}
+
+TEST(Compare, IntervalsOfFewInputsStayAboveZero) {
+  const std::string other = data_file("trajectories/random100_400K");
+  const ProgramRun run = run_program({"compare", kDcd, other + "_first200.dcd", "--topology",
+                                      std::string(kPdb) + "," + other + ".pdb", "--structures",
+                                      "wrapped,contacts", "--frames", ":60", "--rounds", "1", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json json = Json::parse(run.out);
+  const Json &wrapped = json["pooled"][0], &contacts = json["pooled"][1];
+  EXPECT_GT(wrapped["events_per_step_lower"], 0);
+  EXPECT_LT(wrapped["events_per_step_lower"], wrapped["events_per_step"]);
+  EXPECT_GT(wrapped["events_per_step_upper"], wrapped["events_per_step"]);
+  // No contact begins or ends in either input.
+  EXPECT_EQ(contacts["events_per_step"], 0);
+  EXPECT_EQ(contacts["events_per_step_upper"], nullptr);
+  EXPECT_EQ(json["rows"][1]["events_per_step_upper"], nullptr);
+  const Json& row = json["rows"][0];
+  EXPECT_LT(row["events_per_net_change_lower"], row["events_per_net_change"]);
+  EXPECT_GT(row["events_per_net_change_upper"], row["events_per_net_change"]);
+}
+
+// Files of one name in two folders, and two chains of one file: each input has its own curve and its own
+// beads.
+TEST(Compare, TellsInputsOfOneNameApart) {
+  const ScratchDirectory scratch;
+  std::string two;
+  for (int model = 1; model <= 3; ++model) {
+    two += fmt::format("MODEL     {:4}\n", model);
+    int serial = 0;
+    for (const auto& [chain, beads] : {std::pair('A', 6), std::pair('B', 4)}) {
+      for (int k = 0; k < beads; ++k)
+        two += fmt::format("ATOM  {:5}  CA  ALA {}{:4}    {:8.3f}{:8.3f}{:8.3f}  1.00  0.00           C\n",
+                           ++serial, chain, k + 1, 3.8 * k, (k * model) % 3 * 1.0,
+                           chain == 'A' ? (k + model) % 2 * 1.0 : 40.0);
+      two += "TER\n";
+    }
+    two += "ENDMDL\n";
+  }
+  const std::string file = scratch.file("two.pdb", two);
+  const ProgramRun run = run_program({"compare", file, file, "--chain", "A/B", "--select", "ca",
+                                      "--structures", "wrapped", "--rounds", "1", "--out", scratch / "out"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("two.pdb (chain A), linear motion (6 beads"));
+  EXPECT_THAT(run.out, HasSubstr("two.pdb (chain B), linear motion (4 beads"));
+  const Json rows = Json::parse(content_of(scratch / "out/compare.json"))["rows"];
+  EXPECT_EQ(rows[0]["beads"], 6);
+  EXPECT_EQ(rows[1]["beads"], 4);
+  EXPECT_NE(rows[0]["input"], rows[1]["input"]);
+  EXPECT_THAT(content_of(scratch / "out/report.html"), HasSubstr("two.pdb (chain B)"));
+
+  std::filesystem::create_directory(scratch / "other");
+  const std::string copy = (scratch / "other/two.pdb").string();
+  std::filesystem::copy_file(file, copy);
+  const ProgramRun folders =
+      run_program({"compare", file, copy, "--chain", "A", "--select", "ca", "--structures", "wrapped",
+                   "--rounds", "1", "--out", scratch / "folders"});
+  ASSERT_EQ(folders.code, 0) << folders.err;
+  EXPECT_THAT(content_of(scratch / "folders/report.html"), HasSubstr("other/two.pdb"));
+
+  const ProgramRun twice = run_program({"compare", file, file, "--chain", "A", "--select", "ca"});
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_THAT(twice.err, HasSubstr("two.pdb (chain A) is listed twice"));
 }
 
 TEST(Compare, NamesTheMotionOfAnInstanceItsOwn) {
