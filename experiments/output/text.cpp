@@ -41,7 +41,8 @@ std::string short_decimal(double value) {
   if (size >= 100) return fmt::format("{:.1f}", value);
   if (size >= 10) return fmt::format("{:.2f}", value);
   if (size >= 0.01) return fmt::format("{:.3f}", value);
-  return fmt::format("{:.6f}", value);
+  if (size >= 1e-4) return fmt::format("{:.6f}", value);
+  return fmt::format("{:.3e}", value);
 }
 
 std::string tick_label(double value) {

@@ -128,6 +128,7 @@ std::vector<ScaleRow> measure_scene(const Scene& scene, const ScaleOptions& opti
   if (scene.step_count() == 0) return rows;
   RunOptions run;
   run.structures = options.structures;
+  run.directions = options.directions;
   for (const CompareRow& structure : measure_runs(scene, run, options.rounds, [] {})) {
     const auto values = values_of(structure);
     for (std::size_t m = 0; m < values.size(); ++m)
@@ -141,15 +142,21 @@ std::vector<ScaleRow> measure_scale(const ScaleOptions& options,
                                     const std::function<void(const std::string&)>& warn) {
   std::vector<ScaleRow> rows;
   std::size_t done = 0;
-  const auto measure = [&](const Scene& scene, const ScaleRow& row, std::size_t total) {
-    for (ScaleRow& found : measure_scene(scene, options, row)) rows.push_back(std::move(found));
+  const auto measure = [&](const Scene& scene, const ScaleRow& row, std::size_t total,
+                           const std::string& name) {
+    try {
+      for (ScaleRow& found : measure_scene(scene, options, row)) rows.push_back(std::move(found));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", name, error.what()));
+    }
     progress(++done, total);
   };
   if (options.model) {
     for (const std::size_t beads : options.beads)
       for (std::size_t s = 0; s < options.seeds; ++s)
         measure(model_scene(options, beads, options.seed + s), {*options.model, options.seed + s},
-                options.beads.size() * options.seeds);
+                options.beads.size() * options.seeds,
+                fmt::format("--model {}, {} beads", *options.model, beads));
     return rows;
   }
   for (const auto& input : options.inputs)
@@ -159,7 +166,7 @@ std::vector<ScaleRow> measure_scale(const ScaleOptions& options,
     static_cast<void>(load_scene(run_of_file(options, i), warn));
   for (std::size_t i = 0; i < options.inputs.size(); ++i)
     measure(load_scene(run_of_file(options, i), [](const std::string&) {}), {options.inputs[i].string(), {}},
-            options.inputs.size());
+            options.inputs.size(), options.inputs[i].string());
   return rows;
 }
 
@@ -204,7 +211,8 @@ std::vector<ScaleSeries> series_of(std::span<const ScaleRow> rows) {
         of_size.push_back(values[s][end].second);
       double mean = 0;
       for (const double value : of_size) mean += value / static_cast<double>(of_size.size());
-      all[s].sizes.push_back({values[s][first].first, of_size.size(), mean, mean_of_independent(of_size)});
+      all[s].sizes.push_back(
+          {values[s][first].first, of_size.size(), mean, above_zero(mean_of_independent(of_size))});
     }
   }
   return all;

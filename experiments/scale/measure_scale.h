@@ -47,6 +47,7 @@ struct ScaleOptions : InputOptions, Destinations {
   std::uint64_t seed = 1;
   std::size_t seeds = 1;                ///< number of models of each size
   std::vector<std::string> structures;  ///< empty for the scene's default
+  std::optional<int> directions;        ///< of boxes
   std::size_t rounds = 1;
 };
 
@@ -57,7 +58,8 @@ struct ScaleOptions : InputOptions, Destinations {
                                                   const ScaleRow& row);
 
 /// Measures all scenes that the options name. Opens all files first, and throws InputError for one that
-/// cannot be measured. Warnings about inputs go to `warn`.
+/// cannot be measured, with the name of the file, or of the model and its size. Warnings about inputs go to
+/// `warn`.
 [[nodiscard]] std::vector<ScaleRow> measure_scale(
     const ScaleOptions& options, const std::function<void(std::size_t, std::size_t)>& progress,
     const std::function<void(const std::string&)>& warn);
@@ -67,7 +69,7 @@ struct ScaleSeries {
   struct Size {
     std::size_t beads = 0, scenes = 0;
     double mean = 0;                       ///< over the scenes of this size
-    std::optional<MeanInterval> interval;  ///< for two scenes or more
+    std::optional<MeanInterval> interval;  ///< for two scenes or more that differ, above 0
   };
 
   std::string subject;

@@ -65,29 +65,29 @@ const OptionList<ScaleOptions>& scale_options() {
                   fmt::join(names_of_models(), ", "));
   static const auto list =
       OptionList<O>()
-          .with(
-              {value_option(
-                   {"--model", "NAME", model_help}, &O::model,
-                   [](const std::string& text) {
-                     const auto names = names_of_models();
-                     return std::string(names[place_among("--model", text, names)]);
-                   },
-                   [](const std::string& name) { return name; }),
-               list_option({"--beads", "LIST",
-                            "sizes of the model (default: 64,128,256,512,1024,2048). An exponent with an "
-                            "interval needs six"},
-                           &O::beads, parse_sizes),
-               whole_option({"--steps", "N", "steps of the model (default: 10)"}, &O::steps, 1, 100'000),
-               whole_option({"--seed", "N", "seed of the model (default: 1)"}, &O::seed, 0, UINT64_MAX),
-               whole_option({"--seeds", "N",
-                             "measure N models of each size, of seeds from --seed on, and report means with "
-                             "95% intervals (default: 1)"},
-                            &O::seeds, 1, 1000)})
+          .with({value_option(
+                     {"--model", "NAME", model_help}, &O::model,
+                     [](const std::string& text) {
+                       const auto names = names_of_models();
+                       return std::string(names[place_among("--model", text, names)]);
+                     },
+                     [](const std::string& name) { return name; }),
+                 list_option({"--beads", "LIST",
+                              "sizes of the model (default: 64,128,256,512,1024,2048). An exponent with an "
+                              "interval needs six"},
+                             &O::beads, parse_sizes),
+                 whole_option({"--steps", "N", "steps of the model (default: 10)"}, &O::steps, 1, 100'000),
+                 whole_option({"--seed", "N", "seed of the model (default: 1)"}, &O::seed, 0, UINT64_MAX),
+                 whole_option({"--seeds", "N",
+                               "random-chain: measure N chains of each size, of seeds from --seed on, and "
+                               "report means with 95% intervals (default: 1)"},
+                              &O::seeds, 1, 1000)})
           .with(input_options())
           .with({list_option({"--structures", "LIST",
-                              "comma list of sorted, box, hull, closest, wrapped, power, contacts (default: "
-                              "wrapped,power)"},
+                              "comma list of sorted, box, hull, closest, wrapped, boxes, layered, power, "
+                              "contacts (default: wrapped,power)"},
                              &O::structures, parse_structures),
+                 directions_option(&O::directions),
                  whole_option(
                      {"--rounds", "N", "repeat each run N times and report the median time (default: 1)"},
                      &O::rounds, 1, 1000)})
@@ -111,6 +111,10 @@ ScaleOptions parse_scale(const Arguments& arguments) {
   if (!parsed.operands().empty())
     throw InputError(fmt::format("--model {}: is measured alone; expected no INPUT beside it, found {}",
                                  *options.model, parsed.operands().front()));
+  if (const models::Model& model = *models::find_model(*options.model);
+      options.seeds > 1 && model.defaults.motion != models::ShapeMotion::wander)
+    throw InputError(fmt::format(
+        "--seeds: --model {} is the same for each seed; expected --model random-chain with it", model.name));
   for (const auto& option : input_options().all())
     if (parsed.has(option.spec.name))
       throw InputError(fmt::format("{}: has no meaning for --model {}", option.spec.name, *options.model));
@@ -191,13 +195,37 @@ Table<PlacedFit> growth_table() {
   return table.add(growth_columns<R>([](const R& r) -> const GrowthSummary& { return r.growth; }));
 }
 
+// Returns a table with a line for each measure and a column for each size, which shows means.
+std::string means_text(std::span<const ScaleSeries> all) {
+  using R = ScaleSeries;
+  std::vector<std::size_t> sizes;
+  for (const PlacedSize& placed : sizes_of(all)) sizes.push_back(placed.size->beads);
+  std::ranges::sort(sizes);
+  const auto repeated = std::ranges::unique(sizes);
+  sizes.erase(repeated.begin(), repeated.end());
+  Table<R> table{{
+      {.heading = "subject", .value = [](const R& r) { return Field(r.subject); }},
+      {.heading = "mean by n", .value = [](const R& r) { return Field(std::string(r.measure->name)); }},
+  }};
+  for (const std::size_t beads : sizes)
+    table.add({{.heading = with_thousands(beads),
+                .value =
+                    [beads](const R& r) {
+                      const auto size = std::ranges::find(r.sizes, beads, &R::Size::beads);
+                      return size == r.sizes.end() ? Field() : Field(size->mean);
+                    },
+                .format = shortly}});
+  return table.text(all);
+}
+
 std::string scale_text(std::span<const ScaleSeries> all) {
   const std::vector<PlacedFit> fits = growth_of(all);
-  const std::string sizes = size_columns().text(sizes_of(all));
+  const std::string sizes = means_text(all);
   return fits.empty() ? sizes : sizes + "\ngrowth with n\n" + growth_table().text(fits);
 }
 
-// Returns one plot for each measure, with a curve for each subject.
+// Returns one plot for each measure, with points for each subject and error bars for several scenes of a
+// size.
 std::string scale_plots(std::span<const ScaleSeries> all) {
   std::string html;
   for (const auto measures : {structure_measures(), frame_measures()})
@@ -205,8 +233,14 @@ std::string scale_plots(std::span<const ScaleSeries> all) {
       PointPlot plot{"beads n", std::string(measure.name), {}, {}};
       for (const ScaleSeries& series : all) {
         if (series.measure != &measure) continue;
-        for (const auto& [x, y] : series.growth())
-          if (y >= 0) plot.points.push_back({"", x, y, plot.series.size()});
+        for (const ScaleSeries::Size& size : series.sizes) {
+          PointPlot::Point point{"", static_cast<double>(size.beads), size.mean, plot.series.size()};
+          if (size.interval) {
+            point.least = size.interval->lower;
+            point.most = size.interval->upper;
+          }
+          if (point.y >= 0) plot.points.push_back(point);
+        }
         plot.series.push_back(series.subject);
       }
       if (!plot.points.empty())

@@ -30,6 +30,8 @@ TEST(Scale, ModelsAreMeasuredAsCompareMeasuresThem) {
                                       "--steps", "3", "--seeds", "2", "--out", scratch / "out"});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("growth with n"));
+  EXPECT_EQ(count_of(run.out, "wrapped      events per step  "), 2U)
+      << run.out;  // a line of means, one of fits
   const Json json = Json::parse(content_of(scratch / "out/scale.json"));
   const std::string chain = (scratch / "chain.xyz").string();
   ASSERT_EQ(
@@ -105,6 +107,11 @@ TEST(Scale, Refuses) {
   EXPECT_THAT(refused({"--model", "helix", "--dt", "1"}),
               HasSubstr("--dt: has no meaning for --model helix"));
   EXPECT_THAT(refused({"--model", "helix", "--beads", "8,8"}), HasSubstr("--beads: 8 is listed twice"));
+  EXPECT_THAT(refused({"--model", "helix", "--seeds", "2"}),
+              HasSubstr("--seeds: --model helix is the same for each seed; expected --model random-chain"));
+  EXPECT_THAT(refused({"--model", "random-chain", "--beads", "3"}),
+              HasSubstr("--model random-chain, 3 beads: the power diagram needs at least 4 beads"));
+  EXPECT_THAT(refused({"--model", "helix", "--beads", "8", "--directions", "7"}), HasSubstr("--directions"));
   EXPECT_THAT(refused({data_file("paper/1a4y_AB.pdb")}), HasSubstr("at least two frames"));
   EXPECT_THAT(refused({data_file("kinetic/d3_n20_linear.txt")}), HasSubstr("an instance file has no size"));
 }
