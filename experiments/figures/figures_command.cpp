@@ -52,8 +52,8 @@ const OptionList<FiguresAsked>& figures_options() {
                                &S::candidates, 1, 10'000'000),
                   whole_option({"--seed", "N", "seed of the candidates (default: 1)"}, &S::seed, 0,
                                UINT64_MAX)}})
-          .with(destination_options("write figure-2.svg, figure-3.svg, figure-5.svg, figures.json and "
-                                    "figures.csv to DIR (default: none)"));
+          .with(data_options("write figure-2.svg, figure-3.svg, figure-5.svg, figures.json and "
+                             "figures.csv to DIR (default: none)"));
   return list;
 }
 

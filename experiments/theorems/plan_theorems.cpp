@@ -373,8 +373,9 @@ class Planner {
       if (other.seconds) seconds.push_back(*other.seconds);
       if (other.holds) point.holds = *other.holds && point.holds.value_or(true);
     }
-    point.over_seeds = mean_of_independent(values);
-    point.value = point.over_seeds->mean;
+    const auto mean = mean_of_independent(values);
+    point.over_seeds = above_zero(mean);
+    point.value = mean->mean;
     if (!seconds.empty()) point.seconds = pooled(seconds);
     return point;
   }

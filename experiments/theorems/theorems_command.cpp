@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -351,7 +352,8 @@ std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
 
 constexpr CommandSpec kTheoremsCommand{
     "kds theorems",
-    "Measures, for growing sizes, what the theorems of Agarwal et al. (2004) bound, and fits exponents.\n\n"
+    "Measures, for growing sizes, what the theorems of Agarwal et al. (2004) bound, and fits exponents.\n"
+    "The necklaces are models. `kds scale FILE...` measures 2.3, 3.1 and 3.5 on files.\n\n"
     "  paths      tests of a cascade verification, without and with path cages\n"
     "  2.3        radius of the layered root / radius of the wrapped root: at most sqrt(h + 1), h the "
     "tree's height\n"
@@ -411,6 +413,9 @@ const OptionList<TheoremsAsked>& theorems_options() {
 std::vector<Theorem> theorems_of(const std::vector<std::string>& operands) {
   std::vector<Theorem> theorems;
   for (const std::string& name : operands) {
+    if (name.find('/') != std::string::npos || std::filesystem::exists(name))
+      throw InputError(fmt::format(
+          "THEOREM: {} is a file; kds theorems measures models, kds scale FILE... measures files", name));
     const auto theorem = choice_of<Theorem>("THEOREM", name, theorem_names);
     if (std::ranges::find(theorems, theorem) != theorems.end())
       throw InputError(fmt::format("THEOREM: {} is listed twice", name));
