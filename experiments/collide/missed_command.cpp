@@ -17,6 +17,7 @@
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
 #include "experiments/program/contact_options.h"
+#include "experiments/program/mean_interval.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
@@ -47,9 +48,20 @@ struct MissedRow {
   std::size_t stride = 1;
   std::size_t frames = 0;  ///< number of frames examined
   std::uint64_t contacts = 0, found = 0;
+  /// Of the share that is missed, from a block bootstrap over the steps in which contacts begin. Empty for
+  /// fewer than 50 steps, and if no or every contact is missed.
+  std::optional<MeanInterval> interval = {};
 
   [[nodiscard]] std::uint64_t missed() const { return contacts - found; }
 };
+
+/// Returns the interval of sum(missed) / sum(contacts). A share is at most 1.
+std::optional<MeanInterval> interval_of_share(std::span<const double> missed,
+                                              std::span<const double> contacts) {
+  auto interval = above_zero(ratio_over_time(missed, contacts));
+  if (interval) interval->upper = std::min(interval->upper, 1.0);
+  return interval;
+}
 
 /// Description of the input. Radii are those of the radius policy, without the factor.
 struct MissedInput {
@@ -92,8 +104,18 @@ std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, const
   std::vector<std::size_t> spacings;
   for (const std::size_t stride : strides) spacings.push_back(stride * ticks_per_frame);
   FrameContacts frames(spacings, 0, scene.step_count());
-  ContactIntervals intervals(run->simulator(), {.rounds_times = false},
-                             [&](const ContactInterval& interval) { frames.add_inner(interval); });
+  // By the step in which a contact begins; `missed` at each stride.
+  std::vector<double> contacts(scene.step_count());
+  std::vector<std::vector<double>> missed(strides.size(), contacts);
+  ContactIntervals intervals(run->simulator(), {.rounds_times = false}, [&](const ContactInterval& interval) {
+    std::vector<std::uint64_t> found;
+    for (const FrameContacts::Row& row : frames.rows()) found.push_back(row.found);
+    frames.add_inner(interval);
+    const std::size_t step = std::min(interval.begin.step, scene.step_count() - 1);
+    contacts[step] += 1;
+    for (std::size_t k = 0; k < strides.size(); ++k)
+      missed[k][step] += frames.rows()[k].found == found[k] ? 1 : 0;
+  });
   run->listen(intervals);
   run_steps(*run, options, [&](std::size_t frame) {
     if (frame == 0) {
@@ -109,8 +131,8 @@ std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, const
   std::vector<MissedRow> rows;
   for (std::size_t k = 0; k < strides.size(); ++k) {
     const FrameContacts::Row& row = frames.rows()[k];
-    rows.push_back(
-        {rule, strides[k], row.sampling.samples, frames.exact(FrameContacts::plain).contacts, row.found});
+    rows.push_back({rule, strides[k], row.sampling.samples, frames.exact(FrameContacts::plain).contacts,
+                    row.found, interval_of_share(missed[k], contacts)});
   }
   return rows;
 }
@@ -251,6 +273,8 @@ std::string plot_of(std::span<const MissedRow> rows) {
     const std::string name = row.rule.text();
     if (plot.curves.empty() || plot.curves.back().name != name) plot.curves.push_back({name, {}});
     plot.curves.back().points.emplace_back(static_cast<double>(row.stride), 100 * *fraction);
+    plot.curves.back().bars.emplace_back(100 * (row.interval ? row.interval->lower : *fraction),
+                                         100 * (row.interval ? row.interval->upper : *fraction));
   }
   const bool has_line = !plot.curves.empty() && plot.curves.front().points.size() > 1;
   return has_line ? svg_plot(plot) : "";
@@ -259,6 +283,12 @@ std::string plot_of(std::span<const MissedRow> rows) {
 std::string percent_text(const MissedRow& row) {
   const auto fraction = missed_fraction(row);
   return fraction ? fmt::format("{:.1f}%", 100 * *fraction) : "-";
+}
+
+std::string percent_with_interval(const MissedRow& row) {
+  return percent_text(row) + (row.interval ? fmt::format(" ({:.1f} to {:.1f})", 100 * row.interval->lower,
+                                                         100 * row.interval->upper)
+                                           : "");
 }
 
 std::string frames_at(std::size_t stride) {
@@ -301,9 +331,13 @@ Table<MissedRow> missed_columns(const MissedTask& task) {
       {"found", "found", [](const Row& r) { return Field(r.found); }},
       {"missed", "missed", [](const Row& r) { return Field(r.missed()); }},
       {.key = "missed_fraction",
-       .heading = "missed %",
+       .heading = "missed % (95%)",
        .value = [](const Row& r) { return Field(missed_fraction(r)); },
-       .words = percent_text},
+       .words = percent_with_interval},
+      {.key = "missed_fraction_lower",
+       .value = [](const Row& r) { return r.interval ? Field(r.interval->lower) : Field(); }},
+      {.key = "missed_fraction_upper",
+       .value = [](const Row& r) { return r.interval ? Field(r.interval->upper) : Field(); }},
   });
   return table;
 }
@@ -319,11 +353,15 @@ std::string missed_page(std::span<const MissedRow> rows, const MissedTask& task,
       "or the last frame. The times are exact for the motion between frames that the run was asked for. One "
       "frame in <em>stride</em> is examined, beginning with the first; <em>frames</em> is their number. A "
       "contact is <em>found</em> if an examined frame lies in it, its ends included, and <em>missed</em> "
-      "otherwise.";
+      "otherwise. The 95% interval of the share is from a block bootstrap over the steps in which contacts "
+      "begin, and missing for fewer than 50 steps. It tells how the share varies within a run like this one; "
+      "the count itself is complete.";
   if (const std::string plot = plot_of(rows); !plot.empty())
     page.body = html_section(
         "By stride",
-        html_figure(plot, "Contacts that are missed if one frame in <em>stride</em> is examined."));
+        html_figure(plot,
+                    "Contacts that are missed if one frame in <em>stride</em> is examined. Error bars "
+                    "are 95% intervals."));
   page.body += html_section("Numbers", missed_columns(task).html(rows));
   return html_page(page);
 }

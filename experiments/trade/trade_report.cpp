@@ -136,10 +136,12 @@ std::string plots_of(std::span<const TradeRow> group) {
                    {}};
     for (const TradeRow& row : group) {
       const std::optional<double>& error = row.errors.*column.value;
-      if (error && std::isfinite(*error))
-        plot.points.push_back({row.on_front ? words_of(row.setting) : "", row.cost.ratio,
-                               (column.share ? 100 : 1) * *error,
-                               row.on_front ? std::size_t{0} : std::size_t{1}});
+      if (!error || !std::isfinite(*error)) continue;
+      PointPlot::Point& point = plot.points.emplace_back(PointPlot::Point{
+          row.on_front ? words_of(row.setting) : "", row.cost.ratio, (column.share ? 100 : 1) * *error,
+          row.on_front ? std::size_t{0} : std::size_t{1}});
+      point.from = row.cost.ratio * row.cost.quickest / row.cost.seconds;
+      point.to = row.cost.ratio * row.cost.slowest / row.cost.seconds;
     }
     const bool errs = std::any_of(plot.points.begin(), plot.points.end(),
                                   [](const PointPlot::Point& point) { return point.y > 0; });
@@ -150,7 +152,8 @@ std::string plots_of(std::span<const TradeRow> group) {
     if (!errs) continue;
     if (!of_series(1)) plot.series.pop_back();
     html += html_figure(svg_plot(plot),
-                        fmt::format("Cost against error of {}: {}. Settings without error are at the bottom.",
+                        fmt::format("Cost against error of {}: {}. Settings without error are at the bottom. "
+                                    "Bars lead from the quickest to the slowest round.",
                                     title_of(group), column.title));
   }
   return html;

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -55,11 +54,15 @@ bool is_logarithmic(const LinePlot& plot) {
   return is_marks(plot) && !plot.below_zero && !y.empty() && y.least > 0 && y.most >= kFarInY * y.least;
 }
 
-// Returns the script of vertical error bars.
-std::string bars_script(const std::string& name, const std::vector<std::array<double, 3>>& bars) {
+// An error bar, from one point to another.
+struct ErrorBar {
+  double from_x, from_y, to_x, to_y;
+};
+
+std::string bars_script(const std::string& name, const std::vector<ErrorBar>& bars) {
   std::string script = fmt::format("${} << EOD\n", name);
-  for (const auto& [x, least, most] : bars)
-    script += fmt::format("{0:.17g} {1:.17g}\n{0:.17g} {2:.17g}\n\n", x, least, most);
+  for (const ErrorBar& bar : bars)
+    script += fmt::format("{:.17g} {:.17g}\n{:.17g} {:.17g}\n\n", bar.from_x, bar.from_y, bar.to_x, bar.to_y);
   return script + "EOD\n";
 }
 
@@ -119,10 +122,10 @@ Drawing draw(const LinePlot& plot, const DrawingSize& size, const std::vector<st
     for (const auto& [px, py] : curve.points) script += fmt::format("{:.17g} {:.17g}\n", px, py);
     script += "EOD\n";
     const auto series = static_cast<std::size_t>(std::ranges::find(names, curve.name) - names.begin());
-    std::vector<std::array<double, 3>> bars;
+    std::vector<ErrorBar> bars;
     for (std::size_t k = 0; k < curve.bars.size(); ++k)
       if (const auto& [least, most] = curve.bars[k]; least < most)
-        bars.push_back({curve.points[k].first, least, most});
+        bars.push_back({curve.points[k].first, least, curve.points[k].first, most});
     if (!bars.empty()) {
       script += bars_script(fmt::format("bars{}", s), bars);
       curves += fmt::format("$bars{} using 1:2 with lines linewidth 1 linecolor {}, ", s, colour(series));
@@ -178,6 +181,10 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
   Range xs, ys;
   for (const PointPlot::Point& point : plot.points) {
     xs.add(point.x);
+    if (point.from < point.to) {
+      xs.add(point.from);
+      xs.add(point.to);
+    }
     if (point.y > 0) ys.add(point.y);
     if (point.least > 0) ys.add(point.least);
     if (point.most > 0) ys.add(point.most);
@@ -208,7 +215,7 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
     labels.add_mark(across, down);
   }
   std::map<std::size_t, std::string> marks;
-  std::map<std::size_t, std::vector<std::array<double, 3>>> bars;
+  std::map<std::size_t, std::vector<ErrorBar>> bars;
   for (const PointPlot::Point& point : plot.points) {
     const double at_y = std::max(point.y, bottom);
     const auto [across, down] = pixels(point);
@@ -218,7 +225,9 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
       script += fmt::format("set label {} at {:.17g},{:.17g} {} textcolor rgb c_soft\n",
                             gnuplot_text(point.name), point.x, at_y, where);
     if (point.least < point.most)
-      bars[point.series].push_back({point.x, std::max(point.least, bottom), std::max(point.most, bottom)});
+      bars[point.series].push_back(
+          {point.x, std::max(point.least, bottom), point.x, std::max(point.most, bottom)});
+    if (point.from < point.to) bars[point.series].push_back({point.from, at_y, point.to, at_y});
     marks[point.series] += fmt::format("{:.17g} {:.17g} {}\n", point.x, at_y, drawing.texts.size());
     if (!size.has_texts) continue;
     const std::string& series = point.series < plot.series.size() ? plot.series[point.series] : point.name;

@@ -54,7 +54,8 @@ struct PointPlot {
     std::string name;  ///< empty for a point without a shown name
     double x, y;       ///< x above 0; y at most a millionth of the largest, or 0, is drawn at the bottom
     std::size_t series = 0;
-    double least = 0, most = 0;  ///< the ends of an error bar; no bar if equal
+    double least = 0, most = 0;  ///< the ends of a vertical error bar; no bar if equal
+    double from = 0, to = 0;     ///< the ends of a horizontal error bar, above 0; no bar if equal
   };
   /// A line between positions above 0, such as a fitted power or a bound.
   struct Line {

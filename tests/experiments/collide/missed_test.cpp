@@ -138,6 +138,24 @@ TEST(Missed, WithoutContactsNoShare) {
   EXPECT_EQ(json["rows"][0]["missed_fraction"], nullptr);
 }
 
+// Shares of 60 steps have intervals. No contact is missed at every frame, which has none.
+TEST(Missed, SharesOfManyStepsHaveIntervals) {
+  const std::string villin = data_file("trajectories/villin_hp36_300K");
+  const ProgramRun run =
+      run_program({"missed", villin + ".dcd", "--topology", villin + ".pdb", "--frames", ":61", "--factors",
+                   "2.5", "--apart", "5", "--strides", "1,4", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json rows = Json::parse(run.out)["rows"];
+  EXPECT_EQ(rows[0]["missed"], 0);
+  EXPECT_EQ(rows[0]["missed_fraction_lower"], nullptr);
+  const double share = rows[1]["missed_fraction"];
+  EXPECT_GT(share, 0);
+  EXPECT_LT(rows[1]["missed_fraction_lower"], share);
+  EXPECT_GT(rows[1]["missed_fraction_lower"], 0.5 * share);
+  EXPECT_GT(rows[1]["missed_fraction_upper"], share);
+  EXPECT_LT(rows[1]["missed_fraction_upper"], 2 * share);
+}
+
 TEST(Missed, RefusesInputsWithoutStepsOrBalls) {
   const Passing passing;
   ProgramRun run = passing.run({"--strides", "1,5"});
@@ -161,7 +179,8 @@ TEST(Missed, WritesFilesAndAPage) {
   EXPECT_THAT(run.out, HasSubstr("missed %"));
   EXPECT_THAT(
       content_of(passing.directory / "report/missed.csv"),
-      testing::StartsWith("factor,stride,frames,contacts,found,missed,missed_fraction\n1,1,5,2,1,1,0.5\n"));
+      testing::StartsWith("factor,stride,frames,contacts,found,missed,missed_fraction,missed_fraction_lower,"
+                          "missed_fraction_upper\n1,1,5,2,1,1,0.5,,\n"));
   EXPECT_EQ(Json::parse(content_of(passing.directory / "report/missed.json"))["rows"].size(), 3U);
   const std::string page = content_of(passing.directory / "report/report.html");
   expect_sound(page);
