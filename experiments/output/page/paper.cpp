@@ -102,8 +102,8 @@ class PaperFiles {
             "\\newcommand{{\\kdsfit}}[1]{{\\sbox{{\\kdsbox}}{{#1}}%\n"
             "  \\ifdim\\wd\\kdsbox>\\linewidth\n"
             "    \\sbox{{\\kdsbox}}{{\\resizebox{{\\linewidth}}{{!}}{{\\usebox{{\\kdsbox}}}}}}\\fi\n"
-            "  \\ifdim\\dimexpr\\ht\\kdsbox+\\dp\\kdsbox\\relax>0.9\\textheight\n"
-            "    \\sbox{{\\kdsbox}}{{\\resizebox{{!}}{{0.9\\textheight}}{{\\usebox{{\\kdsbox}}}}}}\\fi\n"
+            "  \\ifdim\\dimexpr\\ht\\kdsbox+\\dp\\kdsbox\\relax>0.85\\textheight\n"
+            "    \\sbox{{\\kdsbox}}{{\\resizebox*{{!}}{{0.85\\textheight}}{{\\usebox{{\\kdsbox}}}}}}\\fi\n"
             "  \\usebox{{\\kdsbox}}}}\n"
             "\\begin{{document}}\n\\section*{{{}}}\n{}\\end{{document}}\n",
             title, document_));
