@@ -50,8 +50,13 @@ Range range_of(const std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   return {*least, *most};
 }
+// Counts have no decimals.
+std::string text_of(double value, bool is_count) {
+  return is_count ? with_thousands(static_cast<std::uint64_t>(value)) : short_decimal(value);
+}
 std::string text_of(const Range& range) {
-  return fmt::format("{} to {}", short_decimal(range.least), short_decimal(range.most));
+  const bool are_counts = range.least == std::floor(range.least) && range.most == std::floor(range.most);
+  return fmt::format("{} to {}", text_of(range.least, are_counts), text_of(range.most, are_counts));
 }
 
 // Returns a time of each row divided by n log n.
@@ -108,7 +113,9 @@ std::vector<Finding> on_construction(const PaperTable& table) {
   const Range others = range_of(
       values_of(table, "rho_avg", [&](const auto& row) { return is_long(row) && !is_protein(row); }));
   return {{"cages-alike", "Cages of the two hierarchies are alike within 5% on average", mean >= 0.95,
-           fmt::format("{} over all rows, {} by row", short_decimal(mean), text_of(average))},
+           fmt::format(
+               "{} over all rows, {} by row; {} of {} rows within 5%", short_decimal(mean), text_of(average),
+               std::ranges::count_if(averages, [](double rho) { return rho >= 0.95; }), averages.size())},
           {"cages-half", "Some wrapped cages are half as large as the layered ones", least.least < 0.6,
            fmt::format("least rho {}", short_decimal(least.least))},
           {"cages-of-proteins", "Among rows of 50 beads or more, cages differ most in a protein",
@@ -263,7 +270,7 @@ std::vector<Finding> on_stability(const PaperTable& table) {
            bases.most <= 1.5 * bases.least, text_of(bases)},
           {"diagram-grows", "Changes of the diagram grow",
            std::is_sorted(cells.begin(), cells.end()) && cells.front() < cells.back(),
-           fmt::format("from {} to {}", short_decimal(cells.front()), short_decimal(cells.back()))},
+           fmt::format("from {} to {}", text_of(cells.front(), true), text_of(cells.back(), true))},
           {"diagram-grows-as-log",
            "They grow as the logarithm of the number of frames, which explains 95% of their variance or more",
            share >= 0.95, fmt::format("{:.1f}%", 100 * share)}};

@@ -146,6 +146,20 @@ std::string html_of(const std::vector<Remark>& remarks, std::string_view heading
 constexpr std::string_view kNotesHeading = "How inputs differ from the paper's:";
 constexpr std::string_view kReasonsHeading = "Why values deviate by more than 25%:";
 
+struct PlacedFinding {
+  int table;
+  Finding finding;
+};
+
+Table<PlacedFinding> finding_columns() {
+  using R = PlacedFinding;
+  return {{
+      {.heading = "claim", .value = [](const R& r) { return Field(r.finding.claim); }},
+      {.heading = "holds", .value = [](const R& r) { return Field(r.finding.holds); }},
+      {.heading = "measured", .value = [](const R& r) { return Field(r.finding.figures); }},
+  }};
+}
+
 // Plots table 6, whose rows differ in the number of frames.
 std::string stability_plot(const PaperTable& table) {
   LinePlot plot{"frames", "changes", Drawn::points, {}};
@@ -202,16 +216,19 @@ std::string paper_text(std::span<const PaperTable> tables) {
 
 std::string paper_page(std::span<const PaperTable> tables, Page page) {
   const ClaimsJudged claims = judged(tables);
-  std::string list = "<ul>\n";
+  std::vector<PlacedFinding> findings;
   for (const PaperTable& table : tables)
-    for (const Finding& finding : findings_of(table))
-      list += fmt::format("<li>Table {}: {}</li>\n", table.number, html_escaped(sentence_of(finding)));
+    for (Finding& finding : findings_of(table)) findings.push_back({table.number, std::move(finding)});
   page.title = "kds reproduce";
   page.found = fmt::format(
       "<p><strong>{1}</strong> of {0} claims hold in every table that measures them. The claims are "
       "those of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for deforming "
-      "necklaces</em> (2004), that these tables can judge.</p>\n{2}</ul>\n",
-      claims.all, claims.hold, list);
+      "necklaces</em> (2004), that these tables can judge.{2}</p>\n",
+      claims.all, claims.hold,
+      findings.size() > claims.all ? " A claim that two tables measure has two lines." : "");
+  page.body += html_section("Claims", finding_columns().html(findings, [](const PlacedFinding& one) {
+    return fmt::format("Table {}", one.table);
+  }));
   page.words =
       "The paper's values stand beside ours. <em>off</em> is ours divided by the paper's, less one. Times "
       "have none, because the paper's machine is of 2004: ratios of times do. Works that are compared take "
