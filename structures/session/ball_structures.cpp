@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <algorithm>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,11 +13,19 @@
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/session/own_structures.h"
 #include "structures/session/session.h"
+#include "structures/triangulation/diagram_edges.h"
 #include "structures/triangulation/regular_triangulation.h"
 
 namespace kds {
 
 namespace {
+
+ReplayElement element_of(std::initializer_list<BeadId> ids) {
+  ReplayElement element;
+  element.fill(no_bead);
+  std::copy(ids.begin(), ids.end(), element.begin());
+  return element;
+}
 
 template <int Dimension>
 class PowerInRun final : public RunningStructure {
@@ -37,6 +46,47 @@ class PowerInRun final : public RunningStructure {
       elements.add({}, cell);
     }
     return elements;
+  }
+  [[nodiscard]] ReplayScheme replay_scheme() const override {
+    return {{{"edges", 2, 2}, {"hidden", 1, 1}}, {}, 0};
+  }
+  [[nodiscard]] std::vector<std::vector<ReplayElement>> replay_elements(bool built) const override {
+    const DiagramEdges diagram = diagram_.edges_at_frame(built);
+    std::vector<std::vector<ReplayElement>> elements(2);
+    for (BeadId a = 0; a < scene_.bead_count(); ++a)
+      for (const BeadId b : diagram.edges.of(a))
+        if (a < b) elements[0].push_back(element_of({a, b}));
+    for (const BeadId bead : diagram.hidden) elements[1].push_back(element_of({bead}));
+    return elements;
+  }
+  /// A flip of a facet in space adds one edge, a flip of an edge removes one, and a bead that hides or shows
+  /// loses or gets its edges to the beads of one cell. Edits and repairs list cleared and filled cells first,
+  /// and a rebuild lists none.
+  [[nodiscard]] bool replay_edits(const Change& change, std::vector<ReplayEdit>& edits) const override {
+    using Events = DiagramEvents<Dimension>;
+    const auto edge = [&](bool adds, BeadId a, BeadId b) {
+      if (a != infinite_bead && b != infinite_bead)
+        edits.push_back({0, adds, element_of({std::min(a, b), std::max(a, b)})});
+    };
+    const auto& ids = change.ids;
+    if constexpr (Dimension == 2) {
+      if (change.kind == Events::to_edge) {
+        edge(false, ids[0], ids[1]);
+        edge(true, ids[2], ids[3]);
+        return true;
+      }
+    } else if (change.kind == Events::to_edge || change.kind == Events::to_facet) {
+      edge(change.kind == Events::to_edge, ids[3], ids[4]);
+      return true;
+    }
+    if (change.kind == Events::hides || change.kind == Events::shows) {
+      const BeadId bead = ids[Dimension + 1];
+      const bool hides = change.kind == Events::hides;
+      for (std::size_t i = 0; i <= Dimension; ++i) edge(!hides, ids[i], bead);
+      edits.push_back({1, hides, element_of({bead})});
+      return true;
+    }
+    return change.kind == Events::wanders || change.kind == Events::clears || change.kind == Events::fills;
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     return seconds_to_triangulate<Dimension>(scene_.centers(frame), scene_.weights(frame)).clock;
@@ -69,6 +119,19 @@ class ContactsInRun final : public RunningStructure {
     for (const BeadPair& pair : contacts_.pairs())
       changes.push_back({Contacts<Dimension>::begin, 2, {pair.first, pair.second}});
     return changes;
+  }
+  [[nodiscard]] ReplayScheme replay_scheme() const override { return {{{"contacts", 2, 2}}, {}, 0}; }
+  [[nodiscard]] std::vector<std::vector<ReplayElement>> replay_elements(bool) const override {
+    std::vector<std::vector<ReplayElement>> elements(1);
+    for (const BeadPair& pair : contacts_.pairs())
+      elements[0].push_back(element_of({pair.first, pair.second}));
+    return elements;
+  }
+  [[nodiscard]] bool replay_edits(const Change& change, std::vector<ReplayEdit>& edits) const override {
+    using Events = Contacts<Dimension>;
+    if (change.kind == Events::begin || change.kind == Events::end)
+      edits.push_back({0, change.kind == Events::begin, element_of({change.ids[0], change.ids[1]})});
+    return true;
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     const Balls<Dimension> balls(scene_.centers(frame), radii_);

@@ -131,11 +131,34 @@ class WrappedInRun final : public RunningStructure {
     }
     return elements;
   }
+  [[nodiscard]] ReplayScheme replay_scheme() const override {
+    return {{{"cages", 5, 1}}, replay_nodes(hierarchy_.tree()), hierarchy_.relaxation().share()};
+  }
+  [[nodiscard]] std::vector<std::vector<ReplayElement>> replay_elements(bool) const override {
+    std::vector<std::vector<ReplayElement>> elements(1);
+    for (NodeId id = 0; id < hierarchy_.tree().node_count(); ++id)
+      if (hierarchy_.keeps(id)) elements[0].push_back(cage_of(id, hierarchy_.basis(id)));
+    return elements;
+  }
+  [[nodiscard]] bool replay_edits(const Change& change, std::vector<ReplayEdit>& edits) const override {
+    if (change.kind == WrappedHierarchy<Dimension>::changes) return true;
+    const NodeId node = *hierarchy_.tree().find({change.ids[0], change.ids[1]});
+    edits.push_back({0, true, cage_of(node, {change.ids.data() + 2, change.size - std::size_t{2}})});
+    return true;
+  }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     return seconds_to_wrap<Dimension>(kept_, scene_.centers(frame), scene_.radii()).clock;
   }
 
  private:
+  [[nodiscard]] static ReplayElement cage_of(NodeId node, const Basis& basis) {
+    return cage_of(node, std::span(basis.begin(), basis.end()));
+  }
+  [[nodiscard]] static ReplayElement cage_of(NodeId node, std::span<const BeadId> basis) {
+    ReplayElement cage{node, no_bead, no_bead, no_bead, no_bead};
+    std::copy(basis.begin(), basis.end(), cage.begin() + 1);
+    return cage;
+  }
   /// Enlarges the sphere so that it contains all beads of the node. Each of its numbers may be rounded by
   /// 2^-52 of itself.
   void enlarge(Sphere& sphere) const {

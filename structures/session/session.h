@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "motions/base/input_error.h"
+#include "motions/base/require_index.h"
 #include "structures/session/structure_spec.h"
 
 namespace kds {
@@ -75,6 +76,12 @@ class Session {
   /// Returns the combinatorial elements of a structure, which can be compared from frame to frame
   /// (RunningStructure::elements).
   [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t structure, std::size_t frame) const;
+  /// Returns a structure with what runs, dumps and replays know about it. Throws std::invalid_argument if
+  /// there is no such structure.
+  [[nodiscard]] const RunningStructure& running(std::size_t structure) const {
+    require_index("structure", structure, running_.size());
+    return *running_[structure];
+  }
   /// Follows, from the next step on, how many certificates name each bead (RunningStructure).
   void follow_certificates();
   /// Updates the per_bead_max of a structure after events that named the beads `changed`.

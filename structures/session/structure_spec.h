@@ -18,6 +18,7 @@
 #include "structures/contacts/contact_distance.h"
 #include "structures/necklace/balls.h"
 #include "structures/necklace/necklace_tree.h"
+#include "structures/session/replay_layers.h"
 #include "structures/session/scene_motion.h"
 
 namespace kds {
@@ -65,6 +66,21 @@ class RunningStructure {
   [[nodiscard]] virtual std::vector<NodeSphere> spheres_at(const Dyadic& u) const {
     static_cast<void>(u);
     return {};
+  }
+  /// Returns the layers that a replay shows of the structure (replay_layers.h). By default there are none.
+  [[nodiscard]] virtual ReplayScheme replay_scheme() const { return {}; }
+  /// Returns the elements of each layer now, in any order. `built` says whether the structure has just been
+  /// built; otherwise it has run at least part of a step.
+  [[nodiscard]] virtual std::vector<std::vector<ReplayElement>> replay_elements(bool built) const {
+    static_cast<void>(built);
+    return {};
+  }
+  /// Appends what a change that was just made does to the layers. Returns false if the change does not tell;
+  /// `replay_elements` then must be read again.
+  [[nodiscard]] virtual bool replay_edits(const Change& change, std::vector<ReplayEdit>& edits) const {
+    static_cast<void>(change);
+    static_cast<void>(edits);
+    return true;
   }
   /// Follows, from the next step on, how many certificates name each bead. A structure that always knows this
   /// number does nothing.

@@ -1,0 +1,70 @@
+#pragma once
+// What a replay shows of a structure: layers of elements that events remove and add. An element is a few ids,
+// for example the two beads of an edge. A layer is a set of elements, for example all edges of a diagram.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kds/kinetic_structure.h"
+#include "motions/base/bead.h"
+#include "structures/necklace/necklace_tree.h"
+
+namespace kds {
+
+/// The ids of an element. Unused places hold no_bead.
+using ReplayElement = std::array<BeadId, 5>;
+
+struct ReplayLayer {
+  std::string_view name;  ///< in static storage
+  std::size_t arity = 1;  ///< number of ids of an element, at most 5
+  /// The first ids of an element are its place, one or two of them. A layer has at most one element at a
+  /// place, so an element that is added there replaces the one before.
+  std::size_t place_ids = 1;
+};
+
+/// One change of a layer. A removal names the place alone.
+struct ReplayEdit {
+  std::size_t layer = 0;
+  bool adds = true;
+  ReplayElement element{};
+};
+
+/// A node of a hierarchy, whose element in the layer `cages` names it by its index.
+struct ReplayNode {
+  static constexpr std::uint32_t no_parent = std::numeric_limits<std::uint32_t>::max();
+
+  BeadRange beads;
+  std::uint32_t level = 0;  ///< 0 at the roots
+  std::uint32_t parent = no_parent;
+};
+
+/// Returns the nodes of the tree in its order.
+[[nodiscard]] inline std::vector<ReplayNode> replay_nodes(const NecklaceTree& tree) {
+  std::vector<ReplayNode> nodes(tree.node_count());
+  for (NodeId node = 0; node < nodes.size(); ++node) {  // visits children after their parents
+    nodes[node].beads = tree.range(node);
+    for (const NodeId child : {tree.left(node), tree.right(node)})
+      if (child != NecklaceTree::leaf) nodes[child].level = nodes[node].level + 1, nodes[child].parent = node;
+  }
+  return nodes;
+}
+
+/// The layers of a structure. They change at events, and at frames if the structure was rebuilt there, which
+/// its statistics then count as a rebuild.
+///
+///   cages     node, then the beads of the node's basis; unused places last
+///   edges     the two beads of an edge, ascending
+///   hidden    a bead without a cell in the power diagram
+///   contacts  the two beads of a pair in contact, ascending
+struct ReplayScheme {
+  std::vector<ReplayLayer> layers;
+  std::vector<ReplayNode> nodes;  ///< for `cages`
+  double relax = 0;               ///< for `cages`: spheres are larger by this share of the radius
+};
+
+}  // namespace kds
