@@ -36,6 +36,7 @@ constexpr std::array kCommands{
     Command{"run", "run kinetic structures over trajectories and report their events", run_command},
     Command{"info", "describe trajectories; list which conditions of a proper necklace fail", info_command},
     Command{"generate", "write a model necklace", generate_command},
+    Command{"view", "write a run as a page that shows it in a browser", view_command},
     Command{"replay", "repeat a logged run and compare its events", replay_command},
     Command{"update", "compare techniques that update the power diagram from frame to frame", update_command},
     Command{"compare", "compare how often structures change, by stride, motion and input", compare_command},

@@ -42,5 +42,7 @@ int theorems_command(const Arguments& arguments);
 int trade_command(const Arguments& arguments);
 /// `kds update`: compares techniques that update the power diagram from frame to frame.
 int update_command(const Arguments& arguments);
+/// `kds view`: writes a page that shows a run in a browser.
+int view_command(const Arguments& arguments);
 
 }  // namespace kds

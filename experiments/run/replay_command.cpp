@@ -130,7 +130,7 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
   ProgressWithinSteps within(progress, scene.step_count());
   if (options.audit == AuditMode::events) run->listen(within);
   StepCounts counts(run->session(), scene);
-  if (results != nullptr) results->begin(scene, run->session(), options.certify);
+  if (results != nullptr) results->begin(scene, run->session(), options);
   run_steps(*run, options, [&](std::size_t frame) {
     if (results != nullptr) results->add_frame(frame, run->session());
     if (frame == 0) {
@@ -140,6 +140,8 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
     counts.end_step(frame - 1, results);
     progress(frame, 0, scene.step_count());
   });
+
+  if (results != nullptr) results->end_run();
 
   ReplayReport replay;
   replay.difference = comparison.finish();
@@ -156,12 +158,14 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
 namespace {
 
 struct ReplayOptions : Destinations {
-  std::optional<std::filesystem::path> events;
+  std::optional<std::filesystem::path> events, view;
 };
 
 const OptionList<ReplayOptions>& replay_options() {
   using O = ReplayOptions;
-  static const auto list = OptionList<O>().with({events_option(&O::events)}).with(run_destination_options());
+  static const auto list = OptionList<O>()
+                               .with({events_option(&O::events), view_option(&O::view)})
+                               .with(run_destination_options());
   return list;
 }
 
@@ -201,10 +205,12 @@ int replay_command(const Arguments& arguments) {
   paths.write(destinations);
   const auto& events = options.events;
   if (events) paths.write("--events", *events);
+  if (options.view) paths.write("--view", *options.view);
   check_destinations(destinations, "replay", run);
   if (events) ensure_writable_file(*events, "--events");
+  if (options.view) ensure_writable_file(*options.view, "--view");
 
-  RunResults results("replay", destinations, events);
+  RunResults results("replay", destinations, events, options.view);
   ProgressBar bar(!destinations.quiet, "step");
   const ReplayReport replay = replay_log(
       log, [&bar](std::size_t done, double within, std::size_t total) { bar.update(done, within, total); },

@@ -36,6 +36,7 @@ void refuse_file_in(const std::filesystem::path& dump, const RunOptions& options
   };
   if (options.events) refuse("--events", *options.events);
   if (options.log) refuse("--log", *options.log);
+  if (options.view) refuse("--view", *options.view);
   if (options.json && *options.json != "-") refuse("--json", *options.json);
 }
 
@@ -45,6 +46,7 @@ void check_apart(const RunOptions& options, const Destinations& destinations) {
   paths.write(destinations);
   if (options.events) paths.write("--events", *options.events);
   if (options.log) paths.write("--log", *options.log);
+  if (options.view) paths.write("--view", *options.view);
   if (!options.dump) return;
   paths.write_into("--dump", *options.dump);
   if (std::ranges::count(options.structures, "contacts") > 0)  // --out has a contacts.csv too
@@ -58,6 +60,7 @@ void check_before_run(const RunOptions& options, const Destinations& destination
   check_destinations(destinations, "run", options);
   if (options.events) ensure_writable_file(*options.events, "--events");
   if (options.log) ensure_writable_file(*options.log, "--log");
+  if (options.view) ensure_writable_file(*options.view, "--view");
   if (!options.dump) return;
   check_directory(*options.dump, "run", "--dump");
   if (std::ranges::count(options.structures, "contacts") > 0)
@@ -71,7 +74,7 @@ int run_command(const Arguments& arguments) {
   const Destinations& destinations = options;
   check_before_run(options, destinations);
 
-  RunResults results("run", destinations, options.events);
+  RunResults results("run", destinations, options.events, options.view);
   ProgressBar bar(!options.quiet, "step");
   const RunReport report = run_scene(
       options,

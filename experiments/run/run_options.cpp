@@ -132,7 +132,7 @@ OptionList<Destinations> run_destination_options() {
       "write the summary to FILE; - is standard output (default: none)");
 }
 
-const OptionList<RunOptions>& run_options() {
+const OptionList<RunOptions>& motion_and_structure_options() {
   using O = RunOptions;
   static const std::string motion_help = fmt::format("motion of beads between frames: {} (default: linear)",
                                                      fmt::join(frame_motion_names, ", "));
@@ -172,6 +172,15 @@ const OptionList<RunOptions>& run_options() {
                           &O::relax, {Relaxation::least_share, 1}),
               directions_option(&O::directions),
               tolerance_option(),
+          });
+  return list;
+}
+
+const OptionList<RunOptions>& run_options() {
+  using O = RunOptions;
+  static const OptionList<O> list =
+      motion_and_structure_options()
+          .with({
               flag_option("--certify",
                           "with a stride in --frames, or with --tolerance: read all frames too, and report "
                           "the largest possible error of the run",
@@ -192,6 +201,7 @@ const OptionList<RunOptions>& run_options() {
               events_option(&O::events),
               of_output(path_option(
                   {"--log", "FILE", "write the event log to FILE, for kds replay (default: none)"}, &O::log)),
+              view_option(&O::view),
           })
           .with(run_destination_options());
   return list;

@@ -52,6 +52,7 @@ struct RunOptions : InputOptions, Destinations {
   std::optional<std::filesystem::path> dump;    ///< directory for the structures at every frame
   std::optional<std::filesystem::path> events;  ///< file that gets every event
   std::optional<std::filesystem::path> log;     ///< event log, for `kds replay`
+  std::optional<std::filesystem::path> view;    ///< page that shows the run
   std::size_t rounds = 1;                       ///< number of rounds that are timed
   std::optional<std::uint64_t> work;            ///< limit on the limb operations of exact arithmetic
 };
@@ -61,6 +62,19 @@ struct RunOptions : InputOptions, Destinations {
 
 /// Returns the help of --structures, with the names of all structures.
 [[nodiscard]] std::string structures_help();
+
+/// Returns the options that say what is run: inputs, motion and structures.
+[[nodiscard]] const OptionList<RunOptions>& motion_and_structure_options();
+
+/// Returns the option --view.
+template <class Options>
+[[nodiscard]] Option<Options> view_option(std::optional<std::filesystem::path> Options::*view) {
+  return of_output(
+      path_option({"--view", "FILE",
+                   "write the run as a page that shows it in a browser to FILE; kds view has more "
+                   "options (default: none)"},
+                  view));
+}
 
 /// Returns all options of `kds run`.
 [[nodiscard]] const OptionList<RunOptions>& run_options();

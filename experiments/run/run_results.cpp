@@ -8,6 +8,7 @@
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/paper.h"
 #include "experiments/run/html_report.h"
+#include "experiments/run/replay_labels.h"
 #include "structures/session/event_writers.h"
 
 namespace kds {
@@ -30,7 +31,13 @@ void check_destinations(const Destinations& destinations, std::string_view comma
   check_page(destinations, command);
 }
 
-void RunResults::begin(const Scene& scene, Session& session, bool certified) {
+void RunResults::begin(const Scene& scene, Session& session, const RunOptions& options) {
+  const bool certified = options.certify;
+  if (view_path_) {
+    ViewRequest request;
+    request.page = view_path_;
+    view_.emplace(request, replay_labels(options, "run"), scene, session);
+  }
   if (events_path_) {
     every_event_ = make_event_writer(*events_path_, every_event_file_.emplace().open(*events_path_), scene);
     session.simulator().listen(*every_event_);
@@ -82,6 +89,7 @@ void RunResults::add_frame(std::size_t frame, const Session& session) {
       if (listener != nullptr) listener->add_built(session);
   }
   if (dumps_) dumps_->write(frame, session.dump(frame));
+  if (view_) view_->add_frame(frame);
   if (scene_ != nullptr) displacement_.add_frame(scene_->centers(frame), scene_->stamp(frame));
 }
 
@@ -90,6 +98,10 @@ void RunResults::add_step(const FrameStamp& frame, std::string_view structure, s
   if (!events_) return;
   events_->add(frame, structure, events);
   files_->check();
+}
+
+void RunResults::end_run() {
+  if (view_) view_->finish();
 }
 
 void RunResults::deliver(RunReport report, const std::string& json, const std::string& table) {
@@ -111,7 +123,8 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
   if (destinations_.json && !json_on_stdout) json_file.write(*destinations_.json, json);
   if (log_) log_->end(report.fingerprint);
   commit_together({every_event_file_ ? &*every_event_file_ : nullptr, dumps_ ? &dumps_->files() : nullptr,
-                   log_ ? &log_->file() : nullptr, files_ ? &*files_ : nullptr, &json_file});
+                   log_ ? &log_->file() : nullptr, files_ ? &*files_ : nullptr,
+                   view_ ? view_->files() : nullptr, &json_file});
   if (json_on_stdout) print_to_stdout(json);
   if (table_on_stdout) print_to_stdout(table);
   if (files_ && table_on_stdout) print_report_path(*destinations_.out);

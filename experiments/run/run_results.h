@@ -15,6 +15,7 @@
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
+#include "experiments/view/view_results.h"
 #include "kds/event_log.h"
 #include "motions/scene/scene.h"
 #include "structures/session/session.h"
@@ -28,16 +29,20 @@ void check_destinations(const Destinations& destinations, std::string_view comma
 
 class RunResults {
  public:
-  /// `command` is run or replay. `events` is the file that gets every event, if any.
+  /// `command` is run or replay. `events` is the file that gets every event, if any, and `view` the page that
+  /// shows the run.
   explicit RunResults(std::string command, Destinations destinations,
-                      std::optional<std::filesystem::path> events = std::nullopt)
+                      std::optional<std::filesystem::path> events = std::nullopt,
+                      std::optional<std::filesystem::path> view = std::nullopt)
       : command_(std::move(command)),
         destinations_(std::move(destinations)),
-        events_path_(std::move(events)) {}
+        events_path_(std::move(events)),
+        view_path_(std::move(view)) {}
 
-  /// Starts the output files once the input is accepted. The files listen to the session, which must not run
-  /// after this object is destroyed. If `certified`, contacts are reported with `add_certificate`.
-  void begin(const Scene& scene, Session& session, bool certified);
+  /// Starts the output files of a run with these options once the input is accepted. The files listen to the
+  /// session, which must not run after this object is destroyed. The scene must remain until `end_run`. In a
+  /// certified run, contacts are reported with `add_certificate`.
+  void begin(const Scene& scene, Session& session, const RunOptions& options);
   /// Starts the files of --dump and --log for a run with these options. The lifetime rule of `begin` holds.
   void begin_dump_and_log(const RunOptions& options, const Scene& scene, Session& session);
   /// Adds a frame that the run has just reached. The first frame is added when the structures have been
@@ -45,6 +50,8 @@ class RunResults {
   void add_frame(std::size_t frame, const Session& session);
   /// Adds the number of events of a structure in the step that starts at this frame.
   void add_step(const FrameStamp& frame, std::string_view structure, std::uint64_t events);
+  /// Completes the page that shows the run. Must be called when all steps have been run.
+  void end_run();
   /// Writes contacts.csv and possible_contacts.csv if the run has contacts.
   void add_certificate(const StrideCertificate& certificate, const Scene& scene);
   /// Delivers all results. `json` is the summary. `table` is printed unless --quiet is given or standard
@@ -54,7 +61,7 @@ class RunResults {
  private:
   std::string command_;
   Destinations destinations_;
-  std::optional<std::filesystem::path> events_path_;
+  std::optional<std::filesystem::path> events_path_, view_path_;
   std::optional<AtomicFiles> files_;
   const Scene* scene_ = nullptr;
   std::optional<EventsCsv> events_;
@@ -68,6 +75,7 @@ class RunResults {
   std::optional<DumpedFrames> dumps_;
   std::optional<ContactsDump> dumped_contacts_;
   std::optional<EventLogWriter> log_;
+  std::optional<ViewResults> view_;
 };
 
 }  // namespace kds

@@ -187,7 +187,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   std::optional<ClosestApproachOfRun> approach;
   if (const auto closest = place_of_closest(run->session()); closest && options.kernel != Kernel::fast)
     approach.emplace(run->session(), *closest);
-  results.begin(scene, run->session(), options.certify);
+  results.begin(scene, run->session(), options);
   results.begin_dump_and_log(options, scene, run->session());
 
   run_steps(*run, options, [&](std::size_t frame) {
@@ -200,6 +200,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
     progress(frame, 0, options.rounds * scene.step_count());
   });
 
+  results.end_run();
   RunReport report = report_of(run->session(), scene, options, counts);
   if (const auto hint = hint_of(options, scene, report)) warn(*hint);
   if (options.certify) {

@@ -1,0 +1,21 @@
+# Writes a source file that returns a text file in pieces. Compilers need not accept a string literal above 65,536 characters, and
+# a piece must not end within a character of several bytes.
+# Usage: cmake -DTEXT=<text file> -DHEADER=<header to include> -DFUNCTION=<its function> -DSOURCE=<source file> -P EmbedText.cmake
+file(READ "${TEXT}" text)
+string(LENGTH "${text}" length)
+set(code "#include \"${HEADER}\"\n\nnamespace kds {\n\nstd::span<const std::string_view> ${FUNCTION}() {\n")
+string(APPEND code "  static constexpr std::string_view pieces[] = {\n")
+set(begin 0)
+while(begin LESS length)
+  set(size 16000)
+  string(SUBSTRING "${text}" ${begin} ${size} piece)
+  string(LENGTH "${piece}" size)
+  while(NOT piece MATCHES "[\t-~]$")
+    math(EXPR size "${size} - 1")
+    string(SUBSTRING "${text}" ${begin} ${size} piece)
+  endwhile()
+  math(EXPR begin "${begin} + ${size}")
+  string(APPEND code "      R\"kds-page(${piece})kds-page\",\n")
+endwhile()
+string(APPEND code "  };\n  return pieces;\n}\n\n}  // namespace kds\n")
+file(WRITE "${SOURCE}" "${code}")

@@ -1,0 +1,19 @@
+#pragma once
+// What a replay page says about the inputs of a run.
+
+#include <string>
+
+#include "experiments/program/input_options.h"
+#include "experiments/run/run_options.h"
+#include "experiments/view/replay_page.h"
+
+namespace kds {
+
+/// Returns whether the formats of all inputs give lengths in angstrom. Instances, XYZ files and LAMMPS dumps
+/// in units `lj` name no unit. Opens the inputs.
+[[nodiscard]] bool in_angstrom(const InputOptions& options);
+
+/// `command` is run or view, whichever writes this page again.
+[[nodiscard]] ReplayLabels replay_labels(const RunOptions& options, const std::string& command);
+
+}  // namespace kds

@@ -1,0 +1,70 @@
+#pragma once
+// What a recorded run has at a frame, in the input's coordinates: beads, spheres of nodes, edges and
+// contacts. Files for other viewers are made of it: VTK files for ParaView, scripts for PyMOL and ChimeraX.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/output/output_files.h"
+#include "motions/frames/frame_stamp.h"
+#include "motions/scene/scene.h"
+#include "structures/session/replay_recorder.h"
+#include "structures/session/session.h"
+
+namespace kds {
+
+struct ShownFrame {
+  using Pairs = std::vector<std::array<BeadId, 2>>;
+  struct Cage {
+    BeadRange beads;
+    std::uint32_t level = 0;
+    Eigen::Vector3d center;
+    double radius = 0;
+  };
+
+  FrameStamp stamp;
+  Eigen::Matrix3Xd centers;
+  std::vector<double> radii;          ///< 0 for points without a radius
+  std::vector<std::uint32_t> chains;  ///< for each bead the index of its necklace
+  std::vector<bool> hidden;           ///< for each bead
+  Pairs bonds, edges, contacts;
+  std::vector<Cage> cages;
+};
+
+/// Returns what the run has at the frame just reached (frame 0: just built).
+[[nodiscard]] ShownFrame shown_frame(std::size_t frame, const Scene& scene, const Session& session,
+                                     const ReplayRecorder& recorder);
+
+/// VTK files of all frames (XML PolyData, base64), and replay.pvd, which lists them with their times.
+///
+///   beads-N.vtp  points with arrays radius, bead, chain, hidden; a vertex for each bead and a line for each
+///                pair, with array kind: 0 bead, 1 bond, 2 edge of the power diagram, 3 contact
+///   cages-N.vtp  centres of the spheres of a wrapped hierarchy, with arrays radius, level, first, last;
+///                only if the run has these spheres
+class VtkFrames {
+ public:
+  /// Throws an InputError or OutputError that names the option and the path.
+  explicit VtkFrames(std::filesystem::path directory);
+
+  void add(const ShownFrame& frame);
+  /// Writes replay.pvd. Call it after the last frame.
+  void finish();
+  [[nodiscard]] AtomicFiles& files() { return files_; }
+
+ private:
+  AtomicFiles files_;
+  std::string collection_;
+};
+
+/// Returns the text of a scene for another viewer: a PyMOL script if the file's name ends in .pml, a BILD
+/// file for ChimeraX if it ends in .bild.
+[[nodiscard]] std::string scene_script(const std::filesystem::path& file, const ShownFrame& frame);
+/// Throws InputError if the ending is another one.
+void check_script_ending(const std::filesystem::path& file);
+
+}  // namespace kds

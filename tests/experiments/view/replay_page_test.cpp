@@ -1,0 +1,253 @@
+// The data of a replay page, decoded by a reader that shares no code with the writer, are the frames, curves,
+// events and states of the run. Tests also the size of a page and the text around the data.
+
+#include "experiments/view/replay_page.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "experiments/view/replay_template.h"
+#include "motions/base/input_error.h"
+#include "motions/curves/bezier_motion.h"
+#include "motions/readers/instance.h"
+#include "motions/readers/read_trajectory.h"
+#include "structures/session/kinetic_run.h"
+#include "tests/experiments/replay_data.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+#include "tests/experiments/sound_page.h"
+#include "tests/support/inputs/random.h"
+
+namespace kds::test::replay_page_test {
+namespace {
+
+using testing::HasSubstr;
+
+Scene random_scene(int dimension, FrameMotion motion, std::size_t frames, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Trajectory> necklaces(2);
+  std::vector<double> radii;
+  for (const Eigen::Index beads : {9, 7}) {
+    Trajectory& necklace = necklaces[beads == 9 ? 0 : 1];
+    for (std::size_t f = 0; f < frames; ++f) {
+      Eigen::Matrix3Xd positions = Eigen::Matrix3Xd::Zero(3, beads);
+      for (Eigen::Index b = 0; b < beads; ++b)
+        for (int axis = 0; axis < dimension; ++axis) positions(axis, b) = uniform(random, -20, 20);
+      necklace.frames.push_back(positions);
+    }
+    for (Eigen::Index b = 0; b < beads; ++b) radii.push_back(uniform(random, 1, 3));
+  }
+  return {necklaces, radii, motion};
+}
+
+struct Recorded {
+  std::string page;
+  EventLog log;
+};
+
+Recorded record(const Scene& scene, const SessionOptions& options, const ReplayPageOptions& page) {
+  Recorded recorded;
+  KineticRun run(scene, options);
+  ReplayRecorder recorder(run.session());
+  run.listen(recorder);
+  run.listen(recorded.log);
+  run.build();
+  recorder.begin();
+  while (run.run_step()) recorder.reach_frame();
+  run.finish();
+  std::ostringstream stream;
+  write_replay_page(stream, scene, recorder, page);
+  recorded.page = stream.str();
+  return recorded;
+}
+
+void expect_frames(const ReplayData& data, const Scene& scene) {
+  const double half = data.meta["quantum"].get<double>() * 0.5000001;
+  const auto positions = data.positions();
+  ASSERT_EQ(positions.size(), scene.frame_count());
+  for (std::size_t f = 0; f < positions.size(); ++f) {
+    const Eigen::Matrix3Xd centers = scene.centers(f);
+    for (std::size_t b = 0; b < positions[f].size(); ++b)
+      for (std::size_t axis = 0; axis < positions[f][b].size(); ++axis)
+        ASSERT_NEAR(positions[f][b][axis],
+                    centers(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(b)), half);
+  }
+  if (scene.degree() == 1) return;
+  const auto controls = data.controls();
+  const auto motion = make_scene_motion(scene);
+  for (std::size_t step = 0; step < scene.step_count(); ++step) {
+    motion->load(step);
+    std::visit(
+        [&](const auto& ref) {
+          const auto curves = ref.curves();
+          for (int j = 1; j < scene.degree(); ++j)
+            for (BeadId b = 0; b < scene.bead_count(); ++b)
+              for (int axis = 0; axis < scene.dimension(); ++axis)
+                ASSERT_NEAR(
+                    controls[step][static_cast<std::size_t>(j) - 1][b][static_cast<std::size_t>(axis)],
+                    curves.coordinate(b, j, axis), half);
+        },
+        motion->ref());
+  }
+}
+
+void expect_events(const ReplayData& data, const EventLog& log) {
+  std::size_t all = 0;
+  std::set<std::uint32_t> orders;
+  for (std::size_t s = 0; s < data.meta["structures"].size(); ++s) {
+    const ReplayData::Events events = data.events(s);
+    std::size_t k = 0;
+    for (const Event& event : log.events) {
+      if (event.structure_index != s) continue;
+      if (events.kind.at(k) == "rebuild-at-frame") ++k;
+      ASSERT_LT(k, events.step.size());
+      EXPECT_EQ(events.step[k], event.step);
+      EXPECT_EQ(events.lower[k], event.lower);
+      EXPECT_EQ(events.upper[k], event.upper);
+      EXPECT_EQ(events.kind[k], event.kind.name);
+      EXPECT_EQ(events.ids[k], ReplayData::Ids(event.ids().begin(), event.ids().end()));
+      ++k;
+    }
+    orders.insert(events.order.begin(), events.order.end());
+    all += events.step.size();
+  }
+  EXPECT_EQ(orders.size(), all);
+  EXPECT_EQ(data.meta["events_total"], all);
+}
+
+class PageOf : public testing::TestWithParam<std::pair<int, FrameMotion>> {};
+
+TEST_P(PageOf, RandomScenesHasTheirFramesCurvesAndEvents) {
+  const auto [dimension, motion] = GetParam();
+  const Scene scene = random_scene(dimension, motion, 5, 7);
+  const Recorded recorded = record(scene, {{"wrapped", "power", "contacts"}}, {{}, 0.125, {}});
+  const ReplayData data(recorded.page);
+  EXPECT_EQ(data.meta["quantum"], 0.125);
+  EXPECT_EQ(data.meta["dimension"], dimension);
+  EXPECT_EQ(data.meta["degree"], scene.degree());
+  EXPECT_EQ(data.meta["motion"], std::string(name_of(motion)));
+  EXPECT_EQ(data.meta["necklaces"], nlohmann::json({9, 7}));
+  EXPECT_TRUE(data.meta["radius"].is_null());
+  EXPECT_EQ(data.block("radii").size(), 8U * 16);
+  expect_frames(data, scene);
+  expect_events(data, recorded.log);
+  const ReplayData::Ids nodes = data.words("nodes-0");
+  ASSERT_EQ(nodes.size(), 4U * 14);  // 8 + 6 internal nodes
+  EXPECT_EQ(std::vector(nodes.begin(), nodes.begin() + 4), (std::vector<std::uint32_t>{0, 9, 0, 0xffffffff}));
+  EXPECT_EQ(std::vector(nodes.begin() + 4, nodes.begin() + 8), (std::vector<std::uint32_t>{0, 5, 1, 0}));
+  EXPECT_EQ(std::vector(nodes.begin() + 32, nodes.begin() + 36),
+            (std::vector<std::uint32_t>{9, 16, 0, 0xffffffff}));
+}
+INSTANTIATE_TEST_SUITE_P(ReplayPage, PageOf,
+                         testing::Values(std::pair(2, FrameMotion::linear), std::pair(3, FrameMotion::linear),
+                                         std::pair(2, FrameMotion::hermite),
+                                         std::pair(3, FrameMotion::hermite)));
+
+TEST(ReplayPage, HasSeveralBlocksOfFrames) {
+  const Scene scene = random_scene(3, FrameMotion::hermite, 150, 3);
+  const Recorded recorded = record(scene, {{"contacts"}}, {});
+  const ReplayData data(recorded.page);
+  EXPECT_EQ(data.meta["block_frames"], 64);
+  EXPECT_GT(data.block("positions-2").size(), 0U);
+  expect_frames(data, scene);
+  EXPECT_EQ(data.words("frames").back(), 149U);
+  EXPECT_FALSE(data.meta["has_times"]);
+}
+
+TEST(ReplayPage, ShowsInstancesOfHighDegree) {
+  for (const char* name : {"d2_n20_degree3", "w3_n20_degree3_visible", "d3_n20_degree2"}) {
+    const Scene scene(read_instance(data_file(std::string("kinetic/") + name + ".txt")));
+    ReplayLabels labels;
+    labels.in_angstrom = false;
+    const Recorded recorded = record(scene, {{"power"}}, {labels, {}, {}});
+    const ReplayData data(recorded.page);
+    EXPECT_EQ(data.meta["length_unit"], "");
+    EXPECT_THAT(data.meta["quantum_note"].get<std::string>(), HasSubstr("names no unit"));
+    expect_frames(data, scene);
+    expect_events(data, recorded.log);
+  }
+}
+
+TEST(ReplayPage, RefusesLinesAndCoordinatesTooLargeForTheQuantum) {
+  const Scene scene = random_scene(3, FrameMotion::linear, 2, 1);
+  EXPECT_THROW(static_cast<void>(record(scene, {{"contacts"}}, {{}, 1e-9, {}})), InputError);
+  try {
+    static_cast<void>(record(scene, {{"contacts"}}, {{}, 1e-9, {}}));
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("--quantum 1e-09: frame 0, bead "));
+    EXPECT_THAT(error.what(), HasSubstr("expected at least --quantum "));
+  }
+  std::ostringstream stream;
+  const Scene line(read_instance(data_file("kinetic/d1_n20_linear.txt")));
+  EXPECT_THROW(ReplayPage(stream, line, {}), InputError);
+}
+
+TEST(ReplayPage, StopsOnceItIsTooLarge) {
+  const Scene scene = random_scene(3, FrameMotion::linear, 200, 1);
+  std::ostringstream stream;
+  ReplayPage page(stream, scene, {{}, 1e-4, 2000});
+  EXPECT_THROW(page.write_frames(), ReplayTooLarge);
+}
+
+std::string text_of_template() {
+  std::string text;
+  for (const std::string_view piece : replay_template()) text += piece;
+  return text;
+}
+
+TEST(ReplayPage, IsTheTemplateAroundTheData) {
+  const std::string text = text_of_template();
+  EXPECT_EQ(count_of(text, std::string(replay_data_mark)), 1U);
+  std::ifstream file(KDS_REPLAY_PAGE, std::ios::binary);
+  EXPECT_EQ(text, std::string(std::istreambuf_iterator<char>(file), {}));
+  const Scene scene = random_scene(3, FrameMotion::linear, 3, 1);
+  const std::string page = record(scene, {{"power"}}, {}).page;
+  const std::size_t mark = text.find(replay_data_mark);
+  EXPECT_EQ(page.substr(0, mark), text.substr(0, mark));
+  EXPECT_TRUE(page.ends_with(text.substr(mark + replay_data_mark.size())));
+}
+
+TEST(ReplayPage, IsHarmlessForAnyNames) {
+  const Scene scene = random_scene(3, FrameMotion::linear, 3, 1);
+  ReplayLabels labels;
+  labels.title = "</script><script>alert(1)</script><!--";
+  labels.inputs = {"\xff\"\\</SCRIPT\n>"};
+  labels.command = "kds view '</script>'";
+  const std::string page = record(scene, {{"power"}}, {labels, {}, {}}).page;
+  const std::string text = text_of_template();
+  const std::string data = page.substr(text.find(replay_data_mark));
+  const ReplayData replay(page);
+  EXPECT_EQ(count_of(data, "<script"),
+            count_of(text.substr(text.find(replay_data_mark)), "<script") + replay.block_count() + 1);
+  EXPECT_EQ(replay.meta["title"], labels.title);
+  EXPECT_EQ(replay.meta["command"], labels.command);
+}
+
+// RFC 4648, section 10.
+TEST(ReplayBlocks, EncodeBase64) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foob"), "Zm9vYg==");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xfb\xff\xfe"), "+//+");
+}
+
+TEST(ReplayBlocks, EncodeNumbers) {
+  BlockBytes bytes;
+  for (const std::int64_t number : {0, -1, 1, 63, -64, 64, 8191}) bytes.add_varint(number);
+  EXPECT_EQ(bytes.bytes(), std::string("\x00\x01\x02\x7e\x7f\x80\x01\xfe\x7f", 9));
+  bytes.clear();
+  bytes.add_word(0x01020304);
+  bytes.add_double(1);
+  EXPECT_EQ(bytes.bytes(), std::string("\x04\x03\x02\x01\0\0\0\0\0\0\xf0\x3f", 12));
+}
+
+}  // namespace
+}  // namespace kds::test::replay_page_test

@@ -1,0 +1,273 @@
+// `kds view`, and --view of run and replay, as a process: the state at every frame is that of --dump, the
+// files for other viewers hold the same state, and bad options are refused.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "experiments/view/replay_template.h"
+#include "tests/experiments/expect_refused.h"
+#include "tests/experiments/replay_data.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+#include "tests/experiments/sound_page.h"
+
+namespace kds::test::view_command_test {
+namespace {
+
+using testing::HasSubstr;
+using State = ReplayData::State;
+using Ids = ReplayData::Ids;
+
+const std::string kVillin = data_file("trajectories/villin_hp36_300K.dcd");
+const std::string kNames = data_file("trajectories/villin_hp36_300K.pdb");
+const std::vector<std::string> kRun{
+    kVillin,    "--topology", kNames, "--frames", "40:70", "--structures", "wrapped,power,contacts",
+    "--radius", "2.3"};
+
+std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+std::vector<std::vector<std::string>> csv(const std::filesystem::path& path) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream text(content_of(path));
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream fields(line);
+    rows.emplace_back();
+    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
+  }
+  if (!rows.empty()) rows.erase(rows.begin());
+  return rows;
+}
+
+std::uint32_t number(const std::string& text) { return static_cast<std::uint32_t>(std::stoul(text)); }
+
+/// Returns the layers at each frame of a dump. Contacts follow from their events.
+std::vector<std::map<std::string, State>> dumped(const std::filesystem::path& dump, std::size_t frames) {
+  std::vector<std::map<std::string, State>> states(frames);
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    const std::string start = "frame-" + std::to_string(frame);
+    for (const auto& cell : csv(dump / (start + ".power.csv")))
+      for (std::size_t i = 0; i < cell.size(); ++i)
+        for (std::size_t j = i + 1; j < cell.size(); ++j)
+          states[frame]["edges"].insert(
+              {std::min(number(cell[i]), number(cell[j])), std::max(number(cell[i]), number(cell[j]))});
+    states[frame]["hidden"] = {};
+    for (const auto& row : csv(dump / (start + ".hidden.csv")))
+      states[frame]["hidden"].insert({number(row[0])});
+    std::uint32_t node = 0;
+    for (const auto& row : csv(dump / (start + ".wrapped.csv"))) {
+      Ids cage{node++};
+      std::istringstream basis(row[2]);
+      for (std::uint32_t bead = 0; basis >> bead;) cage.push_back(bead);
+      cage.resize(5, 0xffffffff);
+      states[frame]["cages"].insert(cage);
+    }
+    State& contacts = states[frame]["contacts"];
+    for (const auto& row : csv(dump / "contacts.csv")) {
+      const Ids pair{number(row[3]), number(row[4])};
+      const bool at_start = row[0] == "0" && row[1] == "0" && row[2] == "0" && row[5] == "begin";
+      if (number(row[0]) >= frame && !at_start) continue;
+      if (row[5] == "begin") contacts.insert(pair);
+      if (row[5] == "end") contacts.erase(pair);
+    }
+  }
+  return states;
+}
+
+TEST(View, ShowsAtEveryFrameWhatADumpHas) {
+  const ScratchDirectory scratch;
+  const std::string page = scratch / "replay.html", log = scratch / "run.kdslog";
+  const ProgramRun run = run_program(
+      with(with({"run"}, kRun), {"--view", page, "--dump", scratch / "dump", "--log", log, "--quiet"}));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const ReplayData data(content_of(page));
+  EXPECT_EQ(data.meta["frames"], 30);
+  EXPECT_EQ(data.meta["length_unit"], "angstrom");
+  EXPECT_EQ(data.meta["quantum"], 0.02);
+  EXPECT_EQ(data.meta["radius"], 2.3);
+  EXPECT_EQ(data.words("frames").front(), 40U);
+  EXPECT_TRUE(data.meta["has_times"]);
+  EXPECT_EQ(nlohmann::json::parse(data.block("names"))[1], "/LEU1/CA");
+  const auto states = dumped(scratch / "dump", 30);
+  for (std::size_t frame = 0; frame < 30; ++frame)
+    for (const auto& [layer, state] : states[frame])
+      EXPECT_EQ(data.state(layer, frame), state) << layer << frame;
+  std::size_t changes = 0;
+  for (const auto& [layer, state] : states[29]) changes += state != states[0].at(layer) ? 1 : 0;
+  EXPECT_GE(changes, 3U);
+
+  // A replay of the log and kds view write the same data.
+  const std::string again = scratch / "again.html", viewed = scratch / "viewed.html";
+  ASSERT_EQ(run_program({"replay", log, "--view", again, "--quiet"}).code, 0);
+  EXPECT_EQ(content_of(again), content_of(page));
+  const ProgramRun view = run_program(with(with({"view"}, kRun), {"-o", viewed}));
+  ASSERT_EQ(view.code, 0) << view.err;
+  EXPECT_EQ(view.err, "");
+  EXPECT_THAT(view.out, HasSubstr("30 frames"));
+  EXPECT_THAT(view.out, HasSubstr("page " + viewed));
+  ReplayData same(content_of(viewed));
+  EXPECT_THAT(same.meta["command"].get<std::string>(), HasSubstr("kds view "));
+  same.meta["command"] = data.meta["command"];
+  EXPECT_EQ(same.meta, data.meta);
+  for (const auto& [name, bytes] : data.meta["blocks"].items()) EXPECT_EQ(same.block(name), data.block(name));
+}
+
+TEST(View, IsSmallForASmallProtein) {
+  const ScratchDirectory scratch;
+  const std::string page = scratch / "replay.html";
+  ASSERT_EQ(
+      run_program({"view", kVillin, "--topology", kNames, "--frames", "0:200", "-o", page, "--quiet"}).code,
+      0);
+  std::size_t template_size = 0;
+  for (const std::string_view piece : replay_template()) template_size += piece.size();
+  EXPECT_LT(template_size, 1'200'000U);
+  EXPECT_LT(std::filesystem::file_size(page), template_size + 600'000U);
+}
+
+TEST(View, TakesAStrideToStayBelowMaxMb) {
+  const ScratchDirectory scratch;
+  const std::string page = scratch / "replay.html";
+  const std::vector<std::string> arguments{"view", kVillin, "--frames", "0:100", "-o", page};
+  ASSERT_EQ(run_program(arguments).code, 0);
+  const auto all = std::filesystem::file_size(page);
+  const ReplayData every(content_of(page));
+  EXPECT_EQ(every.meta["stride"], 1);
+  std::size_t template_size = 0;
+  for (const std::string_view piece : replay_template()) template_size += piece.size();
+  const double most =
+      (static_cast<double>(template_size) + 0.6 * static_cast<double>(all - template_size)) / 1e6;
+  const ProgramRun run = run_program(with(arguments, {"--max-mb", std::to_string(most)}));
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("of the 100 frames"));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1);
+  const ReplayData data(content_of(page));
+  const std::size_t stride = data.meta["stride"];
+  EXPECT_GE(stride, 2U);
+  EXPECT_LE(std::filesystem::file_size(page), most * 1e6);
+  EXPECT_EQ(data.words("frames")[1], stride);
+  expect_refused(with(arguments, {"--max-mb", "0.001"}),
+                 {"--max-mb 0.001: the page of 2 frames", "expected at least --max-mb "});
+}
+
+TEST(View, RoundsRelativeToRadiiWithoutAUnit) {
+  const ScratchDirectory scratch;
+  const std::string file = scratch.file("a.xyz", xyz({"0 0 0", "9 0 0", "0 9 0", "0 0 9", "2 3 1"}) +
+                                                     xyz({"0 0 0", "9 1 0", "0 9 0", "0 0 9", "2 3 4"}));
+  ASSERT_EQ(run_program({"view", file, "--radius", "0.5", "-o", scratch / "a.html", "--quiet"}).code, 0);
+  const ReplayData data(content_of(scratch / "a.html"));
+  EXPECT_EQ(data.meta["quantum"], 0.005);
+  EXPECT_EQ(data.meta["length_unit"], "");
+  EXPECT_THAT(data.meta["quantum_note"].get<std::string>(), HasSubstr("a hundredth of the least radius"));
+}
+
+TEST(View, IsHarmlessForInputsWithTagsInTheirNames) {
+  const ScratchDirectory scratch;
+  std::filesystem::create_directories(scratch / "a<");
+  const std::filesystem::path file = scratch / "a<" / "script><script>alert(1)<" / "";
+  std::filesystem::create_directories(file);
+  const std::filesystem::path input = file / "script>.txt";
+  std::filesystem::copy_file(data_file("kinetic/d2_n20_linear.txt"), input);
+  const std::string page = scratch / "a.html";
+  const ProgramRun run = run_program({"view", input, "-o", page});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const ReplayData data(content_of(page));
+  EXPECT_THAT(data.meta["command"].get<std::string>(), HasSubstr("<script>alert(1)</script>"));
+  EXPECT_EQ(data.meta["title"], "script>.txt");
+  EXPECT_THAT(content_of(page), testing::Not(HasSubstr("<script>alert(1)")));
+}
+
+/// Returns the numbers of a data array in a VTK file.
+template <class Number>
+std::vector<Number> vtk_array(const std::string& file, const std::string& name) {
+  const std::size_t tag = file.find("Name=\"" + name + "\""), begin = file.find('>', tag) + 1;
+  const std::string bytes = from_base64(file.substr(begin, file.find('<', begin) - begin));
+  std::uint32_t size = 0;
+  std::memcpy(&size, bytes.data(), 4);
+  EXPECT_EQ(size + 4, bytes.size()) << name;
+  std::vector<Number> numbers(size / sizeof(Number));
+  std::memcpy(numbers.data(), bytes.data() + 4, size);
+  return numbers;
+}
+
+TEST(View, WritesFilesForOtherViewers) {
+  const ScratchDirectory scratch;
+  const std::vector<std::string> run{
+      kVillin, "--frames", "3:9:2", "--structures", "wrapped,power,contacts", "--radius", "2.3"};
+  const std::string vtk = scratch / "vtk", script = scratch / "a.pml", bild = scratch / "a.bild";
+  ASSERT_EQ(run_program(with(with({"run"}, run), {"--dump", scratch / "dump", "--quiet"})).code, 0);
+  const ProgramRun view =
+      run_program(with(with({"view"}, run), {"--vtk", vtk, "--script", script, "--at", "5"}));
+  ASSERT_EQ(view.code, 0) << view.err;
+  ASSERT_EQ(run_program(with(with({"view"}, run), {"--script", bild})).code, 0);
+  const auto states = dumped(scratch / "dump", 3);
+  const std::string pvd = content_of(std::filesystem::path(vtk) / "replay.pvd");
+  EXPECT_EQ(count_of(pvd, "<DataSet "), 6U);
+  for (std::size_t frame = 0; frame < 3; ++frame) {
+    const std::string number_of_file = std::to_string(3 + 2 * frame);
+    const std::string beads = content_of(std::filesystem::path(vtk) / ("beads-" + number_of_file + ".vtp"));
+    EXPECT_THAT(pvd, HasSubstr("beads-" + number_of_file + ".vtp"));
+    EXPECT_EQ(vtk_array<double>(beads, "radius"), std::vector<double>(108, 2.3));
+    std::map<int, State> lines;
+    const auto kinds = vtk_array<std::uint8_t>(beads, "kind");
+    const auto ends = vtk_array<std::uint32_t>(beads.substr(beads.find("<Lines>")), "connectivity");
+    ASSERT_EQ(kinds.size(), 108 + ends.size() / 2);
+    for (std::size_t line = 0; line < ends.size() / 2; ++line)
+      lines[kinds[108 + line]].insert({ends[2 * line], ends[2 * line + 1]});
+    EXPECT_EQ(lines[1].size(), 107U);
+    EXPECT_EQ(lines[2], states[frame].at("edges"));
+    EXPECT_EQ(lines[3], states[frame].at("contacts"));
+
+    // Spheres are those of the dump, rounded up.
+    const std::string cages = content_of(std::filesystem::path(vtk) / ("cages-" + number_of_file + ".vtp"));
+    const auto radii = vtk_array<double>(cages, "radius"), points = vtk_array<double>(cages, "Points");
+    const auto rows = csv(scratch / ("dump/frame-" + std::to_string(frame) + ".wrapped.csv"));
+    ASSERT_EQ(radii.size(), rows.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      EXPECT_NEAR(radii[k], std::stod(rows[k][6]), 1e-9);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(points[3 * k + axis], std::stod(rows[k][3 + axis]), 1e-9);
+    }
+  }
+  const std::string pml = content_of(script), text = content_of(bild);
+  EXPECT_THAT(pml, HasSubstr("# kds: frame 5."));
+  EXPECT_EQ(count_of(pml, "\nSPHERE, "), 108U + states[1].at("cages").size());
+  EXPECT_EQ(count_of(pml, "\nCYLINDER, "),
+            107 + states[1].at("edges").size() + states[1].at("contacts").size());
+  EXPECT_THAT(text, HasSubstr(".comment kds: frame 3."));
+  EXPECT_EQ(count_of(text, "\n.sphere "), 108U + states[0].at("cages").size());
+  EXPECT_EQ(count_of(text, "\n.cylinder "),
+            107 + states[0].at("edges").size() + states[0].at("contacts").size());
+}
+
+TEST(View, RefusesBadOptions) {
+  const ScratchDirectory scratch;
+  const std::string page = scratch / "a.html";
+  const std::vector<std::string> view{"view", kVillin, "--frames", "0:9"};
+  expect_refused(view, {"expected -o FILE, --vtk DIR or --script FILE"});
+  expect_refused(with(view, {"-o", kVillin}), {"-o", "is the file of an input"});
+  expect_refused(with(view, {"-o", page, "--at", "3"}), {"--at", "--script"});
+  expect_refused(with(view, {"--script", scratch / "a.py"}), {"--script", ".pml", ".bild"});
+  expect_refused(with(view, {"--script", scratch / "a.pml", "--at", "12"}),
+                 {"--at 12", "the nearest is --at 8"});
+  expect_refused(with(view, {"-o", page, "--quantum", "0"}), {"--quantum"});
+  expect_refused(with(view, {"-o", page, "--quantum", "1e-12"}), {"--quantum 1e-12", "at least --quantum "});
+  expect_refused(with(view, {"-o", page, "--max-mb", "-1"}), {"--max-mb"});
+  expect_refused(with(view, {"-o", page, "--dump", "x"}), {"unknown option '--dump'"});
+  expect_refused({"view", data_file("kinetic/d1_n20_linear.txt"), "-o", page}, {"in the plane or in space"});
+  expect_refused({"run", kVillin, "--view", kVillin}, {"--view", "is the file of an input"});
+  EXPECT_EQ(scratch.entries(), 0U);
+}
+
+}  // namespace
+}  // namespace kds::test::view_command_test
