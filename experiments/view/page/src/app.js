@@ -1,0 +1,558 @@
+// Joins the parts of the page: time, structures, scene, timeline, panels and the link.
+import { blocksOfPage, metaOfPage } from "./blocks.js";
+import { float64, pause, uint32 } from "./codec.js";
+import { rgb } from "./colours.js";
+import { contactIntervals } from "./contact_intervals.js";
+import { byId, count } from "./dom.js";
+import { noBead } from "./events.js";
+import { Frames } from "./frames.js";
+import { listenToKeys } from "./keys.js";
+import { readLink, writeLink } from "./link.js";
+import { LayerList } from "./layer_list.js";
+import { Panels } from "./panel.js";
+import { Player, speeds } from "./player.js";
+import { RunState, loadStructures } from "./run_state.js";
+import { Scene, hasWebGL2 } from "./scene.js";
+import { TimelineView } from "./timeline_view.js";
+
+const flashSeconds = 0.5;
+const mostFlashes = 48;
+const textsEvery = 100;  // ms, while playing
+const linkEvery = 500;   // ms
+
+export class App {
+  async load() {
+    this.meta = metaOfPage(document);
+    const { meta } = this;
+    document.title = `${meta.title} · kds replay`;
+    byId("title").textContent = meta.title;
+    byId("subtitle").textContent = this.subtitle();
+    byId("about").textContent = this.aboutText();
+    const blocks = blocksOfPage(document, meta);
+    const radii = meta.radius === null ? float64(await blocks.bytes("radii")) : null;
+    this.radii = radii ? (bead) => radii[bead] : () => meta.radius;
+    this.frameNumbers = [...uint32(await blocks.bytes("frames"))];
+    this.times = meta.has_times ? [...float64(await blocks.bytes("times"))] : null;
+    this.names = meta.names ? JSON.parse(new TextDecoder().decode(await blocks.bytes("names"))) : null;
+    this.state = new RunState(meta, await loadStructures(meta, blocks));
+    this.frames = new Frames(meta, blocks);
+    await this.frames.prepare(0);
+    this.bead = { number: -1, events: [], follow: false };
+    this.player = new Player(this.state.lastStep);
+    this.positions = new Float32Array(3 * meta.beads);
+    this.cost = { drawCalls: 0, script: 0 };
+    this.makeScene();
+    this.layers = new LayerList(this.state, meta, () => this.changed());
+    this.panels = new Panels(
+      {
+        meta,
+        frames: this.frameNumbers,
+        times: this.times,
+        names: this.names,
+        state: this.state,
+        radii: this.radii,
+        positions: () => this.positions,
+      },
+      {
+        bead: (bead) => this.chooseBead(bead),
+        follow: (on) => this.setFollow(on),
+        beadEvent: (way) => this.goToNearest(way, this.bead.events),
+      },
+    );
+    this.timeline = new TimelineView(this.state, this.frameNumbers, this.findPairs(), {
+      seek: (time) => this.scrub(time),
+      choose: (event) => this.chooseEvent(event),
+      structures: () => this.changed(),
+      changed: () => this.linkSoon(),
+      loop: () => this.player.loop,
+      pairName: ([i, j]) => (this.names ? `${this.names[i]} – ${this.names[j]}` : `${i} – ${j}`),
+    });
+    this.connect();
+    await this.openLink();
+    this.cost.ready = performance.now();
+    document.body.dataset.ready = "";
+    this.makeSnapshots();
+  }
+
+  subtitle() {
+    const { meta } = this;
+    const events = meta.structures.reduce((sum, structure) => sum + structure.events, 0);
+    return `${count(meta.beads, "bead")}, ${count(meta.frames, "frame")}, ${count(events, "event")}`;
+  }
+
+  aboutText() {
+    const { meta } = this;
+    const unit = meta.length_unit ? ` ${meta.length_unit}` : "";
+    const parts = [
+      `Input: ${meta.inputs.join(", ")}.`,
+      `Motion between frames: ${meta.motion}.`,
+      `Positions are rounded to ${meta.quantum}${unit}; times of events are not.`,
+      ...(meta.stride > 1 ? [`The page has every ${meta.stride}th frame of the input, which keeps it small.`] : []),
+      `Made by ${meta.program}: ${meta.command}`,
+    ];
+    return parts.join(" ");
+  }
+
+  makeScene() {
+    if (!hasWebGL2()) {
+      byId("scene").hidden = true;
+      byId("no-webgl").hidden = false;
+      this.scene = null;
+      return;
+    }
+    this.scene = new Scene(byId("scene"), this.meta, this.radii, () => {
+      this.request();
+      this.linkSoon();
+    });
+    this.positions = this.scene.positions;
+  }
+
+  findPairs() {
+    const found = this.state.layersNamed("contacts").flatMap(({ layer, s }) =>
+      contactIntervals(layer, this.state.structures[s].events, this.state.lastStep).map((row) => ({ ...row, s })),
+    );
+    return found;
+  }
+
+  connect() {
+    const on = (id, action) => (byId(id).onclick = action);
+    on("play", () => this.togglePlay());
+    on("next-event", () => this.goToNearest(1));
+    on("previous-event", () => this.goToNearest(-1));
+    on("next-frame", () => this.stepFrame(1));
+    on("previous-frame", () => this.stepFrame(-1));
+    on("loop-from", () => this.setLoop(0));
+    on("loop-to", () => this.setLoop(1));
+    on("loop-clear", () => this.clearLoop());
+    on("theme", () => this.setTheme(this.dark ? "light" : "dark"));
+    on("png", () => this.savePicture());
+    on("reset-camera", () => {
+      this.setFollow(false);
+      this.scene?.resetCamera();
+      this.changed();
+    });
+    const speed = byId("speed");
+    for (const value of speeds) speed.add(new Option(`${value}×`, value, value === 1, value === 1));
+    speed.onchange = () => {
+      this.player.speed = Number(speed.value);
+      this.linkSoon();
+    };
+    byId("bead-size").oninput = () => this.changed();
+    listenToKeys(this);
+    this.listenToScene();
+    window.addEventListener("hashchange", () => {
+      if (location.hash !== this.written) this.openLink();
+    });
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+      if (!this.theme) this.setTheme(null);
+    });
+    const resized = () => {
+      this.scene?.resize();
+      this.timeline.draw();
+      this.request();
+    };
+    new ResizeObserver(resized).observe(byId("stage"));
+    new ResizeObserver(resized).observe(byId("rows"));
+    byId("contact-rows").addEventListener("toggle", resized);
+  }
+
+  listenToScene() {
+    const canvas = byId("scene");
+    let start = null;
+    canvas.addEventListener("pointerdown", (event) => (start = event));
+    canvas.addEventListener("pointerup", (event) => {
+      const still = start && Math.hypot(event.clientX - start.clientX, event.clientY - start.clientY) < 5;
+      if (still && event.isPrimary && event.button === 0) this.chooseBead(this.scene.pick(event.clientX, event.clientY));
+      start = null;
+    });
+    canvas.addEventListener("webglcontextlost", () => this.report("The browser took the graphics away. Load the page again."));
+  }
+
+  // Going to a time.
+
+  // Goes to a time and draws the scene there. A later call overtakes one that still unpacks its frames.
+  async goTo(step, u, event = null) {
+    const request = (this.latest = (this.latest ?? 0) + 1);
+    const [whole] = event ? [this.state.structures[event[0]].events.step[event[1]]] : this.state.normal(step, u);
+    await this.frames.prepare(whole);
+    if (request !== this.latest) return;
+    if (event) this.state.seekEvent(...event);
+    else this.state.seek(step, u);
+    this.draw();
+    this.showTexts();
+    this.timeline.keepInView();
+    this.linkSoon();
+  }
+
+  scrub(time) {
+    this.pauseClock();
+    return this.goTo(Math.floor(time), time - Math.floor(time));
+  }
+
+  chooseEvent(event) {
+    this.pauseClock();
+    return this.goTo(0, 0, event);
+  }
+
+  // Goes to the next (`way` 1) or previous event of the structures that are switched on.
+  goToNearest(way, within = null) {
+    const takes = within ? () => true : (s) => !this.timeline.muted.has(s);
+    const event = way > 0 ? this.state.next(takes, within) : this.state.previous(takes, within);
+    if (event) return this.chooseEvent(event);
+    this.say(way > 0 ? "There is no later event." : "There is no earlier event.");
+    return Promise.resolve();
+  }
+
+  stepFrame(way) {
+    this.pauseClock();
+    const { step, u } = this.state;
+    return this.goTo(way > 0 || u > 0 ? step + (way > 0 ? 1 : 0) : step - 1, 0);
+  }
+
+  togglePlay() {
+    if (this.player.playing) return this.pauseClock();
+    this.player.playing = true;
+    this.lastTick = null;
+    const start = this.player.startTime(this.state.time);
+    if (start !== this.state.time) this.state.seek(Math.floor(start), start - Math.floor(start));
+    else this.state.chosen = null;
+    this.showPlaying();
+    this.request();
+    return undefined;
+  }
+
+  pauseClock() {
+    if (!this.player.playing) return;
+    this.player.playing = false;
+    this.showPlaying();
+    this.changed();
+  }
+
+  showPlaying() {
+    const { playing } = this.player;
+    byId("play").setAttribute("aria-pressed", playing);
+    byId("play").querySelector("use").setAttribute("href", playing ? "#icon-pause" : "#icon-play");
+    byId("play").setAttribute("aria-label", playing ? "Pause" : "Play");
+  }
+
+  setLoop(end) {
+    this.player.setLoop(end, this.state.time);
+    byId("loop-clear").hidden = !this.player.loop;
+    this.timeline.placeHead();
+    this.say(this.player.loop ? "Loop set." : "No loop.");
+    this.linkSoon();
+  }
+
+  clearLoop() {
+    this.player.loop = null;
+    byId("loop-clear").hidden = true;
+    this.timeline.placeHead();
+    this.linkSoon();
+  }
+
+  // Moves the clock by the real time that has passed. Stands still while frames are unpacked.
+  tick(now) {
+    const seconds = this.lastTick === null ? 0 : Math.min(0.1, (now - this.lastTick) / 1000);
+    this.lastTick = now;
+    const time = this.player.advance(this.state.time, seconds);
+    const step = Math.floor(time);
+    if (!this.frames.isReady(step)) {
+      this.frames.prepare(step).then(() => {
+        this.lastTick = null;
+        this.request();
+      }, fail);
+      return false;
+    }
+    const ahead = Math.min(this.state.lastStep, step + Math.ceil(this.frames.perBlock / 2));
+    if (!this.frames.isReady(ahead)) this.frames.prepare(ahead).catch(fail);
+    this.state.seek(step, time - step);
+    if (!this.player.playing) this.showPlaying();
+    return true;
+  }
+
+  // Drawing.
+
+  request() {
+    if (this.requested) return;
+    this.requested = true;
+    requestAnimationFrame((now) => {
+      this.requested = false;
+      const start = performance.now();
+      try {
+        if (this.player.playing && !this.tick(now)) return;
+        this.draw();
+      } catch (error) {
+        fail(error);
+        return;
+      }
+      this.timeline.keepInView();
+      if (!this.player.playing || now - (this.textsAt ?? 0) > textsEvery) {
+        this.textsAt = now;
+        this.showTexts();
+      }
+      if (this.player.playing) this.request();
+      this.cost.script = performance.now() - start;
+    });
+  }
+
+  // Draws after a change of layers, colours or what is chosen.
+  changed() {
+    this.request();
+    this.linkSoon();
+  }
+
+  draw() {
+    const { state, scene } = this;
+    if (!this.frames.isReady(state.step)) {
+      this.goTo(state.step, state.u).catch(fail);
+      return;
+    }
+    const before = this.bead.number < 0 ? null : this.placeOf(this.bead.number);
+    this.frames.positions(state.step, state.u, this.positions);
+    if (!scene) return;
+    scene.movedBeads();
+    if (this.bead.follow && before)
+      scene.follow(this.placeOf(this.bead.number).map((value, axis) => value - before[axis]));
+    scene.setShrink(Number(byId("bead-size").value));
+    this.drawLayers();
+    this.drawMarks();
+    this.cost.drawCalls = scene.render();
+  }
+
+  placeOf(bead) {
+    return Array.from(this.positions.subarray(3 * bead, 3 * bead + 3));
+  }
+
+  drawLayers() {
+    const { layers, scene, state } = this;
+    scene.beads.visible = layers.shows("beads");
+    scene.chain.visible = layers.shows("chain");
+    for (const [name, target, alpha] of [["edges", scene.edges, 130], ["contacts", scene.contacts, 230]]) {
+      if (layers.shows(name) && layers.isStale(name)) {
+        const words = state.layersNamed(name).map(({ layer }) => layer.set.packed);
+        scene.setEdges(target, words.length === 1 ? words[0] : Uint32Array.from(words.flatMap((list) => [...list])), 2, scene.colours[name], alpha);
+      }
+      target.visible = layers.shows(name);
+    }
+    if (layers.isStale("hidden")) {
+      const hidden = layers.shows("hidden") ? state.elements("hidden").flat() : [];
+      scene.paintBeads(new Set(hidden));
+    }
+    if (layers.isStale("cages")) this.cages = layers.shows("cages") ? this.layers.cages(scene.colours.cage, this.dark) : [];
+  }
+
+  // Marks what the chosen event changes, the chosen bead's neighbours, and while playing the events just passed.
+  drawMarks() {
+    const { scene, state } = this;
+    const marks = [];
+    const rings = [];
+    const cages = [...(this.cages ?? [])];
+    const { goes, comes, glow, chosen } = scene.colours;
+    const markEvent = (s, e, alpha) => {
+      for (const { name, arity, removed, added } of state.changesOf(s, e)) {
+        if (arity === 2) {
+          for (let k = 0; k < removed.length; k += 2)
+            marks.push({ pair: removed.subarray(k, k + 2), colour: goes, dashed: true, alpha });
+          for (let k = 0; k < added.length; k += 2)
+            marks.push({ pair: added.subarray(k, k + 2), colour: comes, dashed: false, alpha });
+        } else if (name === "cages" && added.length) {
+          const basis = [...added.subarray(1, arity)].filter((bead) => bead !== noBead);
+          cages.push({ basis, relax: state.structures[s].relax, colour: rgb(glow), alpha });
+        }
+      }
+      for (const bead of state.structures[s].events.beadsOf(e)) rings.push({ bead, colour: glow, alpha });
+    };
+    if (this.bead.number >= 0) {
+      const b = this.bead.number;
+      for (const name of ["edges", "contacts"]) {
+        for (const pair of this.layers.shows(name) ? state.elements(name) : [])
+          if (pair.includes(b)) marks.push({ pair, colour: chosen, dashed: false, alpha: 0.8 });
+      }
+    }
+    if (state.chosen) markEvent(...state.chosen, 1);
+    else if (this.player.playing && this.layers.shows("flashes")) this.markFlashes(markEvent);
+    if (this.bead.number >= 0) rings.push({ bead: this.bead.number, colour: chosen, alpha: 1 });
+    scene.setMarks(marks, rings);
+    scene.setCages(cages);
+  }
+
+  // Marks the events of the last half second of playing, fading.
+  markFlashes(markEvent) {
+    const { state, player } = this;
+    const span = flashSeconds * player.speed * player.rate;
+    state.structures.forEach(({ events }, s) => {
+      if (this.timeline.muted.has(s)) return;
+      const first = Math.max(events.countBefore(state.time - span), state.applied[s] - mostFlashes);
+      for (let e = first; e < state.applied[s]; ++e)
+        markEvent(s, e, Math.max(0.05, 1 - (state.time - events.time[e]) / span));
+    });
+  }
+
+  showTexts() {
+    const { state } = this;
+    const text = this.panels.timeText(state.step, state.u);
+    byId("time").textContent = text;
+    const axis = byId("axis");
+    axis.setAttribute("aria-valuenow", state.time.toFixed(4));
+    axis.setAttribute("aria-valuetext", text);
+    this.panels.showBead(this.bead);
+    const chosen = state.chosen?.join(".");
+    if (chosen === this.shownEvent) return;
+    this.shownEvent = chosen;
+    this.panels.showEvent();
+    if (state.chosen) this.say(byId("event").innerText.split("\n").slice(0, 4).join(". "));
+  }
+
+  // Tells people who use a screen reader.
+  say(text) {
+    byId("said").textContent = text;
+  }
+
+  report(text) {
+    byId("problem").hidden = false;
+    byId("problem").textContent = text;
+  }
+
+  // What is chosen.
+
+  chooseBead(bead) {
+    const events = bead < 0 ? [] : this.state.structures.map((structure) => structure.events.withBead(bead));
+    this.bead = { number: bead, events, follow: bead >= 0 && this.bead.follow };
+    this.timeline.showPairs(bead);
+    this.panels.showBead(this.bead);
+    if (bead >= 0) this.say(`Chosen: ${this.panels.nameOf(bead)}.`);
+    this.changed();
+  }
+
+  setFollow(on) {
+    this.bead.follow = on && this.bead.number >= 0;
+    if (this.bead.follow && this.scene) {
+      const target = this.scene.controls.target.toArray();
+      this.scene.follow(this.placeOf(this.bead.number).map((value, axis) => value - target[axis]));
+    }
+    this.panels.showBead(this.bead);
+    this.changed();
+  }
+
+  release() {
+    this.state.chosen = null;
+    this.chooseBead(-1);
+    this.showTexts();
+  }
+
+  async savePicture() {
+    if (!this.scene) return;
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(await this.scene.picture());
+    link.download = `${this.meta.title.replace(/[^\w.-]+/g, "_")}-${this.frameNumbers[this.state.step]}.png`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  }
+
+  // `name` is light, dark, or null for that of the system.
+  setTheme(name) {
+    this.theme = name;
+    this.dark = (name ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) === "dark";
+    document.documentElement.dataset.theme = this.dark ? "dark" : "light";
+    this.layers.forget();
+    this.scene?.setTheme(this.dark);
+    this.timeline.setDark(this.dark);
+    this.changed();
+  }
+
+  // The link.
+
+  async openLink() {
+    const view = readLink(location.hash);
+    this.layers.open(view);
+    this.setTheme(view.theme ?? this.theme ?? null);
+    if (view.speed) {
+      this.player.speed = view.speed;
+      byId("speed").value = String(view.speed);
+    }
+    const end = this.state.lastStep;
+    const within = (range) => range && range[0] >= 0 && range[0] < range[1] && range[1] <= end;
+    if (within(view.loop)) this.player.loop = view.loop;
+    byId("loop-clear").hidden = !this.player.loop;
+    if (view.bead < this.meta.beads) this.chooseBead(view.bead);
+    if (view.camera && this.scene) this.scene.view = view.camera;
+    if (within(view.window)) this.timeline.show(view.window);
+    const [s, e] = view.event ?? [];
+    const known = e < this.state.structures[s]?.events.count;
+    await this.goTo(Math.min(end, view.step ?? 0), view.u ?? 0, known ? [s, e] : null);
+    if (view.follow) this.bead.follow = this.bead.number >= 0;
+    this.showTexts();
+  }
+
+  linkSoon() {
+    if (this.linking) return;
+    this.linking = setTimeout(() => {
+      this.linking = null;
+      if (this.player.playing) return;
+      const { state, timeline } = this;
+      const all = timeline.range[0] === 0 && timeline.range[1] === timeline.end;
+      this.written = writeLink({
+        step: state.step,
+        u: state.u,
+        event: state.chosen,
+        bead: this.bead.number,
+        follow: this.bead.follow,
+        layers: this.layers.shown(),
+        level: this.layers.level,
+        camera: this.scene?.view,
+        speed: this.player.speed,
+        window: all ? null : timeline.range,
+        loop: this.player.loop,
+        theme: this.theme,
+      });
+      try {
+        history.replaceState(null, "", this.written);
+      } catch {
+        // A page inside a notebook may have no address of its own.
+      }
+    }, linkEvery);
+  }
+
+  // Makes the snapshots for seeking while nothing else is to be done.
+  async makeSnapshots() {
+    try {
+      for (const { layers } of this.state.structures) {
+        for (const layer of layers) while (layer.makeSomeSnapshots()) await pause();
+      }
+    } catch (error) {
+      fail(error);
+    }
+  }
+}
+
+const errors = [];
+
+// Shows an error, and keeps it for tests.
+export function fail(error) {
+  const text = error?.message ?? String(error);
+  errors.push(text);
+  const place = byId("problem");
+  place.hidden = false;
+  place.textContent = `The replay cannot be shown: ${text}.`;
+}
+
+// What notebooks and tests may use.
+export function interfaceOf(app, ready) {
+  return {
+    ready,
+    errors,
+    seek: (step, u) => app.goTo(step, u),
+    seekEvent: (s, e) => app.goTo(0, 0, [s, e]),
+    pick: (x, y) => app.scene?.pick(x, y) ?? -1,
+    statistics: () => ({ ...app.cost }),
+    state: () => ({
+      step: app.state.step,
+      u: app.state.u,
+      edges: app.state.elements("edges"),
+      contacts: app.state.elements("contacts"),
+      hidden: app.state.elements("hidden").flat(),
+      cages: app.state.elements("cages"),
+      positions: app.positions.slice(),
+    }),
+  };
+}

@@ -1,0 +1,39 @@
+// Colours. Kinds of events and layers take those of Okabe and Ito, which people with colour blindness tell apart.
+// Edges that go are also dashed, so that no meaning depends on a colour alone.
+
+export const categories = {
+  light: ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8c8c8c", "#b8a900"],
+  dark: ["#4aa3e0", "#f0b429", "#2fc296", "#e09cc2", "#8accf5", "#f07b33", "#a8a8a8", "#e0d042"],
+};
+
+const themes = {
+  light: {
+    page: "#ffffff", fog: "#ffffff", chain: "#6b7784", edges: "#64748b", contacts: "#e69f00",
+    goes: "#d1350f", comes: "#008a5e", glow: "#7b2fd0", chosen: "#0072b2", cage: "#0072b2", axis: "#5b6673",
+    grid: "#d9dee4",
+  },
+  dark: {
+    page: "#14181d", fog: "#14181d", chain: "#aab4bf", edges: "#8a99ab", contacts: "#f0b429",
+    goes: "#ff6a45", comes: "#35d39f", glow: "#ffe066", chosen: "#6ac1ff", cage: "#6ac1ff", axis: "#9aa5b1",
+    grid: "#313a44",
+  },
+};
+
+export const theme = (name) => themes[name];
+
+// From blue over grey to yellow (cividis, Nuñez, Anderton and Renslow 2018, at nine places), which is even in lightness.
+const cividis = ["#00306f", "#2b446e", "#4a576d", "#676b70", "#807f78", "#9c9576", "#bcae6c", "#dfc95c", "#fde737"];
+
+export function rgb(colour) {
+  const value = parseInt(colour.slice(1), 16);
+  return [value >> 16, (value >> 8) & 255, value & 255];
+}
+
+// Returns the colour at t in 0..1 along the chain, [r, g, b] up to 255. Dark ends are lightened on dark pages.
+export function alongChain(t, dark) {
+  const place = Math.min(0.999999, Math.max(0, t)) * (cividis.length - 1);
+  const k = Math.floor(place);
+  const [from, to] = [rgb(cividis[k]), rgb(cividis[k + 1])];
+  const mixed = from.map((value, c) => value + (to[c] - value) * (place - k));
+  return mixed.map((value, c) => Math.round(dark ? value + ([110, 150, 200][c] - value) * 0.45 * (1 - t) : value));
+}

@@ -1,0 +1,68 @@
+// What structures and kinds of events are, in a sentence each. A structure that is not listed is shown without one.
+
+const structures = {
+  wrapped: "Wrapped hierarchy: a balanced tree of cages. A cage is the smallest sphere around the beads of its node.",
+  boxes: "Hierarchy of boxes: each node of a balanced tree has the smallest box around its beads.",
+  power: "Power diagram: an edge joins two beads whose cells share a face.",
+  contacts: "Contacts: pairs of beads that touch or overlap.",
+  sorted: "Sorted list: the beads in order along an axis.",
+  box: "Enclosing box: the smallest box around all beads.",
+  hull: "Convex hull of the beads in the plane.",
+  closest: "Closest pair: the two beads with the least distance.",
+};
+
+const kinds = {
+  wrapped: {
+    enter: "A bead reaches the sphere of this cage and joins the basis, the beads that hold the sphere.",
+    leave: "A bead of the basis is no longer needed to hold the sphere of this cage.",
+    pivot: "A bead reaches the sphere of this cage and takes the place of another bead in the basis.",
+  },
+  power: {
+    "2-3": "Two tetrahedra with a common triangle become three around a new edge.",
+    "3-2": "Three tetrahedra around an edge become two. The edge goes.",
+    "2-2": "Two triangles exchange their common edge for the other diagonal.",
+    "4-1": "A bead loses its power cell and is hidden: four tetrahedra become one.",
+    "1-4": "A hidden bead gets a power cell: one tetrahedron becomes four.",
+    "3-1": "A bead loses its power cell and is hidden: three triangles become one.",
+    "1-3": "A hidden bead gets a power cell: one triangle becomes three.",
+    wander: "A hidden bead moves into another cell of the triangulation.",
+    rebuild: "Flips block each other here, so the diagram is built anew.",
+  },
+  contacts: {
+    begin: "Two beads begin to touch.",
+    end: "Two beads stop touching.",
+    touch: "Two beads touch at this one instant.",
+  },
+  sorted: { interchange: "Two neighbours in the list exchange places." },
+  hull: {
+    enter: "A bead becomes a corner of the hull.",
+    leave: "A corner of the hull moves inside.",
+    interchange: "Two corners exchange their order along an axis.",
+  },
+  closest: { replace: "Another pair becomes the closest.", overtake: "A pair overtakes another within the tournament." },
+  boxes: { support: "Another bead holds a side of this box." },
+  box: { overtake: "A bead overtakes another within the tournament for an end of the box." },
+};
+
+export const explainStructure = (name) => structures[name] ?? "";
+export const explainKind = (structure, kind) =>
+  kinds[structure]?.[kind] ?? (structure === "box" && /^(min|max)-/.test(kind) ? "Another bead holds this end of the box." : "");
+
+// Splits a bead's name, such as "A/LEU42/CA", into chain, residue and atom.
+export function residueOf(name) {
+  const parts = name.split("/");
+  return parts.length === 3 ? { chain: parts[0], residue: parts[1], atom: parts[2] } : null;
+}
+
+// Writes a time of the run: frames and, if known, picoseconds.
+export function timeText(step, u, frames, times, unit) {
+  const last = step + 1 >= frames.length;
+  const from = frames[step];
+  const to = last ? from : frames[step + 1];
+  const frame = u === 0 ? `frame ${from}` : `frame ${trim(from + (to - from) * u, 6)}`;
+  if (!times) return frame;
+  const at = last ? times[step] : times[step] + (times[step + 1] - times[step]) * u;
+  return `${frame}, ${trim(at, 6)} ${unit}`;
+}
+
+export const trim = (value, digits) => String(Number(value.toFixed(digits)));

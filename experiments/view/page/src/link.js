@@ -1,0 +1,51 @@
+// The view in the URL's fragment: time, chosen event and bead, layers, camera, timeline.
+
+const numbers = (text) => (text ?? "").split(",").map(Number);
+const list = (values) => values.map((value) => Number(value.toPrecision(8))).join(",");
+
+export function writeLink(view) {
+  const parts = new URLSearchParams();
+  parts.set("s", view.step);
+  parts.set("u", view.u);
+  if (view.event) parts.set("e", view.event.join("."));
+  if (view.bead >= 0) parts.set("b", view.bead);
+  if (view.follow) parts.set("follow", 1);
+  parts.set("layers", view.layers.join("."));
+  parts.set("level", view.level);
+  if (view.camera) parts.set("cam", list(view.camera));
+  parts.set("speed", view.speed);
+  if (view.window) parts.set("win", list(view.window));
+  if (view.loop) parts.set("loop", list(view.loop));
+  if (view.theme) parts.set("theme", view.theme);
+  return `#${parts}`;
+}
+
+// Returns what the fragment says. Parts that are absent or that make no sense are left out.
+export function readLink(hash) {
+  const parts = new URLSearchParams(hash.replace(/^#/, ""));
+  const view = {};
+  const number = (name, target, accept) => {
+    const value = Number(parts.get(name));
+    if (parts.has(name) && Number.isFinite(value) && accept(value)) view[target] = value;
+  };
+  number("s", "step", (value) => value >= 0 && Number.isInteger(value));
+  number("u", "u", (value) => value >= 0 && value <= 1);
+  number("b", "bead", (value) => value >= 0 && Number.isInteger(value));
+  number("speed", "speed", (value) => value >= 0.01 && value <= 8);
+  if (parts.has("e")) {
+    const [s, e] = parts.get("e").split(".").map(Number);
+    if ([s, e].every((value) => Number.isInteger(value) && value >= 0)) view.event = [s, e];
+  }
+  if (parts.has("layers")) view.layers = parts.get("layers").split(".").filter(Boolean);
+  if (/^(all|\d+)$/.test(parts.get("level") ?? "")) view.level = parts.get("level");
+  const vector = (name, target, count) => {
+    const values = numbers(parts.get(name));
+    if (parts.has(name) && values.length === count && values.every(Number.isFinite)) view[target] = values;
+  };
+  vector("cam", "camera", 7);
+  vector("win", "window", 2);
+  vector("loop", "loop", 2);
+  if (["light", "dark"].includes(parts.get("theme"))) view.theme = parts.get("theme");
+  if (parts.has("follow")) view.follow = true;
+  return view;
+}

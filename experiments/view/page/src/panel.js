@@ -1,0 +1,150 @@
+// The panels of the chosen event and of the chosen bead.
+import { byId, count, make } from "./dom.js";
+import { noBead } from "./events.js";
+import { explainKind, residueOf, timeText, trim } from "./explain.js";
+
+const longList = 12;
+
+export class Panels {
+  // `data`: meta, frames, times, names, state. `actions`: choose(event), bead(b), next(), previous(), follow(on),
+  // beadEvent(way).
+  constructor(data, actions) {
+    this.data = data;
+    this.actions = actions;
+  }
+
+  timeText(step, u) {
+    const { frames, times, meta } = this.data;
+    return timeText(step, u, frames, times, meta.time_unit);
+  }
+
+  nameOf(bead) {
+    return this.data.names?.[bead] ?? `bead ${bead}`;
+  }
+
+  beadButton(bead) {
+    if (bead === noBead) return make("span", {}, "outside");
+    const text = this.data.names ? `${bead} ${this.data.names[bead]}` : `${bead}`;
+    return make("button", { class: "bead", title: `Choose bead ${bead}`, onclick: () => this.actions.bead(bead) }, text);
+  }
+
+  beadButtons(beads) {
+    const list = make("div", { class: "beads" }, ...beads.slice(0, longList).map((bead) => this.beadButton(bead)));
+    if (beads.length > longList) list.append(`and ${beads.length - longList} more`);
+    return list;
+  }
+
+  residues(beads) {
+    const { names } = this.data;
+    if (!names) return null;
+    const residues = beads.map((bead) => residueOf(names[bead])).filter(Boolean);
+    return [...new Set(residues.map(({ chain, residue }) => `${chain}/${residue}`))].join(", ") || null;
+  }
+
+  showEvent() {
+    const { state } = this.data;
+    const place = byId("event");
+    if (!state.chosen) {
+      const total = state.structures.reduce((sum, { events }) => sum + events.count, 0);
+      place.replaceChildren(
+        make("p", {}, total ? "None chosen. Press " : "This run has no events."),
+        ...(total ? [make("p", {}, make("kbd", {}, "n"), " or Next event, or click a mark on the timeline.")] : []),
+      );
+      return;
+    }
+    const [s, e] = state.chosen;
+    const { name, events } = state.structures[s];
+    const kind = events.kindOf(e);
+    const beads = events.beadsOf(e);
+    const rows = [
+      ["time", this.timeText(events.step[e], events.u[e])],
+      ["bracket", this.bracketText(events, e)],
+      ["decided by", events.stages[events.stage[e]] ?? "not recorded"],
+    ];
+    for (const role of events.rolesOf(e)) {
+      if (role.of === "node") rows.push([role.name, `beads ${role.ids[0]} to ${role.ids[1]}`]);
+      else if (role.of === "number") rows.push([role.name, role.ids.join(" ")]);
+      else rows.push([role.name, this.beadButtons(role.ids)]);
+    }
+    const residues = this.residues(beads);
+    if (residues) rows.push(["residues", residues]);
+    rows.push(...this.changeRows(s, e));
+    place.replaceChildren(
+      make("h3", {}, make("span", { class: `chip c${events.kind[e] % 8}` }, `${name}: ${kind.name}`)),
+      make("p", {}, explainKind(name, kind.name)),
+      table(rows),
+      make("p", { class: "soft" }, `Event ${(e + 1).toLocaleString("en")} of ${events.count.toLocaleString("en")} of ${name}, number ${events.order[e] + 1} of the run${kind.external ? "" : ", internal"}.`),
+    );
+  }
+
+  bracketText(events, e) {
+    const { frames } = this.data;
+    const [step, lower, upper] = [events.step[e], events.lower[e], events.upper[e]];
+    const between = step + 1 < frames.length ? `frames ${frames[step]} to ${frames[step + 1]}` : `frame ${frames[step]}`;
+    const bounds = lower === upper ? `u = ${lower}` : `${lower} ≤ u ≤ ${upper}`;
+    return `${bounds} in the step over ${between}`;
+  }
+
+  changeRows(s, e) {
+    const rows = [];
+    for (const { name, arity, removed, added } of this.data.state.changesOf(s, e)) {
+      if (arity !== 2) continue;
+      const pairs = (words) =>
+        Array.from({ length: words.length / 2 }, (_, k) => `${words[2 * k]}–${words[2 * k + 1]}`).join(", ");
+      if (removed.length) rows.push([make("span", { class: "goes" }, `${name} that go`), pairs(removed)]);
+      if (added.length) rows.push([make("span", { class: "comes" }, `${name} that come`), pairs(added)]);
+    }
+    return rows;
+  }
+
+  // `bead`: {number, events (indices by structure), follow}.
+  showBead(bead) {
+    const place = byId("bead");
+    if (bead.number < 0) {
+      place.replaceChildren(make("p", {}, "None chosen. Click a bead."));
+      return;
+    }
+    const { state, radii, positions, meta } = this.data;
+    const b = bead.number;
+    const partners = (layer) =>
+      state
+        .elements(layer)
+        .filter((pair) => pair.includes(b))
+        .map(([i, j]) => (i === b ? j : i))
+        .sort((x, y) => x - y);
+    const at = Array.from(positions().subarray(3 * b, 3 * b + meta.dimension), (value) => trim(value, 2));
+    const rows = [
+      ["place", `${at.join(", ")} ${meta.length_unit}, radius ${trim(radii(b), 3)}`],
+    ];
+    if (state.layersNamed("hidden").length)
+      rows.push(["power cell", state.elements("hidden").some(([hidden]) => hidden === b) ? "none, the bead is hidden" : "yes"]);
+    if (state.layersNamed("edges").length) rows.push(["neighbours", this.beadButtons(partners("edges"))]);
+    if (state.layersNamed("contacts").length) {
+      const met = partners("contacts");
+      rows.push(["contacts", met.length ? this.beadButtons(met) : "none now"]);
+    }
+    if (state.layersNamed("cages").length) {
+      const held = state.elements("cages").filter(([, ...basis]) => basis.includes(b)).length;
+      rows.push(["holds", count(held, "cage")]);
+    }
+    const total = bead.events.reduce((sum, list) => sum + list.length, 0);
+    const before = bead.events.reduce((sum, list, s) => sum + list.filter((e) => e < state.applied[s]).length, 0);
+    rows.push(["events", total ? `${total.toLocaleString("en")}, ${before.toLocaleString("en")} of them so far` : "none"]);
+    const follow = make("input", { type: "checkbox", onchange: () => this.actions.follow(follow.checked) });
+    follow.checked = bead.follow;
+    place.replaceChildren(
+      make("h3", {}, this.data.names ? `${b} ${this.nameOf(b)}` : `bead ${b}`),
+      table(rows),
+      make(
+        "p",
+        { class: "buttons" },
+        make("button", { disabled: !total, onclick: () => this.actions.beadEvent(-1) }, "Its previous event"),
+        make("button", { disabled: !total, onclick: () => this.actions.beadEvent(1) }, "Its next event"),
+      ),
+      make("p", { class: "buttons" }, make("label", {}, follow, "Follow it"), make("button", { onclick: () => this.actions.bead(-1) }, "Release it")),
+    );
+  }
+}
+
+const table = (rows) =>
+  make("dl", {}, ...rows.flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]));

@@ -1,0 +1,338 @@
+// The three-dimensional picture: camera, beads and the layers over them, seven draw calls at most.
+import {
+  Color,
+  DataTexture,
+  FloatType,
+  NearestFilter,
+  OrthographicCamera,
+  RGBAFormat,
+  Scene as ThreeScene,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { alongChain, categories, rgb, theme } from "./colours.js";
+import { Instances } from "./instances.js";
+import { beadAt } from "./picking.js";
+import * as shaders from "./shaders.js";
+import { sphereOfBasis } from "./spheres.js";
+
+export const hasWebGL2 = () => document.createElement("canvas").getContext("webgl2") !== null;
+
+const linked = { ends: [Uint32Array, 2, false], tint: [Uint8Array, 4, true], dash: [Uint8Array, 1, false] };
+const ringed = { bead: [Uint32Array, 1, false], tint: [Uint8Array, 4, true] };
+
+export class Scene {
+  constructor(canvas, meta, radii, onCamera) {
+    this.meta = meta;
+    this.radii = radii;
+    this.positions = new Float32Array(3 * meta.beads);
+    this.shrink = 1;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.three = new ThreeScene();
+    this.camera = new OrthographicCamera();
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.zoomToCursor = true;
+    this.controls.enableRotate = meta.dimension === 3;
+    if (meta.dimension === 2) {
+      this.controls.mouseButtons.LEFT = 2;  // pan
+      this.controls.touches.ONE = 1;        // pan
+    }
+    this.makeTexture();
+    this.makeLayers();
+    this.resetCamera();
+    this.controls.addEventListener("change", () => {
+      this.placeClipping();
+      onCamera();
+    });
+  }
+
+  makeTexture() {
+    const width = Math.max(1, Math.ceil(Math.sqrt(this.meta.beads)));
+    this.balls = new Float32Array(4 * width * Math.ceil(this.meta.beads / width));
+    for (let b = 0; b < this.meta.beads; ++b) this.balls[4 * b + 3] = this.radii(b);
+    this.texture = new DataTexture(this.balls, width, this.balls.length / 4 / width, RGBAFormat, FloatType);
+    this.texture.minFilter = this.texture.magFilter = NearestFilter;
+  }
+
+  makeLayers() {
+    this.uniforms = {
+      balls: { value: this.texture },
+      screen: { value: new Vector2(1, 1) },
+      shrink: { value: 1 },
+      fog: { value: new Color() },
+      reach: { value: new Vector3(1, -1, 0.5) },
+    };
+    const segments = (order, thickness, depthTest = true) =>
+      new Instances({
+        vertex: shaders.segmentVertex,
+        fragment: shaders.segmentFragment,
+        uniforms: { ...this.uniforms, thickness: { value: thickness } },
+        attributes: linked,
+        segments: true,
+        transparent: true,
+        depthTest,
+        order,
+      });
+    this.beads = new Instances({
+      vertex: shaders.beadVertex,
+      fragment: shaders.beadFragment,
+      uniforms: this.uniforms,
+      attributes: ringed,
+      order: 0,
+    });
+    this.chain = segments(1, 3);
+    this.edges = segments(2, 1.2);
+    this.contacts = segments(3, 4.5, false);
+    this.cages = new Instances({
+      vertex: shaders.cageVertex,
+      fragment: shaders.cageFragment,
+      uniforms: this.uniforms,
+      attributes: { sphere: [Float32Array, 4, false], tint: [Uint8Array, 4, true] },
+      transparent: true,
+      order: 4,
+    });
+    this.marks = segments(5, 4.5, false);
+    this.halos = new Instances({
+      vertex: shaders.haloVertex,
+      fragment: shaders.haloFragment,
+      uniforms: this.uniforms,
+      attributes: ringed,
+      transparent: true,
+      depthTest: false,
+      order: 6,
+    });
+    for (const layer of [this.beads, this.chain, this.edges, this.contacts, this.cages, this.marks, this.halos])
+      this.three.add(layer.mesh);
+    this.fillBeads();
+    this.fillChain();
+  }
+
+  fillBeads() {
+    const { beads } = this.meta;
+    this.beads.reserve(beads);
+    const numbers = this.beads.array("bead");
+    for (let b = 0; b < beads; ++b) numbers[b] = b;
+    this.beads.changed(beads, "bead");
+  }
+
+  fillChain() {
+    const pairs = [];
+    let first = 0;
+    for (const count of this.meta.necklaces) {
+      for (let b = first; b + 1 < first + count; ++b) pairs.push(b, b + 1);
+      first += count;
+    }
+    this.chainPairs = Uint32Array.from(pairs);
+  }
+
+  // `dark` is the page's theme.
+  setTheme(dark) {
+    this.dark = dark;
+    this.colours = theme(dark ? "dark" : "light");
+    this.renderer.setClearColor(this.colours.page);
+    const [r, g, b] = rgb(this.colours.fog).map((value) => value / 255);
+    this.uniforms.fog.value.setRGB(r, g, b);
+    this.setEdges(this.chain, this.chainPairs, 2, this.colours.chain, 255);
+    this.paintBeads(new Set());
+  }
+
+  // Colours beads along the chain, or by necklace if there are several. `hidden` beads are drawn hatched.
+  paintBeads(hidden) {
+    const tint = this.beads.array("tint");
+    const palette = categories[this.dark ? "dark" : "light"].map(rgb);
+    let first = 0;
+    this.meta.necklaces.forEach((count, n) => {
+      for (let b = first; b < first + count; ++b) {
+        const own =
+          this.meta.necklaces.length === 1
+            ? alongChain((b - first) / Math.max(1, count - 1), this.dark)
+            : palette[n % palette.length];
+        tint.set(own, 4 * b);
+        tint[4 * b + 3] = hidden.has(b) ? 0 : 255;
+      }
+      first += count;
+    });
+    this.beads.changed(this.meta.beads, "tint");
+  }
+
+  // Shows the pairs of `words` as segments, all alike.
+  setEdges(layer, words, arity, colour, alpha) {
+    const count = words.length / arity;
+    layer.reserve(count);
+    const ends = layer.array("ends");
+    const tint = layer.array("tint");
+    const [r, g, b] = rgb(colour);
+    for (let k = 0; k < count; ++k) {
+      ends[2 * k] = words[k * arity];
+      ends[2 * k + 1] = words[k * arity + 1];
+      tint[4 * k] = r;
+      tint[4 * k + 1] = g;
+      tint[4 * k + 2] = b;
+      tint[4 * k + 3] = alpha;
+    }
+    layer.changed(count, "ends", "tint");
+  }
+
+  // Shows marked pairs, {pair, colour, dashed, alpha}, and rings around beads, {bead, colour, alpha}.
+  setMarks(marks, rings) {
+    this.marks.reserve(marks.length);
+    marks.forEach(({ pair, colour, dashed, alpha }, k) => {
+      this.marks.array("ends").set(pair, 2 * k);
+      this.marks.array("tint").set([...rgb(colour), 255 * alpha], 4 * k);
+      this.marks.array("dash")[k] = dashed ? 1 : 0;
+    });
+    this.marks.changed(marks.length, "ends", "tint", "dash");
+    this.marks.visible = true;
+    this.halos.reserve(rings.length);
+    rings.forEach(({ bead, colour, alpha }, k) => {
+      this.halos.array("bead")[k] = bead;
+      this.halos.array("tint").set([...rgb(colour), 255 * alpha], 4 * k);
+    });
+    this.halos.changed(rings.length, "bead", "tint");
+    this.halos.visible = true;
+  }
+
+  // Shows cages, {basis, relax, colour, alpha}, at the present positions.
+  setCages(cages) {
+    this.cages.reserve(cages.length);
+    const sphere = this.cages.array("sphere");
+    const tint = this.cages.array("tint");
+    let count = 0;
+    for (const { basis, relax, colour, alpha } of cages) {
+      if (!sphereOfBasis(basis, this.positions, this.radii, sphere, 4 * count)) continue;
+      sphere[4 * count + 3] *= 1 + relax;
+      tint[4 * count] = colour[0];
+      tint[4 * count + 1] = colour[1];
+      tint[4 * count + 2] = colour[2];
+      tint[4 * count + 3] = 255 * alpha;
+      ++count;
+    }
+    this.cages.changed(count, "sphere", "tint");
+    this.cages.visible = true;
+  }
+
+  // Takes over `positions` once they have changed.
+  movedBeads() {
+    const { positions, balls } = this;
+    for (let b = 0; b < this.meta.beads; ++b) {
+      balls[4 * b] = positions[3 * b];
+      balls[4 * b + 1] = positions[3 * b + 1];
+      balls[4 * b + 2] = positions[3 * b + 2];
+    }
+    this.texture.needsUpdate = true;
+  }
+
+  resetCamera() {
+    const { low, high } = this.meta.box;
+    const middle = low.map((value, axis) => (value + high[axis]) / 2);
+    let largest = 0;
+    for (let b = 0; b < this.meta.beads; ++b) largest = Math.max(largest, this.radii(b));
+    this.radius = Math.max(1e-9, Math.hypot(...low.map((value, axis) => high[axis] - value)) / 2 + largest);
+    const away = this.meta.dimension === 2 ? [0, 0, 1] : [0.35, 0.25, 0.9];
+    this.camera.up.set(0, 1, 0);
+    this.controls.target.set(middle[0], middle[1], middle[2] ?? 0);
+    this.camera.position.set(...away).normalize().multiplyScalar(4 * this.radius).add(this.controls.target);
+    this.camera.zoom = 1;
+    this.resize();
+    this.controls.update();
+    this.placeClipping();
+  }
+
+  // Lets the camera see the whole scene at zoom 1.
+  resize() {
+    const canvas = this.renderer.domElement;
+    const [width, height] = [Math.max(1, canvas.clientWidth), Math.max(1, canvas.clientHeight)];
+    this.renderer.setSize(width, height, false);
+    const half = this.radius * 1.04;
+    const [x, y] = width > height ? [(half * width) / height, half] : [half, (half * height) / width];
+    Object.assign(this.camera, { left: -x, right: x, top: y, bottom: -y });
+    this.camera.updateProjectionMatrix();
+    this.renderer.getDrawingBufferSize(this.uniforms.screen.value);
+  }
+
+  // Puts the clipping planes and the fog around the scene.
+  placeClipping() {
+    const { low, high } = this.meta.box;
+    const middle = new Vector3(...[0, 1, 2].map((axis) => ((low[axis] ?? 0) + (high[axis] ?? 0)) / 2));
+    this.camera.updateMatrixWorld();
+    const depth = middle.applyMatrix4(this.camera.matrixWorldInverse).z;
+    this.camera.near = -depth - 3 * this.radius;
+    this.camera.far = -depth + 3 * this.radius;
+    this.camera.updateProjectionMatrix();
+    const strength = this.meta.dimension === 2 ? 0 : 0.6;
+    this.uniforms.reach.value.set(depth + 0.7 * this.radius, depth - this.radius, strength);
+  }
+
+  // Moves the camera along with a point.
+  follow(by) {
+    const shift = new Vector3(...by);
+    this.camera.position.add(shift);
+    this.controls.target.add(shift);
+    this.camera.updateMatrixWorld();
+    this.placeClipping();
+  }
+
+  // Turns the camera around its target, by angles.
+  turn(aside, upward) {
+    if (this.meta.dimension === 2) return;
+    const way = this.camera.position.clone().sub(this.controls.target);
+    const right = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
+    way.applyAxisAngle(this.camera.up, aside).applyAxisAngle(right, upward);
+    this.camera.position.copy(this.controls.target).add(way);
+    this.controls.update();
+  }
+
+  zoom(factor) {
+    this.camera.zoom *= factor;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.placeClipping();
+  }
+
+  get view() {
+    const { position, zoom } = this.camera;
+    return [...position, ...this.controls.target, zoom];
+  }
+
+  set view(numbers) {
+    this.camera.position.set(...numbers.slice(0, 3));
+    this.controls.target.set(...numbers.slice(3, 6));
+    this.camera.zoom = numbers[6];
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.placeClipping();
+  }
+
+  // Returns the bead under a point of the page, or -1.
+  pick(clientX, clientY) {
+    const place = this.renderer.domElement.getBoundingClientRect();
+    if (clientX < place.left || clientX > place.right || clientY < place.top || clientY > place.bottom) return -1;
+    const matrix = this.camera.matrixWorld.elements;
+    const axis = (k) => [matrix[4 * k], matrix[4 * k + 1], matrix[4 * k + 2]];
+    const { left, right, top, bottom, zoom } = this.camera;
+    const x = (((clientX - place.left) / place.width - 0.5) * (right - left)) / zoom;
+    const y = ((0.5 - (clientY - place.top) / place.height) * (top - bottom)) / zoom;
+    const camera = { eye: axis(3), right: axis(0), up: axis(1), back: axis(2) };
+    return beadAt(this.positions, this.meta.beads, camera, x, y, (b) => this.radii(b) * this.shrink);
+  }
+
+  setShrink(shrink) {
+    this.shrink = shrink;
+    this.uniforms.shrink.value = shrink;
+  }
+
+  render() {
+    this.renderer.render(this.three, this.camera);
+    return this.renderer.info.render.calls;
+  }
+
+  // Returns the picture as a PNG.
+  picture() {
+    this.render();
+    return new Promise((resolve) => this.renderer.domElement.toBlob(resolve, "image/png"));
+  }
+}

@@ -1,0 +1,340 @@
+// Draws the timeline: axis, a row of events for each structure, and the contact intervals of each pair.
+import { categories, theme } from "./colours.js";
+import { byId, count, make } from "./dom.js";
+import { explainStructure } from "./explain.js";
+import { Window, axisTicks, eventNear, layoutEvents, layoutSpans, moved, zoomed } from "./timeline_layout.js";
+
+const rowHeight = 34;
+const pairHeight = 24;
+const near = 5;  // pixels
+
+export class TimelineView {
+  // `actions` has seek(time), choose([s, e]), structures(), shown(time) as text.
+  constructor(state, frames, pairs, actions) {
+    this.state = state;
+    this.end = Math.max(1e-9, state.lastStep);
+    this.range = [0, this.end];
+    this.actions = actions;
+    this.pairs = pairs;
+    this.muted = new Set();
+    this.rows = [];
+    this.pairsOfBead = null;
+    this.setFrames(frames);
+    this.makeRows();
+    this.makePairs();
+    for (const element of [byId("axis"), ...this.rows.map((row) => row.canvas), byId("pairs")]) this.listen(element);
+    this.listenToOverview();
+    byId("zoom-in").onclick = () => this.zoom(0.5, this.middle);
+    byId("zoom-out").onclick = () => this.zoom(2, this.middle);
+    byId("zoom-all").onclick = () => this.show([0, this.end]);
+    byId("pairs").addEventListener("scroll", () => this.drawPairs());
+  }
+
+  // The axis shows the numbers of the frames in the file if they are evenly spaced.
+  setFrames(frames) {
+    const spacing = frames.length > 1 ? frames[1] - frames[0] : 1;
+    const even = frames.every((frame, k) => frame === frames[0] + k * spacing);
+    this.frameOf = even ? { first: frames[0], spacing, word: "frame" } : { first: 0, spacing: 1, word: "step" };
+  }
+
+  get middle() {
+    const now = this.state.time;
+    return now >= this.range[0] && now <= this.range[1] ? now : (this.range[0] + this.range[1]) / 2;
+  }
+
+  get width() {
+    return Math.max(1, byId("axis").clientWidth);
+  }
+
+  get window() {
+    return new Window(this.range[0], this.range[1], this.width);
+  }
+
+  makeRows() {
+    this.state.structures.forEach((structure, s) => {
+      const { events } = structure;
+      const totals = new Uint32Array(events.kinds.length);
+      for (const kind of events.kind) ++totals[kind];
+      const chips = events.kinds.flatMap((kind, k) =>
+        totals[k] === 0
+          ? []
+          : [make("span", { class: `chip c${k % 8}` }, `${kind.name} ${totals[k].toLocaleString("en")}`)],
+      );
+      const box = make("input", {
+        type: "checkbox",
+        checked: true,
+        onchange: () => {
+          if (box.checked) this.muted.delete(s);
+          else this.muted.add(s);
+          row.classList.toggle("muted", !box.checked);
+          this.actions.structures();
+        },
+      });
+      const label = make("label", { title: explainStructure(structure.name) }, box, make("b", {}, structure.name));
+      const canvas = make("canvas", { role: "img", height: rowHeight });
+      canvas.setAttribute(
+        "aria-label",
+        `${count(events.count, "event")} of ${structure.name} over time. Keys n and p go from event to event.`,
+      );
+      const row = make("div", { class: "row" }, make("div", { class: "row-label" }, label, ...chips), canvas);
+      if (structure.note) row.append(make("p", { class: "note" }, structure.note));
+      byId("rows").append(row);
+      this.rows.push({ s, canvas });
+    });
+  }
+
+  makePairs() {
+    byId("contact-rows").hidden = this.pairs.length === 0;
+    this.showPairs(-1);
+  }
+
+  // Lists the pairs of a bead, or all if `bead` is -1.
+  showPairs(bead) {
+    this.pairsOfBead = bead < 0 ? this.pairs : this.pairs.filter(({ pair }) => pair.includes(bead));
+    const what = bead < 0 ? "longest in contact first" : `with bead ${bead}`;
+    byId("pairs-title").textContent = `Contacts over time: ${count(this.pairsOfBead.length, "pair")}, ${what}`;
+    byId("pairs-space").style.height = `${this.pairsOfBead.length * pairHeight}px`;
+    this.drawPairs();
+  }
+
+  show(range) {
+    this.range = range;
+    this.draw();
+    this.actions.changed();
+  }
+
+  zoom(factor, fixed) {
+    this.show(zoomed(this.range, factor, fixed, this.end));
+  }
+
+  pan(pixels) {
+    const span = this.range[1] - this.range[0];
+    this.show(moved([this.range[0] + (pixels / this.width) * span], span, this.end));
+  }
+
+  // Turns the page if the present has left the window.
+  keepInView() {
+    const [from, to] = this.range;
+    const now = this.state.time;
+    if (now < from || now > to) this.show(moved([now - 0.1 * (to - from)], to - from, this.end));
+    this.placeHead();
+  }
+
+  // Zooms in until events next to the chosen one stand apart.
+  revealEvent() {
+    this.keepInView();
+  }
+
+  listen(element) {
+    const x = (event) => event.clientX - byId("axis").getBoundingClientRect().left;
+    const timeAt = (event) => Math.min(this.end, Math.max(0, this.window.time(x(event))));
+    const touches = new Map();
+    let drag = null;
+    let pinch = null;
+    element.addEventListener("pointerdown", (event) => {
+      if (event.pointerType === "mouse" && event.button !== 0) return;
+      touches.set(event.pointerId, x(event));
+      drag = touches.size === 1 ? { start: x(event), y: event.clientY, moving: false } : null;
+      pinch = touches.size === 2 ? this.pinchOf(touches) : null;
+    });
+    element.addEventListener("pointermove", (event) => {
+      if (!touches.has(event.pointerId)) return;
+      touches.set(event.pointerId, x(event));
+      if (pinch && touches.size === 2) {
+        const now = this.pinchOf(touches);
+        this.zoom(pinch.apart / now.apart, this.window.time(now.middle));
+        pinch = now;
+      } else if (drag) {
+        drag.moving ||= Math.abs(x(event) - drag.start) > 4;
+        if (drag.moving) this.actions.seek(timeAt(event));
+      }
+    });
+    const end = (event) => {
+      if (!touches.delete(event.pointerId)) return;
+      pinch = null;
+      if (drag && !drag.moving && event.type === "pointerup" && Math.abs(event.clientY - drag.y) < 8)
+        this.click(element, x(event), event, timeAt(event));
+      drag = null;
+    };
+    window.addEventListener("pointerup", end);
+    window.addEventListener("pointercancel", end);
+    window.addEventListener("pointermove", (event) => {
+      if (drag?.moving && event.target !== element && touches.has(event.pointerId)) this.actions.seek(timeAt(event));
+    });
+    element.addEventListener(
+      "wheel",
+      (event) => {
+        if (element.id === "pairs" && !event.ctrlKey && Math.abs(event.deltaY) > Math.abs(event.deltaX)) return;
+        event.preventDefault();
+        if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) this.pan(event.deltaX || event.deltaY);
+        else this.zoom(1.0015 ** event.deltaY, timeAt(event));
+      },
+      { passive: false },
+    );
+  }
+
+  pinchOf(touches) {
+    const [a, b] = touches.values();
+    return { apart: Math.max(20, Math.abs(a - b)), middle: (a + b) / 2 };
+  }
+
+  // A click near an event goes to its exact time, any other click to the time under the pointer.
+  click(element, x, event, time) {
+    const row = this.rows.find(({ canvas }) => canvas === element);
+    if (row) {
+      const e = eventNear(this.state.structures[row.s].events, this.window, x, near);
+      if (e >= 0) return this.actions.choose([row.s, e]);
+    }
+    if (element.id === "pairs") {
+      const y = event.clientY - element.getBoundingClientRect().top + element.scrollTop;
+      const pair = this.pairsOfBead[Math.floor(y / pairHeight)];
+      for (const { span } of pair ? layoutSpans(pair, this.window) : []) {
+        for (const [at, e] of [[span.from, span.begins], [span.to, span.ends]])
+          if (e >= 0 && Math.abs(this.window.x(at) - x) <= near) return this.actions.choose([pair.s, e]);
+      }
+    }
+    return this.actions.seek(time);
+  }
+
+  listenToOverview() {
+    const overview = byId("overview");
+    let held = null;
+    overview.addEventListener("pointerdown", (event) => {
+      overview.setPointerCapture(event.pointerId);
+      held = { x: event.clientX, from: this.range[0] };
+    });
+    overview.addEventListener("pointermove", (event) => {
+      if (!held) return;
+      const by = ((event.clientX - held.x) / overview.clientWidth) * this.end;
+      this.show(moved([held.from + by], this.range[1] - this.range[0], this.end));
+    });
+    overview.addEventListener("pointerup", () => (held = null));
+    overview.addEventListener("pointercancel", () => (held = null));
+  }
+
+  setDark(dark) {
+    this.colours = theme(dark ? "dark" : "light");
+    this.categories = categories[dark ? "dark" : "light"];
+    this.draw();
+  }
+
+  // Returns the drawing context of a canvas, sized to its place on the page.
+  context(canvas, height) {
+    const scale = window.devicePixelRatio || 1;
+    const width = Math.round(this.width * scale);
+    if (canvas.width !== width) canvas.width = width;
+    if (canvas.height !== Math.round(height * scale)) canvas.height = Math.round(height * scale);
+    canvas.style.height = `${height}px`;
+    const context = canvas.getContext("2d");
+    context.setTransform(scale, 0, 0, scale, 0, 0);
+    context.clearRect(0, 0, this.width, height);
+    return context;
+  }
+
+  draw() {
+    if (!this.colours) return;
+    this.drawAxis();
+    for (const row of this.rows) this.drawRow(row);
+    this.drawPairs();
+    const [from, to] = this.range;
+    byId("overview-window").style.left = `${(100 * from) / this.end}%`;
+    byId("overview-window").style.width = `max(6px, ${(100 * (to - from)) / this.end}%)`;
+    byId("zoom-all").disabled = byId("zoom-out").disabled = to - from >= this.end * (1 - 1e-9);
+    this.placeHead();
+  }
+
+  drawAxis() {
+    const context = this.context(byId("axis-canvas"), 20);
+    const { first, spacing, word } = this.frameOf;
+    const [from, to] = this.range.map((time) => first + spacing * time);
+    const inFrames = new Window(from, to, this.width);
+    context.font = "11px system-ui, sans-serif";
+    context.fillStyle = this.colours.axis;
+    context.strokeStyle = this.colours.axis;
+    let free = -Infinity;
+    axisTicks(inFrames).forEach(({ time, label }, k) => {
+      const x = inFrames.x(time);
+      context.beginPath();
+      context.moveTo(x, 15);
+      context.lineTo(x, 20);
+      context.stroke();
+      const text = k === 0 ? `${word} ${label}` : label;
+      const half = context.measureText(text).width / 2;
+      const at = Math.min(this.width - half, Math.max(half, x));
+      if (at - half < free) return;
+      context.textAlign = "center";
+      context.fillText(text, at, 11);
+      free = at + half + 8;
+    });
+  }
+
+  drawRow({ s, canvas }) {
+    const context = this.context(canvas, rowHeight);
+    const { events } = this.state.structures[s];
+    const layout = layoutEvents(events, this.window);
+    context.fillStyle = this.colours.grid;
+    context.fillRect(0, rowHeight - 1, this.width, 1);
+    if (layout.single) {
+      for (const { x, kind } of layout.marks) {
+        context.fillStyle = this.categories[kind % 8];
+        context.fillRect(x - 1, 8, 2, rowHeight - 9);
+        context.beginPath();
+        context.arc(x, 7, 3.5, 0, 2 * Math.PI);
+        context.fill();
+      }
+      return;
+    }
+    for (const { x, counts } of layout.bins) {
+      let y = rowHeight - 1;
+      counts.forEach((number, kind) => {
+        if (!number) return;
+        const height = Math.max(0.7, (number / layout.most) * (rowHeight - 13));
+        context.fillStyle = this.categories[kind % 8];
+        context.fillRect(x, y - height, 3.4, height);
+        y -= height;
+      });
+    }
+    const text = `at most ${layout.most} in one bar`;
+    context.font = "10px system-ui, sans-serif";
+    context.textAlign = "right";
+    context.fillStyle = this.colours.axis;
+    context.fillText(text, this.width, 9);
+  }
+
+  drawPairs() {
+    if (!this.colours || !this.pairsOfBead) return;
+    const place = byId("pairs");
+    const height = place.clientHeight;
+    if (height === 0) return;
+    const context = this.context(byId("pairs-canvas"), height);
+    context.font = "10.5px system-ui, sans-serif";
+    const first = Math.floor(place.scrollTop / pairHeight);
+    const last = Math.min(this.pairsOfBead.length, Math.ceil((place.scrollTop + height) / pairHeight));
+    for (let p = first; p < last; ++p) {
+      const row = this.pairsOfBead[p];
+      const y = p * pairHeight - place.scrollTop;
+      context.fillStyle = this.colours.grid;
+      context.fillRect(0, y + 18, this.width, 1);
+      context.fillStyle = this.colours.contacts;
+      for (const { x, width } of layoutSpans(row, this.window)) context.fillRect(x, y + 14, width, 8);
+      context.fillStyle = this.colours.axis;
+      context.fillText(this.actions.pairName(row.pair), 0, y + 11);
+    }
+  }
+
+  // Puts the line of the present, and the loop, in their places.
+  placeHead() {
+    const window = this.window;
+    const x = window.x(this.state.time);
+    const head = byId("playhead");
+    head.hidden = x < 0 || x > window.width;
+    head.style.transform = `translateX(${x}px)`;
+    const loop = this.actions.loop();
+    const shade = byId("loop-shade");
+    shade.hidden = !loop;
+    if (!loop) return;
+    const left = Math.max(0, window.x(loop[0]));
+    shade.style.left = `${left}px`;
+    shade.style.width = `${Math.max(0, Math.min(window.width, window.x(loop[1])) - left)}px`;
+  }
+}
