@@ -3,7 +3,6 @@
 import { VarintReader, pause } from "./codec.js";
 
 const numbersAtOnce = 1 << 17;  // about 2 ms
-const cacheBytes = 160e6;
 
 const binomial = (n, k) => (k === 0 ? 1 : (binomial(n, k - 1) * (n - k + 1)) / k);
 
@@ -16,8 +15,10 @@ export function bernstein(d, u) {
 const onChord = (d, j, from, to) => Math.floor(((d - j) * from + j * to) / d + 0.5);
 
 export class Frames {
-  constructor(meta, blocks) {
+  // Keeps about `limit` bytes of unpacked blocks.
+  constructor(meta, blocks, limit = 160e6) {
     this.blocks = blocks;
+    this.limit = limit;
     this.beads = meta.beads;
     this.axes = meta.dimension;
     this.degree = Math.max(1, meta.degree);
@@ -80,7 +81,7 @@ export class Frames {
   // A step needs three blocks at most, so the four used last stay.
   dropOld(latest) {
     for (const [name, numbers] of [...this.cache].slice(0, -4)) {
-      if (this.bytes <= cacheBytes) return;
+      if (this.bytes <= this.limit) return;
       if (name === latest || !(numbers instanceof Int32Array)) continue;
       this.cache.delete(name);
       this.bytes -= numbers.byteLength;

@@ -6,8 +6,9 @@ import { countWhile } from "./events.js";
 const wordsBetweenSnapshots = 1 << 16;  // about 3 ms
 
 export class Layer {
-  // `initial` has the words of all elements, `changes` the records of the contract.
-  constructor({ name, arity, changes: count }, initial, changes) {
+  // `initial` has the words of all elements. `changes` has a record for each change: its event, how many elements go, how many
+  // come, and these elements. `spacing` is the number of words from snapshot to snapshot.
+  constructor({ name, arity, changes: count }, initial, changes, spacing = wordsBetweenSnapshots) {
     this.name = name;
     this.arity = arity;
     this.changes = changes;
@@ -27,7 +28,7 @@ export class Layer {
     this.scout.assign(initial);
     this.scouted = 0;
     this.snapshots = [{ position: 0, words: initial }];
-    this.spacing = Math.max(wordsBetweenSnapshots, initial.length);
+    this.spacing = Math.max(spacing, initial.length);
   }
 
   eventOf(record) {

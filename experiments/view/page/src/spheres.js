@@ -67,7 +67,9 @@ export function sphereOfBasis(basis, positions, radius, out, at) {
 // Returns the least root of a t^2 + 2 half t + c that is at least `least`, or NaN.
 function leastRoot(a, half, c, least) {
   if (Math.abs(a) < 1e-14) return half === 0 ? NaN : atLeast(-c / (2 * half), NaN, least);
-  const root = Math.sqrt(Math.max(0, half * half - a * c));
+  const square = half * half - a * c;
+  if (square < -1e-12 * (half * half + Math.abs(a * c))) return NaN;  // a ball lies inside another
+  const root = Math.sqrt(Math.max(0, square));
   const q = -(half + (half < 0 ? -root : root));  // avoids cancellation
   return q === 0 ? atLeast(0, NaN, least) : atLeast(q / a, c / q, least);
 }

@@ -1,0 +1,37 @@
+import assert from "node:assert/strict";
+import test from "node:test";
+import { VarintReader, fromBase64, inflate } from "../src/codec.js";
+import { Blocks } from "../src/blocks.js";
+import { encodeReplay, intoPage, packed } from "./encode_replay.mjs";
+import { sampleRun } from "./sample_run.mjs";
+
+test("varints of all lengths are read", () => {
+  const bytes = [0, 1, 2, 0x7f, 0x80, 0x01, 0xff, 0xff, 0xff, 0xff, 0x0f, 0xfe, 0xff, 0xff, 0xff, 0x0f];
+  const reader = new VarintReader(Uint8Array.from(bytes));
+  const values = [];
+  while (!reader.ended) values.push(reader.next());
+  assert.deepEqual(values, [0, -1, 1, -64, 64, -2147483648, 2147483647]);
+});
+
+test("a varint that is cut off or too long is refused", () => {
+  assert.throws(() => new VarintReader(Uint8Array.of(0x80)).next(), /ends inside a number/);
+  assert.throws(() => new VarintReader(new Uint8Array(6).fill(0x80)).next(), /more than 32 bits/);
+});
+
+test("blocks are unpacked, and damage is named", async () => {
+  const { meta, blocks } = encodeReplay(sampleRun({ beads: 8, frames: 4 }));
+  const texts = packed(blocks);
+  for (const [name, buffer] of blocks)
+    if (buffer.length) assert.deepEqual(Buffer.from(await inflate(fromBase64(texts.get(name)))), buffer);
+  const read = (textOf, sizes = meta.blocks) => new Blocks(textOf, sizes).bytes("frames");
+  await assert.rejects(read(() => null), /lacks its block 'frames'/);
+  await assert.rejects(read(() => "AAAA"), /cannot unpack block 'frames'/);
+  await assert.rejects(read((name) => texts.get(name), { frames: 3 }), /has 16 bytes, expected 3/);
+});
+
+test("a name that ends a script element stays inside the data", () => {
+  const run = sampleRun({ beads: 8, frames: 4, title: "</script><script>alert(1)</script>" });
+  const page = intoPage("<body><!--KDS-DATA--></body>", encodeReplay(run));
+  assert.equal(page.match(/alert/g).length, 1);
+  assert.ok(!page.includes("<script>alert"));
+});

@@ -1,0 +1,194 @@
+"""Tests the replay page in a browser on a made-up replay. Usage: replay_page.py NODE PAGE_FOLDER PLACE
+
+Node writes the replay. The picture is the twin of picking and of cages: the pixels say which bead is seen where.
+"""
+import base64
+import os
+import random
+import subprocess
+import sys
+
+from chromium import Browser
+from selenium.webdriver.common.action_chains import ActionChains
+
+TITLE = "</script><script>kds.errors.push('ran')</script>"
+
+# Draws some layers alone and returns the scene's pixels as rows of "#rrggbb".
+PIXELS = """
+  for (const box of document.querySelectorAll("#layers input"))
+    if (box.checked !== args[0].includes(box.parentNode.textContent.trim())) box.click();
+  const {step, u} = kds.state();
+  await kds.seek(step, u);
+  const scene = document.getElementById("scene");
+  const copy = document.createElement("canvas");
+  [copy.width, copy.height] = [scene.width, scene.height];
+  const context = copy.getContext("2d");
+  context.drawImage(scene, 0, 0);
+  const {data} = context.getImageData(0, 0, copy.width, copy.height);
+  const rows = [];
+  for (let y = 0; y < copy.height; ++y) {
+    const row = [];
+    for (let x = 0; x < copy.width; ++x) row.push(data[4 * (y * copy.width + x)], data[4 * (y * copy.width + x) + 1], data[4 * (y * copy.width + x) + 2]);
+    rows.push(btoa(String.fromCharCode(...row)));
+  }
+  return rows;
+"""
+
+
+def pixels(browser, *layers):
+    rows = [base64.b64decode(row) for row in browser.wait(PIXELS, list(layers))]
+    return [[tuple(row[k:k + 3]) for k in range(0, len(row), 3)] for row in rows]
+
+
+def marked(picture):
+    """Returns the places whose colour is not that of the page."""
+    return {(x, y) for y, row in enumerate(picture) for x, colour in enumerate(row) if colour != picture[0][0]}
+
+
+def check(holds, what):
+    if not holds:
+        raise AssertionError(what)
+
+
+def state_of(browser):
+    """Returns the state with its elements in one order."""
+    return browser.run("""const s = kds.state();
+        for (const name of ["edges", "contacts", "hidden", "cages"]) s[name] = s[name].map(String).sort();
+        s.positions = [...s.positions]; return s;""")
+
+
+def states_agree(browser):
+    """Forward, backward and direct seeks give the same states."""
+    rng = random.Random(1)
+    times = sorted((rng.randrange(7), rng.random()) for _ in range(30))
+    ways = [times, times[::-1], rng.sample(times, len(times))]
+    seen = []
+    for way in ways:
+        states = {}
+        for step, u in way:
+            browser.wait("await kds.seek(...args)", step, u)
+            state = state_of(browser)
+            check(state["step"] == step and abs(state["u"] - u) < 1e-12, "the state is that of another time")
+            states[step, u] = state
+        seen.append(states)
+    check(seen[0] == seen[1] == seen[2], "scrubbing forward, backward and seeking disagree")
+    check(len({str(state["edges"]) for state in seen[0].values()}) > 10, "the edges hardly change")
+
+
+def picking_agrees_with_pixels(browser):
+    """Beads of the first necklace are blue, those of the second orange, and nothing else is drawn."""
+    browser.wait("await kds.seek(3, 0.4)")
+    picture = pixels(browser, "beads")
+    place = browser.run("const r = document.getElementById('scene').getBoundingClientRect(); return [r.left, r.top]")
+    spots = [(x, y) for y in range(2, len(picture), 9) for x in range(2, len(picture[0]), 9)]
+    picked = browser.run("return arguments[0].map(([x, y]) => kds.pick(x + 0.5, y + 0.5))",
+                         [[x + place[0], y + place[1]] for x, y in spots])
+    shown = marked(picture)
+    hits = 0
+    for (x, y), bead in zip(spots, picked):
+        around = {(x + dx, y + dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1)}
+        if shown & around and not around <= shown:
+            continue  # the outline of a bead crosses the pixel
+        check(((x, y) in shown) == (bead >= 0), f"pixel {x}, {y} and the picked bead {bead} disagree")
+        if bead >= 0:
+            colours = [picture[b][a] for a, b in around]
+            if any(red > blue for red, _, blue in colours) == any(red < blue for red, _, blue in colours):
+                continue  # beads of both necklaces meet here
+            red, _, blue = picture[y][x]
+            check((blue > red) == (bead < 12), f"pixel {x}, {y} has not the colour of bead {bead}")
+            hits += 1
+    check(hits > 20, f"only {hits} beads were hit")
+    x, y = next(spot for spot, bead in zip(spots, picked) if bead >= 0)
+    ActionChains(browser.driver).move_by_offset(x + place[0], y + place[1]).click().perform()
+    bead = picked[spots.index((x, y))]
+    check(browser.run("return document.querySelector('#bead h3').textContent").startswith(f"{bead} "), "the click chose another bead")
+
+
+def cage_encloses_beads(browser):
+    """The root's cage is a disc that covers all pixels of beads, and touches some of them."""
+    browser.run("const l = document.getElementById('level'); l.value = 0; l.dispatchEvent(new Event('input'))")
+    browser.run("const l = document.getElementById('bead-size'); l.value = 1; l.dispatchEvent(new Event('input'))")
+    for time in ((0, 0), (2, 0.63), (5, 0.9)):
+        browser.wait("await kds.seek(...args)", *time)
+        beads = marked(pixels(browser, "beads"))
+        disc = marked(pixels(browser, "cages"))
+        left, right = min(x for x, _ in disc), max(x for x, _ in disc)
+        top, bottom = min(y for _, y in disc), max(y for _, y in disc)
+        radius = (right - left) / 2
+        check(radius > 50 and abs(radius - (bottom - top) / 2) < 1.5, "the cage is no disc")
+        middle = (left + right) / 2, (top + bottom) / 2
+        reach = max(((x - middle[0])**2 + (y - middle[1])**2)**0.5 for x, y in beads)
+        check(reach < radius + 1.5, f"a bead sticks out of its cage: {reach} beyond {radius}")
+        check(reach > 0.5 * radius, "the cage is far too large")
+
+
+def keys_work(browser):
+    body = browser.driver.find_element("tag name", "body")
+    browser.wait("await kds.seek(0, 0)")
+    orders = []
+    for key in "nnnp":
+        body.send_keys(key)
+        browser.wait("await new Promise((done) => setTimeout(done, 30))")
+        orders.append(browser.run("return kds.state().step + kds.state().u"))
+    check(orders[0] < orders[1] < orders[2] and orders[3] == orders[1], f"n and p went to {orders}")
+    check("event" in browser.run("return document.getElementById('event').textContent").lower(), "no event is shown")
+    body.send_keys(" ")
+    browser.wait("await new Promise((done) => setTimeout(done, 400))")
+    body.send_keys(" ")
+    check(browser.run("return kds.state().step + kds.state().u") > orders[3], "space did not play")
+    cost = browser.run("return kds.statistics()")
+    check(0 < cost["drawCalls"] <= 8, f"{cost['drawCalls']} draw calls")
+
+
+def link_restores(browser, replay):
+    browser.wait("await kds.seekEvent(1, 5); await new Promise((done) => setTimeout(done, 700))")
+    fragment = browser.run("return location.hash")
+    state = state_of(browser)
+    browser.open(replay, fragment)
+    check(state_of(browser) == state, "the link opens another state")
+    check(browser.run("return document.querySelector('#event h3').textContent").startswith("power"), "the event is not chosen")
+
+
+def works_on_a_phone(browser):
+    browser.size(390, 844)
+    browser.wait("await new Promise((done) => setTimeout(done, 200))")
+    check(browser.run("return document.documentElement.scrollWidth") <= 390, "the page is wider than a phone")
+
+
+def works_without_webgl(replay):
+    with Browser(webgl=False) as browser:
+        browser.open(replay)
+        check(browser.run("return !document.getElementById('no-webgl').hidden"), "no sentence about WebGL2")
+        browser.wait("await kds.seekEvent(0, 0)")
+        check("wrapped" in browser.run("return document.getElementById('event').textContent"), "no event is shown")
+        drawn = browser.run("""const c = document.querySelector("#rows canvas");
+            return c.getContext("2d").getImageData(0, 0, c.width, c.height).data.some((v) => v > 0)""")
+        check(drawn, "the timeline is blank")
+        complaints = browser.complaints()
+        check(not complaints, f"the page complains: {complaints}")
+
+
+def main(node, page, place):
+    os.makedirs(place, exist_ok=True)
+    replay = os.path.join(place, "replay.html")
+    subprocess.run([node, os.path.join(page, "tests", "make_replay.mjs"), os.path.join(page, "dist", "replay_page.html"),
+                    replay, "24", "8", "3", TITLE], check=True)
+    with Browser() as browser:
+        browser.open(replay)
+        check(browser.run("return document.getElementById('title').textContent") == TITLE, "the title is another one")
+        everything = marked(pixels(browser, "beads", "chain", "cages", "edges", "contacts", "hidden", "flashes"))
+        check(len(everything) > 2000, f"only {len(everything)} pixels are drawn")
+        for test in (states_agree, picking_agrees_with_pixels, cage_encloses_beads, keys_work):
+            test(browser)
+            print("passed:", test.__name__)
+        link_restores(browser, replay)
+        works_on_a_phone(browser)
+        complaints, requests = browser.complaints(), browser.requests()
+        check(not complaints, f"the page complains: {complaints}")
+        check(not requests, f"the page asks the network: {requests}")
+    works_without_webgl(replay)
+    print("passed")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
