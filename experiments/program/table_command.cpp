@@ -149,6 +149,7 @@ Page TableCommand::page(Json settings, std::vector<std::string> data) const {
   page.command_line = command_line_;
   page.settings = std::move(settings);
   page.data = std::move(data);
+  if (destinations_.out) page.replay = replay_beside(*destinations_.out);
   return page;
 }
 

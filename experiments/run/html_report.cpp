@@ -524,12 +524,14 @@ std::string plot_along_chain(const RunReport& report) {
 
 }  // namespace
 
-std::string html_report(const RunReport& report, const std::vector<std::string>& data) {
+std::string html_report(const RunReport& report, const std::vector<std::string>& data,
+                        const std::filesystem::path& replay) {
   Page page;
   page.title = title(report);
   page.found = findings(report);
   page.command_line = report.command_line;
   page.data = data;
+  page.replay = replay;
   page.words = kWords;
   page.body = html_section("By kind", plots_by_kind(report));
   if (step_count(report) > 1 && !report.structures.empty())

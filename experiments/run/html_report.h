@@ -1,6 +1,7 @@
 #pragma once
 // The page report.html of a run, with the rows that compare the structures on the page and on the terminal.
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +24,8 @@ struct SummaryRow {
 /// Returns the number of motion steps, which is one less than the number of frames.
 [[nodiscard]] std::size_t step_count(const RunReport& report);
 
-/// `data` has the names of the files that lie next to the page.
-[[nodiscard]] std::string html_report(const RunReport& report, const std::vector<std::string>& data = {});
+/// `data` has the names of the files that lie next to the page, and `replay` is as in Page.
+[[nodiscard]] std::string html_report(const RunReport& report, const std::vector<std::string>& data = {},
+                                      const std::filesystem::path& replay = {});
 
 }  // namespace kds

@@ -117,7 +117,8 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
                                                static_cast<double>(report.last_frame->number));
     std::vector<std::string> data{std::string(kFiles[0]), std::string(kFiles[1])};
     data.insert(data.end(), contacts_files_.begin(), contacts_files_.end());
-    write_page(*files_, html_report(report, data), destinations_.paper);
+    write_page(*files_, html_report(report, data, replay_beside(*destinations_.out, view_path_)),
+               destinations_.paper);
   }
   AtomicFiles json_file;
   if (destinations_.json && !json_on_stdout) json_file.write(*destinations_.json, json);
@@ -128,6 +129,7 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
   if (json_on_stdout) print_to_stdout(json);
   if (table_on_stdout) print_to_stdout(table);
   if (files_ && table_on_stdout) print_report_path(*destinations_.out);
+  if (view_path_ && table_on_stdout) print_to_stdout("replay " + view_path_->string() + "\n");
 }
 
 }  // namespace kds

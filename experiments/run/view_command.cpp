@@ -142,7 +142,7 @@ std::string write_view(const ViewOptions& options, std::size_t stride, std::size
   commit_together({view.files(), view.vtk_files()});
   std::string text = counts_of(scene, view.recorder());
   if (options.page)
-    text += fmt::format("page {} ({:.1f} MB): open it in a browser\n", options.page->string(),
+    text += fmt::format("replay {} ({:.1f} MB): open it in a browser\n", options.page->string(),
                         static_cast<double>(view.page_bytes()) / kMegabyte);
   if (options.vtk) text += fmt::format("ParaView {}\n", (*options.vtk / "replay.pvd").string());
   if (options.script) text += fmt::format("script {}\n", options.script->string());

@@ -167,6 +167,23 @@ std::string links_to(const std::vector<std::string>& files) {
   return links.empty() ? "" : fmt::format("<p>Data: {}.</p>\n", fmt::join(links, ", "));
 }
 
+// Returns a path as a relative address. Other characters than these would need a meaning in addresses.
+std::string address_of(const std::filesystem::path& path) {
+  std::string address;
+  for (const char c : path.generic_string()) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       std::string_view("/-_.~").find(c) != std::string_view::npos;
+    address += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return address;
+}
+
+std::string link_to_replay(const std::filesystem::path& replay) {
+  if (replay.empty()) return "";
+  return fmt::format("<p><a href=\"{}\">Watch the run</a> from frame to frame and from event to event.</p>\n",
+                     address_of(replay));
+}
+
 std::string how_it_was_made(const Page& page) {
   const Machine machine = this_machine();
   std::string html;
@@ -240,7 +257,8 @@ std::string html_terms(const std::vector<std::pair<std::string, std::string>>& t
 }
 
 std::string html_page(const Page& page) {
-  std::string body = fmt::format("<div class=\"found\">\n{}</div>\n{}", page.found, page.body);
+  std::string body = fmt::format("<div class=\"found\">\n{}{}</div>\n{}", page.found,
+                                 link_to_replay(page.replay), page.body);
   body += html_section("How to read this",
                        (page.words.empty() ? "" : "<p>" + page.words + "</p>\n") + html_terms(page.terms));
   body += html_section("How it was made", how_it_was_made(page));
@@ -251,6 +269,16 @@ std::string html_page(const Page& page) {
       "<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n{2}</main>\n</body>\n"
       "</html>\n",
       html_escaped(page.title), light_style() + std::string(kStyle), body);
+}
+
+std::filesystem::path replay_beside(const std::filesystem::path& directory,
+                                    const std::optional<std::filesystem::path>& replay) {
+  std::error_code error;
+  if (replay)
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(*replay), error)
+        .lexically_relative(std::filesystem::weakly_canonical(std::filesystem::absolute(directory), error));
+  return std::filesystem::exists(directory / replay_file, error) ? std::filesystem::path(replay_file)
+                                                                 : std::filesystem::path();
 }
 
 void print_report_path(const std::filesystem::path& directory) {

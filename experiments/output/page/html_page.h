@@ -5,6 +5,7 @@
 // telephone.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,6 +29,8 @@ struct Page {
   std::string command_line;
   Json settings;                  ///< an object, or null if there are no settings
   std::vector<std::string> data;  ///< names of the data files next to the page
+  /// Path of a replay page, from the folder of this page; empty if there is none.
+  std::filesystem::path replay = {};
 };
 
 /// Returns the page with copies of its tables and plots for a paper, which write_page (paper.h) takes out.
@@ -50,6 +53,13 @@ struct HtmlRow {
 
 /// Returns a list of terms with their values, given as pairs of label and value.
 [[nodiscard]] std::string html_terms(const std::vector<std::pair<std::string, std::string>>& terms);
+
+/// The name of a replay page that reports in the same folder link to.
+inline constexpr std::string_view replay_file = "replay.html";
+/// Returns the path of `replay`, a page that this command writes, from `directory`. Without such a page,
+/// returns replay_file if the directory has it, otherwise an empty path.
+[[nodiscard]] std::filesystem::path replay_beside(const std::filesystem::path& directory,
+                                                  const std::optional<std::filesystem::path>& replay = {});
 
 /// Prints the line "report PATH", with the path of the page in this directory.
 void print_report_path(const std::filesystem::path& directory);

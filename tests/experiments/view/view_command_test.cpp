@@ -115,7 +115,7 @@ TEST(View, ShowsAtEveryFrameWhatADumpHas) {
   ASSERT_EQ(view.code, 0) << view.err;
   EXPECT_EQ(view.err, "");
   EXPECT_THAT(view.out, HasSubstr("30 frames"));
-  EXPECT_THAT(view.out, HasSubstr("page " + viewed));
+  EXPECT_THAT(view.out, HasSubstr("replay " + viewed));
   ReplayData same(content_of(viewed));
   EXPECT_THAT(same.meta["command"].get<std::string>(), HasSubstr("kds view "));
   same.meta["command"] = data.meta["command"];
@@ -248,6 +248,31 @@ TEST(View, WritesFilesForOtherViewers) {
   EXPECT_EQ(count_of(text, "\n.sphere "), 108U + states[0].at("cages").size());
   EXPECT_EQ(count_of(text, "\n.cylinder "),
             107 + states[0].at("edges").size() + states[0].at("contacts").size());
+}
+
+TEST(View, IsLinkedFromReports) {
+  const ScratchDirectory scratch;
+  const std::string report = scratch / "a report", page = scratch / "a run #1.html";
+  const ProgramRun run = run_program({"run", kVillin, "--frames", "0:4", "--out", report, "--view", page});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("\nreplay " + page + "\n"));
+  EXPECT_THAT(content_of(report + "/report.html"), HasSubstr("<a href=\"../a%20run%20%231.html\">"));
+  ASSERT_EQ(
+      run_program({"run", kVillin, "--frames", "0:4", "--out", report, "--view", report + "/replay.html"})
+          .code,
+      0);
+  EXPECT_THAT(content_of(report + "/report.html"), HasSubstr("<a href=\"replay.html\">"));
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"contacts", kVillin, "--cutoff", "8"},
+        {"compare", kVillin, "--rounds", "1"}}) {
+    const std::string out = scratch / command[0];
+    const std::vector<std::string> arguments = with(command, {"--frames", "0:4", "--out", out, "--quiet"});
+    ASSERT_EQ(run_program(arguments).code, 0);
+    EXPECT_THAT(content_of(out + "/report.html"), testing::Not(HasSubstr("replay.html")));
+    std::filesystem::copy_file(report + "/replay.html", out + "/replay.html");
+    ASSERT_EQ(run_program(arguments).code, 0);
+    EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("<a href=\"replay.html\">"));
+  }
 }
 
 TEST(View, RefusesBadOptions) {

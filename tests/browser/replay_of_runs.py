@@ -1,0 +1,183 @@
+"""Compares the replay page with the runs that it shows. Usage: replay_of_runs.py KDS DATA_FOLDER PLACE
+
+The twin repeats the event log on the cells of the dump's first frame: it knows cells, bases and pairs, and neither
+the layers nor the changes of the page.
+"""
+import csv
+import itertools
+import os
+import random
+import subprocess
+import sys
+
+from chromium import Browser
+
+OUTSIDE = 4294967295
+
+STATES = """
+  const states = [];
+  for (const [name, ...place] of args[0]) {
+    await kds[name](...place);
+    const {step, u, edges, contacts, hidden, cages, positions} = kds.state();
+    states.push({step, u, edges, contacts, hidden, cages, positions: args[1] ? [...positions] : []});
+  }
+  return states;
+"""
+
+
+def check(holds, what):
+    if not holds:
+        raise AssertionError(what)
+
+
+def rows(path):
+    with open(path, newline="") as file:
+        return list(csv.reader(file))[1:]
+
+
+class Twin:
+    """The state of a run, from the dump of frame 0 and the lines of its log."""
+
+    def __init__(self, dump):
+        cells = [frozenset(map(int, row)) for row in rows(os.path.join(dump, "frame-0.power.csv"))]
+        facets = [cell - {bead} for cell in cells for bead in cell]
+        self.cells = set(cells) | {facet | {OUTSIDE} for facet in facets if facets.count(facet) == 1}
+        self.hidden = {int(row[0]) for row in rows(os.path.join(dump, "frame-0.hidden.csv"))}
+        wrapped = rows(os.path.join(dump, "frame-0.wrapped.csv"))
+        self.bases = {(int(row[0]), int(row[1])): tuple(map(int, row[2].split())) for row in wrapped}
+        self.nodes = {node: index for index, node in enumerate(self.bases)}
+        start = [row for row in rows(os.path.join(dump, "contacts.csv")) if row[:3] == ["0", "0", "0"]]
+        self.contacts = {(int(row[3]), int(row[4])) for row in start if row[5] == "begin"}
+
+    def exchange(self, old, new):
+        old, new = {frozenset(cell) for cell in old}, {frozenset(cell) for cell in new}
+        check(old <= self.cells and not new & self.cells, f"the log exchanges cells that are not there: {old}")
+        self.cells = self.cells - old | new
+
+    def apply(self, structure, kind, ids):
+        if structure == "wrapped":
+            self.bases[ids[0], ids[1]] = tuple(ids[2:])
+        elif structure == "contacts":
+            if kind == "begin":
+                self.contacts.add(tuple(ids))
+            elif kind == "end":
+                self.contacts.remove(tuple(ids))
+        elif kind in ("2-3", "3-2"):
+            triangle, edge = ids[:3], ids[3:]
+            two = [(*triangle, bead) for bead in edge]
+            three = [(*pair, *edge) for pair in itertools.combinations(triangle, 2)]
+            self.exchange(*((two, three) if kind == "2-3" else (three, two)))
+        elif kind in ("4-1", "1-4"):
+            cell, bead = ids[:4], ids[4]
+            four = [(*facet, bead) for facet in itertools.combinations(cell, 3)]
+            self.exchange(*((four, [cell]) if kind == "4-1" else ([cell], four)))
+            self.hidden ^= {bead}
+        else:
+            check(kind == "wander", f"an event that the twin does not know: {structure} {kind}")
+
+    def state(self):
+        edges = {pair for cell in self.cells for pair in itertools.combinations(sorted(cell), 2) if OUTSIDE not in pair}
+        cages = {(self.nodes[node], *basis) for node, basis in self.bases.items()}
+        return {"edges": edges, "hidden": set(self.hidden), "contacts": set(self.contacts), "cages": cages}
+
+
+def elements(state):
+    """Returns a state of the page as sets."""
+    pairs = {name: {tuple(element) for element in state[name]} for name in ("edges", "contacts")}
+    cages = {tuple(id for id in cage if id != OUTSIDE) for cage in state["cages"]}
+    return {**pairs, "hidden": set(state["hidden"]), "cages": cages}
+
+
+def expect(state, twin, where):
+    for name, expected in twin.items():
+        found = elements(state)[name]
+        check(found == expected, f"{name} {where}: the page lacks {expected - found} and has {found - expected} more")
+
+
+def run_program(kds, *arguments):
+    subprocess.run([kds, *arguments, "--quiet"], check=True)
+
+
+def states_are_those_of_the_run(browser, kds, data, place):
+    replay, dump, log = (os.path.join(place, name) for name in ("replay.html", "dump", "run.kdslog"))
+    villin = os.path.join(data, "trajectories", "villin_hp36_300K")
+    frames = 80
+    run_program(kds, "run", villin + ".dcd", "--topology", villin + ".pdb", "--frames", f":{frames}", "--structures",
+                "wrapped,power,contacts", "--radius", "2.3", "--view", replay, "--dump", dump, "--log", log)
+    twin = Twin(dump)
+    structures, counts, events, frames_seen = ["wrapped", "power", "contacts"], [0, 0, 0], [], [twin.state()]
+    chosen = set()
+    with open(log) as file:
+        lines = [line.split() for line in file.readlines()[2:]]
+    lines = [line for line in lines if line[0] not in ("step", "end")]
+    chosen = set(random.Random(1).sample(range(len(lines)), 200))
+    for order, (step, structure, kind, lower, upper, *ids) in enumerate(lines):
+        while len(frames_seen) <= int(step):
+            frames_seen.append(twin.state())
+        twin.apply(structure, kind, list(map(int, ids)))
+        s = structures.index(structure)
+        if order in chosen:
+            events.append((s, counts[s], int(step), (float(lower) + float(upper)) / 2, twin.state()))
+        counts[s] += 1
+    while len(frames_seen) < frames:
+        frames_seen.append(twin.state())
+    check(min(counts) > 20, f"too few events: {counts}")
+
+    browser.open(replay)
+    random.Random(2).shuffle(events)
+    for begin in range(0, len(events), 50):
+        batch = events[begin:begin + 50]
+        states = browser.wait(STATES, [["seekEvent", s, event] for s, event, *_ in batch], False)
+        for (s, event, step, u, state), shown in zip(batch, states):
+            where = f"at event {event} of {structures[s]}"
+            check(shown["step"] == step and abs(shown["u"] - u) < 1e-9, f"{where}: the page stands at another time")
+            expect(shown, state, where)
+    at = random.Random(3).sample(range(1, frames), 30)
+    for frame, shown in zip(at, browser.wait(STATES, [["seek", frame - 1, 1] for frame in at], False)):
+        expect(shown, frames_seen[frame], f"at frame {frame}")
+        cells = [sorted(map(int, row)) for row in rows(os.path.join(dump, f"frame-{frame}.power.csv"))]
+        check(elements(shown)["edges"] == {pair for cell in cells for pair in itertools.combinations(cell, 2)},
+              f"edges at frame {frame} are not those of the dump")
+        bases = [tuple(map(int, row[2].split())) for row in rows(os.path.join(dump, f"frame-{frame}.wrapped.csv"))]
+        check(elements(shown)["cages"] == {(node, *basis) for node, basis in enumerate(bases)},
+              f"bases at frame {frame} are not those of the dump")
+
+
+def positions_are_on_the_curves(browser, kds, place):
+    """Beads of a Hermite motion stand where the cubic curve through the frames has them."""
+    rng = random.Random(4)
+    beads, frames = 9, 7
+    points = [[[rng.uniform(-9, 9) for _ in range(3)] for _ in range(beads)] for _ in range(frames)]
+    trajectory, replay = os.path.join(place, "made.xyz"), os.path.join(place, "made.html")
+    with open(trajectory, "w") as file:
+        for frame in points:
+            file.write(f"{beads}\nframe\n" + "".join(f"C {x!r} {y!r} {z!r}\n" for x, y, z in frame))
+    run_program(kds, "view", trajectory, "--radius", "1", "--motion", "hermite", "--structures", "contacts", "-o", replay)
+    browser.open(replay)
+    times = [(rng.randrange(frames - 1), rng.random()) for _ in range(40)] + [(0, 0), (frames - 2, 1)]
+    for (step, u), state in zip(times, browser.wait(STATES, [["seek", *time] for time in times], True)):
+        for bead in range(beads):
+            for axis in range(3):
+                p = [points[frame][bead][axis] for frame in range(frames)]
+                slope = [(p[min(k + 1, frames - 1)] - p[max(k - 1, 0)]) / (min(k + 1, frames - 1) - max(k - 1, 0))
+                         for k in (step, step + 1)]
+                a, b = p[step], p[step + 1]
+                place_of = (2 * u**3 - 3 * u**2 + 1) * a + (u**3 - 2 * u**2 + u) * slope[0] \
+                    + (3 * u**2 - 2 * u**3) * b + (u**3 - u**2) * slope[1]
+                shown = state["positions"][3 * bead + axis]
+                check(abs(shown - place_of) < 0.011, f"bead {bead} at {step}, {u}: {shown}, expected {place_of}")
+
+
+def main(kds, data, place):
+    os.makedirs(place, exist_ok=True)
+    with Browser() as browser:
+        states_are_those_of_the_run(browser, kds, data, place)
+        positions_are_on_the_curves(browser, kds, place)
+        complaints, requests = browser.complaints(), browser.requests()
+        check(not complaints, f"the page complains: {complaints}")
+        check(not requests, f"the page asks the network: {requests}")
+    print("passed")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
