@@ -53,6 +53,12 @@ std::string short_name(const Scene& scene, BeadId bead) {
   return name ? fmt::format("{}/{}{}/{}", name->chain, name->residue, name->number, name->atom) : text;
 }
 
+std::string_view note_on(const ReplayRecorder::Structure& structure) {
+  if (!structure.layers.empty()) return "";
+  return structure.kinds.empty() ? "This structure has no events, and the scene does not show it."
+                                 : "The scene does not show this structure; its events are on the timeline.";
+}
+
 std::string motion_name(const Scene& scene) {
   if (scene.is_lifted()) return "lifted";
   return scene.degree() == 1 ? "linear" : scene.degree() == 3 && scene.has_radii() ? "hermite" : "curves";
@@ -215,16 +221,10 @@ Json ReplayPage::write_structure(std::size_t index, const ReplayRecorder::Struct
       add_words(nodes, std::array{node.beads.first, node.beads.last + 1, node.level, node.parent});
     put_block(fmt::format("nodes-{}", index), nodes.bytes());
   }
-  return {{"name", structure.name},
-          {"kinds", kinds},
-          {"stages", Json::array()},
-          {"events", events.count()},
-          {"layers", layers},
-          {"nodes", structure.nodes.size()},
-          {"relax", structure.relax},
-          {"note", structure.layers.empty() ? "The scene does not show this structure; its events are on the "
-                                              "timeline."
-                                            : ""}};
+  return {{"name", structure.name},   {"kinds", kinds},
+          {"stages", Json::array()},  {"events", events.count()},
+          {"layers", layers},         {"nodes", structure.nodes.size()},
+          {"relax", structure.relax}, {"note", note_on(structure)}};
 }
 
 void ReplayPage::write_record(const ReplayRecorder& recorder) {

@@ -1,0 +1,16 @@
+"""Takes a picture of a replay at one of its events. Usage: take_picture.py REPLAY STRUCTURE EVENT PICTURE"""
+import sys
+
+from chromium import Browser
+
+
+def main(replay, structure, event, picture):
+    with Browser(1200, 700) as browser:
+        browser.open(replay)
+        browser.wait("await kds.seekEvent(...args); await new Promise((done) => setTimeout(done, 500))", int(structure),
+                     int(event))
+        browser.driver.save_screenshot(picture)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
