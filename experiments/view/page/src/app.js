@@ -400,7 +400,11 @@ export class App {
     if (chosen === this.shownEvent) return;
     this.shownEvent = chosen;
     this.panels.showEvent();
-    if (state.chosen) this.say(byId("event").innerText.split("\n").slice(0, 4).join(". "));
+    if (!state.chosen) return;
+    this.say(`${this.panels.eventSentence()} ${text}`);
+    const panel = byId("event").parentNode;
+    const side = panel.parentNode;
+    if (panel.offsetTop + 200 > side.scrollTop + side.clientHeight) side.scrollTop = panel.offsetTop - side.offsetTop - 8;
   }
 
   // Tells people who use a screen reader.

@@ -4,13 +4,13 @@ import { byId, count, make } from "./dom.js";
 import { noBead } from "./events.js";
 
 const sentences = {
-  beads: "balls, coloured along the chain from blue (first) to yellow (last)",
-  chain: "a line from bead to bead",
-  cages: "circles: the smallest spheres around parts of the chain",
-  edges: "thin lines: neighbours in the power diagram",
-  contacts: "thick lines: beads that touch",
-  hidden: "hatched: beads without a power cell",
-  flashes: "while playing, beads of an event glow; edges that go are red and dashed, edges that come green",
+  beads: "from blue (first) to yellow (last)",
+  chain: "joins consecutive beads",
+  cages: "smallest spheres around parts of the chain",
+  edges: "join neighbours in the power diagram",
+  contacts: "join beads that touch",
+  hidden: "beads without a power cell, hatched",
+  flashes: "mark events while playing",
 };
 
 export class LayerList {
@@ -25,7 +25,7 @@ export class LayerList {
     const several = meta.necklaces.length > 1;
     for (const name of this.names) {
       const box = make("input", { type: "checkbox", checked: true, onchange: () => this.switched() });
-      const text = name === "beads" && several ? "balls, one colour for each necklace" : sentences[name];
+      const text = name === "beads" && several ? "one colour for each necklace" : sentences[name];
       this.boxes.set(name, box);
       byId("layers").append(
         make("li", {}, make("label", {}, box, make("span", { class: `swatch ${name}` }), make("b", {}, name)), ` ${text}`),

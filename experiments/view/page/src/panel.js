@@ -44,6 +44,7 @@ export class Panels {
   showEvent() {
     const { state } = this.data;
     const place = byId("event");
+    byId("event-now").textContent = this.eventSentence();
     if (!state.chosen) {
       const total = state.structures.reduce((sum, { events }) => sum + events.count, 0);
       place.replaceChildren(
@@ -77,12 +78,21 @@ export class Panels {
     );
   }
 
+  // Says what the chosen event is, in one or two sentences.
+  eventSentence() {
+    const { state } = this.data;
+    if (!state.chosen) return "";
+    const [s, e] = state.chosen;
+    const { name, events } = state.structures[s];
+    return `${name}, ${events.kindOf(e).name}. ${explainKind(name, events.kindOf(e).name)}`;
+  }
+
   bracketText(events, e) {
     const { frames } = this.data;
     const [step, lower, upper] = [events.step[e], events.lower[e], events.upper[e]];
     const between = step + 1 < frames.length ? `frames ${frames[step]} to ${frames[step + 1]}` : `frame ${frames[step]}`;
-    const bounds = lower === upper ? `u = ${lower}` : `${lower} ≤ u ≤ ${upper}`;
-    return `${bounds} in the step over ${between}`;
+    const lines = lower === upper ? [`u = ${lower}`] : [`u ≥ ${lower}`, `u ≤ ${upper}`];
+    return make("span", {}, ...lines.flatMap((line) => [line, make("br")]), `between ${between}`);
   }
 
   changeRows(s, e) {
@@ -91,8 +101,8 @@ export class Panels {
       if (arity !== 2) continue;
       const pairs = (words) =>
         Array.from({ length: words.length / 2 }, (_, k) => `${words[2 * k]}–${words[2 * k + 1]}`).join(", ");
-      if (removed.length) rows.push([make("span", { class: "goes" }, `${name} that go`), pairs(removed)]);
-      if (added.length) rows.push([make("span", { class: "comes" }, `${name} that come`), pairs(added)]);
+      if (removed.length) rows.push([make("span", { class: "goes" }, "goes"), `${name} ${pairs(removed)}`]);
+      if (added.length) rows.push([make("span", { class: "comes" }, "comes"), `${name} ${pairs(added)}`]);
     }
     return rows;
   }

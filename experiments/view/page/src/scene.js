@@ -29,10 +29,13 @@ export class Scene {
     this.radii = radii;
     this.positions = new Float32Array(3 * meta.beads);
     this.shrink = 1;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    // Many beads are small, and smooth outlines double the time of a picture.
+    this.renderer = new WebGLRenderer({ canvas, antialias: meta.beads < 3000 });
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.three = new ThreeScene();
     this.camera = new OrthographicCamera();
+    this.axes = this.viewAxes();
+    this.camera.up.set(...this.axes.up);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
@@ -226,16 +229,28 @@ export class Scene {
     this.texture.needsUpdate = true;
   }
 
-  resetCamera() {
+  // Returns the first view: the longest side of the scene lies across, the shortest points to the reader.
+  viewAxes() {
     const { low, high } = this.meta.box;
-    const middle = low.map((value, axis) => (value + high[axis]) / 2);
+    const sides = [0, 1, 2].map((axis) => (high[axis] ?? 0) - (low[axis] ?? 0));
+    const order = this.meta.dimension === 2 ? [0, 1, 2] : [0, 1, 2].sort((a, b) => sides[b] - sides[a]);
+    const unit = (axis) => new Vector3(...[0, 1, 2].map((k) => (k === axis ? 1 : 0)));
+    const [right, up] = [unit(order[0]), unit(order[1])];
+    const back = right.clone().cross(up);
+    if (this.meta.dimension === 3) back.addScaledVector(right, 0.25).addScaledVector(up, 0.2).normalize();
+    const across = up.clone().cross(back).normalize();
+    const half = (way) => sides.reduce((sum, side, axis) => sum + (side * Math.abs(way.getComponent(axis))) / 2, 0);
     let largest = 0;
     for (let b = 0; b < this.meta.beads; ++b) largest = Math.max(largest, this.radii(b));
-    this.radius = Math.max(1e-9, Math.hypot(...low.map((value, axis) => high[axis] - value)) / 2 + largest);
-    const away = this.meta.dimension === 2 ? [0, 0, 1] : [0.35, 0.25, 0.9];
-    this.camera.up.set(0, 1, 0);
-    this.controls.target.set(middle[0], middle[1], middle[2] ?? 0);
-    this.camera.position.set(...away).normalize().multiplyScalar(4 * this.radius).add(this.controls.target);
+    this.radius = Math.max(1e-9, Math.hypot(...sides) / 2 + largest);
+    const reach = (way) => Math.max(0.3 * this.radius, half(way) + largest) * 1.06;
+    return { up, back, halfWidth: reach(across), halfHeight: reach(back.clone().cross(across)) };
+  }
+
+  resetCamera() {
+    const { low, high } = this.meta.box;
+    this.controls.target.set(...[0, 1, 2].map((axis) => ((low[axis] ?? 0) + (high[axis] ?? 0)) / 2));
+    this.camera.position.copy(this.axes.back).multiplyScalar(4 * this.radius).add(this.controls.target);
     this.camera.zoom = 1;
     this.resize();
     this.controls.update();
@@ -247,8 +262,9 @@ export class Scene {
     const canvas = this.renderer.domElement;
     const [width, height] = [Math.max(1, canvas.clientWidth), Math.max(1, canvas.clientHeight)];
     this.renderer.setSize(width, height, false);
-    const half = this.radius * 1.04;
-    const [x, y] = width > height ? [(half * width) / height, half] : [half, (half * height) / width];
+    const { halfWidth, halfHeight } = this.axes;
+    const y = Math.max(halfHeight, (halfWidth * height) / width);
+    const x = (y * width) / height;
     Object.assign(this.camera, { left: -x, right: x, top: y, bottom: -y });
     this.camera.updateProjectionMatrix();
     this.renderer.getDrawingBufferSize(this.uniforms.screen.value);
