@@ -396,15 +396,21 @@ export class App {
     axis.setAttribute("aria-valuenow", state.time.toFixed(4));
     axis.setAttribute("aria-valuetext", text);
     this.panels.showBead(this.bead);
-    const chosen = state.chosen?.join(".");
+    const chosen = state.chosen?.join(".") ?? "";
     if (chosen === this.shownEvent) return;
     this.shownEvent = chosen;
     this.panels.showEvent();
     if (!state.chosen) return;
     this.say(`${this.panels.eventSentence()} ${text}`);
-    const panel = byId("event").parentNode;
-    const side = panel.parentNode;
-    if (panel.offsetTop + 200 > side.scrollTop + side.clientHeight) side.scrollTop = panel.offsetTop - side.offsetTop - 8;
+    this.reveal("event");
+  }
+
+  // Scrolls the side panel, and never the page, to a section that would be out of sight.
+  reveal(id) {
+    const section = byId(id).parentNode;
+    const side = section.parentNode;
+    const top = section.offsetTop - side.offsetTop;
+    if (top < side.scrollTop || top + 200 > side.scrollTop + side.clientHeight) side.scrollTop = top - 8;
   }
 
   // Tells people who use a screen reader.
@@ -424,7 +430,10 @@ export class App {
     this.bead = { number: bead, events, follow: bead >= 0 && this.bead.follow };
     this.timeline.showPairs(bead);
     this.panels.showBead(this.bead);
-    if (bead >= 0) this.say(`Chosen: ${this.panels.nameOf(bead)}.`);
+    if (bead >= 0) {
+      this.say(`Chosen: ${this.panels.nameOf(bead)}.`);
+      this.reveal("bead");
+    }
     this.changed();
   }
 

@@ -27,6 +27,10 @@ const kinds = {
     "1-3": "A hidden bead gets a power cell: one triangle becomes three.",
     wander: "A hidden bead moves into another cell of the triangulation.",
     rebuild: "Flips block each other here, so the diagram is built anew.",
+    "rebuild-at-frame": "The diagram is built anew at this frame.",
+    clear: "Cells go, where flips block each other.",
+    fill: "Cells come, where flips block each other.",
+    repair: "The diagram is repaired, where flips block each other.",
   },
   contacts: {
     begin: "Two beads begin to touch.",

@@ -6,10 +6,10 @@ import { noBead } from "./events.js";
 const sentences = {
   beads: "from blue (first) to yellow (last)",
   chain: "joins consecutive beads",
-  cages: "smallest spheres around parts of the chain",
+  cages: "smallest spheres around its parts",
   edges: "join neighbours in the power diagram",
   contacts: "join beads that touch",
-  hidden: "beads without a power cell, hatched",
+  hidden: "hatched, without power cell",
   flashes: "mark events while playing",
 };
 
@@ -25,10 +25,10 @@ export class LayerList {
     const several = meta.necklaces.length > 1;
     for (const name of this.names) {
       const box = make("input", { type: "checkbox", checked: true, onchange: () => this.switched() });
-      const text = name === "beads" && several ? "one colour for each necklace" : sentences[name];
+      const text = name === "beads" && several ? "a colour for each necklace" : sentences[name];
       this.boxes.set(name, box);
       byId("layers").append(
-        make("li", {}, make("label", {}, box, make("span", { class: `swatch ${name}` }), make("b", {}, name)), ` ${text}`),
+        make("li", {}, make("label", {}, box, make("span", { class: `swatch ${name}` }), make("b", {}, name)), make("span", {}, text)),
       );
     }
     this.makeLevels();

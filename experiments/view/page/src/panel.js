@@ -47,10 +47,8 @@ export class Panels {
     byId("event-now").textContent = this.eventSentence();
     if (!state.chosen) {
       const total = state.structures.reduce((sum, { events }) => sum + events.count, 0);
-      place.replaceChildren(
-        make("p", {}, total ? "None chosen. Press " : "This run has no events."),
-        ...(total ? [make("p", {}, make("kbd", {}, "n"), " or Next event, or click a mark on the timeline.")] : []),
-      );
+      const way = ["None chosen. Press ", make("kbd", {}, "n"), ", or click a mark on the timeline."];
+      place.replaceChildren(make("p", {}, ...(total ? way : ["This run has no events."])));
       return;
     }
     const [s, e] = state.chosen;

@@ -44,6 +44,8 @@ export class Scene {
       this.controls.mouseButtons.LEFT = 2;  // pan
       this.controls.touches.ONE = 1;        // pan
     }
+    // Points have no radius and are drawn as small balls.
+    this.drawnRadius = (bead) => radii(bead) || 0.012 * this.radius;
     this.makeTexture();
     this.makeLayers();
     this.resetCamera();
@@ -56,7 +58,7 @@ export class Scene {
   makeTexture() {
     const width = Math.max(1, Math.ceil(Math.sqrt(this.meta.beads)));
     this.balls = new Float32Array(4 * width * Math.ceil(this.meta.beads / width));
-    for (let b = 0; b < this.meta.beads; ++b) this.balls[4 * b + 3] = this.radii(b);
+    for (let b = 0; b < this.meta.beads; ++b) this.balls[4 * b + 3] = this.drawnRadius(b);
     this.texture = new DataTexture(this.balls, width, this.balls.length / 4 / width, RGBAFormat, FloatType);
     this.texture.minFilter = this.texture.magFilter = NearestFilter;
   }
@@ -243,7 +245,7 @@ export class Scene {
     let largest = 0;
     for (let b = 0; b < this.meta.beads; ++b) largest = Math.max(largest, this.radii(b));
     this.radius = Math.max(1e-9, Math.hypot(...sides) / 2 + largest);
-    const reach = (way) => Math.max(0.3 * this.radius, half(way) + largest) * 1.06;
+    const reach = (way) => Math.max(0.3 * this.radius, half(way) + largest) * 1.25;
     return { up, back, halfWidth: reach(across), halfHeight: reach(back.clone().cross(across)) };
   }
 
@@ -333,7 +335,7 @@ export class Scene {
     const x = (((clientX - place.left) / place.width - 0.5) * (right - left)) / zoom;
     const y = ((0.5 - (clientY - place.top) / place.height) * (top - bottom)) / zoom;
     const camera = { eye: axis(3), right: axis(0), up: axis(1), back: axis(2) };
-    return beadAt(this.positions, this.meta.beads, camera, x, y, (b) => this.radii(b) * this.shrink);
+    return beadAt(this.positions, this.meta.beads, camera, x, y, (b) => this.drawnRadius(b) * this.shrink);
   }
 
   setShrink(shrink) {
