@@ -67,6 +67,7 @@ export class App {
       loop: () => this.player.loop,
       pairName: ([i, j]) => (this.names ? `${this.names[i]} – ${this.names[j]}` : `${i} – ${j}`),
     });
+    byId("axis").setAttribute("aria-valuemax", this.state.lastStep);
     this.connect();
     await this.openLink();
     this.cost.ready = performance.now();
@@ -285,7 +286,8 @@ export class App {
         fail(error);
         return;
       }
-      this.timeline.keepInView();
+      if (this.player.playing) this.timeline.keepInView();
+      else this.timeline.placeHead();
       if (!this.player.playing || now - (this.textsAt ?? 0) > textsEvery) {
         this.textsAt = now;
         this.showTexts();
@@ -304,7 +306,7 @@ export class App {
   draw() {
     const { state, scene } = this;
     if (!this.frames.isReady(state.step)) {
-      this.goTo(state.step, state.u).catch(fail);
+      this.goTo(state.step, state.u, state.chosen).catch(fail);
       return;
     }
     const before = this.bead.number < 0 ? null : this.placeOf(this.bead.number);
@@ -365,8 +367,8 @@ export class App {
     if (this.bead.number >= 0) {
       const b = this.bead.number;
       for (const name of ["edges", "contacts"]) {
-        for (const pair of this.layers.shows(name) ? state.elements(name) : [])
-          if (pair.includes(b)) marks.push({ pair, colour: chosen, dashed: false, alpha: 0.8 });
+        for (const other of this.layers.shows(name) ? state.partnersOf(name, b) : [])
+          marks.push({ pair: [b, other], colour: chosen, dashed: false, alpha: 0.8 });
       }
     }
     if (state.chosen) markEvent(...state.chosen, 1);

@@ -22,7 +22,9 @@ export function listenToKeys(app) {
   };
   const turns = { ArrowRight: [-0.1, 0], ArrowLeft: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] };
   window.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || takesKey(event.target, event.key)) return;
+    // AltGr, by which some keyboards write brackets, counts as Ctrl and Alt.
+    const command = (event.ctrlKey || event.metaKey || event.altKey) && !event.getModifierState("AltGraph");
+    if (command || takesKey(event.target, event.key)) return;
     const turn = event.shiftKey ? turns[event.key] : null;
     const action = turn ? () => app.scene?.turn(...turn) : actions[event.key];
     if (!action) return;

@@ -1,7 +1,7 @@
 // The view in the URL's fragment: time, chosen event and bead, layers, camera, timeline.
 
 const numbers = (text) => (text ?? "").split(",").map(Number);
-const list = (values) => values.map((value) => Number(value.toPrecision(8))).join(",");
+const list = (values, digits) => values.map((value) => Number(value.toPrecision(digits))).join(",");
 
 export function writeLink(view) {
   const parts = new URLSearchParams();
@@ -12,10 +12,10 @@ export function writeLink(view) {
   if (view.follow) parts.set("follow", 1);
   parts.set("layers", view.layers.join("."));
   parts.set("level", view.level);
-  if (view.camera) parts.set("cam", list(view.camera));
+  if (view.camera) parts.set("cam", list(view.camera, 8));
   parts.set("speed", view.speed);
-  if (view.window) parts.set("win", list(view.window));
-  if (view.loop) parts.set("loop", list(view.loop));
+  if (view.window) parts.set("win", list(view.window, 15));
+  if (view.loop) parts.set("loop", list(view.loop, 15));
   if (view.theme) parts.set("theme", view.theme);
   return `#${parts}`;
 }

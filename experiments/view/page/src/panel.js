@@ -105,52 +105,78 @@ export class Panels {
     return rows;
   }
 
-  // `bead`: {number, events (indices by structure), follow}.
+  // Shows a bead: {number, events (indices by structure), follow}. While the run plays only what has changed is replaced, so
+  // that buttons keep the focus.
   showBead(bead) {
-    const place = byId("bead");
-    if (bead.number < 0) {
-      place.replaceChildren(make("p", {}, "None chosen. Click a bead."));
-      return;
+    if (this.shownBead !== bead) {
+      this.shownBead = bead;
+      this.beadValues = new Map();
+      if (bead.number >= 0) this.layOutBead(bead);
+      else byId("bead").replaceChildren(make("p", {}, "None chosen. Click a bead."));
     }
+    if (bead.number < 0) return;
+    for (const [name, value, element] of this.beadRows(bead)) {
+      const known = this.beadValues.get(name);
+      const text = String(value);
+      if (known.text === text) continue;
+      known.text = text;
+      known.place.replaceChildren(element ? element(value) : text);
+    }
+    byId("follow").checked = bead.follow;
+  }
+
+  layOutBead(bead) {
+    const rows = this.beadRows(bead).map(([name]) => {
+      const place = make("span");
+      this.beadValues.set(name, { place, text: null });
+      return [name, place];
+    });
+    const none = bead.events.every((list) => list.length === 0);
+    const { actions } = this;
+    const follow = make("input", { type: "checkbox", id: "follow", onchange: () => actions.follow(follow.checked) });
+    byId("bead").replaceChildren(
+      make("h3", {}, this.data.names ? `${bead.number} ${this.nameOf(bead.number)}` : `bead ${bead.number}`),
+      table(rows),
+      make(
+        "p",
+        { class: "buttons" },
+        make("button", { disabled: none, onclick: () => actions.beadEvent(-1) }, "Its previous event"),
+        make("button", { disabled: none, onclick: () => actions.beadEvent(1) }, "Its next event"),
+      ),
+      make(
+        "p",
+        { class: "buttons" },
+        make("label", {}, follow, " follow it"),
+        make("button", { onclick: () => actions.bead(-1) }, "Release it"),
+      ),
+    );
+  }
+
+  // Returns what is known of a bead at the present: [name, value, how to show it].
+  beadRows(bead) {
     const { state, radii, positions, meta } = this.data;
     const b = bead.number;
-    const partners = (layer) =>
-      state
-        .elements(layer)
-        .filter((pair) => pair.includes(b))
-        .map(([i, j]) => (i === b ? j : i))
-        .sort((x, y) => x - y);
-    const at = Array.from(positions().subarray(3 * b, 3 * b + meta.dimension), (value) => trim(value, 2));
+    const has = (layer) => state.layersNamed(layer).length > 0;
+    const buttons = (beads) => (beads.length ? this.beadButtons(beads) : "none now");
+    const at = Array.from(positions().subarray(3 * b, 3 * b + meta.dimension), (value) => value.toFixed(2));
     const rows = [
-      ["place", `${at.join(", ")} ${meta.length_unit}, radius ${trim(radii(b), 3)}`],
+      ["place", `${at.join(", ")} ${meta.length_unit}`],
+      ["radius", radii(b) ? `${trim(radii(b), 3)} ${meta.length_unit}` : "none, a point"],
     ];
-    if (state.layersNamed("hidden").length)
-      rows.push(["power cell", state.elements("hidden").some(([hidden]) => hidden === b) ? "none, the bead is hidden" : "yes"]);
-    if (state.layersNamed("edges").length) rows.push(["neighbours", this.beadButtons(partners("edges"))]);
-    if (state.layersNamed("contacts").length) {
-      const met = partners("contacts");
-      rows.push(["contacts", met.length ? this.beadButtons(met) : "none now"]);
+    if (has("hidden")) {
+      const hidden = state.elements("hidden").some(([other]) => other === b);
+      rows.push(["power cell", hidden ? "none, the bead is hidden" : "yes"]);
     }
-    if (state.layersNamed("cages").length) {
+    if (has("edges")) rows.push(["neighbours", state.partnersOf("edges", b), buttons]);
+    if (has("contacts")) rows.push(["contacts", state.partnersOf("contacts", b), buttons]);
+    if (has("cages")) {
       const held = state.elements("cages").filter(([, ...basis]) => basis.includes(b)).length;
       rows.push(["holds", count(held, "cage")]);
     }
     const total = bead.events.reduce((sum, list) => sum + list.length, 0);
     const before = bead.events.reduce((sum, list, s) => sum + list.filter((e) => e < state.applied[s]).length, 0);
     rows.push(["events", total ? `${total.toLocaleString("en")}, ${before.toLocaleString("en")} of them so far` : "none"]);
-    const follow = make("input", { type: "checkbox", onchange: () => this.actions.follow(follow.checked) });
-    follow.checked = bead.follow;
-    place.replaceChildren(
-      make("h3", {}, this.data.names ? `${b} ${this.nameOf(b)}` : `bead ${b}`),
-      table(rows),
-      make(
-        "p",
-        { class: "buttons" },
-        make("button", { disabled: !total, onclick: () => this.actions.beadEvent(-1) }, "Its previous event"),
-        make("button", { disabled: !total, onclick: () => this.actions.beadEvent(1) }, "Its next event"),
-      ),
-      make("p", { class: "buttons" }, make("label", {}, follow, "Follow it"), make("button", { onclick: () => this.actions.bead(-1) }, "Release it")),
-    );
+    return rows;
   }
 }
 

@@ -78,6 +78,19 @@ export class RunState {
     );
   }
 
+  // Returns the beads that form a pair with a bead in the layers of a name, ascending.
+  partnersOf(name, bead) {
+    const partners = [];
+    for (const { layer } of this.layersNamed(name)) {
+      const words = layer.set.packed;
+      for (let at = 0; at < words.length; at += layer.arity) {
+        if (words[at] === bead) partners.push(words[at + 1]);
+        else if (words[at + 1] === bead) partners.push(words[at]);
+      }
+    }
+    return partners.sort((a, b) => a - b);
+  }
+
   // Returns the next event in the run's order, [structure, event], or null. `takes(s)` says which structures count,
   // `within[s]` restricts a structure to some of its events, ascending.
   next(takes, within = null) {

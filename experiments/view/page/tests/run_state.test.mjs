@@ -92,3 +92,13 @@ test("contact intervals cover a time exactly if the pair is in contact", () => {
   }
   for (let k = 1; k < rows.length; ++k) assert.ok(rows[k - 1].total >= rows[k].total);
 });
+
+test("partners of a bead are those of its pairs", () => {
+  state.seek(4, 0.5);
+  for (const name of ["edges", "contacts"]) {
+    for (let bead = 0; bead < 24; ++bead) {
+      const expected = state.elements(name).flatMap(([i, j]) => (i === bead ? [j] : j === bead ? [i] : []));
+      assert.deepEqual(state.partnersOf(name, bead), expected.sort((a, b) => a - b));
+    }
+  }
+});
