@@ -28,7 +28,7 @@ export class LayerList {
       const text = name === "beads" && several ? "a colour for each necklace" : sentences[name];
       this.boxes.set(name, box);
       byId("layers").append(
-        make("li", {}, make("label", {}, box, make("span", { class: `swatch ${name}` }), make("b", {}, name)), make("span", {}, text)),
+        make("li", {}, make("label", {}, box, make("span", { class: "sign" }, make("span", { class: `swatch ${name}` })), make("b", {}, name)), make("span", {}, text)),
       );
     }
     this.makeLevels();

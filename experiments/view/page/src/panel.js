@@ -76,10 +76,11 @@ export class Panels {
     );
   }
 
-  // Says what the chosen event is, in one or two sentences.
+  // Says what the chosen event is, in one or two sentences. Before the first one is chosen it says how to get there.
   eventSentence() {
     const { state } = this.data;
-    if (!state.chosen) return "";
+    if (!state.chosen) return this.hasChosen ? "" : "Press Next event to see a structure change.";
+    this.hasChosen = true;
     const [s, e] = state.chosen;
     const { name, events } = state.structures[s];
     return `${name}, ${events.kindOf(e).name}. ${explainKind(name, events.kindOf(e).name)}`;

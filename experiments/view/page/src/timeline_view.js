@@ -1,7 +1,7 @@
 // Draws the timeline: axis, a row of events for each structure, and the contact intervals of each pair.
 import { categories, theme } from "./colours.js";
 import { byId, count, make } from "./dom.js";
-import { explainStructure } from "./explain.js";
+import { explainStructure, trim } from "./explain.js";
 import { Window, axisTicks, eventNear, layoutEvents, layoutSpans, moved, zoomed } from "./timeline_layout.js";
 
 const rowHeight = 34;
@@ -120,11 +120,6 @@ export class TimelineView {
     this.placeHead();
   }
 
-  // Zooms in until events next to the chosen one stand apart.
-  revealEvent() {
-    this.keepInView();
-  }
-
   listen(element) {
     const x = (event) => event.clientX - byId("axis").getBoundingClientRect().left;
     const timeAt = (event) => Math.min(this.end, Math.max(0, this.window.time(x(event))));
@@ -138,7 +133,10 @@ export class TimelineView {
       pinch = touches.size === 2 ? this.pinchOf(touches) : null;
     });
     element.addEventListener("pointermove", (event) => {
-      if (!touches.has(event.pointerId)) return;
+      if (!touches.has(event.pointerId)) {
+        element.title = this.describe(element, x(event), timeAt(event));
+        return;
+      }
       touches.set(event.pointerId, x(event));
       if (pinch && touches.size === 2) {
         const now = this.pinchOf(touches);
@@ -176,6 +174,23 @@ export class TimelineView {
   pinchOf(touches) {
     const [a, b] = touches.values();
     return { apart: Math.max(20, Math.abs(a - b)), middle: (a + b) / 2 };
+  }
+
+  // Returns the text for the pointer: the time, and the events there.
+  describe(element, x, time) {
+    const { first, spacing, word } = this.frameOf;
+    const at = (t) => `${word} ${trim(first + spacing * t, 4)}`;
+    const row = this.rows.find(({ canvas }) => canvas === element);
+    if (!row) return at(time);
+    const { events } = this.state.structures[row.s];
+    const layout = layoutEvents(events, this.window);
+    const bin = layout.bins?.find((one) => x >= one.x && x < one.x + 4);
+    if (bin) {
+      const kinds = [...bin.counts].flatMap((number, k) => (number ? [`${number} ${events.kinds[k].name}`] : []));
+      return `${at(time)}: ${kinds.join(", ")}`;
+    }
+    const e = layout.single ? eventNear(events, this.window, x, near) : -1;
+    return e < 0 ? at(time) : `${at(events.time[e])}: ${events.kindOf(e).name}`;
   }
 
   // A click near an event goes to its exact time, any other click to the time under the pointer.
