@@ -329,10 +329,13 @@ export class App {
     const { layers, scene, state } = this;
     scene.beads.visible = layers.shows("beads");
     scene.chain.visible = layers.shows("chain");
-    for (const [name, target, alpha] of [["edges", scene.edges, 130], ["contacts", scene.contacts, 230]]) {
+    for (const [name, target] of [["edges", scene.edges], ["contacts", scene.contacts]]) {
       if (layers.shows(name) && layers.isStale(name)) {
         const words = state.layersNamed(name).map(({ layer }) => layer.set.packed);
-        scene.setEdges(target, words.length === 1 ? words[0] : Uint32Array.from(words.flatMap((list) => [...list])), 2, scene.colours[name], alpha);
+        const all = words.length === 1 ? words[0] : Uint32Array.from(words.flatMap((list) => [...list]));
+        // Many edges would cover each other, so they are fainter.
+        const alpha = name === "edges" ? Math.max(40, Math.min(150, 150 * Math.sqrt(400 / (all.length / 2)))) : 230;
+        scene.setEdges(target, all, 2, scene.colours[name], alpha);
       }
       target.visible = layers.shows(name);
     }

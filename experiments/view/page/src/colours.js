@@ -21,19 +21,19 @@ const themes = {
 
 export const theme = (name) => themes[name];
 
-// From blue over grey to yellow (cividis, Nuñez, Anderton and Renslow 2018, at nine places), which is even in lightness.
-const cividis = ["#00306f", "#2b446e", "#4a576d", "#676b70", "#807f78", "#9c9576", "#bcae6c", "#dfc95c", "#fde737"];
+// From blue over green to yellow: viridis (van der Walt and Smith 2015) without its dark fifth. It is even in lightness.
+const viridis = ["#414487", "#355f8d", "#2a788e", "#21918c", "#22a884", "#44bf70", "#7ad151", "#bddf26", "#fde725"];
 
 export function rgb(colour) {
   const value = parseInt(colour.slice(1), 16);
   return [value >> 16, (value >> 8) & 255, value & 255];
 }
 
-// Returns the colour at t in 0..1 along the chain, [r, g, b] up to 255. Dark ends are lightened on dark pages.
+// Returns the colour at t in 0..1 along the chain, [r, g, b] up to 255. Its dark end is lighter on dark pages.
 export function alongChain(t, dark) {
-  const place = Math.min(0.999999, Math.max(0, t)) * (cividis.length - 1);
+  const place = Math.min(0.999999, Math.max(0, t)) * (viridis.length - 1);
   const k = Math.floor(place);
-  const [from, to] = [rgb(cividis[k]), rgb(cividis[k + 1])];
+  const [from, to] = [rgb(viridis[k]), rgb(viridis[k + 1])];
   const mixed = from.map((value, c) => value + (to[c] - value) * (place - k));
   return mixed.map((value, c) => Math.round(dark ? value + ([110, 150, 200][c] - value) * 0.45 * (1 - t) : value));
 }

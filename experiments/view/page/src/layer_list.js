@@ -1,16 +1,16 @@
 // The list of layers: it switches them on and off, and is the legend of the picture.
-import { alongChain, categories, rgb } from "./colours.js";
+import { categories, rgb } from "./colours.js";
 import { byId, count, make } from "./dom.js";
 import { noBead } from "./events.js";
 
 const sentences = {
-  beads: "from blue (first) to yellow (last)",
+  beads: "blue (first) to yellow (last)",
   chain: "joins consecutive beads",
-  cages: "smallest spheres around its parts",
-  edges: "join neighbours in the power diagram",
+  cages: "spheres around parts of it",
+  edges: "of the power diagram",
   contacts: "join beads that touch",
-  hidden: "hatched, without power cell",
-  flashes: "mark events while playing",
+  hidden: "hatched: no power cell",
+  flashes: "of events while playing",
 };
 
 export class LayerList {
@@ -23,8 +23,10 @@ export class LayerList {
     this.boxes = new Map();
     this.drawn = new Map();
     const several = meta.necklaces.length > 1;
+    this.points = meta.radius === 0;  // points of an instance, which are no chain
     for (const name of this.names) {
-      const box = make("input", { type: "checkbox", checked: true, onchange: () => this.switched() });
+      const checked = name !== "chain" || !this.points;
+      const box = make("input", { type: "checkbox", checked, onchange: () => this.switched() });
       const text = name === "beads" && several ? "a colour for each necklace" : sentences[name];
       this.boxes.set(name, box);
       byId("layers").append(
@@ -35,10 +37,10 @@ export class LayerList {
     this.setBeadSize();
   }
 
-  // Cages and contacts only look right at the beads' true size; edges alone would be covered by them.
+  // Cages and contacts look right at the beads' true size, which covers edges.
   setBeadSize() {
-    const true_size = this.names.includes("cages") || this.names.includes("contacts");
-    byId("bead-size").value = this.names.includes("edges") ? (true_size ? 0.6 : 0.4) : 1;
+    const touched = this.names.includes("cages") || this.names.includes("contacts");
+    byId("bead-size").value = this.points || !this.names.includes("edges") ? 1 : touched ? 0.6 : 0.4;
   }
 
   switched() {
@@ -135,6 +137,3 @@ export class LayerList {
     return cages;
   }
 }
-
-// The colours of the first and the last bead, for the legend.
-export const chainEnds = (dark) => [alongChain(0, dark), alongChain(1, dark)];

@@ -58,8 +58,9 @@ export class Panels {
     const rows = [
       ["time", this.timeText(events.step[e], events.u[e])],
       ["bracket", this.bracketText(events, e)],
-      ["decided by", events.stages[events.stage[e]] ?? "not recorded"],
     ];
+    const stage = events.stages[events.stage[e]];
+    if (stage) rows.push(["decided by", stage]);
     for (const role of events.rolesOf(e)) {
       if (role.of === "node") rows.push([role.name, `beads ${role.ids[0]} to ${role.ids[1]}`]);
       else if (role.of === "number") rows.push([role.name, role.ids.join(" ")]);
@@ -89,9 +90,9 @@ export class Panels {
   bracketText(events, e) {
     const { frames } = this.data;
     const [step, lower, upper] = [events.step[e], events.lower[e], events.upper[e]];
-    const between = step + 1 < frames.length ? `frames ${frames[step]} to ${frames[step + 1]}` : `frame ${frames[step]}`;
+    const between = step + 1 < frames.length ? `frames ${frames[step]} and ${frames[step + 1]}` : `frame ${frames[step]}`;
     const lines = lower === upper ? [`u = ${lower}`] : [`u ≥ ${lower}`, `u ≤ ${upper}`];
-    return make("span", {}, ...lines.flatMap((line) => [line, make("br")]), `between ${between}`);
+    return make("span", {}, ...lines.map((line) => make("div", { class: "bounds" }, line)), `between ${between}`);
   }
 
   changeRows(s, e) {

@@ -7,6 +7,7 @@ import { Window, axisTicks, eventNear, layoutEvents, layoutSpans, moved, zoomed 
 const rowHeight = 34;
 const pairHeight = 24;
 const near = 5;  // pixels
+const eventsBeside = 16;
 
 export class TimelineView {
   // `actions` has seek(time), choose([s, e]), structures(), shown(time) as text.
@@ -26,6 +27,7 @@ export class TimelineView {
     this.listenToOverview();
     byId("zoom-in").onclick = () => this.zoom(0.5, this.middle);
     byId("zoom-out").onclick = () => this.zoom(2, this.middle);
+    byId("zoom-events").onclick = () => this.showEvents();
     byId("zoom-all").onclick = () => this.show([0, this.end]);
     byId("pairs").addEventListener("scroll", () => this.drawPairs());
   }
@@ -60,6 +62,7 @@ export class TimelineView {
           ? []
           : [make("span", { class: `chip c${k % 8}` }, `${kind.name} ${totals[k].toLocaleString("en")}`)],
       );
+      if (events.count === 0) chips.push(make("span", { class: "soft" }, "no events"));
       const box = make("input", {
         type: "checkbox",
         checked: true,
@@ -101,6 +104,21 @@ export class TimelineView {
     this.range = range;
     this.draw();
     this.actions.changed();
+  }
+
+  // Shows the present with some events before and after it, so that they stand singly.
+  showEvents() {
+    const times = this.state.structures.flatMap(({ events }, s) => {
+      if (this.muted.has(s)) return [];
+      const here = this.state.applied[s];
+      return [...events.time.subarray(Math.max(0, here - eventsBeside), here + eventsBeside)];
+    });
+    const now = this.state.time;
+    const sorted = (list) => list.sort((a, b) => Math.abs(a - now) - Math.abs(b - now));
+    const nearest = sorted(times).slice(0, eventsBeside);
+    if (nearest.length === 0) return;
+    const half = 1.1 * Math.abs(nearest.at(-1) - now) + 1e-9 * this.end;
+    this.show(moved([now - half], Math.min(this.end, 2 * half), this.end));
   }
 
   zoom(factor, fixed) {
