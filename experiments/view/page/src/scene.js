@@ -91,7 +91,7 @@ export class Scene {
     });
     this.chain = segments(1, 3);
     this.edges = segments(2, 1.2);
-    this.contacts = segments(3, 4.5, false);
+    this.contacts = segments(3, 3, false);
     this.cages = new Instances({
       vertex: shaders.cageVertex,
       fragment: shaders.cageFragment,
@@ -100,7 +100,7 @@ export class Scene {
       transparent: true,
       order: 4,
     });
-    this.marks = segments(5, 4.5, false);
+    this.marks = segments(6, 4.5, false);
     this.halos = new Instances({
       vertex: shaders.haloVertex,
       fragment: shaders.haloFragment,
@@ -108,7 +108,7 @@ export class Scene {
       attributes: ringed,
       transparent: true,
       depthTest: false,
-      order: 6,
+      order: 5,
     });
     for (const layer of [this.beads, this.chain, this.edges, this.contacts, this.cages, this.marks, this.halos])
       this.three.add(layer.mesh);
@@ -281,7 +281,7 @@ export class Scene {
     this.camera.near = -depth - 3 * this.radius;
     this.camera.far = -depth + 3 * this.radius;
     this.camera.updateProjectionMatrix();
-    const strength = this.meta.dimension === 2 ? 0 : 0.6;
+    const strength = this.meta.dimension === 2 ? 0 : 0.5;
     this.uniforms.reach.value.set(depth + 0.7 * this.radius, depth - this.radius, strength);
   }
 

@@ -79,8 +79,8 @@ export class TimelineView {
         "aria-label",
         `${count(events.count, "event")} of ${structure.name} over time. Keys n and p go from event to event.`,
       );
+      if (structure.note) chips.push(make("span", { class: "note", title: structure.note }, structure.note));
       const row = make("div", { class: "row" }, make("div", { class: "row-label" }, label, ...chips), canvas);
-      if (structure.note) row.append(make("p", { class: "note" }, structure.note));
       byId("rows").append(row);
       this.rows.push({ s, canvas });
     });
