@@ -27,11 +27,6 @@
 namespace kds {
 namespace {
 
-struct Command {
-  std::string_view name, summary;
-  int (*run)(const Arguments&);
-};
-
 constexpr std::array kCommands{
     Command{"run", "run kinetic structures over trajectories and report their events", run_command},
     Command{"info", "describe trajectories; list which conditions of a proper necklace fail", info_command},
@@ -54,6 +49,8 @@ constexpr std::array kCommands{
     Command{"trade", "measure how much time each accuracy option saves and how large its errors are",
             trade_command},
     Command{"bench", "compare the speed of kds with that of other libraries", bench_command},
+    Command{"sweep", "run commands over many inputs and settings, on this machine or a cluster",
+            sweep_command},
     Command{"stability", "test the three arithmetics on hard inputs", stability_command},
 };
 
@@ -69,7 +66,8 @@ std::string program_help() {
          "  --help     print the same: kds --help, kds run --help\n"
          "  --version  print the version\n\n"
          "exit codes: 0 success, 1 internal failure, failed audit or results that differ\n"
-         "            (replay, the methods of collide, stability), 2 wrong usage or input\n";
+         "            (replay, the methods of collide, stability), 2 wrong usage or input,\n"
+         "            75 an interrupted sweep, which the same command continues\n";
 }
 
 // Returns a suggestion if a word is not a command but the name of a structure.
@@ -117,9 +115,9 @@ int run_program(const Arguments& arguments) {
 // Does not throw, since standard error may be closed.
 void complain(const std::string& message) { std::fputs(fmt::format("kds: {}\n", message).c_str(), stderr); }
 
-int guarded(int argc, char** argv) {
+int guarded(const Arguments& arguments) {
   try {
-    return run_program(Arguments(argv + (argc > 0 ? 1 : 0), argv + argc));
+    return run_program(arguments);
   } catch (const HelpRequest& help) {
     print_to_stdout(help.text);
     return 0;
@@ -140,12 +138,12 @@ void prepare_process() {
 
 }  // namespace
 
-int kds_main(int argc, char** argv) {
-  const FloatingPointGuard to_nearest;
-  prepare_process();
+std::span<const Command> all_commands() { return kCommands; }
+
+int run_arguments(const Arguments& arguments) {
   try {
     if (const auto missing = missing_in_processor()) throw std::runtime_error(*missing);
-    return guarded(argc, argv);
+    return guarded(arguments);
   } catch (const std::bad_alloc&) {
     complain("out of memory");
   } catch (const std::exception& error) {
@@ -154,6 +152,12 @@ int kds_main(int argc, char** argv) {
     complain("unknown failure");
   }
   return 1;
+}
+
+int kds_main(int argc, char** argv) {
+  const FloatingPointGuard to_nearest;
+  prepare_process();
+  return run_arguments(Arguments(argv + (argc > 0 ? 1 : 0), argv + argc));
 }
 
 }  // namespace kds

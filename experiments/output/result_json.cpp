@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
+#include "motions/base/input_error.h"
 #include "version.h"
 
 namespace kds {
@@ -118,6 +120,13 @@ Json::~Json() = default;
 Json::Json(std::initializer_list<std::pair<std::string_view, Json>> members)
     : value_(Members(members.begin(), members.end())) {}
 
+std::optional<double> Json::number() const {
+  if (const auto* whole = std::get_if<std::uint64_t>(&value_)) return static_cast<double>(*whole);
+  if (const auto* whole = std::get_if<std::int64_t>(&value_)) return static_cast<double>(*whole);
+  if (const auto* real = std::get_if<double>(&value_)) return *real;
+  return std::nullopt;
+}
+
 Json& Json::operator[](std::string_view name) {
   if (is_null()) value_ = Members();
   auto& members = std::get<Members>(value_);
@@ -159,6 +168,29 @@ std::optional<std::string> line_of(const Json& json) {
 Json parse_json(std::string_view text) {
   const JsonTree::Tree tree = JsonTree::Tree::parse(text, nullptr, false);
   return JsonTree::json(tree);
+}
+
+Json read_json(std::string_view text, const std::string& subject) {
+  using Tree = JsonTree::Tree;
+  std::vector<std::set<std::string>> keys;
+  const auto refuse_second_key = [&](int, Tree::parse_event_t event, Tree& found) {
+    if (event == Tree::parse_event_t::object_start) keys.emplace_back();
+    if (event == Tree::parse_event_t::object_end) keys.pop_back();
+    if (event == Tree::parse_event_t::key && !keys.back().insert(found.get<std::string>()).second)
+      throw InputError(subject + ": key '" + found.get<std::string>() + "' stands twice in one object");
+    return true;
+  };
+  try {
+    return JsonTree::json(Tree::parse(text, refuse_second_key));
+  } catch (const Tree::parse_error& error) {
+    const std::size_t bytes = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
+    const std::string_view before = text.substr(0, bytes);
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t start = before.rfind('\n');
+    const std::size_t column = bytes - (start == std::string_view::npos ? 0 : start + 1) + 1;
+    throw InputError(subject + ": is not JSON at line " + std::to_string(line) + ", column " +
+                     std::to_string(column) + "; a comma, quote or bracket may be missing or too many");
+  }
 }
 
 void JsonItems::add(const Json& item) {

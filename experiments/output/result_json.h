@@ -79,6 +79,9 @@ class Json {
   [[nodiscard]] const Items* items() const { return std::get_if<Items>(&value_); }
   [[nodiscard]] const Members* members() const { return std::get_if<Members>(&value_); }
   [[nodiscard]] const std::uint64_t* whole_number() const { return std::get_if<std::uint64_t>(&value_); }
+  [[nodiscard]] const bool* truth() const { return std::get_if<bool>(&value_); }
+  /// Returns a number of any type as a double, or nothing if the value is not a number.
+  [[nodiscard]] std::optional<double> number() const;
   [[nodiscard]] bool is_null() const { return std::holds_alternative<std::monostate>(value_); }
   /// Returns the member of an object, or null if the value is not an object or has no such member.
   [[nodiscard]] const Json* find(std::string_view name) const;
@@ -115,5 +118,9 @@ class JsonItems {
 
 /// Returns null if the text is not JSON or is nested deeper than 64 levels.
 [[nodiscard]] Json parse_json(std::string_view text);
+
+/// Returns the JSON of a file that people write. Throws InputError with `subject`, line and column if the
+/// text is not JSON, and with the key if an object has a key twice.
+[[nodiscard]] Json read_json(std::string_view text, const std::string& subject);
 
 }  // namespace kds

@@ -85,7 +85,7 @@ ParsedArguments parse_arguments(const CommandSpec& command, const std::vector<Op
   try {
     parser.parse(Arguments(arguments.rbegin(), arguments.rend()));  // CLI11 takes the last argument first
   } catch (const CLI::CallForHelp&) {
-    throw HelpRequest{help_text(command, options)};
+    throw HelpRequest{help_text(command, options), std::string(command.operand), options};
   } catch (const CLI::ParseError& error) {
     throw InputError(explain(error, parser, options, arguments) + usage_hint(command));
   }

@@ -28,9 +28,12 @@ struct CommandSpec {
   std::string_view examples;  ///< one example per line
 };
 
-/// Thrown if --help is given. main prints the text and exits with 0.
+/// Thrown if --help is given. main prints the text and exits with 0. `kds sweep` asks each command for its
+/// help to learn the command's operand and options.
 struct HelpRequest {
   std::string text;
+  std::string operand = {};              ///< empty if the command takes none
+  std::vector<OptionSpec> options = {};  ///< refer to texts that live as long as the command's option list
 };
 
 class ParsedArguments {

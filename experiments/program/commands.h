@@ -3,9 +3,22 @@
 // throws InputError if the arguments or the input are at fault, and HelpRequest for --help. kds_main.cpp
 // lists the commands by name.
 
+#include <span>
+#include <string_view>
+
 #include "experiments/program/command_line.h"
 
 namespace kds {
+
+struct Command {
+  std::string_view name, summary;
+  int (*run)(const Arguments&);
+};
+
+/// Returns all commands, in the order of `kds --help`.
+[[nodiscard]] std::span<const Command> all_commands();
+/// Runs the program with these arguments. Turns each error into a one-line message and an exit code.
+[[nodiscard]] int run_arguments(const Arguments& arguments);
 
 /// `kds bench`: runs the benchmarks. A missed goal is not an error.
 int bench_command(const Arguments& arguments);
@@ -36,6 +49,9 @@ int scale_command(const Arguments& arguments);
 /// `kds stability`: compares the kernels on inputs for which the arithmetic is hardest. Throws
 /// std::runtime_error if a row does not hold.
 int stability_command(const Arguments& arguments);
+/// `kds sweep`: runs commands over many inputs and settings. Returns 75 if a signal or --time-budget ended
+/// it.
+int sweep_command(const Arguments& arguments);
 /// `kds theorems`: measures the quantities that the paper's theorems bound, over a range of sizes.
 int theorems_command(const Arguments& arguments);
 /// `kds trade`: measures the speed and the errors of each lever on the user's own trajectory.

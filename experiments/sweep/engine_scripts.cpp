@@ -1,0 +1,145 @@
+#include "experiments/sweep/engine_scripts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/output/text.h"
+
+namespace kds {
+
+namespace {
+
+constexpr std::size_t kMostBatches = 1000;  // Slurm's default for the elements of an array
+constexpr double kBatchSeconds = 15 * 60;
+constexpr std::size_t kSpareMinutes = 10;
+
+// The sweep stops this many seconds before the time limit.
+constexpr std::size_t kSecondsToStop = 120;
+
+std::string sweep_words(const EngineRequest& request) {
+  return fmt::format("{} sweep {} -o {} --jobs {}{}", shell_words({request.program.string()}),
+                     shell_words({request.sweep.string()}), shell_words({request.folder.string()}),
+                     request.jobs, request.options.empty() ? "" : " " + request.options);
+}
+
+std::string collect_words(const EngineRequest& request) {
+  return fmt::format("{} sweep collect {}", shell_words({request.program.string()}),
+                     shell_words({request.folder.string()}));
+}
+
+std::string slurm_script(const EngineRequest& request) {
+  const Batches batches = batches_of(request);
+  const std::string log = shell_words({(request.folder / "slurm-%A_%a.out").string()});
+  return fmt::format(
+      R"(#!/bin/bash
+# Submits {tasks} tasks as an array of {count} batches of about {minutes:.1f} minutes, and a job that collects their
+# results. A batch that reaches its time limit stops before it with exit code 75. It is requeued if the cluster has
+# RequeueExit=75; otherwise submit this script again, which runs only what has no result.
+set -eu
+array=$(sbatch --parsable --array=1-{count} --cpus-per-task={jobs} --time={limit} --requeue --open-mode=append \
+  --signal=B:USR1@{stop} --job-name=kds-sweep --output={log} <<'BATCH'
+#!/bin/bash
+exec {sweep} --shard "$SLURM_ARRAY_TASK_ID/{count}" --time-budget {budget}
+BATCH
+)
+sbatch --parsable --dependency="afterany:${{array%%;*}}" --time=60 --job-name=kds-collect --output={collect_log} <<'COLLECT'
+#!/bin/bash
+exec {collect}
+COLLECT
+)",
+      fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("count", batches.count),
+      fmt::arg("minutes", batches.seconds / 60), fmt::arg("jobs", request.jobs),
+      fmt::arg("limit", batches.limit_minutes), fmt::arg("stop", kSecondsToStop), fmt::arg("log", log),
+      fmt::arg("sweep", sweep_words(request)),
+      fmt::arg("budget", batches.limit_minutes * 60 - kSecondsToStop),
+      fmt::arg("collect", collect_words(request)),
+      fmt::arg("collect_log", shell_words({(request.folder / "slurm-collect.out").string()})));
+}
+
+std::string parallel_script(const EngineRequest& request) {
+  const Batches batches = batches_of(request);
+  return fmt::format(
+      R"(#!/bin/bash
+# Runs {tasks} tasks in {count} batches by GNU parallel, as many batches at a time as this machine has cores. For other
+# machines that share this folder, add --sshlogin HOSTS. Run it again to continue: only tasks without a result run.
+set -u
+seq {count} | parallel --jobs 100% {sweep} --quiet --shard {{}}/{count} || true  # collect says what is missing
+exec {collect}
+)",
+      fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("count", batches.count),
+      fmt::arg("sweep", sweep_words(request)), fmt::arg("collect", collect_words(request)));
+}
+
+// In a Snakefile, braces of shell commands are doubled, and backslashes and quotes of Python strings escaped.
+std::string in_python(const std::string& shell) {
+  std::string text;
+  for (const char c : shell) {
+    if (c == '\\' || c == '"') text += '\\';
+    if (c == '{' || c == '}') text += c;
+    text += c;
+  }
+  return text;
+}
+
+std::string snakemake_script(const EngineRequest& request) {
+  const Batches batches = batches_of(request);
+  return fmt::format(
+      R"(# Runs {tasks} tasks in {count} batches: snakemake -s {name} --cores all
+# The files of batches are temporary, so that each start visits all batches: kds knows which tasks have results.
+# Exit code 1 says that tasks failed, which failed.csv lists; the other batches run on.
+rule collect:
+    input: expand("batches/{{i}}", i=range(1, {count} + 1))
+    shell: "{collect}"
+
+rule batch:
+    output: temp(touch("batches/{{i}}"))
+    threads: {jobs}
+    retries: 3
+    shell: "{sweep} --quiet --shard {{wildcards.i}}/{count} || [ $? -eq 1 ]"
+)",
+      fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("count", batches.count),
+      fmt::arg("name", script_name(SweepEngine::snakemake)),
+      fmt::arg("collect", in_python(collect_words(request))), fmt::arg("jobs", request.jobs),
+      fmt::arg("sweep", in_python(sweep_words(request))));
+}
+
+}  // namespace
+
+Batches batches_of(const EngineRequest& request) {
+  const double seconds = request.hours * 3600 / static_cast<double>(request.jobs);
+  const double wanted = std::ceil(seconds / kBatchSeconds);
+  Batches batches;
+  const std::size_t most = std::min(kMostBatches, std::max<std::size_t>(request.tasks, 1));
+  batches.count =
+      wanted >= static_cast<double>(most) ? most : std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
+  batches.seconds = seconds / static_cast<double>(batches.count);
+  const double longest = 2 * std::max(batches.seconds, request.longest);
+  batches.limit_minutes = static_cast<std::size_t>(std::ceil(longest / 60)) + kSpareMinutes;
+  return batches;
+}
+
+std::string script_name(SweepEngine engine) {
+  return engine == SweepEngine::snakemake ? "Snakefile" : std::string(name_of(engine)) + ".sh";
+}
+
+std::string start_command(SweepEngine engine, const EngineRequest& request) {
+  const std::string folder = shell_words({request.folder.string()});
+  const std::string script = shell_words({(request.folder / script_name(engine)).string()});
+  return engine == SweepEngine::snakemake ? fmt::format("snakemake -d {} -s {} --cores all", folder, script)
+                                          : "bash " + script;
+}
+
+std::string engine_script(SweepEngine engine, const EngineRequest& request) {
+  switch (engine) {
+    case SweepEngine::slurm:
+      return slurm_script(request);
+    case SweepEngine::parallel:
+      return parallel_script(request);
+    default:
+      return snakemake_script(request);
+  }
+}
+
+}  // namespace kds

@@ -1,0 +1,185 @@
+#include "experiments/sweep/input_hashes.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+
+#include "experiments/output/output_files.h"
+#include "experiments/output/result_json.h"
+#include "experiments/output/text.h"
+#include "experiments/run/load_scene.h"
+#include "experiments/sweep/task_name.h"
+#include "experiments/sweep/task_process.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kRemembered = "inputs.json";
+constexpr std::int64_t kNanoseconds = 1'000'000'000;
+
+std::string text_in(const fs::path& file) {
+  std::string text;
+  std::FILE* const stream = std::fopen(file.c_str(), "rb");
+  if (stream == nullptr) return text;
+  std::array<char, 65536> block{};
+  for (std::size_t count = 0; (count = std::fread(block.data(), 1, block.size(), stream)) > 0;)
+    text.append(block.data(), count);
+  std::fclose(stream);
+  return text;
+}
+
+// Returns 0 if the file cannot be read.
+std::uint64_t hash_of_content(const std::string& file, const std::function<bool()>& stopped) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return 0;
+  TextHash hash;
+  std::vector<char> block(std::size_t{1} << 20U);
+  std::uint64_t size = 0;
+  ssize_t count = 0;
+  while ((count = ::read(descriptor, block.data(), block.size())) > 0) {
+    const auto bytes = static_cast<std::size_t>(count);
+    std::size_t at = 0;
+    for (std::uint32_t word = 0; at + sizeof word <= bytes; at += sizeof word) {
+      std::memcpy(&word, block.data() + at, sizeof word);
+      hash.add_word(word);
+    }
+    hash.add(std::string_view(block.data() + at, bytes - at));
+    size += bytes;
+    if (stopped()) {
+      ::close(descriptor);
+      throw SweepStopped{};
+    }
+  }
+  ::close(descriptor);
+  if (count < 0) return 0;
+  hash.add(std::to_string(size));
+  return std::max<std::uint64_t>(hash.value(), 1);
+}
+
+// The work of the child that looks at the frames: prints JSON.
+int print_frames(const Arguments& arguments) {
+  try {
+    const RunOptions options = parse_run_options(arguments);
+    if (read_lone_instance(options)) return 1;
+    const Scene scene = load_necklaces(options, FrameMotion::linear, 1, [](const std::string&) {});
+    if (scene.necklaces().size() != 1) return 1;
+    Json found{{"frames", scene.frame_count()}};
+    if (options.radius == "auto") found["radius"] = fmt::format("{}", scene.radii().front());
+    print_to_stdout(text_of(found));
+    return 0;
+  } catch (const InputError&) {
+    return 2;
+  }
+}
+
+std::optional<std::uint64_t> hex_in(const Json* json) {
+  if (json == nullptr || json->text() == nullptr) return std::nullopt;
+  return std::strtoull(json->text()->c_str(), nullptr, 16);
+}
+
+std::optional<FramesFound> frames_in(const Json& json) {
+  const Json* const frames = json.find("frames");
+  const Json* const radius = json.find("radius");
+  if (frames == nullptr || frames->whole_number() == nullptr) return std::nullopt;
+  return FramesFound{*frames->whole_number(),
+                     radius != nullptr && radius->text() != nullptr ? *radius->text() : std::string()};
+}
+
+}  // namespace
+
+void InputHashes::load(const fs::path& folder) {
+  const Json json = parse_json(text_in(folder / kRemembered));
+  const Json* const files = json.find("files");
+  if (files != nullptr && files->items() != nullptr)
+    for (const Json& item : *files->items()) {
+      const Json *const path = item.find("path"), *const bytes = item.find("bytes"),
+                        *const modified = item.find("modified");
+      const auto hash = hex_in(item.find("hash"));
+      if (path == nullptr || path->text() == nullptr || bytes == nullptr ||
+          bytes->whole_number() == nullptr || modified == nullptr || modified->whole_number() == nullptr ||
+          !hash)
+        continue;
+      earlier_[*path->text()] = {*bytes->whole_number(), *hash,
+                                 static_cast<std::int64_t>(*modified->whole_number()), true};
+    }
+  const Json* const cuts = json.find("frames");
+  if (cuts != nullptr && cuts->items() != nullptr)
+    for (const Json& item : *cuts->items())
+      if (const auto key = hex_in(item.find("key"))) frames_[*key] = frames_in(item);
+}
+
+void InputHashes::save(const fs::path& folder) {
+  if (!changed_) return;
+  Json files = Json::array(), cuts = Json::array();
+  for (const auto& [path, file] : files_)
+    if (file.trusted)
+      files.push_back({{"path", path},
+                       {"bytes", file.bytes},
+                       {"modified", static_cast<std::uint64_t>(file.modified)},
+                       {"hash", hex_digits(file.hash)}});
+  for (const auto& [key, found] : frames_) {
+    Json cut{{"key", hex_digits(key)}};
+    if (found) {
+      cut["frames"] = found->frames;
+      cut["radius"] = found->radius;
+    }
+    cuts.push_back(std::move(cut));
+  }
+  AtomicFiles written;
+  written.write(folder / kRemembered, text_of({{"files", files}, {"frames", cuts}}));
+  commit_together({&written});
+  changed_ = false;
+}
+
+std::uint64_t InputHashes::hash(const std::string& file) {
+  if (const auto known = files_.find(file); known != files_.end()) return known->second.hash;
+  File found;
+  struct stat status {};
+  if (::stat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode)) {
+    found.bytes = static_cast<std::uint64_t>(status.st_size);
+    found.modified = status.st_mtim.tv_sec * kNanoseconds + status.st_mtim.tv_nsec;
+    const auto earlier = earlier_.find(file);
+    const bool same = earlier != earlier_.end() && earlier->second.bytes == found.bytes &&
+                      earlier->second.modified == found.modified;
+    found.hash = same ? earlier->second.hash : hash_of_content(file, stopped_);
+    changed_ = changed_ || !same;
+    constexpr std::int64_t settled = 2 * kNanoseconds;
+    found.trusted = found.hash != 0 && (same || std::time(nullptr) * kNanoseconds - found.modified > settled);
+  }
+  files_.emplace(file, found);
+  return found.hash;
+}
+
+std::uint64_t InputHashes::bytes(const std::string& file) const {
+  const auto known = files_.find(file);
+  return known == files_.end() ? 0 : known->second.bytes;
+}
+
+std::optional<FramesFound> InputHashes::frames(std::uint64_t key, const Arguments& arguments) {
+  if (const auto known = frames_.find(key); known != frames_.end()) return known->second;
+  TaskProcess child([&] { return print_frames(arguments); }, std::nullopt);
+  std::optional<TaskProcess::End> end;
+  while (!(end = child.ended())) {
+    if (stopped_()) throw SweepStopped{};
+    constexpr timespec pause{0, 1'000'000};
+    ::nanosleep(&pause, nullptr);
+  }
+  std::optional<FramesFound> found;
+  if (end->signal == 0 && end->code == 0) found = frames_in(parse_json(child.out()));
+  frames_[key] = found;
+  changed_ = true;
+  return found;
+}
+
+}  // namespace kds

@@ -1,0 +1,59 @@
+#pragma once
+// Hashes of input files, and how trajectories are cut into parts. Both are remembered in the file inputs.json
+// of the sweep's folder, since reading long trajectories takes time. A hash is taken from there if size and
+// modification time of the file are as they were.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "experiments/program/command_line.h"
+
+namespace kds {
+
+/// Thrown if a signal asks the program to end.
+struct SweepStopped {};
+
+/// The frames that a task would read, if it is not cut.
+struct FramesFound {
+  std::uint64_t frames = 0;
+  /// The radius of all beads if the frames determine it (--radius auto): a part would find another. Else
+  /// empty.
+  std::string radius;
+};
+
+class InputHashes {
+ public:
+  /// `stopped` is asked while files are read; if it returns true, SweepStopped is thrown.
+  explicit InputHashes(std::function<bool()> stopped) : stopped_(std::move(stopped)) {}
+
+  /// Reads what an earlier sweep remembered in this folder, if it did.
+  void load(const std::filesystem::path& folder);
+  /// Writes the file, if anything is new.
+  void save(const std::filesystem::path& folder);
+
+  /// Returns the hash of a file's content, or 0 if it cannot be read: the task will say why.
+  [[nodiscard]] std::uint64_t hash(const std::string& file);
+  [[nodiscard]] std::uint64_t bytes(const std::string& file) const;
+  /// Returns the frames that `kds run` with these arguments (inputs and options of reading) finds, or nothing
+  /// if they cannot be read or if the chains of several necklaces have places that the first frame decides.
+  /// `key` is a hash of everything that the answer depends on.
+  [[nodiscard]] std::optional<FramesFound> frames(std::uint64_t key, const Arguments& arguments);
+
+ private:
+  struct File {
+    std::uint64_t bytes = 0, hash = 0;
+    std::int64_t modified = 0;  ///< nanoseconds
+    bool trusted = false;       ///< old enough that a later change has another time
+  };
+
+  std::function<bool()> stopped_;
+  std::map<std::string, File, std::less<>> files_, earlier_;
+  std::map<std::uint64_t, std::optional<FramesFound>> frames_;
+  bool changed_ = false;
+};
+
+}  // namespace kds

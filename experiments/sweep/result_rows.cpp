@@ -1,0 +1,143 @@
+#include "experiments/sweep/result_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "experiments/output/text.h"
+
+namespace kds {
+
+namespace {
+
+// Members that say how a result was made, or that the row's task says.
+constexpr std::array<std::string_view, 7> kLeftOut{"command",  "version", "machine", "settings",
+                                                   "warnings", "file",    "files"};
+constexpr std::array<std::string_view, 7> kKeys{"stride", "factor", "n", "frame", "i", "j", "seed"};
+
+bool is_left_out(std::string_view name) { return std::ranges::find(kLeftOut, name) != kLeftOut.end(); }
+
+void flatten(const Json& json, const std::string& prefix, RowFields& fields) {
+  for (const auto& [name, value] : *json.members()) {
+    if (is_left_out(name) || value.items() != nullptr) continue;
+    if (name == "input" && value.members() == nullptr) continue;  // the task says it
+    if (value.members() != nullptr)
+      flatten(value, prefix + name + ".", fields);
+    else
+      fields.emplace_back(prefix + name, value);
+  }
+}
+
+ResultRow row_of(RowFields header, const Json& json, const std::string& name = {}) {
+  RowFields all = std::move(header);
+  if (!name.empty()) all.emplace_back("structure", name);
+  flatten(json, "", all);
+  // Long tables name their measure in a row.
+  bool of_times = false;
+  for (const auto& [key, value] : all)
+    of_times = of_times || (key == "measure" && value.text() != nullptr && is_time(*value.text()));
+  ResultRow row;
+  for (auto& [key, value] : all) {
+    const bool time = is_time(key) || (of_times && value.number() && !is_identity(key, value));
+    (time ? row.times : row.fields).emplace_back(std::move(key), std::move(value));
+  }
+  return row;
+}
+
+const Json* field_of(const RowFields& fields, std::string_view name) {
+  const auto found = std::ranges::find(fields, name, &RowFields::value_type::first);
+  return found == fields.end() ? nullptr : &found->second;
+}
+
+bool are_equal(const Json* a, const Json* b) {
+  return (a == nullptr) == (b == nullptr) && (a == nullptr || line_of(*a) == line_of(*b));
+}
+
+}  // namespace
+
+bool is_time(std::string_view name) {
+  const std::string_view last = name.substr(name.rfind('.') + 1);  // npos + 1 is 0
+  if (last == "ratio" || last.starts_with("ratio_")) return true;
+  for (const std::string& part : split(name, '.'))
+    for (const std::string& word : split(part, '_'))
+      if (word == "seconds" || word == "responsiveness" || word == "memory" || word == "speedup") return true;
+  return false;
+}
+
+std::vector<ResultRow> rows_of_result(const Json& result) {
+  const Json *const structures = result.find("structures"), *const all = result.find("all"),
+                    *const items = result.find("rows");
+  Json rest = Json::object();
+  for (const auto& [name, value] : *result.members())
+    if (&value != structures && &value != all) rest[name] = value;
+  RowFields header;
+  flatten(rest, "", header);
+  std::vector<ResultRow> rows;
+  if (structures != nullptr && structures->members() != nullptr) {
+    for (const auto& [name, value] : *structures->members()) rows.push_back(row_of(header, value, name));
+  } else if (all != nullptr && all->members() != nullptr) {
+    rows.push_back(row_of(header, *all));
+  } else if (items != nullptr && items->items() != nullptr) {
+    for (const Json& item : *items->items())
+      if (item.members() != nullptr) rows.push_back(row_of(header, item));
+  } else {
+    rows.push_back(row_of(header, Json::object()));
+  }
+  return rows;
+}
+
+std::vector<ResultRow> joined_parts(const std::vector<std::vector<ResultRow>>& parts, bool& uneven) {
+  std::vector<ResultRow> joined;
+  uneven = false;
+  for (std::size_t row = 0; row < parts.front().size(); ++row) {
+    const ResultRow& first = parts.front()[row];
+    for (const auto& part : parts)
+      for (const char* name : {"structure", "input.beads", "input.dimension"})
+        if (row >= part.size() || part.size() != parts.front().size() ||
+            !are_equal(field_of(part[row].fields, name), field_of(first.fields, name)))
+          uneven = true;
+    if (uneven) return {};
+    ResultRow whole;
+    for (const auto& [name, value] : first.fields) {
+      std::uint64_t sum = 0;
+      for (const auto& part : parts) {
+        const Json* const own = field_of(part[row].fields, name);
+        if (own != nullptr && own->whole_number() != nullptr) sum += *own->whole_number();
+      }
+      if (name == "structure" || name == "input.beads" || name == "input.dimension")
+        whole.fields.emplace_back(name, value);
+      else if (name == "input.frames")
+        whole.fields.emplace_back(name, sum - (parts.size() - 1));  // parts share a frame
+      else if (name.starts_with("events.") || name.starts_with("audits."))
+        whole.fields.emplace_back(name, sum);
+    }
+    for (const auto& [name, value] : first.times) {
+      double sum = 0;
+      for (const auto& part : parts) {
+        const Json* const own = field_of(part[row].times, name);
+        sum += own != nullptr ? own->number().value_or(0) : 0;
+      }
+      whole.times.emplace_back(name, sum);
+    }
+    joined.push_back(std::move(whole));
+  }
+  return joined;
+}
+
+bool is_identity(const std::string& name, const Json& value) {
+  if (name == "fingerprint") return false;
+  return value.text() != nullptr || std::ranges::find(kKeys, name) != kKeys.end();
+}
+
+std::string identity_of(const ResultRow& row) {
+  std::string identity;
+  for (const auto& [name, value] : row.fields)
+    if (is_identity(name, value) && !value.is_null())
+      identity += fmt::format("{}{} {}", identity.empty() ? "" : ", ", name,
+                              value.text() != nullptr ? *value.text() : line_of(value).value_or(""));
+  return identity;
+}
+
+}  // namespace kds

@@ -1,0 +1,40 @@
+#pragma once
+// Turns the JSON that a command printed into flat rows: one for each structure of `kds run`, one of totals
+// for `kds contacts`, otherwise one for each item of `rows`. Nested names are joined by dots, arrays are left
+// out.
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "experiments/output/result_json.h"
+
+namespace kds {
+
+/// Fields of a row, in the order of the JSON.
+using RowFields = std::vector<std::pair<std::string, Json>>;
+
+struct ResultRow {
+  RowFields fields;  ///< the same on every machine, at any time
+  RowFields times;   ///< depend on the machine and its load
+};
+
+/// Returns whether a field is a time, or a ratio of times, or memory.
+[[nodiscard]] bool is_time(std::string_view name);
+
+/// Returns the rows of a command's result.
+[[nodiscard]] std::vector<ResultRow> rows_of_result(const Json& result);
+
+/// Returns the rows of a trajectory that was cut into parts, from those of its parts in order: counts of
+/// events and audits are sums, and fields that are not sums over steps are left out. `uneven` is set if the
+/// parts have different rows, beads or dimensions.
+[[nodiscard]] std::vector<ResultRow> joined_parts(const std::vector<std::vector<ResultRow>>& parts,
+                                                  bool& uneven);
+
+/// Returns the text that tells a row from the others of its task: its texts and keys such as `stride`.
+[[nodiscard]] std::string identity_of(const ResultRow& row);
+/// Returns whether a field belongs to the identity of its row.
+[[nodiscard]] bool is_identity(const std::string& name, const Json& value);
+
+}  // namespace kds

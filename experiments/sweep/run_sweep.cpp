@@ -1,0 +1,353 @@
+#include "experiments/sweep/run_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <deque>
+#include <list>
+#include <system_error>
+#include <unordered_set>
+#include <vector>
+
+#include "experiments/output/output_files.h"
+#include "experiments/output/result_json.h"
+#include "experiments/output/text.h"
+#include "experiments/program/commands.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Clock = TaskProcess::Clock;
+
+constexpr double kGrace = 7;         // seconds in which running tasks may end after a signal
+constexpr double kLongAttempt = 60;  // a dropped attempt that ran as long counts, if it had most of the time
+constexpr std::size_t kMostClaimed = 256;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Returns JSON on one line. A line break of indented JSON is never inside a string.
+std::string joined_lines(std::string_view json) {
+  std::string line;
+  line.reserve(json.size());
+  for (std::size_t k = 0; k < json.size(); ++k) {
+    if (json[k] != '\n') {
+      line += json[k];
+      continue;
+    }
+    while (k + 1 < json.size() && json[k + 1] == ' ') ++k;
+  }
+  return line;
+}
+
+// Returns the last message of a command, without the program's name.
+std::string message_of(const std::string& err) {
+  constexpr std::string_view program = "kds: ", warning = "warning: ";
+  std::string message;
+  for (const std::string& line : split(err, '\n')) {
+    std::string_view words(line);
+    if (words.starts_with(program)) words.remove_prefix(program.size());
+    if (!words.empty() && !words.starts_with(warning)) message = words;
+  }
+  constexpr std::size_t longest = 500;
+  return one_line(message.substr(0, longest));
+}
+
+std::string signal_text(int signal) {
+  const char* const name = ::sigdescr_np(signal);
+  return fmt::format("signal {} ({})", signal, name != nullptr ? name : "unknown");
+}
+
+std::string failure_json(int code, const std::string& message, double seconds) {
+  const Json json{{"code", code}, {"error", message}, {"seconds", seconds}};
+  return line_of(json).value_or(R"({"code":1,"error":"the message is not UTF-8"})");
+}
+
+struct RunningTask {
+  const SweepTask* task;
+  TaskProcess process;
+};
+
+class SweepRun {
+ public:
+  SweepRun(const SweepPlan& plan, const fs::path& folder, const SweepLimits& limits, StopSignals& signals,
+           const std::function<void(const std::string&)>& warn)
+      : plan_(plan),
+        limits_(limits),
+        signals_(signals),
+        warn_(warn),
+        states_(results_folder(folder)),
+        journal_(results_folder(folder)),
+        locks_(locks_file(folder)) {}
+
+  SweepOutcome run(const std::function<void(std::size_t, std::size_t)>& progress);
+
+ private:
+  void list_open_tasks();
+  void claim();
+  void start(const SweepTask& task);
+  void settle(RunningTask& ended, const TaskProcess::End& end);
+  void record(RecordKind kind, const SweepTask& task, const std::string& json);
+  void fail(const SweepTask& task, int code, const std::string& message, double seconds);
+  void drop(RunningTask& running);
+  [[nodiscard]] bool must_stop();
+  [[nodiscard]] double next_wait() const;
+  [[nodiscard]] bool is_open(const SweepTask& task) const {
+    return status_of(states_.of(task.name)) == TaskStatus::open;
+  }
+
+  const SweepPlan& plan_;
+  const SweepLimits& limits_;
+  StopSignals& signals_;
+  const std::function<void(const std::string&)>& warn_;
+  TaskStates states_;
+  JournalWriter journal_;
+  TaskLocks locks_;
+  Clock::time_point begin_ = Clock::now();
+  std::optional<Clock::time_point> stop_;   ///< when the sweep began to stop
+  std::vector<const SweepTask*> shard_;     ///< all tasks of the shard
+  std::deque<const SweepTask*> unclaimed_;  ///< tasks without a result
+  std::deque<const SweepTask*> elsewhere_;  ///< those of them that another sweep had when we looked
+  std::deque<const SweepTask*> claimed_;    ///< with their locks
+  std::list<RunningTask> running_;
+  double task_seconds_ = 0;  ///< of all attempts that ended
+  Clock::time_point looked_elsewhere_ = begin_;
+  SweepOutcome outcome_;
+};
+
+// Tasks that left an attempt without a result come last, so that they hold up no others.
+void SweepRun::list_open_tasks() {
+  states_.refresh();
+  if (limits_.retry) states_.forgive();
+  std::vector<const SweepTask*> tried;
+  std::unordered_set<TaskName> listed;  // equal files under two names are one task
+  const std::vector<SweepTask>& tasks = plan_.tasks();
+  for (std::size_t k = limits_.shard.number - 1; k < tasks.size(); k += limits_.shard.count) {
+    shard_.push_back(&tasks[k]);
+    if (!is_open(tasks[k]) || !listed.insert(tasks[k].name).second) continue;
+    if (states_.of(tasks[k].name).lost() > 0)
+      tried.push_back(&tasks[k]);
+    else
+      unclaimed_.push_back(&tasks[k]);
+  }
+  unclaimed_.insert(unclaimed_.end(), tried.begin(), tried.end());
+}
+
+// Claims about a tenth of a second of work for each job. A task is done only if its result was not there once
+// the task was locked.
+void SweepRun::claim() {
+  if (unclaimed_.empty() && !elsewhere_.empty() && seconds_since(looked_elsewhere_) >= 0.2) {
+    unclaimed_.swap(elsewhere_);
+    looked_elsewhere_ = Clock::now();
+  }
+  const double mean = outcome_.ran > 0 ? task_seconds_ / static_cast<double>(outcome_.ran) : 1;
+  const double wanted = 0.1 / std::max(mean, 1e-6) * static_cast<double>(limits_.jobs);
+  const std::size_t most =
+      std::clamp<std::size_t>(static_cast<std::size_t>(std::min(wanted, 1e6)), 1, kMostClaimed);
+  std::vector<const SweepTask*> locked;
+  while (locked.size() < most && !unclaimed_.empty()) {
+    const SweepTask* const task = unclaimed_.front();
+    unclaimed_.pop_front();
+    if (locks_.take(task->name))
+      locked.push_back(task);
+    else
+      elsewhere_.push_back(task);
+  }
+  if (locked.empty()) return;
+  states_.refresh();
+  for (const SweepTask* task : locked) {
+    if (is_open(*task))
+      claimed_.push_back(task);
+    else
+      locks_.release(task->name);
+  }
+}
+
+void SweepRun::record(RecordKind kind, const SweepTask& task, const std::string& json) {
+  if (journal_.add(kind, task.name, json)) return;
+  const std::string full = failure_json(1, fmt::format("no room for a result of {} bytes", json.size()), 0);
+  if (kind == RecordKind::done && journal_.add(RecordKind::fail, task.name, full)) return;
+  throw OutputError(
+      "the disk is full: recorded results are safe; with more room, the same command continues");
+}
+
+void SweepRun::start(const SweepTask& task) {
+  record(RecordKind::attempt, task, "{}");
+  try {
+    running_.push_back({&task, TaskProcess([&] { return run_arguments(task_arguments(plan_, task)); },
+                                           limits_.task_memory)});
+  } catch (const std::system_error& error) {
+    record(RecordKind::drop, task, "{}");
+    if (running_.empty()) throw OutputError(fmt::format("no task can start: {}", error.what()));
+    claimed_.push_front(&task);  // again once another has ended
+  }
+}
+
+void SweepRun::fail(const SweepTask& task, int code, const std::string& message, double seconds) {
+  record(RecordKind::fail, task, failure_json(code, message, seconds));
+}
+
+void SweepRun::settle(RunningTask& ended, const TaskProcess::End& end) {
+  const SweepTask& task = *ended.task;
+  ++outcome_.ran;
+  task_seconds_ += end.seconds;
+  if (end.signal == 0 && end.code == 0) {
+    const std::string out = joined_lines(ended.process.out());
+    if (out.starts_with('{') && out.ends_with('}'))
+      record(RecordKind::done, task,
+             fmt::format(R"({{"seconds":{},"processor_seconds":{},"result":{}}})", end.seconds,
+                         end.processor_seconds, out));
+    else
+      fail(task, 1, "printed no JSON", end.seconds);
+  } else if (end.signal == 0) {
+    const std::string message = message_of(ended.process.err());
+    fail(task, end.code, message.empty() ? fmt::format("exit code {}", end.code) : message, end.seconds);
+  } else if (ended.process.is_killed()) {
+    fail(task, 1, fmt::format("takes more than {} s (--task-seconds)", short_decimal(*limits_.task_seconds)),
+         end.seconds);
+  } else if (limits_.task_memory && ended.process.err().find("annot allocate memory") != std::string::npos) {
+    fail(task, 1, "out of memory (--task-memory)", end.seconds);  // GMP aborts
+  } else {
+    record(RecordKind::died, task, fmt::format(R"({{"error":"ended by {}"}})", signal_text(end.signal)));
+    unclaimed_.push_back(&task);
+  }
+  locks_.release(task.name);
+}
+
+// A dropped attempt does not count. But if it had most of a long run for itself, another would end likewise.
+void SweepRun::drop(RunningTask& running) {
+  const double seconds = seconds_since(running.process.start());
+  running.process.kill();
+  static_cast<void>(running.process.wait());
+  const bool counts = seconds >= kLongAttempt && seconds >= 0.5 * seconds_since(begin_);
+  if (counts)
+    record(
+        RecordKind::died, *running.task,
+        fmt::format(R"({{"error":"was dropped after {} s at the end of a sweep"}})", short_decimal(seconds)));
+  else
+    record(RecordKind::drop, *running.task, "{}");
+  locks_.release(running.task->name);
+  ++outcome_.dropped;
+}
+
+bool SweepRun::must_stop() {
+  if (!stop_) {
+    const double last_start =
+        limits_.budget ? std::max(*limits_.budget - kGrace - 1, 0.5 * *limits_.budget) : 0;
+    if (signals_.stopped() || (limits_.budget && seconds_since(begin_) >= last_start)) stop_ = Clock::now();
+  }
+  return stop_.has_value();
+}
+
+double SweepRun::next_wait() const {
+  double seconds = running_.empty() ? 0.2 : 1;
+  const auto until = [&](double end) { seconds = std::min(seconds, std::max(end, 0.0) + 0.001); };
+  for (const RunningTask& running : running_)
+    if (limits_.task_seconds) until(*limits_.task_seconds - seconds_since(running.process.start()));
+  return seconds;
+}
+
+SweepOutcome SweepRun::run(const std::function<void(std::size_t, std::size_t)>& progress) {
+  list_open_tasks();
+  std::size_t settled = shard_.size() - unclaimed_.size();
+  while (true) {
+    const bool stopping = must_stop();
+    while (!stopping && running_.size() < limits_.jobs) {
+      if (claimed_.empty()) claim();
+      if (claimed_.empty()) break;
+      const SweepTask* const next = claimed_.front();
+      claimed_.pop_front();
+      const std::size_t before = running_.size();
+      start(*next);
+      if (running_.size() == before) break;
+    }
+    if (running_.empty() && (stopping || (claimed_.empty() && unclaimed_.empty() && elsewhere_.empty())))
+      break;
+    if (!running_.empty() || !elsewhere_.empty()) signals_.wait(next_wait());
+    for (auto running = running_.begin(); running != running_.end();) {
+      if (limits_.task_seconds && seconds_since(running->process.start()) > *limits_.task_seconds)
+        running->process.kill();
+      const auto end = running->process.ended();
+      if (!end) {
+        ++running;
+        continue;
+      }
+      settle(*running, *end);
+      running = running_.erase(running);
+      progress(std::min(++settled, shard_.size()), shard_.size());
+    }
+    const double grace = limits_.budget ? std::min(kGrace, 0.4 * *limits_.budget) : kGrace;
+    if (stop_ && seconds_since(*stop_) > grace) {
+      for (RunningTask& running : running_) drop(running);
+      running_.clear();
+    }
+    journal_.sync_now_and_then();
+  }
+  journal_.complete();
+  if (!locks_.supported())
+    warn_("the file system of the sweep's folder has no locks: give each sweep on it a --shard of its own");
+  states_.refresh();
+  for (const SweepTask* task : shard_) {
+    const TaskStatus status = status_of(states_.of(task->name));
+    outcome_.done += status == TaskStatus::done ? 1U : 0U;
+    outcome_.failed += status == TaskStatus::failed ? 1U : 0U;
+    outcome_.crashed += status == TaskStatus::crashed ? 1U : 0U;
+  }
+  outcome_.tasks = shard_.size();
+  outcome_.stopped = outcome_.done + outcome_.failed + outcome_.crashed < shard_.size();
+  return outcome_;
+}
+
+}  // namespace
+
+TaskStatus status_of(const TaskState& state) {
+  if (state.is_done()) return TaskStatus::done;
+  if (state.failed) return TaskStatus::failed;
+  return state.lost() >= most_attempts ? TaskStatus::crashed : TaskStatus::open;
+}
+
+fs::path results_folder(const fs::path& sweep) { return sweep / "results"; }
+fs::path locks_file(const fs::path& sweep) { return sweep / "locks"; }
+
+Arguments task_arguments(const SweepPlan& plan, const SweepTask& task) {
+  Arguments arguments = plan.arguments(task);
+  const SweptCommand& command = *plan.block(task).command;
+  constexpr std::string_view threads = "threads";
+  if (command.find(threads) != nullptr && std::ranges::find(arguments, "--threads") == arguments.end())
+    for (const char* word : {"--threads", "1"}) arguments.emplace_back(word);
+  for (const char* word : {"--quiet", "--json", "-"}) arguments.emplace_back(word);
+  return arguments;
+}
+
+TrialRun try_task(const SweepPlan& plan, const SweepTask& task, double most_seconds, StopSignals& signals) {
+  TaskProcess process([&] { return run_arguments(task_arguments(plan, task)); }, std::nullopt);
+  TrialRun run;
+  std::optional<TaskProcess::End> end;
+  while (!(end = process.ended())) {
+    if (signals.stopped()) throw SweepStopped{};
+    run.cut_off = seconds_since(process.start()) > most_seconds;
+    if (run.cut_off) process.kill();
+    signals.wait(0.1);
+  }
+  run.seconds = end->seconds;
+  if (!run.cut_off && (end->signal != 0 || end->code != 0)) {
+    run.error = message_of(process.err());
+    if (run.error.empty()) run.error = end->signal != 0 ? "ended by " + signal_text(end->signal) : "failed";
+  }
+  return run;
+}
+
+SweepOutcome run_sweep(const SweepPlan& plan, const fs::path& folder, const SweepLimits& limits,
+                       StopSignals& signals, const std::function<void(std::size_t, std::size_t)>& progress,
+                       const std::function<void(const std::string&)>& warn) {
+  return SweepRun(plan, folder, limits, signals, warn).run(progress);
+}
+
+}  // namespace kds

@@ -1,0 +1,69 @@
+#pragma once
+// Runs the tasks of a sweep, each in a child process. Results go to the journals of the sweep's folder
+// (task_journal.h). Several sweeps may run on one folder, on one machine or several.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "experiments/sweep/sweep_plan.h"
+#include "experiments/sweep/task_journal.h"
+#include "experiments/sweep/task_process.h"
+
+namespace kds {
+
+/// Shard `number` of `count`, counted from 1: tasks number - 1, number - 1 + count, ... of the plan.
+struct Shard {
+  std::size_t number = 1, count = 1;
+};
+
+struct SweepLimits {
+  Shard shard;
+  std::size_t jobs = 1;                      ///< child processes at a time
+  std::optional<double> task_seconds;        ///< longest time of a task
+  std::optional<std::uint64_t> task_memory;  ///< bytes of data of a task
+  std::optional<double> budget;              ///< seconds after which the sweep has ended
+  bool retry = false;                        ///< repeat tasks that failed or crashed
+};
+
+/// The states of a task. A task that two attempts have left without a result is crashed.
+enum class TaskStatus : std::uint8_t { open, running, done, failed, crashed };
+[[nodiscard]] TaskStatus status_of(const TaskState& state);
+
+struct SweepOutcome {
+  std::size_t tasks = 0;                          ///< of the shard
+  std::size_t done = 0, failed = 0, crashed = 0;  ///< tasks of the shard, in this run or before
+  std::size_t ran = 0;                            ///< attempts of this run that ended
+  std::size_t dropped = 0;
+  bool stopped = false;  ///< a signal or the budget ended the sweep before all tasks were done
+};
+
+/// The folders of a sweep.
+[[nodiscard]] std::filesystem::path results_folder(const std::filesystem::path& sweep);
+[[nodiscard]] std::filesystem::path locks_file(const std::filesystem::path& sweep);
+
+/// Returns the arguments of a task with those that make the program print JSON only, on one thread.
+[[nodiscard]] Arguments task_arguments(const SweepPlan& plan, const SweepTask& task);
+
+/// The times of one task that was run to estimate others. `error` is its message if it failed.
+struct TrialRun {
+  double seconds = 0;
+  bool cut_off = false;  ///< ended at the limit
+  std::string error;
+};
+/// Runs a task without recording it.
+[[nodiscard]] TrialRun try_task(const SweepPlan& plan, const SweepTask& task, double most_seconds,
+                                StopSignals& signals);
+
+/// Runs all tasks of the shard that have no result. Waits for tasks that another sweep is running. After a
+/// signal or at the end of the budget, running tasks get a few seconds to end, then they are dropped. Throws
+/// OutputError if the journal cannot be written.
+SweepOutcome run_sweep(const SweepPlan& plan, const std::filesystem::path& folder, const SweepLimits& limits,
+                       StopSignals& signals,
+                       const std::function<void(std::size_t done, std::size_t total)>& progress,
+                       const std::function<void(const std::string&)>& warn);
+
+}  // namespace kds

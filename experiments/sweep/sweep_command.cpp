@@ -1,0 +1,437 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <thread>
+
+#include "experiments/output/output_files.h"
+#include "experiments/output/page/table.h"
+#include "experiments/output/result_json.h"
+#include "experiments/output/text.h"
+#include "experiments/program/commands.h"
+#include "experiments/program/option.h"
+#include "experiments/program/progress_bar.h"
+#include "experiments/sweep/collect_sweep.h"
+#include "experiments/sweep/engine_scripts.h"
+#include "experiments/sweep/run_sweep.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kContinueLater = 75;  // EX_TEMPFAIL
+
+constexpr CommandSpec kSweepCommand{
+    "kds sweep",
+    "Runs a command for all combinations of inputs and options that SWEEP.json lists, each as a task of its "
+    "own, "
+    "on all\n"
+    "cores of this machine or as batches of a cluster. The same command continues an interrupted sweep: only "
+    "tasks\n"
+    "without a result run. docs/formats.md describes SWEEP.json, docs/cluster.md shows how to run it on a "
+    "cluster.\n\n"
+    "  kds sweep SWEEP.json -o DIR   run all tasks that have no result in DIR\n"
+    "  kds sweep status DIR          count the tasks that are done, running, failed and open\n"
+    "  kds sweep collect DIR         write results.csv, results.json, pooled.csv, times.csv, failed.csv and\n"
+    "                                report.html to DIR; exit code 1 if a task has no result",
+    "[SWEEP.json]...",
+    "the sweep, or status or collect with the folder of a sweep",
+    "kds sweep sweep.json --dry-run\n"
+    "kds sweep sweep.json -o out --task-seconds 600 --task-memory 4G\n"
+    "kds sweep sweep.json -o out --write slurm\n"
+    "kds sweep collect out",
+};
+
+struct SweepOptions {
+  std::optional<fs::path> out;
+  bool dry_run = false, retry = false, quiet = false;
+  std::optional<Shard> shard;
+  std::optional<std::size_t> jobs;
+  std::optional<double> task_seconds, time_budget;
+  std::optional<std::uint64_t> task_memory;
+  std::optional<SweepEngine> write;
+};
+
+Shard parse_shard(const std::string& text) {
+  const auto refuse = [&] {
+    throw InputError(fmt::format("--shard: '{}' is not I/N, whole numbers from 1 with I at most N", text));
+  };
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) refuse();
+  constexpr std::uint64_t most = 1'000'000'000;
+  Shard shard;
+  try {
+    shard.number = parse_whole_number("--shard", std::string_view(text).substr(0, slash), 1, most);
+    shard.count = parse_whole_number("--shard", std::string_view(text).substr(slash + 1), 1, most);
+  } catch (const InputError&) {
+    refuse();
+  }
+  if (shard.number > shard.count) refuse();
+  return shard;
+}
+
+std::uint64_t parse_memory(const std::string& text) {
+  constexpr std::string_view units = "KMGT";
+  std::string_view digits(text);
+  unsigned shift = 0;
+  if (const std::size_t unit = text.empty() ? std::string::npos : units.find(text.back());
+      unit != std::string::npos) {
+    shift = 10 * (static_cast<unsigned>(unit) + 1);
+    digits.remove_suffix(1);
+  }
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  const bool fits = error == std::errc() && end == digits.data() + digits.size() && number > 0 &&
+                    number <= (UINT64_MAX >> 2U) >> shift;
+  constexpr std::uint64_t least = std::uint64_t{64} << 20U;  // below, no command starts
+  if (!fits || number << shift < least)
+    throw InputError(
+        fmt::format("--task-memory: '{}' is not a number of bytes with K, M, G or T, at least 64M", text));
+  return number << shift;
+}
+
+std::string memory_text(std::uint64_t bytes) { return std::to_string(bytes); }
+
+const OptionList<SweepOptions>& sweep_options() {
+  using O = SweepOptions;
+  static const auto list = OptionList<O>(
+      {path_option({"-o", "DIR", "folder of the sweep's results; required, except for --dry-run"}, &O::out),
+       flag_option(
+           "--dry-run",
+           "run nothing but one task of each command, and print how many tasks there are and how long "
+           "they may take",
+           &O::dry_run),
+       value_option(
+           {"--shard", "I/N",
+            "run tasks I, I + N, I + 2 N, ... only; I is from 1 to N (default: an element of a Slurm "
+            "array runs its share, otherwise all)"},
+           &O::shard, parse_shard,
+           [](const Shard& shard) { return fmt::format("{}/{}", shard.number, shard.count); }),
+       whole_option(
+           {"--jobs", "N",
+            "tasks to run at a time (default: SLURM_CPUS_PER_TASK if it is set, otherwise all cores; with "
+            "--write: 1)"},
+           &O::jobs, 1, 100'000),
+       flag_option("--retry", "run tasks again that failed or crashed", &O::retry),
+       real_option({"--task-seconds", "S", "a task that takes longer fails (default: no limit)"},
+                   &O::task_seconds, {0.01, 1e9}),
+       value_option(
+           {"--task-memory", "SIZE",
+            "a task that needs more memory fails: bytes, or with K, M, G or T, as in 4G (default: no limit)"},
+           &O::task_memory, parse_memory, memory_text),
+       real_option({"--time-budget", "S",
+                    "stop within S seconds, with exit code 75 if tasks are left (default: no limit)"},
+                   &O::time_budget, {1, 1e9}),
+       choice_option(
+           {"--write", "ENGINE",
+            "write a script that runs the sweep by slurm, parallel (GNU parallel) or snakemake to DIR, and "
+            "run nothing but one task of each command"},
+           &O::write, sweep_engine_names),
+       flag_option("--quiet", "print no progress bar and no counts", &O::quiet)});
+  return list;
+}
+
+std::string text_of_file(const fs::path& path) {
+  std::error_code none;
+  if (!fs::exists(path, none)) throw InputError(path.string() + ": no such file");
+  if (fs::is_directory(path, none))
+    throw InputError(path.string() +
+                     ": is a directory, expected SWEEP.json; for its results use kds sweep status " +
+                     path.string());
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw InputError(path.string() + ": cannot be read");
+  return text.str();
+}
+
+// A folder keeps its sweep in plan.json, with the folder from which relative paths lead.
+constexpr std::string_view kPlan = "plan.json";
+
+std::string plan_text(const Json& sweep, const fs::path& folder) {
+  return text_of({{"folder", folder.string()}, {"sweep", sweep}});
+}
+
+void prepare_folder(const fs::path& folder, const std::string& plan) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw InputError(fmt::format("-o {}: is a file, expected a directory", folder.string()));
+  const bool known = fs::exists(folder / kPlan, error);
+  if (!known && fs::exists(folder, error) && !fs::is_empty(folder, error))
+    throw InputError(fmt::format(
+        "-o {}: holds other files and no sweep, expected a new folder or that of a sweep", folder.string()));
+  fs::create_directories(results_folder(folder), error);
+  if (error) throw InputError(fmt::format("-o {}: {}", folder.string(), error.message()));
+  if (known && text_of_file(folder / kPlan) == plan) return;
+  AtomicFiles files;
+  files.write(folder / kPlan, plan);
+  commit_together({&files});
+}
+
+Shard shard_of(const SweepOptions& options) {
+  if (options.shard) return *options.shard;
+  const auto from_slurm = [](const char* name) -> std::optional<std::uint64_t> {
+    const char* const text = std::getenv(name);
+    if (text == nullptr) return std::nullopt;
+    return parse_whole_number(name, text, 0, 1'000'000'000);
+  };
+  const auto id = from_slurm("SLURM_ARRAY_TASK_ID"), count = from_slurm("SLURM_ARRAY_TASK_COUNT");
+  if (!id || !count) return {};
+  const std::uint64_t first = from_slurm("SLURM_ARRAY_TASK_MIN").value_or(1);
+  const std::uint64_t step = std::max<std::uint64_t>(from_slurm("SLURM_ARRAY_TASK_STEP").value_or(1), 1);
+  if (*id < first || (*id - first) % step != 0 || (*id - first) / step >= *count)
+    throw InputError(
+        fmt::format("SLURM_ARRAY_TASK_ID {} is not one of {} numbers from {} on with step {}, so its share "
+                    "is unknown; expected --shard I/N",
+                    *id, *count, first, step));
+  return {(*id - first) / step + 1, *count};
+}
+
+std::size_t jobs_of(const SweepOptions& options) {
+  if (options.jobs) return *options.jobs;
+  if (options.write) return 1;
+  if (const char* const cpus = std::getenv("SLURM_CPUS_PER_TASK"); cpus != nullptr)
+    return parse_whole_number("SLURM_CPUS_PER_TASK", cpus, 1, 100'000);
+  return std::max(std::thread::hardware_concurrency(), 1U);
+}
+
+// The expected work of one command, from one task of it.
+struct Estimate {
+  std::string command;
+  std::size_t tasks = 0, open = 0;
+  double seconds = 0, hours = 0, longest = 0;
+  bool cut_off = false;
+  std::string error;
+};
+
+Table<Estimate> estimate_table() {
+  using R = Estimate;
+  return {{
+      {"command", "command", [](const R& r) { return Field(r.command); }},
+      {"tasks", "tasks", [](const R& r) { return Field(r.tasks); }},
+      {"open", "without a result", [](const R& r) { return Field(r.open); }},
+      {.key = "seconds",
+       .heading = "seconds of one task",
+       .value = [](const R& r) { return r.open > 0 && r.error.empty() ? Field(r.seconds) : Field(); },
+       .words = [](const R& r) { return (r.cut_off ? "more than " : "") + short_decimal(r.seconds); }},
+      {.key = "hours",
+       .heading = "core hours expected",
+       .value = [](const R& r) { return r.error.empty() ? Field(r.hours) : Field(); },
+       .words = [](const R& r) { return (r.cut_off ? "more than " : "") + short_decimal(r.hours); }},
+      {"error", "the task failed", [](const R& r) { return text_or_nothing(r.error); }},
+  }};
+}
+
+// Runs the open task of median size of each command. Others are taken to need time in proportion to their
+// size.
+std::vector<Estimate> estimates_of(const SweepPlan& plan, const InputHashes& hashes,
+                                   const SweepOptions& options, StopSignals& signals) {
+  constexpr double most_seconds = 60;
+  TaskStates states(options.out ? results_folder(*options.out) : fs::path());
+  if (options.out) states.refresh();
+  struct Sized {
+    double size;
+    const SweepTask* task;
+  };
+  std::vector<std::vector<Sized>> open(plan.spec().blocks.size());
+  std::vector<Estimate> estimates(open.size());
+  for (const SweepTask& task : plan.tasks()) {
+    estimates[task.block].command = plan.text(task, "command");
+    ++estimates[task.block].tasks;
+    if (status_of(states.of(task.name)) == TaskStatus::open)
+      open[task.block].push_back({plan.size(task, hashes), &task});
+  }
+  for (std::size_t block = 0; block < open.size(); ++block) {
+    Estimate& estimate = estimates[block];
+    std::vector<Sized>& tasks = open[block];
+    estimate.open = tasks.size();
+    if (tasks.empty()) continue;
+    const auto middle = tasks.begin() + static_cast<std::ptrdiff_t>(tasks.size() / 2);
+    std::ranges::nth_element(tasks, middle, {}, &Sized::size);
+    const Sized median = *middle;
+    const TrialRun run = try_task(
+        plan, *median.task, std::min(most_seconds, options.task_seconds.value_or(most_seconds)), signals);
+    estimate.seconds = run.seconds;
+    estimate.cut_off = run.cut_off;
+    estimate.error = run.error;
+    for (const Sized& task : tasks) {
+      const double seconds = run.seconds * task.size / median.size;
+      estimate.hours += seconds / 3600;
+      estimate.longest = std::max(estimate.longest, seconds);
+    }
+  }
+  std::erase_if(estimates, [](const Estimate& estimate) { return estimate.tasks == 0; });
+  return estimates;
+}
+
+double sum_of_hours(const std::vector<Estimate>& estimates) {
+  double hours = 0;
+  for (const Estimate& estimate : estimates) hours += estimate.hours;
+  return hours;
+}
+
+std::string estimates_text(const SweepPlan& plan, const std::vector<Estimate>& estimates, std::size_t jobs) {
+  std::string text = estimate_table().text(estimates);
+  const double hours = sum_of_hours(estimates);
+  text += fmt::format("{} tasks", with_thousands(plan.tasks().size()));
+  if (plan.excluded() > 0) text += fmt::format(", {} excluded", with_thousands(plan.excluded()));
+  return text + fmt::format("; about {} hours with {} at a time, if time grows with the bytes of an input\n",
+                            short_decimal(hours / static_cast<double>(jobs)), jobs);
+}
+
+void write_script(const fs::path& sweep, const SweepOptions& options,
+                  const std::vector<Estimate>& estimates) {
+  EngineRequest request;
+  std::error_code error;
+  request.program = fs::read_symlink("/proc/self/exe", error);
+  if (error) request.program = "kds";
+  request.sweep = fs::absolute(sweep);
+  request.folder = fs::absolute(*options.out);
+  request.jobs = jobs_of(options);
+  request.hours = sum_of_hours(estimates);
+  for (const Estimate& estimate : estimates) {
+    request.tasks += estimate.open;
+    request.longest = std::max(request.longest, estimate.longest);
+  }
+  Arguments others;
+  if (options.task_seconds)
+    others.insert(others.end(), {"--task-seconds", fmt::format("{}", *options.task_seconds)});
+  if (options.task_memory) others.insert(others.end(), {"--task-memory", memory_text(*options.task_memory)});
+  if (!others.empty()) request.options = shell_words(others);
+  const SweepEngine engine = *options.write;
+  AtomicFiles files;
+  files.write(request.folder / script_name(engine), engine_script(engine, request));
+  commit_together({&files});
+  const Batches batches = batches_of(request);
+  constexpr double longest_batch = 30 * 60;
+  std::string text =
+      fmt::format("{} batches of about {} minutes\n", batches.count, short_decimal(batches.seconds / 60));
+  if (batches.seconds > longest_batch)
+    text += "batches are longer than half an hour; --jobs with more cores of a node makes them shorter\n";
+  print_to_stdout(text + start_command(engine, request) + "\n");
+}
+
+// `kds sweep status DIR` and `kds sweep collect DIR`.
+int look_at(const std::string& what, const fs::path& folder, StopSignals& signals) {
+  std::error_code none;
+  if (!fs::exists(folder / kPlan, none))
+    throw InputError(fmt::format("{}: is no folder of a sweep (it has no {})", folder.string(), kPlan));
+  const std::string subject = (folder / kPlan).string();
+  const Json plan_json = read_json(text_of_file(folder / kPlan), subject);
+  const Json *const from = plan_json.find("folder"), *const sweep = plan_json.find("sweep");
+  if (from == nullptr || from->text() == nullptr || sweep == nullptr)
+    throw InputError(subject + ": expected the keys folder and sweep; run kds sweep SWEEP.json -o DIR again");
+  InputHashes hashes([&signals] { return signals.stopped(); });
+  hashes.load(folder);
+  const SweepPlan plan(read_sweep(*sweep, *from->text(), subject), hashes, subject);
+  if (what == "status") {
+    print_to_stdout(status_text(count_tasks(plan, folder)));
+    return 0;
+  }
+  const CollectedSweep found =
+      collect_sweep(plan, folder, "kds sweep collect " + shell_words({folder.string()}));
+  std::string text = fmt::format("{} of {} tasks have results: {} rows\n", with_thousands(found.done),
+                                 with_thousands(found.tasks), with_thousands(found.rows));
+  if (found.failed + found.crashed > 0)
+    text += fmt::format("{} failed and {} crashed; failed.csv says why and how to repeat them\n",
+                        found.failed, found.crashed);
+  if (found.missing > 0)
+    text += fmt::format("{} are missing, such as\n  {}\n", with_thousands(found.missing),
+                        fmt::join(found.first_missing, "\n  "));
+  if (found.damaged > 0) text += fmt::format("{} damaged records were left out\n", found.damaged);
+  print_to_stdout(text);
+  print_report_path(folder);
+  return found.done == found.tasks ? 0 : 1;
+}
+
+int run_shard(const SweepPlan& plan, const SweepOptions& options, StopSignals& signals) {
+  const fs::path& folder = *options.out;
+  SweepLimits limits;
+  limits.shard = shard_of(options);
+  limits.jobs = jobs_of(options);
+  limits.task_seconds = options.task_seconds;
+  limits.task_memory = options.task_memory;
+  limits.budget = options.time_budget;
+  limits.retry = options.retry;
+  ProgressBar bar(!options.quiet, "task");
+  const SweepOutcome outcome = run_sweep(
+      plan, folder, limits, signals, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },
+      [&bar](const std::string& warning) { print_warning(bar, warning); });
+  bar.erase();
+  const bool whole = limits.shard.count == 1;
+  const std::size_t lost = outcome.failed + outcome.crashed;
+  if (whole) static_cast<void>(write_failed(plan, folder));
+  if (!options.quiet) {
+    std::string text = fmt::format("{} of {} tasks{} have results, {} failed, {} crashed\n",
+                                   with_thousands(outcome.done), with_thousands(outcome.tasks),
+                                   whole ? "" : " of the shard", outcome.failed, outcome.crashed);
+    if (lost > 0)
+      text += whole ? fmt::format("see {}; --retry runs them again\n", (folder / "failed.csv").string())
+                    : std::string("kds sweep collect lists them; --retry runs them again\n");
+    if (outcome.stopped) text += "stopped before the end; the same command continues\n";
+    print_to_stdout(text);
+  }
+  if (outcome.stopped) return kContinueLater;
+  return lost > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int sweep_command(const Arguments& arguments) {
+  SweepOptions options;
+  const ParsedArguments parsed = read_arguments(kSweepCommand, sweep_options(), arguments, options);
+  const std::vector<std::string>& operands = parsed.operands();
+  if (operands.empty())
+    throw InputError("kds sweep needs SWEEP.json, or status or collect with a folder (see kds sweep --help)");
+  StopSignals signals;
+  try {
+    if (operands.size() == 2) {
+      const std::array<std::string_view, 2> known{"status", "collect"};
+      static_cast<void>(place_among("kds sweep", operands[0], known));
+      for (const auto& option : sweep_options().all())
+        if (parsed.has(option.spec.name))
+          throw InputError(fmt::format("{}: has no meaning for kds sweep {}", option.spec.name, operands[0]));
+      return look_at(operands[0], operands[1], signals);
+    }
+    if (operands.size() > 2)
+      throw InputError(
+          fmt::format("kds sweep takes one SWEEP.json, not {} (see kds sweep --help)", operands.size()));
+    if (operands[0] == "status" || operands[0] == "collect")
+      throw InputError(fmt::format("kds sweep {} needs the folder of a sweep", operands[0]));
+    if (!options.out && !options.dry_run)
+      throw InputError("kds sweep needs -o DIR, the folder of the results, or --dry-run");
+
+    const fs::path file = operands[0];
+    const Json sweep = read_json(text_of_file(file), file.string());
+    const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
+    InputHashes hashes([&signals] { return signals.stopped(); });
+    SweepSpec spec = read_sweep(sweep, folder, file.string());
+    if (options.out && !options.dry_run) prepare_folder(*options.out, plan_text(sweep, folder));
+    if (options.out) hashes.load(*options.out);
+    const SweepPlan plan(std::move(spec), hashes, file.string());
+    if (options.out && !options.dry_run) hashes.save(*options.out);
+    if (options.dry_run || options.write) {
+      const std::vector<Estimate> estimates = estimates_of(plan, hashes, options, signals);
+      print_to_stdout(estimates_text(plan, estimates, jobs_of(options)));
+      if (options.write && !options.dry_run) write_script(file, options, estimates);
+      return 0;
+    }
+    return run_shard(plan, options, signals);
+  } catch (const SweepStopped&) {
+    return kContinueLater;
+  }
+}
+
+}  // namespace kds

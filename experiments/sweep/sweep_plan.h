@@ -1,0 +1,66 @@
+#pragma once
+// The tasks of a sweep, in the order of sweep.json: commands, inputs, options, parts.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/program/command_line.h"
+#include "experiments/sweep/input_hashes.h"
+#include "experiments/sweep/sweep_spec.h"
+#include "experiments/sweep/task_name.h"
+
+namespace kds {
+
+struct SweepTask {
+  TaskName name = 0;
+  std::uint32_t block = 0, input = 0;
+  std::uint32_t part = 0, parts = 1;
+  std::uint64_t setting = 0;                      ///< number of the combination of the block's axes
+  std::uint64_t first_frame = 0, last_frame = 0;  ///< of a part, both included
+  std::string radius = {};                        ///< of a part; empty if the option says it
+};
+
+class SweepPlan {
+ public:
+  /// Lists the tasks. Reads each input once for its hash, unless `hashes` remembers it; cutting a trajectory
+  /// reads it once more. Takes about a microsecond for each task. Throws InputError if no task is left.
+  SweepPlan(SweepSpec spec, InputHashes& hashes, const std::string& subject);
+
+  [[nodiscard]] const SweepSpec& spec() const { return spec_; }
+  [[nodiscard]] const std::vector<SweepTask>& tasks() const { return tasks_; }
+  [[nodiscard]] std::size_t excluded() const { return excluded_; }
+
+  [[nodiscard]] const SweepBlock& block(const SweepTask& task) const { return spec_.blocks[task.block]; }
+  [[nodiscard]] const SweepInput& input(const SweepTask& task) const {
+    return block(task).inputs[task.input];
+  }
+  /// Returns the value of an axis or of an option of the input, or null if the task has no such option.
+  [[nodiscard]] const AxisValue* value(const SweepTask& task, std::string_view axis) const;
+  /// Returns `command`, `input` or the text of an axis. Empty if the task has no such axis.
+  [[nodiscard]] std::string text(const SweepTask& task, std::string_view axis) const;
+  /// Returns the names of the axes of all commands, each once.
+  [[nodiscard]] std::vector<std::string> axes() const;
+  /// Returns the command and its arguments, with absolute paths, without options of output.
+  [[nodiscard]] Arguments arguments(const SweepTask& task) const;
+  /// Returns a number that grows about as the work of the task: the bytes of its input, divided by its stride
+  /// and the number of parts.
+  [[nodiscard]] double size(const SweepTask& task, const InputHashes& hashes) const;
+
+ private:
+  void add_tasks(std::uint32_t block, InputHashes& hashes);
+  void add_parts(const SweepTask& whole, InputHashes& hashes);
+  [[nodiscard]] bool is_excluded(const SweepTask& task) const;
+  [[nodiscard]] TaskName name_of(const SweepTask& task, InputHashes& hashes) const;
+  /// Returns option and value of all options of a task but its stride, sorted by option.
+  [[nodiscard]] std::vector<std::pair<std::string, const AxisValue*>> options_of(const SweepTask& task) const;
+  void refuse_equal_names() const;
+
+  SweepSpec spec_;
+  std::vector<SweepTask> tasks_;
+  std::size_t excluded_ = 0;
+};
+
+}  // namespace kds
