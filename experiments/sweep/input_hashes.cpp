@@ -168,7 +168,7 @@ std::uint64_t InputHashes::bytes(const std::string& file) const {
 
 std::optional<FramesFound> InputHashes::frames(std::uint64_t key, const Arguments& arguments) {
   if (const auto known = frames_.find(key); known != frames_.end()) return known->second;
-  TaskProcess child([&] { return print_frames(arguments); }, std::nullopt);
+  TaskProcess child([&] { return print_frames(arguments); }, {});
   std::optional<TaskProcess::End> end;
   while (!(end = child.ended())) {
     if (stopped_()) throw SweepStopped{};

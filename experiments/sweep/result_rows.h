@@ -1,7 +1,7 @@
 #pragma once
 // Turns the JSON that a command printed into flat rows: one for each structure of `kds run`, one of totals
-// for `kds contacts`, otherwise one for each item of `rows`. Nested names are joined by dots, arrays are left
-// out.
+// for `kds contacts`, otherwise one for each item of `rows`. Nested names are joined by dots. Arrays and
+// fields without a value are left out.
 
 #include <string>
 #include <string_view>

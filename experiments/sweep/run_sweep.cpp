@@ -25,9 +25,11 @@ namespace {
 
 using Clock = TaskProcess::Clock;
 
-constexpr double kGrace = 7;         // seconds in which running tasks may end after a signal
+constexpr double kGrace = 7;         // seconds; less with a short budget
 constexpr double kLongAttempt = 60;  // a dropped attempt that ran as long counts, if it had most of the time
 constexpr std::size_t kMostClaimed = 256;
+constexpr std::size_t kMostWithoutRoom =
+    3;  // results in turn without room, until the disk is taken to be full
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -70,6 +72,11 @@ std::string failure_json(int code, const std::string& message, double seconds) {
   return line_of(json).value_or(R"({"code":1,"error":"the message is not UTF-8"})");
 }
 
+bool sets_threads(const SweepPlan& plan, const SweepTask& task) {
+  const AxisValue* const threads = plan.value(task, "threads");
+  return threads != nullptr && threads->given;
+}
+
 struct RunningTask {
   const SweepTask* task;
   TaskProcess process;
@@ -80,12 +87,14 @@ class SweepRun {
   SweepRun(const SweepPlan& plan, const fs::path& folder, const SweepLimits& limits, StopSignals& signals,
            const std::function<void(const std::string&)>& warn)
       : plan_(plan),
+        folder_(folder),
         limits_(limits),
         signals_(signals),
         warn_(warn),
         states_(results_folder(folder)),
         journal_(results_folder(folder)),
-        locks_(locks_file(folder)) {}
+        locks_(locks_file(folder)),
+        grace_(std::min(kGrace, 0.4 * limits.budget.value_or(kGrace / 0.4))) {}
 
   SweepOutcome run(const std::function<void(std::size_t, std::size_t)>& progress);
 
@@ -97,6 +106,7 @@ class SweepRun {
   void record(RecordKind kind, const SweepTask& task, const std::string& json);
   void fail(const SweepTask& task, int code, const std::string& message, double seconds);
   void drop(RunningTask& running);
+  [[noreturn]] void refuse_full_disk() const;
   [[nodiscard]] bool must_stop();
   [[nodiscard]] double next_wait() const;
   [[nodiscard]] bool is_open(const SweepTask& task) const {
@@ -104,21 +114,23 @@ class SweepRun {
   }
 
   const SweepPlan& plan_;
+  const fs::path& folder_;
   const SweepLimits& limits_;
   StopSignals& signals_;
   const std::function<void(const std::string&)>& warn_;
   TaskStates states_;
   JournalWriter journal_;
   TaskLocks locks_;
-  Clock::time_point begin_ = Clock::now();
+  double grace_;                            ///< seconds in which running tasks may end once the sweep stops
   std::optional<Clock::time_point> stop_;   ///< when the sweep began to stop
   std::vector<const SweepTask*> shard_;     ///< all tasks of the shard
   std::deque<const SweepTask*> unclaimed_;  ///< tasks without a result
   std::deque<const SweepTask*> elsewhere_;  ///< those of them that another sweep had when we looked
   std::deque<const SweepTask*> claimed_;    ///< with their locks
   std::list<RunningTask> running_;
+  std::size_t without_room_ = 0, without_room_in_turn_ = 0;
   double task_seconds_ = 0;  ///< of all attempts that ended
-  Clock::time_point looked_elsewhere_ = begin_;
+  Clock::time_point looked_elsewhere_ = Clock::now();
   SweepOutcome outcome_;
 };
 
@@ -170,19 +182,28 @@ void SweepRun::claim() {
   }
 }
 
+// A result without room leaves its task open. Other results may be smaller, so the sweep goes on for a while.
 void SweepRun::record(RecordKind kind, const SweepTask& task, const std::string& json) {
-  if (journal_.add(kind, task.name, json)) return;
-  const std::string full = failure_json(1, fmt::format("no room for a result of {} bytes", json.size()), 0);
-  if (kind == RecordKind::done && journal_.add(RecordKind::fail, task.name, full)) return;
+  if (journal_.add(kind, task.name, json)) {
+    if (kind == RecordKind::done) without_room_in_turn_ = 0;
+    return;
+  }
+  ++without_room_;
+  const bool goes_on = kind == RecordKind::done && ++without_room_in_turn_ < kMostWithoutRoom;
+  if (!goes_on || !journal_.add(RecordKind::drop, task.name)) refuse_full_disk();
+}
+
+void SweepRun::refuse_full_disk() const {
   throw OutputError(
-      "the disk is full: recorded results are safe; with more room, the same command continues");
+      fmt::format("{}: the disk is full, {} {} not recorded; with more room, the same command continues",
+                  folder_.string(), without_room_, without_room_ == 1 ? "result was" : "results were"));
 }
 
 void SweepRun::start(const SweepTask& task) {
   record(RecordKind::attempt, task, "{}");
   try {
     running_.push_back({&task, TaskProcess([&] { return run_arguments(task_arguments(plan_, task)); },
-                                           limits_.task_memory)});
+                                           {limits_.task_memory, !sets_threads(plan_, task)})});
   } catch (const std::system_error& error) {
     record(RecordKind::drop, task, "{}");
     if (running_.empty()) throw OutputError(fmt::format("no task can start: {}", error.what()));
@@ -226,7 +247,7 @@ void SweepRun::drop(RunningTask& running) {
   const double seconds = seconds_since(running.process.start());
   running.process.kill();
   static_cast<void>(running.process.wait());
-  const bool counts = seconds >= kLongAttempt && seconds >= 0.5 * seconds_since(begin_);
+  const bool counts = seconds >= kLongAttempt && seconds >= 0.5 * seconds_since(limits_.begin);
   if (counts)
     record(
         RecordKind::died, *running.task,
@@ -238,17 +259,18 @@ void SweepRun::drop(RunningTask& running) {
 }
 
 bool SweepRun::must_stop() {
-  if (!stop_) {
-    const double last_start =
-        limits_.budget ? std::max(*limits_.budget - kGrace - 1, 0.5 * *limits_.budget) : 0;
-    if (signals_.stopped() || (limits_.budget && seconds_since(begin_) >= last_start)) stop_ = Clock::now();
-  }
+  const bool out_of_time = limits_.budget && seconds_since(limits_.begin) >= *limits_.budget - 1.1 * grace_;
+  if (!stop_ && (signals_.stopped() || out_of_time)) stop_ = Clock::now();
   return stop_.has_value();
 }
 
 double SweepRun::next_wait() const {
   double seconds = running_.empty() ? 0.2 : 1;
   const auto until = [&](double end) { seconds = std::min(seconds, std::max(end, 0.0) + 0.001); };
+  if (stop_)
+    until(grace_ - seconds_since(*stop_));
+  else if (limits_.budget)
+    until(*limits_.budget - 1.1 * grace_ - seconds_since(limits_.begin));
   for (const RunningTask& running : running_)
     if (limits_.task_seconds) until(*limits_.task_seconds - seconds_since(running.process.start()));
   return seconds;
@@ -283,14 +305,14 @@ SweepOutcome SweepRun::run(const std::function<void(std::size_t, std::size_t)>& 
       running = running_.erase(running);
       progress(std::min(++settled, shard_.size()), shard_.size());
     }
-    const double grace = limits_.budget ? std::min(kGrace, 0.4 * *limits_.budget) : kGrace;
-    if (stop_ && seconds_since(*stop_) > grace) {
+    if (stop_ && seconds_since(*stop_) > grace_) {
       for (RunningTask& running : running_) drop(running);
       running_.clear();
     }
     journal_.sync_now_and_then();
   }
   journal_.complete();
+  if (without_room_ > 0) refuse_full_disk();
   if (!locks_.supported())
     warn_("the file system of the sweep's folder has no locks: give each sweep on it a --shard of its own");
   states_.refresh();
@@ -327,7 +349,8 @@ Arguments task_arguments(const SweepPlan& plan, const SweepTask& task) {
 }
 
 TrialRun try_task(const SweepPlan& plan, const SweepTask& task, double most_seconds, StopSignals& signals) {
-  TaskProcess process([&] { return run_arguments(task_arguments(plan, task)); }, std::nullopt);
+  TaskProcess process([&] { return run_arguments(task_arguments(plan, task)); },
+                      {std::nullopt, !sets_threads(plan, task)});
   TrialRun run;
   std::optional<TaskProcess::End> end;
   while (!(end = process.ended())) {

@@ -25,8 +25,9 @@ struct SweepLimits {
   std::size_t jobs = 1;                      ///< child processes at a time
   std::optional<double> task_seconds;        ///< longest time of a task
   std::optional<std::uint64_t> task_memory;  ///< bytes of data of a task
-  std::optional<double> budget;              ///< seconds after which the sweep has ended
-  bool retry = false;                        ///< repeat tasks that failed or crashed
+  TaskProcess::Clock::time_point begin = TaskProcess::Clock::now();
+  std::optional<double> budget;  ///< seconds after `begin` at which the sweep has ended
+  bool retry = false;            ///< repeat tasks that failed or crashed
 };
 
 /// The states of a task. A task that two attempts have left without a result is crashed.
@@ -60,7 +61,7 @@ struct TrialRun {
 
 /// Runs all tasks of the shard that have no result. Waits for tasks that another sweep is running. After a
 /// signal or at the end of the budget, running tasks get a few seconds to end, then they are dropped. Throws
-/// OutputError if the journal cannot be written.
+/// OutputError if the journal cannot be written. A result that finds no room leaves its task open.
 SweepOutcome run_sweep(const SweepPlan& plan, const std::filesystem::path& folder, const SweepLimits& limits,
                        StopSignals& signals,
                        const std::function<void(std::size_t done, std::size_t total)>& progress,

@@ -164,12 +164,22 @@ std::string plan_text(const Json& sweep, const fs::path& folder) {
   return text_of({{"folder", folder.string()}, {"sweep", sweep}});
 }
 
+// Returns whether a folder holds nothing, or what a sweep makes before and with plan.json.
+bool is_new(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator file(folder, error), end; file != end && !error; file.increment(error)) {
+    const fs::path name = file->path().filename();
+    if (name != results_folder("").filename() && !name.string().starts_with(".kds-")) return false;
+  }
+  return true;
+}
+
 void prepare_folder(const fs::path& folder, const std::string& plan) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     throw InputError(fmt::format("-o {}: is a file, expected a directory", folder.string()));
   const bool known = fs::exists(folder / kPlan, error);
-  if (!known && fs::exists(folder, error) && !fs::is_empty(folder, error))
+  if (!known && !is_new(folder) && !fs::exists(folder / kPlan, error))
     throw InputError(fmt::format(
         "-o {}: holds other files and no sweep, expected a new folder or that of a sweep", folder.string()));
   fs::create_directories(results_folder(folder), error);
@@ -356,9 +366,11 @@ int look_at(const std::string& what, const fs::path& folder, StopSignals& signal
   return found.done == found.tasks ? 0 : 1;
 }
 
-int run_shard(const SweepPlan& plan, const SweepOptions& options, StopSignals& signals) {
+int run_shard(const SweepPlan& plan, const SweepOptions& options, TaskProcess::Clock::time_point begin,
+              StopSignals& signals) {
   const fs::path& folder = *options.out;
   SweepLimits limits;
+  limits.begin = begin;
   limits.shard = shard_of(options);
   limits.jobs = jobs_of(options);
   limits.task_seconds = options.task_seconds;
@@ -390,6 +402,7 @@ int run_shard(const SweepPlan& plan, const SweepOptions& options, StopSignals& s
 }  // namespace
 
 int sweep_command(const Arguments& arguments) {
+  const auto begin = TaskProcess::Clock::now();
   SweepOptions options;
   const ParsedArguments parsed = read_arguments(kSweepCommand, sweep_options(), arguments, options);
   const std::vector<std::string>& operands = parsed.operands();
@@ -428,7 +441,7 @@ int sweep_command(const Arguments& arguments) {
       if (options.write && !options.dry_run) write_script(file, options, estimates);
       return 0;
     }
-    return run_shard(plan, options, signals);
+    return run_shard(plan, options, begin, signals);
   } catch (const SweepStopped&) {
     return kContinueLater;
   }

@@ -49,8 +49,15 @@ void limit(int resource, rlim_t most) {
   static_cast<void>(::setrlimit(static_cast<__rlimit_resource_t>(resource), &limits));
 }
 
-[[noreturn]] void run_child(const std::function<int()>& work, std::optional<std::uint64_t> memory,
-                            pid_t parent, int out, int err) {
+// Limits oneTBB to one thread. The limit is made before the fork, because it loads libraries.
+std::optional<oneapi::tbb::global_control>& one_thread() {
+  static std::optional<oneapi::tbb::global_control> limit(
+      std::in_place, oneapi::tbb::global_control::max_allowed_parallelism, 1);
+  return limit;
+}
+
+[[noreturn]] void run_child(const std::function<int()>& work, const TaskLimits& limits, pid_t parent, int out,
+                            int err) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);                            // the parent ended before the line above
   for (const int signal : kStopSignals) ::signal(signal, SIG_IGN);  // the parent ends its children itself
@@ -61,12 +68,9 @@ void limit(int resource, rlim_t most) {
   if (in < 0 || ::dup2(in, 0) < 0 || ::dup2(out, 1) < 0 || ::dup2(err, 2) < 0) ::_exit(1);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, kLongestOutput);
-  if (memory) limit(RLIMIT_DATA, *memory);
-  int code = 1;
-  {
-    const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-    code = work();
-  }
+  if (limits.memory) limit(RLIMIT_DATA, *limits.memory);
+  if (!limits.one_thread) one_thread().reset();
+  const int code = work();
   std::fflush(nullptr);
   ::_exit(code);  // no destructors of the parent's objects
 }
@@ -77,12 +81,13 @@ double seconds_in(const timeval& time) {
 
 }  // namespace
 
-TaskProcess::TaskProcess(const std::function<int()>& work, std::optional<std::uint64_t> memory)
+TaskProcess::TaskProcess(const std::function<int()>& work, const TaskLimits& limits)
     : out_(memory_file()), err_(memory_file()) {
+  static_cast<void>(one_thread());
   std::fflush(nullptr);
   const pid_t parent = ::getpid();
   child_ = ::fork();
-  if (child_ == 0) run_child(work, memory, parent, out_, err_);
+  if (child_ == 0) run_child(work, limits, parent, out_, err_);
   if (child_ > 0) return;
   const int error = errno;
   ::close(out_);

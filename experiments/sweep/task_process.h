@@ -14,6 +14,11 @@
 
 namespace kds {
 
+struct TaskLimits {
+  std::optional<std::uint64_t> memory = {};  ///< bytes of data
+  bool one_thread = true;                    ///< for work that does not say its number of threads itself
+};
+
 /// A child process with its output, which waits in memory.
 class TaskProcess {
  public:
@@ -25,10 +30,10 @@ class TaskProcess {
     double seconds = 0, processor_seconds = 0;
   };
 
-  /// Starts `work`, whose result is the exit code. The child uses one thread for hierarchies, ignores signals
-  /// that ask a program to end, and dies with this process. `memory` limits its data in bytes. Throws
-  /// std::system_error if the system has no more processes.
-  TaskProcess(const std::function<int()>& work, std::optional<std::uint64_t> memory);
+  /// Starts `work`, whose result is the exit code. The child ignores signals that ask a program to end, and
+  /// dies with this process. No thread of oneTBB may have started before. Throws std::system_error if the
+  /// system has no more processes.
+  TaskProcess(const std::function<int()>& work, const TaskLimits& limits);
   ~TaskProcess();
   TaskProcess(TaskProcess&& other) noexcept;
   TaskProcess& operator=(TaskProcess&&) = delete;

@@ -1,0 +1,285 @@
+#!/usr/bin/env python3
+"""Checks kds sweep from outside: interrupted, killed, poisoned and run by other engines, its collected results are
+those of one undisturbed process.
+
+usage: check_sweep.py PROGRAM DATA FOLDER CHECK
+CHECK is kills, signals, faults, twice, parallel, snakemake, slurm or many. Exit code 77: an engine is not installed.
+KDS_SWEEP_KILLS sets the number of kills, KDS_SWEEP_TASKS the number of trivial tasks of `many`.
+"""
+
+import collections
+import csv
+import json
+import os
+import pathlib
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+PROGRAM, DATA = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
+FOLDER = pathlib.Path(sys.argv[3]).resolve() / sys.argv[4]
+STABLE = ["results.csv", "results.json", "pooled.csv", "failed.csv"]
+DEADLINE = 300  # seconds after which a step has failed
+
+
+def fail(message):
+    sys.exit(f"check_sweep.py {sys.argv[4]}: {message}")
+
+
+def expect(condition, message):
+    if not condition:
+        fail(message)
+
+
+def kds(*arguments, code=0, **more):
+    run = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=DEADLINE, **more)
+    expect(code is None or run.returncode == code,
+           f"{arguments} gave {run.returncode}, expected {code}\n{run.stdout}{run.stderr}")
+    return run
+
+
+def start(*arguments):
+    return subprocess.Popen([PROGRAM, "sweep", *map(str, arguments), "--quiet"], stdout=subprocess.DEVNULL,
+                            stderr=subprocess.DEVNULL)
+
+
+def write_sweep(name="sweep.json", strides=(1, 2, 3), more=()):
+    """Writes a sweep of short tasks over two small chains, and returns its path."""
+    for seed in (1, 2):
+        chain = FOLDER / f"chain{seed}.xyz"
+        if not chain.exists():
+            kds("generate", "random-chain", "--beads", 60, "--frames", 13, "--seed", seed, "-o", chain)
+    sweep = {"inputs": ["chain*.xyz"],
+             "commands": [{"command": "run",
+                           "options": {"structures": ["wrapped", "power", "contacts"], "stride": list(strides),
+                                       "motion": ["linear", "lifted"], "radius": [1, 1.5]}},
+                          {"command": "contacts", "options": {"cutoff": [4, 6, 8]}}, *more],
+             "exclude": [{"structures": "[!p]*", "motion": "lifted"}]}
+    (FOLDER / name).write_text(json.dumps(sweep))
+    return FOLDER / name
+
+
+def collected(folder, code=0):
+    kds("sweep", "collect", folder, code=code)
+    return {name: (folder / name).read_bytes() for name in STABLE}
+
+
+def reference(sweep):
+    folder = FOLDER / "reference"
+    kds("sweep", sweep, "-o", folder, "--jobs", 1)
+    return collected(folder)
+
+
+def expect_equal(folder, expected):
+    found = collected(folder)
+    for name in STABLE:
+        expect(found[name] == expected[name], f"{folder / name} differs from that of one process")
+
+
+def records(folder):
+    """Returns how often each task has a record of each kind."""
+    counts = collections.defaultdict(collections.Counter)
+    for journal in (folder / "results").iterdir():
+        for line in journal.read_text(errors="replace").splitlines():
+            words = line.split(" ", 3)
+            if len(words) == 4:
+                counts[words[1]][words[2]] += 1
+    return counts
+
+
+def kills():
+    sweep = write_sweep(strides=(1, 2, 3, 4))
+    expected = reference(sweep)
+    folder = FOLDER / "killed"
+    count = int(os.environ.get("KDS_SWEEP_KILLS", "4"))
+    seed = int(os.environ.get("KDS_SWEEP_SEED", time.time()))
+    print(f"{count} kills, KDS_SWEEP_SEED={seed}")
+    chance = random.Random(seed)
+    workers = [start(sweep, "-o", folder, "--jobs", 2) for _ in range(2)]
+    finished = killed = 0
+    while killed < count and finished < 40:
+        time.sleep(chance.uniform(0.02, 0.4))
+        victim = chance.randrange(2)
+        if workers[victim].poll() is None:
+            workers[victim].kill()
+            killed += 1
+        else:
+            finished += 1
+        workers[victim].wait()
+        if all(worker.poll() is not None for worker in workers) and killed < count:
+            for journal in sorted((folder / "results").glob("*.results"))[:1]:  # lose results to have work again
+                journal.unlink()
+        workers[victim] = start(sweep, "-o", folder, "--jobs", 2)
+    for worker in workers:
+        worker.wait(DEADLINE)
+    expect(killed == count, f"only {killed} of {count} kills met a running worker")
+    # A task that ran during two kills is taken for the culprit.
+    kds("sweep", sweep, "-o", folder, "--retry")
+    expect_equal(folder, expected)
+
+
+def signals():
+    sweep = write_sweep(more=[{"command": "compare", "options": {"rounds": 1000}}])  # two endless tasks
+    stops = {signal.SIGTERM: 1, signal.SIGUSR1: 2}
+    workers = {number: start(sweep, "-o", FOLDER / f"stopped{number}", "--jobs", 2) for number in stops}
+    time.sleep(1.5)
+    begin = time.time()
+    for number, times in stops.items():
+        for _ in range(times):
+            workers[number].send_signal(number)
+            time.sleep(0.1)
+    for number, worker in workers.items():
+        code = worker.wait(DEADLINE)
+        expect(code == 75, f"signal {number}: exit code {code}, expected 75")
+        expect(time.time() - begin < 10, f"signal {number}: ended after {time.time() - begin:.1f} s, expected 10 at most")
+    folder = FOLDER / f"stopped{signal.SIGTERM}"
+    plain = write_sweep("plain.json")
+    expected = reference(plain)
+    kds("sweep", plain, "-o", folder)  # the folder of the stopped sweep continues without the endless tasks
+    expect_equal(folder, expected)
+    begin = time.time()
+    kds("sweep", sweep, "-o", FOLDER / "budget", "--jobs", 2, "--time-budget", 4, code=75)
+    expect(time.time() - begin < 5, f"the time budget of 4 s was exceeded: {time.time() - begin:.1f} s")
+
+
+def faults():
+    sweep = write_sweep(more=[{"command": "compare", "inputs": ["chain1.xyz"], "options": {"rounds": 1000}},
+                              {"command": "run", "inputs": ["none.xyz"]}])
+    expected = reference(write_sweep("plain.json"))
+    folder = FOLDER / "faults"
+
+    # Poison: a signal ends the one long task, whenever it runs.
+    worker = start(sweep, "-o", folder, "--jobs", 2)
+    since, shot, begin = {}, 0, time.time()
+    while worker.poll() is None and time.time() - begin < DEADLINE:
+        for child in pathlib.Path(f"/proc/{worker.pid}/task/{worker.pid}/children").read_text().split():
+            if time.time() - since.setdefault(child, time.time()) > 5:
+                os.kill(int(child), signal.SIGSEGV)
+                since[child] = time.time() + DEADLINE
+                shot += 1
+        time.sleep(0.05)
+    expect(worker.returncode == 1 and shot == 2, f"exit code {worker.returncode} after {shot} crashes, expected 1 after 2")
+    with open(folder / "failed.csv") as table:
+        rows = {row["command"]: row for row in csv.DictReader(table)}
+    expect(rows["compare"]["status"] == "crashed" and "signal 11" in rows["compare"]["error"], rows)
+    expect(rows["run"]["error"].endswith("none.xyz: no such file") and rows["run"]["code"] == "2", rows)
+    again = subprocess.run(rows["run"]["repeat"].replace("kds", PROGRAM, 1), shell=True, capture_output=True, text=True)
+    expect(again.returncode == 2 and "no such file" in again.stderr, "failed.csv does not repeat the failure")
+    expect(len(rows) == 2, f"{len(rows)} failed tasks, expected 2")
+
+    # Endless: the long task fails by --task-seconds.
+    kds("sweep", sweep, "-o", folder, "--retry", "--task-seconds", 1, code=1)
+    with open(folder / "failed.csv") as table:
+        rows = {row["command"]: row for row in csv.DictReader(table)}
+    expect("takes more than" in rows["compare"]["error"], rows)
+    kds("sweep", write_sweep("plain.json"), "-o", folder)
+    expect_equal(folder, expected)
+
+    # A full disk: nothing that was recorded is lost, and the same command continues.
+    full = FOLDER / "full"
+
+    def small_files():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (400_000, resource.RLIM_INFINITY))
+
+    run = kds("sweep", FOLDER / "plain.json", "-o", full, code=None, preexec_fn=small_files)
+    expect(run.returncode == 1 and "the disk is full" in run.stderr, f"{run.returncode} {run.stderr}")
+    before = records(full)["done"]
+    expect(0 < len(before) < 60, f"{len(before)} results on the full disk")
+    kds("sweep", FOLDER / "plain.json", "-o", full)
+    expect(all(records(full)["done"][task] == 1 for task in before), "a recorded result was computed again")
+    expect_equal(full, expected)
+
+
+def twice():
+    sweep = write_sweep(strides=(1, 2, 3, 4, 6))
+    expected = reference(sweep)
+    folder = FOLDER / "shared"
+    workers = [start(sweep, "-o", folder, "--jobs", 2) for _ in range(2)]
+    for worker in workers:
+        expect(worker.wait(DEADLINE) == 0, "a sweep beside another failed")
+    done = records(folder)["done"]
+    repeated = sum(count - 1 for count in done.values())
+    print(f"{repeated} of {len(done)} tasks done twice")
+    expect(repeated <= 0.01 * len(done), f"{repeated} of {len(done)} tasks were done twice")
+    expect(len(list((folder / "results").iterdir())) == 2, "one of the sweeps had nothing to do")
+    expect_equal(folder, expected)
+
+
+def write_script(engine):
+    sweep = write_sweep()
+    expected = reference(sweep)
+    folder = FOLDER / engine
+    run = kds("sweep", sweep, "-o", folder, "--write", engine)
+    return folder, expected, run.stdout.splitlines()[-1]
+
+
+def parallel():
+    if shutil.which("parallel") is None:
+        sys.exit(77)
+    folder, expected, command = write_script("parallel")
+    subprocess.run(command, shell=True, check=True, timeout=DEADLINE, stdout=subprocess.DEVNULL)
+    expect_equal(folder, expected)
+
+
+def snakemake():
+    if shutil.which("snakemake") is None:
+        sys.exit(77)
+    folder, expected, command = write_script("snakemake")
+    subprocess.run(command, shell=True, check=True, timeout=DEADLINE, capture_output=True)
+    expect_equal(folder, expected)
+
+
+def slurm():
+    if any(shutil.which(tool) is None and not pathlib.Path("/usr/sbin", tool).exists()
+           for tool in ("slurmctld", "slurmd", "sbatch", "munged")) or os.geteuid() != 0:
+        sys.exit(77)
+    folder, expected, command = write_script("slurm")
+    # Three batches, since short tasks need one only.
+    script = folder / "slurm.sh"
+    script.write_text(script.read_text().replace("--array=1-1 ", "--array=1-3 ").replace("ID/1\"", "ID/3\""))
+    cluster = pathlib.Path(__file__).parent / "local_slurm.sh"
+    place = FOLDER / "cluster"
+    environment = dict(os.environ, SLURM_CONF=str(place / "slurm.conf"))
+    subprocess.run([cluster, "up", place], check=True, timeout=60)
+    try:
+        subprocess.run(command, shell=True, check=True, timeout=60, env=environment, stdout=subprocess.DEVNULL)
+        begin = time.time()
+        while subprocess.run(["squeue", "-h"], capture_output=True, text=True, env=environment).stdout.strip():
+            expect(time.time() - begin < DEADLINE, "the queue is not empty")
+            time.sleep(0.2)
+        log = folder / "slurm-collect.out"
+        expect(log.exists() and "tasks have results" in log.read_text(), "the dependent job did not collect")
+        expect(all((folder / name).read_bytes() == expected[name] for name in STABLE),
+               "what the dependent job collected differs from that of one process")
+        shares = [text for text in (path.read_text() for path in folder.glob("slurm-*_*.out")) if "of the shard" in text]
+        expect(len(shares) == 3, f"{len(shares)} batches reported, expected 3")
+    finally:
+        subprocess.run([cluster, "down", place], check=True, timeout=60)
+    expect_equal(folder, expected)
+
+
+def many():
+    """Prints the processor time and the elapsed time of trivial tasks."""
+    count = int(os.environ.get("KDS_SWEEP_TASKS", "200"))
+    radii = [f"{1 + k / count}" for k in range(count)]
+    (FOLDER / "many.json").write_text(json.dumps(
+        {"inputs": ["none.xyz"], "commands": [{"command": "info", "options": {"radius": radii}}]}))
+    begin = time.time()
+    kds("sweep", FOLDER / "many.json", "-o", FOLDER / "many", code=1)
+    seconds = time.time() - begin
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    processor = used.ru_utime + used.ru_stime
+    print(f"{count} tasks: {1000 * seconds / count:.2f} ms each, {1000 * processor / count:.2f} ms of processor time")
+    with open(FOLDER / "many" / "failed.csv") as table:
+        expect(sum(1 for _ in csv.DictReader(table)) == count, "failed.csv misses tasks")
+
+
+shutil.rmtree(FOLDER, ignore_errors=True)
+FOLDER.mkdir(parents=True)
+globals()[sys.argv[4]]()
+shutil.rmtree(FOLDER, ignore_errors=True)
