@@ -102,9 +102,7 @@ CollideOptions parse_collide_options(const Arguments& arguments) {
   return options;
 }
 
-namespace {
-
-CollideTask task_of(const CollideOptions& options, const CollideFrames& frames) {
+CollideTask collide_task(const CollideOptions& options, const CollideFrames& frames) {
   if (options.pairs == WhichPairs::between && frames.necklaces().size() < 2)
     throw InputError("--pairs between: expected two necklaces or more, found one");
   CollideTask task;
@@ -119,8 +117,6 @@ CollideTask task_of(const CollideOptions& options, const CollideFrames& frames) 
   return task;
 }
 
-}  // namespace
-
 int collide_command(const Arguments& arguments) {
   const CollideOptions options = parse_collide_options(arguments);
   TableCommand command("collide", arguments, options.destinations, "frame");
@@ -134,7 +130,7 @@ int collide_command(const Arguments& arguments) {
     throw InputError(instance->file + ": an instance file has points, no balls; expected a trajectory");
   const auto warn = command.warn();
   CollideFrames frames(options, warn);
-  const CollideTask task = task_of(options, frames);
+  const CollideTask task = collide_task(options, frames);
   CollideResults results(options.destinations);
   results.begin(frames);
   const CollideReport report = compare_detectors(

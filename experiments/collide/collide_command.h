@@ -34,4 +34,10 @@ struct CollideOptions : InputOptions {
 /// --help. Opens no file.
 [[nodiscard]] CollideOptions parse_collide_options(const Arguments& arguments);
 
+class CollideFrames;  // compare_detectors.h
+struct CollideTask;
+/// Returns the methods and pairs that the options ask for. Throws InputError if there are no two necklaces to
+/// look between.
+[[nodiscard]] CollideTask collide_task(const CollideOptions& options, const CollideFrames& frames);
+
 }  // namespace kds

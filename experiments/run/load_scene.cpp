@@ -330,7 +330,7 @@ void refuse_nodes_behind_the_beads(const RunOptions& options, const Scene& scene
 
 }  // namespace
 
-std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene, AuditMode audits) {
+SessionOptions session_options(const RunOptions& options, const Scene& scene, AuditMode audits) {
   SessionOptions session{options.structures, options.kernel, audits, {.nodes = options.nodes}};
   session.settings.apart = options.apart.value_or(session.settings.apart);
   session.settings.between = options.between.value_or(session.settings.between);
@@ -389,6 +389,11 @@ std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& sce
     throw InputError(fmt::format(
         "--kernel fast: motions of degree {} (above {}) have no vector code; expected filtered or exact",
         scene.degree(), highest_fast_degree));
+  return session;
+}
+
+std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene, AuditMode audits) {
+  const SessionOptions session = session_options(options, scene, audits);
   try {
     return std::make_unique<KineticRun>(scene, session);
   } catch (const StructureRefusal& refusal) {

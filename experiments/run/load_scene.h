@@ -49,8 +49,10 @@ inline constexpr int highest_relaxed_degree = 7;
 /// The SIMD lanes are compiled only up to this degree of the motion.
 inline constexpr int highest_fast_degree = 3;
 
-/// Opens the run with the structures that the options ask for. If the options name none, the input's default
-/// structures are used. Throws InputError.
+/// Returns the options of a session over the scene, as the options of the run ask for it. If they name no
+/// structures, the input's default structures are used. Throws InputError.
+[[nodiscard]] SessionOptions session_options(const RunOptions& options, const Scene& scene, AuditMode audits);
+/// Opens the run with the structures of session_options. Throws InputError.
 [[nodiscard]] std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene,
                                                    AuditMode audits);
 

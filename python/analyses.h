@@ -1,0 +1,27 @@
+#pragma once
+// The program's commands on inputs of Python. Each function takes the arguments of its command, runs without
+// the GIL, and returns a dictionary: `json` is the text of the command's results, `table` its table, and
+// `warnings` the warnings about the input. Columns are arrays.
+
+#include <pybind11/pybind11.h>
+
+#include "experiments/program/command_line.h"
+
+namespace kds::python {
+
+/// `kds contacts`. Adds the arrays of all intervals: `first`, `second` (elements), `begin_frame`,
+/// `end_frame`, `begin_time`, `end_time` (picoseconds), `length`, `open_at_start`, `open_at_end`.
+[[nodiscard]] pybind11::dict contacts(const Arguments& arguments, const pybind11::object& progress);
+/// `kds compare`.
+[[nodiscard]] pybind11::dict compare(const Arguments& arguments, const pybind11::object& progress);
+/// `kds update`.
+[[nodiscard]] pybind11::dict update(const Arguments& arguments, const pybind11::object& progress);
+/// `kds collide`. Adds the colliding pairs of all frames, if some method lists them: `frames` (a frame number
+/// for each pair) and `pairs` (m, 2).
+[[nodiscard]] pybind11::dict collide(const Arguments& arguments, const pybind11::object& progress);
+/// `kds info`: the conditions of a proper necklace.
+[[nodiscard]] pybind11::dict conditions(const Arguments& arguments, const pybind11::object& progress);
+/// `kds generate`. Returns an array (frames, beads, 3) for each necklace.
+[[nodiscard]] pybind11::list generate(const Arguments& arguments);
+
+}  // namespace kds::python

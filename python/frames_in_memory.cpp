@@ -1,0 +1,256 @@
+#include "python/frames_in_memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <span>
+#include <utility>
+
+#include "motions/base/input_error.h"
+#include "motions/frames/periodic.h"
+#include "motions/readers/atom_frames.h"
+#include "motions/readers/nanometres.h"
+#include "motions/readers/reader_registry.h"
+#include "motions/readers/vdw_radii.h"
+#include "python/watch.h"
+
+namespace kds::python {
+
+namespace py = pybind11;
+
+/// Positions of beads in memory, in one of two types.
+struct Numbers {
+  const float* singles = nullptr;
+  const double* doubles = nullptr;
+
+  [[nodiscard]] double at(std::size_t i, bool nanometres) const {
+    if (singles != nullptr)
+      return nanometres ? angstrom_of_nanometres(double{singles[i]}) : double{singles[i]};
+    return nanometres ? 10 * doubles[i] : doubles[i];
+  }
+};
+
+struct FramesInMemory::Content {
+  BeadsInMemory beads;
+  std::size_t frame_count = 0, bead_count = 0;
+  Numbers numbers;   // of all frames; unused if `frame` is set
+  py::object owner;  // of `numbers`
+  py::object frame;  // or a function that returns one frame
+
+  ~Content() {
+    const py::gil_scoped_acquire gil;
+    owner = py::object();
+    frame = py::object();
+  }
+};
+
+namespace {
+
+// Returns the array's numbers.
+Numbers numbers_of(const py::array& array, const std::string& label) {
+  if ((array.flags() & py::array::c_style) == 0)
+    throw InputError(fmt::format(
+        "{}: its numbers are not in C order; expected numpy.ascontiguousarray(positions)", label));
+  const py::dtype type = array.dtype();
+  if (type.is(py::dtype::of<float>()) || type.equal(py::dtype::of<float>()))
+    return {static_cast<const float*>(array.data()), nullptr};
+  if (type.equal(py::dtype::of<double>())) return {nullptr, static_cast<const double*>(array.data())};
+  throw InputError(
+      fmt::format("{}: has the dtype {}; expected float32 or float64, as positions.astype(float)", label,
+                  std::string(py::str(type.attr("name")))));
+}
+
+std::string shape_text(const py::array& array) { return py::str(array.attr("shape")); }
+
+std::optional<Cell> cell_of(std::span<const double> numbers, std::string& doubt) {
+  const CellRead read =
+      read_cell_from_angles({numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]});
+  doubt = read.doubt;
+  return read.cell;
+}
+
+class AtomsInMemory final : public AtomFrames {
+ public:
+  explicit AtomsInMemory(std::shared_ptr<const FramesInMemory::Content> content)
+      : content_(std::move(content)) {}
+
+  [[nodiscard]] std::size_t atom_count() const override { return content_->bead_count; }
+  [[nodiscard]] FramesHeld held() const override { return {.whole = content_->frame_count}; }
+  [[nodiscard]] bool may_have_cell() const override {
+    return content_->frame || !content_->beads.cells.empty();
+  }
+  void read(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) override {
+    Watch::glance();
+    frame.positions.resize(3, static_cast<Eigen::Index>(atoms.size()));
+    if (content_->frame) return call(k, atoms, frame);
+    const BeadsInMemory& beads = content_->beads;
+    frame.stamp.number = beads.first_frame + beads.frame_step * k;
+    if (!beads.times.empty()) frame.stamp.picoseconds = beads.times[k];
+    if (!beads.cells.empty())
+      frame.cell = cell_of(std::span(beads.cells).subspan(6 * k, 6), frame.cell_doubt);
+    copy(content_->numbers, 3 * k * content_->bead_count, atoms, frame);
+  }
+  [[nodiscard]] std::vector<double> element_radii(std::vector<std::string>&) const override {
+    if (!content_->beads.radii.empty()) return content_->beads.radii;
+    std::vector<double> radii;
+    for (const std::string& element : content_->beads.elements) {
+      const std::optional<double> radius = van_der_waals_radius(element);
+      if (!radius)
+        throw InputError(fmt::format("{}: bead {} is of the element '{}', which has no van der Waals radius",
+                                     content_->beads.label, radii.size(), element));
+      radii.push_back(*radius);
+    }
+    return radii;
+  }
+
+ private:
+  void copy(const Numbers& numbers, std::size_t first, std::span<const std::size_t> atoms,
+            FrameRead& frame) const {
+    const bool nanometres = content_->beads.nanometres;
+    for (std::size_t i = 0; i < atoms.size(); ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        frame.positions(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(i)) =
+            numbers.at(first + 3 * atoms[i] + axis, nanometres);
+  }
+
+  void call(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) const {
+    const py::gil_scoped_acquire gil;
+    const std::string label = fmt::format("{}: frame {}", content_->beads.label, k);
+    const auto read = content_->frame(k).cast<py::tuple>();
+    const auto positions = read[0].cast<py::array>();
+    if (positions.ndim() != 2 || static_cast<std::size_t>(positions.shape(0)) != content_->bead_count ||
+        positions.shape(1) != 3)
+      throw InputError(fmt::format("{} has the shape {}; expected ({}, 3) as in the first frame", label,
+                                   shape_text(positions), content_->bead_count));
+    if (!read[1].is_none()) frame.stamp.picoseconds = read[1].cast<double>();
+    if (!read[2].is_none()) {
+      const auto cell = read[2].cast<std::vector<double>>();
+      if (cell.size() != 6)
+        throw InputError(fmt::format("{}: its cell has {} numbers; expected three lengths and three angles",
+                                     label, cell.size()));
+      frame.cell = cell_of(cell, frame.cell_doubt);
+    }
+    copy(numbers_of(positions, label), 0, atoms, frame);
+  }
+
+  std::shared_ptr<const FramesInMemory::Content> content_;
+};
+
+// The frames that Python has registered, by their paths.
+class Registered {
+ public:
+  std::filesystem::path add(std::shared_ptr<const FramesInMemory::Content> content) {
+    const std::lock_guard lock(mutex_);
+    const std::filesystem::path path =
+        std::filesystem::path("memory") / std::to_string(++last_) / content->beads.label;
+    all_[path.string()] = std::move(content);
+    return path;
+  }
+  void remove(const std::filesystem::path& path) {
+    std::shared_ptr<const FramesInMemory::Content> removed;  // destroyed after the lock
+    const std::lock_guard lock(mutex_);
+    removed = std::move(all_.at(path.string()));
+    all_.erase(path.string());
+  }
+  std::shared_ptr<const FramesInMemory::Content> find(const std::filesystem::path& path) {
+    const std::lock_guard lock(mutex_);
+    const auto found = all_.find(path.string());
+    if (found == all_.end())
+      throw InputError(fmt::format("{}: is not in memory; expected a file of another format", path.string()));
+    return found->second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<const FramesInMemory::Content>> all_;
+  std::size_t last_ = 0;
+};
+
+Registered& registered() {
+  static Registered frames;
+  return frames;
+}
+
+FramesOpened open_memory(const std::filesystem::path& path, const ReadOptions& options) {
+  const auto content = registered().find(path);
+  FramesOpened opened = open_atom_frames(path, options, std::make_unique<AtomsInMemory>(content));
+  opened.file = content->beads.label;
+  opened.chains = content->beads.chains;
+  opened.bead_names = content->beads.names;
+  opened.bead_groups = content->beads.groups;
+  return opened;
+}
+
+}  // namespace
+
+FramesInMemory::FramesInMemory(const py::array& positions, BeadsInMemory beads) {
+  const std::string& label = beads.label;
+  if (positions.ndim() != 3 || positions.shape(2) != 3)
+    throw InputError(
+        fmt::format("{}: has the shape {}; expected (frames, beads, 3)", label, shape_text(positions)));
+  auto content = std::make_shared<Content>();
+  content->numbers = numbers_of(positions, label);
+  content->owner = positions;
+  content->frame_count = static_cast<std::size_t>(positions.shape(0));
+  content->bead_count = static_cast<std::size_t>(positions.shape(1));
+  content->beads = std::move(beads);
+  content_ = std::move(content);
+  enter();
+}
+
+FramesInMemory::FramesInMemory(py::function frame, std::size_t frames, std::size_t bead_count,
+                               BeadsInMemory beads) {
+  auto content = std::make_shared<Content>();
+  content->frame = std::move(frame);
+  content->frame_count = frames;
+  content->bead_count = bead_count;
+  content->beads = std::move(beads);
+  content_ = std::move(content);
+  enter();
+}
+
+void FramesInMemory::enter() {
+  const std::string& label = content_->beads.label;
+  const auto check = [&](std::size_t length, std::size_t expected, const char* what, const char* of) {
+    if (length != 0 && length != expected)
+      throw InputError(
+          fmt::format("{}: has {} {}; expected {}, one for each {}", label, length, what, expected, of));
+  };
+  if (content_->frame_count == 0)
+    throw InputError(fmt::format("{}: has no frames; expected two or more", label));
+  if (content_->bead_count == 0)
+    throw InputError(fmt::format("{}: has no beads; expected two or more", label));
+  const BeadsInMemory& beads = content_->beads;
+  check(beads.names.size(), content_->bead_count, "names", "bead");
+  check(beads.elements.size(), content_->bead_count, "elements", "bead");
+  check(beads.radii.size(), content_->bead_count, "radii", "bead");
+  for (const double radius : beads.radii)
+    if (!(radius >= 0) || !std::isfinite(radius))
+      throw InputError(fmt::format("radius: {} is no radius; expected finite numbers from 0", radius));
+  check(beads.groups.size(), content_->bead_count, "groups", "bead");
+  check(beads.times.size(), content_->frame_count, "times", "frame");
+  check(beads.cells.size(), 6 * content_->frame_count, "numbers of cells", "length and angle of each frame");
+  std::size_t in_chains = 0;
+  for (const ChainRead& chain : beads.chains) in_chains += chain.bead_count;
+  if (!beads.chains.empty() && in_chains != content_->bead_count)
+    throw InputError(fmt::format("{}: its necklaces have {} beads; expected {}, all beads of the input",
+                                 label, in_chains, content_->bead_count));
+  path_ = registered().add(content_);
+}
+
+FramesInMemory::~FramesInMemory() {
+  if (!path_.empty()) registered().remove(path_);
+}
+
+const std::string& FramesInMemory::label() const { return content_->beads.label; }
+
+void add_memory_reader() {
+  ReaderSpec reader{"memory", {}, false};
+  reader.open = open_memory;
+  reader_registry().add(std::move(reader));
+}
+
+}  // namespace kds::python

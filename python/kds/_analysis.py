@@ -1,0 +1,30 @@
+"""A run as an analysis of MDAnalysis."""
+
+from MDAnalysis.analysis.base import AnalysisBase
+
+from ._run import Run
+
+
+class KineticAnalysis(AnalysisBase):
+    """Runs kinetic structures over an AtomGroup, as an analysis of MDAnalysis.
+
+    ``KineticAnalysis(group, **options)`` takes the options of :func:`kds.run`. After ``run(start, stop, step, verbose)``,
+    ``results`` has ``events``, ``fingerprint``, ``frames`` and ``summary``, and ``kds`` is the :class:`kds.Run`.
+    """
+
+    def __init__(self, atomgroup, verbose=False, **options):
+        super().__init__(atomgroup.universe.trajectory, verbose=verbose)
+        self.atomgroup = atomgroup
+        self._options = options
+        self.kds = None
+
+    def run(self, start=None, stop=None, step=None, verbose=None):
+        """Runs over the frames. Returns the analysis itself."""
+        verbose = self._verbose if verbose is None else verbose
+        self.kds = Run(self.atomgroup, verbose=verbose, start=start, stop=stop, step=step, **self._options)
+        self.start, self.stop, self.step = start, stop, step
+        self.results = self.kds.results
+        self.frames = self.kds.frames
+        self.n_frames = self.kds.frame_count
+        self.times = self.kds.times
+        return self

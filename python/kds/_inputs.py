@@ -1,0 +1,326 @@
+"""Inputs: paths, arrays, AtomGroups of MDAnalysis, trajectories of mdtraj and iterables of frames."""
+
+import os
+
+import numpy as np
+
+from . import _kds
+from ._options import InputError, warn
+
+_UNITS = ("angstrom", "nm")
+
+
+class Input:
+    """The arguments that name an input, and the frames in memory behind them, if any."""
+
+    def __init__(self, arguments, memory=None):
+        self.arguments = arguments
+        self.memory = memory
+
+
+def is_path(source):
+    return isinstance(source, (str, os.PathLike))
+
+
+def is_atom_group(source):
+    return hasattr(source, "universe") and hasattr(source, "positions") and hasattr(source, "ix")
+
+
+def is_mdtraj(source):
+    return hasattr(source, "xyz") and hasattr(source, "topology") and hasattr(source, "unitcell_lengths")
+
+
+def is_frames(source):
+    """Whether the source has all its frames: they can be read more than once."""
+    return is_path(source) or is_atom_group(source) or is_mdtraj(source) or hasattr(source, "__array__") or (
+        isinstance(source, (list, tuple)) and bool(source) and all(is_path(item) for item in source))
+
+
+def _refuse_others(source):
+    if hasattr(source, "select_atoms") and hasattr(source, "trajectory"):
+        raise InputError("Universe: all its atoms are seldom one necklace; expected an AtomGroup, such as "
+                         "u.select_atoms('name CA')")
+    if not hasattr(source, "__iter__"):
+        raise InputError(f"{type(source).__name__}: is no input; expected a path, an array (frames, beads, 3), an "
+                         "AtomGroup, an mdtraj Trajectory or an iterable of frames")
+
+
+def _range_text(start, stop, step):
+    for name, value in (("start", start), ("stop", stop), ("step", step)):
+        if value is not None and value < 0:
+            raise InputError(f"{name}: is {value}; expected a number from 0 for a file, whose length is not known")
+    return ":".join("" if part is None else str(int(part)) for part in (start, stop, step))
+
+
+def _indices(start, stop, step, frames, label):
+    """Returns range(first, end, step) of the frames asked for."""
+    if step is not None and step < 1:
+        raise InputError(f"step: is {step}; expected a number from 1")
+    chosen = range(*slice(start, stop, step).indices(frames))
+    if frames > 0 and len(chosen) == 0:
+        raise InputError(f"start, stop, step: no frame of {label} is chosen, which has {frames}")
+    return chosen
+
+
+def frame_of(item, label="frame"):
+    """Returns the positions and the time of a frame that an iterable gives."""
+    if isinstance(item, tuple) and len(item) == 2:
+        return np.asarray(item[0]), float(item[1])
+    if hasattr(item, "positions"):
+        return np.asarray(item.positions), getattr(item, "time", None)
+    return np.asarray(item), None
+
+
+def check_units(positions, nanometres, label):
+    """Warns if the median bond of a frame is so short that the unit is probably another one."""
+    if len(positions) < 2 or positions.ndim != 2:
+        return
+    bonds = np.linalg.norm(np.diff(np.asarray(positions, dtype=float), axis=0), axis=1)
+    median = float(np.median(bonds)) * (10 if nanometres else 1)
+    if median < 0.3:
+        cure = "units='angstrom'" if nanometres else "units='nm'"
+        warn([f"{label}: the median bond is {median:.3g} angstrom, shorter than any; expected {cure}?"])
+
+
+def _set_groups(beads, groups, count, members):
+    if groups is None:
+        return []
+    if len(groups) != 2:
+        raise InputError(f"groups: has {len(groups)} groups; expected two")
+    bits = np.zeros(count, dtype=np.uint8)
+    for k, group in enumerate(groups):
+        bits[members(group)] |= 1 << k
+        if not (bits >> k & 1).any():
+            raise InputError(f"groups: group {k} has no bead of the input")
+    beads.groups = bits.tolist()
+    return ["--groups", "all", "all"]
+
+
+def _indices_of_beads(count):
+    def members(group):
+        index = np.asarray(group)
+        if index.dtype == bool:
+            index = np.flatnonzero(index)
+        if index.size and (index.dtype.kind not in "iu" or index.min() < 0 or index.max() >= count):
+            raise InputError(f"groups: expected indices of beads from 0 to {count - 1}")
+        return index.astype(int)
+
+    return members
+
+
+def _add_chains(beads, necklaces, keys, names):
+    """Adds a chain for each run of equal keys, or those that the user gives."""
+    if necklaces is not None:
+        for k, count in enumerate(necklaces):
+            beads.add_chain(chr(65 + k) if k < 26 else str(k), int(count))
+        return
+    if keys is None or len(keys) == 0:
+        return
+    starts = [0] + [i for i in range(1, len(keys)) if keys[i] != keys[i - 1]] + [len(keys)]
+    for first, end in zip(starts, starts[1:]):
+        beads.add_chain(names[first], end - first)
+
+
+def _open_array(positions, chosen, units, necklaces, times, groups):
+    label = "array"
+    beads = _kds.Beads(label)
+    beads.nanometres = units == "nm"
+    if positions.ndim == 3:
+        if times is not None:
+            beads.times = np.asarray(times, dtype=float).tolist()
+        _add_chains(beads, necklaces, None, None)
+        if positions.shape[0]:
+            check_units(positions[0], beads.nanometres, label)
+    more = _set_groups(beads, groups, positions.shape[1], _indices_of_beads(positions.shape[1])) if groups else []
+    return beads, lambda: _kds.Frames(positions, beads), more
+
+
+def _atom_names(atoms, residues, numbers, chains):
+    return [_kds.bead_name(*(str(part) for part in parts)) for parts in zip(atoms, residues, numbers, chains)]
+
+
+def _chains_of(group):
+    for attribute in ("chainIDs", "segids"):
+        ids = getattr(group, attribute, None)
+        if ids is not None and any(str(one).strip() for one in ids):
+            return ["" if str(one) == "SYSTEM" else str(one) for one in ids]
+    return [""] * len(group)
+
+
+def _beads_of_group(group, wants_elements, necklaces, groups):
+    trajectory = group.universe.trajectory
+    filename = getattr(trajectory, "filename", None)
+    label = os.path.basename(str(filename)) if filename else "AtomGroup"
+    if len(group) == 0:
+        raise InputError("AtomGroup: has no atoms; expected two or more")
+    beads = _kds.Beads(label)
+    chains = _chains_of(group)
+    icodes = getattr(group, "icodes", [""] * len(group))
+    numbers = [f"{number}{str(code).strip()}" for number, code in zip(group.resids, icodes)]
+    if hasattr(group, "names") and hasattr(group, "resnames"):
+        beads.names = _atom_names(group.names, group.resnames, numbers, chains)
+    _add_chains(beads, necklaces, chains, chains)
+    if wants_elements:
+        elements = getattr(group, "elements", None)
+        if elements is None or not all(elements):
+            from MDAnalysis.topology.guessers import guess_atom_element
+
+            elements = [guess_atom_element(name) for name in group.names]
+        beads.elements = [str(element) for element in elements]
+
+    def members(chosen):
+        if is_atom_group(chosen):
+            return np.flatnonzero(np.isin(group.ix, chosen.ix))
+        return _indices_of_beads(len(group))(chosen)
+
+    return beads, _set_groups(beads, groups, len(group), members)
+
+
+def _positions_of_group(group, count, frame):
+    positions = group.positions
+    if len(positions) != count:
+        raise InputError(f"AtomGroup: has {len(positions)} atoms in frame {frame}; expected {count} as in the first")
+    return positions
+
+
+class _Kept:
+    """Puts a trajectory back to the frame where it stood."""
+
+    def __init__(self, trajectory):
+        self.trajectory = trajectory
+        self.frame = trajectory.frame
+
+    def __enter__(self):
+        return self.trajectory
+
+    def __exit__(self, *raised):
+        self.trajectory[self.frame]
+
+
+def _collect_group(group, beads, chosen):
+    """Copies the frames of an AtomGroup. With a cell, the frames between those asked for are copied, too: the
+    library follows the images of chains through them."""
+    with _Kept(group.universe.trajectory) as trajectory:
+        trajectory[chosen.start]
+        has_cell = trajectory.ts.dimensions is not None
+        read = range(chosen.start, chosen[-1] + 1) if has_cell else chosen
+        count = len(group)
+        positions = np.empty((len(read), count, 3), dtype=np.float32)
+        times, cells = [], []
+        for k, ts in enumerate(trajectory[read.start:read.stop:read.step]):
+            positions[k] = _positions_of_group(group, count, ts.frame)
+            times.append(ts.time)
+            if has_cell:
+                cells.extend(np.zeros(6) if ts.dimensions is None else np.asarray(ts.dimensions, dtype=float))
+    beads.times, beads.cells = times, cells
+    beads.first_frame, beads.frame_step = read.start, read.step
+    check_units(positions[0], False, beads.label)
+    return positions, chosen.step // read.step
+
+
+def _pull_group(group):
+    """Returns a function that reads one frame of an AtomGroup."""
+    count = len(group)
+
+    def read(frame):
+        with _Kept(group.universe.trajectory) as trajectory:
+            ts = trajectory[frame]
+            positions = np.ascontiguousarray(_positions_of_group(group, count, frame))
+            cell = None if ts.dimensions is None else [float(number) for number in ts.dimensions]
+            return positions, float(ts.time), cell
+
+    return read
+
+
+def _open_mdtraj(trajectory, wants_elements, necklaces, groups):
+    beads = _kds.Beads("mdtraj trajectory")
+    beads.nanometres = True
+    atoms = list(trajectory.topology.atoms)
+    chains = [chr(65 + atom.residue.chain.index % 26) for atom in atoms]
+    beads.names = _atom_names([atom.name for atom in atoms], [atom.residue.name for atom in atoms],
+                              [atom.residue.resSeq for atom in atoms], chains)
+    _add_chains(beads, necklaces, [atom.residue.chain.index for atom in atoms], chains)
+    if wants_elements:
+        beads.elements = [atom.element.symbol for atom in atoms]
+    beads.times = np.asarray(trajectory.time, dtype=float).tolist()
+    if trajectory.unitcell_lengths is not None:
+        lengths = np.float32(10) * np.asarray(trajectory.unitcell_lengths, dtype=np.float32)
+        cells = np.hstack([lengths, np.asarray(trajectory.unitcell_angles, dtype=np.float32)])
+        beads.cells = cells.astype(float).ravel().tolist()
+    positions = np.ascontiguousarray(trajectory.xyz)
+    if len(positions):
+        check_units(positions[0], True, beads.label)
+    return beads, positions, _set_groups(beads, groups, len(atoms), _indices_of_beads(len(atoms)))
+
+
+def open_input(source, *, start=None, stop=None, step=None, units=None, necklaces=None, times=None, groups=None,
+               radius=None, pull=False, options=None):
+    """Opens any input. `pull` reads the frames of an AtomGroup one at a time instead of copying them."""
+    options = {} if options is None else options
+    paths = [source] if is_path(source) else source
+    if isinstance(paths, (list, tuple)) and paths and all(is_path(item) for item in paths):
+        for name, value in (("necklaces", necklaces), ("times", times)):
+            if value is not None:
+                raise InputError(f"{name}: is for positions in memory, not for files; expected chain or dt")
+        if radius is not None and np.ndim(radius) > 0:
+            raise InputError("radius: an array is for positions in memory; expected file:PATH, with a line a bead")
+        more = [] if (start, stop, step) == (None, None, None) else ["--frames", _range_text(start, stop, step)]
+        if units is not None:
+            more += ["--units", str(units)]
+        if groups is not None:
+            more += ["--groups", *(str(group) for group in groups)]
+        if radius is not None:
+            more += ["--radius", str(radius)]
+        return Input([os.fspath(path) for path in paths] + more)
+
+    for name in ("topology", "select", "chain", "format", "until_damage"):
+        if options.get(name):
+            raise InputError(f"{name}: is for files; positions in memory are the beads that were chosen")
+    if units is not None and units not in _UNITS:
+        raise InputError(f"units: is '{units}'; expected angstrom or nm")
+    if (is_atom_group(source) or is_mdtraj(source)) and units is not None:
+        raise InputError("units: an AtomGroup and an mdtraj Trajectory have their own; expected no units")
+    if not is_frames(source):
+        _refuse_others(source)
+    wants_elements = isinstance(radius, str) and radius.startswith("element")
+    ranged = 1
+    if is_atom_group(source):
+        beads, more = _beads_of_group(source, wants_elements, necklaces, groups)
+        total = len(source.universe.trajectory)
+        chosen = _indices(start, stop, step, total, beads.label)
+        count = len(source)
+        if pull:
+            more += ["--frames", f"{chosen.start}:{chosen[-1] + 1}:{chosen.step}"]
+            open_frames = lambda: _kds.Frames(_pull_group(source), total, count, beads)  # noqa: E731
+        else:
+            positions, ranged = _collect_group(source, beads, chosen)
+            open_frames = lambda: _kds.Frames(positions, beads)  # noqa: E731
+            if ranged > 1:
+                more += ["--frames", f"::{ranged}"]
+    else:
+        if is_mdtraj(source):
+            beads, positions, more = _open_mdtraj(source, wants_elements, necklaces, groups)
+            open_frames = lambda: _kds.Frames(positions, beads)  # noqa: E731
+        else:
+            if hasattr(source, "__array__"):
+                positions = np.asarray(source)
+            else:
+                frames = [frame_of(item) for item in source]
+                shapes = {np.shape(frame) for frame, _ in frames}
+                if len(shapes) > 1:
+                    raise InputError(f"frames: have the shapes {sorted(shapes)}; expected one shape (beads, 3)")
+                positions = np.stack([frame for frame, _ in frames]) if frames else np.empty((0, 0, 3))
+                if times is None and frames and all(time is not None for _, time in frames):
+                    times = [time for _, time in frames]
+            beads, open_frames, more = _open_array(positions, None, units, necklaces, times, groups)
+        total = positions.shape[0] if positions.ndim else 0
+        if (start, stop, step) != (None, None, None) and total:
+            chosen = _indices(start, stop, step, total, beads.label)
+            more += ["--frames", f"{chosen.start}:{chosen[-1] + 1}:{chosen.step}"]
+    if radius is not None and np.ndim(radius) > 0:
+        beads.radii = np.asarray(radius, dtype=float).ravel().tolist()
+        more += ["--radius", "element"]
+    elif radius is not None:
+        more += ["--radius", str(radius)]
+    memory = open_frames()
+    return Input([memory.path, "--format", "memory", *more], memory)

@@ -1,0 +1,352 @@
+"""Runs of kinetic structures over a whole input."""
+
+import json
+
+import numpy as np
+
+from . import _kds, _plots
+from ._inputs import open_input
+from ._options import arguments, call, warn
+from ._tables import indented
+
+
+def _more_options(cutoff, surface, only):
+    more = _kds.MoreOptions()
+    if cutoff is not None:
+        more.cutoff = float(cutoff)
+    elif surface:
+        raise _kds.InputError("surface: says how cutoff is measured; expected a cutoff, too")
+    more.surface = bool(surface)
+    if only is not None:
+        more.only = {name: [int(bead) for bead in beads] for name, beads in only.items()}
+    return more
+
+
+def open_run(source, *, start=None, stop=None, step=None, units=None, necklaces=None, times=None, groups=None,
+             radius=None, cutoff=None, surface=False, only=None, pull=False, **options):
+    """Opens an input and the run over it, and issues the warnings about the input."""
+    if cutoff is not None and not np.isfinite(cutoff) or (cutoff or 0) < 0:
+        raise _kds.InputError(f"cutoff: is {cutoff}; expected a length from 0")
+    given = arguments(options)
+    opened = open_input(source, start=start, stop=stop, step=step, units=units, necklaces=necklaces, times=times,
+                        groups=groups, radius=radius, pull=pull, options=options)
+    core = _kds.Run(opened.arguments + given, _more_options(cutoff, surface, only), opened.memory)
+    warn(core.warnings())
+    return core, opened
+
+
+class Clock:
+    """Converts numbers of frames in the trajectory to times of the run, which count its steps."""
+
+    def __init__(self, first, second):
+        self.first = first
+        self.stride = second - first
+
+    def time(self, frame):
+        return None if frame is None else (float(frame) - self.first) / self.stride
+
+    def frame(self, time):
+        return self.first + time * self.stride
+
+
+def events_array(core):
+    """Returns the events since the last call as one structured array."""
+    columns = core.take_events()
+    structures = core.structures()
+    names = np.array([name for name, _ in structures] or [""])
+    width = max((len(kinds) for _, kinds in structures), default=1)
+    kinds = np.array([kinds + [""] * (width - len(kinds)) for _, kinds in structures] or [[""]])
+    beads = columns["beads"]
+    events = np.empty(len(columns["frame"]), dtype=[
+        ("frame", float), ("time", float), ("lower", float), ("upper", float), ("step", np.int64),
+        ("structure", names.dtype), ("kind", kinds.dtype), ("beads", np.int32, (beads.shape[1],))])
+    for name in ("frame", "time", "lower", "upper", "step", "beads"):
+        events[name] = columns[name]
+    events["structure"] = names[columns["structure"]]
+    events["kind"] = kinds[columns["structure"], columns["kind"]]
+    return events
+
+
+class Structure:
+    """A structure of a run. Frames are numbers of frames in the trajectory; None means where the run stands.
+
+    Frames in ascending order cost no more than one run. A frame before the one asked for last repeats the run from its
+    start up to that frame.
+    """
+
+    def __init__(self, run, name):
+        self._run = run
+        self.name = name
+
+    def __repr__(self):
+        return f"<kds structure {self.name} of {self._run!r}>"
+
+    def __str__(self):
+        return self.name
+
+    @property
+    def events(self):
+        """The events of this structure, a structured array as ``Run.events``."""
+        events = self._run.events
+        return events[events["structure"] == self.name]
+
+    def elements(self, frame):
+        """Returns the structure's state at a frame as a set of elements, an array (elements, 6) of ids.
+
+        ``frame`` is a whole number. Ids that an element does not have are -1. Elements are bases of nodes (``wrapped``),
+        supports of nodes (``boxes``), cells (``power``), pairs (``contacts``, ``closest``), ranks (``sorted``), ends
+        (``box``) or corners (``hull``); docs/python.md lists their ids.
+        """
+        time = self._run._clock.time(frame)
+        if time != int(time):
+            raise _kds.InputError(f"frame: {frame} is no frame of the run")
+        return self._run._core.elements(self.name, int(time))[0]
+
+    def edges(self, frame=None):
+        """Returns the pairs of beads whose cells of the power diagram share a face, an array (m, 2), ascending."""
+        self._only("power", "edges")
+        return self._run._core.edges(self._run._clock.time(frame))
+
+    def pairs(self, frame=None):
+        """Returns the pairs of beads in contact, an array (m, 2), ascending."""
+        self._only("contacts", "pairs")
+        return self._run._core.contacts(self._run._clock.time(frame))
+
+    def spheres(self, frame=None):
+        """Returns the spheres of a hierarchy's nodes, an array (nodes, 4): x, y, z and radius in angstrom."""
+        return self._run._core.spheres(self.name, self._run._clock.time(frame))[1]
+
+    def nodes(self, frame=None):
+        """Returns the first and the last bead of each node of ``spheres``, an array (nodes, 2)."""
+        return self._run._core.spheres(self.name, self._run._clock.time(frame))[0]
+
+    def lifetimes(self, by=None, **options):
+        """Returns a table of how long contacts last, one row for each pair that is ever in contact.
+
+        ``by`` is ``residue``, ``bead`` or ``chain`` (default: residue if the input names residues, otherwise bead). The
+        other options are those of :func:`kds.contacts`. Lengths of time are in picoseconds if the frames have times,
+        otherwise in frames. Runs the contacts again over all frames, at the cutoff of the run.
+        """
+        return self.analysis(by=by, **options).rows
+
+    def analysis(self, by=None, **options):
+        """Returns the result of :func:`kds.contacts` over the frames of the run, at the cutoff of the run."""
+        self._only("contacts", "analysis")
+        return self._run._contacts(by=by, **options)
+
+    def _only(self, name, function):
+        if self.name != name:
+            raise AttributeError(f"{self.name} has no {function}; {name} has")
+
+
+class Run:
+    """What a run found. Made by :func:`kds.run`.
+
+    ``events``
+        structured array with a row for each event: ``frame`` (in frames of the trajectory, with a fraction), ``time``
+        (picoseconds, NaN without times), ``lower`` and ``upper`` (a bracket of the time in its step, from 0 to 1),
+        ``step``, ``structure``, ``kind`` and ``beads`` (ids, then -1).
+    ``fingerprint``
+        16 hex digits, a hash of all events in their order. Equal runs have equal fingerprints on every machine.
+    ``power``, ``wrapped``, ``contacts``, ...
+        the structures of the run, see :class:`kds.Structure`.
+    ``radii``, ``names``
+        the radius in angstrom and the name of each bead.
+
+    ``print(run)`` shows the program's table. The table compares with static structures, which are then built at every
+    frame once.
+    """
+
+    def __init__(self, source, verbose=False, **options):
+        if "rounds" in options:
+            raise TypeError("rounds: is no argument of a run, which is made once; kds.compare takes it")
+        self._core, opened = open_run(source, **options)
+        self._options = options
+        self._source = opened
+        call(self._core.execute, verbose=verbose)
+        warn(self._core.warnings())
+        self._stamps = self._core.stamps()
+        self._clock = Clock(self._stamps[0][0], self._stamps[1][0])
+        self.events = events_array(self._core)
+        self._core.keep_events(False)
+        self.fingerprint = f"{self._core.fingerprint():016x}"
+        self._table = None
+
+    @property
+    def structures(self):
+        """The names of the structures, in the order of the table."""
+        return [name for name, _ in self._core.structures()]
+
+    @property
+    def kinds(self):
+        """The kinds of events of each structure, by its name."""
+        return dict(self._core.structures())
+
+    @property
+    def radii(self):
+        """The radius of each bead, in angstrom."""
+        return np.array(self._core.radii)
+
+    @property
+    def names(self):
+        """The name of each bead, such as "CA of ALA 12 in chain A"; empty if the input has no names."""
+        return self._core.bead_names()
+
+    @property
+    def bead_count(self):
+        """The number of beads."""
+        return self._core.bead_count
+
+    @property
+    def frame_count(self):
+        """The number of frames."""
+        return self._core.frame_count
+
+    @property
+    def frames(self):
+        """The numbers of the frames in the trajectory."""
+        return np.array([number for number, _ in self._stamps])
+
+    @property
+    def times(self):
+        """The times of the frames in picoseconds; NaN for a frame without a time."""
+        return np.array([np.nan if time is None else time for _, time in self._stamps])
+
+    @property
+    def summary(self):
+        """The dictionary that ``kds run --json`` writes."""
+        return json.loads(self._core.json())
+
+    @property
+    def results(self):
+        """``events``, ``fingerprint``, ``frames`` and ``summary`` in one object, as analyses of MDAnalysis have it."""
+        try:
+            from MDAnalysis.analysis.base import Results
+        except ImportError:
+            from types import SimpleNamespace as Results
+        return Results(events=self.events, fingerprint=self.fingerprint, frames=self.frames, summary=self.summary)
+
+    def plot(self, ax=None):
+        """Draws the number of events in each step, for each structure. Returns the axes of matplotlib."""
+        return _plots.events(self, ax)
+
+    def _contacts(self, **options):
+        from ._analyses import Contacts
+
+        options = {name: value for name, value in options.items() if value is not None}
+        own = arguments({**{name: self._options.get(name) for name in ("motion", "apart", "topology", "select", "chain",
+                                                                      "obstacle", "dt", "until_damage")}, **options})
+        if "--cutoff" not in own:
+            cutoff, surface = self._options.get("cutoff"), self._options.get("surface", False)
+            own += ["--cutoff", repr(float(cutoff or 0))]
+            if surface or cutoff is None:
+                own += ["--surface"]
+        found = call(_kds.contacts, self._source.arguments + own)
+        return Contacts(found)
+
+    def __getattr__(self, name):
+        if name.startswith("_") or name not in dict(self._core.structures()):
+            raise AttributeError(f"the run has no {name}; its structures are {', '.join(self.structures)}"
+                                 if not name.startswith("_") else name)
+        return Structure(self, name)
+
+    def __dir__(self):
+        return [*super().__dir__(), *self.structures]
+
+    def __len__(self):
+        return len(self.events)
+
+    def __str__(self):
+        if self._table is None:
+            self._table = call(self._core.table, unit="frame")
+        return self._table.rstrip("\n")
+
+    def __repr__(self):
+        return (f"<kds.Run: {self.bead_count} beads, {self.frame_count} frames, {len(self.events)} events of "
+                f"{', '.join(self.structures)}, fingerprint {self.fingerprint}>")
+
+    def _repr_html_(self):
+        return indented(str(self))
+
+
+def run(source, *, start=None, stop=None, step=None, structures=None, radius=None, cutoff=None, surface=False, units=None,
+        verbose=False, **options):
+    """Runs kinetic structures over moving beads and returns every event, exactly and in order.
+
+    Parameters
+    ----------
+    source : path, list of paths, array, AtomGroup, mdtraj Trajectory or iterable
+        Positions of the beads in every frame. An array has the shape (frames, beads, 3), float32 or float64 in C order;
+        it is not copied. A path is any file that ``kds run`` reads. Frames of an AtomGroup are copied, and its
+        trajectory then stands at the frame where it stood. An iterable gives arrays (beads, 3), pairs of an array and a
+        time in picoseconds, or objects with ``positions``.
+    start, stop, step : int
+        Frames of the trajectory, as a slice has them.
+    structures : str or list of str
+        Any of ``kds.structure_names()`` (default: wrapped and power).
+    radius : str, float or array
+        ``auto`` (half the longest bond, the default), a number in angstrom, ``element``, ``element:fit``, or one number
+        for each bead.
+    cutoff : float
+        Distance in angstrom at which beads are in contact, for ``contacts`` (default: balls with their radii meet).
+        Between centres, or between the balls if ``surface``.
+    units : str
+        ``angstrom`` (default) or ``nm``, for arrays and iterables.
+    verbose : bool
+        Shows a progress bar of tqdm.
+    necklaces : list of int
+        The number of beads of each necklace, one after the other, for positions in memory (default: one, or the chains).
+    times : array
+        The time of each frame in picoseconds, for arrays.
+    groups : pair of AtomGroups, of arrays of beads, or of selections
+        ``contacts``: one bead of a pair must be in each group.
+    only : dict
+        For structures that contain only some beads: the beads, by the structure's name.
+    **options
+        The options of ``kds run`` with their values, dashes as underscores: ``motion``, ``kernel``, ``apart``, ``audit``,
+        ``work``, ``topology``, ``select``, ``chain``, ``obstacle``, ``dt``, ``until_damage``, and the levers of accuracy:
+        ``tolerance``, ``certify``, ``relax``, ``between``, ``tightness``, ``levels``, ``nodes``, ``directions``.
+        ``kds.run_options()`` explains each one.
+
+    Returns
+    -------
+    Run
+
+    Raises
+    ------
+    InputError
+        One sentence that names the frame, bead or argument at fault and says what was expected.
+
+    Examples
+    --------
+    >>> import kds
+    >>> spiral = kds.generate("spiral", beads=30, frames=10)
+    >>> run = kds.run(spiral, radius=1, structures=["power", "contacts"])
+    >>> run.fingerprint == kds.run(spiral, radius=1, structures=["power", "contacts"]).fingerprint
+    True
+    >>> run.power.edges(frame=4).shape[1]
+    2
+    """
+    return Run(source, start=start, stop=stop, step=step, structures=structures, radius=radius, cutoff=cutoff,
+               surface=surface, units=units, verbose=verbose, **options)
+
+
+def run_options():
+    """Returns the options of ``kds run`` with their help, a dictionary.
+
+    >>> import kds
+    >>> print(kds.run_options()["kernel"])
+    arithmetic: fast, filtered or exact (default: filtered)
+    """
+    hidden = ("frames", "format", "rounds")
+    return {name: help for name, help in _kds.run_arguments() if name not in hidden}
+
+
+def structure_names():
+    """Returns the names of all structures, built-in and your own.
+
+    >>> import kds
+    >>> "contacts" in kds.structure_names()
+    True
+    """
+    return _kds.structure_names()

@@ -1,0 +1,243 @@
+"""Runs that the user drives: step by step, event by event, frame by frame."""
+
+import numpy as np
+
+from . import _kds
+from ._inputs import check_units, frame_of, is_frames
+from ._options import InputError, arguments
+from ._run import Clock, Structure, _more_options, events_array, open_run
+
+
+class KineticRun:
+    """A run that you drive through time.
+
+    ``KineticRun(source, **options)`` takes everything that :func:`kds.run` takes. The run stands at its first frame.
+    Frames are numbers of frames in the trajectory; 2.25 lies a quarter of the way from frame 2 to the next frame.
+    Functions that let time pass return the events on the way, a structured array as ``Run.events``.
+
+    >>> import kds
+    >>> run = kds.KineticRun(kds.generate("spiral", beads=30, frames=5), radius=1, structures=["contacts"])
+    >>> first = run.next_event()
+    >>> bool(run.frame <= first["frame"][0] + 1e-9)
+    True
+    >>> later = run.go_to(4)
+    >>> run.frame
+    4.0
+    """
+
+    def __init__(self, source, **options):
+        self._core, self._source = open_run(source, **options)
+        self._clock = Clock(self._core.stamp(0)[0], self._core.stamp(1)[0])
+
+    @classmethod
+    def pushed(cls, beads, radius=None, *, dimension=3, necklaces=None, cutoff=None, surface=False, only=None, **options):
+        """Returns a run over frames that are pushed one by one. Only the frames of one step are kept.
+
+        ``beads`` is their number, ``radius`` a number in angstrom or one for each bead (default: points without radii),
+        ``dimension`` 1 to 3, ``necklaces`` the number of beads of each necklace. Name the ``structures``.
+        """
+        self = cls.__new__(cls)
+        radii = [] if radius is None else np.ravel(np.asarray(radius, dtype=float)).tolist()
+        counts = [int(beads)] if necklaces is None else [int(count) for count in necklaces]
+        if sum(counts) != beads:
+            raise InputError(f"necklaces: have {sum(counts)} beads; expected {beads}")
+        self._core = _kds.Run(arguments(options), _more_options(cutoff, surface, only), int(dimension), counts, radii)
+        self._source = None
+        self._clock = Clock(0, 1)
+        self._pushed = 0
+        return self
+
+    def push(self, positions, time=None):
+        """Adds the next frame, an array (beads, dimension) in angstrom, and runs all steps that are then known.
+
+        ``time`` is in picoseconds. Returns the events of these steps. A wrong frame raises InputError and changes
+        nothing.
+        """
+        if self._source is not None:
+            raise InputError("push: the run has frames of its own; expected KineticRun.pushed(beads)")
+        positions = np.asarray(positions, dtype=float)
+        shape = (self._core.bead_count, self._core.dimension)
+        if positions.shape != shape:
+            raise InputError(f"frame {self._pushed}: has the shape {positions.shape}; expected {shape}")
+        self._core.push(positions, time)
+        self._pushed += 1
+        return events_array(self._core)
+
+    @property
+    def frame(self):
+        """The frame at which the run stands, with a fraction within a step. Rounded at the time of an event."""
+        return float(self._clock.frame(self._core.time()))
+
+    @property
+    def fingerprint(self):
+        """16 hex digits, the hash of all events so far in their order."""
+        return f"{self._core.fingerprint():016x}"
+
+    @property
+    def structures(self):
+        """The names of the structures."""
+        return [name for name, _ in self._core.structures()]
+
+    @property
+    def bead_count(self):
+        """The number of beads."""
+        return self._core.bead_count
+
+    def step(self):
+        """Runs to the next frame. Returns the events on the way, or None after the last frame."""
+        return events_array(self._core) if self._core.step() else None
+
+    def next_event(self):
+        """Runs to the next time at which something happens. Returns the events then, or None if nothing follows."""
+        return events_array(self._core) if self._core.next_event() else None
+
+    def go_to(self, frame):
+        """Runs to a frame, which may lie within a step: forward, or back by repeating the run from its start.
+
+        Edits up to that frame are repeated, later ones are forgotten. Returns the events on the way forward.
+        """
+        self._core.go_to(self._clock.time(frame))
+        return events_array(self._core)
+
+    def finish(self):
+        """Runs all steps that are left and ends the run. Returns the events."""
+        self._core.finish()
+        return events_array(self._core)
+
+    def audit(self):
+        """Compares all structures with static ones where the run stands. Raises kds.AuditError if one is wrong."""
+        self._core.audit()
+
+    def insert(self, structure, bead):
+        """Adds a bead to a structure, within a step, from now on. Returns the events that this causes."""
+        return self._edit(self._core.insert, self._place(structure), bead)
+
+    def erase(self, structure, bead):
+        """Removes a bead from a structure, within a step, from now on. Returns the events that this causes."""
+        return self._edit(self._core.erase, self._place(structure), bead)
+
+    def control_points(self):
+        """Returns the Bezier control points of the present step, an array (beads, degree + 1, dimension)."""
+        return self._core.control_points()
+
+    def bend(self, beads, points):
+        """Gives beads other curves from now on, within a step. Returns the events that this causes.
+
+        ``points`` has the shape (beads, degree + 1, dimension): control points for the whole step, including the part
+        before now. At the end of the step each bead must be where the next frame has it.
+        """
+        return self._edit(self._core.bend, [int(bead) for bead in beads], points)
+
+    def _edit(self, function, *given):
+        function(*given)
+        return events_array(self._core)
+
+    def _place(self, structure):
+        names = self.structures
+        if str(structure) not in names:
+            raise InputError(f"structure: the run has no {structure}; it has {', '.join(names)}")
+        return names.index(str(structure))
+
+    def __getattr__(self, name):
+        if name.startswith("_") or name not in self.structures:
+            raise AttributeError(name)
+        return _Standing(self, name)
+
+    def __dir__(self):
+        return [*super().__dir__(), *self.structures]
+
+    def __repr__(self):
+        return f"<kds.KineticRun of {', '.join(self.structures)}, {self.bead_count} beads, at frame {self.frame:g}>"
+
+
+class _Standing(Structure):
+    """A structure of a run that the user drives, where the run stands."""
+
+    @property
+    def events(self):
+        raise AttributeError("events: are returned by the functions that let time pass")
+
+    def analysis(self, by=None, **options):
+        raise AttributeError("analysis: is of kds.run and kds.contacts")
+
+    def __repr__(self):
+        return f"<kds structure {self.name} of {self._run!r}>"
+
+
+class StreamFrame:
+    """A frame of :func:`kds.stream`: ``frame`` (its number), ``time`` (picoseconds or None) and ``events``, those since the
+    frame before."""
+
+    def __init__(self, frame, time, events, run):
+        self.frame = frame
+        self.time = time
+        self.events = events
+        self._run = run
+
+    def __getattr__(self, name):
+        if name.startswith("_") or name not in self._run.structures:
+            raise AttributeError(name)
+        return _Standing(self._run, name)
+
+    def __repr__(self):
+        return f"<kds frame {self.frame}: {len(self.events)} events>"
+
+
+def stream(source, *, start=None, stop=None, step=None, radius=None, necklaces=None, units=None, **options):
+    """Runs structures over frames that are read one at a time. Stores no frames and no events.
+
+    Takes what :func:`kds.run` takes and yields a :class:`kds.StreamFrame` for each frame: ``frame.frame``, ``frame.time``,
+    ``frame.events`` (those since the frame before) and the structures, as in ``frame.power.edges()``. Frames of an
+    AtomGroup or of files are read twice if ``radius`` is ``auto``.
+
+    An iterable gives its frames only once: then ``radius`` must be a number or one for each bead, or ``cutoff`` is given.
+
+    >>> import kds
+    >>> spiral = kds.generate("spiral", beads=30, frames=5)
+    >>> [frame.frame for frame in kds.stream(spiral, radius=1)]
+    [0, 1, 2, 3, 4]
+    """
+    if is_frames(source):
+        return _stream_frames(source, start=start, stop=stop, step=step, radius=radius, necklaces=necklaces, units=units,
+                              **options)
+    return _stream_pushed(source, slice(start, stop, step), radius, necklaces, units, options)
+
+
+def _stream_frames(source, **options):
+    run = KineticRun(source, pull=True, **options)
+    run._core.build()
+    yield StreamFrame(*run._core.stamp(0), events_array(run._core), run)
+    for k in range(1, run._core.frame_count):
+        events = run.step()
+        yield StreamFrame(*run._core.stamp(k), events, run)
+    run.finish()
+
+
+def _stream_pushed(source, chosen, radius, necklaces, units, options):
+    import itertools
+
+    if units not in (None, "angstrom", "nm"):
+        raise InputError(f"units: is '{units}'; expected angstrom or nm")
+    if isinstance(radius, str) or (radius is None and options.get("cutoff") is None):
+        raise InputError("radius: frames that come one by one have no longest bond; expected a number, one for each bead, "
+                         "or a cutoff")
+    numbers = itertools.count(chosen.start or 0, chosen.step or 1)
+    run, waiting = None, None
+    for item in itertools.islice(source, chosen.start, chosen.stop, chosen.step):
+        positions, time = frame_of(item)
+        if units == "nm":
+            positions = 10 * positions if positions.dtype == float else np.float32(10) * positions.astype(np.float32)
+        if run is None:
+            if positions.ndim != 2 or positions.shape[1] not in (1, 2, 3) or len(positions) == 0:
+                raise InputError(f"frame 0: has the shape {positions.shape}; expected (beads, 3)")
+            check_units(positions, False, "frame 0")
+            radius = 1.0 if radius is None else radius
+            run = KineticRun.pushed(len(positions), radius, dimension=positions.shape[1], necklaces=necklaces, **options)
+        events = run.push(positions, time)
+        yield StreamFrame(next(numbers), time, events, run)
+    if run is None:
+        raise InputError("frames: there are none; expected two or more")
+    if run._pushed > 1:
+        run.finish()
+    else:
+        raise InputError("frames: there is one; expected two or more")

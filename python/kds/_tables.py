@@ -1,0 +1,74 @@
+"""Tables: a DataFrame if pandas is installed, otherwise a structured array."""
+
+import numpy as np
+
+
+def _column(values):
+    kinds = {type(value) for value in values if value is not None}
+    if kinds <= {bool} and kinds:
+        return np.array([bool(value) for value in values])
+    if kinds <= {int} and None not in values:
+        return np.array(values, dtype=np.int64)
+    if kinds <= {int, float}:
+        return np.array([np.nan if value is None else value for value in values], dtype=float)
+    if kinds <= {str}:
+        return np.array(["" if value is None else value for value in values])
+    return np.array(values, dtype=object)
+
+
+def table(columns):
+    """Returns a table of columns, arrays or lists of one length by name."""
+    columns = {name: column if isinstance(column, np.ndarray) else _column(column) for name, column in columns.items()}
+    try:
+        import pandas
+    except ImportError:
+        length = len(next(iter(columns.values()))) if columns else 0
+        rows = np.empty(length, dtype=[(name, column.dtype) for name, column in columns.items()])
+        for name, column in columns.items():
+            rows[name] = column
+        return rows
+    return pandas.DataFrame(columns)
+
+
+def _flat(row, prefix=""):
+    for name, value in row.items():
+        if isinstance(value, dict):
+            yield from _flat(value, prefix + name + ".")
+        else:
+            yield prefix + name, value
+
+
+def table_of_rows(rows):
+    """Returns a table of rows, dictionaries as in the program's JSON. A nested member a.b is a column."""
+    flat = [dict(_flat(row)) for row in rows]
+    names = list(dict.fromkeys(name for row in flat for name in row))
+    return table({name: [row.get(name) for row in flat] for name in names})
+
+
+def indented(text):
+    return f"<pre>{text.replace('&', '&amp;').replace('<', '&lt;')}</pre>"
+
+
+class Result:
+    """What an analysis found.
+
+    ``table`` is the program's table, which ``print`` and notebooks show. ``rows`` holds the same numbers with all
+    digits, as a DataFrame if pandas is installed, otherwise as a structured array. ``json`` is the dictionary of
+    everything that the program's ``--json`` has, without provenance.
+    """
+
+    def __init__(self, found):
+        import json
+
+        self.json = json.loads(found["json"])
+        self.table = found["table"]
+        self.rows = table_of_rows(self.json["rows"])
+
+    def __str__(self):
+        return self.table.rstrip("\n")
+
+    def __repr__(self):
+        return f"<kds.{type(self).__name__}: {len(self.rows)} rows>"
+
+    def _repr_html_(self):
+        return indented(self.table)

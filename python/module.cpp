@@ -1,0 +1,211 @@
+// The extension module kds._kds. Its functions and classes are those that the Python package kds builds on;
+// the package documents them.
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cctype>
+#include <exception>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "experiments/output/result_json.h"
+#include "experiments/program/input_options.h"
+#include "experiments/run/run_options.h"
+#include "kds/kinetic_structure.h"
+#include "motions/base/input_error.h"
+#include "motions/readers/bead_name.h"
+#include "python/analyses.h"
+#include "python/frames_in_memory.h"
+#include "python/run_handle.h"
+#include "python/static_structures.h"
+#include "python/watch.h"
+#include "structures/session/structure_spec.h"
+
+namespace py = pybind11;
+
+namespace {
+
+using kds::python::FramesInMemory;
+using kds::python::RunHandle;
+using kds::python::Watch;
+
+/// Returns a sentence of the program in words of Python: an option becomes the argument of the same name, and
+/// a command the function.
+std::string in_python(std::string_view sentence) {
+  sentence = sentence.substr(0, sentence.find('\n'));
+  std::string text;
+  for (std::size_t i = 0; i < sentence.size(); ++i) {
+    const bool starts_word =
+        i == 0 || std::string_view(" (,;'").find(sentence[i - 1]) != std::string_view::npos;
+    const std::string_view rest = sentence.substr(i);
+    if (starts_word && rest.starts_with("--frames")) {
+      text += "start, stop, step";
+      i += 7;
+    } else if (starts_word && rest.size() > 2 && rest.starts_with("--") && std::isalpha(rest[2]) != 0) {
+      for (i += 2; i < sentence.size() && (std::isalnum(sentence[i]) != 0 || sentence[i] == '-'); ++i)
+        text += sentence[i] == '-' ? '_' : sentence[i];
+      --i;
+    } else if (starts_word && rest.starts_with("kds ") && rest.size() > 4 && std::islower(rest[4]) != 0) {
+      text += "kds.";
+      i += 3;
+    } else {
+      text += sentence[i];
+    }
+  }
+  return text;
+}
+
+void translate_exceptions(py::module_& module) {
+  static const py::exception<kds::InputError> input_error(module, "InputError", PyExc_ValueError);
+  static const py::exception<kds::AuditError> audit_error(module, "AuditError", PyExc_RuntimeError);
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(std::move(thrown));
+    } catch (const kds::InputError& error) {
+      PyErr_SetString(input_error.ptr(), in_python(error.what()).c_str());
+    } catch (const kds::AuditError& error) {
+      PyErr_SetString(audit_error.ptr(), in_python(error.what()).c_str());
+    }
+  });
+}
+
+/// Returns the options of `kds run` as pairs of argument and help.
+std::vector<std::pair<std::string, std::string>> run_arguments() {
+  std::vector<std::pair<std::string, std::string>> all;
+  for (const auto& option : kds::run_options().all())
+    if (option.text) all.emplace_back(in_python(option.spec.name), in_python(option.spec.help));
+  return all;
+}
+
+std::vector<std::string> structure_names() {
+  std::vector<std::string> names;
+  for (const kds::StructureSpec& spec : kds::structure_registry().all()) names.push_back(spec.name);
+  return names;
+}
+
+void bind_frames(py::module_& module) {
+  using kds::python::BeadsInMemory;
+  py::class_<BeadsInMemory>(module, "Beads")
+      .def(py::init([](std::string label) { return BeadsInMemory{.label = std::move(label)}; }),
+           py::arg("label"))
+      .def_readwrite("names", &BeadsInMemory::names)
+      .def_readwrite("elements", &BeadsInMemory::elements)
+      .def_readwrite("radii", &BeadsInMemory::radii)
+      .def_readwrite("groups", &BeadsInMemory::groups)
+      .def_readwrite("first_frame", &BeadsInMemory::first_frame)
+      .def_readwrite("frame_step", &BeadsInMemory::frame_step)
+      .def_readwrite("times", &BeadsInMemory::times)
+      .def_readwrite("cells", &BeadsInMemory::cells)
+      .def_readwrite("nanometres", &BeadsInMemory::nanometres)
+      .def("add_chain", [](BeadsInMemory& beads, std::string name, std::size_t count) {
+        kds::ChainRead& chain = beads.chains.emplace_back();
+        chain.name = std::move(name);
+        chain.bead_count = count;
+      });
+  py::class_<FramesInMemory, std::shared_ptr<FramesInMemory>>(module, "Frames")
+      .def(py::init<const py::array&, BeadsInMemory>(), py::arg("positions"), py::arg("beads"))
+      .def(py::init<py::function, std::size_t, std::size_t, BeadsInMemory>(), py::arg("frame"),
+           py::arg("frame_count"), py::arg("bead_count"), py::arg("beads"))
+      .def_property_readonly("path", [](const FramesInMemory& frames) { return frames.path().string(); });
+}
+
+void bind_run(py::module_& module) {
+  using kds::python::PythonOptions;
+  py::class_<PythonOptions>(module, "MoreOptions")
+      .def(py::init<>())
+      .def_readwrite("cutoff", &PythonOptions::cutoff)
+      .def_readwrite("surface", &PythonOptions::surface)
+      .def_readwrite("only", &PythonOptions::only);
+  py::class_<RunHandle>(module, "Run")
+      .def(py::init([](const kds::Arguments& arguments, const PythonOptions& more,
+                       const std::shared_ptr<FramesInMemory>& memory) {
+             const Watch watch;
+             return std::make_unique<RunHandle>(arguments, more, memory);
+           }),
+           py::arg("arguments"), py::arg("more"), py::arg("memory"))
+      .def(py::init([](const kds::Arguments& arguments, const PythonOptions& more, int dimension,
+                       std::vector<std::size_t> necklaces, std::vector<double> radii) {
+             kds::PushedFrames frames;
+             frames.dimension = dimension;
+             frames.necklaces = std::move(necklaces);
+             frames.radii = std::move(radii);
+             return std::make_unique<RunHandle>(arguments, more, std::move(frames));
+           }),
+           py::arg("arguments"), py::arg("more"), py::arg("dimension"), py::arg("necklaces"),
+           py::arg("radii"))
+      .def("execute", &RunHandle::execute, py::arg("progress") = py::none())
+      .def("push", &RunHandle::push, py::arg("frame"), py::arg("picoseconds") = py::none())
+      .def("build", &RunHandle::build)
+      .def("step", &RunHandle::step)
+      .def("next_event", &RunHandle::next_event)
+      .def("go_to", &RunHandle::go_to)
+      .def("finish", &RunHandle::finish)
+      .def("audit", &RunHandle::audit)
+      .def("insert", &RunHandle::insert)
+      .def("erase", &RunHandle::erase)
+      .def("bend", &RunHandle::bend)
+      .def("control_points", &RunHandle::control_points)
+      .def("time", &RunHandle::time)
+      .def("fingerprint", &RunHandle::fingerprint)
+      .def("edges", &RunHandle::edges, py::arg("time") = py::none())
+      .def("contacts", &RunHandle::contacts, py::arg("time") = py::none())
+      .def("spheres", &RunHandle::spheres, py::arg("structure"), py::arg("time") = py::none())
+      .def("elements", &RunHandle::elements)
+      .def("take_events", &RunHandle::take_events)
+      .def("keep_events", &RunHandle::keep_events)
+      .def("structures", &RunHandle::structures)
+      .def("warnings",
+           [](RunHandle& run) {
+             std::vector<std::string> lines;
+             for (const std::string& line : run.warnings()) lines.push_back(in_python(line));
+             return lines;
+           })
+      .def("table", &RunHandle::table, py::arg("progress") = py::none())
+      .def("json", &RunHandle::json)
+      .def("stamp", &RunHandle::stamp)
+      .def("stamps", &RunHandle::stamps)
+      .def("bead_names", &RunHandle::bead_names)
+      .def_property_readonly("radii", [](const RunHandle& run) { return run.scene().radii(); })
+      .def_property_readonly("bead_count", [](const RunHandle& run) { return run.scene().bead_count(); })
+      .def_property_readonly("frame_count", [](const RunHandle& run) { return run.scene().frame_count(); })
+      .def_property_readonly("dimension", [](const RunHandle& run) { return run.scene().dimension(); })
+      .def_property_readonly("degree", [](const RunHandle& run) { return run.scene().degree(); })
+      .def_property_readonly("necklaces", [](const RunHandle& run) {
+        std::vector<std::size_t> counts;
+        for (const kds::BeadRange& range : run.scene().necklaces())
+          counts.push_back(range.last - range.first + 1);
+        return counts;
+      });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_kds, module) {
+  translate_exceptions(module);
+  kds::python::add_memory_reader();
+  bind_frames(module);
+  bind_run(module);
+  module.def("bead_name", [](std::string atom, std::string residue, std::string number, std::string chain) {
+    return kds::text_of(
+        kds::BeadName{std::move(atom), std::move(residue), std::move(number), std::move(chain)});
+  });
+  module.def("in_python", [](const std::string& sentence) { return in_python(sentence); });
+  module.def("run_arguments", run_arguments);
+  module.def("structure_names", structure_names);
+  module.def("version", kds::program_version);
+  module.def("data_folder", [] { return kds::source_data_folder().string(); });
+  module.def("contacts", kds::python::contacts);
+  module.def("compare", kds::python::compare);
+  module.def("update", kds::python::update);
+  module.def("collide", kds::python::collide);
+  module.def("conditions", kds::python::conditions);
+  module.def("generate", kds::python::generate);
+  module.def("power_diagram", kds::python::power_diagram);
+  module.def("enclosing_sphere", kds::python::enclosing_sphere);
+  module.def("wrapped_hierarchy", kds::python::wrapped_hierarchy);
+  module.def("colliding_pairs", kds::python::colliding_pairs);
+  module.def("closest_pair", kds::python::closest_pair_of);
+}

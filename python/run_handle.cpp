@@ -1,0 +1,388 @@
+#include "python/run_handle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "experiments/events/closest_approach.h"
+#include "experiments/run/certify_stride.h"
+#include "experiments/run/load_scene.h"
+#include "experiments/run/radius_hint.h"
+#include "motions/base/input_error.h"
+#include "python/arrays.h"
+#include "structures/contacts/contacts.h"
+#include "structures/power_diagram/power_diagram.h"
+#include "structures/triangulation/diagram_edges.h"
+
+namespace kds::python {
+
+namespace py = pybind11;
+
+namespace {
+
+constexpr CommandSpec kPushedRun{"kds.KineticRun", "", {}, {}, ""};
+
+RunOptions pushed_options(const Arguments& arguments) {
+  RunOptions options;
+  read_arguments(kPushedRun, run_options(), arguments, options);
+  return options;
+}
+
+void take(const PythonOptions& more, RunOptions& options) {
+  options.cutoff = more.cutoff;
+  options.surface = more.surface;
+}
+
+py::array_t<std::int64_t> array_of_pairs(const std::vector<BeadPair>& pairs) {
+  std::vector<std::int64_t> ids;
+  ids.reserve(2 * pairs.size());
+  for (const BeadPair& pair : pairs) {
+    ids.push_back(pair.first);
+    ids.push_back(pair.second);
+  }
+  return array_of(std::move(ids), {static_cast<py::ssize_t>(pairs.size()), 2});
+}
+
+template <int Dimension>
+std::vector<BeadPair> edges_of_diagram(const PowerDiagram<Dimension>& diagram, std::size_t beads, bool within,
+                                       bool first) {
+  std::vector<BeadPair> pairs;
+  std::vector<BeadId> present;
+  for (BeadId bead = 0; bead < beads; ++bead)
+    if (!diagram.is_absent(bead)) present.push_back(bead);
+  const auto add = [&](BeadId bead, const auto& neighbors) {
+    for (const BeadId other : neighbors)
+      if (bead < other) pairs.push_back({bead, other});
+  };
+  if (!within && present.size() == beads) {
+    const DiagramEdges at_frame = diagram.edges_at_frame(first);
+    for (const BeadId bead : present) add(bead, at_frame.edges.of(bead));
+  } else {
+    for (const BeadId bead : present) add(bead, diagram.neighbors(bead));
+  }
+  return pairs;
+}
+
+}  // namespace
+
+/// Reserves the run for one thread and lets Python run other threads meanwhile.
+class RunHandle::Use {
+ public:
+  explicit Use(RunHandle& run, const py::object& progress = py::none()) : run_(run), watch_(progress) {
+    if (run.in_use_.exchange(true))
+      throw std::runtime_error("this run is in use by another thread; expected a run of one's own");
+  }
+  Use(const Use&) = delete;
+  Use& operator=(const Use&) = delete;
+  ~Use() { run_.in_use_ = false; }
+  [[nodiscard]] Watch& watch() { return watch_; }
+
+ private:
+  RunHandle& run_;
+  Watch watch_;
+};
+
+RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more,
+                     std::shared_ptr<FramesInMemory> memory)
+    : memory_(std::move(memory)), options_(parse_run_options(arguments)) {
+  take(more, options_);
+  const auto warn = [this](const std::string& warning) { warnings_.push_back(warning); };
+  scene_ = std::make_unique<Scene>(load_scene(options_, warn));
+  if (more.only.empty()) {
+    run_ = open_run(options_, *scene_, options_.audit);
+  } else {
+    SessionOptions session = session_options(options_, *scene_, options_.audit);
+    session.only = more.only;
+    run_ = std::make_unique<KineticRun>(*scene_, session);
+  }
+  listen();
+}
+
+RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more, PushedFrames frames)
+    : options_(pushed_options(arguments)) {
+  take(more, options_);
+  frames.motion = options_.motion;
+  const Scene pattern(frames);  // the options are checked against its beads
+  SessionOptions session = session_options(options_, pattern, options_.audit);
+  session.only = more.only;
+  run_ = std::make_unique<KineticRun>(std::move(frames), session);
+  listen();
+}
+
+void RunHandle::listen() {
+  run_->listen(events_);
+  run_->listen(*this);
+  constexpr std::uint64_t a_millisecond = 1U << 20U;  // of limb operations, roughly
+  run_->watch_work([] { Watch::glance(); }, a_millisecond);
+  if (options_.work) run_->limit_work(*options_.work);
+}
+
+void RunHandle::execute(const py::object& progress) {
+  Use use(*this, progress);
+  Watch& watch = use.watch();
+  const std::size_t steps = scene().step_count();
+  StepCounts counts(run_->session(), scene());
+  std::optional<ClosestApproachOfRun> approach;
+  if (const auto closest = place_of_closest(run_->session()); closest && options_.kernel != Kernel::fast)
+    approach.emplace(run_->session(), *closest);
+  run_steps(*run_, options_, [&](std::size_t frame) {
+    if (frame == 0) {
+      counts.begin();
+      if (approach) approach->begin();
+    } else {
+      counts.end_step(frame - 1, nullptr);
+      if (approach) approach->end_step(scene().frame_number(frame - 1));
+    }
+    const FrameStamp stamp = scene().stamp(frame);
+    stamps_.emplace_back(stamp.number, stamp.picoseconds);
+    watch.look(frame, 0, steps);
+  });
+  watch.end(steps);
+  report_ = report_of(run_->session(), scene(), options_, counts);
+  if (approach) report_->approach = approach->least();
+  if (options_.certify) report_->stride = certify_stride(options_, scene());
+  report_->command_line = "kds.run in Python";
+  if (memory_) {
+    report_->files = {memory_->label()};
+    std::erase_if(report_->settings, [](const auto& setting) { return setting.first == "format"; });
+  }
+  if (options_.radius != "auto" || options_.cutoff || !options_.reading.groups.empty()) return;
+  for (const StructureReport& structure : report_->structures)
+    if (structure.name == "contacts" && structure.events_total == 0 && structure.contacts_at_start == 0U)
+      if (const auto hint = radius_hint(scene(), options_.apart.value_or(StructureSettings().apart)))
+        warnings_.push_back(*hint);
+}
+
+void RunHandle::push(const py::array_t<double, py::array::c_style | py::array::forcecast>& frame,
+                     std::optional<double> picoseconds) {
+  const std::span numbers(frame.data(), static_cast<std::size_t>(frame.size()));
+  const Use use(*this);
+  run_->push(numbers, picoseconds);
+}
+
+void RunHandle::build() {
+  const Use use(*this);
+  run_->build();
+}
+
+bool RunHandle::step() {
+  const Use use(*this);
+  return run_->run_step();
+}
+
+bool RunHandle::next_event() {
+  const Use use(*this);
+  return run_->next_event();
+}
+
+void RunHandle::go_to(double time) {
+  const Use use(*this);
+  run_->go_to(time);
+}
+
+void RunHandle::finish() {
+  const Use use(*this);
+  run_->finish();
+}
+
+void RunHandle::audit() {
+  const Use use(*this);
+  run_->audit_now();
+}
+
+void RunHandle::insert(std::size_t structure, BeadId bead) {
+  const Use use(*this);
+  run_->insert(structure, bead);
+}
+
+void RunHandle::erase(std::size_t structure, BeadId bead) {
+  const Use use(*this);
+  run_->erase(structure, bead);
+}
+
+void RunHandle::bend(const std::vector<BeadId>& beads,
+                     const py::array_t<double, py::array::c_style | py::array::forcecast>& points) {
+  const int degree = scene().degree(), dimension = scene().dimension();
+  if (points.ndim() != 3 || points.shape(0) != static_cast<py::ssize_t>(beads.size()) ||
+      points.shape(1) != degree + 1 || points.shape(2) != dimension)
+    throw InputError(
+        fmt::format("points: has the shape {}; expected ({}, {}, {}): beads, control points, axes",
+                    std::string(py::str(points.attr("shape"))), beads.size(), degree + 1, dimension));
+  const std::vector<double> numbers(points.data(), points.data() + points.size());
+  const Use use(*this);
+  run_->change_motion(beads, [beads, numbers, degree, dimension](SceneMotion& motion) {
+    std::size_t next = 0;
+    for (const BeadId bead : beads)
+      for (int k = 0; k <= degree; ++k)
+        for (int axis = 0; axis < dimension; ++axis) motion.set_coordinate(bead, k, axis, numbers[next++]);
+  });
+}
+
+py::array_t<double> RunHandle::control_points() {
+  if (!run_->load_step())
+    throw std::logic_error("control_points(): no step is known; push another frame first");
+  return std::visit(
+      []<int D>(const MotionRef<D>& motion) {
+        const Curves<D> curves = motion.curves();
+        std::vector<double> numbers;
+        for (BeadId bead = 0; bead < curves.bead_count(); ++bead)
+          for (int k = 0; k <= curves.own_degree(); ++k)
+            for (int axis = 0; axis < D; ++axis) numbers.push_back(curves.coordinate(bead, k, axis));
+        return array_of(std::move(numbers),
+                        {static_cast<py::ssize_t>(curves.bead_count()), curves.own_degree() + 1, D});
+      },
+      run_->session().motion()->ref());
+}
+
+double RunHandle::time() {
+  Simulator& simulator = run_->simulator();
+  const auto step = static_cast<double>(simulator.step());
+  return run_->within_step() ? step + 0.5 * (simulator.now().lower() + simulator.now().upper()) : step;
+}
+
+std::uint64_t RunHandle::fingerprint() {
+  return report_ ? report_->fingerprint : run_->simulator().fingerprint();
+}
+
+std::size_t RunHandle::place_of(const std::string& structure) const {
+  const auto& all = run_->structures();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const KineticStructure* one) { return one->name() == structure; });
+  if (found != all.end()) return static_cast<std::size_t>(found - all.begin());
+  std::string names;
+  for (const KineticStructure* one : all) names += (names.empty() ? "" : ", ") + std::string(one->name());
+  throw InputError(fmt::format("structures: the run has no {}; it has {}", structure, names));
+}
+
+Dyadic RunHandle::stand_at(std::optional<double> time) {
+  if (time) run_->go_to(*time);
+  run_->build();
+  if (!run_->within_step()) return Dyadic(run_->simulator().step() == 0 ? 0.0 : 1.0);
+  return time ? Dyadic(*time - static_cast<double>(run_->simulator().step()))
+              : Dyadic(run_->simulator().now().lower());
+}
+
+template <class Structure>
+Structure* RunHandle::find_structure() const {
+  for (KineticStructure* const structure : run_->structures())
+    if (auto* const found = dynamic_cast<Structure*>(structure)) return found;
+  return nullptr;
+}
+
+py::array_t<std::int64_t> RunHandle::edges(std::optional<double> time) {
+  static_cast<void>(place_of("power"));
+  std::vector<BeadPair> pairs;
+  {
+    const Use use(*this);
+    static_cast<void>(stand_at(time));
+    const bool within = run_->within_step(), first = run_->simulator().step() == 0;
+    const std::size_t beads = scene().bead_count();
+    if (const auto* space = find_structure<PowerDiagram<3>>())
+      pairs = edges_of_diagram(*space, beads, within, first);
+    else if (const auto* plane = find_structure<PowerDiagram<2>>())
+      pairs = edges_of_diagram(*plane, beads, within, first);
+  }
+  return array_of_pairs(pairs);
+}
+
+py::array_t<std::int64_t> RunHandle::contacts(std::optional<double> time) {
+  static_cast<void>(place_of("contacts"));
+  std::vector<BeadPair> pairs;
+  {
+    const Use use(*this);
+    static_cast<void>(stand_at(time));
+    if (const auto* space = find_structure<Contacts<3>>())
+      pairs = space->pairs();
+    else if (const auto* plane = find_structure<Contacts<2>>())
+      pairs = plane->pairs();
+    else if (const auto* line = find_structure<Contacts<1>>())
+      pairs = line->pairs();
+  }
+  return array_of_pairs(pairs);
+}
+
+py::tuple RunHandle::spheres(const std::string& structure, std::optional<double> time) {
+  const std::size_t place = place_of(structure);
+  std::vector<NodeSphere> nodes;
+  {
+    const Use use(*this);
+    const Dyadic u = stand_at(time);
+    nodes = run_->session().spheres_at(place, u);
+  }
+  std::vector<std::int64_t> beads;
+  std::vector<double> spheres;
+  for (const NodeSphere& node : nodes) {
+    beads.push_back(node.range.first);
+    beads.push_back(node.range.last);
+    for (int axis = 0; axis < 3; ++axis) spheres.push_back(node.sphere.center[axis]);
+    spheres.push_back(node.sphere.radius);
+  }
+  const auto count = static_cast<py::ssize_t>(nodes.size());
+  return py::make_tuple(array_of(std::move(beads), {count, 2}), array_of(std::move(spheres), {count, 4}));
+}
+
+py::tuple RunHandle::elements(const std::string& structure, std::size_t frame) {
+  const std::size_t place = place_of(structure);
+  std::optional<CombinatorialElements> found;
+  {
+    const Use use(*this);
+    static_cast<void>(stand_at(static_cast<double>(frame)));
+    found = run_->session().elements(place, frame);
+  }
+  if (!found) throw InputError(fmt::format("{}: its state at a frame is no set of elements", structure));
+  std::sort(found->all.begin(), found->all.end());
+  std::vector<std::int64_t> ids;
+  for (const CombinatorialElement& element : found->all)
+    for (const BeadId id : element) ids.push_back(id == no_bead ? -1 : std::int64_t{id});
+  return py::make_tuple(
+      array_of(std::move(ids), {static_cast<py::ssize_t>(found->all.size()),
+                                static_cast<py::ssize_t>(std::tuple_size_v<CombinatorialElement>)}),
+      found->place_ids);
+}
+
+std::vector<std::pair<std::string, std::vector<std::string>>> RunHandle::structures() {
+  std::vector<std::pair<std::string, std::vector<std::string>>> all;
+  for (const KineticStructure* const structure : run_->structures()) {
+    auto& [name, kinds] = all.emplace_back(structure->name(), std::vector<std::string>());
+    for (const EventKind& kind : structure->kinds()) kinds.emplace_back(kind.name);
+  }
+  return all;
+}
+
+std::string RunHandle::table(const py::object& progress) {
+  if (!report_) throw std::logic_error("table(): the run has not been executed");
+  if (!has_static_times_) {
+    Use use(*this, progress);
+    std::vector<double> seconds;
+    for (std::size_t frame = 0; frame < scene().frame_count(); ++frame) {
+      run_->session().time_static_builds(frame, seconds);
+      use.watch().look(frame, 0, scene().frame_count());
+    }
+    for (std::size_t s = 0; s < report_->structures.size(); ++s)
+      report_->structures[s].static_seconds = seconds[s];
+    has_static_times_ = true;
+  }
+  return comparison_table(*report_);
+}
+
+std::string RunHandle::json() {
+  if (!report_) throw std::logic_error("json(): the run has not been executed");
+  return report_json(*report_);
+}
+
+RunHandle::Stamp RunHandle::stamp(std::size_t frame) {
+  const Use use(*this);
+  const FrameStamp stamp = scene().stamp(frame);
+  return {stamp.number, stamp.picoseconds};
+}
+
+std::vector<std::string> RunHandle::bead_names() const {
+  std::vector<std::string> names;
+  for (BeadId bead = 0; scene().names_beads() && bead < scene().bead_count(); ++bead)
+    names.push_back(scene().bead_name(bead));
+  return names;
+}
+
+}  // namespace kds::python
