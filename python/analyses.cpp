@@ -1,5 +1,7 @@
 #include "python/analyses.h"
 
+#include <pybind11/stl.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -98,6 +100,7 @@ py::dict contacts(const Arguments& arguments, const py::object& progress) {
   const ContactsTask task = parse_contacts_options(arguments).task;
   Found found;
   std::vector<std::string> names;
+  std::string columns;
   std::unique_ptr<Intervals> intervals;
   {
     Watch watch(progress);
@@ -113,10 +116,12 @@ py::dict contacts(const Arguments& arguments, const py::object& progress) {
     found.json = text_of(json);
     found.table = contacts_text(*report, figures);
     names = report->elements.names;
+    columns = contacts_csv(*report, ContactsFigures());
     intervals = std::make_unique<Intervals>(*report);
   }
   py::dict result = found.dict();
   result["names"] = names;
+  result["columns"] = columns;
   intervals->move_to(result);
   return result;
 }

@@ -9,8 +9,9 @@
 
 namespace kds::python {
 
-/// `kds contacts`. Adds the arrays of all intervals: `first`, `second` (elements), `begin_frame`,
-/// `end_frame`, `begin_time`, `end_time` (picoseconds), `length`, `open_at_start`, `open_at_end`.
+/// `kds contacts`. Adds `columns`, the header of its CSV, `names` of the elements, and the arrays of all
+/// intervals: `first`, `second` (elements), `begin_frame`, `end_frame`, `begin_time`, `end_time`
+/// (picoseconds), `length`, `open_at_start`, `open_at_end`.
 [[nodiscard]] pybind11::dict contacts(const Arguments& arguments, const pybind11::object& progress);
 /// `kds compare`.
 [[nodiscard]] pybind11::dict compare(const Arguments& arguments, const pybind11::object& progress);

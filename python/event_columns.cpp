@@ -22,8 +22,7 @@ void EventColumns::on_event(const Event& event) {
 
 pybind11::dict EventColumns::take() {
   const std::size_t events = sizes_.size();
-  std::size_t width = 1;
-  for (const std::uint8_t size : sizes_) width = std::max<std::size_t>(width, size);
+  constexpr std::size_t width = std::tuple_size_v<decltype(Change::ids)>;
   std::vector<std::int32_t> beads(events * width, -1);
   std::size_t next = 0;
   for (std::size_t i = 0; i < events; ++i)

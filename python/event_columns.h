@@ -17,7 +17,8 @@ class EventColumns final : public EventListener {
   void keep(bool keeps) { keeps_ = keeps; }
   /// Returns the columns as a dictionary of arrays with one row for each event, and starts anew:
   /// `frame`, `time` (picoseconds, NaN without times), `lower`, `upper` (the bracket in the step), `step`,
-  /// `structure` and `kind` (indices), and `beads`, whose rows end with -1. The infinite vertex is -1, too.
+  /// `structure` and `kind` (indices), and `beads`, rows of ten ids that
+  /// end with -1. The infinite vertex is -1, too.
   [[nodiscard]] pybind11::dict take();
   [[nodiscard]] std::size_t size() const { return frames_.size(); }
 

@@ -91,6 +91,7 @@ void bind_frames(py::module_& module) {
   py::class_<BeadsInMemory>(module, "Beads")
       .def(py::init([](std::string label) { return BeadsInMemory{.label = std::move(label)}; }),
            py::arg("label"))
+      .def_readonly("label", &BeadsInMemory::label)
       .def_readwrite("names", &BeadsInMemory::names)
       .def_readwrite("elements", &BeadsInMemory::elements)
       .def_readwrite("radii", &BeadsInMemory::radii)

@@ -36,6 +36,8 @@ def arguments(options, own=()):
     that the function takes although others do not."""
     found = []
     for name, value in options.items():
+        if name == "help":
+            raise TypeError("help: is no argument here; expected help(kds.run) or kds.run_options()")
         if name in _OUTPUTS:
             raise TypeError(f"{name}: is no argument here; results are attributes of what is returned")
         if name in _RENAMED and name not in own:

@@ -13,7 +13,9 @@ def _column(values):
         return np.array([np.nan if value is None else value for value in values], dtype=float)
     if kinds <= {str}:
         return np.array(["" if value is None else value for value in values])
-    return np.array(values, dtype=object)
+    column = np.empty(len(values), dtype=object)
+    column[:] = values
+    return column
 
 
 def table(columns):
@@ -38,10 +40,13 @@ def _flat(row, prefix=""):
             yield prefix + name, value
 
 
-def table_of_rows(rows):
-    """Returns a table of rows, dictionaries as in the program's JSON. A nested member a.b is a column."""
+def table_of_rows(rows, columns=()):
+    """Returns a table of rows, dictionaries as in the program's JSON. A nested member a.b is a column.
+
+    ``columns`` are those of a table without rows.
+    """
     flat = [dict(_flat(row)) for row in rows]
-    names = list(dict.fromkeys(name for row in flat for name in row))
+    names = list(dict.fromkeys(name for row in flat for name in row)) or columns
     return table({name: [row.get(name) for row in flat] for name in names})
 
 
@@ -62,7 +67,7 @@ class Result:
 
         self.json = json.loads(found["json"])
         self.table = found["table"]
-        self.rows = table_of_rows(self.json["rows"])
+        self.rows = table_of_rows(self.json["rows"], found.get("columns", "").strip().split(","))
 
     def __str__(self):
         return self.table.rstrip("\n")

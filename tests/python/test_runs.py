@@ -1,0 +1,266 @@
+"""What runs return, compared with static structures, with NumPy and with the program."""
+
+import gc
+import itertools
+import unittest
+
+import numpy as np
+
+import kds
+from data import DCD, PDB, coil, program
+
+
+def resident_bytes():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * 4096
+
+
+def pairs_within(positions, distance, apart):
+    """Returns the pairs of centres at most this far apart, by looking at all pairs."""
+    return [[i, j] for i, j in itertools.combinations(range(len(positions)), 2)
+            if j - i >= apart and np.linalg.norm(positions[i] - positions[j]) <= distance]
+
+
+def assert_same(array, expected):
+    """Compares arrays bit by bit, so that NaN equals NaN."""
+    np.testing.assert_array_equal(array.dtype, expected.dtype)
+    if array.tobytes() != expected.tobytes():
+        raise AssertionError(f"arrays differ:\n{array}\n{expected}")
+
+
+class States(unittest.TestCase):
+    positions = coil(frames=5, beads=40)
+
+    def setUp(self):
+        self.run_ = kds.run(self.positions, radius=1.1, structures=["sorted", "wrapped", "power", "contacts", "closest"])
+
+    def test_at_frames_in_any_order(self):
+        for frame in (4, 0, 2, 1, 3):
+            expected, hidden = kds.power_diagram(self.positions[frame], 1.1)
+            np.testing.assert_array_equal(self.run_.power.edges(frame=frame), expected)
+            self.assertEqual(len(hidden), 0)
+            self.assertEqual(self.run_.contacts.pairs(frame=frame).tolist(),
+                             pairs_within(self.positions[frame], 2.2, apart=2))
+            order = self.run_.sorted.elements(frame)[:, 1]
+            np.testing.assert_array_equal(order, np.argsort(self.positions[frame][:, 0], kind="stable"))
+
+    def test_between_frames(self):
+        for time in (0.5, 2.25):
+            k, u = int(time), time % 1
+            at = (1 - u) * self.positions[k] + u * self.positions[k + 1]
+            self.assertEqual(self.run_.contacts.pairs(frame=time).tolist(), pairs_within(at, 2.2, apart=2))
+            np.testing.assert_array_equal(self.run_.power.edges(frame=time), kds.power_diagram(at, 1.1)[0])
+            nodes, spheres = self.run_.wrapped.nodes(frame=time), self.run_.wrapped.spheres(frame=time)
+            expected_nodes, expected = kds.wrapped_hierarchy(at, 1.1)
+            np.testing.assert_array_equal(nodes, expected_nodes)
+            np.testing.assert_allclose(spheres, expected, atol=1e-9)
+
+    def test_spheres_enclose_their_balls(self):
+        for (first, last), sphere in zip(self.run_.wrapped.nodes(frame=3), self.run_.wrapped.spheres(frame=3)):
+            reach = np.linalg.norm(self.positions[3][first:last + 1] - sphere[:3], axis=1) + 1.1
+            self.assertLessEqual(reach.max(), sphere[3] * (1 + 1e-12))
+
+    def test_looking_adds_no_events(self):
+        events = self.run_.events.copy()
+        fingerprint = self.run_.fingerprint
+        self.run_.power.edges(frame=1)
+        assert_same(self.run_.events, events)
+        self.assertEqual(self.run_.fingerprint, fingerprint)
+        self.assertEqual(kds.run(self.positions, radius=1.1, structures=self.run_.structures).fingerprint, fingerprint)
+
+    def test_events_turn_one_frame_into_the_next(self):
+        pairs = {tuple(pair) for pair in self.run_.contacts.pairs(frame=0)}
+        for event in self.run_.contacts.events:
+            pair = tuple(event["beads"][:2])
+            pairs = pairs | {pair} if event["kind"] == "begin" else pairs - {pair} if event["kind"] == "end" else pairs
+        self.assertEqual(sorted(pairs), [tuple(pair) for pair in self.run_.contacts.pairs(frame=4)])
+
+    def test_shown_as_the_table_of_the_program(self):
+        self.assertIn(self.run_.fingerprint, str(self.run_))
+        self.assertIn("certificates created", self.run_._repr_html_())
+        self.assertNotIn("--", str(self.run_).replace("---", ""))
+        self.assertIn("kds.Run: 40 beads", repr(self.run_))
+        self.assertEqual(self.run_.summary["fingerprint"], self.run_.fingerprint)
+
+
+class StaticStructures(unittest.TestCase):
+    def test_against_all_pairs(self):
+        points = coil(frames=1, beads=50)[0]
+        self.assertEqual(kds.colliding_pairs(points, 1).tolist(), pairs_within(points, 2, apart=2))
+        self.assertEqual(kds.colliding_pairs(points, 1, within=0.5, apart=3).tolist(), pairs_within(points, 2.5, apart=3))
+        first, second, distance = kds.closest_pair(points, 0.1, apart=2)
+        lengths = {(i, j): np.linalg.norm(points[i] - points[j]) - 0.2
+                   for i, j in itertools.combinations(range(50), 2) if j - i >= 2}
+        self.assertEqual((first, second), min(lengths, key=lengths.get))
+        self.assertAlmostEqual(distance, min(lengths.values()))
+
+    def test_enclosing_sphere(self):
+        points = np.random.default_rng(3).normal(size=(30, 3))
+        center, radius, basis = kds.enclosing_sphere(points, 0.5)
+        reach = np.linalg.norm(points - center, axis=1) + 0.5
+        self.assertAlmostEqual(reach.max(), radius)
+        np.testing.assert_allclose(reach[basis], radius)
+
+    def test_in_the_plane(self):
+        points = np.random.default_rng(4).normal(size=(20, 2))
+        edges, hidden = kds.power_diagram(points, 0)
+        self.assertLessEqual(len(edges), 3 * 20 - 6)
+        self.assertEqual(len(hidden), 0)
+
+
+class Analyses(unittest.TestCase):
+    def test_contacts_are_those_of_the_program(self):
+        expected = program("contacts", DCD, "--topology", PDB, "--frames", "0:60", "--cutoff", "8", "--select", "ca",
+                           "--gap", "2")
+        found = kds.contacts(DCD, topology=PDB, stop=60, cutoff=8, select="ca", gap=2)
+        for name in ("rows", "all", "frames", "survival", "course"):
+            self.assertEqual(found.json[name], expected[name])
+        self.assertEqual(len(found.intervals), found.all["contacts"])
+        self.assertAlmostEqual(float(np.sum(found.intervals["length"])), found.all["total"])
+        self.assertEqual(found.map().shape, (len(found.names),) * 2)
+        run = kds.run(DCD, topology=PDB, stop=60, select="ca", structures=["contacts"], cutoff=8)
+        self.assertEqual(run.contacts.analysis(gap=2).json["rows"], expected["rows"])
+        self.assertEqual(len(run.contacts.lifetimes(by="bead", gap=2)), len(expected["rows"]))
+
+    def test_no_contacts_leave_an_empty_table(self):
+        found = kds.contacts(coil(), cutoff=0.001)
+        self.assertEqual(len(found.rows), 0)
+        self.assertIn("contacts", list(found.rows.columns) if hasattr(found.rows, "columns") else found.rows.dtype.names)
+
+    def test_compare_update_collide_conditions(self):
+        given = [DCD, "--topology", PDB, "--frames", "0:20"]
+        options = {"topology": PDB, "stop": 20}
+        for expected, found in (
+                (program("compare", *given, "--rounds", "1", "--strides", "1,2"),
+                 kds.compare(DCD, rounds=1, strides=[1, 2], **options)),
+                (program("update", *given, "--rounds", "1"), kds.update(DCD, rounds=1, **options)),
+                (program("collide", *given, "--method", "auto"), kds.collide(DCD, **options)),
+                (program("info", *given), kds.conditions(DCD, **options))):
+            with self.subTest(found=repr(found)):
+                self.assertEqual(len(found.rows), len(expected["rows"]))
+                for row, other in zip(found.json["rows"], expected["rows"]):
+                    for name in ("structure", "events", "technique", "activated", "pairs", "colliding_frames", "violations"):
+                        self.assertEqual(row.get(name), other.get(name))
+        self.assertEqual(len(kds.collide(DCD, radius=3, **options).pairs), kds.collide(DCD, radius=3, **options).json["rows"][0]["pairs"])
+
+    def test_generated_models(self):
+        self.assertEqual(len(kds.generate("two-spirals", beads=40, frames=3)), 2)
+        self.assertEqual(kds.generate("random-chain", beads=40, frames=3, seed=2).shape, (3, 40, 3))
+
+    def test_levers(self):
+        exact = kds.run(DCD, topology=PDB, stop=32, structures=["wrapped"])
+        for options in ({"tolerance": 0.2}, {"relax": 0.03}, {"between": "chord"}, {"levels": slice(0, 3)},
+                        {"nodes": slice(10, 50)}):
+            self.assertLess(len(kds.run(DCD, topology=PDB, stop=32, structures=["wrapped"], **options).events),
+                            len(exact.events))
+        certified = kds.run(DCD, topology=PDB, stop=31, step=3, structures=["contacts"], certify=True)
+        self.assertEqual(certified.summary["stride"]["skipped"], 20)
+        self.assertEqual(kds.run(DCD, topology=PDB, stop=8, kernel="exact").fingerprint,
+                         kds.run(DCD, topology=PDB, stop=8, kernel="filtered", audit="frames").fingerprint)
+
+
+class Driving(unittest.TestCase):
+    positions = coil(frames=5, beads=25)
+
+    def open(self, **options):
+        return kds.KineticRun(self.positions, radius=1, structures=["contacts", "power"], **options)
+
+    def test_steps_events_and_times_are_those_of_a_run(self):
+        expected = kds.run(self.positions, radius=1, structures=["contacts", "power"])
+        by_steps = self.open()
+        parts = []
+        while (events := by_steps.step()) is not None:
+            parts.append(events)
+        by_steps.finish()
+        assert_same(np.concatenate(parts), expected.events)
+        self.assertEqual(by_steps.fingerprint, expected.fingerprint)
+        by_events = self.open()
+        parts = []
+        while (events := by_events.next_event()) is not None:
+            self.assertEqual(len(set(events["lower"])), 1)
+            self.assertAlmostEqual(by_events.frame, events["frame"][0], places=9)
+            parts.append(events)
+        assert_same(np.concatenate(parts), expected.events)
+        by_events.audit()
+
+    def test_going_back_repeats_the_events(self):
+        run = self.open()
+        first = run.go_to(2.5)
+        later = run.go_to(4)
+        self.assertEqual(len(run.go_to(1)), 0)
+        self.assertEqual(run.frame, 1.0)
+        again = np.concatenate([run.go_to(2.5), run.go_to(4)])
+        assert_same(again, np.concatenate([first, later])[len(first[first["frame"] < 1]):])
+
+    def test_pushed_frames(self):
+        expected = kds.run(self.positions, radius=1, structures=["contacts", "power"])
+        run = kds.KineticRun.pushed(25, 1, structures=["contacts", "power"])
+        parts = [run.push(frame, time=10.0 * k) for k, frame in enumerate(self.positions)]
+        parts.append(run.finish())
+        events = np.concatenate(parts)
+        np.testing.assert_array_equal(events["beads"], expected.events["beads"])
+        np.testing.assert_allclose(events["time"], 10 * events["frame"])
+        self.assertEqual(run.fingerprint, expected.fingerprint)
+
+    def test_beads_come_go_and_bend(self):
+        run = self.open()
+        run.go_to(1.5)
+        before = run.contacts.pairs()
+        bead = int(before[0, 0])
+        lost = run.erase("contacts", bead)
+        self.assertIn("end", set(lost["kind"]))
+        self.assertFalse((run.contacts.pairs() == bead).any())
+        run.insert("contacts", bead)
+        np.testing.assert_array_equal(run.contacts.pairs(), before)
+        points = run.control_points()[[3]]
+        run.bend([3], points)  # the same curve
+        run.audit()
+        with self.assertRaises(kds.InputError):
+            run.bend([3], points[:, :1])
+        run.erase("power", 3)
+        self.assertFalse((run.power.edges() == 3).any())
+        run.audit()
+
+    def test_structures_of_some_beads(self):
+        run = kds.KineticRun(self.positions, radius=1, cutoff=4, structures=["contacts"], only={"contacts": range(10)})
+        run.finish()
+        self.assertEqual(run.contacts.pairs().tolist(), pairs_within(self.positions[4][:10], 4, apart=2))
+
+
+class Memory(unittest.TestCase):
+    def test_it_is_flat_over_a_hundred_runs(self):
+        positions = coil(frames=20, beads=60)
+
+        def one():
+            run = kds.run(positions, radius=1, structures=["power", "contacts"])
+            run.power.edges(frame=3)
+            return run.events
+
+        for _ in range(20):
+            one()
+        gc.collect()
+        before = resident_bytes()
+        for _ in range(100):
+            one()
+        gc.collect()
+        self.assertLess(resident_bytes() - before, 3e6)
+
+    def test_arrays_outlive_their_run(self):
+        run = kds.run(coil(), radius=1, structures=["power", "wrapped"])
+        edges, spheres, events = run.power.edges(frame=2), run.wrapped.spheres(frame=2), run.events
+        kept = edges.copy(), spheres.copy(), events.copy()
+        del run
+        gc.collect()
+        junk = [np.ones(1000) for _ in range(1000)]
+        for array, copy in zip((edges, spheres, events), kept):
+            assert_same(array, copy)
+        del junk
+
+    def test_the_input_lives_as_long_as_its_run(self):
+        run = kds.run(coil() + 0.0, radius=1, structures=["power"])
+        gc.collect()
+        np.testing.assert_array_equal(run.power.edges(frame=2), kds.power_diagram(coil()[2], 1)[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
