@@ -22,7 +22,7 @@ namespace kds::python {
 namespace py = pybind11;
 
 /// Positions of beads in memory, in one of two types.
-struct Numbers {
+struct MemoryNumbers {
   const float* singles = nullptr;
   const double* doubles = nullptr;
 
@@ -36,7 +36,7 @@ struct Numbers {
 struct FramesInMemory::Content {
   BeadsInMemory beads;
   std::size_t frame_count = 0, bead_count = 0;
-  Numbers numbers;   // of all frames; unused if `frame` is set
+  MemoryNumbers numbers;   // of all frames; unused if `frame` is set
   py::object owner;  // of `numbers`
   py::object frame;  // or a function that returns one frame
 
@@ -50,7 +50,7 @@ struct FramesInMemory::Content {
 namespace {
 
 // Returns the array's numbers.
-Numbers numbers_of(const py::array& array, const std::string& label) {
+MemoryNumbers numbers_of(const py::array& array, const std::string& label) {
   if ((array.flags() & py::array::c_style) == 0)
     throw InputError(fmt::format(
         "{}: its numbers are not in C order; expected numpy.ascontiguousarray(positions)", label));
@@ -107,7 +107,7 @@ class AtomsInMemory final : public AtomFrames {
   }
 
  private:
-  void copy(const Numbers& numbers, std::size_t first, std::span<const std::size_t> atoms,
+  void copy(const MemoryNumbers& numbers, std::size_t first, std::span<const std::size_t> atoms,
             FrameRead& frame) const {
     const bool nanometres = content_->beads.nanometres;
     for (std::size_t i = 0; i < atoms.size(); ++i)
