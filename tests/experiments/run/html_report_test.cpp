@@ -43,7 +43,7 @@ TEST(HtmlReport, SentencesNameResidues) {
   report.approach = ClosestApproach{{0, 2}, 7, 0.5, {1, 2}};
   EXPECT_THAT(html_report(report), HasSubstr("(10.00 per step), most often at bead 2 (5).</li>"));
   EXPECT_THAT(html_report(report), HasSubstr("<dd>bead 0 and bead 2 come nearest, to 2,"));
-  report.bead_names = {"N of ALA 59 in chain A", "CA of ALA 59 in chain A", "C of ALA 59 in chain A"};
+  report.bead_names = {"N of ALA 59", "CA of ALA 59", "C of ALA 59"};
   EXPECT_THAT(html_report(report), HasSubstr("most often at bead 2, C of ALA 59 (5).</li>"));
   EXPECT_THAT(html_report(report),
               HasSubstr("<dd>bead 0, N of ALA 59 and bead 2, C of ALA 59 come nearest, to 2,"));
@@ -91,7 +91,7 @@ TEST(HtmlReport, MapsOfEventsAndContacts) {
   places.grid.edges = {{10, {}}, {11, {}}, {14, {}}};
   places.grid.counts = {{2, 0}, {0, 5}};
   report.contact_pairs = {{0, 2, 0.5}, {1, 2, 0}};
-  report.bead_names = {"N of ALA 59", "CA of ALA 59", "C of ALA 59"};
+  report.bead_names = {"N of ALA 59 in chain A", "CA of ALA 59 in chain A", "C of ALA 59 in chain A"};
   const std::string html = html_report(report);
   expect_sound(html);
   for (const std::string text :
