@@ -14,8 +14,11 @@
 #include <set>
 #include <sstream>
 
+#include "experiments/contacts/certify_contacts.h"
 #include "experiments/contacts/contacts_command.h"
+#include "experiments/contacts/follow_contacts.h"
 #include "experiments/output/sorted_records.h"
+#include "experiments/run/load_scene.h"
 #include "motions/base/input_error.h"
 #include "motions/readers/read_trajectory.h"
 #include "tests/experiments/run_program.h"
@@ -323,25 +326,21 @@ TEST(ContactsCommand, IntervalsAreThoseOfEachPairsQuadratic) {
   expect_as_brute_force("trajectories/random100_400K_first200.dcd", "trajectories/random100_400K.pdb", 60, 8);
 }
 
-/// A line of intervals.csv or possible_intervals.csv.
 struct Span {
   double begin = 0, end = 0;
-  std::string flag;
+  bool flag = false;  // sure, or found
 };
-using SpansOfPairs = std::map<std::pair<int, int>, std::vector<Span>>;
+using SpansOfPairs = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Span>>;
 
-SpansOfPairs spans_in(const std::filesystem::path& path) {
+SpansOfPairs spans_of(const SpooledRecords<IntervalRecord>& intervals,
+                      const std::vector<std::uint8_t>& flags) {
   SpansOfPairs spans;
-  std::istringstream lines(text_of(path));
-  std::string line;
-  std::getline(lines, line);
-  while (std::getline(lines, line)) {
-    std::vector<std::string> cells;
-    std::istringstream text(line);
-    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
-    spans[{std::stoi(cells[0]), std::stoi(cells[1])}].push_back(
-        {std::stod(cells[4]), std::stod(cells[5]), cells.back()});
-  }
+  std::size_t place = 0;
+  intervals.for_each([&](const IntervalRecord& r) {
+    spans[{r.first, r.second}].push_back(
+        {r.begin_frame, r.end_frame, !flags.empty() && flags.at(place) != 0});
+    ++place;
+  });
   return spans;
 }
 
@@ -351,78 +350,75 @@ double time_of(const std::vector<Span>& spans) {
   return time;
 }
 
+constexpr double rounded = 1e-9;  // times have twelve digits
+
+bool contains(const Span& outer, const Span& inner) {
+  return outer.begin <= inner.begin + rounded && inner.end <= outer.end + rounded;
+}
+bool meet(const Span& a, const Span& b) { return a.begin <= b.end + rounded && b.begin <= a.end + rounded; }
+
 // Compares a certificate with the contacts of all frames.
 void expect_true_certificate(const std::vector<std::string>& rule, const std::string& stride) {
   SCOPED_TRACE(testing::PrintToString(rule) + " " + stride);
-  const ScratchDirectory directory;
-  const auto report = [&](const std::string& frames, bool certify) {
-    const std::filesystem::path out = directory / (certify ? "certified" : "truth");
-    std::vector<std::string> arguments{"contacts",   data_file("trajectories/villin_hp36_300K.dcd"),
-                                       "--topology", data_file("trajectories/villin_hp36_300K.pdb"),
-                                       "--select",   "ca",
-                                       "--frames",   frames,
-                                       "--out",      out.string()};
+  const auto task_of = [&](const std::string& frames) {
+    Arguments arguments{data_file("trajectories/villin_hp36_300K.dcd"),
+                        "--topology",
+                        data_file("trajectories/villin_hp36_300K.pdb"),
+                        "--select",
+                        "ca",
+                        "--frames",
+                        frames};
     arguments.insert(arguments.end(), rule.begin(), rule.end());
-    if (certify) arguments.emplace_back("--certify");
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 0) << run.err;
-    return out;
+    return parse_contacts_options(arguments).task;
   };
-  const auto truth = spans_in(report("0:97", false) / "intervals.csv");
-  const std::filesystem::path out = report("0:97:" + stride, true);
-  const auto found = spans_in(out / "intervals.csv"), possible = spans_in(out / "possible_intervals.csv");
-  const Json json = Json::parse(text_of(out / "contacts.json"));
-  constexpr double rounded = 1e-9;  // of printed times
-  const auto meets = [&](const Span& a, const Span& b) {
-    return a.begin <= b.end + rounded && b.begin <= a.end + rounded;
+  const auto no_progress = [](std::size_t, std::size_t) {};
+  const auto scene_of = [](const ContactsTask& task) {
+    return load_necklaces(task, task.motion, 1, [](const std::string&) {});
   };
-  std::size_t sure = 0, contacts = 0;
+  ContactsTask all = task_of("0:97");
+  all.motion = FrameMotion::linear;
+  const ContactsTask strided = task_of("0:97:" + stride);
+  const Scene all_frames = scene_of(all), some_frames = scene_of(strided);
+  const SpansOfPairs truth = spans_of(follow_contacts(all, all_frames, no_progress)->intervals, {});
+  const auto report = follow_contacts(strided, some_frames, no_progress);
+  const ContactsCertificate certificate = certify_contacts(strided, some_frames, *report, no_progress);
+  const SpansOfPairs found = spans_of(report->intervals, certificate.is_sure),
+                     possible = spans_of(certificate.possible, certificate.is_found);
   for (const auto& [pair, spans] : truth) {
     ASSERT_TRUE(possible.contains(pair));
     for (const Span& span : spans)
-      EXPECT_EQ(std::ranges::count_if(possible.at(pair),
-                                      [&](const Span& one) {
-                                        return one.begin <= span.begin + rounded &&
-                                               span.end <= one.end + rounded;
-                                      }),
-                1);
+      EXPECT_EQ(
+          std::ranges::count_if(possible.at(pair), [&](const Span& one) { return contains(one, span); }), 1);
   }
+  std::uint64_t sure = 0;
   for (const auto& [pair, spans] : found) {
     for (const Span& span : spans) {
-      ++contacts;
-      if (span.flag != "sure") continue;
+      if (!span.flag) continue;
       ++sure;
       ASSERT_TRUE(truth.contains(pair));
-      EXPECT_TRUE(std::ranges::any_of(truth.at(pair), [&](const Span& one) { return meets(one, span); }));
+      EXPECT_TRUE(std::ranges::any_of(truth.at(pair), [&](const Span& one) { return meet(one, span); }));
     }
-    EXPECT_EQ(std::ranges::count(possible.at(pair), "yes", &Span::flag),
-              std::ranges::count_if(possible.at(pair), [&](const Span& one) {
-                return std::ranges::any_of(spans, [&](const Span& inner) { return meets(one, inner); });
-              }));
+    for (const Span& span : possible.at(pair))
+      EXPECT_EQ(span.flag, std::ranges::any_of(spans, [&](const Span& one) { return contains(span, one); }));
   }
-  for (const Json& row : json["rows"]) {
-    const auto of_pair = truth.find({row["i"], row["j"]});
-    const double share = of_pair == truth.end() ? 0 : time_of(of_pair->second) / 96;
-    EXPECT_LE(row["least_occupancy"].get<double>(), share + rounded);
-    EXPECT_GE(row["most_occupancy"].get<double>(), share - rounded);
-    EXPECT_LE(row["least_occupancy"], row["occupancy"]);
-    EXPECT_GE(row["most_occupancy"], row["occupancy"]);
-  }
-  std::size_t in_truth = 0;
+  std::uint64_t in_truth = 0;
   double time_in_truth = 0;
-  for (const auto& [pair, spans] : truth) {
+  for (const auto& [pair, bounds] : certificate.pairs) {
+    const auto spans = truth.contains(pair) ? truth.at(pair) : std::vector<Span>();
     in_truth += spans.size();
     time_in_truth += time_of(spans);
+    EXPECT_LE(bounds.least, spans.size());
+    EXPECT_LE(bounds.least_time, time_of(spans) + rounded);
+    EXPECT_GE(bounds.most_time, time_of(spans) - rounded);
   }
-  const Json& stated = json["stride"];
-  EXPECT_EQ(stated["contacts"]["found"], contacts);
-  EXPECT_EQ(stated["contacts"]["sure"], sure);
-  EXPECT_EQ(stated["pairs"]["possible"], possible.size());
-  EXPECT_LE(stated["contacts"]["least"], in_truth);
-  EXPECT_LE(stated["time"]["least"], time_in_truth + rounded);
-  EXPECT_GE(stated["time"]["most"].get<double>(), time_in_truth - rounded);
-  EXPECT_GT(sure, 0U);
-  EXPECT_GT(stated["contacts"]["least"], 0);
+  const ContactBoundsOfPair& stated = certificate.all;
+  EXPECT_EQ(stated.sure, sure);
+  EXPECT_LE(stated.least, in_truth);
+  EXPECT_LE(stated.least_time, time_in_truth);
+  EXPECT_GE(stated.most_time, time_in_truth);
+  EXPECT_GT(stated.least_time, 0.2 * time_in_truth);
+  EXPECT_LT(stated.most_time, 3 * time_in_truth);
+  EXPECT_GT(stated.least, 0U);
 }
 
 TEST(ContactsCommand, CertificatesBoundTheContactsOfAllFrames) {
@@ -430,6 +426,7 @@ TEST(ContactsCommand, CertificatesBoundTheContactsOfAllFrames) {
   expect_true_certificate({"--cutoff", "7:9", "--by", "bead"}, "2");
   expect_true_certificate({"--cutoff", "8", "--gap", "3"}, "8");
   expect_true_certificate({"--cutoff", "5", "--surface", "--groups", "//A/41-60", "//A/50-76"}, "3");
+  expect_true_certificate({"--cutoff", "8", "--motion", "hermite"}, "6");
 }
 
 // In all frames, the bead comes within 1 at frames 1 and 3 and stays 3 away at frame 2. The run leaves out
@@ -471,7 +468,12 @@ TEST(ContactsCommand, AContactBetweenFramesMayNotExist) {
   EXPECT_EQ(contacts["found"], 1);
   EXPECT_EQ(contacts["sure"], 0);
   EXPECT_EQ(contacts["least"], 0);
+  EXPECT_THAT(text_of(out + "/intervals.csv"), HasSubstr(",certainty\n"));
   EXPECT_THAT(text_of(out + "/intervals.csv"), HasSubstr(",possible\n"));
+  EXPECT_THAT(text_of(out + "/possible_intervals.csv"), HasSubstr(",found\n"));
+  EXPECT_THAT(text_of(out + "/possible_intervals.csv"), HasSubstr(",yes\n"));
+  EXPECT_THAT(text_of(out + "/contacts.csv"), HasSubstr(",unit,sure,least_occupancy,most_occupancy\n"));
+  EXPECT_THAT(text_of(out + "/report.html"), HasSubstr("What is sure"));
   // A longer cutoff reaches the bead at the first frame, which is at its true position there.
   const ProgramRun near =
       run_program({"contacts", rests, moves, "--cutoff", "5", "--frames", "::2", "--certify", "--json", "-"});
