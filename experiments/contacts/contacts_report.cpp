@@ -501,7 +501,7 @@ std::string contacts_page(const ContactsReport& report, const ContactsFigures& f
       "is the "
       "time in contact divided by the number of ends.";
   if (figures.certificate)
-    page.body += html_section("What is sure", html_terms(certified_lines(report, figures)));
+    page.body += html_section("Certificate", html_terms(certified_lines(report, figures)));
   if (figures.all.contacts > 0) {
     page.body +=
         html_section("Contact map",

@@ -335,6 +335,7 @@ TEST(ContactsRun, MapsAgreeWithTheFiles) {
     if (row[1] == "contacts") events[begin + (std::stoi(row[0]) - begin) / 2 * 2] += std::stoi(row[2]);
 
   const std::string html = content_of(std::filesystem::path(out) / "report.html");
+  EXPECT_LT(html.size(), 450'000U);
   std::size_t pairs = 0;
   std::map<int, int> drawn;
   const auto contacts_begin = html.find("Events of the power structure by time and bead");
