@@ -64,33 +64,38 @@ std::size_t strided(std::size_t frames, std::size_t stride) { return (frames + s
 // The names of the inputs, as ComparedInput has them.
 class InputNames {
  public:
-  // Throws InputError if two inputs are the same run.
+  // Throws InputError if two inputs are the same run. The inputs exist.
   explicit InputNames(const CompareOptions& options) : options_(options) {
     for (std::size_t i = 0; i < options.inputs.size(); ++i)
       for (std::size_t other = 0; other < i; ++other)
-        if (name(other) == name(i))
+        if (are_one_file(other, i) && chain_of(other) == chain_of(i))
           throw InputError(fmt::format(
               "{} is listed twice; expected different files, or other chains of one file (--chain A/B)",
               name(i)));
   }
 
   [[nodiscard]] std::string name(std::size_t input) const {
-    const std::filesystem::path& file = options_.inputs[input];
-    return file.string() + (std::ranges::count(options_.inputs, file) > 1 ? chains_of(input) : "");
+    return options_.inputs[input].string() + chain_if_shared(input);
   }
   [[nodiscard]] std::string short_name(std::size_t input) const {
-    const std::filesystem::path& file = options_.inputs[input];
-    const bool is_shared = std::ranges::any_of(options_.inputs, [&](const std::filesystem::path& other) {
-      return other.filename() == file.filename() && other != file;
-    });
-    if (is_shared) return name(input);
-    return file.filename().string() + (std::ranges::count(options_.inputs, file) > 1 ? chains_of(input) : "");
+    const std::filesystem::path file = options_.inputs[input].filename();
+    for (std::size_t other = 0; other < options_.inputs.size(); ++other)
+      if (options_.inputs[other].filename() == file && !are_one_file(other, input)) return name(input);
+    return file.string() + chain_if_shared(input);
   }
 
  private:
-  [[nodiscard]] std::string chains_of(std::size_t input) const {
-    const std::optional<std::string> chain = reading_of(options_, input).chain;
-    return chain ? fmt::format(" (chain {})", *chain) : "";
+  [[nodiscard]] bool are_one_file(std::size_t a, std::size_t b) const {
+    return std::filesystem::equivalent(options_.inputs[a], options_.inputs[b]);
+  }
+  [[nodiscard]] std::optional<std::string> chain_of(std::size_t input) const {
+    return reading_of(options_, input).chain;
+  }
+  [[nodiscard]] std::string chain_if_shared(std::size_t input) const {
+    const std::optional<std::string> chain = chain_of(input);
+    for (std::size_t other = 0; other < options_.inputs.size(); ++other)
+      if (chain && other != input && are_one_file(other, input)) return fmt::format(" (chain {})", *chain);
+    return "";
   }
 
   const CompareOptions& options_;

@@ -415,7 +415,7 @@ std::vector<Theorem> theorems_of(const std::vector<std::string>& operands) {
   for (const std::string& name : operands) {
     if (name.find('/') != std::string::npos || std::filesystem::exists(name))
       throw InputError(fmt::format(
-          "THEOREM: {} is a file; kds theorems measures models, kds scale FILE... measures files", name));
+          "THEOREM: '{}' is a path; kds theorems measures models, kds scale FILE... measures files", name));
     const auto theorem = choice_of<Theorem>("THEOREM", name, theorem_names);
     if (std::ranges::find(theorems, theorem) != theorems.end())
       throw InputError(fmt::format("THEOREM: {} is listed twice", name));

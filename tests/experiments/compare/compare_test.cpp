@@ -444,6 +444,8 @@ TEST(Compare, TellsInputsOfOneNameApart) {
   const ProgramRun twice = run_program({"compare", file, file, "--chain", "A", "--select", "ca"});
   EXPECT_EQ(twice.code, 2);
   EXPECT_THAT(twice.err, HasSubstr("two.pdb (chain A) is listed twice"));
+  const std::string spelt = (scratch / "other/../two.pdb").string();
+  EXPECT_THAT(run_program({"compare", file, spelt}).err, HasSubstr("two.pdb is listed twice"));
 }
 
 TEST(Compare, NamesTheMotionOfAnInstanceItsOwn) {

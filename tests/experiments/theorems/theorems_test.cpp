@@ -298,7 +298,7 @@ TEST(Theorems, RefusesWhatIsNoTheorem) {
   EXPECT_THAT(error_of({"--beads", "1000"}), HasSubstr("--beads: '1000' is not a whole number from 4096"));
   EXPECT_THAT(error_of({"2.3", "--beads", "63"}), HasSubstr("--beads: '63' is not a whole number from 64"));
   EXPECT_THAT(error_of({data_file("trajectories/1l2y.dcd")}),
-              HasSubstr("is a file; kds theorems measures models, kds scale FILE... measures files"));
+              HasSubstr("is a path; kds theorems measures models, kds scale FILE... measures files"));
   EXPECT_THAT(error_of({"3.1", "2.3", "3.1"}), HasSubstr("THEOREM: 3.1 is listed twice"));
   EXPECT_THAT(error_of({"2.3", "3.1", "--rounds", "2"}),
               HasSubstr("--rounds applies only to paths, 3.2, 3.3 and 3.5, which measure time"));

@@ -265,6 +265,10 @@ TEST(SvgPlot, ErrorBarsAndFittedLinesAreCurves) {
   expect_ticks(html, {"4"});  // the axis is as long as the bars
   PointPlot points{"n", "time", {"a"}, {{"", 1, 2, 0, 1, 3}, {"", 100, 20, 0}}};
   EXPECT_EQ(count_of(svg_plot(points), "class=\"curve\""), 2U);
+  PointPlot across{"n", "time", {"a"}, {{"", 1, 2, 0, 0, 0, 0.5, 1000}, {"", 100, 20, 0}}};
+  html = svg_plot(across);
+  EXPECT_EQ(count_of(html, "class=\"curve\""), 2U);
+  expect_ticks(html, {"1,000"});  // the axis is as long as the bars
   points.lines.push_back({{{1, 2}, {100, 20}}, 0});
   html = svg_plot(points);
   test::expect_nested(html);
