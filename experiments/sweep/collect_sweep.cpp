@@ -11,6 +11,7 @@
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/html_page.h"
+#include "experiments/output/page/paper.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/page/table.h"
 #include "experiments/output/result_json.h"
@@ -471,7 +472,8 @@ CollectedSweep collect_sweep(const SweepPlan& plan, const fs::path& folder, cons
   files.write(folder / "pooled.csv", pooled.csv(pool.figures()));
   files.write(folder / "failed.csv", failed_table().csv(failed));
   files.write(folder / "report.html",
-              sweep_page(plan, collected, pool, failed, counts_from(plan, states, folder), command_line));
+              without_copies(sweep_page(plan, collected, pool, failed, counts_from(plan, states, folder),
+                                        command_line)));
   commit_together({&files});
   return collected;
 }

@@ -30,10 +30,12 @@ void flatten(const Json& json, const std::string& prefix, RowFields& fields) {
   }
 }
 
-ResultRow row_of(RowFields header, const Json& json, const std::string& name = {}) {
-  RowFields all = std::move(header);
+// The row's own fields come first, then those of the whole result.
+ResultRow row_of(const RowFields& of_result, const Json& json, const std::string& name = {}) {
+  RowFields all;
   if (!name.empty()) all.emplace_back("structure", name);
   flatten(json, "", all);
+  all.insert(all.end(), of_result.begin(), of_result.end());
   // Long tables name their measure in a row.
   bool of_times = false;
   for (const auto& [key, value] : all)
@@ -72,18 +74,18 @@ std::vector<ResultRow> rows_of_result(const Json& result) {
   Json rest = Json::object();
   for (const auto& [name, value] : *result.members())
     if (&value != structures && &value != all) rest[name] = value;
-  RowFields header;
-  flatten(rest, "", header);
+  RowFields of_result;
+  flatten(rest, "", of_result);
   std::vector<ResultRow> rows;
   if (structures != nullptr && structures->members() != nullptr) {
-    for (const auto& [name, value] : *structures->members()) rows.push_back(row_of(header, value, name));
+    for (const auto& [name, value] : *structures->members()) rows.push_back(row_of(of_result, value, name));
   } else if (all != nullptr && all->members() != nullptr) {
-    rows.push_back(row_of(header, *all));
+    rows.push_back(row_of(of_result, *all));
   } else if (items != nullptr && items->items() != nullptr) {
     for (const Json& item : *items->items())
-      if (item.members() != nullptr) rows.push_back(row_of(header, item));
+      if (item.members() != nullptr) rows.push_back(row_of(of_result, item));
   } else {
-    rows.push_back(row_of(header, Json::object()));
+    rows.push_back(row_of(of_result, Json::object()));
   }
   return rows;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <functional>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -186,26 +187,43 @@ std::string plot_for_paper(const Drawing& drawing) {
 std::string section_for_paper(std::string_view heading) { return copy_of(of_section, one_line(heading)); }
 std::string caption_for_paper(std::string_view html) { return copy_of(of_caption, html); }
 
-void write_page(AtomicFiles& files, const std::string& page, bool paper) {
+namespace {
+
+// Takes the copies out of a page. `link` receives the kind and the content of each copy and returns what
+// stands in its place.
+std::string take_copies(std::string_view rest,
+                        const std::function<std::string(char, std::string_view)>& link) {
   std::string html;
-  PaperFiles copies(files);
-  for (std::string_view rest = page; !rest.empty();) {
+  while (!rest.empty()) {
     const std::size_t start = std::min(rest.find(kStart), rest.size());
     html += rest.substr(0, start);
     rest.remove_prefix(start);
     if (rest.empty()) break;
     const std::size_t end = rest.find(kEnd);
     if (end == std::string_view::npos || end < 2) throw std::logic_error("a copy on a page does not end");
-    if (paper) {
-      std::string content(rest.substr(2, end - 2));
-      std::ranges::replace(content, kLess, '<');
-      std::ranges::replace(content, kGreater, '>');
-      html += copies.add(rest[1], content);
-    }
+    html += link(rest[1], rest.substr(2, end - 2));
     rest.remove_prefix(end + 1);
   }
+  return html;
+}
+
+}  // namespace
+
+std::string without_copies(const std::string& page) {
+  return take_copies(page, [](char, std::string_view) { return std::string(); });
+}
+
+void write_page(AtomicFiles& files, const std::string& page, bool paper) {
+  if (!paper) return files.write("report.html", without_copies(page));
+  PaperFiles copies(files);
+  const std::string html = take_copies(page, [&](char kind, std::string_view copy) {
+    std::string content(copy);
+    std::ranges::replace(content, kLess, '<');
+    std::ranges::replace(content, kGreater, '>');
+    return copies.add(kind, content);
+  });
   files.write("report.html", html);
-  if (paper) copies.finish(latex_of_html(between(html, "<title>", "</title>")));
+  copies.finish(latex_of_html(between(html, "<title>", "</title>")));
 }
 
 void check_page(const Destinations& destinations, std::string_view command) {

@@ -24,6 +24,9 @@ namespace kds {
 /// Returns a note of the caption (HTML) of the plots between this note and the last caption.
 [[nodiscard]] std::string caption_for_paper(std::string_view html);
 
+/// Returns the page as write_page writes it without `paper`.
+[[nodiscard]] std::string without_copies(const std::string& page);
+
 /// Writes report.html. If `paper`, also writes these files and links them in the page:
 ///
 ///   paper-table-SECTION.tex           a table, without caption

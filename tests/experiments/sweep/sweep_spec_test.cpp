@@ -1,0 +1,144 @@
+// Tests how sweep.json is read: its tasks, their names, and the messages for mistakes.
+
+#include "experiments/sweep/sweep_spec.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "experiments/program/commands.h"
+#include "experiments/sweep/sweep_plan.h"
+#include "motions/base/input_error.h"
+#include "tests/experiments/expect_refused.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test::sweep_spec_test {
+namespace {
+
+using testing::HasSubstr;
+
+SweepSpec spec_of(const std::string& text, const std::filesystem::path& folder = "/nowhere") {
+  return read_sweep(read_json(text, "s.json"), folder, "s.json");
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    static_cast<void>(spec_of(text));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+SweepPlan plan_of(const std::string& text, const std::filesystem::path& folder) {
+  InputHashes hashes([] { return false; });
+  return {spec_of(text, folder), hashes, "s.json"};
+}
+
+TEST(SweepSpec, RefusesMistakesWithTheKeyAndTheNearestName) {
+  const auto command = [](const std::string& inside) {
+    return R"({"inputs": ["a.pdb"], "commands": [{"command": "run", )" + inside + "}]}";
+  };
+  const std::vector<std::pair<std::string, std::vector<std::string>>> mistakes{
+      {"{\n\"inputs\": [,]}", {"s.json: is not JSON at line 2, column 12"}},
+      {R"({"inputs": [], "inputs": []})", {"key 'inputs' stands twice"}},
+      {R"({"input": []})", {"unknown key 'input'", "did you mean inputs?"}},
+      {R"({"inputs": ["a.pdb"]})", {"needs the key 'commands'"}},
+      {R"({"commands": [{"command": "rnu"}]})", {"commands[0]", "'rnu'", "did you mean run?"}},
+      {R"({"commands": [{"command": "sweep"}]})", {"'sweep' is no command that can be swept"}},
+      {R"({"commands": ["run"]})", {"kds run needs inputs"}},
+      {command(R"("options": {"structure": "power"})"),
+       {"has no option --structure", "did you mean structures?"}},
+      {command(R"("options": {"out": "here"})"), {"sets --out of its tasks itself"}},
+      {command(R"("options": {"certify": 1})"), {"--certify takes no value; expected true or false"}},
+      {command(R"("options": {"motion": []})"), {"motion: has no value"}},
+      {command(R"("options": {"motion": ["linear", "linear"]})"), {"'linear' is listed twice"}},
+      {command(R"("options": {"stride": 0})"), {"'0' is not a whole number from 1"}},
+      {command(R"("options": {"stride": 2, "frames": "0:9:2"})"), {"expected FIRST:LAST beside"}},
+      {command(R"("options": {"groups": ["A"]})"), {"--groups takes 2 values"}},
+      {command(R"("options": {"motion": "--json"})"), {"--motion cannot take '--json'"}},
+      {command(R"("part_steps": 5, "options": {"motion": "hermite"})"),
+       {"--motion hermite", "no part_steps"}},
+      {command(R"("part_steps": 5, "options": {"relax": 0.1})"), {"--relax 0.1", "no part_steps"}},
+      {R"({"inputs": ["a.pdb"], "commands": [{"command": "contacts", "part_steps": 5}]})",
+       {"results of kds contacts are not sums over steps"}},
+      {R"({"inputs": ["no*.pdb"], "commands": ["run"]})", {"no file matches 'no*.pdb'"}},
+      {R"({"inputs": ["**/a.pdb"], "commands": ["run"]})", {"** is not supported"}},
+      {R"({"inputs": [{"topology": "t.pdb"}], "commands": ["run"]})", {"needs the key 'file'"}},
+      {R"({"inputs": [{"file": "a.pdb", "radius": 1}], "commands": [{"command": "run", "options": {"radius": 2}}]})",
+       {"'a.pdb' sets --radius too"}},
+      {R"({"inputs": ["a.pdb"], "commands": ["run"], "seeds": 3})",
+       {"no command of this sweep has the option --seed"}},
+      {R"({"inputs": ["a.pdb"], "commands": ["run"], "exclude": [{"motions": "x"}]})",
+       {"'motions' is no axis"}},
+      {R"({"inputs": ["a.pdb"], "commands": ["run"], "pool": ["inputs"]})", {"did you mean input?"}},
+  };
+  for (const auto& [text, words] : mistakes)
+    for (const std::string& word : words) EXPECT_THAT(refusal(text), HasSubstr(word)) << text;
+}
+
+// A new option that names a file must be known to the sweep, which hashes such files or sets the option
+// itself.
+TEST(SweepSpec, KnowsEachOptionThatNamesAFile) {
+  for (const std::string& name : swept_commands())
+    for (const SweptCommand::Option& option : swept_command(name, "").options)
+      if (option.value == "FILE" || option.value == "DIR") {
+        EXPECT_THAT(option.name, testing::AnyOf("topology", "obstacle")) << name;
+      }
+  EXPECT_THAT(swept_commands(), testing::IsSupersetOf({"run", "info", "compare", "contacts", "collide",
+                                                       "missed", "update", "trade", "scale"}));
+}
+
+TEST(SweepSpec, CombinesAxesAndExcludes) {
+  const ScratchDirectory scratch;
+  scratch.file("a.xyz", xyz({"0 0 0", "1 0 0"}));
+  scratch.file("b.xyz", xyz({"0 0 0", "2 0 0"}));
+  const SweepPlan plan = plan_of(
+      R"({"inputs": ["*.xyz"],
+          "commands": [{"command": "run", "options": {"structures": ["power", "wrapped"], "stride": [1, 5],
+                                                      "certify": [true, false], "apart": [null, 4]}}],
+          "exclude": [{"structures": "p*", "stride": 5}, {"certify": true}]})",
+      scratch.path());
+  EXPECT_EQ(plan.tasks().size() + plan.excluded(), 2U * 2 * 2 * 2 * 2);
+  EXPECT_EQ(plan.tasks().size(), 2U * (1 + 2) * 2);
+  std::set<TaskName> names;
+  for (const SweepTask& task : plan.tasks()) names.insert(task.name);
+  EXPECT_EQ(names.size(), plan.tasks().size());
+  EXPECT_EQ(plan.arguments(plan.tasks().front()),
+            (Arguments{"run", scratch / "a.xyz", "--structures", "power", "--frames", "::1"}));
+  EXPECT_EQ(plan.arguments(plan.tasks().back()), (Arguments{"run", scratch / "b.xyz", "--apart", "4",
+                                                            "--structures", "wrapped", "--frames", "::5"}));
+}
+
+// Names depend on content and settings, neither on paths nor on the order of options.
+TEST(SweepSpec, NamesTasksByContentAndSettings) {
+  const ScratchDirectory scratch;
+  const auto name = [&](const std::string& file, const std::string& options) {
+    return plan_of(R"({"inputs": [")" + file + R"("], "commands": [{"command": "run", "options": {)" +
+                       options + "}}]}",
+                   scratch.path())
+        .tasks()
+        .front()
+        .name;
+  };
+  scratch.file("a.xyz", xyz({"0 0 0", "1 0 0"}));
+  scratch.file("same.xyz", xyz({"0 0 0", "1 0 0"}));
+  scratch.file("other.xyz", xyz({"0 0 0", "1 0 1"}));
+  const TaskName a = name("a.xyz", R"("radius": 1, "motion": "linear")");
+  EXPECT_EQ(name("same.xyz", R"("motion": "linear", "radius": 1)"), a);
+  EXPECT_NE(name("other.xyz", R"("radius": 1, "motion": "linear")"), a);
+  EXPECT_NE(name("a.xyz", R"("radius": 2, "motion": "linear")"), a);
+  EXPECT_NE(name("a.xyz", R"("radius": 1)"), a);
+  scratch.file("r1", "1\n1\n");
+  scratch.file("r2", "1\n2\n");
+  const TaskName r1 = name("a.xyz", R"("radius": "file:r1")");
+  EXPECT_NE(name("a.xyz", R"("radius": "file:r2")"), r1);
+  scratch.file("r2", "1\n1\n");
+  EXPECT_EQ(name("a.xyz", R"("radius": "file:r2")"), r1);
+  EXPECT_NE(name("missing.xyz", R"("radius": 1, "motion": "linear")"), a);
+}
+
+}  // namespace
+}  // namespace kds::test::sweep_spec_test

@@ -1,0 +1,263 @@
+// Tests `kds sweep` as a program: resuming, changed inputs, parts, collected tables, limits and scripts.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "experiments/output/text.h"
+#include "experiments/sweep/engine_scripts.h"
+#include "experiments/sweep/result_rows.h"
+#include "tests/experiments/expect_refused.h"
+#include "tests/experiments/run_program.h"
+#include "tests/experiments/scratch_directory.h"
+#include "tests/experiments/sound_page.h"
+
+namespace kds::test::sweep_test {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+std::string run_sweep(const ScratchDirectory& scratch, const std::vector<std::string>& more = {},
+                      int code = 0) {
+  std::vector<std::string> arguments{"sweep", scratch / "s.json", "-o", scratch / "out"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const ProgramRun run = run_program(arguments);
+  EXPECT_EQ(run.code, code) << run.out << run.err;
+  return run.out + run.err;
+}
+
+std::size_t records(const ScratchDirectory& scratch, const std::string& kind) {
+  std::size_t count = 0;
+  for (const auto& file : std::filesystem::directory_iterator(scratch / "out/results"))
+    for (const std::string& line : split(content_of(file.path()), '\n'))
+      if (line.find(' ' + kind + ' ') == 16) ++count;
+  return count;
+}
+
+// Returns results.json after collecting.
+Json collected(const ScratchDirectory& scratch, int code = 0) {
+  const ProgramRun run = run_program({"sweep", "collect", scratch / "out"});
+  EXPECT_EQ(run.code, code) << run.out << run.err;
+  return Json::parse(content_of(scratch / "out/results.json"));
+}
+
+std::string chain(double bend) {
+  std::string frames;
+  for (int frame = 0; frame < 5; ++frame) {
+    std::vector<std::string> beads;
+    for (int bead = 0; bead < 12; ++bead)
+      beads.push_back(std::to_string(bead) + " " + std::to_string(bend * frame * (bead % 3)) + " " +
+                      std::to_string(0.1 * (bead * bead % 7) + 0.05 * frame * (bead % 2)));
+    frames += xyz(beads);
+  }
+  return frames;
+}
+
+TEST(Sweep, ResumesAndRepeatsOnlyTasksOfAChangedInput) {
+  const ScratchDirectory scratch;
+  scratch.file("a.xyz", chain(0.2));
+  scratch.file("b.xyz", chain(0.3));
+  scratch.file("s.json", R"({"inputs": ["?.xyz", "missing.xyz"], "commands": [
+      {"command": "run", "options": {"structures": ["wrapped", "power"], "stride": [1, 2]}}]})");
+  EXPECT_THAT(run_sweep(scratch, {}, 1), HasSubstr("8 of 12 tasks have results, 4 failed, 0 crashed"));
+  EXPECT_EQ(records(scratch, "try"), 12U);
+  const Json first = collected(scratch, 1);
+  EXPECT_EQ(first["rows"].size(), 8U);
+
+  static_cast<void>(run_sweep(scratch, {}, 1));  // nothing to do
+  EXPECT_EQ(records(scratch, "try"), 12U);
+  scratch.file("b.xyz", chain(0.4));
+  static_cast<void>(run_sweep(scratch, {}, 1));
+  EXPECT_EQ(records(scratch, "try"), 16U);
+  scratch.file("missing.xyz", chain(0.5));
+  static_cast<void>(run_sweep(scratch));
+  EXPECT_EQ(records(scratch, "try"), 20U);
+  const Json second = collected(scratch);
+  EXPECT_EQ(second["rows"].size(), 12U);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(second["rows"][k], first["rows"][k]);  // those of a.xyz
+  EXPECT_NE(second["rows"][4], first["rows"][4]);
+  expect_sound(content_of(scratch / "out/report.html"));
+}
+
+// The twin: each task's own command, read by another JSON library.
+TEST(Sweep, CollectsWhatTheCommandsPrint) {
+  const ScratchDirectory scratch;
+  scratch.file("a.xyz", chain(0.2));
+  scratch.file("b.xyz", chain(0.3));
+  scratch.file("s.json", R"({"inputs": ["a.xyz", "b.xyz"], "commands": [
+      {"command": "run", "options": {"structures": "wrapped,power", "radius": [0.6, 0.9]}}]})");
+  static_cast<void>(run_sweep(scratch));
+  const Json all = collected(scratch);
+  ASSERT_EQ(all["rows"].size(), 8U);
+  std::map<std::string, std::vector<double>> totals;
+  for (const Json& row : all["rows"]) {
+    const std::string structure = row["structure"], radius = row["radius"];
+    const ProgramRun run = run_program({"run", scratch / row["input"].get<std::string>(), "--structures",
+                                        "wrapped,power", "--radius", radius, "--quiet", "--json", "-"});
+    const Json twin = Json::parse(run.out);
+    EXPECT_EQ(row["events.total"], twin["structures"][structure]["events"]["total"]);
+    EXPECT_EQ(row["fingerprint"], twin["fingerprint"]);
+    EXPECT_FALSE(row.contains("seconds"));
+    totals[structure + radius].push_back(row["events.total"]);
+  }
+  std::size_t found = 0;
+  for (const std::string& line : split(content_of(scratch / "out/pooled.csv"), '\n')) {
+    if (line.find(",events.total,") == std::string::npos) continue;
+    const std::vector<std::string> cells =
+        split(line, ',');  // command, structures (quoted, 2), radius, row, ...
+    ++found;
+    EXPECT_EQ(cells[6], "2") << line;
+    const std::string structure = cells[4].substr(cells[4].find(' ') + 1);
+    const std::vector<double>& values = totals.at(structure + cells[3]);
+    EXPECT_DOUBLE_EQ(std::stod(cells[7]), (values[0] + values[1]) / 2) << line;
+  }
+  EXPECT_EQ(found, 4U);
+}
+
+// Counts of parts add up to those of the uncut trajectory.
+TEST(Sweep, PartsAddUpToTheWhole) {
+  const ScratchDirectory scratch;
+  const auto rows = [&](const std::string& part_steps) {
+    const std::string input = data_file("trajectories/1l2y.dcd"), topology = data_file("proteins/1l2y.pdb");
+    scratch.file("s.json", R"({"inputs": {"file": ")" + input + R"(", "topology": ")" + topology +
+                               R"(", "frames": "2:31"}, "commands": [{"command": "run", )" + part_steps +
+                               R"("options": {"structures": "wrapped,power,contacts", "stride": [1, 3]}}]})");
+    static_cast<void>(run_sweep(scratch));
+    return collected(scratch)["rows"];
+  };
+  const Json parts = rows(R"("part_steps": 5, )"), whole = rows("");
+  ASSERT_EQ(parts.size(), 6U);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    std::size_t compared = 0;
+    for (const auto& [name, value] : parts[k].items()) {
+      if (!name.starts_with("events.") && name != "input.frames") continue;
+      EXPECT_EQ(value, whole[k][name]) << name;
+      ++compared;
+    }
+    EXPECT_GE(compared, 4U);
+    EXPECT_FALSE(parts[k].contains("fingerprint"));
+  }
+  EXPECT_EQ(records(scratch, "done"), 6U + 2U + 2U);
+}
+
+TEST(Sweep, ShardsDivideTheTasks) {
+  const ScratchDirectory scratch;
+  scratch.file("a.xyz", chain(0.2));
+  scratch.file("s.json", R"({"inputs": ["a.xyz"], "commands": [
+      {"command": "info", "options": {"radius": [0.5, 0.6, 0.7, 0.8, 0.9]}}]})");
+  EXPECT_THAT(run_sweep(scratch, {"--shard", "2/3"}), HasSubstr("2 of 2 tasks of the shard"));
+  const Json half = collected(scratch, 1);
+  EXPECT_EQ(half["done"], 2);
+  EXPECT_THAT(run_program({"sweep", "collect", scratch / "out"}).out, HasSubstr("3 are missing, such as"));
+  EXPECT_THAT(run_program({"sweep", "status", scratch / "out"}).out, HasSubstr("info"));
+  const std::string slurm = "SLURM_ARRAY_TASK_MIN=4 SLURM_ARRAY_TASK_COUNT=3 SLURM_ARRAY_TASK_ID=";
+  for (const char* id : {"4", "6"})
+    EXPECT_EQ(
+        run_shell(slurm + id + " $0 sweep $1 -o $2 --quiet", {scratch / "s.json", scratch / "out"}).code, 0);
+  const ProgramRun outside =
+      run_shell(slurm + "9 $0 sweep $1 -o $2 --quiet", {scratch / "s.json", scratch / "out"});
+  EXPECT_EQ(outside.code, 2);
+  EXPECT_THAT(outside.err, HasSubstr("SLURM_ARRAY_TASK_ID 9"));
+  EXPECT_EQ(collected(scratch)["done"], 5);
+  EXPECT_EQ(records(scratch, "try"), 5U);
+}
+
+TEST(Sweep, SeedsArePooled) {
+  const ScratchDirectory scratch;
+  scratch.file("s.json", R"({"seeds": 3, "commands": [
+      {"command": "scale", "options": {"model": "random-chain", "beads": "16", "steps": 1, "structures": "power"}}]})");
+  static_cast<void>(run_sweep(scratch));
+  const Json all = collected(scratch);
+  double sum = 0;
+  std::size_t seeds = 0;
+  for (const Json& row : all["rows"])
+    if (row["measure"] == "pairs_looked_at") {
+      sum += row["value"].get<double>();
+      ++seeds;
+    } else {
+      EXPECT_TRUE(row["measure"] != "seconds_per_step" || !row.contains("value"));
+    }
+  EXPECT_EQ(seeds, 3U);
+  const std::string pooled = content_of(scratch / "out/pooled.csv");
+  EXPECT_THAT(pooled, HasSubstr("pairs_looked_at"));
+  for (const std::string& line : split(pooled, '\n'))
+    if (line.find("pairs_looked_at") != std::string::npos) {
+      EXPECT_THAT(line, HasSubstr(",value,3," + std::to_string(sum / 3).substr(0, 4)));
+    }
+}
+
+TEST(Sweep, LimitsFailOneTaskAlone) {
+  const ScratchDirectory scratch;
+  scratch.file("a.xyz", chain(0.2));
+  scratch.file("s.json", R"({"inputs": ["a.xyz"], "commands": [
+      {"command": "info"}, {"command": "compare", "options": {"rounds": 1000, "structures": "power"}},
+      {"command": "run", "options": {"motion": ["linear", "linaer"]}}]})");
+  static_cast<void>(run_sweep(scratch, {"--task-seconds", "0.3"}, 1));
+  const std::string failed = content_of(scratch / "out/failed.csv");
+  EXPECT_EQ(std::count(failed.begin(), failed.end(), '\n'), 3) << failed;
+  EXPECT_THAT(failed, HasSubstr("did you mean linear?"));
+  EXPECT_THAT(failed, HasSubstr("takes more than 0.3"));
+  EXPECT_EQ(collected(scratch, 1)["done"], 2);
+}
+
+TEST(Sweep, RefusesWrongUsage) {
+  const ScratchDirectory scratch;
+  const std::string sweep = scratch.file("s.json", R"({"commands": ["stability"]})");
+  const std::string other = scratch.file("folder/../other.txt", "x");
+  expect_refused({"sweep"}, {"kds sweep needs SWEEP.json"});
+  expect_refused({"sweep", sweep}, {"needs -o DIR"});
+  expect_refused({"sweep", scratch / "none.json", "--dry-run"}, {"none.json: no such file"});
+  expect_refused({"sweep", scratch.path(), "--dry-run"}, {"is a directory, expected SWEEP.json"});
+  expect_refused({"sweep", "collcet", scratch.path()}, {"'collcet'", "did you mean collect?"});
+  expect_refused({"sweep", "status"}, {"needs the folder of a sweep"});
+  expect_refused({"sweep", "status", scratch.path()}, {"is no folder of a sweep"});
+  expect_refused({"sweep", "status", scratch.path(), "--retry"}, {"--retry: has no meaning"});
+  expect_refused({"sweep", sweep, "-o", scratch.path()}, {"holds other files and no sweep"});
+  expect_refused({"sweep", sweep, "-o", sweep}, {"is a file, expected a directory"});
+  for (const char* shard : {"0/3", "4/3", "3", "a/b", "1/0"})
+    expect_refused({"sweep", sweep, "-o", scratch / "o", "--shard", shard}, {"--shard", "is not I/N"});
+  for (const char* memory : {"0", "1G2", "10", "99999999T"})
+    expect_refused({"sweep", sweep, "-o", scratch / "o", "--task-memory", memory}, {"--task-memory", "64M"});
+  expect_refused({"sweep", sweep, "-o", scratch / "o", "--write", "slrum"}, {"did you mean slurm?"});
+}
+
+TEST(Sweep, TellsTimesFromFigures) {
+  for (const char* name : {"seconds", "build_seconds", "cost.seconds_least", "responsiveness_worst", "ratio",
+                           "cost.ratio", "cost.memory", "seconds_per_step"})
+    EXPECT_TRUE(is_time(name)) << name;
+  for (const char* name : {"radius_ratio", "first_begin_picoseconds", "events.total", "times", "bond_ratio"})
+    EXPECT_FALSE(is_time(name)) << name;
+}
+
+TEST(Sweep, BatchesAreAtMostAThousand) {
+  EngineRequest request;
+  request.tasks = 1'000'000;
+  for (const double hours : {0.001, 1.0, 30.0, 250.0, 5000.0}) {
+    request.hours = hours;
+    request.longest = 5;
+    const Batches batches = batches_of(request);
+    EXPECT_LE(batches.count, 1000U);
+    EXPECT_GE(batches.limit_minutes * 60.0, 2 * batches.seconds);
+    EXPECT_NEAR(static_cast<double>(batches.count) * batches.seconds, hours * 3600, 1e-6 * hours * 3600);
+    if (hours > 1 && hours < 300) {
+      EXPECT_GE(batches.seconds, 5 * 60);
+      EXPECT_LE(batches.seconds, 30 * 60);
+    }
+  }
+  request.tasks = 3;
+  EXPECT_EQ(batches_of(request).count, 3U);
+  request.program = "/a folder/kds";
+  request.sweep = "/s'.json";
+  request.folder = "/o";
+  for (const SweepEngine engine : {SweepEngine::slurm, SweepEngine::parallel, SweepEngine::snakemake})
+    EXPECT_THAT(engine_script(engine, request), HasSubstr("'/a folder/kds' sweep"));
+}
+
+}  // namespace
+}  // namespace kds::test::sweep_test

@@ -1,0 +1,155 @@
+// Tests the journals of a sweep: what counts after crashes, cut-off lines and full disks.
+
+#include "experiments/sweep/task_journal.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "experiments/sweep/run_sweep.h"
+#include "experiments/sweep/task_process.h"
+#include "tests/experiments/scratch_directory.h"
+
+namespace kds::test::task_journal_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TaskStatus status_in(const ScratchDirectory& scratch, TaskName task) {
+  TaskStates states(scratch.path());
+  states.refresh();
+  return status_of(states.of(task));
+}
+
+fs::path only_file(const ScratchDirectory& scratch) { return fs::directory_iterator(scratch.path())->path(); }
+
+TEST(TaskJournal, CountsAttemptsAndResults) {
+  const ScratchDirectory scratch;
+  JournalWriter journal(scratch.path());
+  const auto add = [&](RecordKind kind, TaskName task, const char* json = "{}") {
+    ASSERT_TRUE(journal.add(kind, task, json));
+  };
+  EXPECT_EQ(scratch.entries(), 0U);
+  add(RecordKind::attempt, 1);
+  EXPECT_EQ(status_in(scratch, 1), TaskStatus::open);
+  add(RecordKind::attempt, 1);
+  EXPECT_EQ(status_in(scratch, 1), TaskStatus::crashed);  // two attempts without a result
+  add(RecordKind::done, 1, R"({"result":{"a":1}})");
+  EXPECT_EQ(status_in(scratch, 1), TaskStatus::done);
+  for (int k = 0; k < 3; ++k) {
+    add(RecordKind::attempt, 2);
+    add(RecordKind::drop, 2);
+  }
+  EXPECT_EQ(status_in(scratch, 2), TaskStatus::open);
+  add(RecordKind::attempt, 3);
+  add(RecordKind::fail, 3, R"({"code":2})");
+  EXPECT_EQ(status_in(scratch, 3), TaskStatus::failed);
+
+  TaskStates states(scratch.path());
+  states.refresh();
+  states.forgive();
+  EXPECT_EQ(status_of(states.of(3)), TaskStatus::open);
+  EXPECT_EQ(status_of(states.of(1)), TaskStatus::done);
+  journal.complete();
+  EXPECT_EQ(only_file(scratch).extension(), ".results");
+  states.refresh();  // the renamed journal is not read twice
+  EXPECT_EQ(status_of(states.of(3)), TaskStatus::open);
+  EXPECT_EQ(states.read(states.of(1).done), R"({"result":{"a":1}})");
+  EXPECT_EQ(states.damaged(), 0U);
+}
+
+// However many bytes of a journal survive, the records that are whole count and no others.
+TEST(TaskJournal, CutOffAtEachByteKeepsWholeRecords) {
+  const ScratchDirectory scratch, cut;
+  JournalWriter journal(scratch.path());
+  std::vector<std::uint64_t> ends;
+  for (TaskName task = 1; task <= 4; ++task) {
+    ASSERT_TRUE(
+        journal.add(RecordKind::done, task, R"({"result":{"x":")" + std::string(task * 3, 'y') + R"("}})"));
+    ends.push_back(fs::file_size(only_file(scratch)));
+  }
+  const std::string whole = content_of(only_file(scratch));
+  for (std::size_t size = 0; size <= whole.size(); ++size) {
+    cut.file("cut.part", whole.substr(0, size));
+    for (TaskName task = 1; task <= 4; ++task)
+      EXPECT_EQ(status_in(cut, task) == TaskStatus::done, ends[task - 1] <= size) << size;
+  }
+}
+
+TEST(TaskJournal, ChangedByteMakesARecordVoid) {
+  const ScratchDirectory scratch, changed;
+  JournalWriter journal(scratch.path());
+  ASSERT_TRUE(journal.add(RecordKind::done, 1, R"({"result":{"x":1}})"));
+  const std::size_t first = fs::file_size(only_file(scratch));
+  ASSERT_TRUE(journal.add(RecordKind::done, 2, R"({"result":{"x":2}})"));
+  const std::string whole = content_of(only_file(scratch));
+  for (std::size_t byte = 0; byte + 1 < first; ++byte) {
+    std::string text = whole;
+    text[byte] ^= 1;
+    changed.file("changed.results", text);
+    EXPECT_EQ(status_in(changed, 1), TaskStatus::open) << byte;
+    EXPECT_EQ(status_in(changed, 2), TaskStatus::done) << byte;
+  }
+}
+
+TEST(TaskJournal, FollowsAJournalThatGrows) {
+  const ScratchDirectory scratch;
+  TaskStates states(scratch.path());
+  JournalWriter journal(scratch.path());
+  for (TaskName task = 0; task < 100; ++task) {
+    ASSERT_TRUE(journal.add(RecordKind::done, task, "{}"));
+    if (task == 50) journal.complete();  // the next record begins another journal
+    states.refresh();
+    EXPECT_TRUE(states.of(task).is_done());
+    EXPECT_FALSE(states.of(task + 1).is_done());
+  }
+  EXPECT_EQ(scratch.entries(), 2U);
+}
+
+// A lock is seen by another process, and is gone once its owner has ended.
+TEST(TaskLocks, HoldBetweenProcesses) {
+  const ScratchDirectory scratch;
+  TaskLocks locks(scratch / "locks");
+  ASSERT_TRUE(locks.take(5));
+  const auto elsewhere = [&](TaskName task) {
+    TaskProcess other([&] { return TaskLocks(scratch / "locks").take(task) ? 0 : 3; }, {});
+    return other.wait().code;
+  };
+  EXPECT_EQ(elsewhere(5), 3);
+  EXPECT_EQ(elsewhere(std::uint64_t{1} << 63U), 0);
+  EXPECT_EQ(elsewhere(std::uint64_t{1} << 63U), 0);
+  locks.release(5);
+  EXPECT_EQ(elsewhere(5), 0);
+}
+
+TEST(TaskProcess, ReportsHowWorkEnds) {
+  const auto run = [](const std::function<int()>& work, const TaskLimits& limits = {}) {
+    TaskProcess process(work, limits);
+    const TaskProcess::End end = process.wait();
+    return std::tuple(end.code, end.signal, process.out(), process.err());
+  };
+  EXPECT_EQ(run([] { return std::fputs("out", stdout), std::fputs("err", stderr), 7; }),
+            std::tuple(7, 0, "out", "err"));
+  EXPECT_EQ(std::get<1>(run([] { return ::raise(SIGSEGV); })), SIGSEGV);
+  EXPECT_EQ(std::get<0>(run([] { return ::raise(SIGTERM); })), 0);  // only the parent ends a task
+#ifndef KDS_SANITIZED
+  const auto fill = [] {
+    try {
+      std::vector<std::string> blocks;
+      while (blocks.size() < 1000) blocks.emplace_back(std::size_t{1} << 20U, 'x');
+      return 0;
+    } catch (const std::bad_alloc&) {
+      return 4;
+    }
+  };
+  EXPECT_EQ(std::get<0>(run(fill, {.memory = std::uint64_t{200} << 20U})), 4);
+#endif
+}
+
+}  // namespace
+}  // namespace kds::test::task_journal_test
