@@ -88,10 +88,10 @@ std::string snakemake_script(const EngineRequest& request) {
   return fmt::format(
       R"(# Runs {tasks} tasks in {count} batches: snakemake -s {name} --cores all
 # The files of batches are temporary, so that each start visits all batches: kds knows which tasks have results.
-# Exit code 1 says that tasks failed, which failed.csv lists; the other batches run on.
+# Exit code 1 says that tasks failed, which failed.csv lists; all other tasks run.
 rule collect:
     input: expand("batches/{{i}}", i=range(1, {count} + 1))
-    shell: "{collect}"
+    shell: "{collect} || [ $? -eq 1 ]"
 
 rule batch:
     output: temp(touch("batches/{{i}}"))

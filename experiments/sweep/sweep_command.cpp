@@ -334,7 +334,7 @@ void write_script(const fs::path& sweep, const SweepOptions& options,
 }
 
 // `kds sweep status DIR` and `kds sweep collect DIR`.
-int look_at(const std::string& what, const fs::path& folder, StopSignals& signals) {
+int look_at(const std::string& what, const fs::path& folder) {
   std::error_code none;
   if (!fs::exists(folder / kPlan, none))
     throw InputError(fmt::format("{}: is no folder of a sweep (it has no {})", folder.string(), kPlan));
@@ -343,7 +343,7 @@ int look_at(const std::string& what, const fs::path& folder, StopSignals& signal
   const Json *const from = plan_json.find("folder"), *const sweep = plan_json.find("sweep");
   if (from == nullptr || from->text() == nullptr || sweep == nullptr)
     throw InputError(subject + ": expected the keys folder and sweep; run kds sweep SWEEP.json -o DIR again");
-  InputHashes hashes([&signals] { return signals.stopped(); });
+  InputHashes hashes([] { return false; });
   hashes.load(folder);
   const SweepPlan plan(read_sweep(*sweep, *from->text(), subject), hashes, subject);
   if (what == "status") {
@@ -408,40 +408,38 @@ int sweep_command(const Arguments& arguments) {
   const std::vector<std::string>& operands = parsed.operands();
   if (operands.empty())
     throw InputError("kds sweep needs SWEEP.json, or status or collect with a folder (see kds sweep --help)");
+  if (operands.size() == 2) {
+    const std::array<std::string_view, 2> known{"status", "collect"};
+    static_cast<void>(place_among("kds sweep", operands[0], known));
+    for (const auto& option : sweep_options().all())
+      if (parsed.has(option.spec.name))
+        throw InputError(fmt::format("{}: has no meaning for kds sweep {}", option.spec.name, operands[0]));
+    return look_at(operands[0], operands[1]);
+  }
+  if (operands.size() > 2)
+    throw InputError(
+        fmt::format("kds sweep takes one SWEEP.json, not {} (see kds sweep --help)", operands.size()));
+  if (operands[0] == "status" || operands[0] == "collect")
+    throw InputError(fmt::format("kds sweep {} needs the folder of a sweep", operands[0]));
+  if (!options.out && !options.dry_run)
+    throw InputError("kds sweep needs -o DIR, the folder of the results, or --dry-run");
+
+  const fs::path file = operands[0];
+  const Json sweep = read_json(text_of_file(file), file.string());
+  const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
+  SweepSpec spec = read_sweep(sweep, folder, file.string());
+  if (options.out && !options.dry_run) prepare_folder(*options.out, plan_text(sweep, folder));
   StopSignals signals;
   try {
-    if (operands.size() == 2) {
-      const std::array<std::string_view, 2> known{"status", "collect"};
-      static_cast<void>(place_among("kds sweep", operands[0], known));
-      for (const auto& option : sweep_options().all())
-        if (parsed.has(option.spec.name))
-          throw InputError(fmt::format("{}: has no meaning for kds sweep {}", option.spec.name, operands[0]));
-      return look_at(operands[0], operands[1], signals);
-    }
-    if (operands.size() > 2)
-      throw InputError(
-          fmt::format("kds sweep takes one SWEEP.json, not {} (see kds sweep --help)", operands.size()));
-    if (operands[0] == "status" || operands[0] == "collect")
-      throw InputError(fmt::format("kds sweep {} needs the folder of a sweep", operands[0]));
-    if (!options.out && !options.dry_run)
-      throw InputError("kds sweep needs -o DIR, the folder of the results, or --dry-run");
-
-    const fs::path file = operands[0];
-    const Json sweep = read_json(text_of_file(file), file.string());
-    const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
     InputHashes hashes([&signals] { return signals.stopped(); });
-    SweepSpec spec = read_sweep(sweep, folder, file.string());
-    if (options.out && !options.dry_run) prepare_folder(*options.out, plan_text(sweep, folder));
     if (options.out) hashes.load(*options.out);
     const SweepPlan plan(std::move(spec), hashes, file.string());
     if (options.out && !options.dry_run) hashes.save(*options.out);
-    if (options.dry_run || options.write) {
-      const std::vector<Estimate> estimates = estimates_of(plan, hashes, options, signals);
-      print_to_stdout(estimates_text(plan, estimates, jobs_of(options)));
-      if (options.write && !options.dry_run) write_script(file, options, estimates);
-      return 0;
-    }
-    return run_shard(plan, options, begin, signals);
+    if (!options.dry_run && !options.write) return run_shard(plan, options, begin, signals);
+    const std::vector<Estimate> estimates = estimates_of(plan, hashes, options, signals);
+    print_to_stdout(estimates_text(plan, estimates, jobs_of(options)));
+    if (options.write && !options.dry_run) write_script(file, options, estimates);
+    return 0;
   } catch (const SweepStopped&) {
     return kContinueLater;
   }

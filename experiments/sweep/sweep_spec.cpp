@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <set>
 
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
@@ -169,12 +170,12 @@ Axis read_axis(const SweptCommand& command, const std::string& key, const Json& 
     return axis;
   }
   if (items->empty()) throw InputError(where + ": has no value; expected at least one");
+  std::set<std::pair<bool, std::vector<std::string>>> listed;
   for (const Json& item : *items) {
     axis.values.push_back(read_value(command, axis.name, item, folder, where));
-    for (std::size_t k = 0; k + 1 < axis.values.size(); ++k)
-      if (axis.values[k].given == axis.values.back().given &&
-          axis.values[k].words == axis.values.back().words)
-        throw InputError(fmt::format("{}: value '{}' is listed twice", where, axis.values.back().text));
+    const AxisValue& value = axis.values.back();
+    if (!listed.emplace(value.given, value.words).second)
+      throw InputError(fmt::format("{}: value '{}' is listed twice", where, value.text));
   }
   return axis;
 }
@@ -351,19 +352,20 @@ SweepBlock read_block(const Json& json, const Json* shared_inputs, const fs::pat
 
 Axis read_seeds(const Json& json, const std::string& where) {
   Axis axis{"seed", {}};
-  const auto add = [&](const std::string& seed) {
-    for (const AxisValue& other : axis.values)
-      if (other.text == seed) throw InputError(fmt::format("{}: seed {} is listed twice", where, seed));
-    axis.values.push_back({{seed}, true, seed});
-  };
   if (json.items() == nullptr) {
     const std::size_t count = read_whole(json, where);
     for (std::size_t seed = 1; seed <= count; ++seed)
       axis.values.push_back({{std::to_string(seed)}, true, std::to_string(seed)});
     return axis;
   }
-  for (const Json& seed : *json.items())
-    add(std::to_string(parse_whole_number(where, line_of(seed).value_or("?"), 0, UINT64_MAX)));
+  std::set<std::uint64_t> listed;
+  for (const Json& seed : *json.items()) {
+    const std::uint64_t number = parse_whole_number(where, line_of(seed).value_or("?"), 0, UINT64_MAX);
+    const std::string text = std::to_string(number);
+    if (!listed.insert(number).second)
+      throw InputError(fmt::format("{}: seed {} is listed twice", where, text));
+    axis.values.push_back({{text}, true, text});
+  }
   if (axis.values.empty()) throw InputError(where + ": lists no seed");
   return axis;
 }

@@ -4,7 +4,8 @@ those of one undisturbed process.
 
 usage: check_sweep.py PROGRAM DATA FOLDER CHECK
 CHECK is kills, signals, faults, twice, parallel, snakemake, slurm or many. Exit code 77: an engine is not installed.
-KDS_SWEEP_KILLS sets the number of kills, KDS_SWEEP_TASKS the number of trivial tasks of `many`.
+KDS_SWEEP_KILLS sets the number of kills, KDS_SWEEP_TASKS the number of trivial tasks of `many`, KDS_SWEEP_BUDGET the
+seconds after which batches of Slurm stop and are requeued.
 """
 
 import collections
@@ -13,6 +14,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import resource
 import shutil
 import signal
@@ -35,8 +37,8 @@ def expect(condition, message):
         fail(message)
 
 
-def kds(*arguments, code=0, **more):
-    run = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=DEADLINE, **more)
+def kds(*arguments, code=0, timeout=DEADLINE, **more):
+    run = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=timeout, **more)
     expect(code is None or run.returncode == code,
            f"{arguments} gave {run.returncode}, expected {code}\n{run.stdout}{run.stderr}")
     return run
@@ -154,7 +156,7 @@ def faults():
     since, shot, begin = {}, 0, time.time()
     while worker.poll() is None and time.time() - begin < DEADLINE:
         for child in pathlib.Path(f"/proc/{worker.pid}/task/{worker.pid}/children").read_text().split():
-            if time.time() - since.setdefault(child, time.time()) > 5:
+            if time.time() - since.setdefault(child, time.time()) > 2.5:
                 os.kill(int(child), signal.SIGSEGV)
                 since[child] = time.time() + DEADLINE
                 shot += 1
@@ -239,6 +241,9 @@ def slurm():
     # Three batches, since short tasks need one only.
     script = folder / "slurm.sh"
     script.write_text(script.read_text().replace("--array=1-1 ", "--array=1-3 ").replace("ID/1\"", "ID/3\""))
+    if "KDS_SWEEP_BUDGET" in os.environ:  # seconds after which batches stop and are requeued
+        script.write_text(re.sub("--time-budget .*", "--time-budget " + os.environ["KDS_SWEEP_BUDGET"],
+                                 script.read_text()))
     cluster = pathlib.Path(__file__).parent / "local_slurm.sh"
     place = FOLDER / "cluster"
     environment = dict(os.environ, SLURM_CONF=str(place / "slurm.conf"))
@@ -267,7 +272,7 @@ def many():
     (FOLDER / "many.json").write_text(json.dumps(
         {"inputs": ["none.xyz"], "commands": [{"command": "info", "options": {"radius": radii}}]}))
     begin = time.time()
-    kds("sweep", FOLDER / "many.json", "-o", FOLDER / "many", code=1)
+    kds("sweep", FOLDER / "many.json", "-o", FOLDER / "many", code=1, timeout=DEADLINE + count / 50)
     seconds = time.time() - begin
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     processor = used.ru_utime + used.ru_stime
