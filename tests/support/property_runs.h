@@ -22,7 +22,7 @@ inline std::uint64_t from_environment(const char* name, std::uint64_t otherwise)
 #ifdef KDS_SANITIZED
 inline constexpr std::uint64_t default_property_cases = 3000;
 #else
-inline constexpr std::uint64_t default_property_cases = 100000;
+inline constexpr std::uint64_t default_property_cases = 50000;
 #endif
 
 inline std::uint64_t property_cases() {
