@@ -48,7 +48,7 @@ test("the picked bead is the first that a ray meets", () => {
     if (picked !== met) {
       // Only balls that the ray grazes may differ.
       const grazes = (b) => {
-        if (b < 0) return true;
+        if (b < 0) return false;
         const d = [0, 1, 2].map((k) => positions[3 * b + k] - camera.eye[k]);
         const along = (axis) => d.reduce((sum, v, k) => sum + v * axis[k], 0);
         return Math.abs(Math.hypot(along(camera.right) - x, along(camera.up) - y) - size(b)) < 0.01;
