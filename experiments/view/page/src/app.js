@@ -87,7 +87,7 @@ export class App {
     const parts = [
       `Input: ${meta.inputs.join(", ")}.`,
       `Motion between frames: ${meta.motion}.`,
-      `Positions are rounded to ${meta.quantum}${unit}; times of events are not.`,
+      `Positions are rounded to multiples of ${meta.quantum}${unit}, times of events are not.`,
       ...(meta.stride > 1 ? [`The page has every ${meta.stride}th frame of the input, which keeps it small.`] : []),
       `Made by ${meta.program}: ${meta.command}`,
     ];
@@ -333,8 +333,9 @@ export class App {
       if (layers.shows(name) && layers.isStale(name)) {
         const words = state.layersNamed(name).map(({ layer }) => layer.set.packed);
         const all = words.length === 1 ? words[0] : Uint32Array.from(words.flatMap((list) => [...list]));
-        // Many edges would cover each other, so they are fainter.
-        const alpha = name === "edges" ? Math.max(40, Math.min(150, 150 * Math.sqrt(400 / (all.length / 2)))) : 230;
+        // Many lines would cover each other, so they are fainter.
+        const [few, most, least] = name === "edges" ? [400, 150, 40] : [60, 230, 110];
+        const alpha = Math.max(least, most * Math.min(1, Math.sqrt(few / (all.length / 2))));
         scene.setEdges(target, all, 2, scene.colours[name], alpha);
       }
       target.visible = layers.shows(name);

@@ -61,6 +61,7 @@ export class Panels {
     ];
     const stage = events.stages[events.stage[e]];
     if (stage) rows.push(["decided by", stage]);
+    rows.push(...this.changeRows(s, e));
     for (const role of events.rolesOf(e)) {
       if (role.of === "node") rows.push([role.name, `beads ${role.ids[0]} to ${role.ids[1]}`]);
       else if (role.of === "number") rows.push([role.name, role.ids.join(" ")]);
@@ -68,7 +69,6 @@ export class Panels {
     }
     const residues = this.residues(beads);
     if (residues) rows.push(["residues", residues]);
-    rows.push(...this.changeRows(s, e));
     place.replaceChildren(
       make("h3", {}, make("span", { class: `chip c${events.kind[e] % 8}` }, `${name}: ${kind.name}`)),
       make("p", {}, explainKind(name, kind.name)),
