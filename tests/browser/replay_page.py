@@ -142,6 +142,50 @@ def keys_work(browser):
     check(0 < cost["drawCalls"] <= 8, f"{cost['drawCalls']} draw calls")
 
 
+def follows_a_bead(browser):
+    """A followed bead stays in the middle of the scene."""
+    browser.run("document.getElementById('reset-camera').click()")
+    browser.wait("await kds.seek(1, 0)")
+    left, top, width, height = browser.run(
+        "const r = document.getElementById('scene').getBoundingClientRect(); return [r.left, r.top, r.width, r.height]")
+    spots = [(left + x, top + y) for y in range(5, int(height), 7) for x in range(5, int(width), 7)]
+    picked = browser.run("return arguments[0].map(([x, y]) => kds.pick(x, y))", spots)
+    spot, bead = next((spot, bead) for spot, bead in zip(spots, picked) if bead >= 0)
+    actions = ActionChains(browser.driver)
+    actions.w3c_actions.pointer_action.move_to_location(int(spot[0]), int(spot[1]))
+    actions.click().perform()
+    browser.driver.find_element("tag name", "body").send_keys("f")
+    seen = [browser.wait("await kds.seek(args[0], 0.5); return kds.pick(args[1], args[2])", step, left + width / 2, top + height / 2)
+            for step in range(7)]
+    check(all(other >= 0 for other in seen), "nothing is in the middle")
+    check(seen.count(bead) >= 4, f"bead {bead} is followed, and {seen} are in the middle")
+
+
+def saves_a_picture(browser):
+    saved = browser.wait("""return new Promise((done) => {
+        HTMLAnchorElement.prototype.click = async function () {
+          const blob = await (await fetch(this.href)).blob();
+          done([this.download, blob.type, blob.size]);
+        };
+        document.getElementById("png").click();
+      })""")
+    check(saved[0].endswith(".png") and saved[1] == "image/png" and saved[2] > 1000, f"saved {saved}")
+
+
+def loops(browser):
+    body = browser.driver.find_element("tag name", "body")
+    browser.wait("await kds.seek(2, 0)")
+    body.send_keys("[")
+    browser.wait("await kds.seek(2, 0.1)")
+    body.send_keys("] ")
+    times = []
+    for _ in range(8):
+        times.append(browser.wait("await new Promise((done) => setTimeout(done, 60)); return kds.state().step + kds.state().u"))
+    body.send_keys(" \\")
+    check(all(2 <= time <= 2.11 for time in times) and len(set(times)) > 2, f"the loop from 2 to 2.1 goes to {times}")
+    check(browser.run("return document.getElementById('loop-shade').hidden"), "the loop is not cleared")
+
+
 def link_restores(browser, replay):
     browser.wait("await kds.seekEvent(1, 5); await new Promise((done) => setTimeout(done, 700))")
     fragment = browser.run("return location.hash")
@@ -180,7 +224,8 @@ def main(node, page, place):
         check(browser.run("return document.getElementById('title').textContent") == TITLE, "the title is another one")
         everything = marked(pixels(browser, "beads", "chain", "cages", "edges", "contacts", "hidden", "flashes"))
         check(len(everything) > 2000, f"only {len(everything)} pixels are drawn")
-        for test in (states_agree, picking_agrees_with_pixels, cage_encloses_beads, keys_work):
+        for test in (states_agree, picking_agrees_with_pixels, cage_encloses_beads, keys_work, follows_a_bead,
+                     saves_a_picture, loops):
             test(browser)
             print("passed:", test.__name__)
         link_restores(browser, replay)

@@ -16,7 +16,8 @@ import { Scene, hasWebGL2 } from "./scene.js";
 import { TimelineView } from "./timeline_view.js";
 
 const flashSeconds = 0.5;
-const mostFlashes = 48;
+const mostFlashes = 12;  // of each structure: more would cover the scene
+const flashingCage = 0.5;
 const textsEvery = 100;  // ms, while playing
 const linkEvery = 500;   // ms
 
@@ -24,6 +25,8 @@ export class App {
   async load() {
     this.meta = metaOfPage(document);
     const { meta } = this;
+    if (typeof DecompressionStream === "undefined")
+      throw new Error("this browser cannot unpack it; take Chrome 111, Firefox 113, Safari 16.4 or a newer one");
     document.title = `${meta.title} · kds replay`;
     byId("title").textContent = meta.title;
     byId("subtitle").textContent = this.subtitle();
@@ -363,7 +366,8 @@ export class App {
             marks.push({ pair: added.subarray(k, k + 2), colour: comes, dashed: false, alpha });
         } else if (name === "cages" && added.length) {
           const basis = [...added.subarray(1, arity)].filter((bead) => bead !== noBead);
-          cages.push({ basis, relax: state.structures[s].relax, colour: rgb(glow), alpha });
+          const strength = state.chosen ? alpha : flashingCage * alpha;
+          cages.push({ basis, relax: state.structures[s].relax, colour: rgb(glow), alpha: strength });
         }
       }
       for (const bead of state.structures[s].events.beadsOf(e)) rings.push({ bead, colour: glow, alpha });
