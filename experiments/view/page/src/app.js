@@ -5,6 +5,7 @@ import { rgb } from "./colours.js";
 import { contactIntervals } from "./contact_intervals.js";
 import { byId, count } from "./dom.js";
 import { noBead } from "./events.js";
+import { trim } from "./explain.js";
 import { Frames } from "./frames.js";
 import { listenToKeys } from "./keys.js";
 import { readLink, writeLink } from "./link.js";
@@ -16,7 +17,7 @@ import { Scene, hasWebGL2 } from "./scene.js";
 import { TimelineView } from "./timeline_view.js";
 
 const flashSeconds = 0.5;
-const mostFlashes = 12;  // of each structure: more would cover the scene
+const mostFlashes = 8;  // of each structure: more would cover the scene
 const flashingCage = 0.5;
 const textsEvery = 100;  // ms, while playing
 const linkEvery = 500;   // ms
@@ -81,17 +82,19 @@ export class App {
   subtitle() {
     const { meta } = this;
     const events = meta.structures.reduce((sum, structure) => sum + structure.events, 0);
-    return `${count(meta.beads, "bead")}, ${count(meta.frames, "frame")}, ${count(events, "event")}`;
+    const stride = meta.stride > 1 ? ` (one in ${meta.stride} of the input)` : "";
+    return `${count(meta.beads, "bead")}, ${count(meta.frames, "frame")}${stride}, ${count(events, "event")}`;
   }
 
   aboutText() {
     const { meta } = this;
     const unit = meta.length_unit ? ` ${meta.length_unit}` : "";
+    const note = meta.quantum_note ? ` (${meta.quantum_note})` : "";
     const parts = [
       `Input: ${meta.inputs.join(", ")}.`,
       `Motion between frames: ${meta.motion}.`,
-      `Positions are rounded to multiples of ${meta.quantum}${unit}, times of events are not.`,
-      ...(meta.stride > 1 ? [`The page has every ${meta.stride}th frame of the input, which keeps it small.`] : []),
+      `Positions are rounded to multiples of ${meta.quantum}${unit}${note}, times of events are not.`,
+      ...(meta.stride > 1 ? [`The run takes one frame in ${meta.stride} of the input, which keeps the page small.`] : []),
       `Made by ${meta.program}: ${meta.command}`,
     ];
     return parts.join(" ");
@@ -137,6 +140,7 @@ export class App {
     });
     const speed = byId("speed");
     for (const value of speeds) speed.add(new Option(`${value}×`, value, value === 1, value === 1));
+    speed.title = `1× shows ${trim(this.player.rate, 2)} frames in a second`;
     speed.onchange = () => {
       this.player.speed = Number(speed.value);
       this.linkSoon();
@@ -438,7 +442,7 @@ export class App {
   chooseBead(bead) {
     const events = bead < 0 ? [] : this.state.structures.map((structure) => structure.events.withBead(bead));
     this.bead = { number: bead, events, follow: bead >= 0 && this.bead.follow };
-    this.timeline.showPairs(bead);
+    this.timeline.showBead(bead, events);
     this.panels.showBead(this.bead);
     if (bead >= 0) {
       this.say(`Chosen: ${this.panels.nameOf(bead)}.`);

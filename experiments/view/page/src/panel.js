@@ -177,7 +177,7 @@ export class Panels {
     }
     const total = bead.events.reduce((sum, list) => sum + list.length, 0);
     const before = bead.events.reduce((sum, list, s) => sum + list.filter((e) => e < state.applied[s]).length, 0);
-    rows.push(["events", total ? `${total.toLocaleString("en")}, ${before.toLocaleString("en")} of them so far` : "none"]);
+    rows.push(["events", total ? `${total.toLocaleString("en")}, ${before.toLocaleString("en")} of them so far; marked at the foot of the timeline` : "none"]);
     return rows;
   }
 }

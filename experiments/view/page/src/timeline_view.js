@@ -4,7 +4,8 @@ import { byId, count, make } from "./dom.js";
 import { explainStructure, trim } from "./explain.js";
 import { Window, axisTicks, eventNear, layoutEvents, layoutSpans, moved, zoomed } from "./timeline_layout.js";
 
-const rowHeight = 34;
+const rowHeight = 38;
+const base = 32;  // bars stand on it, and below are the marks of the chosen bead
 const pairHeight = 24;
 const near = 5;  // pixels
 const eventsBeside = 16;
@@ -88,16 +89,17 @@ export class TimelineView {
 
   makePairs() {
     byId("contact-rows").hidden = this.pairs.length === 0;
-    this.showPairs(-1);
+    this.showBead(-1, []);
   }
 
-  // Lists the pairs of a bead, or all if `bead` is -1.
-  showPairs(bead) {
+  // Marks the events of a bead and lists its contacts. If `bead` is -1, no event is marked and all contacts are listed.
+  showBead(bead, eventsOfBead) {
+    this.eventsOfBead = eventsOfBead;
     this.pairsOfBead = bead < 0 ? this.pairs : this.pairs.filter(({ pair }) => pair.includes(bead));
     const what = bead < 0 ? "longest in contact first" : `with bead ${bead}`;
     byId("pairs-title").textContent = `Contacts over time: ${count(this.pairsOfBead.length, "pair")}, ${what}`;
     byId("pairs-space").style.height = `${this.pairsOfBead.length * pairHeight}px`;
-    this.drawPairs();
+    this.draw();
   }
 
   show(range) {
@@ -306,11 +308,16 @@ export class TimelineView {
     const { events } = this.state.structures[s];
     const layout = layoutEvents(events, this.window);
     context.fillStyle = this.colours.grid;
-    context.fillRect(0, rowHeight - 1, this.width, 1);
+    context.fillRect(0, base, this.width, 1);
+    context.fillStyle = this.colours.chosen;
+    for (const e of this.eventsOfBead[s] ?? []) {
+      const x = this.window.x(events.time[e]);
+      if (x >= 0 && x <= this.width) context.fillRect(x - 0.75, base + 1, 1.5, rowHeight - base - 1);
+    }
     if (layout.single) {
       for (const { x, kind } of layout.marks) {
         context.fillStyle = this.categories[kind % 8];
-        context.fillRect(x - 1, 8, 2, rowHeight - 9);
+        context.fillRect(x - 1, 8, 2, base - 8);
         context.beginPath();
         context.arc(x, 7, 3.5, 0, 2 * Math.PI);
         context.fill();
@@ -318,10 +325,10 @@ export class TimelineView {
       return;
     }
     for (const { x, counts } of layout.bins) {
-      let y = rowHeight - 1;
+      let y = base;
       counts.forEach((number, kind) => {
         if (!number) return;
-        const height = Math.max(0.7, (number / layout.most) * (rowHeight - 13));
+        const height = Math.max(0.7, (number / layout.most) * (base - 12));
         context.fillStyle = this.categories[kind % 8];
         context.fillRect(x, y - height, 3.4, height);
         y -= height;
