@@ -104,6 +104,7 @@ export class App {
     if (!hasWebGL2()) {
       byId("scene").hidden = true;
       byId("no-webgl").hidden = false;
+      byId("png").hidden = byId("reset-camera").hidden = true;
       this.scene = null;
       return;
     }

@@ -99,10 +99,12 @@ export class Panels {
     const rows = [];
     for (const { name, arity, removed, added } of this.data.state.changesOf(s, e)) {
       if (arity !== 2) continue;
-      const pairs = (words) =>
-        Array.from({ length: words.length / 2 }, (_, k) => `${words[2 * k]}–${words[2 * k + 1]}`).join(", ");
-      if (removed.length) rows.push([make("span", { class: "goes" }, "goes"), `${name} ${pairs(removed)}`]);
-      if (added.length) rows.push([make("span", { class: "comes" }, "comes"), `${name} ${pairs(added)}`]);
+      const pairs = (words) => {
+        const list = Array.from({ length: words.length / 2 }, (_, k) => `${words[2 * k]}–${words[2 * k + 1]}`);
+        return `${list.length === 1 ? name.replace(/s$/, "") : name} ${list.join(", ")}`;
+      };
+      if (removed.length) rows.push([make("span", { class: "goes" }, "goes"), pairs(removed)]);
+      if (added.length) rows.push([make("span", { class: "comes" }, "comes"), pairs(added)]);
     }
     return rows;
   }

@@ -23,6 +23,8 @@ export const hasWebGL2 = () => document.createElement("canvas").getContext("webg
 const linked = { ends: [Uint32Array, 2, false], tint: [Uint8Array, 4, true], dash: [Uint8Array, 1, false] };
 const ringed = { bead: [Uint32Array, 1, false], tint: [Uint8Array, 4, true] };
 
+const textHeight = 56;  // pixels above the scene that the text takes
+
 export class Scene {
   constructor(canvas, meta, radii, onCamera) {
     this.meta = meta;
@@ -245,7 +247,7 @@ export class Scene {
     let largest = 0;
     for (let b = 0; b < this.meta.beads; ++b) largest = Math.max(largest, this.radii(b));
     this.radius = Math.max(1e-9, Math.hypot(...sides) / 2 + largest);
-    const reach = (way) => Math.max(0.3 * this.radius, half(way) + largest) * 1.25;
+    const reach = (way) => Math.max(0.3 * this.radius, half(way) + largest) * 1.12;
     return { up, back, halfWidth: reach(across), halfHeight: reach(back.clone().cross(across)) };
   }
 
@@ -265,10 +267,10 @@ export class Scene {
     const [width, height] = [Math.max(1, canvas.clientWidth), Math.max(1, canvas.clientHeight)];
     this.renderer.setSize(width, height, false);
     const { halfWidth, halfHeight } = this.axes;
-    const y = Math.max(halfHeight, (halfWidth * height) / width);
-    const x = (y * width) / height;
+    const perPixel = Math.max(halfHeight / Math.max(50, height - textHeight), halfWidth / width);
+    const [x, y] = [perPixel * width, perPixel * height];
     Object.assign(this.camera, { left: -x, right: x, top: y, bottom: -y });
-    this.camera.updateProjectionMatrix();
+    this.camera.setViewOffset(width, height, 0, -textHeight / 2, width, height);
     this.renderer.getDrawingBufferSize(this.uniforms.screen.value);
   }
 
@@ -333,7 +335,7 @@ export class Scene {
     const axis = (k) => [matrix[4 * k], matrix[4 * k + 1], matrix[4 * k + 2]];
     const { left, right, top, bottom, zoom } = this.camera;
     const x = (((clientX - place.left) / place.width - 0.5) * (right - left)) / zoom;
-    const y = ((0.5 - (clientY - place.top) / place.height) * (top - bottom)) / zoom;
+    const y = ((0.5 - (clientY - textHeight / 2 - place.top) / place.height) * (top - bottom)) / zoom;
     const camera = { eye: axis(3), right: axis(0), up: axis(1), back: axis(2) };
     return beadAt(this.positions, this.meta.beads, camera, x, y, (b) => this.drawnRadius(b) * this.shrink);
   }
