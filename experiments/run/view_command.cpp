@@ -134,11 +134,11 @@ std::string write_view(const ViewOptions& options, std::size_t stride, std::size
   request.most_bytes = static_cast<std::uint64_t>(options.most_megabytes * kMegabyte);
   ViewResults view(request, labels, scene, run->session());
   run_steps(*run, run_options, [&](std::size_t frame) {
-    if (frame == 0) warnings.release(warn);
     view.add_frame(frame);
     bar.update(frame, 0, scene.step_count());
   });
   view.finish();
+  warnings.release(warn);  // none of a run that is given up because its page is too large
   commit_together({view.files(), view.vtk_files()});
   std::string text = counts_of(scene, view.recorder());
   if (options.page)

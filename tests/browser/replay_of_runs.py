@@ -168,11 +168,41 @@ def positions_are_on_the_curves(browser, kds, place):
                 check(abs(shown - place_of) < 0.011, f"bead {bead} at {step}, {u}: {shown}, expected {place_of}")
 
 
+def instances_are_shown(browser, kds, data, place):
+    """Points in the plane on cubic curves, and weighted points of which some are hidden."""
+    for name in ("d2_n20_degree3", "w3_n50_linear"):
+        replay, dump = os.path.join(place, name + ".html"), os.path.join(place, name)
+        source = os.path.join(data, "kinetic", name + ".txt")
+        run_program(kds, "run", source, "--structures", "power", "--view", replay, "--dump", dump)
+        with open(source) as file:
+            beads, columns, degree = map(int, file.readline().split())
+            numbers = [list(map(float, line.split())) for line in file if line.strip()]
+        dimension = min(columns, 3)
+        browser.open(replay)
+        quantum = browser.run("return JSON.parse(document.getElementById('kds-replay').textContent).quantum")
+        times = [0, 0.125, 0.4, 0.77, 1]
+        states = browser.wait(STATES, [["seek", 0, u] for u in times], True)
+        for u, state in zip(times, states):
+            for bead in range(beads):
+                for axis in range(dimension):
+                    points = numbers[bead][axis * (degree + 1):(axis + 1) * (degree + 1)]
+                    while len(points) > 1:  # de Casteljau
+                        points = [(1 - u) * a + u * b for a, b in zip(points, points[1:])]
+                    shown = state["positions"][3 * bead + axis]
+                    check(abs(shown - points[0]) < 0.51 * quantum + 1e-6 * abs(shown), f"{name}: bead {bead} at {u}")
+        cells = [sorted(map(int, row)) for row in rows(os.path.join(dump, "frame-1.power.csv"))]
+        shown = elements(states[-1])
+        check(shown["edges"] == {pair for cell in cells for pair in itertools.combinations(cell, 2)}, f"edges of {name}")
+        hidden = {int(row[0]) for row in rows(os.path.join(dump, "frame-1.hidden.csv"))}
+        check(shown["hidden"] == hidden and bool(hidden) == (columns == 4), f"hidden beads of {name}: {hidden}")
+
+
 def main(kds, data, place):
     os.makedirs(place, exist_ok=True)
     with Browser() as browser:
         states_are_those_of_the_run(browser, kds, data, place)
         positions_are_on_the_curves(browser, kds, place)
+        instances_are_shown(browser, kds, data, place)
         complaints, requests = browser.complaints(), browser.requests()
         check(not complaints, f"the page complains: {complaints}")
         check(not requests, f"the page asks the network: {requests}")

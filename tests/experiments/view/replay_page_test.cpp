@@ -204,11 +204,11 @@ TEST(ReplayPage, IsTheTemplateAroundTheData) {
   const std::string text = text_of_template();
   EXPECT_EQ(count_of(text, std::string(replay_data_mark)), 1U);
   std::ifstream file(KDS_REPLAY_PAGE, std::ios::binary);
-  EXPECT_EQ(text, std::string(std::istreambuf_iterator<char>(file), {}));
+  EXPECT_TRUE(text == std::string(std::istreambuf_iterator<char>(file), {}));
   const Scene scene = random_scene(3, FrameMotion::linear, 3, 1);
   const std::string page = record(scene, {{"power"}}, {}).page;
   const std::size_t mark = text.find(replay_data_mark);
-  EXPECT_EQ(page.substr(0, mark), text.substr(0, mark));
+  EXPECT_TRUE(page.starts_with(text.substr(0, mark)));
   EXPECT_TRUE(page.ends_with(text.substr(mark + replay_data_mark.size())));
 }
 
