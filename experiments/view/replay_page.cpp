@@ -110,8 +110,8 @@ std::int32_t ReplayPage::rounded(double value, int axis, BeadId bead, std::size_
   if (!(std::abs(quanta) < kMostQuanta))
     throw InputError(fmt::format(
         "--quantum {}: frame {}, bead {} lies {} from the corner of the first frame, too far for this step; "
-        "expected at least --quantum {}",
-        quantum_, scene_.frame_number(frame), bead, std::abs(away), std::abs(away) / kMostQuanta * 2));
+        "expected kds view with at least --quantum {:.3g}",
+        quantum_, scene_.frame_number(frame), bead, std::abs(away), 2 * std::abs(away) / kMostQuanta));
   return static_cast<std::int32_t>(quanta);
 }
 
