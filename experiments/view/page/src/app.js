@@ -438,7 +438,7 @@ export class App {
     byId("problem").textContent = text;
   }
 
-  // What is chosen.
+  // Choosing a bead.
 
   chooseBead(bead) {
     const events = bead < 0 ? [] : this.state.structures.map((structure) => structure.events.withBead(bead));
@@ -564,7 +564,7 @@ export function fail(error) {
   place.textContent = `The replay cannot be shown: ${text}.`;
 }
 
-// What notebooks and tests may use.
+// Functions for notebooks and tests.
 export function interfaceOf(app, ready) {
   return {
     ready,

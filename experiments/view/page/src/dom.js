@@ -14,5 +14,6 @@ export function make(tag, properties = {}, ...children) {
   return element;
 }
 
+// Writes a number with its noun.
 export const count = (number, one, many = `${one}s`) =>
   `${number.toLocaleString("en")} ${number === 1 ? one : many}`;

@@ -1,4 +1,4 @@
-// What structures and kinds of events are, in a sentence each. A structure that is not listed is shown without one.
+// Explains structures and kinds of events in a sentence each. A structure that is not listed is shown without one.
 
 const structures = {
   wrapped: "Wrapped hierarchy: a balanced tree of cages. A cage is the smallest sphere around the beads of its node.",

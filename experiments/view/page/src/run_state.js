@@ -29,7 +29,7 @@ export class RunState {
     this.seek(0, 0);
   }
 
-  // Goes to a time; events at that time are applied. Returns how far each structure went.
+  // Goes to a time; events at that time are applied.
   seek(step, u) {
     this.chosen = null;
     [this.step, this.u] = this.normal(step, u);
@@ -127,7 +127,7 @@ export class RunState {
     return events.step[e] === this.step && events.u[e] === this.u;
   }
 
-  // What an event removes and adds in the layers of its structure: [{name, arity, removed, added}], words each.
+  // Returns the elements that an event removes and adds in the layers of its structure: [{name, arity, removed, added}].
   changesOf(s, e) {
     return this.structures[s].layers.flatMap((layer) =>
       layer.recordsOf(e).map((record) => {

@@ -1,4 +1,4 @@
-// Where things stand on the timeline: bins of stacked bars, single events, ticks of the axis. No drawing.
+// Computes the places of stacked bars, single events and ticks on the timeline. Draws nothing.
 
 // The part of the time that is shown, in steps, and the width in pixels that shows it.
 export class Window {
