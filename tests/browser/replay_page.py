@@ -186,6 +186,37 @@ def loops(browser):
     check(browser.run("return document.getElementById('loop-shade').hidden"), "the loop is not cleared")
 
 
+def timeline_goes_to_times(browser):
+    """A click near a mark goes to its event, a click near the end of a contact's bar to its begin or end."""
+    browser.run("document.getElementById('zoom-all').click()")
+    # The places of drawn pixels in one row of a canvas, where they begin after a gap.
+    starts = """const [selector, y] = arguments;
+        const c = document.querySelector(selector), r = c.getBoundingClientRect();
+        const {data} = c.getContext("2d").getImageData(0, y, c.width, 1);
+        const found = [];
+        for (let x = 8; x < c.width - 8; ++x) if (data[4 * x + 3] && !data[4 * x - 1]) found.push([r.left + x, r.top + y]);
+        return found"""
+    for selector, y, name in ((".row:nth-child(1) canvas", 20, "wrapped"), ("#pairs-canvas", 17, "contacts: begin")):
+        x, y = browser.run(starts, selector, y)[0]
+        actions = ActionChains(browser.driver)
+        actions.w3c_actions.pointer_action.move_to_location(int(x), int(y))
+        actions.click().perform()
+        browser.wait("await new Promise((done) => setTimeout(done, 100))")
+        shown = browser.run("return document.querySelector('#event h3')?.textContent ?? 'none'")
+        check(shown.startswith(name), f"a click near a mark of {name} chose {shown}")
+        head = browser.run("return document.getElementById('playhead').getBoundingClientRect().left")
+        check(abs(head - x) < 6, f"the playhead is at {head}, the mark at {x}")
+    actions = ActionChains(browser.driver)
+    axis = browser.run("const r = document.getElementById('axis').getBoundingClientRect(); return [r.left, r.top + 5, r.width]")
+    pointer = actions.w3c_actions.pointer_action
+    pointer.move_to_location(int(axis[0] + 10), int(axis[1])).pointer_down()
+    pointer.move_to_location(int(axis[0] + axis[2] / 2), int(axis[1])).pointer_up()
+    actions.perform()
+    browser.wait("await new Promise((done) => setTimeout(done, 100))")
+    time = browser.run("return kds.state().step + kds.state().u")
+    check(abs(time - 3.5) < 0.05, f"a drag to the middle went to {time} of 7")
+
+
 def link_restores(browser, replay):
     browser.wait("await kds.seekEvent(1, 5); await new Promise((done) => setTimeout(done, 700))")
     fragment = browser.run("return location.hash")
@@ -225,7 +256,7 @@ def main(node, page, place):
         everything = marked(pixels(browser, "beads", "chain", "cages", "edges", "contacts", "hidden", "flashes"))
         check(len(everything) > 2000, f"only {len(everything)} pixels are drawn")
         for test in (states_agree, picking_agrees_with_pixels, cage_encloses_beads, keys_work, follows_a_bead,
-                     saves_a_picture, loops):
+                     saves_a_picture, loops, timeline_goes_to_times):
             test(browser)
             print("passed:", test.__name__)
         link_restores(browser, replay)

@@ -1,26 +1,22 @@
 // Joins the parts of the page: time, structures, scene, timeline, panels and the link.
 import { blocksOfPage, metaOfPage } from "./blocks.js";
 import { float64, pause, uint32 } from "./codec.js";
-import { rgb } from "./colours.js";
 import { contactIntervals } from "./contact_intervals.js";
-import { byId, count } from "./dom.js";
-import { noBead } from "./events.js";
-import { trim } from "./explain.js";
+import { byId } from "./dom.js";
+import { aboutText, subtitle, trim } from "./explain.js";
 import { Frames } from "./frames.js";
 import { listenToKeys } from "./keys.js";
-import { readLink, writeLink } from "./link.js";
 import { LayerList } from "./layer_list.js";
 import { Panels } from "./panel.js";
+import { Picture } from "./picture.js";
 import { Player, speeds } from "./player.js";
+import { fail } from "./problems.js";
 import { RunState, loadStructures } from "./run_state.js";
+import { openView, saveViewSoon } from "./saved_view.js";
 import { Scene, hasWebGL2 } from "./scene.js";
 import { TimelineView } from "./timeline_view.js";
 
-const flashSeconds = 0.5;
-const mostFlashes = 8;  // of each structure: more would cover the scene
-const flashingCage = 0.5;
 const textsEvery = 100;  // ms, while playing
-const linkEvery = 500;   // ms
 
 export class App {
   async load() {
@@ -30,8 +26,8 @@ export class App {
       throw new Error("this browser cannot unpack it; take Chrome 111, Firefox 113, Safari 16.4 or a newer one");
     document.title = `${meta.title} · kds replay`;
     byId("title").textContent = meta.title;
-    byId("subtitle").textContent = this.subtitle();
-    byId("about").textContent = this.aboutText();
+    byId("subtitle").textContent = subtitle(meta);
+    byId("about").textContent = aboutText(meta);
     const blocks = blocksOfPage(document, meta);
     const radii = meta.radius === null ? float64(await blocks.bytes("radii")) : null;
     this.radii = radii ? (bead) => radii[bead] : () => meta.radius;
@@ -46,6 +42,7 @@ export class App {
     this.positions = new Float32Array(3 * meta.beads);
     this.cost = { drawCalls: 0, script: 0 };
     this.makeScene();
+    this.picture = new Picture(this);
     this.layers = new LayerList(this.state, meta, () => this.changed());
     this.panels = new Panels(
       {
@@ -67,37 +64,16 @@ export class App {
       seek: (time) => this.scrub(time),
       choose: (event) => this.chooseEvent(event),
       structures: () => this.changed(),
-      changed: () => this.linkSoon(),
+      changed: () => saveViewSoon(this),
       loop: () => this.player.loop,
       pairName: ([i, j]) => (this.names ? `${this.names[i]} – ${this.names[j]}` : `${i} – ${j}`),
     });
     byId("axis").setAttribute("aria-valuemax", this.state.lastStep);
     this.connect();
-    await this.openLink();
+    await openView(this);
     this.cost.ready = performance.now();
     document.body.dataset.ready = "";
     this.makeSnapshots();
-  }
-
-  subtitle() {
-    const { meta } = this;
-    const events = meta.structures.reduce((sum, structure) => sum + structure.events, 0);
-    const stride = meta.stride > 1 ? ` (one in ${meta.stride} of the input)` : "";
-    return `${count(meta.beads, "bead")}, ${count(meta.frames, "frame")}${stride}, ${count(events, "event")}`;
-  }
-
-  aboutText() {
-    const { meta } = this;
-    const unit = meta.length_unit ? ` ${meta.length_unit}` : "";
-    const note = meta.quantum_note ? ` (${meta.quantum_note})` : "";
-    const parts = [
-      `Input: ${meta.inputs.join(", ")}.`,
-      `Motion between frames: ${meta.motion}.`,
-      `Positions are rounded to multiples of ${meta.quantum}${unit}${note}, times of events are not.`,
-      ...(meta.stride > 1 ? [`The run takes one frame in ${meta.stride} of the input, which keeps the page small.`] : []),
-      `Made by ${meta.program}: ${meta.command}`,
-    ];
-    return parts.join(" ");
   }
 
   makeScene() {
@@ -110,7 +86,7 @@ export class App {
     }
     this.scene = new Scene(byId("scene"), this.meta, this.radii, () => {
       this.request();
-      this.linkSoon();
+      saveViewSoon(this);
     });
     this.positions = this.scene.positions;
   }
@@ -144,13 +120,13 @@ export class App {
     speed.title = `1× shows ${trim(this.player.rate, 2)} frames in a second`;
     speed.onchange = () => {
       this.player.speed = Number(speed.value);
-      this.linkSoon();
+      saveViewSoon(this);
     };
     byId("bead-size").oninput = () => this.changed();
     listenToKeys(this);
     this.listenToScene();
     window.addEventListener("hashchange", () => {
-      if (location.hash !== this.written) this.openLink();
+      if (location.hash !== this.written) openView(this);
     });
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
       if (!this.theme) this.setTheme(null);
@@ -190,7 +166,7 @@ export class App {
     this.draw();
     this.showTexts();
     this.timeline.keepInView();
-    this.linkSoon();
+    saveViewSoon(this);
   }
 
   scrub(time) {
@@ -249,14 +225,14 @@ export class App {
     byId("loop-clear").hidden = !this.player.loop;
     this.timeline.placeHead();
     this.say(this.player.loop ? "Loop set." : "No loop.");
-    this.linkSoon();
+    saveViewSoon(this);
   }
 
   clearLoop() {
     this.player.loop = null;
     byId("loop-clear").hidden = true;
     this.timeline.placeHead();
-    this.linkSoon();
+    saveViewSoon(this);
   }
 
   // Moves the clock by the real time that has passed. Stands still while frames are unpacked.
@@ -308,7 +284,7 @@ export class App {
   // Draws after a change of layers, colours or what is chosen.
   changed() {
     this.request();
-    this.linkSoon();
+    saveViewSoon(this);
   }
 
   draw() {
@@ -324,83 +300,13 @@ export class App {
     if (this.bead.follow && before)
       scene.follow(this.placeOf(this.bead.number).map((value, axis) => value - before[axis]));
     scene.setShrink(Number(byId("bead-size").value));
-    this.drawLayers();
-    this.drawMarks();
+    this.picture.drawLayers();
+    this.picture.drawMarks();
     this.cost.drawCalls = scene.render();
   }
 
   placeOf(bead) {
     return Array.from(this.positions.subarray(3 * bead, 3 * bead + 3));
-  }
-
-  drawLayers() {
-    const { layers, scene, state } = this;
-    scene.beads.visible = layers.shows("beads");
-    scene.chain.visible = layers.shows("chain");
-    for (const [name, target] of [["edges", scene.edges], ["contacts", scene.contacts]]) {
-      if (layers.shows(name) && layers.isStale(name)) {
-        const words = state.layersNamed(name).map(({ layer }) => layer.set.packed);
-        const all = words.length === 1 ? words[0] : Uint32Array.from(words.flatMap((list) => [...list]));
-        // Many lines would cover each other, so they are fainter.
-        const [few, most, least] = name === "edges" ? [400, 150, 40] : [60, 230, 110];
-        const alpha = Math.max(least, most * Math.min(1, Math.sqrt(few / (all.length / 2))));
-        scene.setEdges(target, all, 2, scene.colours[name], alpha);
-      }
-      target.visible = layers.shows(name);
-    }
-    if (layers.isStale("hidden")) {
-      const hidden = layers.shows("hidden") ? state.elements("hidden").flat() : [];
-      scene.paintBeads(new Set(hidden));
-    }
-    if (layers.isStale("cages")) this.cages = layers.shows("cages") ? this.layers.cages(scene.colours.cage, this.dark) : [];
-  }
-
-  // Marks what the chosen event changes, the chosen bead's neighbours, and while playing the events just passed.
-  drawMarks() {
-    const { scene, state } = this;
-    const marks = [];
-    const rings = [];
-    const cages = [...(this.cages ?? [])];
-    const { goes, comes, glow, chosen } = scene.colours;
-    const markEvent = (s, e, alpha) => {
-      for (const { name, arity, removed, added } of state.changesOf(s, e)) {
-        if (arity === 2) {
-          for (let k = 0; k < removed.length; k += 2)
-            marks.push({ pair: removed.subarray(k, k + 2), colour: goes, dashed: true, alpha });
-          for (let k = 0; k < added.length; k += 2)
-            marks.push({ pair: added.subarray(k, k + 2), colour: comes, dashed: false, alpha });
-        } else if (name === "cages" && added.length) {
-          const basis = [...added.subarray(1, arity)].filter((bead) => bead !== noBead);
-          const strength = state.chosen ? alpha : flashingCage * alpha;
-          cages.push({ basis, relax: state.structures[s].relax, colour: rgb(glow), alpha: strength });
-        }
-      }
-      for (const bead of state.structures[s].events.beadsOf(e)) rings.push({ bead, colour: glow, alpha });
-    };
-    if (this.bead.number >= 0) {
-      const b = this.bead.number;
-      for (const name of ["edges", "contacts"]) {
-        for (const other of this.layers.shows(name) ? state.partnersOf(name, b) : [])
-          marks.push({ pair: [b, other], colour: chosen, dashed: false, alpha: 0.8 });
-      }
-    }
-    if (state.chosen) markEvent(...state.chosen, 1);
-    else if (this.player.playing && this.layers.shows("flashes")) this.markFlashes(markEvent);
-    if (this.bead.number >= 0) rings.push({ bead: this.bead.number, colour: chosen, alpha: 1 });
-    scene.setMarks(marks, rings);
-    scene.setCages(cages);
-  }
-
-  // Marks the events of the last half second of playing, fading.
-  markFlashes(markEvent) {
-    const { state, player } = this;
-    const span = flashSeconds * player.speed * player.rate;
-    state.structures.forEach(({ events }, s) => {
-      if (this.timeline.muted.has(s)) return;
-      const first = Math.max(events.countBefore(state.time - span), state.applied[s] - mostFlashes);
-      for (let e = first; e < state.applied[s]; ++e)
-        markEvent(s, e, Math.max(0.05, 1 - (state.time - events.time[e]) / span));
-    });
   }
 
   showTexts() {
@@ -488,59 +394,6 @@ export class App {
     this.changed();
   }
 
-  // The link.
-
-  async openLink() {
-    const view = readLink(location.hash);
-    this.layers.open(view);
-    this.setTheme(view.theme ?? this.theme ?? null);
-    if (view.speed) {
-      this.player.speed = view.speed;
-      byId("speed").value = String(view.speed);
-    }
-    const end = this.state.lastStep;
-    const within = (range) => range && range[0] >= 0 && range[0] < range[1] && range[1] <= end;
-    if (within(view.loop)) this.player.loop = view.loop;
-    byId("loop-clear").hidden = !this.player.loop;
-    if (view.bead < this.meta.beads) this.chooseBead(view.bead);
-    if (view.camera && this.scene) this.scene.view = view.camera;
-    if (within(view.window)) this.timeline.show(view.window);
-    const [s, e] = view.event ?? [];
-    const known = e < this.state.structures[s]?.events.count;
-    await this.goTo(Math.min(end, view.step ?? 0), view.u ?? 0, known ? [s, e] : null);
-    if (view.follow) this.bead.follow = this.bead.number >= 0;
-    this.showTexts();
-  }
-
-  linkSoon() {
-    if (this.linking) return;
-    this.linking = setTimeout(() => {
-      this.linking = null;
-      if (this.player.playing) return;
-      const { state, timeline } = this;
-      const all = timeline.range[0] === 0 && timeline.range[1] === timeline.end;
-      this.written = writeLink({
-        step: state.step,
-        u: state.u,
-        event: state.chosen,
-        bead: this.bead.number,
-        follow: this.bead.follow,
-        layers: this.layers.shown(),
-        level: this.layers.level,
-        camera: this.scene?.view,
-        speed: this.player.speed,
-        window: all ? null : timeline.range,
-        loop: this.player.loop,
-        theme: this.theme,
-      });
-      try {
-        history.replaceState(null, "", this.written);
-      } catch {
-        // A page inside a notebook may have no address of its own.
-      }
-    }, linkEvery);
-  }
-
   // Makes the snapshots for seeking while nothing else is to be done.
   async makeSnapshots() {
     try {
@@ -551,36 +404,4 @@ export class App {
       fail(error);
     }
   }
-}
-
-const errors = [];
-
-// Shows an error, and keeps it for tests.
-export function fail(error) {
-  const text = error?.message ?? String(error);
-  errors.push(text);
-  const place = byId("problem");
-  place.hidden = false;
-  place.textContent = `The replay cannot be shown: ${text}.`;
-}
-
-// Functions for notebooks and tests.
-export function interfaceOf(app, ready) {
-  return {
-    ready,
-    errors,
-    seek: (step, u) => app.goTo(step, u),
-    seekEvent: (s, e) => app.goTo(0, 0, [s, e]),
-    pick: (x, y) => app.scene?.pick(x, y) ?? -1,
-    statistics: () => ({ ...app.cost }),
-    state: () => ({
-      step: app.state.step,
-      u: app.state.u,
-      edges: app.state.elements("edges"),
-      contacts: app.state.elements("contacts"),
-      hidden: app.state.elements("hidden").flat(),
-      cages: app.state.elements("cages"),
-      positions: app.positions.slice(),
-    }),
-  };
 }

@@ -1,5 +1,7 @@
 // Explains structures and kinds of events in a sentence each. A structure that is not listed is shown without one.
 
+import { count } from "./dom.js";
+
 const structures = {
   wrapped: "Wrapped hierarchy: a balanced tree of cages. A cage is the smallest sphere around the beads of its node.",
   boxes: "Hierarchy of boxes: each node of a balanced tree has the smallest box around its beads.",
@@ -70,3 +72,24 @@ export function timeText(step, u, frames, times, unit) {
 }
 
 export const trim = (value, digits) => String(Number(value.toFixed(digits)));
+
+// Returns the line below the title.
+export function subtitle(meta) {
+  const events = meta.structures.reduce((sum, structure) => sum + structure.events, 0);
+  const stride = meta.stride > 1 ? ` (one in ${meta.stride} of the input)` : "";
+  return `${count(meta.beads, "bead")}, ${count(meta.frames, "frame")}${stride}, ${count(events, "event")}`;
+}
+
+// Returns what is to be known about a replay, for the foot of the panel.
+export function aboutText(meta) {
+  const unit = meta.length_unit ? ` ${meta.length_unit}` : "";
+  const note = meta.quantum_note ? ` (${meta.quantum_note})` : "";
+  const parts = [
+    `Input: ${meta.inputs.join(", ")}.`,
+    `Motion between frames: ${meta.motion}.`,
+    `Positions are rounded to multiples of ${meta.quantum}${unit}${note}, times of events are not.`,
+    ...(meta.stride > 1 ? [`The run takes one frame in ${meta.stride} of the input, which keeps the page small.`] : []),
+    `Made by ${meta.program}: ${meta.command}`,
+  ];
+  return parts.join(" ");
+}

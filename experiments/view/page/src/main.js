@@ -1,5 +1,7 @@
 // Starts the page.
-import { App, fail, interfaceOf } from "./app.js";
+import { App } from "./app.js";
+import { interfaceOf } from "./interface.js";
+import { fail } from "./problems.js";
 
 window.addEventListener("error", ({ error, message }) => fail(error ?? message));
 window.addEventListener("unhandledrejection", ({ reason }) => fail(reason));

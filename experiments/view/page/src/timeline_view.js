@@ -1,17 +1,18 @@
 // Draws the timeline: axis, a row of events for each structure, and the contact intervals of each pair.
 import { categories, theme } from "./colours.js";
 import { byId, count, make } from "./dom.js";
-import { explainStructure, trim } from "./explain.js";
-import { Window, axisTicks, eventNear, layoutEvents, layoutSpans, moved, zoomed } from "./timeline_layout.js";
+import { explainStructure } from "./explain.js";
+import { listenToTimeline } from "./timeline_input.js";
+import { Window, axisTicks, layoutEvents, layoutSpans, moved, zoomed } from "./timeline_layout.js";
 
 const rowHeight = 38;
 const base = 32;  // bars stand on it, and below are the marks of the chosen bead
 const pairHeight = 24;
-const near = 5;  // pixels
 const eventsBeside = 16;
 
 export class TimelineView {
-  // `actions` has seek(time), choose([s, e]), structures(), shown(time) as text.
+  // `actions`: seek(time), choose([structure, event]), structures() once one is switched on or off, changed() once another part
+  // is shown, loop() and pairName(pair).
   constructor(state, frames, pairs, actions) {
     this.state = state;
     this.end = Math.max(1e-9, state.lastStep);
@@ -20,12 +21,12 @@ export class TimelineView {
     this.pairs = pairs;
     this.muted = new Set();
     this.rows = [];
+    this.pairHeight = pairHeight;
     this.pairsOfBead = null;
     this.setFrames(frames);
     this.makeRows();
     this.makePairs();
-    for (const element of [byId("axis"), ...this.rows.map((row) => row.canvas), byId("pairs")]) this.listen(element);
-    this.listenToOverview();
+    listenToTimeline(this);
     byId("zoom-in").onclick = () => this.zoom(0.5, this.middle);
     byId("zoom-out").onclick = () => this.zoom(2, this.middle);
     byId("zoom-events").onclick = () => this.showEvents();
@@ -138,113 +139,6 @@ export class TimelineView {
     const now = this.state.time;
     if (now < from || now > to) this.show(moved([now - 0.1 * (to - from)], to - from, this.end));
     this.placeHead();
-  }
-
-  listen(element) {
-    const x = (event) => event.clientX - byId("axis").getBoundingClientRect().left;
-    const timeAt = (event) => Math.min(this.end, Math.max(0, this.window.time(x(event))));
-    const touches = new Map();
-    let drag = null;
-    let pinch = null;
-    element.addEventListener("pointerdown", (event) => {
-      if (event.pointerType === "mouse" && event.button !== 0) return;
-      touches.set(event.pointerId, x(event));
-      drag = touches.size === 1 ? { start: x(event), y: event.clientY, moving: false } : null;
-      pinch = touches.size === 2 ? this.pinchOf(touches) : null;
-    });
-    element.addEventListener("pointermove", (event) => {
-      if (!touches.has(event.pointerId)) {
-        element.title = this.describe(element, x(event), timeAt(event));
-        return;
-      }
-      touches.set(event.pointerId, x(event));
-      if (pinch && touches.size === 2) {
-        const now = this.pinchOf(touches);
-        this.zoom(pinch.apart / now.apart, this.window.time(now.middle));
-        pinch = now;
-      } else if (drag) {
-        drag.moving ||= Math.abs(x(event) - drag.start) > 4;
-        if (drag.moving) this.actions.seek(timeAt(event));
-      }
-    });
-    const end = (event) => {
-      if (!touches.delete(event.pointerId)) return;
-      pinch = null;
-      if (drag && !drag.moving && event.type === "pointerup" && Math.abs(event.clientY - drag.y) < 8)
-        this.click(element, x(event), event, timeAt(event));
-      drag = null;
-    };
-    window.addEventListener("pointerup", end);
-    window.addEventListener("pointercancel", end);
-    window.addEventListener("pointermove", (event) => {
-      if (drag?.moving && event.target !== element && touches.has(event.pointerId)) this.actions.seek(timeAt(event));
-    });
-    element.addEventListener(
-      "wheel",
-      (event) => {
-        if (element.id === "pairs" && !event.ctrlKey && Math.abs(event.deltaY) > Math.abs(event.deltaX)) return;
-        event.preventDefault();
-        if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) this.pan(event.deltaX || event.deltaY);
-        else this.zoom(1.0015 ** event.deltaY, timeAt(event));
-      },
-      { passive: false },
-    );
-  }
-
-  pinchOf(touches) {
-    const [a, b] = touches.values();
-    return { apart: Math.max(20, Math.abs(a - b)), middle: (a + b) / 2 };
-  }
-
-  // Returns the text for the pointer: the time, and the events there.
-  describe(element, x, time) {
-    const { first, spacing, word } = this.frameOf;
-    const at = (t) => `${word} ${trim(first + spacing * t, 4)}`;
-    const row = this.rows.find(({ canvas }) => canvas === element);
-    if (!row) return at(time);
-    const { events } = this.state.structures[row.s];
-    const layout = layoutEvents(events, this.window);
-    const bin = layout.bins?.find((one) => x >= one.x && x < one.x + 4);
-    if (bin) {
-      const kinds = [...bin.counts].flatMap((number, k) => (number ? [`${number} ${events.kinds[k].name}`] : []));
-      return `${at(time)}: ${kinds.join(", ")}`;
-    }
-    const e = layout.single ? eventNear(events, this.window, x, near) : -1;
-    return e < 0 ? at(time) : `${at(events.time[e])}: ${events.kindOf(e).name}`;
-  }
-
-  // A click near an event goes to its exact time, any other click to the time under the pointer.
-  click(element, x, event, time) {
-    const row = this.rows.find(({ canvas }) => canvas === element);
-    if (row) {
-      const e = eventNear(this.state.structures[row.s].events, this.window, x, near);
-      if (e >= 0) return this.actions.choose([row.s, e]);
-    }
-    if (element.id === "pairs") {
-      const y = event.clientY - element.getBoundingClientRect().top + element.scrollTop;
-      const pair = this.pairsOfBead[Math.floor(y / pairHeight)];
-      for (const { span } of pair ? layoutSpans(pair, this.window) : []) {
-        for (const [at, e] of [[span.from, span.begins], [span.to, span.ends]])
-          if (e >= 0 && Math.abs(this.window.x(at) - x) <= near) return this.actions.choose([pair.s, e]);
-      }
-    }
-    return this.actions.seek(time);
-  }
-
-  listenToOverview() {
-    const overview = byId("overview");
-    let held = null;
-    overview.addEventListener("pointerdown", (event) => {
-      overview.setPointerCapture(event.pointerId);
-      held = { x: event.clientX, from: this.range[0] };
-    });
-    overview.addEventListener("pointermove", (event) => {
-      if (!held) return;
-      const by = ((event.clientX - held.x) / overview.clientWidth) * this.end;
-      this.show(moved([held.from + by], this.range[1] - this.range[0], this.end));
-    });
-    overview.addEventListener("pointerup", () => (held = null));
-    overview.addEventListener("pointercancel", () => (held = null));
   }
 
   setDark(dark) {

@@ -1,0 +1,85 @@
+// Fills the scene: layers as far as they have changed, and marks of what is chosen or has just happened.
+import { rgb } from "./colours.js";
+import { noBead } from "./events.js";
+
+const flashSeconds = 0.5;
+const mostFlashes = 8;  // of each structure: more would cover the scene
+const flashingCage = 0.5;
+
+export class Picture {
+  constructor(app) {
+    this.app = app;
+    this.cages = [];
+  }
+
+  // Shows the layers that are switched on.
+  drawLayers() {
+    const { layers, scene, state } = this.app;
+    scene.beads.visible = layers.shows("beads");
+    scene.chain.visible = layers.shows("chain");
+    for (const [name, target] of [["edges", scene.edges], ["contacts", scene.contacts]]) {
+      if (layers.shows(name) && layers.isStale(name)) {
+        const words = state.layersNamed(name).map(({ layer }) => layer.set.packed);
+        const all = words.length === 1 ? words[0] : Uint32Array.from(words.flatMap((list) => [...list]));
+        // Many lines would cover each other, so they are fainter.
+        const [few, most, least] = name === "edges" ? [400, 150, 40] : [60, 230, 110];
+        const alpha = Math.max(least, most * Math.min(1, Math.sqrt(few / (all.length / 2))));
+        scene.setEdges(target, all, 2, scene.colours[name], alpha);
+      }
+      target.visible = layers.shows(name);
+    }
+    if (layers.isStale("hidden")) {
+      const hidden = layers.shows("hidden") ? state.elements("hidden").flat() : [];
+      scene.paintBeads(new Set(hidden));
+    }
+    if (layers.isStale("cages")) this.cages = layers.shows("cages") ? this.app.layers.cages(scene.colours.cage, this.app.dark) : [];
+  }
+
+  // Marks what the chosen event changes, the chosen bead's neighbours, and while playing the events just passed.
+  drawMarks() {
+    const { scene, state } = this.app;
+    const marks = [];
+    const rings = [];
+    const cages = [...this.cages];
+    const { goes, comes, glow, chosen } = scene.colours;
+    const markEvent = (s, e, alpha) => {
+      for (const { name, arity, removed, added } of state.changesOf(s, e)) {
+        if (arity === 2) {
+          for (let k = 0; k < removed.length; k += 2)
+            marks.push({ pair: removed.subarray(k, k + 2), colour: goes, dashed: true, alpha });
+          for (let k = 0; k < added.length; k += 2)
+            marks.push({ pair: added.subarray(k, k + 2), colour: comes, dashed: false, alpha });
+        } else if (name === "cages" && added.length) {
+          const basis = [...added.subarray(1, arity)].filter((bead) => bead !== noBead);
+          const strength = state.chosen ? alpha : flashingCage * alpha;
+          cages.push({ basis, relax: state.structures[s].relax, colour: rgb(glow), alpha: strength });
+        }
+      }
+      for (const bead of state.structures[s].events.beadsOf(e)) rings.push({ bead, colour: glow, alpha });
+    };
+    if (this.app.bead.number >= 0) {
+      const b = this.app.bead.number;
+      for (const name of ["edges", "contacts"]) {
+        for (const other of this.app.layers.shows(name) ? state.partnersOf(name, b) : [])
+          marks.push({ pair: [b, other], colour: chosen, dashed: false, alpha: 0.8 });
+      }
+    }
+    if (state.chosen) markEvent(...state.chosen, 1);
+    else if (this.app.player.playing && this.app.layers.shows("flashes")) this.markFlashes(markEvent);
+    if (this.app.bead.number >= 0) rings.push({ bead: this.app.bead.number, colour: chosen, alpha: 1 });
+    scene.setMarks(marks, rings);
+    scene.setCages(cages);
+  }
+
+  // Marks the events of the last half second of playing, fading.
+  markFlashes(markEvent) {
+    const { state, player } = this.app;
+    const span = flashSeconds * player.speed * player.rate;
+    state.structures.forEach(({ events }, s) => {
+      if (this.app.timeline.muted.has(s)) return;
+      const first = Math.max(events.countBefore(state.time - span), state.applied[s] - mostFlashes);
+      for (let e = first; e < state.applied[s]; ++e)
+        markEvent(s, e, Math.max(0.05, 1 - (state.time - events.time[e]) / span));
+    });
+  }
+}
