@@ -138,6 +138,13 @@ def keys_work(browser):
     browser.wait("await new Promise((done) => setTimeout(done, 400))")
     body.send_keys(" ")
     check(browser.run("return kds.state().step + kds.state().u") > orders[3], "space did not play")
+    views = []
+    for key in ("", "+", Keys.SHIFT + Keys.ARROW_LEFT):
+        body.send_keys(key)
+        browser.wait("await new Promise((done) => setTimeout(done, 700))")
+        views.append(browser.run("return new URLSearchParams(location.hash.slice(1)).get('cam')").split(","))
+    check(float(views[1][6]) == 1.25 * float(views[0][6]), "plus does not zoom")
+    check(views[2][:3] != views[1][:3] and views[2][3:] == views[1][3:], "shift and arrows do not turn the camera")
     cost = browser.run("return kds.statistics()")
     check(0 < cost["drawCalls"] <= 8, f"{cost['drawCalls']} draw calls")
 
@@ -255,7 +262,8 @@ def main(node, page, place):
         check(browser.run("return document.getElementById('title').textContent") == TITLE, "the title is another one")
         everything = marked(pixels(browser, "beads", "chain", "cages", "edges", "contacts", "hidden", "flashes"))
         check(len(everything) > 2000, f"only {len(everything)} pixels are drawn")
-        for test in (states_agree, picking_agrees_with_pixels, cage_encloses_beads, keys_work, follows_a_bead,
+        for test in (states_agree, picking_agrees_with_pixels, cage_encloses_beads, keys_work,
+                     picking_agrees_with_pixels, follows_a_bead,  # after keys_work the camera is turned and nearer
                      saves_a_picture, loops, timeline_goes_to_times):
             test(browser)
             print("passed:", test.__name__)

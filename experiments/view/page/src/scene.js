@@ -51,10 +51,11 @@ export class Scene {
     this.makeTexture();
     this.makeLayers();
     this.resetCamera();
-    this.controls.addEventListener("change", () => {
+    this.onCamera = () => {
       this.placeClipping();
       onCamera();
-    });
+    };
+    this.controls.addEventListener("change", this.onCamera);
   }
 
   makeTexture() {
@@ -309,8 +310,7 @@ export class Scene {
   zoom(factor) {
     this.camera.zoom *= factor;
     this.camera.updateProjectionMatrix();
-    this.controls.update();
-    this.placeClipping();
+    this.onCamera();
   }
 
   get view() {
