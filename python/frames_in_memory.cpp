@@ -36,9 +36,9 @@ struct MemoryNumbers {
 struct FramesInMemory::Content {
   BeadsInMemory beads;
   std::size_t frame_count = 0, bead_count = 0;
-  MemoryNumbers numbers;   // of all frames; unused if `frame` is set
-  py::object owner;  // of `numbers`
-  py::object frame;  // or a function that returns one frame
+  MemoryNumbers numbers;  // of all frames; unused if `frame` is set
+  py::object owner;       // of `numbers`
+  py::object frame;       // or a function that returns one frame
 
   ~Content() {
     const py::gil_scoped_acquire gil;

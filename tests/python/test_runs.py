@@ -227,6 +227,18 @@ class Driving(unittest.TestCase):
         self.assertEqual(run.contacts.pairs().tolist(), pairs_within(self.positions[4][:10], 4, apart=2))
 
 
+@unittest.skipUnless("nearest" in kds.structure_names(), "the module is built without tests/python/nearest_structure.cpp")
+class OwnStructure(unittest.TestCase):
+    def test_it_is_one_of_the_structures(self):
+        positions = coil(frames=8, beads=40)
+        run = kds.run(positions, structures=["nearest"], radius=1)
+        self.assertGreater(len(run.events), 0)
+        self.assertEqual(set(run.events["kind"]), {"overtake"})
+        for frame in range(1, 8):
+            lengths = np.linalg.norm(positions[frame, 1:] - positions[frame, 0], axis=1)
+            self.assertEqual(run.nearest.elements(frame)[0, 0], 1 + np.argmin(lengths))
+
+
 class Memory(unittest.TestCase):
     def test_it_is_flat_over_a_hundred_runs(self):
         positions = coil(frames=20, beads=60)
