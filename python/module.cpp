@@ -1,6 +1,7 @@
 // The extension module kds._kds. Its functions and classes are those that the Python package kds builds on;
 // the package documents them.
 
+#include <fmt/format.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -49,12 +50,15 @@ std::string in_python(std::string_view sentence) {
         text += sentence[i] == '-' ? '_' : sentence[i];
       --i;
     } else if (starts_word && rest.starts_with("kds ") && rest.size() > 4 && std::islower(rest[4]) != 0) {
-      text += "kds.";
-      i += 3;
+      text += rest.starts_with("kds info") ? "kds.conditions" : "kds.";
+      i += rest.starts_with("kds info") ? 7 : 3;
     } else {
       text += sentence[i];
     }
   }
+  const std::size_t see = text.find("(see kds."), help = text.find(" help)");
+  if (see != std::string::npos && help != std::string::npos && see < help)
+    text = fmt::format("{}(see help({}))", text.substr(0, see), text.substr(see + 5, help - see - 5));
   return text;
 }
 
@@ -76,8 +80,17 @@ void translate_exceptions(py::module_& module) {
 std::vector<std::pair<std::string, std::string>> run_arguments() {
   std::vector<std::pair<std::string, std::string>> all;
   for (const auto& option : kds::run_options().all())
-    if (option.text) all.emplace_back(in_python(option.spec.name), in_python(option.spec.help));
+    if (option.text || option.spec.name == "--work")
+      all.emplace_back(in_python(option.spec.name), in_python(option.spec.help));
   return all;
+}
+
+/// Returns the arguments of `kds run` that say where results go.
+std::vector<std::string> run_outputs() {
+  std::vector<std::string> names;
+  for (const auto& option : kds::run_options().all())
+    if (!option.text && option.spec.name != "--work") names.push_back(in_python(option.spec.name));
+  return names;
 }
 
 std::vector<std::string> structure_names() {
@@ -195,6 +208,7 @@ PYBIND11_MODULE(_kds, module) {
   });
   module.def("in_python", [](const std::string& sentence) { return in_python(sentence); });
   module.def("run_arguments", run_arguments);
+  module.def("run_outputs", run_outputs);
   module.def("structure_names", structure_names);
   module.def("version", kds::program_version);
   module.def("data_folder", [] { return kds::source_data_folder().string(); });

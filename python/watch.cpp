@@ -16,7 +16,8 @@ bool is_main_thread() {
 }  // namespace
 
 Watch::Watch(const py::object& progress)
-    : progress_(progress.is_none() ? py::handle() : py::handle(progress)),
+    : outer_(present),
+      progress_(progress.is_none() ? py::handle() : py::handle(progress)),
       main_thread_(is_main_thread()),
       next_(Clock::now() + between_looks) {
   present = this;

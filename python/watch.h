@@ -9,7 +9,7 @@
 
 namespace kds::python {
 
-/// Releases the GIL while it lives, for a computation of this thread. Computations must not nest.
+/// Releases the GIL while it lives, for a computation of this thread.
 class Watch {
  public:
   /// `progress` is None or a function. It is called with the number of units done, the completed share of the
@@ -18,7 +18,7 @@ class Watch {
   explicit Watch(const pybind11::object& progress = pybind11::none());
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
-  ~Watch() { present = nullptr; }
+  ~Watch() { present = outer_; }
 
   /// Looks if the last look is long ago. Throws pybind11::error_already_set if Python has raised an
   /// exception, such as KeyboardInterrupt.
@@ -36,6 +36,7 @@ class Watch {
 
   static thread_local inline Watch* present = nullptr;
 
+  Watch* outer_;               // the computation during which this one was called, or null
   pybind11::handle progress_;  // owned by the caller; null for none
   bool main_thread_;
   Clock::time_point next_;

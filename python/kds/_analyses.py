@@ -208,7 +208,6 @@ def generate(model, **options):
     try:
         necklaces = _kds.generate([str(model), *arguments(options, own=["frames"]), "-o", "necklace.xyz"])
     except InputError as error:
-        if str(error).startswith("start, stop, step"):
-            raise InputError(str(error).replace("start, stop, step", "frames", 1)) from None
-        raise
+        sentence = str(error).replace("start, stop, step:", "frames:", 1).replace("MODEL:", "model:", 1)
+        raise InputError(sentence) from None
     return necklaces[0] if len(necklaces) == 1 else necklaces

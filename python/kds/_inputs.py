@@ -71,6 +71,13 @@ def frame_of(item, label="frame"):
     return np.asarray(item), None
 
 
+def _array(source):
+    """Returns the source as an array, without copying an array."""
+    if isinstance(source, np.ma.MaskedArray):
+        raise InputError("array: is masked; expected an array with all positions, such as positions.filled()")
+    return np.asarray(source)
+
+
 def check_units(positions, nanometres, label):
     """Warns if the median bond of a frame is so short that the unit is probably another one."""
     if len(positions) < 2 or positions.ndim != 2:
@@ -303,9 +310,10 @@ def open_input(source, *, start=None, stop=None, step=None, units=None, necklace
             open_frames = lambda: _kds.Frames(positions, beads)  # noqa: E731
         else:
             if hasattr(source, "__array__"):
-                positions = np.asarray(source)
+                positions = _array(source)
             else:
-                frames = [frame_of(item) for item in source]
+                # Trajectories give views of one buffer, so each frame is copied before the next one comes.
+                frames = [(np.array(positions), time) for positions, time in map(frame_of, source)]
                 shapes = {np.shape(frame) for frame, _ in frames}
                 if len(shapes) > 1:
                     raise InputError(f"frames: have the shapes {sorted(shapes)}; expected one shape (beads, 3)")

@@ -5,7 +5,7 @@ import os
 from . import _kds
 
 # Options of the program that say where its results go. In Python results are attributes.
-_OUTPUTS = {"out", "json", "quiet", "paper", "dump", "events", "log", "data"}
+_OUTPUTS = {*_kds.run_outputs(), "data"}
 _RENAMED = {"frames": "start, stop, step", "format": "a path with the ending of its format"}
 
 

@@ -38,12 +38,19 @@ def open_run(source, *, start=None, stop=None, step=None, units=None, necklaces=
 class Clock:
     """Converts numbers of frames in the trajectory to times of the run, which count its steps."""
 
-    def __init__(self, first, second):
+    def __init__(self, first, second, frames=None):
         self.first = first
         self.stride = second - first
+        self.steps = None if frames is None else frames - 1  # None: frames may still come
 
     def time(self, frame):
-        return None if frame is None else (float(frame) - self.first) / self.stride
+        if frame is None:
+            return None
+        time = (float(frame) - self.first) / self.stride
+        if self.steps is not None and not 0 <= time <= self.steps:
+            raise _kds.InputError(f"frame: {frame} is outside the run, which goes from frame {self.first} to "
+                                  f"{self.first + self.steps * self.stride}")
+        return time
 
     def frame(self, time):
         return self.first + time * self.stride
@@ -166,7 +173,7 @@ class Run:
         call(self._core.execute, verbose=verbose)
         warn(self._core.warnings())
         self._stamps = self._core.stamps()
-        self._clock = Clock(self._stamps[0][0], self._stamps[1][0])
+        self._clock = Clock(self._stamps[0][0], self._stamps[1][0], len(self._stamps))
         self.events = events_array(self._core)
         self._core.keep_events(False)
         self.fingerprint = f"{self._core.fingerprint():016x}"

@@ -27,7 +27,7 @@ class KineticRun:
 
     def __init__(self, source, **options):
         self._core, self._source = open_run(source, **options)
-        self._clock = Clock(self._core.stamp(0)[0], self._core.stamp(1)[0])
+        self._clock = Clock(self._core.stamp(0)[0], self._core.stamp(1)[0], self._core.frame_count)
 
     @classmethod
     def pushed(cls, beads, radius=None, *, dimension=3, necklaces=None, cutoff=None, surface=False, only=None, **options):

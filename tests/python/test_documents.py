@@ -1,13 +1,17 @@
 """What documents say about the module is true: examples of docstrings and of docs/python.md run, stubs fit."""
 
 import ast
+import contextlib
 import doctest
 import importlib
 import inspect
+import io
 import os
 import pkgutil
 import re
 import shutil
+import subprocess
+import sys
 import tempfile
 import unittest
 import warnings
@@ -71,6 +75,28 @@ class Stubs(unittest.TestCase):
                                                         if p.kind != p.VAR_KEYWORD], f"{name}.{node.name}")
 
 
+class WithoutOtherPackages(unittest.TestCase):
+    def test_numpy_is_enough(self):
+        code = """
+import sys
+for name in ("pandas", "matplotlib", "matplotlib.pyplot", "tqdm", "tqdm.auto", "MDAnalysis", "mdtraj"):
+    sys.modules[name] = None
+import kds
+spiral = kds.generate("spiral", beads=30, frames=5)
+run = kds.run(spiral, radius=1, structures=["contacts"], cutoff=3, verbose=True)
+rows = run.contacts.lifetimes(by="bead")
+assert rows.dtype.names[:2] == ("i", "j") and len(rows) > 0
+assert len(run.results.events) == len(run.events)
+try:
+    run.plot()
+except ImportError as error:
+    print(error)
+"""
+        found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+        self.assertEqual(found.returncode, 0, found.stderr)
+        self.assertIn("plots need matplotlib", found.stdout)
+
+
 class Manual(unittest.TestCase):
     def test_its_examples_run(self):
         try:
@@ -89,7 +115,7 @@ class Manual(unittest.TestCase):
             names = {}
             try:
                 for number, block in enumerate(blocks):
-                    with self.subTest(block=number):
+                    with self.subTest(block=number), contextlib.redirect_stdout(io.StringIO()):
                         exec(compile(block, f"docs/python.md, block {number}", "exec"), names)  # noqa: S102
             finally:
                 os.chdir(before)

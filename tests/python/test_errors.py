@@ -32,6 +32,7 @@ class Errors(unittest.TestCase):
         self.refused(r"dtype int64; expected float32 or float64", run, np.zeros((6, 30, 3), dtype=int))
         self.refused(r"C order; expected numpy.ascontiguousarray\(positions\)", run, np.asfortranarray(coil()))
         self.refused(r"C order", run, coil()[:, ::2])
+        self.refused(r"is masked", run, np.ma.masked_less(coil(), -1))
         self.refused(r"times; expected 6", run, coil(), times=[1.0, 2.0], radius=1)
         self.refused(r"necklaces have 29 beads; expected 30", run, coil(), necklaces=[10, 19])
         self.refused(r"radii; expected 30", run, coil(), radius=[1.0, 2.0])
@@ -51,7 +52,12 @@ class Errors(unittest.TestCase):
         self.refused(r"^structures: .*vorono.*", kds.run, coil(), structures=["vorono"])
         self.refused(r"^kernel: .*", kds.run, coil(), kernel="quick")
         self.refused(r"apart: applies only to contacts", kds.run, coil(), apart=3, structures=["power"])
-        self.refused(r"until_damage|unknown|no option", kds.run, coil(), until_damages=True)
+        self.refused(r"did you mean until_damage\? \(see help\(kds.run\)\)", kds.run, coil(), until_damages=True)
+        self.refused(r"^model: 'spirl' .* did you mean spiral\?", kds.generate, "spirl", beads=30)
+        self.refused(r"frame: 9 is outside the run, which goes from frame 1 to 5",
+                     kds.run(coil(), radius=1, start=1, step=2, structures=["power"]).power.edges, 9)
+        self.refused(r"frame: 1 is outside the run, which goes from frame 2 to 4",
+                     kds.KineticRun(coil(), radius=1, start=2, stop=5).go_to, 1)
         self.refused(r"topology: is for files", kds.run, coil(), topology=PDB)
         self.refused(r"expected start, stop, step", kds.run, coil(), frames="1:2", error=TypeError)
         self.refused(r"results are attributes", kds.run, coil(), out="folder", error=TypeError)

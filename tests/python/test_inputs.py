@@ -110,6 +110,32 @@ class PathArrayGroupAndMdtraj(unittest.TestCase):
         self.assertEqual(kds.run(self.xtc, topology=PDB, start=3, stop=31, step=4).fingerprint, expected)
         self.assertEqual(list(kds.run(group, start=-5).frames), list(range(FRAMES - 5, FRAMES)))
 
+    def test_a_trajectory_is_an_iterable(self):
+        atoms = universe(self.xtc)
+        expected = kds.run(atoms.atoms, radius=1, structures=["sorted"], stop=8, necklaces=[len(atoms.atoms)])
+        run = kds.run(atoms.trajectory[:8], radius=1, structures=["sorted"])
+        self.assertEqual(run.fingerprint, expected.fingerprint)
+        np.testing.assert_array_equal(run.times, expected.times)
+
+    def test_periodic_cells(self):
+        import MDAnalysis
+
+        path = os.path.join(self.folder.name, "periodic.xtc")
+        atoms = universe(self.xtc).atoms
+        with MDAnalysis.Writer(path, atoms.n_atoms) as writer:
+            for ts in atoms.universe.trajectory:
+                ts.dimensions = [41, 42, 43, 90, 90, 90]
+                atoms.positions = np.mod(atoms.positions + ts.frame, ts.dimensions[:3])
+                writer.write(atoms)
+        for options in ({}, {"start": 3, "step": 5}):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                run = kds.run(path, topology=PDB, select="backbone", **options)
+                self.assertTrue(any("made whole" in str(warning.message) for warning in caught))
+                group = universe(path).select_atoms(BACKBONE)
+                self.assertEqual(kds.run(group, **options).fingerprint, run.fingerprint)
+                self.assertEqual([frame.frame for frame in kds.stream(group, **options)], list(run.frames))
+
     def test_streams(self):
         group = universe(self.xtc).select_atoms(BACKBONE)
         run = kds.run(group, structures=["power"])

@@ -241,7 +241,7 @@ class OwnStructure(unittest.TestCase):
 
 class Memory(unittest.TestCase):
     def test_it_is_flat_over_a_hundred_runs(self):
-        positions = coil(frames=20, beads=60)
+        positions = coil(frames=6, beads=40)
 
         def one():
             run = kds.run(positions, radius=1, structures=["power", "contacts"])
