@@ -23,6 +23,8 @@
 #include "experiments/scenes/generate_command.h"
 #include "experiments/scenes/info_command.h"
 #include "experiments/scenes/scene_info.h"
+#include "experiments/trade/trade_command.h"
+#include "experiments/trade/trade_report.h"
 #include "experiments/update/compare_updates.h"
 #include "experiments/update/update_command.h"
 #include "motions/base/input_error.h"
@@ -106,6 +108,7 @@ py::dict contacts(const Arguments& arguments, const py::object& progress) {
     Watch watch(progress);
     refuse_instance(task);
     InputOptions loaded = task;
+    loaded.at_frame_surveyed = [] { Watch::glance(); };
     if (!task.surface && task.radius == "auto") loaded.radius = "1";  // radii do not matter between centres
     const Scene scene = load_necklaces(loaded, task.motion, 1, found.warn());
     const auto report = follow_contacts(task, scene, progress_of(watch));
@@ -198,6 +201,20 @@ py::dict collide(const Arguments& arguments, const py::object& progress) {
   result["frames"] = array_of(std::move(frame_of_pairs));
   result["pairs"] = array_of(std::move(beads), {count, 2});
   return result;
+}
+
+py::dict trade(const Arguments& arguments, const py::object& progress) {
+  Found found;
+  {
+    Watch watch(progress);
+    const std::vector<TradeRow> rows = measure_trade_of(arguments, progress_of(watch), found.warn());
+    Json json;
+    json["rows"] = trade_rows_json(rows);
+    json["recommendation"] = recommendation(rows);
+    found.json = text_of(json);
+    found.table = trade_table(rows) + "\n" + recommendation(rows) + "\n";
+  }
+  return found.dict();
 }
 
 py::dict conditions(const Arguments& arguments, const py::object& progress) {

@@ -20,6 +20,8 @@ namespace kds::python {
 /// `kds collide`. Adds the colliding pairs of all frames, if some method lists them: `frames` (a frame number
 /// for each pair) and `pairs` (m, 2).
 [[nodiscard]] pybind11::dict collide(const Arguments& arguments, const pybind11::object& progress);
+/// `kds trade`.
+[[nodiscard]] pybind11::dict trade(const Arguments& arguments, const pybind11::object& progress);
 /// `kds info`: the conditions of a proper necklace.
 [[nodiscard]] pybind11::dict conditions(const Arguments& arguments, const pybind11::object& progress);
 /// `kds generate`. Returns an array (frames, beads, 3) for each necklace.

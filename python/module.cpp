@@ -216,6 +216,7 @@ PYBIND11_MODULE(_kds, module) {
   module.def("compare", kds::python::compare);
   module.def("update", kds::python::update);
   module.def("collide", kds::python::collide);
+  module.def("trade", kds::python::trade);
   module.def("conditions", kds::python::conditions);
   module.def("generate", kds::python::generate);
   module.def("power_diagram", kds::python::power_diagram);

@@ -88,6 +88,7 @@ RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more,
                      std::shared_ptr<FramesInMemory> memory)
     : memory_(std::move(memory)), options_(parse_run_options(arguments)) {
   take(more, options_);
+  options_.at_frame_surveyed = [] { Watch::glance(); };
   const auto warn = [this](const std::string& warning) { warnings_.push_back(warning); };
   scene_ = std::make_unique<Scene>(load_scene(options_, warn));
   if (more.only.empty()) {

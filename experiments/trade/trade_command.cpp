@@ -1,4 +1,4 @@
-#include "experiments/program/commands.h"
+#include "experiments/trade/trade_command.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,7 @@
 #include "experiments/output/output_files.h"
 #include "experiments/output/text.h"
 #include "experiments/program/command_line.h"
+#include "experiments/program/commands.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option.h"
 #include "experiments/program/option_values.h"
@@ -226,22 +227,40 @@ void refuse_lone_frame(const TradeOptions& options, const std::vector<Trajectory
                                  name_of(frames), necklaces.front().file));
 }
 
+struct TradeSubject {
+  FinestData finest;
+  TradeTask task;
+};
+
+TradeSubject read_subject(const TradeOptions& options, const std::function<void(const std::string&)>& warn) {
+  if (const auto instance = read_lone_instance(options))
+    throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
+  std::vector<Trajectory> necklaces = read_necklaces(options, warn);
+  refuse_lone_frame(options, necklaces);
+  std::vector<double> radii = bead_radii(options.radius, necklaces);
+  TradeSubject subject{FinestData(std::move(necklaces), std::move(radii), options.radius), options.task};
+  subject.task.frames = options.reading.frames;
+  subject.task.exact_kernel = !leave_out_exact_kernel(subject.finest, subject.task, warn);
+  return subject;
+}
+
 }  // namespace
+
+std::vector<TradeRow> measure_trade_of(const Arguments& arguments,
+                                       const std::function<void(std::size_t, std::size_t)>& progress,
+                                       const std::function<void(const std::string&)>& warn) {
+  const TradeSubject subject = read_subject(parse_trade_options(arguments), warn);
+  return measure_trade(subject.finest, subject.task, progress, warn);
+}
 
 int trade_command(const Arguments& arguments) {
   const TradeOptions options = parse_trade_options(arguments);
   TableCommand command("trade", arguments, options, "run");
   command.check_inputs_and_destinations(options);
 
-  if (const auto instance = read_lone_instance(options))
-    throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
-  std::vector<Trajectory> necklaces = read_necklaces(options, command.warn());
-  refuse_lone_frame(options, necklaces);
-  std::vector<double> radii = bead_radii(options.radius, necklaces);
-  const FinestData finest(std::move(necklaces), std::move(radii), options.radius);
-  TradeTask task = options.task;
-  task.frames = options.reading.frames;
-  task.exact_kernel = !leave_out_exact_kernel(finest, task, command.warn());
+  const TradeSubject subject = read_subject(options, command.warn());
+  const FinestData& finest = subject.finest;
+  const TradeTask& task = subject.task;
   if (!options.quiet) foretell(foretold_seconds(finest, task));
   const std::vector<TradeRow> rows = measure_trade(finest, task, command.progress(), command.warn());
   const bool no_contacts = std::ranges::any_of(rows, [](const TradeRow& row) {

@@ -9,8 +9,8 @@ Start with ``help(kds.run)``. Lengths are in angstrom and times in picoseconds. 
 manual.
 """
 
-from ._analyses import (Collisions, Comparison, Conditions, Contacts, Updates, collide, compare, conditions, contacts,
-                        generate, update)
+from ._analyses import (Collisions, Comparison, Conditions, Contacts, Trade, Updates, collide, compare, conditions,
+                        contacts, generate, trade, update)
 from ._kds import AuditError, InputError
 from ._kds import version as _version
 from ._options import InputWarning
@@ -21,9 +21,9 @@ from ._stepping import KineticRun, StreamFrame, stream
 AuditError.__module__ = InputError.__module__ = "kds"
 __version__ = _version()
 __all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "Contacts", "InputError", "InputWarning",
-           "KineticAnalysis", "KineticRun", "Run", "StreamFrame", "Structure", "Updates", "closest_pair", "collide",
+           "KineticAnalysis", "KineticRun", "Run", "StreamFrame", "Structure", "Trade", "Updates", "closest_pair", "collide",
            "colliding_pairs", "compare", "conditions", "contacts", "enclosing_sphere", "generate", "power_diagram", "run",
-           "run_options", "stream", "structure_names", "update", "wrapped_hierarchy"]
+           "run_options", "stream", "structure_names", "trade", "update", "wrapped_hierarchy"]
 
 
 def __getattr__(name):

@@ -114,6 +114,9 @@ class Collisions(_Result):
     pair_frames: NDArray[np.int64]
     frames: Table
 
+class Trade(_Result):
+    recommendation: str
+
 class Conditions(_Result):
     proper: bool
 
@@ -148,6 +151,10 @@ def collide(source: Source, *, start: Optional[int] = None, stop: Optional[int] 
             radius: Optional[Union[str, ArrayLike]] = None, units: Optional[str] = None,
             necklaces: Optional[Sequence[int]] = None, times: Optional[ArrayLike] = None,
             groups: Optional[Tuple[Any, Any]] = None, verbose: bool = False, **options: Any) -> Collisions: ...
+def trade(source: Source, *, start: Optional[int] = None, stop: Optional[int] = None, step: Optional[int] = None,
+          radius: Optional[Union[str, ArrayLike]] = None, units: Optional[str] = None,
+          necklaces: Optional[Sequence[int]] = None, times: Optional[ArrayLike] = None,
+          groups: Optional[Tuple[Any, Any]] = None, verbose: bool = False, **options: Any) -> Trade: ...
 def conditions(source: Source, *, start: Optional[int] = None, stop: Optional[int] = None, step: Optional[int] = None,
                radius: Optional[Union[str, ArrayLike]] = None, units: Optional[str] = None,
                necklaces: Optional[Sequence[int]] = None, times: Optional[ArrayLike] = None, verbose: bool = False,

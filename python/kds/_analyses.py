@@ -172,6 +172,34 @@ def collide(source, *, start=None, stop=None, step=None, radius=None, units=None
                                    groups, radius, options))
 
 
+class Trade(Result):
+    """The cost and the errors of each setting. Made by :func:`kds.trade`. ``recommendation`` says in words which to take."""
+
+    def __init__(self, found):
+        super().__init__(found)
+        self.recommendation = self.json["recommendation"]
+
+
+def trade(source, *, start=None, stop=None, step=None, radius=None, units=None, necklaces=None, times=None, groups=None,
+          verbose=False, **options):
+    """Measures the speed and the errors of each lever of accuracy on an input: strides, tolerances, relaxed spheres, ...
+
+    The input is that of :func:`kds.run`. Options: ``want`` (a list of contacts, cages, diagram, events, scenes), ``apart``,
+    ``rounds``, ``times_examined`` as ``times`` of the program, ``seed``, ``cutoff``, ``without_exact``. Returns
+    :class:`kds.Trade`, whose ``rows`` have a row for each setting. Takes several times as long as a run.
+
+    >>> import kds
+    >>> spiral = kds.generate("spiral", beads=30, frames=9)
+    >>> found = kds.trade(spiral, radius=1.1, want=["cages"], rounds=1, times_examined=4, without_exact=True)
+    >>> bool(found.rows["want"][0] == "cages")
+    True
+    """
+    if "times_examined" in options:
+        options["times"] = options.pop("times_examined")
+    return Trade(_analyse(_kds.trade, source, verbose, "run", start, stop, step, units, necklaces, times, groups, radius,
+                          options))
+
+
 class Conditions(Result):
     """The conditions of a proper necklace. Made by :func:`kds.conditions`. ``proper`` says whether all hold."""
 

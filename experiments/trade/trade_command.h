@@ -1,0 +1,20 @@
+#pragma once
+// The measurements of `kds trade` for callers that print nothing.
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "experiments/program/command_line.h"
+#include "experiments/trade/measure_trade.h"
+
+namespace kds {
+
+/// Measures what these arguments of `kds trade` ask for. Options about outputs have no effect. Throws
+/// InputError.
+[[nodiscard]] std::vector<TradeRow> measure_trade_of(
+    const Arguments& arguments, const std::function<void(std::size_t, std::size_t)>& progress,
+    const std::function<void(const std::string&)>& warn);
+
+}  // namespace kds
