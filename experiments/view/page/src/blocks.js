@@ -35,6 +35,7 @@ export const blocksOfPage = (document, meta) =>
 // Reads META, and refuses a replay that this page cannot show.
 export function metaOfPage(document) {
   const element = document.getElementById("kds-replay");
+  if (!element && document.querySelector(".kds-block")) throw new Error("the file is cut off before its end");
   if (!element) throw new Error("this page has no replay in it: write one with 'kds view INPUT -o replay.html'");
   const meta = JSON.parse(element.textContent);
   if (meta.format !== "kds-replay" || meta.version !== 1)

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { VarintReader, fromBase64, inflate } from "../src/codec.js";
-import { Blocks } from "../src/blocks.js";
+import { Blocks, metaOfPage } from "../src/blocks.js";
 import { encodeReplay, intoPage, packed } from "./encode_replay.mjs";
 import { sampleRun } from "./sample_run.mjs";
 
@@ -34,4 +34,15 @@ test("a name that ends a script element stays inside the data", () => {
   const page = intoPage("<body><!--KDS-DATA--></body>", encodeReplay(run));
   assert.equal(page.match(/alert/g).length, 1);
   assert.ok(!page.includes("<script>alert"));
+});
+
+test("a page without a replay, one that is cut off and one of another version are refused", () => {
+  const page = (meta, block) => ({
+    getElementById: () => (meta ? { textContent: JSON.stringify(meta) } : null),
+    querySelector: () => block,
+  });
+  assert.throws(() => metaOfPage(page(null, null)), /has no replay in it: write one with 'kds view/);
+  assert.throws(() => metaOfPage(page(null, {})), /cut off/);
+  assert.throws(() => metaOfPage(page({ format: "kds-replay", version: 2 })), /is of format 'kds-replay' 2, .* 'kds-replay' 1/);
+  assert.equal(metaOfPage(page({ format: "kds-replay", version: 1 })).version, 1);
 });
