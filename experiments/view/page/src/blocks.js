@@ -37,7 +37,12 @@ export function metaOfPage(document) {
   const element = document.getElementById("kds-replay");
   if (!element && document.querySelector(".kds-block")) throw new Error("the file is cut off before its end");
   if (!element) throw new Error("this page has no replay in it: write one with 'kds view INPUT -o replay.html'");
-  const meta = JSON.parse(element.textContent);
+  let meta;
+  try {
+    meta = JSON.parse(element.textContent);
+  } catch {
+    throw new Error("the file is cut off before its end");
+  }
   if (meta.format !== "kds-replay" || meta.version !== 1)
     throw new Error(`the replay is of format '${meta.format}' ${meta.version}, this page shows 'kds-replay' 1`);
   return meta;

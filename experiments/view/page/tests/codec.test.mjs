@@ -43,6 +43,7 @@ test("a page without a replay, one that is cut off and one of another version ar
   });
   assert.throws(() => metaOfPage(page(null, null)), /has no replay in it: write one with 'kds view/);
   assert.throws(() => metaOfPage(page(null, {})), /cut off/);
+  assert.throws(() => metaOfPage({ getElementById: () => ({ textContent: '{"format": "kds-' }) }), /cut off/);
   assert.throws(() => metaOfPage(page({ format: "kds-replay", version: 2 })), /is of format 'kds-replay' 2, .* 'kds-replay' 1/);
   assert.equal(metaOfPage(page({ format: "kds-replay", version: 1 })).version, 1);
 });
