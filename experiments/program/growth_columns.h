@@ -66,6 +66,11 @@ std::vector<Column<Row>> growth_columns(const std::function<const GrowthSummary&
            [growth](const Row& r) {
              const auto& law = growth(r).law;
              return law ? Field(growth_text(*law, growth(r).size)) : Field();
+           },
+       .words =
+           [growth](const Row& r) {
+             const auto& law = *growth(r).law;
+             return law.residual_most > 1 ? "none fits within 100%" : growth_text(law, growth(r).size);
            }},
       {.key = "residual_most",
        .heading = "largest residual",

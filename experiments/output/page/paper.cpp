@@ -106,7 +106,7 @@ class PaperFiles {
             "  \\ifdim\\dimexpr\\ht\\kdsbox+\\dp\\kdsbox\\relax>0.85\\textheight\n"
             "    \\sbox{{\\kdsbox}}{{\\resizebox*{{!}}{{0.85\\textheight}}{{\\usebox{{\\kdsbox}}}}}}\\fi\n"
             "  \\usebox{{\\kdsbox}}}}\n"
-            "\\begin{{document}}\n\\section*{{{}}}\n{}\\end{{document}}\n",
+            "\\begin{{document}}\n\\section*{{\\raggedright {}}}\n{}\\end{{document}}\n",
             title, document_));
   }
 
@@ -114,9 +114,10 @@ class PaperFiles {
   // Writes the plots that have waited for their caption into the document.
   void flush() {
     if (waiting_.empty()) return;
-    document_ += "\\begin{figure}[!htbp]\\centering\n";
+    document_ += "\\begin{figure}[!htbp]\\centering\n\\kdsfit{\\begin{tabular}{@{}c@{}}\n";
     for (const std::string& name : waiting_)
-      document_ += fmt::format("\\kdsfit{{\\includegraphics{{{}.pdf}}}}\n", name);
+      document_ += fmt::format("\\includegraphics{{{}.pdf}} \\\\\n", name);
+    document_ += "\\end{tabular}}\n";
     document_ += fmt::format("\\caption{{{}}}\n\\end{{figure}}\n",
                              caption_.empty() ? latex_escaped(section_) : caption_);
     waiting_.clear();

@@ -76,7 +76,7 @@ TEST(Paper, FilesStandBesideThePageThatLinksThem) {
   }
 
   const std::string all = content_of((out / "paper-all.tex").string());
-  EXPECT_THAT(all, HasSubstr("\\section*{kds run: 50\\% \\& more}"));
+  EXPECT_THAT(all, HasSubstr("\\section*{\\raggedright kds run: 50\\% \\& more}"));
   EXPECT_THAT(all, HasSubstr("\\caption{Events of \\emph{a} \\& b.}"));
   EXPECT_THAT(all, HasSubstr("\\caption{A map.}"));
   EXPECT_EQ(count_of(all, "\\includegraphics{"), 3U);
