@@ -32,20 +32,17 @@ enum class CertificateHandle : std::uint32_t {
   return static_cast<std::uint32_t>(guard);
 }
 
-/// Numbers the certificates of all tables of a run: by structure, then by table, then by place in the
-/// structure.
-class PlaceAmongTables {
+/// Numbers the tables of a run: by structure, then by table.
+class NumberOfTable {
  public:
   /// Throws std::logic_error if the structure or the table has a number of 65536 or more.
-  PlaceAmongTables(std::size_t structure, unsigned number) {
+  NumberOfTable(std::size_t structure, unsigned number) {
     if (structure >= most || number >= most)
       throw std::logic_error("a run has at most 65536 structures, and each as many tables of certificates");
     table_ = static_cast<std::uint32_t>(structure << 16U) | number;
   }
 
-  [[nodiscard]] std::uint32_t table() const { return table_; }
-  /// Returns a number that orders simultaneous failures of one function: they are handled in ascending order.
-  [[nodiscard]] std::uint64_t of(std::uint32_t place) const { return std::uint64_t{table_} << 32U | place; }
+  [[nodiscard]] std::uint32_t value() const { return table_; }
 
  private:
   static constexpr std::size_t most = 65536;
@@ -118,8 +115,8 @@ class CertificateTable final : public FailureSource {
   void expect_fewer(std::uint64_t times) { most_in_step_ /= times; }
 
   /// Guards the structure by `certificate` from now to the end of the step. `place` is the certificate's
-  /// place in the structure: it is passed back with the failure, and it breaks ties between certificates of
-  /// one function.
+  /// place in the structure: it is passed back with the failure, and KineticStructure::tie_of makes of it
+  /// what breaks ties between certificates of one function.
   [[nodiscard]] CertificateHandle watch(const Certificate& certificate, std::uint32_t place,
                                         KnownAtStart birth = KnownAtStart::unknown) {
     Failure failure;
@@ -234,11 +231,11 @@ class CertificateTable final : public FailureSource {
   /// constants, the table, because other constants give another function of the same beads.
   [[nodiscard]] Identity identity(const Certificate& certificate) const {
     Identity identity = certificate.identity();
-    if constexpr (HasConstants<Certificate>) identity.beads.back() = among_tables_.table();
+    if constexpr (HasConstants<Certificate>) identity.beads.back() = among_tables_.value();
     return identity;
   }
-  [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override {
-    return among_tables_.of(slots_[slot].place);
+  [[nodiscard]] TiePlace place(std::uint32_t slot) const override {
+    return {among_tables_.value(), owner_.tie_of(number_, slots_[slot].place)};
   }
   [[nodiscard]] std::size_t structure() const override { return structure_; }
 
@@ -374,7 +371,7 @@ class CertificateTable final : public FailureSource {
   KineticStructure& owner_;
   std::size_t structure_;
   unsigned number_;
-  PlaceAmongTables among_tables_;
+  NumberOfTable among_tables_;
   std::unique_ptr<CertificateSearch<Certificate>> search_;
   TouchPolicy touches_;
   std::uint64_t most_in_step_;  // limit of certificates in a step with `fast`

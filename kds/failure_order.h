@@ -1,9 +1,10 @@
 #pragma once
 // The total order of failures within a step: by exact time, then by the certificate's identity, then by its
 // structure and its place there. The order never depends on addresses or on the order of creation, so it is
-// the same for every kernel and every run.
+// the same for every kernel and every run, and also for a run that starts at a later step.
 
 #include <algorithm>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
@@ -12,6 +13,15 @@
 #include "certificates/exact/instant.h"
 
 namespace kds {
+
+/// Orders simultaneous failures of one function. Depends on the structure's state, not on how the structure
+/// came there.
+struct TiePlace {
+  std::uint32_t table = 0;  ///< of all tables of the run
+  std::uint64_t place = 0;  ///< among the certificates of the table (KineticStructure::tie_of)
+
+  friend auto operator<=>(const TiePlace&, const TiePlace&) = default;
+};
 
 /// The engine's side of a certificate table: an owner of certificates whose failures are in the queue.
 class FailureSource : public CertificateSource {
@@ -26,8 +36,8 @@ class FailureSource : public CertificateSource {
   [[nodiscard]] virtual Identity identity(std::uint32_t slot) const = 0;
   /// Returns the sign of its identity's function that the certificate requires: true for positive.
   [[nodiscard]] virtual bool side(std::uint32_t) const { return true; }
-  /// Breaks ties between certificates of one function. Unique among the live certificates of a run.
-  [[nodiscard]] virtual std::uint64_t place(std::uint32_t slot) const = 0;
+  /// Breaks ties between certificates of one function. Unique among the live certificates of this function.
+  [[nodiscard]] virtual TiePlace place(std::uint32_t slot) const = 0;
   /// Prefetches data of a failure that comes near; see EventQueue.
   virtual void fetch(std::uint32_t slot, unsigned bins_ahead) const {
     static_cast<void>(slot);

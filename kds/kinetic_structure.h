@@ -114,6 +114,13 @@ class KineticStructure {
   /// Handles the failure, at the present time, of the certificate in `slot` of the table with number `table`.
   /// The certificate is no longer in the queue.
   virtual void fail(unsigned table, std::uint32_t slot) = 0;
+  /// Returns a number that orders simultaneous failures of one function of the table with number `table`, in
+  /// ascending order. The number must follow from the structure's state and the certificate's place in it,
+  /// not from how the structure came to this state. Override it if places number cells or other memory.
+  [[nodiscard]] virtual std::uint64_t tie_of(unsigned table, std::uint32_t place) const {
+    static_cast<void>(table);
+    return place;
+  }
   /// Prefetches the data that a failure at this place of a table (CertificateTable::watch) will need soon:
   /// first the data at the place itself, then, if `next`, the data to which it refers.
   virtual void fetch(unsigned table, std::uint32_t place, bool next) const {

@@ -23,7 +23,7 @@ namespace kds {
 ///                          the last two may be exchanged
 ///   inserts, erases,       the bead
 ///   changes
-///   repairs                the least bead of the cells cleared and filled before
+///   repairs                the least bead of the cells filled before
 /// A rebuild does not list the cells that change, so a listener that follows cells must read all of them
 /// again.
 template <int Dimension>

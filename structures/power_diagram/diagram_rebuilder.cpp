@@ -38,6 +38,14 @@ std::vector<CellBeads<Dimension>> live_cells(const DiagramState<Dimension>& stat
   return cells;
 }
 
+template <int Dimension>
+BeadId least_bead(std::span<const CellBeads<Dimension>> cells) {
+  BeadId least = infinite_bead;
+  for (const CellBeads<Dimension>& cell : cells)
+    for (const BeadId bead : cell) least = std::min(least, bead);
+  return least;
+}
+
 }  // namespace
 
 template <int Dimension>
@@ -124,7 +132,7 @@ void DiagramRebuilder<Dimension>::record(const Dyadic& time, std::span<const Bea
   ++state_.owner.statistics.rebuilds;
   if (time.exponent() > finest_logged_grid) {
     const auto made = exchange_.record(cells_before, live_cells(state_));
-    state_.record({Events::repairs, 1, {*std::min_element(made.front().begin(), made.front().end())}});
+    state_.record({Events::repairs, 1, {least_bead<Dimension>(made)}});
     return;
   }
   Change change{Events::rebuild, 1, {time.exponent()}};
@@ -226,8 +234,7 @@ bool DiagramRebuilder<Dimension>::try_to_repair(std::span<const CellId> wrong) {
     hidden_.displace(wrong);
     exchange_.fill(wrong, made);
     ++state_.owner.statistics.rebuilds;
-    const BeadId least = *std::min_element(made.front().begin(), made.front().end());
-    state_.record({Events::repairs, 1, {least}});
+    state_.record({Events::repairs, 1, {least_bead<Dimension>(made)}});
     return true;
   }
   return false;

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "certificates/exact/exact_time.h"
 #include "certificates/search/certificate_search.h"
 #include "certificates/search/predicate_searches.h"
 #include "kds/certificate_table.h"
@@ -193,13 +194,21 @@ struct DiagramState {
   template <class Table>
   bool give_up(Table& table, CertificateHandle guard) {
     const bool vanishes = has_slot(guard) && table.time(slot_of(guard)).lower <= simulator.now().upper() &&
-                          table.identity(slot_of(guard)) != present;
+                          table.identity(slot_of(guard)) != present && vanishes_now(table, slot_of(guard));
     if (vanishes) suspect(Doubt::unclear);
     table.drop(guard);
     return vanishes;
   }
 
  private:
+  /// Compares a failure time with the present time exactly, because their brackets overlap.
+  template <class Table>
+  [[nodiscard]] bool vanishes_now(const Table& table, std::uint32_t slot) const {
+    if (simulator.kernel() == Kernel::fast) return true;
+    ExactTime failure = exact_time(*table.exact_function(slot), table.time(slot));
+    return ExactTime::compare(failure, simulator.now().exact()) == 0;
+  }
+
   std::tuple<std::unique_ptr<CertificateSearch<PowerTest<Dimension>>>,
              std::unique_ptr<CertificateSearch<Orientation<Dimension>>>,
              std::unique_ptr<CertificateSearch<SameTurn<Dimension>>>,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include "motions/base/grow_little.h"
 
@@ -289,6 +290,32 @@ auto FacetGuards<Dimension>::take_failure(unsigned table, std::uint32_t slot) ->
     return std::nullopt;
   }
   return Failed{cell, facet, table == powers ? power_tests_.identity(slot) : orientations_.identity(slot)};
+}
+
+template <int Dimension>
+auto FacetGuards<Dimension>::violated_in_order(std::size_t most) const -> std::vector<Violated> {
+  std::vector<Violated> violated;
+  const auto add = [&](CellId cell, int i, bool of_cell) {
+    if (guard(cell, i).guard != CertificateHandle::violated) return;
+    Violated facet{{}, of_cell, cell, i};
+    const Beads& v = state_.beads_of(cell);
+    std::copy(v.begin(), v.end(), facet.beads.begin());
+    facet.beads.back() = of_cell ? no_bead : state_.apex(cell, i);
+    std::sort(facet.beads.begin(), facet.beads.end());
+    violated.push_back(facet);
+  };
+  for_all_facets([&](CellId cell, int i) {
+    const bool of_cell = guard(cell, i).about == About::cell;
+    add(cell, i, of_cell);
+    if (!of_cell) return;
+    const auto [other, k] = state_.across(cell, i);
+    add(other, k, true);
+  });
+  std::sort(violated.begin(), violated.end(), [](const Violated& a, const Violated& b) {
+    return std::tie(a.of_cell, a.beads) < std::tie(b.of_cell, b.beads);
+  });
+  if (violated.size() > most) violated.resize(most);
+  return violated;
 }
 
 template <int Dimension>

@@ -2,6 +2,7 @@
 // The certificates of a power diagram's facets (facet_certificate.h), created and dropped together. Facets
 // that are proved to hold over the whole step (facet_proofs.h) have no certificate and are only counted.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -153,27 +154,18 @@ class FacetGuards {
     return all;
   }
 
-  /// Calls `visit` with at most `most` of the certificates that do not hold just after now; their negations
-  /// hold.
+  /// Calls `visit` with at most `most` of the certificates that do not hold just after now, in the order of
+  /// their beads. The negations of these certificates hold.
   template <class Visit>
   void for_violated(std::size_t most, Visit visit) const {
     if (!guarded_) return;
-    const auto look_at_cell = [&](CellId cell, int i) {
-      if (guard(cell, i).guard == CertificateHandle::violated && most > 0) {
-        --most;
-        visit(Orientation<Dimension>(state_.beads_of(cell), 1));
+    for (const Violated& facet : violated_in_order(most)) {
+      if (facet.of_cell) {
+        visit(Orientation<Dimension>(state_.beads_of(facet.cell), 1));
+      } else {
+        with_facet_certificate(state_.beads_of(facet.cell), state_.apex(facet.cell, facet.facet), visit);
       }
-    };
-    for_all_facets([&](CellId cell, int i) {
-      if (guard(cell, i).about == About::cell) {
-        const auto [other, k] = state_.across(cell, i);
-        look_at_cell(cell, i);
-        look_at_cell(other, k);
-      } else if (guard(cell, i).guard == CertificateHandle::violated && most > 0) {
-        --most;
-        with_facet_certificate(state_.beads_of(cell), state_.apex(cell, i), visit);
-      }
-    });
+    }
   }
 
   /// From now on, only the marked beads move in a step (one entry for each bead). Facets whose beads all rest
@@ -189,6 +181,14 @@ class FacetGuards {
     return proofs_.known_positive_at_end();
   }
   void forget_ends() { proofs_.forget_ends(); }
+
+  /// Returns the two beads opposite a facet as one number. Facets with the certificates of one function have
+  /// different such numbers, because their beads are the same but for the two.
+  [[nodiscard]] std::uint64_t tie_of(FacetId facet) const {
+    const auto [low, high] = std::minmax(
+        {state_.vertex(cell_of(facet), index_of(facet)), state_.apex(cell_of(facet), index_of(facet))});
+    return std::uint64_t{low} << 32U | high;
+  }
 
   /// Prefetches data for a flip that comes near: first the cell, then, if `next`, the data it refers to.
   void fetch(CellId cell, bool next) const;
@@ -246,6 +246,15 @@ class FacetGuards {
         power_tests_.fetch_scheduled(facet.guard);
     }
   }
+
+  /// A certificate that does not hold just after now.
+  struct Violated {
+    std::array<BeadId, Dimension + 2> beads;  ///< ascending; no_bead in the last place if `of_cell`
+    bool of_cell;                             ///< the orientation of `cell`
+    CellId cell;
+    int facet;
+  };
+  [[nodiscard]] std::vector<Violated> violated_in_order(std::size_t most) const;
 
   State& state_;
   CertificateTable<PowerTest<Dimension>> power_tests_;

@@ -152,11 +152,31 @@ CellId HiddenGuards<Dimension>::walk_to(BeadId bead, CellId cell, int came_from)
   return no_cell;
 }
 
-/// Returns the host of a bead just after now, or no_cell if none is found.
+/// Returns the host of a bead just after now, or no_cell if none is found. If the bead lies on a face shared
+/// by several cells, the host is the one of these cells with the least beads, wherever the walk started.
 template <int Dimension>
 CellId HiddenGuards<Dimension>::find_host(BeadId bead, CellId cell, int came_from) {
   const CellId at = walk_to(bead, cell, came_from);
-  return at == no_cell || state_.is_infinite(at) ? no_cell : at;
+  if (at == no_cell || state_.is_infinite(at)) return no_cell;
+  const auto sorted_beads = [this](CellId of) {
+    Beads beads = state_.beads_of(of);
+    std::sort(beads.begin(), beads.end());
+    return beads;
+  };
+  CellId least = at;
+  std::vector<CellId> around{at};
+  for (std::size_t next = 0; next < around.size(); ++next) {
+    const Beads v = state_.beads_of(around[next]);
+    for (int i = 0; i <= Dimension; ++i) {
+      if (state_.sign_just_after(Orientation<Dimension>(State::with(v, i, bead), 1)) != 0) continue;
+      const CellId beyond = state_.neighbor(around[next], i);
+      if (state_.is_infinite(beyond) || std::find(around.begin(), around.end(), beyond) != around.end())
+        continue;
+      around.push_back(beyond);
+      if (sorted_beads(beyond) < sorted_beads(least)) least = beyond;
+    }
+  }
+  return least;
 }
 
 template <int Dimension>

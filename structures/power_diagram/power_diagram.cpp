@@ -87,6 +87,11 @@ void PowerDiagram<Dimension>::fetch(unsigned table, std::uint32_t place, bool ne
 }
 
 template <int Dimension>
+std::uint64_t PowerDiagram<Dimension>::tie_of(unsigned table, std::uint32_t place) const {
+  return table < HiddenGuards<Dimension>::appearing ? parts_->facets.tie_of(place) : place;
+}
+
+template <int Dimension>
 void PowerDiagram<Dimension>::after_batch() {
   parts_->rebuilder.after_batch();
 }

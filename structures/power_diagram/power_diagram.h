@@ -66,6 +66,8 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   /// If cells are flat at the end, builds the diagram by CGAL there. Throws InputError if there were no cells
   /// at any time.
   void finish() override;
+  /// Facets of one function are told apart by the two beads opposite them, never by the numbers of cells.
+  [[nodiscard]] std::uint64_t tie_of(unsigned table, std::uint32_t place) const override;
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 

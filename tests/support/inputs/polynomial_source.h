@@ -49,7 +49,7 @@ class PolynomialSource : public FailureSource {
     return std::make_shared<const ExactPolynomial>(entries_[slot].function);
   }
   [[nodiscard]] Identity identity(std::uint32_t slot) const override { return entries_[slot].identity; }
-  [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override { return entries_[slot].place; }
+  [[nodiscard]] TiePlace place(std::uint32_t slot) const override { return {0, entries_[slot].place}; }
   [[nodiscard]] std::size_t structure() const override { return structure_; }
   void fail(std::uint32_t) override {}
   void retire(std::uint32_t) override {}

@@ -78,7 +78,7 @@ class Script final : public KineticStructure, public FailureSource {
     return std::make_shared<const ExactPolynomial>(entries_.at(slot).function);
   }
   [[nodiscard]] Identity identity(std::uint32_t slot) const override { return named(entries_.at(slot).bead); }
-  [[nodiscard]] std::uint64_t place(std::uint32_t slot) const override { return slot; }
+  [[nodiscard]] TiePlace place(std::uint32_t slot) const override { return {0, slot}; }
   [[nodiscard]] std::size_t structure() const override { return index_; }
   void fail(std::uint32_t slot) override {
     const Entry entry = entries_.at(slot);  // the action may schedule more
