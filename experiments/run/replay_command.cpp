@@ -44,10 +44,7 @@ RunOptions options_of(const EventLogHeader& header, const std::filesystem::path&
 class LogComparison final : public EventListener {
  public:
   LogComparison(EventLogReader& log, const std::string& name, const Simulator& simulator)
-      : log_(log),
-        name_(name),
-        simulator_(simulator),
-        own_version_(log.header().version == program_version()) {}
+      : log_(log), name_(name), simulator_(simulator) {}
 
   void on_event(const Event& event) override {
     if (difference_) return;
@@ -82,9 +79,10 @@ class LogComparison final : public EventListener {
                       change.ids.begin() + change.size);
   }
 
+  // Brackets depend on the run, so those of the log and of the run need only enclose the same time.
   bool is_time(const EventLogReader::Entry& entry, const Event& event) const {
     if (entry.lower == event.lower && entry.upper == event.upper) return true;
-    if (own_version_ || simulator_.kernel() == Kernel::fast) return false;
+    if (simulator_.kernel() == Kernel::fast) return false;
     ExactTime& now = simulator_.now().exact();
     ExactTime lower{Dyadic(entry.lower)}, upper{Dyadic(entry.upper)};
     const int after_lower = ExactTime::compare(lower, now), before_upper = ExactTime::compare(now, upper);
@@ -101,7 +99,6 @@ class LogComparison final : public EventListener {
   EventLogReader& log_;
   const std::string& name_;
   const Simulator& simulator_;
-  bool own_version_;
   std::optional<std::string> difference_;
 };
 
