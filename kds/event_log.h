@@ -92,18 +92,10 @@ class EventLog final : public EventListener {
   std::vector<Event> events;
 };
 
-/// A hash of the order of events and their combinatorial changes, never of doubles. Equal histories have
-/// equal fingerprints on every kernel, run and machine. Computed by FNV-1a over 32-bit words with the final
-/// mix of splitmix64.
-class Fingerprint {
+/// A hash of 32-bit words in their order: FNV-1a with the final mix of splitmix64.
+class WordHash {
  public:
   void add(std::uint32_t word) { hash_ = (hash_ ^ word) * 0x100000001b3ULL; }
-  void add(std::uint32_t step, std::uint32_t structure, const Change& change) {
-    add(step);
-    add(structure);
-    add(change.kind);
-    for (std::uint8_t i = 0; i < change.size; ++i) add(change.ids[i]);
-  }
   [[nodiscard]] std::uint64_t value() const {
     std::uint64_t x = hash_ + 0x9e3779b97f4a7c15ULL;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -113,6 +105,40 @@ class Fingerprint {
 
  private:
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+};
+
+/// A hash of the order of events and their combinatorial changes, never of doubles. Equal histories have
+/// equal fingerprints on every kernel, run and machine.
+///
+/// The fingerprint is the sum, modulo 2^64, of one WordHash for each step that has events. The hash of a step
+/// takes the step's number and then its changes in order. So the parts of a run, each of whole steps, may be
+/// hashed apart and joined in any order. A history without events has the fingerprint 0.
+class Fingerprint {
+ public:
+  /// Adds the next change. The changes of one step must be added one after the other.
+  void add(std::uint32_t step, std::uint32_t structure, const Change& change) {
+    if (!in_step_ || step != step_) begin(step);
+    hash_.add(structure);
+    hash_.add(change.kind);
+    for (std::uint8_t i = 0; i < change.size; ++i) hash_.add(change.ids[i]);
+  }
+  /// Adds a history of other steps.
+  void join(const Fingerprint& other) { sum_ += other.value(); }
+  [[nodiscard]] std::uint64_t value() const { return in_step_ ? sum_ + hash_.value() : sum_; }
+
+ private:
+  void begin(std::uint32_t step) {
+    sum_ = value();
+    in_step_ = true;
+    step_ = step;
+    hash_ = {};
+    hash_.add(step);
+  }
+
+  std::uint64_t sum_ = 0;  // of the steps before `step_`
+  bool in_step_ = false;
+  std::uint32_t step_ = 0;
+  WordHash hash_;
 };
 
 }  // namespace kds

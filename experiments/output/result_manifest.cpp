@@ -51,7 +51,7 @@ std::string ResultManifest::heading() const {
 ResultManifest::Content ResultManifest::content_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::array<char, 1 << 16> bytes;
-  Fingerprint checksum;
+  WordHash checksum;
   Content content;
   while (file.read(bytes.data(), bytes.size()), file.gcount() > 0) {
     for (std::streamsize k = 0; k < file.gcount(); ++k)

@@ -72,7 +72,7 @@ bool read_header(const Json& json, EventLogHeader& header) {
   return true;
 }
 
-void add_line(Fingerprint& hash, std::string_view line) {
+void add_line(WordHash& hash, std::string_view line) {
   for (const char c : line) hash.add(static_cast<std::uint32_t>(static_cast<unsigned char>(c)));
   hash.add('\n');
 }

@@ -41,7 +41,7 @@ class EventLogWriter final : public EventListener {
   std::uint64_t events_ = 0;
   std::size_t step_ = 0;           ///< step of the events counted in step_events_
   std::uint64_t step_events_ = 0;  ///< 0 before the step's first event
-  Fingerprint step_hash_;
+  WordHash step_hash_;
 };
 
 /// The header of a log: what it says about its run before the first event.
@@ -84,7 +84,7 @@ class EventLogReader {
   Entry entry_;
   std::uint64_t events_ = 0, step_events_ = 0;
   std::size_t first_free_step_ = 0;  ///< the first step whose events have not ended
-  Fingerprint step_hash_;
+  WordHash step_hash_;
   bool ended_ = false;
   std::uint64_t fingerprint_ = 0;
 };

@@ -101,7 +101,7 @@ void spoil(Lines& lines, std::mt19937& random) {
 // An attacker may know how the steps of a log are counted and hashed. This function repairs both, and the
 // count at the end.
 void mend(Lines& lines) {
-  Fingerprint hash;
+  WordHash hash;
   std::size_t in_step = 0, all = 0;
   for (std::size_t i = 2; i < lines.size(); ++i) {
     Lines words = words_of(lines[i]);
