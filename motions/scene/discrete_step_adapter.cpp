@@ -28,6 +28,30 @@ DiscreteStepAdapter::DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, in
       dimension_(dimension),
       beads_(count_beads(source_->necklaces())) {}
 
+DiscreteStepAdapter::DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, const DiscreteStepAdapter& like)
+    : source_(std::move(frames)),
+      motion_(like.motion_),
+      plane_(like.plane_),
+      dimension_(like.dimension_),
+      beads_(like.beads_),
+      frame_count_(like.frame_count_),
+      first_(like.first_),
+      last_(like.last_) {}
+
+FrameBuffer* DiscreteStepAdapter::buffer() {
+  if (source_->is_open()) return nullptr;  // the caller pushes the frames
+  if (buffer_ == nullptr) {
+    auto buffer = std::make_unique<FrameBuffer>(std::move(source_), first_held_ + window_.size());
+    buffer_ = buffer.get();
+    source_ = std::move(buffer);
+  }
+  return buffer_;
+}
+
+std::unique_ptr<StepSource> DiscreteStepAdapter::over(std::unique_ptr<FrameSource> frames) const {
+  return std::unique_ptr<StepSource>(new DiscreteStepAdapter(std::move(frames), *this));
+}
+
 std::size_t DiscreteStepAdapter::known_steps() const {
   const std::size_t steps = frame_count_ == 0 ? 0 : frame_count_ - 1;
   return source_->is_open() ? steps - std::min(steps, reach()) : steps;

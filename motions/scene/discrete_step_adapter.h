@@ -54,6 +54,9 @@ class DiscreteStepAdapter final : public StepSource {
   [[nodiscard]] std::size_t known_steps() const override;
 
   void read_on() override;
+  [[nodiscard]] FrameBuffer* buffer() override;
+  [[nodiscard]] std::size_t reach() const override { return motion_ == FrameMotion::hermite ? 1 : 0; }
+  [[nodiscard]] std::unique_ptr<StepSource> over(std::unique_ptr<FrameSource> frames) const override;
   /// Throws InputError if the frame is gone, like go_to().
   [[nodiscard]] FrameStamp stamp(std::size_t frame) override;
   [[nodiscard]] Eigen::Matrix3Xd centers(std::size_t frame) override;
@@ -64,8 +67,8 @@ class DiscreteStepAdapter final : public StepSource {
   [[nodiscard]] Eigen::Vector3d mean_displacement() const override;
 
  private:
-  /// Returns the number of frames beyond each end of a step that the step needs.
-  [[nodiscard]] std::size_t reach() const { return motion_ == FrameMotion::hermite ? 1 : 0; }
+  /// An adapter of the same frames, which come from another source.
+  DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, const DiscreteStepAdapter& like);
   /// Reads frames until these are in the window.
   void hold(std::size_t first, std::size_t last);
   /// Reads the next frame into the window, in place of the oldest one if the window is full. Returns false if
@@ -80,6 +83,7 @@ class DiscreteStepAdapter final : public StepSource {
   [[nodiscard]] double third_of_velocity(std::size_t frame, BeadId bead, int axis) const;
 
   std::unique_ptr<FrameSource> source_;
+  FrameBuffer* buffer_ = nullptr;  ///< the source, once frames are read ahead
   FrameMotion motion_;
   std::optional<AxisPlane> plane_;  ///< none: frames are taken as they are
   int dimension_;

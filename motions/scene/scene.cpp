@@ -110,6 +110,19 @@ void Scene::push(std::span<const double> coordinates, std::optional<double> pico
   steps_->read_on();
 }
 
+std::unique_ptr<const Scene> Scene::over(std::unique_ptr<FrameSource> frames) const {
+  std::unique_ptr<Scene> scene(new Scene());
+  scene->necklaces_ = necklaces_;
+  scene->bead_names_ = bead_names_;
+  scene->bead_groups_ = bead_groups_;
+  scene->radii_ = radii_;
+  scene->has_radii_ = has_radii_;
+  scene->truncated_ = truncated_;
+  scene->plane_ = plane_;
+  scene->steps_ = steps_->over(std::move(frames));
+  return scene;
+}
+
 void Scene::end_frames() {
   if (pushed_ != nullptr) pushed_->end();
 }

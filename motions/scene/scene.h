@@ -77,6 +77,18 @@ class Scene {
   [[nodiscard]] std::size_t frame_count() const { return steps_->frame_count(); }
   [[nodiscard]] std::size_t step_count() const { return frame_count() == 0 ? 0 : frame_count() - 1; }
 
+  // A run on several threads reads frames ahead, and makes scenes of their own for its parts.
+
+  /// Returns the buffer through which the scene reads its frames, or null if its frames cannot be read ahead
+  /// (an instance, pushed frames). The first call makes the buffer.
+  [[nodiscard]] FrameBuffer* frames() const { return pushed_ == nullptr ? steps_->buffer() : nullptr; }
+  /// Returns the number of frames beyond each end of a step that the step needs.
+  [[nodiscard]] std::size_t reach() const { return steps_->reach(); }
+  /// Returns a scene with the same beads, steps and numbers of frames that reads its frames from `frames`.
+  /// Only steps whose frames are there may be loaded. Other threads may use the scene. Must not be called for
+  /// an instance.
+  [[nodiscard]] std::unique_ptr<const Scene> over(std::unique_ptr<FrameSource> frames) const;
+
   // Functions with an index of a frame, step or bead throw std::invalid_argument if it is too large. The
   // message gives the number of elements.
 
@@ -121,6 +133,7 @@ class Scene {
   [[nodiscard]] Eigen::Vector3d in_input(const Eigen::Vector3d& point) const;
 
  private:
+  Scene() = default;
   void take(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey, FrameMotion motion);
   [[nodiscard]] double weight(BeadId bead, int k) const;
   template <Motion M>

@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
 #include <optional>
 
 #include "motions/base/bead.h"
+#include "motions/frames/frame_buffer.h"
 #include "motions/frames/frame_stamp.h"
 #include "motions/readers/instance.h"
 
@@ -32,6 +34,16 @@ class StepSource {
 
   /// Reads the frames that have been added to the source of frames.
   virtual void read_on() {}
+  /// Returns the buffer through which the source reads frames, or null if its frames cannot be read ahead.
+  /// The first call makes the buffer.
+  [[nodiscard]] virtual FrameBuffer* buffer() { return nullptr; }
+  /// Returns the number of frames beyond each end of a step that the step needs.
+  [[nodiscard]] virtual std::size_t reach() const { return 0; }
+  /// Returns a source of the same steps that reads its frames from `frames`, or null if it has no frames.
+  [[nodiscard]] virtual std::unique_ptr<StepSource> over(std::unique_ptr<FrameSource> frames) const {
+    static_cast<void>(frames);
+    return nullptr;
+  }
   [[nodiscard]] virtual FrameStamp stamp(std::size_t frame) = 0;
   /// Returns the centres at a frame. Coordinates beyond the dimension are zero.
   [[nodiscard]] virtual Eigen::Matrix3Xd centers(std::size_t frame) = 0;
