@@ -82,6 +82,12 @@ class EventListener {
     static_cast<void>(event);
     return false;
   }
+  /// Returns whether the listener asks Simulator::now for the exact time of this event. In a run on several
+  /// threads it is known only for such events.
+  [[nodiscard]] virtual bool reads_exact_time_of(const Event& event) const {
+    static_cast<void>(event);
+    return false;
+  }
 };
 
 /// Keeps all events.

@@ -77,6 +77,11 @@ class FailureOrder {
   [[nodiscard]] int compare_times(ScheduledFailure& a, ScheduledFailure& b);
 
   [[nodiscard]] const ComparisonCounts& counts() const { return counts_; }
+  void add(const ComparisonCounts& counts) {
+    counts_.by_identity += counts.by_identity;
+    counts_.exact += counts.exact;
+    counts_.ties += counts.ties;
+  }
 
  private:
   [[nodiscard]] bool before_closely(ScheduledFailure& a, ScheduledFailure& b);

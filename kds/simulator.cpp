@@ -37,7 +37,9 @@ class Simulator::MutationScope {
   void end() { running_ = before_; }
 
   /// Notifies the listeners of a change. Kept out of line, because most runs have none.
-  [[gnu::noinline]] static void tell(Simulator& simulator, std::size_t structure, const Change& change);
+  /// An event that another simulator recorded comes with its time.
+  [[gnu::noinline]] static void tell(Simulator& simulator, std::size_t structure, const Change& change,
+                                     const RelayedTime* relayed = nullptr);
 
  private:
   bool& running_;
@@ -412,7 +414,48 @@ void Simulator::record(std::size_t structure, const Change& change) {
     MutationScope::tell(*this, structure, change);
 }
 
-void Simulator::MutationScope::tell(Simulator& simulator, std::size_t structure, const Change& change) {
+void Simulator::start_at(std::size_t step) {
+  require(Phase::new_run, "start_at()");
+  step_ = step;
+}
+
+auto Simulator::time_to_relay(const Event& event, bool first_at_its_time, bool exact) const -> RelayedTime {
+  RelayedTime relayed{{event.lower, event.upper, 0, false}, {}, event.rounded, first_at_its_time};
+  if (exact && event.lower < event.upper && present_.source != nullptr) {
+    relayed.time = present_.time;
+    relayed.function = present_.source->exact_function(present_.slot);
+  }
+  return relayed;
+}
+
+void Simulator::begin_relayed_step(std::size_t step, const FrameStamp& from, const FrameStamp& to) {
+  require(Phase::new_run, "begin_relayed_step()");
+  step_ = step;
+  set_frames(from, to);
+}
+
+void Simulator::relay(std::size_t structure, const Change& change, const RelayedTime& time) {
+  const ComputeScope scope(*this);
+  require_index("structure", structure, structures_.size());
+  if (time.first_at_its_time) ++moment_;
+  held_.function = time.function;
+  now_ = time.function ? Instant(time.time, held_, 0) : Instant(time.time);
+  if (!listeners_.empty()) MutationScope::tell(*this, structure, change, &time);
+}
+
+void Simulator::join(const Simulator& part) {
+  const ComputeScope scope(*this);
+  if (part.structures_.size() != structures_.size())
+    throw std::logic_error("a simulator joins another one with other structures");
+  fingerprint_.join(part.fingerprint_);
+  order_.add(part.order_.counts());
+  ExactWork::spend(part.work_.done());
+  watch_.add(engine_lane, part.watch_.seconds(engine_lane));
+  for (std::size_t s = 0; s < structures_.size(); ++s) watch_.add(lane_of(s), part.seconds_of(s));
+}
+
+void Simulator::MutationScope::tell(Simulator& simulator, std::size_t structure, const Change& change,
+                                    const RelayedTime* relayed) {
   const std::size_t before = simulator.watch_.charge(listener_lane);
   const KineticStructure& s = *simulator.structures_[structure];
   Event event{simulator.step_, simulator.now_.lower(), simulator.now_.upper(), structure,     change,
@@ -420,6 +463,11 @@ void Simulator::MutationScope::tell(Simulator& simulator, std::size_t structure,
   MutationScope mutation(simulator);  // also if the change is an edit
   for (EventListener* listener : simulator.listeners_) {
     if (!event.rounded && listener->prints_time_of(event)) {
+      if (relayed != nullptr) {
+        event.rounded = relayed->rounded;
+        listener->on_event(event);
+        continue;
+      }
       const ExactWork::Open account(simulator.listeners_work_);  // not counted as the run's own work
       event.rounded = rounded_time(simulator.now_, simulator.from_, simulator.to_);
     }

@@ -106,6 +106,29 @@ class Simulator {
   void build_for_replay();
   void replay_step(std::span<const Replayed> events);
 
+  // A run in parts (structures/session/parallel_run.h): several simulators each run some steps, and another
+  // one, whose structures only have names, joins them.
+
+  /// Sets the number of the first step. Throws std::logic_error once the structures are built.
+  void start_at(std::size_t step);
+  /// The time of an event as another simulator needs it.
+  struct RelayedTime {
+    FailureTime time;
+    ExactFunction function =
+        {};  ///< whose root is the time; null if the time is a double or is not asked for
+    std::optional<RoundedTime> rounded = {};
+    bool first_at_its_time = true;  ///< whether no event was relayed at this very time before
+  };
+  /// Returns the time of `event`, which happens now.
+  [[nodiscard]] RelayedTime time_to_relay(const Event& event, bool first_at_its_time, bool exact) const;
+  /// Begins a step whose events another simulator recorded.
+  void begin_relayed_step(std::size_t step, const FrameStamp& from, const FrameStamp& to);
+  /// Tells the listeners of a change that another simulator recorded. The change is not counted.
+  void relay(std::size_t structure, const Change& change, const RelayedTime& time);
+  /// Adds the fingerprint, comparisons, exact work and seconds of another simulator, which has run other
+  /// steps with the same structures.
+  void join(const Simulator& part);
+
   [[nodiscard]] Kernel kernel() const { return kernel_; }
   [[nodiscard]] std::size_t step() const { return step_; }
   [[nodiscard]] const Instant& now() const { return now_; }

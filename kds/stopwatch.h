@@ -27,6 +27,7 @@ class StopwatchOf {
     return before;
   }
   [[nodiscard]] double seconds(std::size_t lane) const { return seconds_[lane]; }
+  void add(std::size_t lane, double seconds) { seconds_[lane] += seconds; }
   void reset() { seconds_.assign(seconds_.size(), 0); }
 
  private:
