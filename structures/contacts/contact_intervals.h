@@ -99,6 +99,7 @@ class ContactIntervals final : public EventListener {
   [[nodiscard]] bool prints_time_of(const Event& event) const override {
     return rule_.rounds_times && is_asked(event);
   }
+  [[nodiscard]] bool reads_exact_time_of(const Event& event) const override { return is_asked(event); }
   /// Ends all open contacts at the end of the run's last step, which leads from one of these frames to the
   /// other. Call it once.
   void finish(std::size_t last_step, const FrameStamp& from, const FrameStamp& to);

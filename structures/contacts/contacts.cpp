@@ -133,6 +133,22 @@ void Contacts<D>::build() {
 }
 
 template <int D>
+std::vector<Change> Contacts<D>::built() const {
+  std::vector<Change> begun;
+  for (const BeadPair& pair : pairs()) begun.push_back({begin, 2, {pair.first, pair.second}});
+  return begun;
+}
+
+template <int D>
+std::vector<BeadId> Contacts<D>::state() const {
+  std::vector<BeadPair> sorted = pairs();
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<BeadId> state;
+  for (const BeadPair& pair : sorted) state.insert(state.end(), {pair.first, pair.second});
+  return state;
+}
+
+template <int D>
 void Contacts<D>::start_step() {
   find_pairs(MovingFamily<D>::Resting::left_out, false, pairs_);
   disjoint_.hold_never(family_.size() + pairs_.proved_apart);

@@ -124,6 +124,10 @@ class Contacts final : public EditableBase {
 
   /// Returns the pairs in contact just after the present time, ascending.
   [[nodiscard]] std::vector<BeadPair> pairs() const { return contacts_.pairs(); }
+  /// Returns the changes that build the structure from nothing (RunningStructure::built).
+  [[nodiscard]] std::vector<Change> built() const;
+  /// Returns the pairs in contact, which determine all later events (RunningStructure::state).
+  [[nodiscard]] std::vector<BeadId> state() const;
 
   void build() override;
   void start_step() override;

@@ -111,6 +111,16 @@ void ConvexHull::build() {
   begin_with_least(corners_);
 }
 
+std::vector<BeadId> ConvexHull::state() const {
+  std::vector<BeadId> state = corners_;
+  for (const HalfHull* const half : {&lower_, &upper_}) {
+    state.push_back(no_bead);
+    const std::vector<BeadId> chain = half->chain();
+    state.insert(state.end(), chain.begin(), chain.end());
+  }
+  return state;
+}
+
 void ConvexHull::start_step() {
   lower_.start();
   upper_.start();

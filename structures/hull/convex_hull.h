@@ -38,6 +38,9 @@ class ConvexHull final : public EditableBase {
   /// Returns the corners counterclockwise, starting with the least one.
   [[nodiscard]] const std::vector<BeadId>& corners() const { return corners_; }
 
+  /// Returns the corners and both chains, which determine all later events.
+  [[nodiscard]] std::vector<BeadId> state() const;
+
   void build() override;
   void start_step() override;
   /// Raises statistics.certificates.per_bead_max to the most certificates that name one bead now.

@@ -188,6 +188,28 @@ StaticTriangulation<Dimension> PowerDiagram<Dimension>::at_frame(bool first) con
 }
 
 template <int Dimension>
+std::optional<std::vector<BeadId>> PowerDiagram<Dimension>::state() const {
+  const Simulator::ComputeScope scope(parts_->state.simulator);
+  auto& state = parts_->state;
+  if (!is_solid()) return std::nullopt;
+  for (const HiddenBead& hidden : state.hidden.with_hosts()) {
+    if (hidden.host == no_cell) continue;  // just built: the next step finds the host
+    for (int i = 0; i <= Dimension; ++i) {
+      const CellBeads<Dimension> cell =
+          DiagramState<Dimension>::with(state.beads_of(hidden.host), i, hidden.bead);
+      if (state.sign_now(Orientation<Dimension>(cell, 1)) <= 0) return std::nullopt;
+    }
+  }
+  auto cells = state.triangulation.finite_cells();
+  for (CellBeads<Dimension>& cell : cells) std::sort(cell.begin(), cell.end());
+  std::sort(cells.begin(), cells.end());
+  std::vector<BeadId> numbers = state.hidden.beads();
+  numbers.push_back(no_bead);
+  for (const CellBeads<Dimension>& cell : cells) numbers.insert(numbers.end(), cell.begin(), cell.end());
+  return numbers;
+}
+
+template <int Dimension>
 DiagramEdges PowerDiagram<Dimension>::edges_at_frame(bool first) const {
   const Simulator::ComputeScope scope(parts_->state.simulator);
   const auto& state = parts_->state;

@@ -81,6 +81,10 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   /// Returns the finite cells and the hidden beads at the frame just reached: the first frame of the step if
   /// `first`, otherwise its last. If cells are flat there, returns the static build.
   [[nodiscard]] StaticTriangulation<Dimension> at_frame(bool first) const;
+  /// Returns the finite cells and the hidden beads at a frame just reached, which determine all later events.
+  /// Returns nothing if more than positions decided them: if a cell is flat, or if a hidden bead lies on the
+  /// boundary of its host.
+  [[nodiscard]] std::optional<std::vector<BeadId>> state() const;
   /// Returns the edges of the diagram at that frame, as closest_pair (closest_pair.h) needs them. No bead may
   /// be absent.
   [[nodiscard]] DiagramEdges edges_at_frame(bool first) const;

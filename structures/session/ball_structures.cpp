@@ -47,6 +47,8 @@ class PowerInRun final : public RunningStructure {
     }
     return elements;
   }
+  [[nodiscard]] bool can_be_cut() const override { return true; }
+  [[nodiscard]] std::optional<std::vector<BeadId>> state() const override { return diagram_.state(); }
   [[nodiscard]] ReplayScheme replay_scheme() const override {
     return {{{"edges", 2, 2}, {"hidden", 1, 1}}, {}, 0};
   }
@@ -114,12 +116,9 @@ class ContactsInRun final : public RunningStructure {
     for (const BeadPair& pair : contacts_.pairs()) elements.add({pair.first, pair.second});
     return elements;
   }
-  [[nodiscard]] std::vector<Change> built() const override {
-    std::vector<Change> changes;
-    for (const BeadPair& pair : contacts_.pairs())
-      changes.push_back({Contacts<Dimension>::begin, 2, {pair.first, pair.second}});
-    return changes;
-  }
+  [[nodiscard]] bool can_be_cut() const override { return true; }
+  [[nodiscard]] std::optional<std::vector<BeadId>> state() const override { return contacts_.state(); }
+  [[nodiscard]] std::vector<Change> built() const override { return contacts_.built(); }
   [[nodiscard]] ReplayScheme replay_scheme() const override { return {{{"contacts", 2, 2}}, {}, 0}; }
   [[nodiscard]] std::vector<std::vector<ReplayElement>> replay_elements(bool) const override {
     std::vector<std::vector<ReplayElement>> elements(1);

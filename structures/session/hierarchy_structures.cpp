@@ -146,6 +146,17 @@ class WrappedInRun final : public RunningStructure {
     edits.push_back({0, true, cage_of(node, {change.ids.data() + 2, change.size - std::size_t{2}})});
     return true;
   }
+  /// The basis of a relaxed sphere depends on the frames before.
+  [[nodiscard]] bool can_be_cut() const override { return !hierarchy_.relaxation().any(); }
+  [[nodiscard]] std::optional<std::vector<BeadId>> state() const override {
+    std::vector<BeadId> state;
+    for (NodeId id = 0; id < hierarchy_.tree().node_count(); ++id) {
+      if (!hierarchy_.keeps(id)) continue;
+      state.insert(state.end(), hierarchy_.basis(id).begin(), hierarchy_.basis(id).end());
+      state.push_back(no_bead);
+    }
+    return state;
+  }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     return seconds_to_wrap<Dimension>(kept_, scene_.centers(frame), scene_.radii()).clock;
   }
@@ -229,6 +240,16 @@ class BoxesInRun final : public RunningStructure {
         elements.add({range.first, range.last, side}, supports.subspan(side, 1));
     });
     return elements;
+  }
+  [[nodiscard]] bool can_be_cut() const override { return true; }
+  /// Includes nodes that are not kept, because nodes above them depend on them.
+  [[nodiscard]] std::optional<std::vector<BeadId>> state() const override {
+    std::vector<BeadId> state;
+    for (NodeId id = 0; id < hierarchy_.tree().node_count(); ++id) {
+      const auto supports = hierarchy_.supports(id);
+      state.insert(state.end(), supports.begin(), supports.end());
+    }
+    return state;
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     const Balls<Dimension> balls(scene_.centers(frame), scene_.radii());

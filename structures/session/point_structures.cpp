@@ -15,6 +15,23 @@ namespace kds {
 
 namespace {
 
+/// Returns the beads that make up the structure's state. Tournaments begin anew in each step, so only their
+/// winners are part of it.
+template <int D>
+std::vector<BeadId> state_of(const SortedList<D>& list) {
+  return {list.order().begin(), list.order().end()};
+}
+template <int D>
+std::vector<BeadId> state_of(const EnclosingBox<D>& box) {
+  return {box.ends().begin(), box.ends().end()};
+}
+std::vector<BeadId> state_of(const ConvexHull& hull) { return hull.state(); }
+template <int D>
+std::vector<BeadId> state_of(const KineticClosestPair<D>& closest) {
+  if (!closest.pair()) return {};
+  return {closest.pair()->begin(), closest.pair()->end()};
+}
+
 /// A structure of points in a run. Three functions say in what such structures differ: dump(structure) and
 /// elements(structure) return its state at a frame, static_seconds(structure, centers) times a static build.
 template <class Structure, class Dump, class Elements, class StaticSeconds>
@@ -37,6 +54,8 @@ class PointsInRun final : public RunningStructure {
   [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t) const override {
     return elements_(structure_);
   }
+  [[nodiscard]] bool can_be_cut() const override { return true; }
+  [[nodiscard]] std::optional<std::vector<BeadId>> state() const override { return state_of(structure_); }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     return static_seconds_(structure_, scene_.centers(frame)).clock;
   }

@@ -54,6 +54,8 @@ class Session {
   /// of this dimension.
   template <std::derived_from<KineticStructure> Structure, class... Arguments>
   Structure& add(const Arguments&... arguments);
+  /// Adds a structure after the existing ones. The structure must belong to this session's simulator.
+  void add_running(std::unique_ptr<RunningStructure> structure) { add_made(std::move(structure)); }
   /// Restricts a structure to these beads. Must be called before it is built. Throws StructureRefusal, and
   /// changes nothing, if beads of this structure cannot be left out, if a bead does not exist, or if a bead
   /// is left out already.
@@ -66,6 +68,8 @@ class Session {
   [[nodiscard]] Simulator& simulator() { return simulator_; }
   /// Returns the structures in the order in which they act.
   [[nodiscard]] const std::vector<KineticStructure*>& structures() const { return kinetic_; }
+  /// Returns a structure with everything in which structures differ outside the simulator.
+  [[nodiscard]] const RunningStructure& running(std::size_t structure) const;
   /// Returns the dumps of all structures at a frame just reached (frame 0: just built).
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const;
   /// Returns the changes that build a structure from nothing (RunningStructure::built), as events at the
@@ -109,6 +113,17 @@ class StructureByType final : public RunningStructure {
   explicit StructureByType(Arguments&&... arguments) : structure_(std::forward<Arguments>(arguments)...) {}
   [[nodiscard]] KineticStructure& kinetic() override { return structure_; }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override { return {}; }
+  [[nodiscard]] bool can_be_cut() const override {
+    return requires { structure_.state(); };
+  }
+  [[nodiscard]] std::optional<std::vector<BeadId>> state() const override {
+    if constexpr (requires { structure_.state(); }) return structure_.state();
+    return std::nullopt;
+  }
+  [[nodiscard]] std::vector<Change> built() const override {
+    if constexpr (requires { structure_.built(); }) return structure_.built();
+    return {};
+  }
   [[nodiscard]] double static_seconds(std::size_t) const override { return 0; }
 
  private:
