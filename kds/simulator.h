@@ -50,6 +50,7 @@ class Simulator {
   /// Throws std::logic_error if certificates of another type have the same number.
   void add_table(FailureSource& table, const CertificateType& type);
   void listen(EventListener& listener) { listeners_.push_back(&listener); }
+  [[nodiscard]] const std::vector<EventListener*>& listeners() const { return listeners_; }
 
   /// Builds all structures. The motion must be that of the first step.
   void build();

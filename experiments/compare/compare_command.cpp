@@ -79,7 +79,8 @@ const OptionList<CompareOptions>& compare_options() {
                  whole_option({"--rounds", "N",
                                "repeat each run N times and report the median time, and the shortest and "
                                "longest (default: 3)"},
-                              &O::rounds, 1, 1000)})
+                              &O::rounds, 1, 1000),
+                 threads_option(&O::threads)})
           .with(
               destination_options("write compare.json, compare.csv and report.html to DIR (default: none)"));
   return list;

@@ -18,9 +18,10 @@ struct CompareOptions : InputOptions, Destinations {
   std::vector<std::string> structures;  ///< in the order of the registry; empty for the input's default
   std::vector<std::size_t> strides{1};  ///< ascending
   std::vector<FrameMotion> motions{FrameMotion::linear};
-  std::size_t rounds = 3;         ///< timed repetitions of each run
-  std::optional<BeadId> apart;    ///< --apart
-  std::optional<int> directions;  ///< --directions
+  std::size_t rounds = 3;              ///< timed repetitions of each run
+  std::optional<BeadId> apart;         ///< --apart
+  std::optional<int> directions;       ///< --directions
+  std::optional<std::size_t> threads;  ///< --threads; empty for all cores
 };
 
 /// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for

@@ -55,6 +55,7 @@ RunOptions run_of(const CompareOptions& options, std::size_t input, FrameMotion 
   run.radius = options.radius;
   run.apart = options.apart;
   run.directions = options.directions;
+  run.threads = options.threads;
   return run;
 }
 
@@ -182,19 +183,22 @@ void add_difference(const Done& before, const Done& after, EventCosts& costs) {
 // Runs once without looking at single events.
 std::vector<CompareRow> run_once(const Scene& scene, const RunOptions& options,
                                  const std::function<void()>& step_done) {
-  const auto run = open_run(options, scene, AuditMode::none);
-  StepCounts counts(run->session(), scene);
-  EventPlaces places(run->session(), scene);
+  ParallelOptions parallel;
+  parallel.elements = true;
+  const auto run = open_parallel_run(options, scene, AuditMode::none, parallel, [](const std::string&) {});
+  Session& session = run->session();
+  StepCounts counts(session, scene);
+  EventPlaces places(session, scene);
   run->listen(places);
-  std::vector<NetChanges> net(run->structures().size());
+  std::vector<NetChanges> net(session.structures().size());
   std::vector<CompareRow> rows(net.size());
   run_steps(*run, options, [&](std::size_t frame) {
     for (std::size_t s = 0; s < net.size(); ++s) {
       const std::uint64_t before = net[s].count().value_or(0);
-      net[s].add(run->session().elements(s, frame));
+      net[s].add(session.elements(s, frame));
       if (frame == 0) continue;
       rows[s].events_of_steps.push_back(
-          static_cast<double>(run->structures()[s]->statistics.events_per_step.back()));
+          static_cast<double>(session.structures()[s]->statistics.events_per_step.back()));
       if (const auto count = net[s].count())
         rows[s].net_changes_of_steps.push_back(static_cast<double>(*count - before));
     }
@@ -202,7 +206,7 @@ std::vector<CompareRow> run_once(const Scene& scene, const RunOptions& options,
     counts.end_step(frame - 1, nullptr);
     step_done();
   });
-  const RunReport report = report_of(run->session(), scene, options, counts);
+  const RunReport report = report_of(session, scene, options, counts);
   for (std::size_t s = 0; s < net.size(); ++s) {
     CompareRow& row = rows[s];
     const bool has_own_motion = !options.inputs.empty() && is_instance_file(options.inputs.front());

@@ -97,7 +97,8 @@ const OptionList<ContactsTask>& contacts_task_options() {
                  flag_option("--certify",
                              "with a stride in --frames: read all frames too, and report which contacts are "
                              "sure, and bounds of the time in contact",
-                             &O::certify)});
+                             &O::certify),
+                 threads_option(&O::threads)});
   return list;
 }
 

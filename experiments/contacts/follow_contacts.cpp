@@ -13,7 +13,7 @@
 #include "motions/readers/bead_name.h"
 #include "structures/contacts/contact_distance.h"
 #include "structures/contacts/contacts.h"
-#include "structures/session/kinetic_run.h"
+#include "structures/session/parallel_run.h"
 
 namespace kds {
 
@@ -89,10 +89,12 @@ class ContactsRun {
  public:
   ContactsRun(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
               const CutoffRadii& radii, const BeadGroups& groups)
-      : task_(task), scene_(scene), run_(scene, {.by_default = false}) {
+      : task_(task),
+        scene_(scene),
+        run_(scene, {.by_default = false}, {.threads = task.threads.value_or(all_threads())}) {
     const PairsAsked asked{scene.necklaces(), report.by != ContactElement::chain, report.apart, true, groups};
-    structures_.push_back(&run_.add<Contacts<D>>(asked, radii.inner));
-    if (!radii.outer.empty()) structures_.push_back(&run_.add<Contacts<D>>(asked, radii.outer));
+    run_.add<Contacts<D>>(asked, radii.inner);
+    if (!radii.outer.empty()) run_.add<Contacts<D>>(asked, radii.outer);
   }
 
   /// Follows the contacts by one more rule. Rules are served in the order of these calls.
@@ -121,16 +123,16 @@ class ContactsRun {
 
   void add_built() {
     const StepStamps first(scene_, 0);
-    std::vector<std::vector<BeadPair>> pairs;
-    for (const Contacts<D>* structure : structures_) pairs.push_back(structure->pairs());
+    std::vector<std::vector<BeadPair>> pairs(run_.session().structures().size());
+    for (std::size_t s = 0; s < pairs.size(); ++s)
+      for (const Event& event : run_.session().built(s)) pairs[s].push_back({event.ids()[0], event.ids()[1]});
     for (const Followed& one : followed_)
       one.intervals->add_built(pairs[one.inner], pairs[one.outer], first.from, first.to);
   }
 
   const ContactsTask& task_;
   const Scene& scene_;
-  KineticRun run_;
-  std::vector<const Contacts<D>*> structures_;
+  ParallelRun run_;
   std::vector<Followed> followed_;
 };
 

@@ -37,6 +37,7 @@ struct ContactsTask : InputOptions {
   std::size_t intermittency = 1;     ///< samples that an absence may have, for the frame-based figures
   FrameMotion motion = FrameMotion::linear;
   bool certify = false;
+  std::optional<std::size_t> threads;  ///< empty for all cores
 };
 
 inline constexpr BeadId default_contacts_apart = 3;

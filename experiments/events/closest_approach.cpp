@@ -15,6 +15,14 @@ DistanceRange within_deviation(const DistanceRange& distance, double deviation) 
           (distance.upper + 2 * deviation) * more};
 }
 
+std::optional<ClosestApproach> closer(const std::optional<ClosestApproach>& earlier,
+                                      const std::optional<ClosestApproach>& later) {
+  if (!earlier || !later) return earlier ? earlier : later;
+  ClosestApproach least = later->distance.upper < earlier->distance.upper ? *later : *earlier;
+  least.distance.lower = std::min(earlier->distance.lower, later->distance.lower);
+  return least;
+}
+
 ClosestApproachOfRun::ClosestApproachOfRun(Session& session, std::size_t structure)
     : session_(session), structure_(structure) {
   session_.simulator().listen(*this);

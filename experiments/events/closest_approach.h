@@ -29,6 +29,10 @@ struct ClosestApproach {
 /// position in the run.
 [[nodiscard]] DistanceRange within_deviation(const DistanceRange& distance, double deviation);
 
+/// Returns the closest approach of two parts of a run, either of which may have none. `earlier` comes first.
+[[nodiscard]] std::optional<ClosestApproach> closer(const std::optional<ClosestApproach>& earlier,
+                                                    const std::optional<ClosestApproach>& later);
+
 class ClosestApproachOfRun final : public EventListener {
  public:
   /// Follows the structure with this index in the session. The session must outlive this object. Listens from

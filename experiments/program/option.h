@@ -363,6 +363,14 @@ template <class Options>
                                 "name ends in .jsonl, else as CSV (default: none)"},
                                events));
 }
+/// Returns the option --threads of commands whose results do not depend on it.
+template <class Options>
+[[nodiscard]] Option<Options> threads_option(std::optional<std::size_t> Options::*threads) {
+  return of_output(whole_option({"--threads", "N",
+                                 "cut the run at frames and run the parts on up to N threads, with the same "
+                                 "events (default: all cores)"},
+                                threads, 1, 1024));
+}
 /// Returns the option --apart: the least distance along the chain between the two beads of a pair.
 template <class Options, class Member>
 [[nodiscard]] Option<Options> apart_option(std::string_view help, Member Options::*apart) {

@@ -414,15 +414,39 @@ SessionOptions session_options(const RunOptions& options, const Scene& scene, Au
   return session;
 }
 
-std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene, AuditMode audits) {
-  const SessionOptions session = session_options(options, scene, audits);
+namespace {
+
+// Constructs a run. Turns a refusal of a structure into an error of the option.
+template <class Run, class... Arguments>
+std::unique_ptr<Run> open(const Scene& scene, const Arguments&... arguments) {
   try {
-    return std::make_unique<KineticRun>(scene, session);
+    return std::make_unique<Run>(scene, arguments...);
   } catch (const StructureRefusal& refusal) {
     if (scene.is_lifted())
       throw InputError(fmt::format("--motion lifted: {}; expected --structures power", refusal.what()));
     throw InputError(fmt::format("--structures {}", refusal.what()));
   }
+}
+
+}  // namespace
+
+std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene, AuditMode audits) {
+  return open<KineticRun>(scene, session_options(options, scene, audits));
+}
+
+std::unique_ptr<ParallelRun> open_parallel_run(const RunOptions& options, const Scene& scene,
+                                               AuditMode audits, ParallelOptions parallel,
+                                               const std::function<void(const std::string&)>& warn) {
+  const bool is_recorded = options.view.has_value();  // a replay reads the structures while the run goes on
+  parallel.threads = is_recorded ? 1 : options.threads.value_or(all_threads());
+  auto run = open<ParallelRun>(scene, session_options(options, scene, audits), parallel);
+  if (options.work) run->limit_work(*options.work);
+  const std::optional<std::string> reason =
+      is_recorded ? std::optional<std::string>("--view records the structures as it goes on") : run->uncut();
+  if (options.threads.value_or(1) > 1 && reason)
+    warn(fmt::format("--threads {}: the run is not cut and takes one thread, because {}", *options.threads,
+                     *reason));
+  return run;
 }
 
 }  // namespace kds

@@ -12,6 +12,7 @@
 #include "motions/scene/file_frames.h"
 #include "motions/scene/scene.h"
 #include "structures/session/kinetic_run.h"
+#include "structures/session/parallel_run.h"
 
 namespace kds {
 
@@ -52,7 +53,14 @@ inline constexpr int highest_fast_degree = 3;
 /// Returns the options of a session over the scene, as the options of the run ask for it. If they name no
 /// structures, the input's default structures are used. Throws InputError.
 [[nodiscard]] SessionOptions session_options(const RunOptions& options, const Scene& scene, AuditMode audits);
-/// Opens the run with the structures of session_options. Throws InputError.
+/// Opens a run on as many threads as the options ask for, as `open_run` does. If the run cannot be cut
+/// although --threads asks for several threads, a line to `warn` says why.
+[[nodiscard]] std::unique_ptr<ParallelRun> open_parallel_run(
+    const RunOptions& options, const Scene& scene, AuditMode audits, ParallelOptions parallel,
+    const std::function<void(const std::string&)>& warn);
+
+/// Opens the run with the structures that the options ask for. If the options name none, the input's default
+/// structures are used. Throws InputError.
 [[nodiscard]] std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene,
                                                    AuditMode audits);
 

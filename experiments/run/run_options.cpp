@@ -190,6 +190,7 @@ const OptionList<RunOptions>& run_options() {
                              "events (also between all events; 10 to 200 times slower) (default: none)"},
                             &O::audit, audit_mode_names),
               rounds_option(),
+              threads_option(&O::threads),
               of_output(whole_option(
                   {"--work", "LIMIT",
                    "stop after LIMIT units (limb operations) of exact arithmetic (default: no limit)"},

@@ -54,6 +54,7 @@ struct RunOptions : InputOptions, Destinations {
   std::optional<std::filesystem::path> log;     ///< event log, for `kds replay`
   std::optional<std::filesystem::path> view;    ///< page that shows the run
   std::size_t rounds = 1;                       ///< number of rounds that are timed
+  std::optional<std::size_t> threads;           ///< --threads; empty for all cores
   std::optional<std::uint64_t> work;            ///< limit on the limb operations of exact arithmetic
 };
 

@@ -176,7 +176,10 @@ Json run_json(const RunReport& report) {
   json["engine"] = {{"seconds", report.engine_seconds},
                     {"listeners_seconds", report.listeners_seconds},
                     {"close_comparisons", comparisons},
-                    {"exact_work", report.exact_work}};
+                    {"exact_work", report.exact_work},
+                    {"threads", report.threads},
+                    {"parts", report.parts.parts},
+                    {"parts_run_again", report.parts.run_again}};
   json["fingerprint"] = hex_digits(report.fingerprint);
   if (report.stride) json["stride"] = stride_json(*report.stride);
   if (report.approach) json["closest_approach"] = approach_json(report);
@@ -212,8 +215,11 @@ std::string comparison_table(const RunReport& report) {
     line.resize(lines[0].size());
   }
   for (const std::string& line : in_columns(lines, "<>")) text += line + "\n";
-  text += fmt::format("\nengine {} s\nfingerprint {}\n", short_decimal(report.engine_seconds),
-                      hex_digits(report.fingerprint));
+  text += fmt::format("\nengine {} s\n", short_decimal(report.engine_seconds));
+  if (report.parts.parts > 1)
+    text += fmt::format("threads {}, parts {} ({} run again)\n", report.threads, report.parts.parts,
+                        report.parts.run_again);
+  text += fmt::format("fingerprint {}\n", hex_digits(report.fingerprint));
   return text;
 }
 

@@ -15,6 +15,7 @@
 #include "experiments/run/certify_stride.h"
 #include "experiments/run/run_options.h"
 #include "motions/frames/frame_reader.h"
+#include "structures/session/parallel_run.h"
 #include "structures/session/session.h"
 
 namespace kds {
@@ -61,6 +62,8 @@ struct RunReport {
   double listeners_seconds = 0;  ///< time for writing and counting events
   NamedCounts comparisons;       ///< failure times with overlapping brackets, by the method that settled them
   std::uint64_t exact_work = 0;  ///< limb operations of exact arithmetic
+  std::size_t threads = 1;
+  PartCounts parts;
   std::uint64_t fingerprint = 0;            ///< printed as 16 hex digits
   std::optional<StrideCertificate> stride;  ///< from --certify
   std::optional<ClosestApproach> approach;  ///< only if the run has the closest pair and does not use `fast`

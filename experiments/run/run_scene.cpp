@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <mutex>
 #include <string_view>
 #include <utility>
 
@@ -113,13 +115,39 @@ struct Times {
   std::vector<std::vector<double>> kept, built;
 };
 
-void add_round(Session& session, const Scene& scene, Times& times) {
-  std::vector<double> built;
-  for (std::size_t frame = 0; frame < scene.frame_count(); ++frame) session.time_static_builds(frame, built);
+void add_round(ParallelRun& run, Times& times) {
+  const std::vector<double> built = run.static_seconds();
   for (std::size_t s = 0; s < times.kept.size(); ++s) {
-    times.kept[s].push_back(session.simulator().seconds_of(s));
+    times.kept[s].push_back(run.simulator().seconds_of(s));
     times.built[s].push_back(built[s]);
   }
+}
+
+// Follows the closest approach in a part of a run.
+class ApproachOfPart final : public FrameObserver {
+ public:
+  ApproachOfPart(KineticRun& part, std::size_t closest) : part_(part), approach_(part.session(), closest) {}
+  void at_frame(std::size_t frame) override {
+    began_ ? approach_.end_step(part_.scene().frame_number(frame - 1)) : approach_.begin();
+    began_ = true;
+  }
+  [[nodiscard]] std::optional<ClosestApproach> least() const { return approach_.least(); }
+
+ private:
+  KineticRun& part_;
+  ClosestApproachOfRun approach_;
+  bool began_ = false;
+};
+
+// Warns of extraordinary exact work in any part. Warnings may come from several threads at once.
+void watch_exact_work(ParallelRun& run, const std::function<void(const std::string&)>& warn) {
+  const auto mutex = std::make_shared<std::mutex>();
+  run.prepare([mutex, warn](KineticRun& part) {
+    watch_exact_work(part.simulator(), part.scene(), [mutex, warn](const std::string& warning) {
+      const std::lock_guard lock(*mutex);
+      warn(warning);
+    });
+  });
 }
 
 void add_times(const Times& times, RunReport& report) {
@@ -175,18 +203,29 @@ void run_steps(KineticRun& run, const RunOptions& options,
   in_step(run, run.scene().step_count() - 1, options, [&] { run.finish(); });
 }
 
+void run_steps(ParallelRun& run, const RunOptions& options,
+               const std::function<void(std::size_t frame)>& at_frame) {
+  run.run(at_frame,
+          [&](KineticRun& part, std::optional<std::size_t> step, const std::function<void()>& work) {
+            step ? in_step(part, *step, options, work) : with_limit(part, options, work);
+          });
+}
+
 RunReport run_scene(const RunOptions& options, const Progress& progress,
                     const std::function<void(const std::string&)>& warn, RunResults& results) {
   HeldWarnings warnings;
   const Scene scene = load_scene(options, warnings.hold());
-  const auto run = open_run(options, scene, options.audit);
-  if (!options.quiet) watch_exact_work(run->simulator(), scene, warn);
+  ParallelOptions parallel;
+  parallel.dumps = options.dump.has_value();
+  parallel.static_builds = true;
+  const auto run = open_parallel_run(options, scene, options.audit, parallel, warn);
+  if (!options.quiet) watch_exact_work(*run, warn);
   ProgressWithinSteps within(progress, options.rounds * scene.step_count());
   if (options.audit == AuditMode::events) run->listen(within);
   StepCounts counts(run->session(), scene);
-  std::optional<ClosestApproachOfRun> approach;
-  if (const auto closest = place_of_closest(run->session()); closest && options.kernel != Kernel::fast)
-    approach.emplace(run->session(), *closest);
+  const auto closest = place_of_closest(run->session());
+  if (closest && options.kernel != Kernel::fast)
+    run->observe([at = *closest](KineticRun& part) { return std::make_unique<ApproachOfPart>(part, at); });
   results.begin(scene, run->session(), options);
   results.begin_dump_and_log(options, scene, run->session());
 
@@ -194,7 +233,6 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
     if (frame == 0) warnings.release(warn);
     if (frame == 0) counts.begin();
     results.add_frame(frame, run->session());
-    if (approach) frame == 0 ? approach->begin() : approach->end_step(scene.frame_number(frame - 1));
     if (frame == 0) return;
     counts.end_step(frame - 1, &results);
     progress(frame, 0, options.rounds * scene.step_count());
@@ -202,23 +240,27 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
 
   results.end_run();
   RunReport report = report_of(run->session(), scene, options, counts);
+  report.threads = run->threads();
+  report.parts = run->parts();
   if (const auto hint = hint_of(options, scene, report)) warn(*hint);
   if (options.certify) {
     report.stride = certify_stride(options, scene);
     results.add_certificate(*report.stride, scene);
   }
-  if (approach) report.approach = approach->least();
+  for (const auto& observer : run->observers())
+    report.approach = closer(report.approach, static_cast<const ApproachOfPart&>(*observer).least());
   if (const auto deviation = deviation_of_run(options, scene, report); deviation && report.approach)
     report.approach_in_all_frames = within_deviation(report.approach->distance, *deviation);
   Times times{std::vector<std::vector<double>>(report.structures.size()),
               std::vector<std::vector<double>>(report.structures.size())};
-  add_round(run->session(), scene, times);
+  add_round(*run, times);
   for (std::size_t round = 1; round < options.rounds; ++round) {
-    const auto again = open_run(options, scene, AuditMode::none);
+    const auto again =
+        open_parallel_run(options, scene, AuditMode::none, parallel, [](const std::string&) {});
     run_steps(*again, options, [&](std::size_t frame) {
       progress(round * scene.step_count() + frame, 0, options.rounds * scene.step_count());
     });
-    add_round(again->session(), scene, times);
+    add_round(*again, times);
   }
   report.rounds = options.rounds;
   add_times(times, report);

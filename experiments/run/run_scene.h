@@ -17,6 +17,7 @@
 #include "kds/simulator.h"
 #include "motions/scene/scene.h"
 #include "structures/session/kinetic_run.h"
+#include "structures/session/parallel_run.h"
 #include "structures/session/session.h"
 
 namespace kds {
@@ -72,6 +73,10 @@ class ProgressWithinSteps final : public EventListener {
 /// including the first. The message of an exception thrown in a step names the two frames of the file around
 /// the step.
 void run_steps(KineticRun& run, const RunOptions& options,
+               const std::function<void(std::size_t frame)>& at_frame);
+
+/// Does the same on the threads of the run. `at_frame` is called on the caller's thread.
+void run_steps(ParallelRun& run, const RunOptions& options,
                const std::function<void(std::size_t frame)>& at_frame);
 
 /// Runs the structures. Each warning about the input goes to `warn` as one line. The output goes to

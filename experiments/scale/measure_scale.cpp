@@ -129,6 +129,7 @@ std::vector<ScaleRow> measure_scene(const Scene& scene, const ScaleOptions& opti
   RunOptions run;
   run.structures = options.structures;
   run.directions = options.directions;
+  run.threads = 1;  // times are of one thread
   for (const CompareRow& structure : measure_runs(scene, run, options.rounds, [] {})) {
     const auto values = values_of(structure);
     for (std::size_t m = 0; m < values.size(); ++m)

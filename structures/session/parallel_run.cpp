@@ -336,6 +336,7 @@ void ParallelRun::limit_work(std::uint64_t most) {
   decide();
   own_->limit_work(most);
   if (!joined_) return;
+  listeners_ = joined_->simulator().listeners();
   uncut_ = "the limit of exact work counts the work of all steps in their order";
   threads_ = 1;
   joined_.reset();
@@ -372,6 +373,7 @@ void ParallelRun::run_uncut(const std::function<void(std::size_t)>& at_frame) {
 void ParallelRun::run_in_parts(const std::function<void(std::size_t)>& at_frame) {
   const std::size_t steps = scene_.step_count();
   counts_ = {0, 0};
+  listeners_ = joined_->simulator().listeners();  // some may have been added to the simulator
   std::deque<std::unique_ptr<Part>> in_flight;
   std::size_t again_in_a_row = 0;
   Workers workers(*this, threads_);  // destroyed before the parts

@@ -104,11 +104,6 @@ std::vector<Event> Session::built(std::size_t structure) const {
   return events;
 }
 
-const RunningStructure& Session::running(std::size_t structure) const {
-  require_index("structure", structure, running_.size());
-  return *running_[structure];
-}
-
 std::vector<DumpFile> Session::dump(std::size_t frame) const {
   const FloatingPointGuard to_nearest;
   require_index("frame", frame, scene_.frame_count());

@@ -68,8 +68,6 @@ class Session {
   [[nodiscard]] Simulator& simulator() { return simulator_; }
   /// Returns the structures in the order in which they act.
   [[nodiscard]] const std::vector<KineticStructure*>& structures() const { return kinetic_; }
-  /// Returns a structure with everything in which structures differ outside the simulator.
-  [[nodiscard]] const RunningStructure& running(std::size_t structure) const;
   /// Returns the dumps of all structures at a frame just reached (frame 0: just built).
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const;
   /// Returns the changes that build a structure from nothing (RunningStructure::built), as events at the

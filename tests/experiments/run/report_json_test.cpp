@@ -37,11 +37,14 @@ TEST(ReportJson, HasTheShapeOfTheContract) {
   EXPECT_EQ(json["input"]["files"], Json::array({"chain.pdb"}));
   EXPECT_EQ(json["input"]["radius_max"], 1.5);
   EXPECT_EQ(json["settings"]["kernel"], "filtered");
-  EXPECT_THAT(keys(json["engine"]),
-              ElementsAre("seconds", "listeners_seconds", "close_comparisons", "exact_work"));
+  EXPECT_THAT(keys(json["engine"]), ElementsAre("seconds", "listeners_seconds", "close_comparisons",
+                                                "exact_work", "threads", "parts", "parts_run_again"));
   EXPECT_EQ(json["engine"]["seconds"], 0.125);
   EXPECT_EQ(json["engine"]["listeners_seconds"], 0.0625);
   EXPECT_EQ(json["engine"]["close_comparisons"], (Json{{"exact", 7}, {"ties", 2}}));
+  EXPECT_EQ(json["engine"]["threads"], 1);
+  EXPECT_EQ(json["engine"]["parts"], 1);
+  EXPECT_EQ(json["engine"]["parts_run_again"], 0);
   EXPECT_EQ(json["fingerprint"], "0000000000abcdef");
   EXPECT_FALSE(json["version"].get<std::string>().empty());
 }

@@ -190,7 +190,7 @@ TEST(ParallelRun, IsTheUncutRunOfWanderingChains) {
 
 TEST(ParallelRun, IsTheUncutRunOfLatticeScenes) {
   int again = 0;
-  for (std::uint64_t seed = 0; seed < test::rounds(60U); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::rounds(40U); ++seed) {
     SCOPED_TRACE(seed);
     const LatticeScene lattice = lattice_scene(seed);
     if (lattice.necklace.frames.size() < 3) continue;
@@ -203,7 +203,7 @@ TEST(ParallelRun, IsTheUncutRunOfLatticeScenes) {
 
 TEST(ParallelRun, IsTheUncutRunOfGrids) {
   int again = 0;
-  for (std::uint64_t seed = 0; seed < test::rounds(12U); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::rounds(8U); ++seed) {
     SCOPED_TRACE(seed);
     const bool flat = seed % 2 == 0;
     const Scene scene = scene_of(grid(seed, flat ? 5 : 3, flat, 9), {0.5});
@@ -244,6 +244,8 @@ TEST(ParallelRun, RunsStructuresAddedByType) {
   ParallelRun cut(scene, {.by_default = false}, {3, 2});
   cut.add<Contacts<3>>(asked, std::vector<double>());
   std::size_t built = 0;
+  EventLog log;
+  cut.simulator().listen(log);  // as good as ParallelRun::listen
   cut.run([&](std::size_t frame) { built += frame == 0 ? cut.session().built(0).size() : 0; });
   KineticRun whole(scene, {.by_default = false});
   const auto& contacts = whole.add<Contacts<3>>(asked, std::vector<double>());
@@ -252,6 +254,10 @@ TEST(ParallelRun, RunsStructuresAddedByType) {
   EXPECT_GT(built, 0U);
   whole.run();
   EXPECT_EQ(cut.simulator().fingerprint(), whole.simulator().fingerprint());
+  EXPECT_EQ(log.events.size(), whole.session().structures()[0]->statistics.events_by_kind[0] +
+                                   whole.session().structures()[0]->statistics.events_by_kind[1] +
+                                   whole.session().structures()[0]->statistics.events_by_kind[2]);
+  EXPECT_FALSE(log.events.empty());
   EXPECT_EQ(cut.parts().parts, 4U);
 }
 
