@@ -30,7 +30,7 @@ class TextHash {
 
  private:
   static constexpr std::uint32_t end_of_text = 256;  // no byte
-  Fingerprint hash_;
+  WordHash hash_;
 };
 
 }  // namespace kds
