@@ -120,7 +120,7 @@ class Pool {
     for (const std::string& axis : names_) axes.push_back(plan_.text(task, axis));
     std::map<std::string, std::size_t> seen;
     for (const ResultRow& row : rows) {
-      const std::string identity = identity_of(row);
+      const std::string identity = identity_of(row, plan_.spec().pooled);
       const std::size_t place = seen[identity]++;  // rows that nothing else tells apart
       for (const auto& [name, value] : row.fields) {
         const auto number = value.number();

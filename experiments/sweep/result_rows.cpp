@@ -133,10 +133,10 @@ bool is_identity(const std::string& name, const Json& value) {
   return value.text() != nullptr || std::ranges::find(kKeys, name) != kKeys.end();
 }
 
-std::string identity_of(const ResultRow& row) {
+std::string identity_of(const ResultRow& row, const std::vector<std::string>& others) {
   std::string identity;
   for (const auto& [name, value] : row.fields)
-    if (is_identity(name, value) && !value.is_null())
+    if (is_identity(name, value) && std::ranges::find(others, name) == others.end())
       identity += fmt::format("{}{} {}", identity.empty() ? "" : ", ", name,
                               value.text() != nullptr ? *value.text() : line_of(value).value_or(""));
   return identity;

@@ -32,8 +32,9 @@ struct ResultRow {
 [[nodiscard]] std::vector<ResultRow> joined_parts(const std::vector<std::vector<ResultRow>>& parts,
                                                   bool& uneven);
 
-/// Returns the text that tells a row from the others of its task: its texts and keys such as `stride`.
-[[nodiscard]] std::string identity_of(const ResultRow& row);
+/// Returns the text that tells a row from the others of its task: its texts and keys such as `stride`, but
+/// none of `others`.
+[[nodiscard]] std::string identity_of(const ResultRow& row, const std::vector<std::string>& others = {});
 /// Returns whether a field belongs to the identity of its row.
 [[nodiscard]] bool is_identity(const std::string& name, const Json& value);
 

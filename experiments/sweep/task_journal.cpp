@@ -98,7 +98,8 @@ void TaskStates::read_on(std::uint32_t journal, bool part) {
 void TaskStates::take(std::string_view line, std::uint32_t journal, std::uint64_t offset) {
   const auto refuse = [this] { ++damaged_; };
   const auto hash = hex_number(line.substr(0, kHex));
-  if (!hash || line.size() < kHex + 1 || TextHash::of(line.substr(kHex + 1)) != *hash) return refuse();
+  if (!hash || line.size() < kHex + 1 || line[kHex] != ' ' || TextHash::of(line.substr(kHex + 1)) != *hash)
+    return refuse();
   const std::string_view rest = line.substr(kHex + 1);
   const std::size_t kind_end = std::min(rest.find(' '), rest.size());
   const auto kind = std::ranges::find(kKinds, rest.substr(0, kind_end));

@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TaskStatus status_in(const ScratchDirectory& scratch, TaskName task) {
-  TaskStates states(scratch.path());
+TaskStatus status_in(const fs::path& folder, TaskName task) {
+  TaskStates states(folder);
   states.refresh();
   return status_of(states.of(task));
 }
@@ -36,19 +36,19 @@ TEST(TaskJournal, CountsAttemptsAndResults) {
   };
   EXPECT_EQ(scratch.entries(), 0U);
   add(RecordKind::attempt, 1);
-  EXPECT_EQ(status_in(scratch, 1), TaskStatus::open);
+  EXPECT_EQ(status_in(scratch.path(), 1), TaskStatus::open);
   add(RecordKind::attempt, 1);
-  EXPECT_EQ(status_in(scratch, 1), TaskStatus::crashed);  // two attempts without a result
+  EXPECT_EQ(status_in(scratch.path(), 1), TaskStatus::crashed);  // two attempts without a result
   add(RecordKind::done, 1, R"({"result":{"a":1}})");
-  EXPECT_EQ(status_in(scratch, 1), TaskStatus::done);
+  EXPECT_EQ(status_in(scratch.path(), 1), TaskStatus::done);
   for (int k = 0; k < 3; ++k) {
     add(RecordKind::attempt, 2);
     add(RecordKind::drop, 2);
   }
-  EXPECT_EQ(status_in(scratch, 2), TaskStatus::open);
+  EXPECT_EQ(status_in(scratch.path(), 2), TaskStatus::open);
   add(RecordKind::attempt, 3);
   add(RecordKind::fail, 3, R"({"code":2})");
-  EXPECT_EQ(status_in(scratch, 3), TaskStatus::failed);
+  EXPECT_EQ(status_in(scratch.path(), 3), TaskStatus::failed);
 
   TaskStates states(scratch.path());
   states.refresh();
@@ -65,7 +65,8 @@ TEST(TaskJournal, CountsAttemptsAndResults) {
 
 // However many bytes of a journal survive, the records that are whole count and no others.
 TEST(TaskJournal, CutOffAtEachByteKeepsWholeRecords) {
-  const ScratchDirectory scratch, cut;
+  const ScratchDirectory scratch;
+  const fs::path cut = scratch / "cut";
   JournalWriter journal(scratch.path());
   std::vector<std::uint64_t> ends;
   for (TaskName task = 1; task <= 4; ++task) {
@@ -74,24 +75,27 @@ TEST(TaskJournal, CutOffAtEachByteKeepsWholeRecords) {
     ends.push_back(fs::file_size(only_file(scratch)));
   }
   const std::string whole = content_of(only_file(scratch));
+  fs::create_directory(cut);
   for (std::size_t size = 0; size <= whole.size(); ++size) {
-    cut.file("cut.part", whole.substr(0, size));
+    scratch.file("cut/cut.part", whole.substr(0, size));
     for (TaskName task = 1; task <= 4; ++task)
       EXPECT_EQ(status_in(cut, task) == TaskStatus::done, ends[task - 1] <= size) << size;
   }
 }
 
 TEST(TaskJournal, ChangedByteMakesARecordVoid) {
-  const ScratchDirectory scratch, changed;
+  const ScratchDirectory scratch;
+  const fs::path changed = scratch / "changed";
   JournalWriter journal(scratch.path());
   ASSERT_TRUE(journal.add(RecordKind::done, 1, R"({"result":{"x":1}})"));
   const std::size_t first = fs::file_size(only_file(scratch));
   ASSERT_TRUE(journal.add(RecordKind::done, 2, R"({"result":{"x":2}})"));
   const std::string whole = content_of(only_file(scratch));
+  fs::create_directory(changed);
   for (std::size_t byte = 0; byte + 1 < first; ++byte) {
     std::string text = whole;
     text[byte] ^= 1;
-    changed.file("changed.results", text);
+    scratch.file("changed/changed.results", text);
     EXPECT_EQ(status_in(changed, 1), TaskStatus::open) << byte;
     EXPECT_EQ(status_in(changed, 2), TaskStatus::done) << byte;
   }
