@@ -30,10 +30,14 @@ def is_mdtraj(source):
     return hasattr(source, "xyz") and hasattr(source, "topology") and hasattr(source, "unitcell_lengths")
 
 
+def is_paths(source):
+    return isinstance(source, (list, tuple)) and bool(source) and all(is_path(item) for item in source)
+
+
 def is_frames(source):
     """Whether the source has all its frames: they can be read more than once."""
-    return is_path(source) or is_atom_group(source) or is_mdtraj(source) or hasattr(source, "__array__") or (
-        isinstance(source, (list, tuple)) and bool(source) and all(is_path(item) for item in source))
+    return (is_path(source) or is_paths(source) or is_atom_group(source) or is_mdtraj(source)
+            or hasattr(source, "__array__"))
 
 
 def _refuse_others(source):
@@ -128,20 +132,6 @@ def _add_chains(beads, necklaces, keys, names):
         beads.add_chain(names[first], end - first)
 
 
-def _open_array(positions, chosen, units, necklaces, times, groups):
-    label = "array"
-    beads = _kds.Beads(label)
-    beads.nanometres = units == "nm"
-    if positions.ndim == 3:
-        if times is not None:
-            beads.times = np.asarray(times, dtype=float).tolist()
-        _add_chains(beads, necklaces, None, None)
-        if positions.shape[0]:
-            check_units(positions[0], beads.nanometres, label)
-    more = _set_groups(beads, groups, positions.shape[1], _indices_of_beads(positions.shape[1])) if groups else []
-    return beads, lambda: _kds.Frames(positions, beads), more
-
-
 def _atom_names(atoms, residues, numbers, chains):
     return [_kds.bead_name(*(str(part) for part in parts)) for parts in zip(atoms, residues, numbers, chains)]
 
@@ -154,12 +144,8 @@ def _chains_of(group):
     return [""] * len(group)
 
 
-def _beads_of_group(group, wants_elements, necklaces, groups):
-    trajectory = group.universe.trajectory
-    filename = getattr(trajectory, "filename", None)
-    label = os.path.basename(str(filename)) if filename else "AtomGroup"
-    if len(group) == 0:
-        raise InputError("AtomGroup: has no atoms; expected two or more")
+def _beads_of_group(group, label, wants_elements, necklaces, groups):
+    """Returns the beads of an AtomGroup, and the arguments for its groups."""
     beads = _kds.Beads(label)
     chains = _chains_of(group)
     icodes = getattr(group, "icodes", [""] * len(group))
@@ -239,7 +225,22 @@ def _pull_group(group):
     return read
 
 
-def _open_mdtraj(trajectory, wants_elements, necklaces, groups):
+def _open_group(group, chosen_of, pull, wants_elements, necklaces, groups):
+    trajectory = group.universe.trajectory
+    filename = getattr(trajectory, "filename", None)
+    label = os.path.basename(str(filename)) if filename else "AtomGroup"
+    if len(group) == 0:
+        raise InputError("AtomGroup: has no atoms; expected two or more")
+    beads, more = _beads_of_group(group, label, wants_elements, necklaces, groups)
+    chosen = chosen_of(len(trajectory), label)
+    if pull:
+        more += ["--frames", f"{chosen.start}:{chosen[-1] + 1}:{chosen.step}"]
+        return beads, more, (_pull_group(group), len(trajectory), len(group))
+    positions, stride = _collect_group(group, beads, chosen)
+    return beads, more + (["--frames", f"::{stride}"] if stride > 1 else []), (positions,)
+
+
+def _open_mdtraj(trajectory, chosen_of, wants_elements, necklaces, groups):
     beads = _kds.Beads("mdtraj trajectory")
     beads.nanometres = True
     atoms = list(trajectory.topology.atoms)
@@ -254,34 +255,67 @@ def _open_mdtraj(trajectory, wants_elements, necklaces, groups):
         lengths = np.float32(10) * np.asarray(trajectory.unitcell_lengths, dtype=np.float32)
         cells = np.hstack([lengths, np.asarray(trajectory.unitcell_angles, dtype=np.float32)])
         beads.cells = cells.astype(float).ravel().tolist()
-    positions = np.ascontiguousarray(trajectory.xyz)
-    if len(positions):
-        check_units(positions[0], True, beads.label)
-    return beads, positions, _set_groups(beads, groups, len(atoms), _indices_of_beads(len(atoms)))
+    more = _set_groups(beads, groups, len(atoms), _indices_of_beads(len(atoms)))
+    return _open_positions(np.ascontiguousarray(trajectory.xyz), beads, chosen_of, more)
+
+
+def _open_array(source, chosen_of, units, necklaces, times, groups):
+    beads = _kds.Beads("array")
+    beads.nanometres = units == "nm"
+    if hasattr(source, "__array__"):
+        positions = _array(source)
+    else:
+        # Trajectories give views of one buffer, so each frame is copied before the next one comes.
+        frames = [(np.array(positions), time) for positions, time in map(frame_of, source)]
+        shapes = {np.shape(frame) for frame, _ in frames}
+        if len(shapes) > 1:
+            raise InputError(f"frames: have the shapes {sorted(shapes)}; expected one shape (beads, 3)")
+        positions = np.stack([frame for frame, _ in frames]) if frames else np.empty((0, 0, 3))
+        if times is None and frames and all(time is not None for _, time in frames):
+            times = [time for _, time in frames]
+    if times is not None:
+        beads.times = np.asarray(times, dtype=float).tolist()
+    _add_chains(beads, necklaces, None, None)
+    more = []
+    if groups is not None and positions.ndim == 3:
+        more = _set_groups(beads, groups, positions.shape[1], _indices_of_beads(positions.shape[1]))
+    return _open_positions(positions, beads, chosen_of, more)
+
+
+def _open_positions(positions, beads, chosen_of, more):
+    if positions.ndim == 3 and len(positions):
+        check_units(positions[0], beads.nanometres, beads.label)
+        chosen = chosen_of(len(positions), beads.label)
+        if chosen != range(len(positions)):
+            more = more + ["--frames", f"{chosen.start}:{chosen[-1] + 1}:{chosen.step}"]
+    return beads, more, (positions,)
+
+
+def _open_paths(paths, start, stop, step, units, necklaces, times, groups, radius):
+    for name, value in (("necklaces", necklaces), ("times", times)):
+        if value is not None:
+            raise InputError(f"{name}: is for positions in memory, not for files; expected chain or dt")
+    if radius is not None and np.ndim(radius) > 0:
+        raise InputError("radius: an array is for positions in memory; expected file:PATH, with a line a bead")
+    more = [] if (start, stop, step) == (None, None, None) else ["--frames", _range_text(start, stop, step)]
+    if units is not None:
+        more += ["--units", str(units)]
+    if groups is not None:
+        more += ["--groups", *(str(group) for group in groups)]
+    if radius is not None:
+        more += ["--radius", str(radius)]
+    return Input([*(os.fspath(path) for path in paths), *more])
 
 
 def open_input(source, *, start=None, stop=None, step=None, units=None, necklaces=None, times=None, groups=None,
                radius=None, pull=False, options=None):
     """Opens any input. `pull` reads the frames of an AtomGroup one at a time instead of copying them."""
-    options = {} if options is None else options
-    paths = [source] if is_path(source) else source
-    if isinstance(paths, (list, tuple)) and paths and all(is_path(item) for item in paths):
-        for name, value in (("necklaces", necklaces), ("times", times)):
-            if value is not None:
-                raise InputError(f"{name}: is for positions in memory, not for files; expected chain or dt")
-        if radius is not None and np.ndim(radius) > 0:
-            raise InputError("radius: an array is for positions in memory; expected file:PATH, with a line a bead")
-        more = [] if (start, stop, step) == (None, None, None) else ["--frames", _range_text(start, stop, step)]
-        if units is not None:
-            more += ["--units", str(units)]
-        if groups is not None:
-            more += ["--groups", *(str(group) for group in groups)]
-        if radius is not None:
-            more += ["--radius", str(radius)]
-        return Input([os.fspath(path) for path in paths] + more)
+    if is_path(source) or is_paths(source):
+        paths = [source] if is_path(source) else source
+        return _open_paths(paths, start, stop, step, units, necklaces, times, groups, radius)
 
     for name in ("topology", "select", "chain", "format", "until_damage"):
-        if options.get(name):
+        if (options or {}).get(name):
             raise InputError(f"{name}: is for files; positions in memory are the beads that were chosen")
     if units is not None and units not in _UNITS:
         raise InputError(f"units: is '{units}'; expected angstrom or nm")
@@ -289,46 +323,21 @@ def open_input(source, *, start=None, stop=None, step=None, units=None, necklace
         raise InputError("units: an AtomGroup and an mdtraj Trajectory have their own; expected no units")
     if not is_frames(source):
         _refuse_others(source)
+
+    def chosen_of(frames, label):
+        return _indices(start, stop, step, frames, label)
+
     wants_elements = isinstance(radius, str) and radius.startswith("element")
-    ranged = 1
     if is_atom_group(source):
-        beads, more = _beads_of_group(source, wants_elements, necklaces, groups)
-        total = len(source.universe.trajectory)
-        chosen = _indices(start, stop, step, total, beads.label)
-        count = len(source)
-        if pull:
-            more += ["--frames", f"{chosen.start}:{chosen[-1] + 1}:{chosen.step}"]
-            open_frames = lambda: _kds.Frames(_pull_group(source), total, count, beads)  # noqa: E731
-        else:
-            positions, ranged = _collect_group(source, beads, chosen)
-            open_frames = lambda: _kds.Frames(positions, beads)  # noqa: E731
-            if ranged > 1:
-                more += ["--frames", f"::{ranged}"]
+        beads, more, frames = _open_group(source, chosen_of, pull, wants_elements, necklaces, groups)
+    elif is_mdtraj(source):
+        beads, more, frames = _open_mdtraj(source, chosen_of, wants_elements, necklaces, groups)
     else:
-        if is_mdtraj(source):
-            beads, positions, more = _open_mdtraj(source, wants_elements, necklaces, groups)
-            open_frames = lambda: _kds.Frames(positions, beads)  # noqa: E731
-        else:
-            if hasattr(source, "__array__"):
-                positions = _array(source)
-            else:
-                # Trajectories give views of one buffer, so each frame is copied before the next one comes.
-                frames = [(np.array(positions), time) for positions, time in map(frame_of, source)]
-                shapes = {np.shape(frame) for frame, _ in frames}
-                if len(shapes) > 1:
-                    raise InputError(f"frames: have the shapes {sorted(shapes)}; expected one shape (beads, 3)")
-                positions = np.stack([frame for frame, _ in frames]) if frames else np.empty((0, 0, 3))
-                if times is None and frames and all(time is not None for _, time in frames):
-                    times = [time for _, time in frames]
-            beads, open_frames, more = _open_array(positions, None, units, necklaces, times, groups)
-        total = positions.shape[0] if positions.ndim else 0
-        if (start, stop, step) != (None, None, None) and total:
-            chosen = _indices(start, stop, step, total, beads.label)
-            more += ["--frames", f"{chosen.start}:{chosen[-1] + 1}:{chosen.step}"]
+        beads, more, frames = _open_array(source, chosen_of, units, necklaces, times, groups)
     if radius is not None and np.ndim(radius) > 0:
         beads.radii = np.asarray(radius, dtype=float).ravel().tolist()
-        more += ["--radius", "element"]
+        more = more + ["--radius", "element"]
     elif radius is not None:
-        more += ["--radius", str(radius)]
-    memory = open_frames()
+        more = more + ["--radius", str(radius)]
+    memory = _kds.Frames(*frames, beads)
     return Input([memory.path, "--format", "memory", *more], memory)

@@ -222,7 +222,7 @@ def _stream_pushed(source, chosen, radius, necklaces, units, options):
         raise InputError("radius: frames that come one by one have no longest bond; expected a number, one for each bead, "
                          "or a cutoff")
     numbers = itertools.count(chosen.start or 0, chosen.step or 1)
-    run, waiting = None, None
+    run = None
     for item in itertools.islice(source, chosen.start, chosen.stop, chosen.step):
         positions, time = frame_of(item)
         if units == "nm":

@@ -8,7 +8,7 @@ import warnings
 import numpy as np
 
 import kds
-from data import BACKBONE, DCD, PDB, RESIDUES, coil, program, program_events, universe
+from data import BACKBONE, PDB, RESIDUES, coil, program, program_events, universe
 
 STRUCTURES = ["sorted", "wrapped", "power", "contacts"]
 FRAMES = 40
