@@ -199,7 +199,7 @@ def instances_are_shown(browser, kds, data, place):
 
 def main(kds, data, place):
     os.makedirs(place, exist_ok=True)
-    with Browser() as browser:
+    with Browser(480, 360) as browser:  # drawing takes most of the time
         states_are_those_of_the_run(browser, kds, data, place)
         positions_are_on_the_curves(browser, kds, place)
         instances_are_shown(browser, kds, data, place)
