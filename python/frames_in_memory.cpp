@@ -169,9 +169,10 @@ class Registered {
   std::size_t last_ = 0;
 };
 
+// Is never destroyed: frames may outlive the interpreter, and then their objects must not be released.
 Registered& registered() {
-  static Registered frames;
-  return frames;
+  static auto* const frames = new Registered;
+  return *frames;
 }
 
 FramesOpened open_memory(const std::filesystem::path& path, const ReadOptions& options) {

@@ -25,7 +25,9 @@ def _more_options(cutoff, surface, only):
 def open_run(source, *, start=None, stop=None, step=None, units=None, necklaces=None, times=None, groups=None,
              radius=None, cutoff=None, surface=False, only=None, pull=False, **options):
     """Opens an input and the run over it, and issues the warnings about the input."""
-    if cutoff is not None and not np.isfinite(cutoff) or (cutoff or 0) < 0:
+    if np.ndim(cutoff) > 0:
+        raise _kds.InputError(f"cutoff: is {cutoff}; expected one length; kds.contacts takes two")
+    if cutoff is not None and not 0 <= cutoff < np.inf:
         raise _kds.InputError(f"cutoff: is {cutoff}; expected a length from 0")
     given = arguments(options)
     opened = open_input(source, start=start, stop=stop, step=step, units=units, necklaces=necklaces, times=times,

@@ -1,6 +1,8 @@
 """Wrong input gives one clear error and leaves nothing behind."""
 
 import signal
+import subprocess
+import sys
 import threading
 import time
 import unittest
@@ -62,6 +64,7 @@ class Errors(unittest.TestCase):
         self.refused(r"expected start, stop, step", kds.run, coil(), frames="1:2", error=TypeError)
         self.refused(r"results are attributes", kds.run, coil(), out="folder", error=TypeError)
         self.refused(r"cutoff: is -1", kds.run, coil(), cutoff=-1)
+        self.refused(r"cutoff: is \(4, 6\); expected one length", kds.run, coil(), cutoff=(4, 6))
         self.refused(r"surface: .*expected a cutoff", kds.run, coil(), surface=True)
         self.refused(r"is no input; expected a path", kds.run, 17)
         self.refused(r"step: is 0; expected a number from 1", kds.run, coil(), step=0)
@@ -144,6 +147,20 @@ class Interrupts(unittest.TestCase):
 
         with self.assertRaisesRegex(RuntimeError, "enough"):
             run._core.execute(stop)
+
+
+class Exits(unittest.TestCase):
+    def test_runs_may_outlive_the_interpreter(self):
+        code = """
+import kds, sys
+class Kept:
+    pass
+kept = Kept()
+kept.itself = kept
+kept.run = kds.run(kds.generate("spiral", beads=30, frames=5), radius=1)
+sys.modules["builtins"].kept = kept
+"""
+        self.assertEqual(subprocess.run([sys.executable, "-c", code], check=False).returncode, 0)
 
 
 class Threads(unittest.TestCase):

@@ -83,6 +83,23 @@ class States(unittest.TestCase):
         self.assertEqual(self.run_.summary["fingerprint"], self.run_.fingerprint)
 
 
+class Plots(unittest.TestCase):
+    def test_they_show_the_numbers(self):
+        try:
+            import matplotlib
+        except ImportError as error:
+            self.skipTest(str(error))
+        matplotlib.use("Agg")
+        run = kds.run(coil(), radius=1, cutoff=3, structures=["contacts", "power"])
+        axes = run.plot()
+        drawn = {patch.get_label(): patch.get_data().values for patch in axes.patches}
+        for name in ("contacts", "power"):
+            np.testing.assert_array_equal(drawn[name], np.bincount(getattr(run, name).events["step"], minlength=5))
+        found = run.contacts.analysis(by="bead")
+        np.testing.assert_array_equal(found.plot_map().images[0].get_array(), found.map())
+        self.assertEqual(found.plot().get_xlabel(), "length of a contact (frames)")
+
+
 class StaticStructures(unittest.TestCase):
     def test_against_all_pairs(self):
         points = coil(frames=1, beads=50)[0]
