@@ -4,7 +4,7 @@
 file(READ "${TEXT}" text)
 string(LENGTH "${text}" length)
 set(code "#include \"${HEADER}\"\n\nnamespace kds {\n\nstd::span<const std::string_view> ${FUNCTION}() {\n")
-string(APPEND code "  static constexpr std::string_view pieces[] = {\n")
+string(APPEND code "  static const std::string_view pieces[] = {\n")
 set(begin 0)
 while(begin LESS length)
   set(size 16000)

@@ -1,6 +1,6 @@
 #include "experiments/run/replay_labels.h"
 
-#include <algorithm>
+#include <filesystem>
 #include <string_view>
 
 #include "experiments/output/text.h"

@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <new>
 #include <utility>
@@ -38,13 +39,8 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-FrameBlocks::FrameBlocks(std::size_t beads, int dimension, int degree, std::size_t block_frames,
-                         BlockSink sink)
-    : beads_(beads),
-      dimension_(dimension),
-      degree_(degree),
-      block_frames_(block_frames),
-      sink_(std::move(sink)) {}
+FrameBlocks::FrameBlocks(std::size_t beads, int degree, std::size_t block_frames, BlockSink sink)
+    : beads_(beads), degree_(degree), block_frames_(block_frames), sink_(std::move(sink)) {}
 
 void FrameBlocks::add(Numbers positions, std::span<const Numbers> controls) {
   if (frames_ > 0 && degree_ > 1) add_controls(positions, controls);

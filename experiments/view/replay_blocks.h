@@ -2,8 +2,8 @@
 // The data blocks of a replay page (docs/formats.md): numbers as bytes, compressed and as text that a page
 // can hold.
 
-#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -50,7 +50,7 @@ class FrameBlocks {
   /// Numbers of one frame or control point: all beads on the first axis, then on the next.
   using Numbers = std::vector<std::int32_t>;
 
-  FrameBlocks(std::size_t beads, int dimension, int degree, std::size_t block_frames, BlockSink sink);
+  FrameBlocks(std::size_t beads, int degree, std::size_t block_frames, BlockSink sink);
 
   /// Adds a frame. `controls` are the inner control points of the step that leads to it, one after another;
   /// none for the first frame or for a motion of degree 1.
@@ -64,7 +64,7 @@ class FrameBlocks {
   void pass_on(const char* name, std::size_t frames, BlockBytes& block);
 
   std::size_t beads_;
-  int dimension_, degree_;
+  int degree_;
   std::size_t block_frames_, frames_ = 0, steps_ = 0;
   BlockSink sink_;
   Numbers last_;

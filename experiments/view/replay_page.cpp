@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -129,7 +130,7 @@ void ReplayPage::write_frames() {
   const std::size_t beads = scene_.bead_count(), frames = scene_.frame_count();
   const int degree = scene_.degree(), dimension = scene_.dimension();
   block_frames_ = std::clamp<std::size_t>(beads_of_block / beads, 1, most_frames);
-  FrameBlocks blocks(beads, dimension, degree, block_frames_,
+  FrameBlocks blocks(beads, degree, block_frames_,
                      [this](const std::string& name, std::string_view bytes) { put_block(name, bytes); });
   const auto motion = degree > 1 ? make_scene_motion(scene_) : nullptr;
   BlockBytes numbers, times;

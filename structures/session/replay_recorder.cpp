@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/require_index.h"

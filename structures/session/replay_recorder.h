@@ -85,7 +85,8 @@ class ReplayRecorder final : public EventListener {
                  std::span<const BeadId> ids);
   /// Returns the changes of a structure's layers that lead to its state now.
   [[nodiscard]] std::vector<LayerChange> changes_to_now(std::size_t structure);
-  [[nodiscard]] std::vector<LayerChange> changes_by(std::size_t structure, const std::vector<ReplayEdit>& edits);
+  [[nodiscard]] std::vector<LayerChange> changes_by(std::size_t structure,
+                                                    const std::vector<ReplayEdit>& edits);
   void add_changes(std::size_t structure, const std::vector<LayerChange>& changes);
 
   Session& session_;
