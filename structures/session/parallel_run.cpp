@@ -335,10 +335,10 @@ void ParallelRun::listen(EventListener& listener) {
 void ParallelRun::limit_work(std::uint64_t most) {
   decide();
   own_->limit_work(most);
+  if (!uncut_) uncut_ = "the limit of exact work counts the work of all steps in their order";
+  threads_ = 1;
   if (!joined_) return;
   listeners_ = joined_->simulator().listeners();
-  uncut_ = "the limit of exact work counts the work of all steps in their order";
-  threads_ = 1;
   joined_.reset();
   structures_.clear();
   for (EventListener* const listener : listeners_) own_->listen(*listener);

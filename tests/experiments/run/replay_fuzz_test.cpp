@@ -124,6 +124,21 @@ void mend(Lines& lines) {
   }
 }
 
+/// Returns the lines without brackets and without the hashes of steps, which depend on the brackets.
+Lines without_times(const Lines& lines) {
+  Lines rest;
+  for (const std::string& line : lines) {
+    Lines words = words_of(line);
+    if (line.starts_with("step ") && words.size() == 4) {
+      words.pop_back();
+    } else if (rest.size() >= 2 && !line.starts_with("end ") && words.size() > 5) {
+      words.erase(words.begin() + 3, words.begin() + 5);
+    }
+    rest.push_back(joined(words));
+  }
+  return rest;
+}
+
 TEST(ReplayFuzz, SpoiledLogsAreRefusedOrDiffer) {
   const ScratchDirectory directory;
   std::mt19937 random(2004);
@@ -137,7 +152,7 @@ TEST(ReplayFuzz, SpoiledLogsAreRefusedOrDiffer) {
       for (std::size_t times = 1 + random() % 2; times-- > 0;) spoil(lines, random);
       if (random() % 2 != 0) mend(lines);
       const Outcome outcome = replay(write_log(lines, directory));
-      EXPECT_TRUE(outcome != Outcome::same || lines == right);
+      EXPECT_TRUE(outcome != Outcome::same || without_times(lines) == without_times(right));
       refused += outcome == Outcome::refused ? 1 : 0;
       different += outcome == Outcome::different ? 1 : 0;
     }
@@ -146,50 +161,32 @@ TEST(ReplayFuzz, SpoiledLogsAreRefusedOrDiffer) {
   EXPECT_GT(different, 0U);
 }
 
-// Changed times are detected although each bracket still contains its failure time and every hash is
-// repaired.
-TEST(ReplayFuzz, WiderTimesDiffer) {
+// Brackets depend on how the run was cut, so a log may have any that hold the failure times.
+TEST(ReplayFuzz, TimesMustHoldTheFailureTimes) {
   const ScratchDirectory directory;
   const Lines right = log_of("d3_n20_linear.txt", "wrapped,power", directory);
   Lines all_wide = right;
   for (std::size_t i = 2; i < right.size(); ++i) {
     Lines words = words_of(right[i]);
     if (words.size() < 6) continue;
+    const std::string lower = words[3], upper = words[4];
     words[3] = "0";
     words[4] = "1";
     all_wide[i] = joined(words);
     if (i % 16 != 0) continue;
-    Lines wide = right;
-    wide[i] = all_wide[i];
-    EXPECT_EQ(replay(write_log(wide, directory)), Outcome::refused) << i;
-    mend(wide);
-    EXPECT_EQ(replay(write_log(wide, directory)), Outcome::different) << i;
+    for (const bool before : {false, true}) {
+      words[3] = before ? "0" : upper;
+      words[4] = before ? lower : "1";
+      Lines beside = right;
+      beside[i] = joined(words);
+      EXPECT_EQ(replay(write_log(beside, directory)), Outcome::refused) << i;
+      mend(beside);
+      EXPECT_EQ(replay(write_log(beside, directory)), Outcome::different) << i;
+    }
   }
   EXPECT_EQ(replay(write_log(all_wide, directory)), Outcome::refused);
   mend(all_wide);
-  EXPECT_EQ(replay(write_log(all_wide, directory)), Outcome::different);
-}
-
-// Another version may have found other brackets, but they must contain the failure times.
-TEST(ReplayFuzz, TimesOfAnotherVersionHoldTheFailureTimes) {
-  const ScratchDirectory directory;
-  Lines lines = log_of("d3_n20_linear.txt", "wrapped,power", directory);
-  const std::size_t version = lines[1].find("\"version\":\"");
-  ASSERT_NE(version, std::string::npos);
-  lines[1].insert(version + 11, "0");
-  const std::size_t middle = lines.size() / 2;
-  Lines words = words_of(lines[middle]);
-  ASSERT_GE(words.size(), 6U) << lines[middle];
-  const std::string lower = words[3], upper = words[4];
-  words[3] = words_of(lines[middle - 1])[3];
-  lines[middle] = joined(words);
-  mend(lines);
-  EXPECT_EQ(replay(write_log(lines, directory)), Outcome::same);
-  words[3] = upper;
-  words[4] = "1";
-  lines[middle] = joined(words);
-  mend(lines);
-  EXPECT_EQ(replay(write_log(lines, directory)), Outcome::different);
+  EXPECT_EQ(replay(write_log(all_wide, directory)), Outcome::same);
 }
 
 TEST(ReplayFuzz, LogsOfVersionOneAreRefused) {

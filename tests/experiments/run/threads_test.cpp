@@ -79,7 +79,7 @@ TEST_F(Threads, GiveTheEventsOfOneThread) {
 TEST_F(Threads, GiveTheContactsOfOneThread) {
   std::vector<std::string> tables;
   for (const std::string threads : {"1", "2"}) {
-    const ProgramRun done = run({"contacts", "--radius", "1", "--cutoff", "2.2,2.6", "--gap", "0.5",
+    const ProgramRun done = run({"contacts", "--radius", "1", "--cutoff", "2.2:2.6", "--gap", "0.5",
                                  "--threads", threads, "--out", scratch_ / ("out" + threads), "--quiet"});
     ASSERT_EQ(done.code, 0) << done.err;
     tables.push_back(content_of(scratch_ / ("out" + threads + "/intervals.csv")) +
