@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <unordered_map>
 
 #include "experiments/output/output_files.h"
@@ -245,6 +246,11 @@ Table<SweepCount> count_table() {
   }};
 }
 
+// Leaves out the sum over all commands if there is only one.
+std::span<const SweepCount> without_repeated_sum(const std::vector<SweepCount>& counts) {
+  return std::span(counts).first(counts.size() - (counts.size() == 2 ? 1 : 0));
+}
+
 std::vector<SweepCount> counts_from(const SweepPlan& plan, const TaskStates& states, const fs::path& folder) {
   std::vector<SweepCount> counts;
   const TaskLocks locks(locks_file(folder));
@@ -287,7 +293,7 @@ std::vector<SweepCount> counts_from(const SweepPlan& plan, const TaskStates& sta
 }
 
 // Plots the figures over the first axis with several numbers, one plot for each of the first measures.
-std::string plots_of(const Pool& pool) {
+std::string plots_of(const Pool& pool, const std::string& pooled) {
   constexpr std::size_t most_plots = 4, most_series = 12;
   const auto number_of = [](const std::string& text) -> std::optional<double> {
     char* end = nullptr;
@@ -327,7 +333,7 @@ std::string plots_of(const Pool& pool) {
       if (places.empty() || places.front() == places.back()) continue;
       html += html_figure(svg_plot(plots[name]),
                           html_escaped(fmt::format("{} by {}, means over {}, both axes logarithmic.", name,
-                                                   pool.names()[axis], "the pooled tasks")));
+                                                   pool.names()[axis], pooled)));
     }
   }
   return html;
@@ -348,18 +354,21 @@ std::string sweep_page(const SweepPlan& plan, const CollectedSweep& collected, c
       collected.done == tasks ? " The sweep is complete."
                               : fmt::format(" {} failed, {} crashed, {} are missing.", collected.failed,
                                             collected.crashed, collected.missing));
-  const std::span<const PooledFigure> figures(pool.figures());
-  const auto shown = figures.first(std::min(most_rows, figures.size()));
+  std::vector<PooledFigure> figures = pool.figures();
+  std::erase_if(figures, [](const PooledFigure& figure) {
+    return std::ranges::all_of(figure.values, [](double value) { return value == 0; });
+  });
+  const auto shown = std::span(figures).first(std::min(most_rows, figures.size()));
   std::string pooled = pooled_table(pool.names()).html(shown);
-  if (shown.size() < figures.size())
-    pooled += fmt::format("<p>The first {} of {} means; pooled.csv has all.</p>\n", shown.size(),
-                          with_thousands(figures.size()));
-  page.body = html_section("Plots", plots_of(pool));
+  pooled += fmt::format("<p>{} of {} means; pooled.csv has all.</p>\n", shown.size(),
+                        with_thousands(pool.figures().size()));
+  page.body =
+      html_section("Plots", plots_of(pool, fmt::format("{}", fmt::join(plan.spec().pooled, " and "))));
   if (!failed.empty())
     page.body +=
         html_section("Tasks without a result",
                      failed_table().html(std::span(failed).first(std::min(most_rows, failed.size()))));
-  page.body += html_section("Tasks", count_table().html(counts));
+  page.body += html_section("Tasks", count_table().html(without_repeated_sum(counts)));
   page.body += html_section("Means", pooled);
   page.words =
       html_escaped(fmt::format("Means pool the tasks that differ in {} only. Their 95% intervals are "
@@ -393,8 +402,7 @@ std::vector<SweepCount> count_tasks(const SweepPlan& plan, const fs::path& folde
 }
 
 std::string status_text(const std::vector<SweepCount>& counts) {
-  const bool one = counts.size() == 2;  // one command, which is all
-  return count_table().text(std::span(counts).first(counts.size() - (one ? 1 : 0)));
+  return count_table().text(without_repeated_sum(counts));
 }
 
 std::size_t write_failed(const SweepPlan& plan, const fs::path& folder) {

@@ -259,6 +259,7 @@ def slurm():
         expect(all((folder / name).read_bytes() == expected[name] for name in STABLE),
                "what the dependent job collected differs from that of one process")
         shares = [text for text in (path.read_text() for path in folder.glob("slurm-*_*.out")) if "of the shard" in text]
+        print(f"{sum(text.count('stopped before the end') for text in shares)} batches were requeued")
         expect(len(shares) == 3, f"{len(shares)} batches reported, expected 3")
     finally:
         subprocess.run([cluster, "down", place], check=True, timeout=60)
