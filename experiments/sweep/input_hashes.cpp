@@ -176,7 +176,7 @@ std::optional<FramesFound> InputHashes::frames(std::uint64_t key, const Argument
     ::nanosleep(&pause, nullptr);
   }
   std::optional<FramesFound> found;
-  if (end->signal == 0 && end->code == 0) found = frames_in(parse_json(child.out()));
+  if (end->signal == 0 && end->code == 0) found = frames_in(parse_json(child.output().out()));
   frames_[key] = found;
   changed_ = true;
   return found;

@@ -79,16 +79,20 @@ bool sets_threads(const SweepPlan& plan, const SweepTask& task) {
 
 struct RunningTask {
   const SweepTask* task;
-  TaskProcess process;
+  std::uint64_t id;
+  TaskOutput output;
+  Clock::time_point start = Clock::now();
+  bool killed = false;
 };
 
 class SweepRun {
  public:
-  SweepRun(const SweepPlan& plan, const fs::path& folder, const SweepLimits& limits, StopSignals& signals,
-           const std::function<void(const std::string&)>& warn)
+  SweepRun(const SweepPlan& plan, const fs::path& folder, const SweepLimits& limits, TaskLauncher& launcher,
+           StopSignals& signals, const std::function<void(const std::string&)>& warn)
       : plan_(plan),
         folder_(folder),
         limits_(limits),
+        launcher_(launcher),
         signals_(signals),
         warn_(warn),
         states_(results_folder(folder)),
@@ -102,10 +106,11 @@ class SweepRun {
   void list_open_tasks();
   void claim();
   void start(const SweepTask& task);
-  void settle(RunningTask& ended, const TaskProcess::End& end);
+  void start_later(const RunningTask& unstarted, int error);
+  void settle(const RunningTask& ended, const TaskProcess::End& end);
   void record(RecordKind kind, const SweepTask& task, const std::string& json);
   void fail(const SweepTask& task, int code, const std::string& message, double seconds);
-  void drop(RunningTask& running);
+  void drop(const RunningTask& running);
   [[noreturn]] void refuse_full_disk() const;
   [[nodiscard]] bool must_stop();
   [[nodiscard]] double next_wait() const;
@@ -116,6 +121,7 @@ class SweepRun {
   const SweepPlan& plan_;
   const fs::path& folder_;
   const SweepLimits& limits_;
+  TaskLauncher& launcher_;
   StopSignals& signals_;
   const std::function<void(const std::string&)>& warn_;
   TaskStates states_;
@@ -128,6 +134,8 @@ class SweepRun {
   std::deque<const SweepTask*> elsewhere_;  ///< those of them that another sweep had when we looked
   std::deque<const SweepTask*> claimed_;    ///< with their locks
   std::list<RunningTask> running_;
+  std::uint64_t next_id_ = 0;
+  bool crowded_ = false;  ///< the system has no more processes until a task ends
   std::size_t without_room_ = 0, without_room_in_turn_ = 0;
   double task_seconds_ = 0;  ///< of all attempts that ended
   Clock::time_point looked_elsewhere_ = Clock::now();
@@ -201,26 +209,31 @@ void SweepRun::refuse_full_disk() const {
 
 void SweepRun::start(const SweepTask& task) {
   record(RecordKind::attempt, task, "{}");
-  try {
-    running_.push_back({&task, TaskProcess([&] { return run_arguments(task_arguments(plan_, task)); },
-                                           {limits_.task_memory, !sets_threads(plan_, task)})});
-  } catch (const std::system_error& error) {
-    record(RecordKind::drop, task, "{}");
-    if (running_.empty()) throw OutputError(fmt::format("no task can start: {}", error.what()));
-    claimed_.push_front(&task);  // again once another has ended
-  }
+  running_.push_back({&task, next_id_++, TaskOutput()});
+  const RunningTask& started = running_.back();
+  launcher_.start(started.id, task_arguments(plan_, task), {limits_.task_memory, !sets_threads(plan_, task)},
+                  started.output);
+}
+
+// The system has no more processes: the task starts again once another has ended.
+void SweepRun::start_later(const RunningTask& unstarted, int error) {
+  record(RecordKind::drop, *unstarted.task, "{}");
+  if (running_.size() == 1) throw OutputError(fmt::format("no task can start: {}", std::strerror(error)));
+  claimed_.push_front(unstarted.task);
+  crowded_ = true;
 }
 
 void SweepRun::fail(const SweepTask& task, int code, const std::string& message, double seconds) {
   record(RecordKind::fail, task, failure_json(code, message, seconds));
 }
 
-void SweepRun::settle(RunningTask& ended, const TaskProcess::End& end) {
+void SweepRun::settle(const RunningTask& ended, const TaskProcess::End& end) {
   const SweepTask& task = *ended.task;
   ++outcome_.ran;
+  crowded_ = false;
   task_seconds_ += end.seconds;
   if (end.signal == 0 && end.code == 0) {
-    const std::string out = joined_lines(ended.process.out());
+    const std::string out = joined_lines(ended.output.out());
     if (out.starts_with('{') && out.ends_with('}'))
       record(RecordKind::done, task,
              fmt::format(R"({{"seconds":{},"processor_seconds":{},"result":{}}})", end.seconds,
@@ -228,12 +241,12 @@ void SweepRun::settle(RunningTask& ended, const TaskProcess::End& end) {
     else
       fail(task, 1, "printed no JSON", end.seconds);
   } else if (end.signal == 0) {
-    const std::string message = message_of(ended.process.err());
+    const std::string message = message_of(ended.output.err());
     fail(task, end.code, message.empty() ? fmt::format("exit code {}", end.code) : message, end.seconds);
-  } else if (ended.process.is_killed()) {
+  } else if (ended.killed) {
     fail(task, 1, fmt::format("takes more than {} s (--task-seconds)", short_decimal(*limits_.task_seconds)),
          end.seconds);
-  } else if (limits_.task_memory && ended.process.err().find("annot allocate memory") != std::string::npos) {
+  } else if (limits_.task_memory && ended.output.err().find("annot allocate memory") != std::string::npos) {
     fail(task, 1, "out of memory (--task-memory)", end.seconds);  // GMP aborts
   } else {
     record(RecordKind::died, task, fmt::format(R"({{"error":"ended by {}"}})", signal_text(end.signal)));
@@ -243,10 +256,9 @@ void SweepRun::settle(RunningTask& ended, const TaskProcess::End& end) {
 }
 
 // A dropped attempt does not count. But if it had most of a long run for itself, another would end likewise.
-void SweepRun::drop(RunningTask& running) {
-  const double seconds = seconds_since(running.process.start());
-  running.process.kill();
-  static_cast<void>(running.process.wait());
+void SweepRun::drop(const RunningTask& running) {
+  const double seconds = seconds_since(running.start);
+  launcher_.kill(running.id);
   const bool counts = seconds >= kLongAttempt && seconds >= 0.5 * seconds_since(limits_.begin);
   if (counts)
     record(
@@ -272,7 +284,7 @@ double SweepRun::next_wait() const {
   else if (limits_.budget)
     until(*limits_.budget - 1.1 * grace_ - seconds_since(limits_.begin));
   for (const RunningTask& running : running_)
-    if (limits_.task_seconds) until(*limits_.task_seconds - seconds_since(running.process.start()));
+    if (limits_.task_seconds) until(*limits_.task_seconds - seconds_since(running.start));
   return seconds;
 }
 
@@ -281,32 +293,35 @@ SweepOutcome SweepRun::run(const std::function<void(std::size_t, std::size_t)>& 
   std::size_t settled = shard_.size() - unclaimed_.size();
   while (true) {
     const bool stopping = must_stop();
-    while (!stopping && running_.size() < limits_.jobs) {
+    while (!stopping && !crowded_ && running_.size() < limits_.jobs) {
       if (claimed_.empty()) claim();
       if (claimed_.empty()) break;
       const SweepTask* const next = claimed_.front();
       claimed_.pop_front();
-      const std::size_t before = running_.size();
       start(*next);
-      if (running_.size() == before) break;
     }
     if (running_.empty() && (stopping || (claimed_.empty() && unclaimed_.empty() && elsewhere_.empty())))
       break;
     if (!running_.empty() || !elsewhere_.empty()) signals_.wait(next_wait());
-    for (auto running = running_.begin(); running != running_.end();) {
-      if (limits_.task_seconds && seconds_since(running->process.start()) > *limits_.task_seconds)
-        running->process.kill();
-      const auto end = running->process.ended();
-      if (!end) {
-        ++running;
+    for (RunningTask& running : running_) {
+      if (running.killed || !limits_.task_seconds || seconds_since(running.start) <= *limits_.task_seconds)
         continue;
+      launcher_.kill(running.id);
+      running.killed = true;
+    }
+    for (const TaskLauncher::Ended& ended : launcher_.ended()) {
+      const auto running = std::ranges::find(running_, ended.id, &RunningTask::id);
+      if (running == running_.end()) continue;
+      if (ended.error != 0) {
+        start_later(*running, ended.error);
+      } else {
+        settle(*running, ended.end);
+        progress(std::min(++settled, shard_.size()), shard_.size());
       }
-      settle(*running, *end);
-      running = running_.erase(running);
-      progress(std::min(++settled, shard_.size()), shard_.size());
+      running_.erase(running);
     }
     if (stop_ && seconds_since(*stop_) > grace_) {
-      for (RunningTask& running : running_) drop(running);
+      for (const RunningTask& running : running_) drop(running);
       running_.clear();
     }
     journal_.sync_now_and_then();
@@ -361,16 +376,17 @@ TrialRun try_task(const SweepPlan& plan, const SweepTask& task, double most_seco
   }
   run.seconds = end->seconds;
   if (!run.cut_off && (end->signal != 0 || end->code != 0)) {
-    run.error = message_of(process.err());
+    run.error = message_of(process.output().err());
     if (run.error.empty()) run.error = end->signal != 0 ? "ended by " + signal_text(end->signal) : "failed";
   }
   return run;
 }
 
 SweepOutcome run_sweep(const SweepPlan& plan, const fs::path& folder, const SweepLimits& limits,
-                       StopSignals& signals, const std::function<void(std::size_t, std::size_t)>& progress,
+                       TaskLauncher& launcher, StopSignals& signals,
+                       const std::function<void(std::size_t, std::size_t)>& progress,
                        const std::function<void(const std::string&)>& warn) {
-  return SweepRun(plan, folder, limits, signals, warn).run(progress);
+  return SweepRun(plan, folder, limits, launcher, signals, warn).run(progress);
 }
 
 }  // namespace kds

@@ -11,6 +11,7 @@
 
 #include "experiments/sweep/sweep_plan.h"
 #include "experiments/sweep/task_journal.h"
+#include "experiments/sweep/task_launcher.h"
 #include "experiments/sweep/task_process.h"
 
 namespace kds {
@@ -63,7 +64,7 @@ struct TrialRun {
 /// signal or at the end of the budget, running tasks get a few seconds to end, then they are dropped. Throws
 /// OutputError if the journal cannot be written. A result that finds no room leaves its task open.
 SweepOutcome run_sweep(const SweepPlan& plan, const std::filesystem::path& folder, const SweepLimits& limits,
-                       StopSignals& signals,
+                       TaskLauncher& launcher, StopSignals& signals,
                        const std::function<void(std::size_t done, std::size_t total)>& progress,
                        const std::function<void(const std::string&)>& warn);
 

@@ -367,7 +367,7 @@ int look_at(const std::string& what, const fs::path& folder) {
 }
 
 int run_shard(const SweepPlan& plan, const SweepOptions& options, TaskProcess::Clock::time_point begin,
-              StopSignals& signals) {
+              TaskLauncher& launcher, StopSignals& signals) {
   const fs::path& folder = *options.out;
   SweepLimits limits;
   limits.begin = begin;
@@ -379,7 +379,8 @@ int run_shard(const SweepPlan& plan, const SweepOptions& options, TaskProcess::C
   limits.retry = options.retry;
   ProgressBar bar(!options.quiet, "task");
   const SweepOutcome outcome = run_sweep(
-      plan, folder, limits, signals, [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },
+      plan, folder, limits, launcher, signals,
+      [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },
       [&bar](const std::string& warning) { print_warning(bar, warning); });
   bar.erase();
   const bool whole = limits.shard.count == 1;
@@ -424,6 +425,9 @@ int sweep_command(const Arguments& arguments) {
   if (!options.out && !options.dry_run)
     throw InputError("kds sweep needs -o DIR, the folder of the results, or --dry-run");
 
+  const bool runs = !options.dry_run && !options.write;
+  std::optional<TaskLauncher> launcher;
+  if (runs) launcher.emplace();  // before the plan takes memory
   const fs::path file = operands[0];
   const Json sweep = read_json(text_of_file(file), file.string());
   const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
@@ -435,7 +439,7 @@ int sweep_command(const Arguments& arguments) {
     if (options.out) hashes.load(*options.out);
     const SweepPlan plan(std::move(spec), hashes, file.string());
     if (options.out && !options.dry_run) hashes.save(*options.out);
-    if (!options.dry_run && !options.write) return run_shard(plan, options, begin, signals);
+    if (runs) return run_shard(plan, options, begin, *launcher, signals);
     const std::vector<Estimate> estimates = estimates_of(plan, hashes, options, signals);
     print_to_stdout(estimates_text(plan, estimates, jobs_of(options)));
     if (options.write && !options.dry_run) write_script(file, options, estimates);

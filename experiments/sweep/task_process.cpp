@@ -59,8 +59,9 @@ std::optional<oneapi::tbb::global_control>& one_thread() {
 [[noreturn]] void run_child(const std::function<int()>& work, const TaskLimits& limits, pid_t parent, int out,
                             int err) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);                            // the parent ended before the line above
-  for (const int signal : kStopSignals) ::signal(signal, SIG_IGN);  // the parent ends its children itself
+  if (::getppid() != parent) ::_exit(1);  // the parent ended before the line above
+  ignore_stop_signals();                  // the parent ends its children itself
+  ::signal(SIGCHLD, SIG_DFL);
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -81,39 +82,57 @@ double seconds_in(const timeval& time) {
 
 }  // namespace
 
-TaskProcess::TaskProcess(const std::function<int()>& work, const TaskLimits& limits)
-    : out_(memory_file()), err_(memory_file()) {
-  static_cast<void>(one_thread());
-  std::fflush(nullptr);
-  const pid_t parent = ::getpid();
-  child_ = ::fork();
-  if (child_ == 0) run_child(work, limits, parent, out_, err_);
-  if (child_ > 0) return;
-  const int error = errno;
-  ::close(out_);
-  ::close(err_);
-  throw std::system_error(error, std::generic_category(), "a process for a task");
+TaskOutput::TaskOutput() : out_(memory_file()) {
+  try {
+    err_ = memory_file();
+  } catch (const std::system_error&) {
+    ::close(out_);
+    throw;
+  }
 }
 
-TaskProcess::TaskProcess(TaskProcess&& other) noexcept
-    : child_(std::exchange(other.child_, -1)),
-      out_(std::exchange(other.out_, -1)),
-      err_(std::exchange(other.err_, -1)),
-      killed_(other.killed_),
-      start_(other.start_) {}
-
-TaskProcess::~TaskProcess() {
-  if (child_ > 0) {
-    kill();
-    static_cast<void>(wait());
-  }
+TaskOutput::~TaskOutput() {
   if (out_ >= 0) ::close(out_);
   if (err_ >= 0) ::close(err_);
 }
 
+TaskOutput::TaskOutput(TaskOutput&& other) noexcept
+    : out_(std::exchange(other.out_, -1)), err_(std::exchange(other.err_, -1)) {}
+
+TaskOutput& TaskOutput::operator=(TaskOutput&& other) noexcept {
+  std::swap(out_, other.out_);
+  std::swap(err_, other.err_);
+  return *this;
+}
+
+std::string TaskOutput::out() const { return content(out_); }
+std::string TaskOutput::err() const { return content(err_); }
+
+void ignore_stop_signals() {
+  for (const int signal : kStopSignals) ::signal(signal, SIG_IGN);
+}
+
+TaskProcess::TaskProcess(const std::function<int()>& work, const TaskLimits& limits, TaskOutput output)
+    : output_(std::move(output)) {
+  static_cast<void>(one_thread());
+  std::fflush(nullptr);
+  const pid_t parent = ::getpid();
+  child_ = ::fork();
+  if (child_ == 0) run_child(work, limits, parent, output_.out_file(), output_.err_file());
+  if (child_ < 0) throw std::system_error(errno, std::generic_category(), "a process for a task");
+}
+
+TaskProcess::TaskProcess(TaskProcess&& other) noexcept
+    : child_(std::exchange(other.child_, -1)), output_(std::move(other.output_)), start_(other.start_) {}
+
+TaskProcess::~TaskProcess() {
+  if (child_ <= 0) return;
+  kill();
+  static_cast<void>(wait());
+}
+
 void TaskProcess::kill() {
   if (child_ > 0) ::kill(child_, SIGKILL);
-  killed_ = true;
 }
 
 std::optional<TaskProcess::End> TaskProcess::collect(int options) {
@@ -134,9 +153,6 @@ std::optional<TaskProcess::End> TaskProcess::collect(int options) {
 
 std::optional<TaskProcess::End> TaskProcess::ended() { return collect(WNOHANG); }
 TaskProcess::End TaskProcess::wait() { return *collect(0); }
-
-std::string TaskProcess::out() const { return content(out_); }
-std::string TaskProcess::err() const { return content(err_); }
 
 StopSignals::StopSignals() {
   ::sigemptyset(&held_);

@@ -19,7 +19,31 @@ struct TaskLimits {
   bool one_thread = true;                    ///< for work that does not say its number of threads itself
 };
 
-/// A child process with its output, which waits in memory.
+/// The output of a child, which waits in memory.
+class TaskOutput {
+ public:
+  /// Makes two files in memory. Throws std::system_error.
+  TaskOutput();
+  /// Takes two open descriptors.
+  TaskOutput(int out, int err) : out_(out), err_(err) {}
+  ~TaskOutput();
+  TaskOutput(TaskOutput&& other) noexcept;
+  TaskOutput& operator=(TaskOutput&& other) noexcept;
+
+  [[nodiscard]] int out_file() const { return out_; }
+  [[nodiscard]] int err_file() const { return err_; }
+  /// Returns what the child wrote on standard output, or on standard error.
+  [[nodiscard]] std::string out() const;
+  [[nodiscard]] std::string err() const;
+
+ private:
+  int out_ = -1, err_ = -1;
+};
+
+/// Makes this process ignore the signals that ask a program to end.
+void ignore_stop_signals();
+
+/// A child process.
 class TaskProcess {
  public:
   using Clock = std::chrono::steady_clock;
@@ -33,29 +57,25 @@ class TaskProcess {
   /// Starts `work`, whose result is the exit code. The child ignores signals that ask a program to end, and
   /// dies with this process. No thread of oneTBB may have started before. Throws std::system_error if the
   /// system has no more processes.
-  TaskProcess(const std::function<int()>& work, const TaskLimits& limits);
+  TaskProcess(const std::function<int()>& work, const TaskLimits& limits, TaskOutput output = {});
   ~TaskProcess();
   TaskProcess(TaskProcess&& other) noexcept;
   TaskProcess& operator=(TaskProcess&&) = delete;
 
   [[nodiscard]] Clock::time_point start() const { return start_; }
-  [[nodiscard]] bool is_killed() const { return killed_; }
   void kill();
   /// Returns how the child ended, or nothing while it runs.
   [[nodiscard]] std::optional<End> ended();
   /// Waits for the end.
   [[nodiscard]] End wait();
 
-  /// Returns what the child wrote on standard output, or on standard error.
-  [[nodiscard]] std::string out() const;
-  [[nodiscard]] std::string err() const;
+  [[nodiscard]] const TaskOutput& output() const { return output_; }
 
  private:
   [[nodiscard]] std::optional<End> collect(int options);
 
   pid_t child_ = -1;  ///< -1 once it has ended
-  int out_ = -1, err_ = -1;
-  bool killed_ = false;
+  TaskOutput output_;
   Clock::time_point start_ = Clock::now();
 };
 

@@ -145,6 +145,18 @@ def signals():
     expect(time.time() - begin < 5, f"the time budget of 4 s was exceeded: {time.time() - begin:.1f} s")
 
 
+def children_of(process):
+    try:
+        return pathlib.Path(f"/proc/{process}/task/{process}/children").read_text().split()
+    except OSError:
+        return []
+
+
+def tasks_of(sweep):
+    """Returns the processes of the tasks that a sweep is running: children of its launcher."""
+    return [task for launcher in children_of(sweep) for task in children_of(launcher)]
+
+
 def faults():
     sweep = write_sweep(more=[{"command": "compare", "inputs": ["chain1.xyz"], "options": {"rounds": 1000}},
                               {"command": "run", "inputs": ["none.xyz"]}])
@@ -155,7 +167,7 @@ def faults():
     worker = start(sweep, "-o", folder, "--jobs", 2)
     since, shot, begin = {}, 0, time.time()
     while worker.poll() is None and time.time() - begin < DEADLINE:
-        for child in pathlib.Path(f"/proc/{worker.pid}/task/{worker.pid}/children").read_text().split():
+        for child in tasks_of(worker.pid):
             if time.time() - since.setdefault(child, time.time()) > 2.5:
                 os.kill(int(child), signal.SIGSEGV)
                 since[child] = time.time() + DEADLINE
@@ -209,8 +221,8 @@ def twice():
     expect_equal(folder, expected)
 
 
-def write_script(engine):
-    sweep = write_sweep()
+def write_script(engine, radii=(1, 1.5)):
+    sweep = write_sweep(radii=radii)
     expected = reference(sweep)
     folder = FOLDER / engine
     run = kds("sweep", sweep, "-o", folder, "--write", engine)
@@ -237,13 +249,13 @@ def slurm():
     if any(shutil.which(tool) is None and not pathlib.Path("/usr/sbin", tool).exists()
            for tool in ("slurmctld", "slurmd", "sbatch", "munged")) or os.geteuid() != 0:
         sys.exit(77)
-    folder, expected, command = write_script("slurm")
+    budget = os.environ.get("KDS_SWEEP_BUDGET")
+    folder, expected, command = write_script("slurm", [1 + k / 10 for k in range(12 if budget else 2)])
     # Three batches, since short tasks need one only.
     script = folder / "slurm.sh"
     script.write_text(script.read_text().replace("--array=1-1 ", "--array=1-3 ").replace("ID/1\"", "ID/3\""))
-    if "KDS_SWEEP_BUDGET" in os.environ:  # seconds after which batches stop and are requeued
-        script.write_text(re.sub("--time-budget .*", "--time-budget " + os.environ["KDS_SWEEP_BUDGET"],
-                                 script.read_text()))
+    if budget:  # seconds after which batches stop and are requeued
+        script.write_text(re.sub("--time-budget .*", "--time-budget " + budget, script.read_text()))
     cluster = pathlib.Path(__file__).parent / "local_slurm.sh"
     place = FOLDER / "cluster"
     environment = dict(os.environ, SLURM_CONF=str(place / "slurm.conf"))

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "experiments/sweep/run_sweep.h"
+#include "experiments/sweep/task_launcher.h"
 #include "experiments/sweep/task_process.h"
 #include "tests/experiments/scratch_directory.h"
 
@@ -135,7 +136,7 @@ TEST(TaskProcess, ReportsHowWorkEnds) {
   const auto run = [](const std::function<int()>& work, const TaskLimits& limits = {}) {
     TaskProcess process(work, limits);
     const TaskProcess::End end = process.wait();
-    return std::tuple(end.code, end.signal, process.out(), process.err());
+    return std::tuple(end.code, end.signal, process.output().out(), process.output().err());
   };
   EXPECT_EQ(run([] { return std::fputs("out", stdout), std::fputs("err", stderr), 7; }),
             std::tuple(7, 0, "out", "err"));
@@ -153,6 +154,26 @@ TEST(TaskProcess, ReportsHowWorkEnds) {
   };
   EXPECT_EQ(std::get<0>(run(fill, {.memory = std::uint64_t{200} << 20U})), 4);
 #endif
+}
+
+TEST(TaskLauncher, StartsAndEndsTasks) {
+  StopSignals signals;
+  TaskLauncher launcher;
+  const TaskOutput missing, endless;
+  launcher.start(1, {"info", "missing.pdb"}, {}, missing);
+  launcher.start(2, {"stability", "--cases", "1000000", "--quiet"}, {}, endless);
+  std::vector<TaskLauncher::Ended> ended;
+  for (int waits = 0; waits < 600 && ended.size() < 2; ++waits) {
+    signals.wait(0.1);
+    for (const TaskLauncher::Ended& one : launcher.ended()) {
+      ended.push_back(one);
+      launcher.kill(2);
+    }
+  }
+  ASSERT_EQ(ended.size(), 2U);
+  EXPECT_EQ(std::tuple(ended[0].id, ended[0].end.code, ended[0].end.signal), std::tuple(1U, 2, 0));
+  EXPECT_EQ(missing.err(), "kds: missing.pdb: no such file\n");
+  EXPECT_EQ(std::tuple(ended[1].id, ended[1].end.signal), std::tuple(2U, SIGKILL));
 }
 
 }  // namespace
