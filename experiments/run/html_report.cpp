@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
+#include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "certificates/base/kernel.h"
@@ -437,37 +439,46 @@ std::string plots_by_kind(const RunReport& report) {
   return html;
 }
 
-// Returns the parts of a bead's name, or nothing if the input has no names.
-std::optional<BeadName> parts_of(const RunReport& report, std::size_t bead) {
-  return bead < report.bead_names.size() ? bead_name_of(report.bead_names[bead]) : std::nullopt;
-}
+// Short names for maps: atom and residue of a bead, and the residues of a block of neighbouring beads. The
+// names have numbers of beads if two beads share a short name, or if a bead has none.
+class ShortNames {
+ public:
+  explicit ShortNames(const RunReport& report) : report_(report) {
+    std::vector<BeadName> names;
+    for (const std::string& text : report.bead_names)
+      if (auto name = bead_name_of(text)) names.push_back(*std::move(name));
+    const bool several =
+        std::ranges::any_of(names, [&](const BeadName& name) { return name.chain != names.front().chain; });
+    std::set<std::string> distinct;
+    for (const BeadName& name : names) {
+      residues_.push_back(residue_text(name, several));
+      distinct.insert(name.atom + " of " + residues_.back());
+      atoms_.push_back(name.atom);
+    }
+    are_distinct_ = distinct.size() == report.beads;
+  }
 
-// Returns "LEU 69", with the chain if the input has several.
-std::string residue_of(const RunReport& report, const BeadName& bead) {
-  const auto first = parts_of(report, 0), last = parts_of(report, report.beads - 1);
-  const bool one_chain = first && last && first->chain == last->chain;
-  return fmt::format("{} {}{}", bead.residue, bead.number, one_chain ? "" : " in chain " + bead.chain);
-}
+  [[nodiscard]] std::string bead(std::size_t k) const {
+    return are_distinct_ ? atoms_[k] + " of " + residues_[k] : name_of(report_, k);
+  }
+  [[nodiscard]] std::string block(std::size_t first, std::size_t last) const {
+    if (first == last) return bead(first);
+    if (!are_distinct_) return fmt::format("beads {} to {}", first, last);
+    return residues_[first] == residues_[last] ? residues_[first]
+                                               : residues_[first] + " to " + residues_[last];
+  }
 
-// Names a bead by its atom and residue, or by its number if the input has no names.
-std::string short_name_of(const RunReport& report, std::size_t bead) {
-  const auto parts = parts_of(report, bead);
-  return parts ? parts->atom + " of " + residue_of(report, *parts) : name_of(report, bead);
-}
-
-// Names a block of neighbouring beads by its residues, or by numbers of beads if the input has no names.
-std::string block_text(const RunReport& report, std::size_t first, std::size_t last) {
-  const auto from = parts_of(report, first), to = parts_of(report, last);
-  if (first == last) return short_name_of(report, first);
-  if (!from || !to) return fmt::format("beads {} to {}", first, last);
-  const std::string one = residue_of(report, *from), other = residue_of(report, *to);
-  return one == other ? one : one + " to " + other;
-}
+ private:
+  const RunReport& report_;
+  std::vector<std::string> atoms_, residues_;  // by bead
+  bool are_distinct_ = false;
+};
 
 std::string contact_map_of(const RunReport& report) {
   if (report.contact_pairs.empty()) return "";
+  const ShortNames short_names(report);
   std::vector<std::string> names;
-  for (std::size_t bead = 0; bead < report.beads; ++bead) names.push_back(short_name_of(report, bead));
+  for (std::size_t bead = 0; bead < report.beads; ++bead) names.push_back(short_names.bead(bead));
   return html_figure(
       contact_map("bead", names, report.contact_pairs, 150),
       "Occupancy of each pair of beads: the share of the time from the first to the last frame, "
@@ -475,6 +486,7 @@ std::string contact_map_of(const RunReport& report) {
 }
 
 std::string maps_over_time(const RunReport& report) {
+  const ShortNames names(report);
   std::string html;
   for (const StructureReport& structure : report.structures) {
     const EventGrid& grid = structure.places.grid;
@@ -492,7 +504,7 @@ std::string maps_over_time(const RunReport& report) {
     for (const auto& bin : grid.counts) plot.values.emplace_back(bin.begin(), bin.end());
     plot.text = [&](std::size_t bin, std::size_t block) {
       const std::size_t first = first_of(block), last = first_of(block + 1) - 1;
-      return fmt::format("{}\nframes {} to {}", block_text(report, first, last), grid.edges[bin].number,
+      return fmt::format("{}\nframes {} to {}", names.block(first, last), grid.edges[bin].number,
                          grid.edges[bin + 1].number);
     };
     html += html_figure(

@@ -15,6 +15,12 @@ std::string text_of(const BeadName& name) {
                      name.chain.empty() ? no_chain : name.chain);
 }
 
+std::string residue_text(const BeadName& name, bool with_chain) {
+  std::string text = fmt::format("{} {}", name.residue, name.number);
+  if (with_chain && !name.chain.empty()) text += fmt::format("{}{}", in_chain, name.chain);
+  return text;
+}
+
 std::optional<BeadName> bead_name_of(std::string_view text) {
   const std::size_t residue = text.find(of);
   const std::size_t chain = text.rfind(in_chain);

@@ -17,6 +17,8 @@ struct BeadName {
 
 /// Returns the name as text: "CA of ALA 12 in chain A". A chain without a name is ' '.
 [[nodiscard]] std::string text_of(const BeadName& name);
+/// Returns the residue as text: "ALA 12", and "ALA 12 in chain A" if `with_chain` and the chain has a name.
+[[nodiscard]] std::string residue_text(const BeadName& name, bool with_chain);
 /// Parses such a text. Returns nothing if the text is not a bead name; an empty text is not.
 [[nodiscard]] std::optional<BeadName> bead_name_of(std::string_view text);
 

@@ -12,12 +12,6 @@ namespace kds {
 
 namespace {
 
-std::string name_of_residue(const BeadName& bead, bool with_chain) {
-  std::string name = fmt::format("{} {}", bead.residue, bead.number);
-  if (with_chain && !bead.chain.empty()) name += " in chain " + bead.chain;
-  return name;
-}
-
 /// Returns the chain's name in the file, or the number of the necklace if the file has no name or uses it
 /// twice.
 std::vector<std::string> names_of_chains(const Scene& scene) {
@@ -57,7 +51,7 @@ ContactElements elements_of(const Scene& scene, ContactElement kind) {
       if (is_new) {
         elements.chains.push_back(static_cast<std::uint32_t>(k));
         elements.names.push_back(kind == ContactElement::chain     ? chains[k]
-                                 : kind == ContactElement::residue ? name_of_residue(*name, several)
+                                 : kind == ContactElement::residue ? residue_text(*name, several)
                                  : text.empty()                    ? fmt::format("bead {}", bead)
                                                                    : text);
       }

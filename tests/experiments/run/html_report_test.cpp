@@ -99,6 +99,16 @@ TEST(HtmlReport, MapsOfEventsAndContacts) {
         "N of ALA 59 and C of ALA 59\noccupancy: 0.5", "CA of ALA 59 and C of ALA 59\noccupancy: 0"})
     EXPECT_EQ(count_of(html, "<title>" + text + "</title>"), 1U) << text;
   EXPECT_THAT(html, Not(HasSubstr("frames 10 to 11\nevents: 0")));
+
+  // Two files may use one chain name.
+  report.bead_names.back() = report.bead_names.front();
+  const std::string numbered = html_report(report);
+  for (const std::string text :
+       {"beads 0 to 1\nframes 10 to 11\nevents: 2",
+        "bead 0, N of ALA 59 in chain A and bead 2, N of ALA 59 in chain A\noccupancy: 0.5"})
+    EXPECT_EQ(count_of(numbered, "<title>" + text + "</title>"), 1U) << text;
+  report.bead_names.back() = "N of ALA 59 in chain B";
+  EXPECT_THAT(html_report(report), HasSubstr("N of ALA 59 in chain A and N of ALA 59 in chain B\n"));
 }
 
 TEST(HtmlReport, TablesFillThePage) {

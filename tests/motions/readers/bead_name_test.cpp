@@ -16,6 +16,9 @@ TEST(BeadName, GoesToTextAndBack) {
   }
   EXPECT_EQ(text_of({"CA", "ALA", "12", "A"}), "CA of ALA 12 in chain A");
   EXPECT_EQ(text_of({"CA", "ALA", "12", ""}), "CA of ALA 12 in chain ' '");
+  EXPECT_EQ(residue_text({"CA", "ALA", "12", "A"}, true), "ALA 12 in chain A");
+  EXPECT_EQ(residue_text({"CA", "ALA", "12", "A"}, false), "ALA 12");
+  EXPECT_EQ(residue_text({"CA", "ALA", "12", ""}, true), "ALA 12");
 }
 
 TEST(BeadName, OtherTextsAreNone) {
