@@ -413,7 +413,8 @@ const OptionList<TheoremsAsked>& theorems_options() {
 std::vector<Theorem> theorems_of(const std::vector<std::string>& operands) {
   std::vector<Theorem> theorems;
   for (const std::string& name : operands) {
-    if (name.find('/') != std::string::npos || std::filesystem::exists(name))
+    const bool is_theorem = std::ranges::find(theorem_names, name) != theorem_names.end();
+    if (!is_theorem && (name.find('/') != std::string::npos || std::filesystem::exists(name)))
       throw InputError(fmt::format(
           "THEOREM: '{}' is a path; kds theorems measures models, kds scale FILE... measures files", name));
     const auto theorem = choice_of<Theorem>("THEOREM", name, theorem_names);

@@ -304,5 +304,12 @@ TEST(Theorems, RefusesWhatIsNoTheorem) {
               HasSubstr("--rounds applies only to paths, 3.2, 3.3 and 3.5, which measure time"));
 }
 
+TEST(Theorems, AFileMayHaveTheNameOfATheorem) {
+  const ScratchDirectory scratch;
+  static_cast<void>(scratch.file("2.3", ""));
+  const ProgramRun run = run_shell("cd \"$1\" && \"$0\" theorems 2.3 --beads 64 --quiet", {scratch / ""});
+  EXPECT_EQ(run.code, 0) << run.err;
+}
+
 }  // namespace
 }  // namespace kds::test::theorems_test
