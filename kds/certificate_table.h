@@ -93,7 +93,7 @@ class CertificateTable final : public FailureSource {
         owner_(owner),
         structure_(structure),
         number_(number),
-        among_tables_(structure, number),
+        table_in_run_(structure, number),
         search_(search_over<Certificate>(motion)),
         touches_(touches),
         most_in_step_(most_in_step(motion.bead_count())) {
@@ -231,11 +231,11 @@ class CertificateTable final : public FailureSource {
   /// constants, the table, because other constants give another function of the same beads.
   [[nodiscard]] Identity identity(const Certificate& certificate) const {
     Identity identity = certificate.identity();
-    if constexpr (HasConstants<Certificate>) identity.beads.back() = among_tables_.value();
+    if constexpr (HasConstants<Certificate>) identity.beads.back() = table_in_run_.value();
     return identity;
   }
   [[nodiscard]] TiePlace place(std::uint32_t slot) const override {
-    return {among_tables_.value(), owner_.tie_of(number_, slots_[slot].place)};
+    return {table_in_run_.value(), owner_.tie_of(number_, slots_[slot].place)};
   }
   [[nodiscard]] std::size_t structure() const override { return structure_; }
 
@@ -371,7 +371,7 @@ class CertificateTable final : public FailureSource {
   KineticStructure& owner_;
   std::size_t structure_;
   unsigned number_;
-  NumberOfTable among_tables_;
+  NumberOfTable table_in_run_;
   std::unique_ptr<CertificateSearch<Certificate>> search_;
   TouchPolicy touches_;
   std::uint64_t most_in_step_;  // limit of certificates in a step with `fast`

@@ -141,10 +141,8 @@ std::vector<Change> Contacts<D>::built() const {
 
 template <int D>
 std::vector<BeadId> Contacts<D>::state() const {
-  std::vector<BeadPair> sorted = pairs();
-  std::sort(sorted.begin(), sorted.end());
   std::vector<BeadId> state;
-  for (const BeadPair& pair : sorted) state.insert(state.end(), {pair.first, pair.second});
+  for (const BeadPair& pair : pairs()) state.insert(state.end(), {pair.first, pair.second});
   return state;
 }
 

@@ -157,7 +157,7 @@ std::string in_page_colours(std::string_view line) {
 }
 
 // Returns the number with `digits` decimals and without zeros at its end.
-std::string tenths(double value, int digits = 1) {
+std::string decimal_text(double value, int digits = 1) {
   std::string text = fmt::format("{:.{}f}", value, digits);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
@@ -168,9 +168,9 @@ std::string tenths(double value, int digits = 1) {
 // A path of straight lines as it is written: M x y, L x y, or H x and V y if one coordinate stays.
 class PathText {
  public:
-  void move(double x, double y) { put('M', tenths(x), tenths(y)); }
+  void move(double x, double y) { put('M', decimal_text(x), decimal_text(y)); }
   void line(double x, double y) {
-    const std::string to_x = tenths(x), to_y = tenths(y);
+    const std::string to_x = decimal_text(x), to_y = decimal_text(y);
     if (to_x == x_ && to_y == y_) return;
     if (to_y == y_) {
       text_ += 'H' + (x_ = to_x);
@@ -245,8 +245,9 @@ class Rewriter {
       const auto& [at, text] = strips_[k];
       const double from = k == 0 ? size.left : (strips_[k - 1].first + at) / 2;
       const double to = k + 1 == strips_.size() ? size.width - size.right : (at + strips_[k + 1].first) / 2;
-      emit(fmt::format("<path class=\"hot\" d=\"M{} {}H{}V{}H{}Z\">", tenths(from), tenths(size.top),
-                       tenths(to), tenths(size.height - size.bottom), tenths(from)) +
+      emit(fmt::format("<path class=\"hot\" d=\"M{} {}H{}V{}H{}Z\">", decimal_text(from),
+                       decimal_text(size.top), decimal_text(to), decimal_text(size.height - size.bottom),
+                       decimal_text(from)) +
            title(texts_[text]) + "</path>");
     }
     if (placed_ != texts_.size()) fail(fmt::format("expected {} texts, found {}", texts_.size(), placed_));
@@ -304,7 +305,7 @@ class Rewriter {
   // Return the start of a group, without what the page's style says.
   static std::string group(std::string_view line) {
     const auto width = number_after<double>(line, "stroke-width=\"");
-    return width == 1 ? "<g>" : fmt::format("<g stroke-width=\"{}\">", tenths(width));
+    return width == 1 ? "<g>" : fmt::format("<g stroke-width=\"{}\">", decimal_text(width));
   }
   static std::string group_of_text(std::string_view line) {
     const std::size_t style = line.find(" stroke="), anchor = line.find(" text-anchor=");
@@ -336,7 +337,7 @@ class Rewriter {
     const std::string opacity =
         line.find(before_opacity) == std::string_view::npos
             ? ""
-            : fmt::format(" opacity=\"{}\"", tenths(number_after<double>(line, before_opacity), 2));
+            : fmt::format(" opacity=\"{}\"", decimal_text(number_after<double>(line, before_opacity), 2));
     if (!std::exchange(in_squares_, true)) emit("<g class=\"squares\">");
     if (texts_.empty()) {
       joined_[opacity] += path;

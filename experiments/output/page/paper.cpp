@@ -190,10 +190,10 @@ std::string caption_for_paper(std::string_view html) { return copy_of(of_caption
 
 namespace {
 
-// Takes the copies out of a page. `link` receives the kind and the content of each copy and returns what
-// stands in its place.
+// Takes the copies out of a page. `replacement` receives the kind and the content of each copy, and returns
+// the text that stands in its place.
 std::string take_copies(std::string_view rest,
-                        const std::function<std::string(char, std::string_view)>& link) {
+                        const std::function<std::string(char, std::string_view)>& replacement) {
   std::string html;
   while (!rest.empty()) {
     const std::size_t start = std::min(rest.find(kStart), rest.size());
@@ -202,7 +202,7 @@ std::string take_copies(std::string_view rest,
     if (rest.empty()) break;
     const std::size_t end = rest.find(kEnd);
     if (end == std::string_view::npos || end < 2) throw std::logic_error("a copy on a page does not end");
-    html += link(rest[1], rest.substr(2, end - 2));
+    html += replacement(rest[1], rest.substr(2, end - 2));
     rest.remove_prefix(end + 1);
   }
   return html;
