@@ -155,10 +155,12 @@ std::string along_chain(const Comparison& comparison, const std::vector<const Co
   if (plot.rows.empty()) return "";
   std::string files;
   for (const ComparedInput* input : inputs) files += (files.empty() ? "" : ", ") + input->short_name;
-  return html_figure(svg_plot(plot),
-                     fmt::format("{}: share of a structure's events that name a bead, along the chain, each "
-                                 "row on its own scale. The pointer shows the bead and all shares in %.",
-                                 html_escaped(files))) +
+  return html_figure(
+             svg_plot(plot),
+             fmt::format(
+                 "{}: share of a structure's events that name a bead, along the chain, each "
+                 "row on its own scale. On wide pages the pointer shows the bead and all shares in %.",
+                 html_escaped(files))) +
          html_table({"most events name", "first", "second", "third", "fourth", "fifth"}, table, "<");
 }
 

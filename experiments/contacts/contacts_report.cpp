@@ -507,7 +507,7 @@ std::string contacts_page(const ContactsReport& report, const ContactsFigures& f
         html_section("Contact map",
                      html_figure(map_of(report, figures),
                                  "Occupancy of each pair: the stronger the colour, the longer the pair is in "
-                                 "contact. Names are shown under the pointer."));
+                                 "contact. On wide pages the pointer shows names."));
     page.body += html_section("When pairs are in contact",
                               html_figure(timeline_of(report, figures), timeline_caption(figures)));
     page.body += html_section(

@@ -163,13 +163,9 @@ int view_command(const Arguments& arguments) {
       bar.erase();
       if (stride > 1)
         print_warning(bar,
-                      fmt::format("--max-mb {}: the page shows a run over every {} of the {} frames, whose "
+                      fmt::format("--max-mb {}: the page shows a run over one in {} of the {} frames, whose "
                                   "steps are longer; a larger --max-mb shows all",
-                                  options.most_megabytes,
-                                  stride == 2   ? "2nd"
-                                  : stride == 3 ? "3rd"
-                                                : fmt::format("{}th", stride),
-                                  with_thousands(all_frames)));
+                                  options.most_megabytes, stride, with_thousands(all_frames)));
       if (!options.quiet) print_to_stdout(text);
       return 0;
     } catch (const ReplayTooLarge& large) {
