@@ -31,7 +31,8 @@ namespace kds {
 
 namespace {
 
-/// What makes two beads a contact in one run: balls that meet, with radii times a factor, or a cutoff.
+/// The rule by which two beads are in contact in one run: their balls meet, with radii times `factor`, or
+/// their distance is at most `cutoff`.
 struct MissedRule {
   double factor = 1;
   std::optional<double> cutoff = {};
@@ -48,8 +49,8 @@ struct MissedRow {
   std::size_t stride = 1;
   std::size_t frames = 0;  ///< number of frames examined
   std::uint64_t contacts = 0, found = 0;
-  /// Of the share that is missed, from a block bootstrap over the steps in which contacts begin. Empty for
-  /// fewer than 50 steps, and if no or every contact is missed.
+  /// The interval of the share that is missed, from a block bootstrap over the steps in which contacts begin.
+  /// Empty for fewer than 50 steps, and if no contact or every contact is missed.
   std::optional<MeanInterval> interval = {};
 
   [[nodiscard]] std::uint64_t missed() const { return contacts - found; }
@@ -249,8 +250,7 @@ MissedOptions parse_missed_options(const Arguments& arguments) {
   const MissedTask& task = options.task;
   if (!task.cutoffs.empty() && parsed.has("--factors"))
     throw InputError(
-        "--factors: multiplies the radii of balls, in place of which --cutoff has lengths; "
-        "expected one of the two options");
+        "--factors and --cutoff: each says when two beads are in contact; expected one of the two options");
   static_cast<void>(contact_distance_of(
       task.cutoffs.empty() ? std::nullopt : std::optional(task.cutoffs.front()), task.surface));
   return options;

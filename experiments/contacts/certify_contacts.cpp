@@ -15,7 +15,7 @@ namespace kds {
 
 namespace {
 
-/// Where an interval comes from: a run with shrunk, own or enlarged balls, or a frame within an interval.
+/// The source of an interval: a run with shrunk, own or enlarged balls, or a frame within an interval.
 enum class Source : std::uint8_t { shrunk, own, enlarged, frame };
 
 /// A step and a parameter in it, below 1.
@@ -141,7 +141,7 @@ class ContactBounder {
   SortedRecords<PlacedInterval> sorted_;
   std::array<std::size_t, 4> places_{};                 // by Source: intervals so far
   std::array<std::vector<PlacedInterval>, 4> of_pair_;  // by Source
-  std::vector<std::uint8_t> is_certain_;  // of enlarged balls: whether a true contact lies in it
+  std::vector<std::uint8_t> is_certain_;  // by interval of enlarged balls: whether a true contact lies in it
 };
 
 /// Returns groups with which only pairs of these beads are asked about, and among them the pairs of `groups`.

@@ -11,7 +11,7 @@
 // that is monotone: more times within a cutoff give more times in contact. For two cutoffs, a time is in
 // contact if some earlier time is within the inner cutoff and all times from there on are within the outer
 // one. For a gap, a time is in contact too if it lies in an absence shorter than the gap, and more times in
-// contact make absences shorter. So S lies in F and in T, and F and T lie in P. Besides, beads of the run are
+// contact make absences shorter. So S lies in F and in T, and F and T lie in P. Beads of the run are also
 // at their true positions in each frame used. A pair that is within the inner cutoff there is in contact in
 // the run, in truth and in P: the frame is a sure moment. This means:
 //
@@ -38,9 +38,9 @@ namespace kds {
 /// Bounds of one pair, or of all pairs together.
 struct ContactBoundsOfPair {
   std::uint64_t sure = 0;   ///< contacts of the run during which the pair is truly in contact
-  std::uint64_t least = 0;  ///< the true number of contacts is not below this one
-  double least_time = 0;    ///< the true time in contact is not below this one, in units of the clock
-  double most_time = 0;     ///< nor above this one
+  std::uint64_t least = 0;  ///< lower bound of the true number of contacts
+  double least_time = 0;    ///< lower bound of the true time in contact, in units of the clock
+  double most_time = 0;     ///< upper bound of the true time in contact
 };
 
 struct ContactsCertificate {

@@ -26,7 +26,7 @@ int bench_command(const Arguments& arguments);
 int collide_command(const Arguments& arguments);
 /// `kds compare`: reports how often structures change, by stride, motion and input.
 int compare_command(const Arguments& arguments);
-/// `kds contacts`: reports the exact lifetimes of contacts, and what frames alone would have told.
+/// `kds contacts`: reports the exact lifetimes of contacts, and what frames alone would show.
 int contacts_command(const Arguments& arguments);
 /// `kds figures`: draws figures of the paper.
 int figures_command(const Arguments& arguments);

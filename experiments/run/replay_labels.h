@@ -1,5 +1,5 @@
 #pragma once
-// What a replay page says about the inputs of a run.
+// The labels of a replay page: title, command and inputs of its run.
 
 #include <string>
 

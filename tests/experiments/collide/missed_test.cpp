@@ -138,7 +138,7 @@ TEST(Missed, WithoutContactsNoShare) {
   EXPECT_EQ(json["rows"][0]["missed_fraction"], nullptr);
 }
 
-// Shares of 60 steps have intervals. No contact is missed at every frame, which has none.
+// Shares of 60 steps have intervals. At stride 1 no contact is missed, so that share has no interval.
 TEST(Missed, SharesOfManyStepsHaveIntervals) {
   const std::string villin = data_file("trajectories/villin_hp36_300K");
   const ProgramRun run =
