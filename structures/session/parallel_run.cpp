@@ -288,7 +288,7 @@ void ParallelRun::decide() {
   } else {
     for (std::size_t s = 0; s < own_->structures().size() && !uncut_; ++s)
       if (!own_->session().running(s).can_be_cut())
-        uncut_ = fmt::format("the state of {} at a frame depends on the frames before",
+        uncut_ = fmt::format("{} has no state at a frame from which a part could start",
                              own_->structures()[s]->name());
   }
   if (uncut_) threads_ = 1;
