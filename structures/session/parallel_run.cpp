@@ -94,7 +94,7 @@ struct ParallelRun::RecordedEvent {
 
 std::size_t all_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
 
-/// What is known of the structures at a frame.
+/// Results of a part at a frame, for all structures.
 struct ParallelRun::Frame {
   std::vector<RecordedEvent> events;         ///< of the step that led here
   std::vector<std::uint64_t> external;       ///< number of external events in it, for each structure

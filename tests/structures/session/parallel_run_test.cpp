@@ -24,7 +24,7 @@ namespace {
 
 using namespace test;
 
-/// What a run shows at its frames and after its end.
+/// Results of a run at its frames and after its end.
 struct Shown {
   std::vector<std::string> dumps;  // of all frames
   std::vector<std::vector<CombinatorialElement>> elements;
