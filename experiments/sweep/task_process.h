@@ -1,7 +1,7 @@
 #pragma once
 // Runs work in a child process, so that a crash, a time limit or a memory limit ends that work alone. The
-// child is a fork of this small process: no program is started, and a child costs about a third of a
-// millisecond.
+// child is a fork: no program is started. The cost of a fork grows with the memory of the process, from about
+// a third of a millisecond (task_launcher.h).
 
 #include <sys/types.h>
 
