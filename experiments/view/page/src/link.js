@@ -1,4 +1,5 @@
 // The view in the URL's fragment: time, chosen event and bead, layers, camera, timeline.
+import { speeds } from "./player.js";
 
 const numbers = (text) => (text ?? "").split(",").map(Number);
 const list = (values, digits) => values.map((value) => Number(value.toPrecision(digits))).join(",");
@@ -31,7 +32,7 @@ export function readLink(hash) {
   number("s", "step", (value) => value >= 0 && Number.isInteger(value));
   number("u", "u", (value) => value >= 0 && value <= 1);
   number("b", "bead", (value) => value >= 0 && Number.isInteger(value));
-  number("speed", "speed", (value) => value >= 0.01 && value <= 8);
+  number("speed", "speed", (value) => speeds.includes(value));
   if (parts.has("e")) {
     const [s, e] = parts.get("e").split(".").map(Number);
     if ([s, e].every((value) => Number.isInteger(value) && value >= 0)) view.event = [s, e];
@@ -43,9 +44,13 @@ export function readLink(hash) {
     if (parts.has(name) && values.length === count && values.every(Number.isFinite)) view[target] = values;
   };
   vector("cam", "camera", 7);
+  if (view.camera && !seesScene(view.camera)) delete view.camera;
   vector("win", "window", 2);
   vector("loop", "loop", 2);
   if (["light", "dark"].includes(parts.get("theme"))) view.theme = parts.get("theme");
   if (parts.has("follow")) view.follow = true;
   return view;
 }
+
+// False for a camera at its target or without a positive zoom.
+const seesScene = ([x, y, z, ...rest]) => rest[3] > 0 && (x !== rest[0] || y !== rest[1] || z !== rest[2]);

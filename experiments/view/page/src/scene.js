@@ -247,8 +247,9 @@ export class Scene {
     const half = (way) => sides.reduce((sum, side, axis) => sum + (side * Math.abs(way.getComponent(axis))) / 2, 0);
     let largest = 0;
     for (let b = 0; b < this.meta.beads; ++b) largest = Math.max(largest, this.radii(b));
-    this.radius = Math.max(1e-9, Math.hypot(...sides) / 2 + largest);
-    const reach = (way) => Math.max(0.3 * this.radius, half(way) + largest) * 1.12;
+    this.radius = Math.hypot(...sides) / 2 + largest || 1;  // 1 for points that all stand in one place
+    const margin = this.meta.structures.some(({ nodes }) => nodes) ? 1.25 : 1.12;  // cages reach beyond the beads
+    const reach = (way) => Math.max(0.3 * this.radius, half(way) + largest) * margin;
     return { up, back, halfWidth: reach(across), halfHeight: reach(back.clone().cross(across)) };
   }
 

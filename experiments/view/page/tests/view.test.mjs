@@ -16,6 +16,8 @@ test("a link says again what it was written from", () => {
 
 test("parts of a link that make no sense are left out", () => {
   assert.deepEqual(readLink("#s=-1&u=7&e=1&b=x&level=9z&cam=1,2&win=a,b&speed=99&theme=pink"), {});
+  assert.deepEqual(readLink("#cam=0,0,1,0,0,0,0"), {});
+  assert.deepEqual(readLink("#cam=1,2,3,1,2,3,1&speed=0.03"), {});
   assert.deepEqual(readLink(""), {});
 });
 
