@@ -103,6 +103,7 @@ export class App {
     on("play", () => this.togglePlay());
     on("next-event", () => this.goToNearest(1));
     on("previous-event", () => this.goToNearest(-1));
+    byId("next-event").disabled = byId("previous-event").disabled = this.panels.eventCount === 0;
     on("next-frame", () => this.stepFrame(1));
     on("previous-frame", () => this.stepFrame(-1));
     on("loop-from", () => this.setLoop(0));

@@ -6,7 +6,7 @@ const structures = {
   wrapped: "Wrapped hierarchy: a balanced tree of cages. A cage is the smallest sphere around the beads of its node.",
   boxes: "Hierarchy of boxes: each node of a balanced tree has the smallest box around its beads.",
   power: "Power diagram: an edge joins two beads whose cells share a face.",
-  contacts: "Contacts: pairs of beads that touch or overlap.",
+  contacts: "Contacts: pairs of beads that are at most the cutoff apart, by default those that touch or overlap.",
   sorted: "Sorted list: the beads in order along an axis.",
   box: "Enclosing box: the smallest box around all beads.",
   hull: "Convex hull of the beads in the plane.",
@@ -35,9 +35,9 @@ const kinds = {
     repair: "The diagram is repaired, where flips block each other.",
   },
   contacts: {
-    begin: "Two beads begin to touch.",
-    end: "Two beads stop touching.",
-    touch: "Two beads touch at this one instant.",
+    begin: "Two beads come into contact.",
+    end: "The contact of two beads ends.",
+    touch: "Two beads are in contact at this one instant.",
   },
   sorted: { interchange: "Two neighbours in the list exchange places." },
   hull: {
@@ -70,6 +70,9 @@ export function timeText(step, u, frames, times, unit) {
   const at = last ? times[step] : times[step] + (times[step + 1] - times[step]) * u;
   return `${frame}, ${trim(at, 6)} ${unit}`;
 }
+
+// Returns the number of decimals that positions rounded to multiples of `quantum` need.
+export const decimals = (quantum) => Math.min(100, Math.max(0, Math.ceil(-Math.log10(quantum))));
 
 export const trim = (value, digits) => String(Number(value.toFixed(digits)));
 

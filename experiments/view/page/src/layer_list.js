@@ -8,7 +8,7 @@ const sentences = {
   chain: "joins consecutive beads",
   cages: "spheres around parts of it",
   edges: "of the power diagram",
-  contacts: "join beads that touch",
+  contacts: "join beads in contact",
   hidden: "hatched: no power cell",
   flashes: "of events while playing",
 };

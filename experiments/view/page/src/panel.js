@@ -1,7 +1,7 @@
 // The panels of the chosen event and of the chosen bead.
 import { byId, count, make } from "./dom.js";
 import { noBead } from "./events.js";
-import { explainKind, residueOf, timeText, trim } from "./explain.js";
+import { decimals, explainKind, residueOf, timeText, trim } from "./explain.js";
 
 const longList = 12;
 
@@ -41,14 +41,17 @@ export class Panels {
     return [...new Set(residues.map(({ chain, residue }) => `${chain}/${residue}`))].join(", ") || null;
   }
 
+  get eventCount() {
+    return this.data.state.structures.reduce((sum, { events }) => sum + events.count, 0);
+  }
+
   showEvent() {
     const { state } = this.data;
     const place = byId("event");
     byId("event-now").textContent = this.eventSentence();
     if (!state.chosen) {
-      const total = state.structures.reduce((sum, { events }) => sum + events.count, 0);
       const way = ["None chosen. Press ", make("kbd", {}, "n"), ", or click a mark on the timeline."];
-      place.replaceChildren(make("p", {}, ...(total ? way : ["This run has no events."])));
+      place.replaceChildren(make("p", {}, ...(this.eventCount ? way : ["This run has no events."])));
       return;
     }
     const [s, e] = state.chosen;
@@ -80,6 +83,7 @@ export class Panels {
   // Says what the chosen event is, in one or two sentences. Before the first one is chosen it says how to get there.
   eventSentence() {
     const { state } = this.data;
+    if (!state.chosen && this.eventCount === 0) return "No structure changes in this run.";
     if (!state.chosen) return this.hasChosen ? "" : "Press Next event to see a structure change.";
     this.hasChosen = true;
     const [s, e] = state.chosen;
@@ -162,10 +166,11 @@ export class Panels {
     const b = bead.number;
     const has = (layer) => state.layersNamed(layer).length > 0;
     const buttons = (beads) => (beads.length ? this.beadButtons(beads) : "none now");
-    const at = Array.from(positions().subarray(3 * b, 3 * b + meta.dimension), (value) => value.toFixed(2));
+    const digits = decimals(meta.quantum);
+    const at = Array.from(positions().subarray(3 * b, 3 * b + meta.dimension), (value) => value.toFixed(digits));
     const rows = [
       ["place", `${at.join(", ")} ${meta.length_unit}`],
-      ["radius", radii(b) ? `${trim(radii(b), 3)} ${meta.length_unit}` : "none, a point"],
+      ["radius", radii(b) ? `${trim(radii(b), Math.min(100, digits + 1))} ${meta.length_unit}` : "none, a point"],
     ];
     if (has("hidden")) {
       const hidden = state.elements("hidden").some(([other]) => other === b);

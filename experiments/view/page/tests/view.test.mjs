@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { residueOf, timeText } from "../src/explain.js";
+import { decimals, residueOf, timeText } from "../src/explain.js";
 import { readLink, writeLink } from "../src/link.js";
 import { beadAt } from "../src/picking.js";
 import { Player } from "../src/player.js";
@@ -82,6 +82,10 @@ test("the clock plays, loops and stops at the end", () => {
 
 test("a short run is played in 20 seconds", () => {
   assert.equal(new Player(1).rate * 20, 1);
+});
+
+test("positions are told as finely as they are rounded", () => {
+  assert.deepEqual([0.02, 0.005, 1e-9, 1, 1e9].map(decimals), [2, 3, 9, 0, 0]);
 });
 
 test("times are told in frames and picoseconds", () => {
