@@ -9,6 +9,7 @@ const rowHeight = 38;
 const base = 32;  // bars stand on it, and below are the marks of the chosen bead
 const pairHeight = 24;
 const eventsBeside = 16;
+const inset = 4;  // pixels left of a text, for the line of the present
 
 export class TimelineView {
   // `actions`: seek(time), choose([structure, event]), structures() once one is switched on or off, changed() once another part
@@ -189,7 +190,7 @@ export class TimelineView {
       context.stroke();
       const text = k === 0 ? `${word} ${label}` : label;
       const half = context.measureText(text).width / 2;
-      const at = Math.min(this.width - half, Math.max(half, x));
+      const at = Math.min(this.width - half, Math.max(half + inset, x));
       if (at - half < free) return;
       context.textAlign = "center";
       context.fillText(text, at, 11);
@@ -252,7 +253,7 @@ export class TimelineView {
       context.fillStyle = this.colours.contacts;
       for (const { x, width } of layoutSpans(row, this.window)) context.fillRect(x, y + 14, width, 8);
       context.fillStyle = this.colours.axis;
-      context.fillText(this.actions.pairName(row.pair), 0, y + 11);
+      context.fillText(this.actions.pairName(row.pair), inset, y + 11);
     }
   }
 
