@@ -20,6 +20,8 @@ namespace kds {
 namespace {
 
 constexpr double kAngstromQuantum = 0.02;
+/// The graphics of browsers square lengths in 32-bit floats.
+constexpr double kMostLength = 1e18, kLeastLength = 1e-15;
 /// Rounded coordinates stay below this number, so that their differences have 32 bits.
 constexpr double kMostQuanta = 1 << 28;
 constexpr std::uint8_t kUnknownStage = 255;
@@ -103,16 +105,44 @@ void ReplayPage::choose_quantum(const Eigen::Matrix3Xd& first) {
     quantum_note_ = "a 65,536th of the extent of the first frame, because the input names no unit";
   }
   if (!(quantum_ > 0)) quantum_ = 1;  // points without extent, or radii that are zero
+  const double largest =
+      scene_.has_radii() ? *std::max_element(scene_.radii().begin(), scene_.radii().end()) : 0;
+  const double size = (first.rowwise().maxCoeff() - first.rowwise().minCoeff()).maxCoeff() + 2 * largest;
+  if (size == 0) return;
+  if (!(size >= kLeastLength && size < kMostLength))
+    throw InputError(fmt::format(
+        "frame {}: all beads lie within {:.3g}, and a page shows lengths from {} to {}; expected an input in "
+        "another unit",
+        scene_.frame_number(0), size, kLeastLength, kMostLength));
+  if (quantum_ > size)
+    throw InputError(fmt::format(
+        "--quantum {}: all beads of frame {} lie within {:.3g}, less than one step; expected at most "
+        "--quantum {:.1g}",
+        quantum_, scene_.frame_number(0), size, size / 100));
+}
+
+double ReplayPage::farthest() const {
+  double farthest = 0;
+  const Eigen::Vector3d corner(origin_[0], origin_[1], origin_[2]);
+  for (std::size_t frame = 0; frame < scene_.frame_count(); ++frame)
+    farthest = std::max(farthest, (scene_.centers(frame).colwise() - corner).cwiseAbs().maxCoeff());
+  return farthest;
 }
 
 std::int32_t ReplayPage::rounded(double value, int axis, BeadId bead, std::size_t frame) const {
   const double away = value - origin_[static_cast<std::size_t>(axis)];
+  if (!(std::abs(away) < kMostLength))
+    throw InputError(
+        fmt::format("frame {}, bead {} lies {:.3g} from the corner of the first frame, and a page shows "
+                    "lengths up to {}; expected an input in another unit",
+                    scene_.frame_number(frame), bead, std::abs(away), kMostLength));
   const double quanta = std::floor(away / quantum_ + 0.5);
   if (!(std::abs(quanta) < kMostQuanta))
-    throw InputError(fmt::format(
-        "--quantum {}: frame {}, bead {} lies {} from the corner of the first frame, too far for this step; "
-        "expected kds view with at least --quantum {:.3g}",
-        quantum_, scene_.frame_number(frame), bead, std::abs(away), 2 * std::abs(away) / kMostQuanta));
+    throw InputError(
+        fmt::format("--quantum {}: frame {}, bead {} lies {:.6g} from the corner of the first frame, too far "
+                    "for this step; expected kds view with at least --quantum {:.3g}",
+                    quantum_, scene_.frame_number(frame), bead, std::abs(away),
+                    2 * std::max(std::abs(away), farthest()) / kMostQuanta));
   return static_cast<std::int32_t>(quanta);
 }
 
@@ -134,6 +164,7 @@ void ReplayPage::write_frames() {
                      [this](const std::string& name, std::string_view bytes) { put_block(name, bytes); });
   const auto motion = degree > 1 ? make_scene_motion(scene_) : nullptr;
   BlockBytes numbers, times;
+  const std::uint64_t before = written_;
   for (std::size_t frame = 0; frame < frames; ++frame) {
     std::vector<FrameBlocks::Numbers> controls;
     if (motion && frame > 0) {
@@ -168,7 +199,8 @@ void ReplayPage::write_frames() {
     numbers.add_word(static_cast<std::uint32_t>(stamp.number));
     has_times_ = has_times_ && stamp.picoseconds;
     times.add_double(stamp.picoseconds.value_or(0));
-    if ((frame + 1) % block_frames_ == 0) require_size(written_ / (frame + 1) * frames);
+    if ((frame + 1) % block_frames_ == 0)
+      require_size(page_.size() + (written_ - before) * frames / (frame + 1));
   }
   blocks.finish();
   put_block("frames", numbers.bytes());

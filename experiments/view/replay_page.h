@@ -64,6 +64,8 @@ class ReplayPage {
 
  private:
   void choose_quantum(const Eigen::Matrix3Xd& first);
+  /// Returns the largest difference of a bead's coordinate from the corner of the first frame.
+  [[nodiscard]] double farthest() const;
   [[nodiscard]] std::int32_t rounded(double value, int axis, BeadId bead, std::size_t frame) const;
   [[nodiscard]] FrameBlocks::Numbers numbers_of(const Eigen::Matrix3Xd& points, std::size_t frame) const;
   void write_beads();

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -192,6 +193,55 @@ TEST(ReplayPage, StopsOnceItIsTooLarge) {
   std::ostringstream stream;
   ReplayPage page(stream, scene, {{}, 1e-4, 2000});
   EXPECT_THROW(page.write_frames(), ReplayTooLarge);
+}
+
+TEST(ReplayPage, MayHaveExactlyTheMostBytes) {
+  const Scene scene = random_scene(3, FrameMotion::linear, 300, 1);  // five blocks of frames
+  const std::string page = record(scene, {{"contacts"}}, {}).page;
+  EXPECT_EQ(record(scene, {{"contacts"}}, {{}, {}, page.size()}).page, page);
+  EXPECT_THROW(static_cast<void>(record(scene, {{"contacts"}}, {{}, {}, page.size() - 1})), ReplayTooLarge);
+}
+
+TEST(ReplayPage, RefusesScenesThatWouldBeBlank) {
+  const auto expect_refused = [](const Scene& scene, std::optional<double> quantum, const char* message) {
+    std::ostringstream stream;
+    ReplayPage page(stream, scene, {{}, quantum, {}});
+    try {
+      page.write_frames();
+      ADD_FAILURE() << message;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(message));
+    }
+  };
+  const auto scaled = [](double factor) {
+    Trajectory necklace;
+    for (const double moved : {0.0, 1.0})
+      necklace.frames.emplace_back(factor * Eigen::Matrix3Xd{{0, 1, 2 + moved}, {0, 2, 0}, {0, 0, 1}});
+    return Scene({necklace}, std::vector<double>(3, factor), FrameMotion::linear);
+  };
+  expect_refused(scaled(1), 100, "--quantum 100: all beads of frame 0 lie within 4, less than one step");
+  expect_refused(scaled(1), 100, "at most --quantum 0.04");
+  expect_refused(scaled(1e18), {},
+                 "frame 0: all beads lie within 4e+18, and a page shows lengths from 1e-15 to 1e+18");
+  expect_refused(scaled(1e-16), {}, "frame 0: all beads lie within 4e-16");
+  std::ostringstream stream;
+  ReplayPage(stream, scaled(1e17), {{}, 1e15, {}}).write_frames();
+  ReplayPage(stream, scaled(1e-14), {{}, 1e-16, {}}).write_frames();
+}
+
+TEST(ReplayPage, NamesAQuantumThatHoldsForAllFrames) {
+  Trajectory necklace;
+  for (const double moved : {0.0, 1e9, 1e11})
+    necklace.frames.emplace_back(Eigen::Matrix3Xd{{moved, moved + 4}, {0, 0}, {0, 0}});
+  const Scene scene({necklace}, {1, 1}, FrameMotion::linear);
+  std::ostringstream stream;
+  try {
+    ReplayPage(stream, scene, {}).write_frames();
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("frame 1, bead 0 lies 1e+09"));
+    EXPECT_THAT(error.what(), HasSubstr("at least --quantum 745"));
+  }
 }
 
 std::string text_of_template() {
