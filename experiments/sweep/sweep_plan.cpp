@@ -38,6 +38,15 @@ std::string shape_of(const std::string& list) {
   return shape;
 }
 
+// Adds the content of a file, and its ending, which may decide the format. A file that cannot be read is
+// named by its path.
+void add_file(TextHash& name, const std::string& file, InputHashes& hashes) {
+  const std::uint64_t content = hashes.hash(file);
+  name.add(std::filesystem::path(file).extension().string());
+  name.add(hex_digits(content));
+  if (content == 0) name.add(file);
+}
+
 void append(Arguments& arguments, const std::string& option, const std::vector<std::string>& words) {
   arguments.push_back("--" + option);
   arguments.insert(arguments.end(), words.begin(), words.end());
@@ -49,7 +58,7 @@ SweepPlan::SweepPlan(SweepSpec spec, InputHashes& hashes, const std::string& sub
     : spec_(std::move(spec)) {
   for (std::uint32_t block = 0; block < spec_.blocks.size(); ++block) add_tasks(block, hashes);
   if (tasks_.empty()) throw InputError(subject + ": exclude leaves no task");
-  refuse_equal_names();
+  refuse_equal_names(subject);
 }
 
 void SweepPlan::add_tasks(std::uint32_t block, InputHashes& hashes) {
@@ -192,18 +201,12 @@ TaskName SweepPlan::name_of(const SweepTask& task, InputHashes& hashes) const {
   TextHash name;
   name.add(program_version());
   name.add(block(task).command->name);
-  for (const std::string& file : input(task).files) {
-    name.add(std::filesystem::path(file).extension().string());  // may decide the format
-    name.add(hex_digits(hashes.hash(file)));
-  }
+  for (const std::string& file : input(task).files) add_file(name, file, hashes);
   for (const auto& [option, value] : options_of(task)) {
     if (!value->given) continue;
     name.add(option);
     const std::vector<std::string> files = files_of_value(option, *value);
-    for (const std::string& file : files) {
-      name.add(std::filesystem::path(file).extension().string());
-      name.add(hex_digits(hashes.hash(file)));
-    }
+    for (const std::string& file : files) add_file(name, file, hashes);
     if (files.empty())
       for (const std::string& word : value->words) name.add(word);
     else
@@ -214,12 +217,18 @@ TaskName SweepPlan::name_of(const SweepTask& task, InputHashes& hashes) const {
   return name.value();
 }
 
-// Two tasks may share a name only if they are the same: equal files under two names.
-void SweepPlan::refuse_equal_names() const {
+// Two tasks may share a name only if they have equal files under two names.
+void SweepPlan::refuse_equal_names(const std::string& subject) const {
   std::unordered_map<TaskName, const SweepTask*> named;
   for (const SweepTask& task : tasks_) {
     const auto [found, is_new] = named.emplace(task.name, &task);
     if (is_new) continue;
+    const std::string words = shell_words(arguments(task));
+    if (words == shell_words(arguments(*found->second)))
+      throw InputError(fmt::format(
+          "{}: task 'kds {}' is listed twice and would count twice in means; expected each input and setting "
+          "once",
+          subject, words));
     const auto settings = [&](const SweepTask& one) {
       std::string text = block(one).command->name + " " + stride_of(*this, one);
       for (const auto& [option, value] : options_of(one))
@@ -228,9 +237,19 @@ void SweepPlan::refuse_equal_names() const {
       return fmt::format("{} {} {} {}", text, input(one).files.size(), one.first_frame, one.last_frame);
     };
     if (settings(task) != settings(*found->second))
-      throw InputError(fmt::format("tasks '{}' and '{}' have the same hash; change an option of one of them",
-                                   shell_words(arguments(task)), shell_words(arguments(*found->second))));
+      throw InputError(
+          fmt::format("{}: tasks '{}' and '{}' have the same hash; change an option of one of them", subject,
+                      words, shell_words(arguments(*found->second))));
   }
+}
+
+std::vector<std::string> SweepPlan::files(const SweepTask& task) const {
+  std::vector<std::string> files = input(task).files;
+  for (const auto& [option, value] : options_of(task)) {
+    const std::vector<std::string> named = files_of_value(option, *value);
+    files.insert(files.end(), named.begin(), named.end());
+  }
+  return files;
 }
 
 double SweepPlan::size(const SweepTask& task, const InputHashes& hashes) const {

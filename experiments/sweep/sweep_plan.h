@@ -26,7 +26,8 @@ struct SweepTask {
 class SweepPlan {
  public:
   /// Lists the tasks. Reads each input once for its hash, unless `hashes` remembers it; cutting a trajectory
-  /// reads it once more. Takes about a microsecond for each task. Throws InputError if no task is left.
+  /// reads it once more. Takes about a microsecond for each task. Throws InputError if no task is
+  /// left or if one is listed twice.
   SweepPlan(SweepSpec spec, InputHashes& hashes, const std::string& subject);
 
   [[nodiscard]] const SweepSpec& spec() const { return spec_; }
@@ -45,6 +46,8 @@ class SweepPlan {
   [[nodiscard]] std::vector<std::string> axes() const;
   /// Returns the command and its arguments, with absolute paths, without options of output.
   [[nodiscard]] Arguments arguments(const SweepTask& task) const;
+  /// Returns all files that a task reads: its input and those that its options name.
+  [[nodiscard]] std::vector<std::string> files(const SweepTask& task) const;
   /// Returns a number that grows about as the work of the task: the bytes of its input, divided by its stride
   /// and the number of parts.
   [[nodiscard]] double size(const SweepTask& task, const InputHashes& hashes) const;
@@ -56,7 +59,7 @@ class SweepPlan {
   [[nodiscard]] TaskName name_of(const SweepTask& task, InputHashes& hashes) const;
   /// Returns option and value of all options of a task but its stride, sorted by option.
   [[nodiscard]] std::vector<std::pair<std::string, const AxisValue*>> options_of(const SweepTask& task) const;
-  void refuse_equal_names() const;
+  void refuse_equal_names(const std::string& subject) const;
 
   SweepSpec spec_;
   std::vector<SweepTask> tasks_;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -180,13 +181,23 @@ Axis read_axis(const SweptCommand& command, const std::string& key, const Json& 
   return axis;
 }
 
+// Returns a pattern that matches the path only.
+fs::path as_pattern(const fs::path& path) {
+  std::string pattern;
+  for (const char c : path.string()) {
+    if (std::string_view("*?[\\").find(c) != std::string_view::npos) pattern += '\\';
+    pattern += c;
+  }
+  return pattern;
+}
+
 std::vector<std::string> found_files(const std::string& pattern, const fs::path& folder,
                                      const std::string& where) {
   if (pattern.find("**") != std::string::npos)
     throw InputError(fmt::format(
         "{}: '{}': ** is not supported; expected one pattern for each depth of folders", where, pattern));
   glob_t found{};
-  const int failed = ::glob(in_folder(folder, pattern).c_str(), 0, nullptr, &found);
+  const int failed = ::glob(in_folder(as_pattern(folder), pattern).c_str(), 0, nullptr, &found);
   const std::unique_ptr<glob_t, decltype(&::globfree)> owner(&found, &::globfree);
   if (failed == GLOB_NOMATCH || (failed == 0 && found.gl_pathc == 0))
     throw InputError(fmt::format("{}: no file matches '{}' in {}", where, pattern, folder.string()));
@@ -249,8 +260,8 @@ std::vector<SweepInput> read_inputs(const SweptCommand& command, const Json& jso
   return inputs;
 }
 
-std::size_t read_whole(const Json& json, const std::string& where) {
-  return parse_whole_number(where, line_of(json).value_or("?"), 1, 1'000'000'000);
+std::size_t read_whole(const Json& json, const std::string& where, std::size_t most) {
+  return parse_whole_number(where, line_of(json).value_or("?"), 1, most);
 }
 
 // Steps are cut from one another only where the motion of a step and the events in it depend on that step
@@ -308,8 +319,21 @@ void refuse_two_strides(const SweepBlock& block, const std::string& where) {
     for (const auto& [option, value] : input.options) refuse(option, value);
 }
 
+// Inputs that are the same files with different options get these options in their names, so that tables and
+// pools tell them apart.
+void tell_apart(std::vector<SweepInput>& inputs) {
+  std::map<std::string, std::size_t> named;
+  for (const SweepInput& input : inputs) ++named[input.name];
+  for (SweepInput& input : inputs) {
+    if (named[input.name] == 1) continue;
+    for (const auto& [option, value] : input.options)
+      if (value.given)
+        input.name += fmt::format(" --{}{}{}", option, value.words.empty() ? "" : " ", value.text);
+  }
+}
+
 SweepBlock read_block(const Json& json, const Json* shared_inputs, const fs::path& folder,
-                      const std::string& where) {
+                      const std::string& where, const std::string& subject) {
   Json whole = json;
   if (json.text() != nullptr) whole = {{"command", *json.text()}};
   check_keys(whole, where, {"command", "inputs", "options", "part_steps"});
@@ -325,8 +349,9 @@ SweepBlock read_block(const Json& json, const Json* shared_inputs, const fs::pat
     throw InputError(fmt::format("{}: kds {} reads no inputs", where, block.command->name));
   const Json* const inputs = own_inputs != nullptr ? own_inputs : shared_inputs;
   if (block.command->takes_inputs && inputs != nullptr)
-    block.inputs = read_inputs(*block.command, *inputs, folder,
-                               (own_inputs != nullptr ? where + ": inputs" : std::string("inputs")));
+    block.inputs =
+        read_inputs(*block.command, *inputs, folder, (own_inputs != nullptr ? where : subject) + ": inputs");
+  tell_apart(block.inputs);
   if (block.inputs.empty() && block.command->needs_inputs)
     throw InputError(fmt::format("{}: kds {} needs inputs", where, block.command->name));
   if (block.inputs.empty()) block.inputs.emplace_back();  // one task for each setting
@@ -343,7 +368,7 @@ SweepBlock read_block(const Json& json, const Json* shared_inputs, const fs::pat
     }
   }
   if (const Json* const steps = whole.find("part_steps"))
-    block.part_steps = read_whole(*steps, where + ": part_steps");
+    block.part_steps = read_whole(*steps, where + ": part_steps", 1'000'000'000);
   refuse_settings_twice(block, where);
   refuse_two_strides(block, where);
   if (block.part_steps) refuse_parts(block, where);
@@ -353,7 +378,7 @@ SweepBlock read_block(const Json& json, const Json* shared_inputs, const fs::pat
 Axis read_seeds(const Json& json, const std::string& where) {
   Axis axis{"seed", {}};
   if (json.items() == nullptr) {
-    const std::size_t count = read_whole(json, where);
+    const std::size_t count = read_whole(json, where, 1'000'000);
     for (std::size_t seed = 1; seed <= count; ++seed)
       axis.values.push_back({{std::to_string(seed)}, true, std::to_string(seed)});
     return axis;
@@ -451,7 +476,7 @@ SweepSpec read_sweep(const Json& json, const fs::path& folder, const std::string
   SweepSpec spec;
   for (std::size_t k = 0; k < commands->items()->size(); ++k)
     spec.blocks.push_back(read_block((*commands->items())[k], json.find("inputs"), folder,
-                                     fmt::format("{}: commands[{}]", subject, k)));
+                                     fmt::format("{}: commands[{}]", subject, k), subject));
   const Json* const seeds = json.find("seeds");
   if (seeds != nullptr) add_seeds(*seeds, spec.blocks, subject + ": seeds");
 

@@ -52,7 +52,8 @@ inline constexpr std::string_view stride_axis = "stride";
 
 /// The input of a task: usually one file.
 struct SweepInput {
-  std::string name;                ///< for tables: the path as sweep.json gives it, or the file a glob found
+  std::string name;                ///< for tables: the path as sweep.json gives it, or the file a glob found,
+                                   ///< and its options if several inputs are the same file
   std::vector<std::string> files;  ///< absolute paths
   std::vector<std::pair<std::string, AxisValue>> options;  ///< that hold for this input only
 };

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <set>
 #include <string>
 
@@ -64,7 +65,8 @@ TEST(SweepSpec, RefusesMistakesWithTheKeyAndTheNearestName) {
       {command(R"("part_steps": 5, "options": {"relax": 0.1})"), {"--relax 0.1", "no part_steps"}},
       {R"({"inputs": ["a.pdb"], "commands": [{"command": "contacts", "part_steps": 5}]})",
        {"results of kds contacts are not sums over steps"}},
-      {R"({"inputs": ["no*.pdb"], "commands": ["run"]})", {"no file matches 'no*.pdb'"}},
+      {R"({"inputs": ["no*.pdb"], "commands": ["run"]})", {"s.json: inputs[0]: no file matches 'no*.pdb'"}},
+      {R"({"seeds": 1000000000, "commands": ["scale"]})", {"seeds: '1000000000' is not", "1 to 1000000"}},
       {R"({"inputs": ["**/a.pdb"], "commands": ["run"]})", {"** is not supported"}},
       {R"({"inputs": [{"topology": "t.pdb"}], "commands": ["run"]})", {"needs the key 'file'"}},
       {R"({"inputs": [{"file": "a.pdb", "radius": 1}], "commands": [{"command": "run", "options": {"radius": 2}}]})",
@@ -137,7 +139,46 @@ TEST(SweepSpec, NamesTasksByContentAndSettings) {
   EXPECT_NE(name("a.xyz", R"("radius": "file:r2")"), r1);
   scratch.file("r2", "1\n1\n");
   EXPECT_EQ(name("a.xyz", R"("radius": "file:r2")"), r1);
-  EXPECT_NE(name("missing.xyz", R"("radius": 1, "motion": "linear")"), a);
+  const TaskName missing = name("missing.xyz", R"("radius": 1, "motion": "linear")");
+  EXPECT_NE(missing, a);
+  EXPECT_NE(name("gone.xyz", R"("radius": 1, "motion": "linear")"), missing);
+}
+
+// A task that is listed twice would count twice in means.
+TEST(SweepSpec, ListsEachTaskOnce) {
+  const ScratchDirectory scratch;
+  scratch.file("a.xyz", xyz({"0 0 0", "1 0 0"}));
+  scratch.file("same.xyz", xyz({"0 0 0", "1 0 0"}));
+  EXPECT_EQ(plan_of(R"({"inputs": ["*.xyz"], "commands": ["run"]})", scratch.path()).tasks().size(), 2U);
+  for (const char* twice : {R"({"inputs": ["a.xyz", "*.xyz"], "commands": ["run"]})",
+                            R"({"inputs": ["a.xyz"], "commands": ["run", {"command": "run"}]})"})
+    try {
+      static_cast<void>(plan_of(twice, scratch.path()));
+      ADD_FAILURE() << "accepted " << twice;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(),
+                  HasSubstr("s.json: task 'kds run " + (scratch / "a.xyz").string() + "' is listed twice"));
+    }
+}
+
+TEST(SweepSpec, FindsFilesInFoldersOfAnyName) {
+  const ScratchDirectory scratch;
+  std::filesystem::create_directory(scratch / "old [1]*\\");
+  scratch.file("old [1]*\\/a.xyz", xyz({"0 0 0", "1 0 0"}));
+  const SweepPlan plan = plan_of(R"({"inputs": ["*.xyz"], "commands": ["run"]})", scratch / "old [1]*\\");
+  EXPECT_EQ(plan.text(plan.tasks().front(), "input"), "a.xyz");
+}
+
+TEST(SweepSpec, TellsInputsOfOneFileApart) {
+  const ScratchDirectory scratch;
+  scratch.file("a.xyz", xyz({"0 0 0", "1 0 0"}));
+  const SweepPlan plan =
+      plan_of(R"({"inputs": [{"file": "a.xyz", "radius": 1}, {"file": "a.xyz", "radius": 2},
+                                                "a.xyz"], "commands": ["run"]})",
+              scratch.path());
+  std::vector<std::string> names;
+  for (const SweepTask& task : plan.tasks()) names.push_back(plan.text(task, "input"));
+  EXPECT_THAT(names, testing::ElementsAre("a.xyz --radius 1", "a.xyz --radius 2", "a.xyz"));
 }
 
 }  // namespace
