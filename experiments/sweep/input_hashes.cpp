@@ -110,8 +110,11 @@ void InputHashes::load(const fs::path& folder) {
           bytes->whole_number() == nullptr || modified == nullptr || modified->whole_number() == nullptr ||
           !hash)
         continue;
-      earlier_[*path->text()] = {*bytes->whole_number(), *hash,
-                                 static_cast<std::int64_t>(*modified->whole_number()), true};
+      earlier_[*path->text()] = {.bytes = *bytes->whole_number(),
+                                 .hash = *hash,
+                                 .modified = static_cast<std::int64_t>(*modified->whole_number()),
+                                 .exists = true,
+                                 .trusted = true};
     }
   const Json* const cuts = json.find("frames");
   if (cuts != nullptr && cuts->items() != nullptr)
@@ -142,13 +145,29 @@ void InputHashes::save(const fs::path& folder) {
   changed_ = false;
 }
 
-std::uint64_t InputHashes::hash(const std::string& file) {
-  if (const auto known = files_.find(file); known != files_.end()) return known->second.hash;
+InputHashes::File InputHashes::seen(const std::string& file) {
   File found;
   struct stat status {};
   if (::stat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode)) {
+    found.exists = true;
     found.bytes = static_cast<std::uint64_t>(status.st_size);
     found.modified = status.st_mtim.tv_sec * kNanoseconds + status.st_mtim.tv_nsec;
+  }
+  return found;
+}
+
+bool InputHashes::has_changed(const std::string& file) const {
+  const auto known = files_.find(file);
+  if (known == files_.end()) return false;
+  const File now = seen(file);
+  const File& then = known->second;
+  return now.exists != then.exists || now.bytes != then.bytes || now.modified != then.modified;
+}
+
+std::uint64_t InputHashes::hash(const std::string& file) {
+  if (const auto known = files_.find(file); known != files_.end()) return known->second.hash;
+  File found = seen(file);
+  if (found.exists) {
     const auto earlier = earlier_.find(file);
     const bool same = earlier != earlier_.end() && earlier->second.bytes == found.bytes &&
                       earlier->second.modified == found.modified;

@@ -38,6 +38,9 @@ class InputHashes {
   /// Returns the hash of a file's content, or 0 if it cannot be read: the task will say why.
   [[nodiscard]] std::uint64_t hash(const std::string& file);
   [[nodiscard]] std::uint64_t bytes(const std::string& file) const;
+  /// Returns whether a file has another size or modification time than when its hash was asked for, or has
+  /// come or gone since.
+  [[nodiscard]] bool has_changed(const std::string& file) const;
   /// Returns the frames that `kds run` with these arguments (inputs and options of reading) finds, or nothing
   /// if they cannot be read or if the chains of several necklaces have places that the first frame decides.
   /// `key` is a hash of everything that the answer depends on.
@@ -47,8 +50,11 @@ class InputHashes {
   struct File {
     std::uint64_t bytes = 0, hash = 0;
     std::int64_t modified = 0;  ///< nanoseconds
-    bool trusted = false;       ///< old enough that a later change has another time
+    bool exists = false;
+    bool trusted = false;  ///< old enough that a later change has another time
   };
+  /// Returns whether a file exists, with its size and modification time.
+  [[nodiscard]] static File seen(const std::string& file);
 
   std::function<bool()> stopped_;
   std::map<std::string, File, std::less<>> files_, earlier_;

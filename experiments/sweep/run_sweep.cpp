@@ -7,6 +7,7 @@
 #include <cstring>
 #include <deque>
 #include <list>
+#include <set>
 #include <system_error>
 #include <unordered_set>
 #include <vector>
@@ -87,9 +88,11 @@ struct RunningTask {
 
 class SweepRun {
  public:
-  SweepRun(const SweepPlan& plan, const fs::path& folder, const SweepLimits& limits, TaskLauncher& launcher,
-           StopSignals& signals, const std::function<void(const std::string&)>& warn)
+  SweepRun(const SweepPlan& plan, const InputHashes& hashes, const fs::path& folder,
+           const SweepLimits& limits, TaskLauncher& launcher, StopSignals& signals,
+           const std::function<void(const std::string&)>& warn)
       : plan_(plan),
+        hashes_(hashes),
         folder_(folder),
         limits_(limits),
         launcher_(launcher),
@@ -113,12 +116,14 @@ class SweepRun {
   void drop(const RunningTask& running);
   [[noreturn]] void refuse_full_disk() const;
   [[nodiscard]] bool must_stop();
+  [[nodiscard]] bool has_changed_files(const SweepTask& task);
   [[nodiscard]] double next_wait() const;
   [[nodiscard]] bool is_open(const SweepTask& task) const {
     return status_of(states_.of(task.name)) == TaskStatus::open;
   }
 
   const SweepPlan& plan_;
+  const InputHashes& hashes_;
   const fs::path& folder_;
   const SweepLimits& limits_;
   TaskLauncher& launcher_;
@@ -135,7 +140,8 @@ class SweepRun {
   std::deque<const SweepTask*> claimed_;    ///< with their locks
   std::list<RunningTask> running_;
   std::uint64_t next_id_ = 0;
-  bool crowded_ = false;  ///< the system has no more processes until a task ends
+  bool crowded_ = false;           ///< the system has no more processes until a task ends
+  std::set<std::string> changed_;  ///< files, each of which was named in a warning
   std::size_t without_room_ = 0, without_room_in_turn_ = 0;
   double task_seconds_ = 0;  ///< of all attempts that ended
   Clock::time_point looked_elsewhere_ = Clock::now();
@@ -207,7 +213,20 @@ void SweepRun::refuse_full_disk() const {
                   folder_.string(), without_room_, without_room_ == 1 ? "result was" : "results were"));
 }
 
+// A task whose files have changed since their hashes were taken would leave its result under the wrong name.
+bool SweepRun::has_changed_files(const SweepTask& task) {
+  bool changed = false;
+  for (const std::string& file : plan_.files(task)) {
+    if (!hashes_.has_changed(file)) continue;
+    changed = true;
+    if (changed_.insert(file).second)
+      warn_(file + ": changed while the sweep ran; its tasks are left for the same command to run again");
+  }
+  return changed;
+}
+
 void SweepRun::start(const SweepTask& task) {
+  if (has_changed_files(task)) return locks_.release(task.name);
   record(RecordKind::attempt, task, "{}");
   running_.push_back({&task, next_id_++, TaskOutput()});
   const RunningTask& started = running_.back();
@@ -232,7 +251,9 @@ void SweepRun::settle(const RunningTask& ended, const TaskProcess::End& end) {
   ++outcome_.ran;
   crowded_ = false;
   task_seconds_ += end.seconds;
-  if (end.signal == 0 && end.code == 0) {
+  if (has_changed_files(task)) {
+    record(RecordKind::drop, task, "{}");
+  } else if (end.signal == 0 && end.code == 0) {
     const std::string out = joined_lines(ended.output.out());
     if (out.starts_with('{') && out.ends_with('}'))
       record(RecordKind::done, task,
@@ -382,11 +403,11 @@ TrialRun try_task(const SweepPlan& plan, const SweepTask& task, double most_seco
   return run;
 }
 
-SweepOutcome run_sweep(const SweepPlan& plan, const fs::path& folder, const SweepLimits& limits,
-                       TaskLauncher& launcher, StopSignals& signals,
+SweepOutcome run_sweep(const SweepPlan& plan, const InputHashes& hashes, const fs::path& folder,
+                       const SweepLimits& limits, TaskLauncher& launcher, StopSignals& signals,
                        const std::function<void(std::size_t, std::size_t)>& progress,
                        const std::function<void(const std::string&)>& warn) {
-  return SweepRun(plan, folder, limits, launcher, signals, warn).run(progress);
+  return SweepRun(plan, hashes, folder, limits, launcher, signals, warn).run(progress);
 }
 
 }  // namespace kds

@@ -40,7 +40,7 @@ struct SweepOutcome {
   std::size_t done = 0, failed = 0, crashed = 0;  ///< tasks of the shard, in this run or before
   std::size_t ran = 0;                            ///< attempts of this run that ended
   std::size_t dropped = 0;
-  bool stopped = false;  ///< a signal or the budget ended the sweep before all tasks were done
+  bool stopped = false;  ///< some tasks are open: a signal, the budget or a changed input ended the sweep
 };
 
 /// The folders of a sweep.
@@ -62,9 +62,10 @@ struct TrialRun {
 
 /// Runs all tasks of the shard that have no result. Waits for tasks that another sweep is running. After a
 /// signal or at the end of the budget, running tasks get a few seconds to end, then they are dropped. Throws
-/// OutputError if the journal cannot be written. A result that finds no room leaves its task open.
-SweepOutcome run_sweep(const SweepPlan& plan, const std::filesystem::path& folder, const SweepLimits& limits,
-                       TaskLauncher& launcher, StopSignals& signals,
+/// OutputError if the journal cannot be written. A result that finds no room leaves its task open, and so
+/// does a result whose files have changed since `hashes` read them.
+SweepOutcome run_sweep(const SweepPlan& plan, const InputHashes& hashes, const std::filesystem::path& folder,
+                       const SweepLimits& limits, TaskLauncher& launcher, StopSignals& signals,
                        const std::function<void(std::size_t done, std::size_t total)>& progress,
                        const std::function<void(const std::string&)>& warn);
 

@@ -35,13 +35,13 @@ constexpr int kContinueLater = 75;  // EX_TEMPFAIL
 
 constexpr CommandSpec kSweepCommand{
     "kds sweep",
-    "Runs a command for all combinations of inputs and options that SWEEP.json lists, each as a task of its "
-    "own, "
-    "on all\n"
-    "cores of this machine or as batches of a cluster. The same command continues an interrupted sweep: only "
-    "tasks\n"
-    "without a result run. docs/formats.md describes SWEEP.json, docs/cluster.md shows how to run it on a "
-    "cluster.\n\n"
+    "Runs a command for all combinations of inputs and options that SWEEP.json lists. Each combination is a "
+    "task of\n"
+    "its own. Tasks run on all cores of this machine, or as batches of a cluster. The same command continues "
+    "an\n"
+    "interrupted sweep: only tasks without a result run. docs/formats.md describes SWEEP.json, "
+    "docs/cluster.md shows\n"
+    "how to run it on a cluster.\n\n"
     "  kds sweep SWEEP.json -o DIR   run all tasks that have no result in DIR\n"
     "  kds sweep status DIR          count the tasks that are done, running, failed and open\n"
     "  kds sweep collect DIR         write results.csv, results.json, pooled.csv, times.csv, failed.csv and\n"
@@ -174,24 +174,40 @@ bool is_new(const fs::path& folder) {
   return true;
 }
 
-void prepare_folder(const fs::path& folder, const std::string& plan) {
+void check_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     throw InputError(fmt::format("-o {}: is a file, expected a directory", folder.string()));
-  const bool known = fs::exists(folder / kPlan, error);
-  if (!known && !is_new(folder) && !fs::exists(folder / kPlan, error))
+  if (!fs::exists(folder / kPlan, error) && !is_new(folder) && !fs::exists(folder / kPlan, error))
     throw InputError(fmt::format(
         "-o {}: holds other files and no sweep, expected a new folder or that of a sweep", folder.string()));
+}
+
+void prepare_folder(const fs::path& folder, const std::string& plan) {
+  std::error_code error;
   fs::create_directories(results_folder(folder), error);
   if (error) throw InputError(fmt::format("-o {}: {}", folder.string(), error.message()));
-  if (known && text_of_file(folder / kPlan) == plan) return;
+  if (fs::exists(folder / kPlan, error) && text_of_file(folder / kPlan) == plan) return;
   AtomicFiles files;
   files.write(folder / kPlan, plan);
   commit_together({&files});
 }
 
+// Refuses options of a run beside --dry-run and --write, which run no sweep.
+void refuse_conflicts(const ParsedArguments& parsed) {
+  const auto refuse = [&](std::string_view option, std::string_view other) {
+    if (parsed.has(option) && parsed.has(other))
+      throw InputError(fmt::format("{}: has no meaning beside {}; expected one of the two", option, other));
+  };
+  refuse("--dry-run", "--write");
+  for (const std::string_view other : {"--dry-run", "--write"})
+    for (const std::string_view option : {"--shard", "--time-budget"}) refuse(option, other);
+  refuse("--retry", "--write");
+}
+
 Shard shard_of(const SweepOptions& options) {
   if (options.shard) return *options.shard;
+  if (options.write || options.dry_run) return {};
   const auto from_slurm = [](const char* name) -> std::optional<std::uint64_t> {
     const char* const text = std::getenv(name);
     if (text == nullptr) return std::nullopt;
@@ -251,6 +267,7 @@ std::vector<Estimate> estimates_of(const SweepPlan& plan, const InputHashes& has
   constexpr double most_seconds = 60;
   TaskStates states(options.out ? results_folder(*options.out) : fs::path());
   if (options.out) states.refresh();
+  if (options.retry) states.forgive();
   struct Sized {
     double size;
     const SweepTask* task;
@@ -301,7 +318,7 @@ std::string estimates_text(const SweepPlan& plan, const std::vector<Estimate>& e
                             short_decimal(hours / static_cast<double>(jobs)), jobs);
 }
 
-void write_script(const fs::path& sweep, const SweepOptions& options,
+void write_script(const fs::path& sweep, const SweepOptions& options, std::size_t jobs,
                   const std::vector<Estimate>& estimates) {
   EngineRequest request;
   std::error_code error;
@@ -309,7 +326,7 @@ void write_script(const fs::path& sweep, const SweepOptions& options,
   if (error) request.program = "kds";
   request.sweep = fs::absolute(sweep);
   request.folder = fs::absolute(*options.out);
-  request.jobs = jobs_of(options);
+  request.jobs = jobs;
   request.hours = sum_of_hours(estimates);
   for (const Estimate& estimate : estimates) {
     request.tasks += estimate.open;
@@ -366,20 +383,12 @@ int look_at(const std::string& what, const fs::path& folder) {
   return found.done == found.tasks ? 0 : 1;
 }
 
-int run_shard(const SweepPlan& plan, const SweepOptions& options, TaskProcess::Clock::time_point begin,
-              TaskLauncher& launcher, StopSignals& signals) {
+int run_shard(const SweepPlan& plan, const InputHashes& hashes, const SweepOptions& options,
+              const SweepLimits& limits, TaskLauncher& launcher, StopSignals& signals) {
   const fs::path& folder = *options.out;
-  SweepLimits limits;
-  limits.begin = begin;
-  limits.shard = shard_of(options);
-  limits.jobs = jobs_of(options);
-  limits.task_seconds = options.task_seconds;
-  limits.task_memory = options.task_memory;
-  limits.budget = options.time_budget;
-  limits.retry = options.retry;
   ProgressBar bar(!options.quiet, "task");
   const SweepOutcome outcome = run_sweep(
-      plan, folder, limits, launcher, signals,
+      plan, hashes, folder, limits, launcher, signals,
       [&bar](std::size_t done, std::size_t total) { bar.update(done, total); },
       [&bar](const std::string& warning) { print_warning(bar, warning); });
   bar.erase();
@@ -422,6 +431,7 @@ int sweep_command(const Arguments& arguments) {
         fmt::format("kds sweep takes one SWEEP.json, not {} (see kds sweep --help)", operands.size()));
   if (operands[0] == "status" || operands[0] == "collect")
     throw InputError(fmt::format("kds sweep {} needs the folder of a sweep", operands[0]));
+  refuse_conflicts(parsed);
   if (!options.out && !options.dry_run)
     throw InputError("kds sweep needs -o DIR, the folder of the results, or --dry-run");
 
@@ -432,17 +442,32 @@ int sweep_command(const Arguments& arguments) {
   const Json sweep = read_json(text_of_file(file), file.string());
   const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
   SweepSpec spec = read_sweep(sweep, folder, file.string());
-  if (options.out && !options.dry_run) prepare_folder(*options.out, plan_text(sweep, folder));
+  const Shard shard = shard_of(options);
+  const std::size_t jobs = jobs_of(options);
+  if (options.out && !options.dry_run) check_folder(*options.out);
   StopSignals signals;
   try {
     InputHashes hashes([&signals] { return signals.stopped(); });
     if (options.out) hashes.load(*options.out);
     const SweepPlan plan(std::move(spec), hashes, file.string());
-    if (options.out && !options.dry_run) hashes.save(*options.out);
-    if (runs) return run_shard(plan, options, begin, *launcher, signals);
+    if (options.out && !options.dry_run) {
+      prepare_folder(*options.out, plan_text(sweep, folder));
+      hashes.save(*options.out);
+    }
+    if (runs) {
+      SweepLimits limits;
+      limits.begin = begin;
+      limits.shard = shard;
+      limits.jobs = jobs;
+      limits.task_seconds = options.task_seconds;
+      limits.task_memory = options.task_memory;
+      limits.budget = options.time_budget;
+      limits.retry = options.retry;
+      return run_shard(plan, hashes, options, limits, *launcher, signals);
+    }
     const std::vector<Estimate> estimates = estimates_of(plan, hashes, options, signals);
-    print_to_stdout(estimates_text(plan, estimates, jobs_of(options)));
-    if (options.write && !options.dry_run) write_script(file, options, estimates);
+    print_to_stdout(estimates_text(plan, estimates, jobs));
+    if (options.write) write_script(file, options, jobs, estimates);
     return 0;
   } catch (const SweepStopped&) {
     return kContinueLater;

@@ -12,6 +12,7 @@
 #include "experiments/output/text.h"
 #include "experiments/sweep/engine_scripts.h"
 #include "experiments/sweep/result_rows.h"
+#include "experiments/sweep/run_sweep.h"
 #include "tests/experiments/expect_refused.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
@@ -83,6 +84,26 @@ TEST(Sweep, ResumesAndRepeatsOnlyTasksOfAChangedInput) {
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(second["rows"][k], first["rows"][k]);  // those of a.xyz
   EXPECT_NE(second["rows"][4], first["rows"][4]);
   expect_sound(content_of(scratch / "out/report.html"));
+}
+
+// The result of other content must not get the name of the content that was hashed.
+TEST(Sweep, LeavesTasksWhoseInputChangesMeanwhile) {
+  const ScratchDirectory scratch;
+  const std::string input = scratch.file("a.xyz", chain(0.2));
+  const std::string text = R"({"inputs": ["a.xyz"], "commands": ["info", "run"]})";
+  InputHashes hashes([] { return false; });
+  const SweepPlan plan(read_sweep(read_json(text, "s.json"), scratch.path(), "s.json"), hashes, "s.json");
+  EXPECT_FALSE(hashes.has_changed(input));
+  scratch.file("a.xyz", chain(0.2) + chain(0.3));
+  std::filesystem::create_directories(results_folder(scratch / "out"));
+  StopSignals signals;
+  std::vector<std::string> warnings;
+  const SweepOutcome outcome = kds::run_sweep(
+      plan, hashes, scratch / "out", {}, signals, [](std::size_t, std::size_t) {},
+      [&](const std::string& warning) { warnings.push_back(warning); });
+  EXPECT_EQ(outcome.done + outcome.failed + outcome.crashed, 0U);
+  EXPECT_TRUE(outcome.stopped);
+  EXPECT_THAT(warnings, testing::ElementsAre(HasSubstr("a.xyz: changed while the sweep ran")));
 }
 
 // The twin: each task's own command, read by another JSON library.
@@ -227,6 +248,18 @@ TEST(Sweep, RefusesWrongUsage) {
   for (const char* memory : {"0", "1G2", "10", "99999999T"})
     expect_refused({"sweep", sweep, "-o", scratch / "o", "--task-memory", memory}, {"--task-memory", "64M"});
   expect_refused({"sweep", sweep, "-o", scratch / "o", "--write", "slrum"}, {"did you mean slurm?"});
+  for (const std::vector<std::string>& options : {std::vector<std::string>{"--dry-run", "--write", "slurm"},
+                                                  {"--shard", "1/2", "--write", "slurm"},
+                                                  {"--time-budget", "9", "--dry-run"},
+                                                  {"--retry", "--write", "slurm"}}) {
+    std::vector<std::string> arguments{"sweep", sweep, "-o", scratch / "o"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    expect_refused(arguments, {options.front() + ": has no meaning beside"});
+  }
+  const std::string none =
+      scratch.file("none.json", R"({"commands": ["stability"], "exclude": [{"command": "*"}]})");
+  expect_refused({"sweep", none, "-o", scratch / "o"}, {"exclude leaves no task"});
+  EXPECT_FALSE(std::filesystem::exists(scratch / "o"));  // a sweep that is refused leaves no plan
 }
 
 TEST(Sweep, TellsTimesFromFigures) {
@@ -256,7 +289,9 @@ TEST(Sweep, BatchesAreAtMostAThousand) {
   EXPECT_EQ(batches_of(request).count, 3U);
   request.program = "/a folder/kds";
   request.sweep = "/s'.json";
-  request.folder = "/o";
+  request.folder = "/50%a\n";
+  EXPECT_THAT(engine_script(SweepEngine::slurm, request), HasSubstr("--output='/50%%a\n/slurm-%A_%a.out'"));
+  EXPECT_THAT(engine_script(SweepEngine::snakemake, request), HasSubstr("-o '/50%a\\n' --jobs"));
   for (const SweepEngine engine : {SweepEngine::slurm, SweepEngine::parallel, SweepEngine::snakemake})
     EXPECT_THAT(engine_script(engine, request), HasSubstr("'/a folder/kds' sweep"));
 }
