@@ -29,9 +29,16 @@ std::string collect_words(const EngineRequest& request) {
                      shell_words({request.folder.string()}));
 }
 
+// Slurm replaces % and a letter in the name of a log.
+std::string log_word(const EngineRequest& request, std::string_view name) {
+  std::string path;
+  for (const char c : request.folder.string()) path.append(c == '%' ? 2 : 1, c);
+  return shell_words({fmt::format("{}/{}", path, name)});
+}
+
 std::string slurm_script(const EngineRequest& request) {
   const Batches batches = batches_of(request);
-  const std::string log = shell_words({(request.folder / "slurm-%A_%a.out").string()});
+  const std::string log = log_word(request, "slurm-%A_%a.out");
   return fmt::format(
       R"(#!/bin/bash
 # Submits {tasks} tasks as an array of {count} batches of about {minutes:.1f} minutes, and a job that collects their
@@ -55,7 +62,7 @@ COLLECT
       fmt::arg("sweep", sweep_words(request)),
       fmt::arg("budget", batches.limit_minutes * 60 - kSecondsToStop),
       fmt::arg("collect", collect_words(request)),
-      fmt::arg("collect_log", shell_words({(request.folder / "slurm-collect.out").string()})));
+      fmt::arg("collect_log", log_word(request, "slurm-collect.out")));
 }
 
 std::string parallel_script(const EngineRequest& request) {
@@ -65,20 +72,24 @@ std::string parallel_script(const EngineRequest& request) {
 # Runs {tasks} tasks in {count} batches by GNU parallel, as many batches at a time as this machine has cores. For other
 # machines that share this folder, add --sshlogin HOSTS. Run it again to continue: only tasks without a result run.
 set -u
-seq {count} | parallel --jobs 100% {sweep} --quiet --shard {{}}/{count} || true  # collect says what is missing
+seq {count} | parallel --quote --jobs 100% {sweep} --quiet --shard {{}}/{count} || true  # collect says what is missing
 exec {collect}
 )",
       fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("count", batches.count),
       fmt::arg("sweep", sweep_words(request)), fmt::arg("collect", collect_words(request)));
 }
 
-// In a Snakefile, braces of shell commands are doubled, and backslashes and quotes of Python strings escaped.
+// In a Snakefile, braces of shell commands are doubled, and backslashes, quotes and line breaks of Python
+// strings escaped.
 std::string in_python(const std::string& shell) {
   std::string text;
   for (const char c : shell) {
     if (c == '\\' || c == '"') text += '\\';
     if (c == '{' || c == '}') text += c;
-    text += c;
+    if (c == '\n')
+      text += "\\n";
+    else
+      text += c;
   }
   return text;
 }

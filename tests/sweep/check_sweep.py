@@ -225,7 +225,7 @@ def twice():
 def write_script(engine, radii=(1, 1.5)):
     sweep = write_sweep(radii=radii)
     expected = reference(sweep)
-    folder = FOLDER / engine
+    folder = FOLDER / f"{engine}'s 100%j \"$HOME\" {{x}}"  # names that shells and engines must not interpret
     run = kds("sweep", sweep, "-o", folder, "--write", engine)
     return folder, expected, run.stdout.splitlines()[-1]
 
