@@ -253,7 +253,7 @@ std::span<const SweepCount> without_repeated_sum(const std::vector<SweepCount>& 
 
 std::vector<SweepCount> counts_from(const SweepPlan& plan, const TaskStates& states, const fs::path& folder) {
   std::vector<SweepCount> counts;
-  const TaskLocks locks(locks_file(folder));
+  const TaskLocks locks(locks_file(folder), TaskLocks::Use::look);
   SweepCount all;
   all.command = "all";
   for (const SweepTask& task : plan.tasks()) {

@@ -219,11 +219,16 @@ void JournalWriter::complete() {
   }
 }
 
-TaskLocks::TaskLocks(const fs::path& file) : file_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-  if (file_ < 0) fail_to_write(file.string(), errno);
+TaskLocks::TaskLocks(const fs::path& file, Use use)
+    : file_(::open(file.c_str(), use == Use::take ? O_RDWR | O_CREAT | O_CLOEXEC : O_RDONLY | O_CLOEXEC,
+                   0666)) {
+  if (file_ < 0 && use == Use::take) fail_to_write(file.string(), errno);
+  supported_ = file_ >= 0;
 }
 
-TaskLocks::~TaskLocks() { ::close(file_); }
+TaskLocks::~TaskLocks() {
+  if (file_ >= 0) ::close(file_);
+}
 
 namespace {
 

@@ -91,7 +91,7 @@ class JournalWriter {
   /// Returns false if the disk has no room for the record, of which nothing remains then. `json` is one line.
   /// Throws OutputError if the record cannot be written for another reason.
   [[nodiscard]] bool add(RecordKind kind, TaskName task, std::string_view json = "{}");
-  /// Syncs the journal if records wait for it since a second.
+  /// Syncs the journal if a record has waited for a second.
   void sync_now_and_then();
   /// Syncs the journal and renames it. The next record begins another journal.
   void complete();
@@ -113,8 +113,10 @@ class JournalWriter {
 /// shared file system that has such locks: NFS, GPFS, Lustre mounted with `flock`.
 class TaskLocks {
  public:
-  /// Opens the file, or makes it. Throws InputError.
-  explicit TaskLocks(const std::filesystem::path& file);
+  enum class Use : std::uint8_t { take, look };
+  /// Opens the file. To take locks, makes it if needed, and throws OutputError if it cannot be written. To
+  /// look at the locks of others, takes none to exist if the file cannot be read.
+  explicit TaskLocks(const std::filesystem::path& file, Use use = Use::take);
   ~TaskLocks();
   TaskLocks(const TaskLocks&) = delete;
   TaskLocks& operator=(const TaskLocks&) = delete;
