@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <span>
 #include <unordered_map>
 
@@ -292,39 +293,48 @@ std::vector<SweepCount> counts_from(const SweepPlan& plan, const TaskStates& sta
   return counts;
 }
 
-// Plots the figures over the first axis with several numbers, one plot for each of the first measures.
-std::string plots_of(const Pool& pool, const std::string& pooled) {
+// Plots the figures of a command over its first axis with several numbers, one plot for each of the first
+// measures. Axes of one value do not name series. `pooled` says over what the means are.
+std::string plots_of(const Pool& pool, const std::string& command, const std::string& pooled) {
   constexpr std::size_t most_plots = 4, most_series = 12;
   const auto number_of = [](const std::string& text) -> std::optional<double> {
     char* end = nullptr;
     const double number = std::strtod(text.c_str(), &end);
     return !text.empty() && *end == '\0' && number > 0 ? std::optional(number) : std::nullopt;
   };
+  std::vector<const PooledFigure*> figures;
+  std::vector<std::set<std::string>> values(pool.names().size());
+  for (const PooledFigure& figure : pool.figures()) {
+    if (figure.command != command) continue;
+    figures.push_back(&figure);
+    for (std::size_t axis = 0; axis < values.size(); ++axis) values[axis].insert(figure.axes[axis]);
+  }
   std::string html;
   for (std::size_t axis = 0; axis < pool.names().size() && html.empty(); ++axis) {
-    std::map<std::string, PointPlot> plots;  // by command and measure
+    std::map<std::string, PointPlot> plots;  // by measure
     std::vector<std::string> order;
-    for (const PooledFigure& figure : pool.figures()) {
-      const auto x = number_of(figure.axes[axis]);
-      if (!x || !(figure.mean() > 0)) continue;
-      const std::string name = figure.command + ": " + figure.measure;
+    for (const PooledFigure* figure : figures) {
+      const auto x = number_of(figure->axes[axis]);
+      if (!x || !(figure->mean() > 0)) continue;
+      const std::string& name = figure->measure;
       if (!plots.contains(name)) {
         if (order.size() == most_plots) continue;
         order.push_back(name);
-        plots[name] = {pool.names()[axis], figure.measure, {}, {}};
+        plots[name] = {pool.names()[axis], name, {}, {}};
       }
       PointPlot& plot = plots[name];
-      std::string series = figure.row;
-      for (std::size_t k = 0; k < figure.axes.size(); ++k)
-        if (k != axis && !figure.axes[k].empty() && figure.row.find(figure.axes[k]) == std::string::npos)
-          series += (series.empty() ? "" : ", ") + figure.axes[k];
+      std::string series = figure->row;
+      for (std::size_t k = 0; k < figure->axes.size(); ++k)
+        if (k != axis && values[k].size() > 1 && !figure->axes[k].empty() &&
+            figure->row.find(figure->axes[k]) == std::string::npos)
+          series += (series.empty() ? "" : ", ") + figure->axes[k];
       auto found = std::ranges::find(plot.series, series);
       if (found == plot.series.end()) {
         if (plot.series.size() == most_series) continue;
         plot.series.push_back(series);
         found = plot.series.end() - 1;
       }
-      plot.points.push_back({"", *x, figure.mean(), static_cast<std::size_t>(found - plot.series.begin())});
+      plot.points.push_back({"", *x, figure->mean(), static_cast<std::size_t>(found - plot.series.begin())});
     }
     for (const std::string& name : order) {
       std::vector<double> places;
@@ -332,8 +342,8 @@ std::string plots_of(const Pool& pool, const std::string& pooled) {
       std::ranges::sort(places);
       if (places.empty() || places.front() == places.back()) continue;
       html += html_figure(svg_plot(plots[name]),
-                          html_escaped(fmt::format("{} by {}, means over {}, both axes logarithmic.", name,
-                                                   pool.names()[axis], pooled)));
+                          html_escaped(fmt::format("{}: {} by {}, means over {}, both axes logarithmic.",
+                                                   command, name, pool.names()[axis], pooled)));
     }
   }
   return html;
@@ -362,8 +372,10 @@ std::string sweep_page(const SweepPlan& plan, const CollectedSweep& collected, c
   std::string pooled = pooled_table(pool.names()).html(shown);
   pooled += fmt::format("<p>{} of {} means; pooled.csv has all.</p>\n", shown.size(),
                         with_thousands(pool.figures().size()));
-  page.body =
-      html_section("Plots", plots_of(pool, fmt::format("{}", fmt::join(plan.spec().pooled, " and "))));
+  std::string plots;
+  for (const SweepCount& count : counts)
+    plots += plots_of(pool, count.command, fmt::format("{}", fmt::join(plan.spec().pooled, " and ")));
+  page.body = html_section("Plots", plots);
   if (!failed.empty())
     page.body +=
         html_section("Tasks without a result",
