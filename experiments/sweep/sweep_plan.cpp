@@ -55,20 +55,21 @@ void append(Arguments& arguments, const std::string& option, const std::vector<s
 }  // namespace
 
 SweepPlan::SweepPlan(SweepSpec spec, InputHashes& hashes, const std::string& subject)
-    : spec_(std::move(spec)) {
-  for (std::uint32_t block = 0; block < spec_.blocks.size(); ++block) add_tasks(block, hashes);
+    : spec_(std::move(spec)), exclusion_matched_(spec_.exclusions.size()) {
+  for (std::uint32_t block = 0; block < spec_.blocks.size(); ++block) add_tasks(block, hashes, subject);
   if (tasks_.empty()) throw InputError(subject + ": exclude leaves no task");
+  refuse_idle_exclusions(subject);
   refuse_equal_names(subject);
 }
 
-void SweepPlan::add_tasks(std::uint32_t block, InputHashes& hashes) {
+void SweepPlan::add_tasks(std::uint32_t block, InputHashes& hashes, const std::string& subject) {
   constexpr std::size_t most_tasks = 100'000'000;
   std::uint64_t settings = 1;
   for (const Axis& axis : spec_.blocks[block].axes) {
     settings *= axis.values.size();
     if (settings * spec_.blocks[block].inputs.size() > most_tasks)
-      throw InputError(
-          fmt::format("commands[{}]: has more than {} tasks", block, with_thousands(most_tasks)));
+      throw InputError(fmt::format("{}: commands[{}]: has more than {} tasks", subject, block,
+                                   with_thousands(most_tasks)));
   }
   SweepTask task;
   task.block = block;
@@ -129,13 +130,32 @@ void SweepPlan::add_parts(const SweepTask& whole, InputHashes& hashes) {
   }
 }
 
-bool SweepPlan::is_excluded(const SweepTask& task) const {
-  return std::ranges::any_of(spec_.exclusions, [&](const Exclusion& exclusion) {
-    return std::ranges::all_of(exclusion, [&](const auto& axis) {
+bool SweepPlan::is_excluded(const SweepTask& task) {
+  bool excluded = false;
+  for (std::size_t k = 0; k < spec_.exclusions.size(); ++k) {
+    const bool matched = std::ranges::all_of(spec_.exclusions[k], [&](const auto& axis) {
       return (axis.first == "command" || axis.first == "input" || value(task, axis.first) != nullptr) &&
              matches(text(task, axis.first), axis.second);
     });
-  });
+    exclusion_matched_[k] = exclusion_matched_[k] || matched;
+    excluded = excluded || matched;
+  }
+  return excluded;
+}
+
+// An exclusion that matches no task is misspelt, and tasks would run that were to be left out. Files come and
+// go, so an exclusion of inputs may match none.
+void SweepPlan::refuse_idle_exclusions(const std::string& subject) const {
+  for (std::size_t k = 0; k < spec_.exclusions.size(); ++k) {
+    const bool of_inputs =
+        std::ranges::any_of(spec_.exclusions[k], [](const auto& axis) { return axis.first == "input"; });
+    if (exclusion_matched_[k] || of_inputs) continue;
+    std::string patterns;
+    for (const auto& [axis, pattern] : spec_.exclusions[k])
+      patterns += fmt::format("{}{} '{}'", patterns.empty() ? "" : " and ", axis, pattern);
+    throw InputError(fmt::format("{}: exclude[{}]: no task has {}; expected patterns that leave out a task",
+                                 subject, k, patterns));
+  }
 }
 
 const AxisValue* SweepPlan::value(const SweepTask& task, std::string_view name) const {

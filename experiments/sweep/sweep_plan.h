@@ -26,8 +26,8 @@ struct SweepTask {
 class SweepPlan {
  public:
   /// Lists the tasks. Reads each input once for its hash, unless `hashes` remembers it; cutting a trajectory
-  /// reads it once more. Takes about a microsecond for each task. Throws InputError if no task is
-  /// left or if one is listed twice.
+  /// reads it once more. Takes about a microsecond for each task. Throws InputError if no task is left, if a
+  /// task is listed twice, or if an exclusion without `input` matches no task.
   SweepPlan(SweepSpec spec, InputHashes& hashes, const std::string& subject);
 
   [[nodiscard]] const SweepSpec& spec() const { return spec_; }
@@ -53,9 +53,11 @@ class SweepPlan {
   [[nodiscard]] double size(const SweepTask& task, const InputHashes& hashes) const;
 
  private:
-  void add_tasks(std::uint32_t block, InputHashes& hashes);
+  void add_tasks(std::uint32_t block, InputHashes& hashes, const std::string& subject);
   void add_parts(const SweepTask& whole, InputHashes& hashes);
-  [[nodiscard]] bool is_excluded(const SweepTask& task) const;
+  /// Notes which exclusions leave the task out, and returns whether one does.
+  [[nodiscard]] bool is_excluded(const SweepTask& task);
+  void refuse_idle_exclusions(const std::string& subject) const;
   [[nodiscard]] TaskName name_of(const SweepTask& task, InputHashes& hashes) const;
   /// Returns option and value of all options of a task but its stride, sorted by option.
   [[nodiscard]] std::vector<std::pair<std::string, const AxisValue*>> options_of(const SweepTask& task) const;
@@ -64,6 +66,7 @@ class SweepPlan {
   SweepSpec spec_;
   std::vector<SweepTask> tasks_;
   std::size_t excluded_ = 0;
+  std::vector<bool> exclusion_matched_;
 };
 
 }  // namespace kds

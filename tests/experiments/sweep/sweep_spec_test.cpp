@@ -145,11 +145,19 @@ TEST(SweepSpec, NamesTasksByContentAndSettings) {
 }
 
 // A task that is listed twice would count twice in means.
-TEST(SweepSpec, ListsEachTaskOnce) {
+TEST(SweepSpec, RefusesTasksListedTwiceAndIdleExclusions) {
   const ScratchDirectory scratch;
   scratch.file("a.xyz", xyz({"0 0 0", "1 0 0"}));
   scratch.file("same.xyz", xyz({"0 0 0", "1 0 0"}));
   EXPECT_EQ(plan_of(R"({"inputs": ["*.xyz"], "commands": ["run"]})", scratch.path()).tasks().size(), 2U);
+  try {
+    static_cast<void>(plan_of(
+        R"({"inputs": ["*.xyz"], "commands": ["run"], "exclude": [{"input": "gone"}, {"command": "r"}]})",
+        scratch.path()));
+    ADD_FAILURE() << "accepted an exclusion that matches no task";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("s.json: exclude[1]: no task has command 'r'"));
+  }
   for (const char* twice : {R"({"inputs": ["a.xyz", "*.xyz"], "commands": ["run"]})",
                             R"({"inputs": ["a.xyz"], "commands": ["run", {"command": "run"}]})"})
     try {
