@@ -372,9 +372,11 @@ std::string sweep_page(const SweepPlan& plan, const CollectedSweep& collected, c
   std::string pooled = pooled_table(pool.names()).html(shown);
   pooled += fmt::format("<p>{} of {} means; pooled.csv has all.</p>\n", shown.size(),
                         with_thousands(pool.figures().size()));
+  const std::vector<std::string>& over = plan.spec().pooled;
   std::string plots;
   for (const SweepCount& count : counts)
-    plots += plots_of(pool, count.command, fmt::format("{}", fmt::join(plan.spec().pooled, " and ")));
+    plots += plots_of(pool, count.command,
+                      over.empty() ? "equal settings" : fmt::format("{}", fmt::join(over, " and ")));
   page.body = html_section("Plots", plots);
   if (!failed.empty())
     page.body +=

@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // The sweep sets these options itself, or their files would be those of every task.
-constexpr std::array<std::string_view, 10> kOwnOptions{"help",  "o",    "out", "json",   "quiet",
-                                                       "paper", "dump", "log", "events", "data"};
+constexpr std::array<std::string_view, 11> kOwnOptions{"help", "o",   "out",    "json", "quiet", "paper",
+                                                       "dump", "log", "events", "view", "data"};
 constexpr std::array<std::string_view, 2> kFileOptions{"topology", "obstacle"};
 constexpr std::string_view kRadiusFile = "file:";
 

@@ -96,10 +96,11 @@ TEST(Sweep, LeavesTasksWhoseInputChangesMeanwhile) {
   EXPECT_FALSE(hashes.has_changed(input));
   scratch.file("a.xyz", chain(0.2) + chain(0.3));
   std::filesystem::create_directories(results_folder(scratch / "out"));
+  TaskLauncher launcher;
   StopSignals signals;
   std::vector<std::string> warnings;
   const SweepOutcome outcome = kds::run_sweep(
-      plan, hashes, scratch / "out", {}, signals, [](std::size_t, std::size_t) {},
+      plan, hashes, scratch / "out", {}, launcher, signals, [](std::size_t, std::size_t) {},
       [&](const std::string& warning) { warnings.push_back(warning); });
   EXPECT_EQ(outcome.done + outcome.failed + outcome.crashed, 0U);
   EXPECT_TRUE(outcome.stopped);
