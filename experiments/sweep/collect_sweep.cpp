@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
@@ -18,7 +17,7 @@
 #include "experiments/output/page/table.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
-#include "experiments/program/mean_interval.h"
+#include "experiments/sweep/pooled_figures.h"
 #include "experiments/sweep/result_rows.h"
 #include "motions/base/input_error.h"
 
@@ -95,85 +94,6 @@ class WideTable {
   std::unordered_map<std::string, std::uint32_t> by_name_;
   std::vector<Row> rows_;
 };
-
-// A measure with the values of all tasks that differ in the pooled axes only.
-struct PooledFigure {
-  std::string command, row, measure;
-  std::vector<std::string> axes;
-  std::vector<double> values;
-
-  [[nodiscard]] double mean() const {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  }
-};
-
-class Pool {
- public:
-  explicit Pool(const SweepPlan& plan) : plan_(plan) {
-    for (const std::string& axis : plan.axes()) names_.push_back(axis);
-    names_.insert(names_.begin(), "input");
-    std::erase_if(names_, [&](const std::string& axis) {
-      return std::ranges::find(plan.spec().pooled, axis) != plan.spec().pooled.end();
-    });
-  }
-
-  void add(const SweepTask& task, const std::vector<ResultRow>& rows) {
-    std::vector<std::string> axes;
-    for (const std::string& axis : names_) axes.push_back(plan_.text(task, axis));
-    std::map<std::string, std::size_t> seen;
-    for (const ResultRow& row : rows) {
-      const std::string identity = identity_of(row, plan_.spec().pooled);
-      const std::size_t place = seen[identity]++;  // rows that nothing else tells apart
-      for (const auto& [name, value] : row.fields) {
-        const auto number = value.number();
-        if (!number || is_identity(name, value) || name.starts_with("input.")) continue;
-        const std::string key = fmt::format("{}\n{}\n{}\n{}\n{}", plan_.text(task, "command"),
-                                            fmt::join(axes, "\n"), identity, place, name);
-        const auto [found, is_new] = by_key_.emplace(key, figures_.size());
-        if (is_new) figures_.push_back({plan_.text(task, "command"), identity, name, axes, {}});
-        figures_[found->second].values.push_back(*number);
-      }
-    }
-  }
-
-  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-  [[nodiscard]] const std::vector<PooledFigure>& figures() const { return figures_; }
-
- private:
-  const SweepPlan& plan_;
-  std::vector<std::string> names_;
-  std::unordered_map<std::string, std::size_t> by_key_;
-  std::vector<PooledFigure> figures_;
-};
-
-Table<PooledFigure> pooled_table(const std::vector<std::string>& axes) {
-  using R = PooledFigure;
-  const auto end_of = [](double MeanInterval::*end) {
-    return [end](const R& r) {
-      const auto interval = mean_of_independent(r.values);
-      return interval ? Field((*interval).*end) : Field();
-    };
-  };
-  Table<R> table{{{"command", "command", [](const R& r) { return Field(r.command); }}}};
-  for (std::size_t k = 0; k < axes.size(); ++k)
-    table.add({{axes[k], axes[k], [k](const R& r) { return text_or_nothing(r.axes[k]); }}});
-  table.add({
-      {"row", "row", [](const R& r) { return text_or_nothing(r.row); }},
-      {"measure", "measure", [](const R& r) { return Field(r.measure); }},
-      {"tasks", "tasks", [](const R& r) { return Field(r.values.size()); }},
-      {.key = "mean",
-       .heading = "mean (95%)",
-       .value = [](const R& r) { return Field(r.mean()); },
-       .words =
-           [](const R& r) {
-             const auto interval = mean_of_independent(r.values);
-             return interval ? interval_text(*interval) : short_decimal(r.mean());
-           }},
-      {.key = "lower", .value = end_of(&MeanInterval::lower)},
-      {.key = "upper", .value = end_of(&MeanInterval::upper)},
-  });
-  return table;
-}
 
 struct FailedTask {
   std::string task, command, input, status, error, repeat;
@@ -295,7 +215,7 @@ std::vector<SweepCount> counts_from(const SweepPlan& plan, const TaskStates& sta
 
 // Plots the figures of a command over its first axis with several numbers, one plot for each of the first
 // measures. Axes of one value do not name series. `pooled` says over what the means are.
-std::string plots_of(const Pool& pool, const std::string& command, const std::string& pooled) {
+std::string plots_of(const PooledFigures& pool, const std::string& command, const std::string& pooled) {
   constexpr std::size_t most_plots = 4, most_series = 12;
   const auto number_of = [](const std::string& text) -> std::optional<double> {
     char* end = nullptr;
@@ -349,7 +269,7 @@ std::string plots_of(const Pool& pool, const std::string& command, const std::st
   return html;
 }
 
-std::string sweep_page(const SweepPlan& plan, const CollectedSweep& collected, const Pool& pool,
+std::string sweep_page(const SweepPlan& plan, const CollectedSweep& collected, const PooledFigures& pool,
                        const std::vector<FailedTask>& failed, const std::vector<SweepCount>& counts,
                        const std::string& command_line) {
   constexpr std::size_t most_rows = 300;
@@ -436,7 +356,7 @@ CollectedSweep collect_sweep(const SweepPlan& plan, const fs::path& folder, cons
   const std::vector<std::string> axes = plan.axes();
   fixed.insert(fixed.end(), axes.begin(), axes.end());
   WideTable results(fixed), times({"task", "row"});
-  Pool pool(plan);
+  PooledFigures pool(plan);
   CollectedSweep collected;
   const std::vector<SweepTask>& tasks = plan.tasks();
   for (std::size_t first = 0; first < tasks.size(); first += tasks[first].parts) {

@@ -16,7 +16,7 @@ inline constexpr std::array<std::string_view, 3> sweep_engine_names{"slurm", "pa
   return sweep_engine_names[static_cast<std::size_t>(engine)];
 }
 
-/// What a script needs to know.
+/// Everything that a script depends on.
 struct EngineRequest {
   std::filesystem::path program, sweep, folder;  ///< absolute paths
   std::string options;                           ///< further options of kds sweep, quoted

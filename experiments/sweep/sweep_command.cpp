@@ -8,13 +8,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <optional>
 #include <sstream>
 #include <thread>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/table.h"
+#include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
@@ -22,6 +21,7 @@
 #include "experiments/program/progress_bar.h"
 #include "experiments/sweep/collect_sweep.h"
 #include "experiments/sweep/engine_scripts.h"
+#include "experiments/sweep/estimate_sweep.h"
 #include "experiments/sweep/run_sweep.h"
 #include "motions/base/input_error.h"
 
@@ -233,93 +233,8 @@ std::size_t jobs_of(const SweepOptions& options) {
   return std::max(std::thread::hardware_concurrency(), 1U);
 }
 
-// The expected work of one command, from one task of it.
-struct Estimate {
-  std::string command;
-  std::size_t tasks = 0, open = 0;
-  double seconds = 0, hours = 0, longest = 0;
-  bool cut_off = false;
-  std::string error;
-};
-
-Table<Estimate> estimate_table() {
-  using R = Estimate;
-  return {{
-      {"command", "command", [](const R& r) { return Field(r.command); }},
-      {"tasks", "tasks", [](const R& r) { return Field(r.tasks); }},
-      {"open", "without a result", [](const R& r) { return Field(r.open); }},
-      {.key = "seconds",
-       .heading = "seconds of one task",
-       .value = [](const R& r) { return r.open > 0 && r.error.empty() ? Field(r.seconds) : Field(); },
-       .words = [](const R& r) { return (r.cut_off ? "more than " : "") + short_decimal(r.seconds); }},
-      {.key = "hours",
-       .heading = "core hours expected",
-       .value = [](const R& r) { return r.error.empty() ? Field(r.hours) : Field(); },
-       .words = [](const R& r) { return (r.cut_off ? "more than " : "") + short_decimal(r.hours); }},
-      {"error", "the task failed", [](const R& r) { return text_or_nothing(r.error); }},
-  }};
-}
-
-// Runs the open task of median size of each command. Others are taken to need time in proportion to their
-// size.
-std::vector<Estimate> estimates_of(const SweepPlan& plan, const InputHashes& hashes,
-                                   const SweepOptions& options, StopSignals& signals) {
-  constexpr double most_seconds = 60;
-  TaskStates states(options.out ? results_folder(*options.out) : fs::path());
-  if (options.out) states.refresh();
-  if (options.retry) states.forgive();
-  struct Sized {
-    double size;
-    const SweepTask* task;
-  };
-  std::vector<std::vector<Sized>> open(plan.spec().blocks.size());
-  std::vector<Estimate> estimates(open.size());
-  for (const SweepTask& task : plan.tasks()) {
-    estimates[task.block].command = plan.text(task, "command");
-    ++estimates[task.block].tasks;
-    if (status_of(states.of(task.name)) == TaskStatus::open)
-      open[task.block].push_back({plan.size(task, hashes), &task});
-  }
-  for (std::size_t block = 0; block < open.size(); ++block) {
-    Estimate& estimate = estimates[block];
-    std::vector<Sized>& tasks = open[block];
-    estimate.open = tasks.size();
-    if (tasks.empty()) continue;
-    const auto middle = tasks.begin() + static_cast<std::ptrdiff_t>(tasks.size() / 2);
-    std::ranges::nth_element(tasks, middle, {}, &Sized::size);
-    const Sized median = *middle;
-    const TrialRun run = try_task(
-        plan, *median.task, std::min(most_seconds, options.task_seconds.value_or(most_seconds)), signals);
-    estimate.seconds = run.seconds;
-    estimate.cut_off = run.cut_off;
-    estimate.error = run.error;
-    for (const Sized& task : tasks) {
-      const double seconds = run.seconds * task.size / median.size;
-      estimate.hours += seconds / 3600;
-      estimate.longest = std::max(estimate.longest, seconds);
-    }
-  }
-  std::erase_if(estimates, [](const Estimate& estimate) { return estimate.tasks == 0; });
-  return estimates;
-}
-
-double sum_of_hours(const std::vector<Estimate>& estimates) {
-  double hours = 0;
-  for (const Estimate& estimate : estimates) hours += estimate.hours;
-  return hours;
-}
-
-std::string estimates_text(const SweepPlan& plan, const std::vector<Estimate>& estimates, std::size_t jobs) {
-  std::string text = estimate_table().text(estimates);
-  const double hours = sum_of_hours(estimates);
-  text += fmt::format("{} tasks", with_thousands(plan.tasks().size()));
-  if (plan.excluded() > 0) text += fmt::format(", {} excluded", with_thousands(plan.excluded()));
-  return text + fmt::format("; about {} hours with {} at a time, if time grows with the bytes of an input\n",
-                            short_decimal(hours / static_cast<double>(jobs)), jobs);
-}
-
 void write_script(const fs::path& sweep, const SweepOptions& options, std::size_t jobs,
-                  const std::vector<Estimate>& estimates) {
+                  const std::vector<SweepEstimate>& estimates) {
   EngineRequest request;
   std::error_code error;
   request.program = fs::read_symlink("/proc/self/exe", error);
@@ -328,7 +243,7 @@ void write_script(const fs::path& sweep, const SweepOptions& options, std::size_
   request.folder = fs::absolute(*options.out);
   request.jobs = jobs;
   request.hours = sum_of_hours(estimates);
-  for (const Estimate& estimate : estimates) {
+  for (const SweepEstimate& estimate : estimates) {
     request.tasks += estimate.open;
     request.longest = std::max(request.longest, estimate.longest);
   }
@@ -465,7 +380,8 @@ int sweep_command(const Arguments& arguments) {
       limits.retry = options.retry;
       return run_shard(plan, hashes, options, limits, *launcher, signals);
     }
-    const std::vector<Estimate> estimates = estimates_of(plan, hashes, options, signals);
+    const std::vector<SweepEstimate> estimates =
+        estimate_sweep(plan, hashes, options.out, options.retry, options.task_seconds, signals);
     print_to_stdout(estimates_text(plan, estimates, jobs));
     if (options.write) write_script(file, options, jobs, estimates);
     return 0;

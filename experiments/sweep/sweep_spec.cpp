@@ -504,6 +504,8 @@ SweepSpec read_sweep(const Json& json, const fs::path& folder, const std::string
     for (const Json& name : *pool->items()) {
       spec.pooled.push_back(scalar_text(name, subject + ": pool"));
       check_axis_name(spec.pooled.back(), names, subject + ": pool");
+      if (spec.pooled.back() == "command")
+        throw InputError(subject + ": pool: results of different commands have no mean; expected other axes");
     }
   } else {
     spec.pooled = {seeds != nullptr ? "seed" : "input"};

@@ -15,7 +15,7 @@
 
 namespace kds {
 
-/// What a sweep needs to know of a command.
+/// A command as its help describes it.
 struct SweptCommand {
   struct Option {
     std::string name;   ///< without its dashes

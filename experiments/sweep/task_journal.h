@@ -37,7 +37,7 @@ struct RecordPlace {
   std::uint64_t offset = 0;
 };
 
-/// What the journals say of a task.
+/// The records of a task, counted.
 struct TaskState {
   std::uint32_t attempts = 0, closed = 0;  ///< attempts that began; those of them with a result or given up
   bool failed = false;
