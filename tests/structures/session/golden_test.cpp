@@ -63,8 +63,9 @@ TEST(Golden, Wrapped) {
   expect_outcome<WrappedHierarchy<3>>({55, 0xce8073ac8c39147bU},
                                       std::vector{instance_motion<Space>("d3_n20_linear")}, true, twenty,
                                       Radii::equal);
-  expect_outcome<WrappedHierarchy<3>>(
-      {102, 0xe96f1593bf983399U}, trajectory_steps("villin_hp36_300K.dcd", 0, 10), true, villin, Radii::equal);
+  expect_outcome<WrappedHierarchy<3>>({102, 0xe96f1593bf983399U},
+                                      trajectory_steps("villin_hp36_300K.dcd", 0, 10), true, villin,
+                                      Radii::equal);
   expect_outcome<WrappedHierarchy<3>>({70, 0x3523596c8eaba307U},
                                       trajectory_steps("villin_hp36_300K.dcd", 0, 900, 300), false, villin,
                                       Radii::equal);
