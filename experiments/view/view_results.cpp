@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string>
+
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -9,7 +11,7 @@ namespace kds {
 ViewResults::ViewResults(const ViewRequest& request, const ReplayLabels& labels, const Scene& scene,
                          Session& session)
     : request_(request), scene_(scene), session_(session), recorder_(session) {
-  if (request_.script) find_script_frame();
+  if (request_.script) find_script_frame(labels.stride);
   if (request_.page) {
     page_.emplace(files_.open(*request_.page), scene,
                   ReplayPageOptions{labels, request_.quantum, request_.most_bytes});
@@ -20,7 +22,7 @@ ViewResults::ViewResults(const ViewRequest& request, const ReplayLabels& labels,
   session.simulator().listen(recorder_);
 }
 
-void ViewResults::find_script_frame() {
+void ViewResults::find_script_frame(std::size_t stride) {
   check_script_ending(*request_.script);
   if (!request_.at) return;
   const auto distance = [&](std::size_t number) {
@@ -33,9 +35,10 @@ void ViewResults::find_script_frame() {
     nearest = number;
     script_frame_ = frame;
   }
-  if (nearest != *request_.at)
-    throw InputError(
-        fmt::format("--at {}: the run has no such frame; the nearest is --at {}", *request_.at, nearest));
+  if (nearest == *request_.at) return;
+  const std::string taken = stride > 1 ? fmt::format("takes one frame in {} (--max-mb) and ", stride) : "";
+  throw InputError(fmt::format("--at {}: the run {}has no such frame; the nearest is --at {}", *request_.at,
+                               taken, nearest));
 }
 
 void ViewResults::add_frame(std::size_t frame) {

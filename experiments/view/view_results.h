@@ -45,7 +45,8 @@ class ViewResults {
   [[nodiscard]] AtomicFiles* vtk_files() { return vtk_ ? &vtk_->files() : nullptr; }
 
  private:
-  void find_script_frame();
+  /// Finds the frame of the script in a run over one frame in `stride`.
+  void find_script_frame(std::size_t stride);
 
   ViewRequest request_;
   const Scene& scene_;
