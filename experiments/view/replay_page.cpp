@@ -114,10 +114,10 @@ void ReplayPage::choose_quantum(const Eigen::Matrix3Xd& first) {
         "frame {}: all beads lie within {:.3g}, and a page shows lengths from {} to {}; expected an input in "
         "another unit",
         scene_.frame_number(0), size, kLeastLength, kMostLength));
-  if (quantum_ > size)
+  if (quantum_ > size && quantum_ > farthest())
     throw InputError(fmt::format(
-        "--quantum {}: all beads of frame {} lie within {:.3g}, less than one step; expected at most "
-        "--quantum {:.1g}",
+        "--quantum {}: the scene is smaller than one step; all beads of frame {} lie within {:.3g}; expected "
+        "at most --quantum {:.1g}",
         quantum_, scene_.frame_number(0), size, size / 100));
 }
 
@@ -185,15 +185,15 @@ void ReplayPage::write_frames() {
     const Eigen::Matrix3Xd centers = scene_.centers(frame);
     const Eigen::Vector3d low = centers.rowwise().minCoeff(), high = centers.rowwise().maxCoeff();
     const FrameStamp stamp = scene_.stamp(frame);
-    if (frame == 0) {
-      choose_quantum(centers);
-      has_times_ = stamp.picoseconds.has_value();
-    }
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
       if (frame == 0) origin_[a] = low_[a] = low[axis], high_[a] = high[axis];
       low_[a] = std::min(low_[a], low[axis]);
       high_[a] = std::max(high_[a], high[axis]);
+    }
+    if (frame == 0) {
+      choose_quantum(centers);
+      has_times_ = stamp.picoseconds.has_value();
     }
     blocks.add(numbers_of(centers, frame), controls);
     numbers.add_word(static_cast<std::uint32_t>(stamp.number));

@@ -217,9 +217,10 @@ TEST(ReplayPage, RefusesScenesThatWouldBeBlank) {
     Trajectory necklace;
     for (const double moved : {0.0, 1.0})
       necklace.frames.emplace_back(factor * Eigen::Matrix3Xd{{0, 1, 2 + moved}, {0, 2, 0}, {0, 0, 1}});
-    return Scene({necklace}, std::vector<double>(3, factor), FrameMotion::linear);
+    return Scene(std::vector{necklace}, std::vector<double>(3, factor), FrameMotion::linear);
   };
-  expect_refused(scaled(1), 100, "--quantum 100: all beads of frame 0 lie within 4, less than one step");
+  expect_refused(scaled(1), 100,
+                 "--quantum 100: the scene is smaller than one step; all beads of frame 0 lie within 4;");
   expect_refused(scaled(1), 100, "at most --quantum 0.04");
   expect_refused(scaled(1e18), {},
                  "frame 0: all beads lie within 4e+18, and a page shows lengths from 1e-15 to 1e+18");
@@ -233,7 +234,7 @@ TEST(ReplayPage, NamesAQuantumThatHoldsForAllFrames) {
   Trajectory necklace;
   for (const double moved : {0.0, 1e9, 1e11})
     necklace.frames.emplace_back(Eigen::Matrix3Xd{{moved, moved + 4}, {0, 0}, {0, 0}});
-  const Scene scene({necklace}, {1, 1}, FrameMotion::linear);
+  const Scene scene(std::vector{necklace}, {1, 1}, FrameMotion::linear);
   std::ostringstream stream;
   try {
     ReplayPage(stream, scene, {}).write_frames();
@@ -242,6 +243,7 @@ TEST(ReplayPage, NamesAQuantumThatHoldsForAllFrames) {
     EXPECT_THAT(error.what(), HasSubstr("frame 1, bead 0 lies 1e+09"));
     EXPECT_THAT(error.what(), HasSubstr("at least --quantum 745"));
   }
+  ReplayPage(stream, scene, {{}, 745.1, {}}).write_frames();
 }
 
 std::string text_of_template() {
