@@ -1,6 +1,7 @@
 #include "structures/power_diagram/hidden_guards.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 namespace kds {
@@ -153,30 +154,39 @@ CellId HiddenGuards<Dimension>::walk_to(BeadId bead, CellId cell, int came_from)
 }
 
 /// Returns the host of a bead just after now, or no_cell if none is found. If the bead lies on a face shared
-/// by several cells, the host is the one of these cells with the least beads, wherever the walk started.
+/// by several cells, the host is the one of these cells with the least beads, wherever the walk started. Flat
+/// cells are passed through, because all beads of their plane seem to lie in them. The kernel `fast` may not
+/// know that a sign is zero, so it takes the cell where the walk ends.
 template <int Dimension>
 CellId HiddenGuards<Dimension>::find_host(BeadId bead, CellId cell, int came_from) {
   const CellId at = walk_to(bead, cell, came_from);
   if (at == no_cell || state_.is_infinite(at)) return no_cell;
-  const auto sorted_beads = [this](CellId of) {
-    Beads beads = state_.beads_of(of);
-    std::sort(beads.begin(), beads.end());
-    return beads;
-  };
-  CellId least = at;
+  if (state_.simulator.kernel() == Kernel::fast) return at;
   std::vector<CellId> around{at};
+  CellId least = no_cell;
+  Beads least_beads{};
   for (std::size_t next = 0; next < around.size(); ++next) {
-    const Beads v = state_.beads_of(around[next]);
+    Beads v = state_.beads_of(around[next]);
+    std::array<int, Dimension + 1> signs;
+    for (int i = 0; i <= Dimension; ++i)
+      signs[static_cast<std::size_t>(i)] =
+          state_.sign_just_after(Orientation<Dimension>(State::with(v, i, bead), 1));
+    const auto [smallest, largest] = std::minmax_element(signs.begin(), signs.end());
+    if (*smallest < 0) continue;  // the bead lies in the plane of the face, but beside the cell
     for (int i = 0; i <= Dimension; ++i) {
-      if (state_.sign_just_after(Orientation<Dimension>(State::with(v, i, bead), 1)) != 0) continue;
+      if (signs[static_cast<std::size_t>(i)] != 0) continue;
       const CellId beyond = state_.neighbor(around[next], i);
-      if (state_.is_infinite(beyond) || std::find(around.begin(), around.end(), beyond) != around.end())
-        continue;
-      around.push_back(beyond);
-      if (sorted_beads(beyond) < sorted_beads(least)) least = beyond;
+      if (!state_.is_infinite(beyond) && std::find(around.begin(), around.end(), beyond) == around.end())
+        around.push_back(beyond);
+    }
+    if (*largest == 0) continue;  // a flat cell
+    std::sort(v.begin(), v.end());
+    if (least == no_cell || v < least_beads) {
+      least = around[next];
+      least_beads = v;
     }
   }
-  return least;
+  return least == no_cell ? at : least;
 }
 
 template <int Dimension>
