@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numeric>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include "experiments/events/event_places.h"
@@ -87,7 +88,9 @@ class InputNames {
 
  private:
   [[nodiscard]] bool are_one_file(std::size_t a, std::size_t b) const {
-    return std::filesystem::equivalent(options_.inputs[a], options_.inputs[b]);
+    std::error_code in_memory;
+    return options_.inputs[a] == options_.inputs[b] ||
+           std::filesystem::equivalent(options_.inputs[a], options_.inputs[b], in_memory);
   }
   [[nodiscard]] std::optional<std::string> chain_of(std::size_t input) const {
     return reading_of(options_, input).chain;
