@@ -211,6 +211,19 @@ void run_steps(ParallelRun& run, const RunOptions& options,
           });
 }
 
+void follow_approach(ParallelRun& run, const RunOptions& options) {
+  const auto closest = place_of_closest(run.session());
+  if (closest && options.kernel != Kernel::fast)
+    run.observe([at = *closest](KineticRun& part) { return std::make_unique<ApproachOfPart>(part, at); });
+}
+
+std::optional<ClosestApproach> followed_approach(const ParallelRun& run) {
+  std::optional<ClosestApproach> least;
+  for (const auto& observer : run.observers())
+    least = closer(least, static_cast<const ApproachOfPart&>(*observer).least());
+  return least;
+}
+
 RunReport run_scene(const RunOptions& options, const Progress& progress,
                     const std::function<void(const std::string&)>& warn, RunResults& results) {
   HeldWarnings warnings;
@@ -223,9 +236,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   ProgressWithinSteps within(progress, options.rounds * scene.step_count());
   if (options.audit == AuditMode::events) run->listen(within);
   StepCounts counts(run->session(), scene);
-  const auto closest = place_of_closest(run->session());
-  if (closest && options.kernel != Kernel::fast)
-    run->observe([at = *closest](KineticRun& part) { return std::make_unique<ApproachOfPart>(part, at); });
+  follow_approach(*run, options);
   results.begin(scene, run->session(), options);
   results.begin_dump_and_log(options, scene, run->session());
 
@@ -247,8 +258,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
     report.stride = certify_stride(options, scene);
     results.add_certificate(*report.stride, scene);
   }
-  for (const auto& observer : run->observers())
-    report.approach = closer(report.approach, static_cast<const ApproachOfPart&>(*observer).least());
+  report.approach = followed_approach(*run);
   if (const auto deviation = deviation_of_run(options, scene, report); deviation && report.approach)
     report.approach_in_all_frames = within_deviation(report.approach->distance, *deviation);
   Times times{std::vector<std::vector<double>>(report.structures.size()),

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/events/closest_approach.h"
 #include "experiments/events/event_places.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
@@ -78,6 +79,12 @@ void run_steps(KineticRun& run, const RunOptions& options,
 /// Does the same on the threads of the run. `at_frame` is called on the caller's thread.
 void run_steps(ParallelRun& run, const RunOptions& options,
                const std::function<void(std::size_t frame)>& at_frame);
+
+/// Follows the closest approach while the run goes on, if it has closest pairs that its kernel proves. Call
+/// it before the run.
+void follow_approach(ParallelRun& run, const RunOptions& options);
+/// Returns the closest approach after the run, or nothing if it was not followed.
+[[nodiscard]] std::optional<ClosestApproach> followed_approach(const ParallelRun& run);
 
 /// Runs the structures. Each warning about the input goes to `warn` as one line. The output goes to
 /// `results`, which the caller delivers. Throws InputError for errors that the user can fix. Throws
