@@ -76,12 +76,16 @@ void translate_exceptions(py::module_& module) {
   });
 }
 
+/// Returns whether the option says how a run is made, rather than where its results go.
+bool is_argument(const kds::Option<kds::RunOptions>& option) {
+  return option.text || option.spec.name == "--work" || option.spec.name == "--threads";
+}
+
 /// Returns the options of `kds run` as pairs of argument and help.
 std::vector<std::pair<std::string, std::string>> run_arguments() {
   std::vector<std::pair<std::string, std::string>> all;
   for (const auto& option : kds::run_options().all())
-    if (option.text || option.spec.name == "--work")
-      all.emplace_back(in_python(option.spec.name), in_python(option.spec.help));
+    if (is_argument(option)) all.emplace_back(in_python(option.spec.name), in_python(option.spec.help));
   return all;
 }
 
@@ -89,7 +93,7 @@ std::vector<std::pair<std::string, std::string>> run_arguments() {
 std::vector<std::string> run_outputs() {
   std::vector<std::string> names;
   for (const auto& option : kds::run_options().all())
-    if (!option.text && option.spec.name != "--work") names.push_back(in_python(option.spec.name));
+    if (!is_argument(option)) names.push_back(in_python(option.spec.name));
   return names;
 }
 
@@ -130,8 +134,6 @@ void bind_run(py::module_& module) {
   using kds::python::PythonOptions;
   py::class_<PythonOptions>(module, "MoreOptions")
       .def(py::init<>())
-      .def_readwrite("cutoff", &PythonOptions::cutoff)
-      .def_readwrite("surface", &PythonOptions::surface)
       .def_readwrite("only", &PythonOptions::only);
   py::class_<RunHandle>(module, "Run")
       .def(py::init([](const kds::Arguments& arguments, const PythonOptions& more,
@@ -151,6 +153,7 @@ void bind_run(py::module_& module) {
            py::arg("arguments"), py::arg("more"), py::arg("dimension"), py::arg("necklaces"),
            py::arg("radii"))
       .def("execute", &RunHandle::execute, py::arg("progress") = py::none())
+      .def("write_view", &RunHandle::write_view)
       .def("push", &RunHandle::push, py::arg("frame"), py::arg("picoseconds") = py::none())
       .def("build", &RunHandle::build)
       .def("step", &RunHandle::step)

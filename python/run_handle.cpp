@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <future>
 #include <stdexcept>
 
 #include "experiments/events/closest_approach.h"
+#include "experiments/output/output_files.h"
+#include "experiments/program/table_command.h"
 #include "experiments/run/certify_stride.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/radius_hint.h"
+#include "experiments/run/replay_labels.h"
 #include "motions/base/input_error.h"
 #include "python/arrays.h"
 #include "structures/contacts/contacts.h"
@@ -30,10 +35,30 @@ RunOptions pushed_options(const Arguments& arguments) {
   return options;
 }
 
-void take(const PythonOptions& more, RunOptions& options) {
-  options.cutoff = more.cutoff;
-  options.surface = more.surface;
+constexpr std::uint64_t a_millisecond = 1U << 20U;  // of limb operations, roughly
+
+void check_view(const RunOptions& options) {
+  if (!options.view) return;
+  TakenPaths paths;
+  paths.read(options);
+  paths.write("--view", *options.view);
+  ensure_writable_file(*options.view, "--view");
 }
+
+/// Ends the parts of a run when it is asked to. Is asked on one thread and listens on others.
+class Stop final : public EventListener {
+ public:
+  struct Stopped {};
+
+  void ask() { asked_ = true; }
+  void check() const {
+    if (asked_) throw Stopped();
+  }
+  void on_event(const Event&) override { check(); }
+
+ private:
+  std::atomic<bool> asked_ = false;
+};
 
 py::array_t<std::int64_t> array_of_pairs(const std::vector<BeadPair>& pairs) {
   std::vector<std::int64_t> ids;
@@ -86,24 +111,16 @@ class RunHandle::Use {
 
 RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more,
                      std::shared_ptr<FramesInMemory> memory)
-    : memory_(std::move(memory)), options_(parse_run_options(arguments)) {
-  take(more, options_);
+    : memory_(std::move(memory)), options_(parse_run_options(arguments)), only_(more.only) {
+  check_view(options_);
   options_.at_frame_surveyed = [] { Watch::glance(); };
   const auto warn = [this](const std::string& warning) { warnings_.push_back(warning); };
   scene_ = std::make_unique<Scene>(load_scene(options_, warn));
-  if (more.only.empty()) {
-    run_ = open_run(options_, *scene_, options_.audit);
-  } else {
-    SessionOptions session = session_options(options_, *scene_, options_.audit);
-    session.only = more.only;
-    run_ = std::make_unique<KineticRun>(*scene_, session);
-  }
-  listen();
+  open();
 }
 
 RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more, PushedFrames frames)
     : options_(pushed_options(arguments)) {
-  take(more, options_);
   frames.motion = options_.motion;
   const Scene pattern(frames);  // the options are checked against its beads
   SessionOptions session = session_options(options_, pattern, options_.audit);
@@ -112,23 +129,94 @@ RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more, Push
   listen();
 }
 
+void RunHandle::open() {
+  if (only_.empty()) {
+    run_ = open_run(options_, *scene_, options_.audit);
+  } else {
+    SessionOptions session = session_options(options_, *scene_, options_.audit);
+    session.only = only_;
+    run_ = std::make_unique<KineticRun>(*scene_, session);
+  }
+  listen();
+}
+
 void RunHandle::listen() {
   run_->listen(events_);
   run_->listen(*this);
-  constexpr std::uint64_t a_millisecond = 1U << 20U;  // of limb operations, roughly
   run_->watch_work([] { Watch::glance(); }, a_millisecond);
   if (options_.work) run_->limit_work(*options_.work);
+}
+
+std::unique_ptr<ParallelRun> RunHandle::open_parts() {
+  if (!only_.empty()) {
+    if (options_.threads.value_or(1) > 1)
+      warnings_.push_back(
+          fmt::format("--threads {}: the run is not cut and takes one thread, because only leaves beads out",
+                      *options_.threads));
+    return nullptr;
+  }
+  auto parts = open_parallel_run(options_, *scene_, options_.audit, {},
+                                 [this](const std::string& warning) { warnings_.push_back(warning); });
+  return parts->threads() > 1 ? std::move(parts) : nullptr;
+}
+
+void RunHandle::run_parts(ParallelRun& parts, Watch& watch,
+                          const std::function<void(std::size_t frame)>& at_frame) {
+  constexpr std::chrono::milliseconds between_looks{20};
+  Stop stop;
+  std::atomic<std::size_t> reached = 0;
+  parts.prepare([&stop](KineticRun& part) {
+    part.listen(stop);
+    part.watch_work([&stop] { stop.check(); }, a_millisecond);
+  });
+  std::future<void> all = std::async(std::launch::async, [&] {
+    run_steps(parts, options_, [&](std::size_t frame) {
+      stop.check();
+      at_frame(frame);
+      reached = frame;
+    });
+  });
+  while (all.wait_for(between_looks) != std::future_status::ready) {
+    try {
+      watch.look(reached, 0, scene().step_count());
+    } catch (...) {
+      stop.ask();
+      all.wait();
+      throw;
+    }
+  }
+  all.get();
+}
+
+ReplayLabels RunHandle::labels() const {
+  ReplayLabels labels = replay_labels(options_, "run");
+  if (!memory_) return labels;
+  labels.title = memory_->label();
+  labels.inputs = {memory_->label()};
+  labels.command = "kds.run in Python";
+  return labels;
 }
 
 void RunHandle::execute(const py::object& progress) {
   Use use(*this, progress);
   Watch& watch = use.watch();
   const std::size_t steps = scene().step_count();
-  StepCounts counts(run_->session(), scene());
+  const std::unique_ptr<ParallelRun> parts = open_parts();
+  Session& session = parts ? parts->session() : run_->session();
+  StepCounts counts(session, scene());
   std::optional<ClosestApproachOfRun> approach;
-  if (const auto closest = place_of_closest(run_->session()); closest && options_.kernel != Kernel::fast)
-    approach.emplace(run_->session(), *closest);
-  run_steps(*run_, options_, [&](std::size_t frame) {
+  if (parts) {
+    parts->listen(events_);
+    follow_approach(*parts, options_);
+  } else if (const auto closest = place_of_closest(session); closest && options_.kernel != Kernel::fast) {
+    approach.emplace(session, *closest);
+  }
+  if (options_.view) {
+    ViewRequest request;
+    request.page = options_.view;
+    view_.emplace(request, labels(), scene(), session);
+  }
+  const auto at_frame = [&](std::size_t frame) {
     if (frame == 0) {
       counts.begin();
       if (approach) approach->begin();
@@ -136,13 +224,22 @@ void RunHandle::execute(const py::object& progress) {
       counts.end_step(frame - 1, nullptr);
       if (approach) approach->end_step(scene().frame_number(frame - 1));
     }
+    if (view_) view_->add_frame(frame);
     const FrameStamp stamp = scene().stamp(frame);
     stamps_.emplace_back(stamp.number, stamp.picoseconds);
-    watch.look(frame, 0, steps);
-  });
+    if (!parts) watch.look(frame, 0, steps);
+  };
+  parts ? run_parts(*parts, watch, at_frame) : run_steps(*run_, options_, at_frame);
+  is_behind_ = parts != nullptr;
   watch.end(steps);
-  report_ = report_of(run_->session(), scene(), options_, counts);
+  if (view_) view_->finish();
+  report_ = report_of(session, scene(), options_, counts);
   if (approach) report_->approach = approach->least();
+  if (parts) {
+    report_->approach = followed_approach(*parts);
+    report_->threads = parts->threads();
+    report_->parts = parts->parts();
+  }
   if (options_.certify) report_->stride = certify_stride(options_, scene());
   report_->command_line = "kds.run in Python";
   if (memory_) {
@@ -154,6 +251,14 @@ void RunHandle::execute(const py::object& progress) {
     if (structure.name == "contacts" && structure.events_total == 0 && structure.contacts_at_start == 0U)
       if (const auto hint = radius_hint(scene(), options_.apart.value_or(StructureSettings().apart)))
         warnings_.push_back(*hint);
+}
+
+void RunHandle::write_view() {
+  const Use use(*this);
+  commit_together({view_.value().files()});
+  open();  // the page listens to the run that ended
+  is_behind_ = true;
+  view_.reset();
 }
 
 void RunHandle::push(const py::array_t<double, py::array::c_style | py::array::forcecast>& frame,
@@ -258,6 +363,7 @@ std::size_t RunHandle::place_of(const std::string& structure) const {
 }
 
 Dyadic RunHandle::stand_at(std::optional<double> time) {
+  if (std::exchange(is_behind_, false) && !time) time = static_cast<double>(scene().step_count());
   if (time) run_->go_to(*time);
   run_->build();
   if (!run_->within_step()) return Dyadic(run_->simulator().step() == 0 ? 0.0 : 1.0);

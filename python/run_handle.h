@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,12 +18,15 @@
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
 #include "experiments/run/run_scene.h"
+#include "experiments/view/replay_page.h"
+#include "experiments/view/view_results.h"
 #include "motions/numbers/exact_number.h"
 #include "motions/scene/scene.h"
 #include "python/event_columns.h"
 #include "python/frames_in_memory.h"
 #include "python/watch.h"
 #include "structures/session/kinetic_run.h"
+#include "structures/session/parallel_run.h"
 
 namespace kds::python {
 
@@ -31,15 +35,14 @@ using OnlyBeads = std::map<std::string, std::vector<BeadId>, std::less<>>;
 
 /// Options that have no text on the command line.
 struct PythonOptions {
-  std::optional<double> cutoff;  ///< the distance at which beads are in contact
-  bool surface = false;          ///< the cutoff is between surfaces, not between centres
   OnlyBeads only;
 };
 
 class RunHandle : private EventListener {
  public:
   /// A run over the inputs that `arguments` name, as `kds run` takes them. `memory` keeps the input alive if
-  /// it is in memory. Warnings are kept for `warnings`.
+  /// it is in memory. Warnings are kept for `warnings`. Throws InputError also if the page of --view could
+  /// not be written later.
   RunHandle(const Arguments& arguments, const PythonOptions& more, std::shared_ptr<FramesInMemory> memory);
   /// A run over frames that are pushed. `arguments` have no input.
   RunHandle(const Arguments& arguments, const PythonOptions& more, PushedFrames frames);
@@ -47,8 +50,10 @@ class RunHandle : private EventListener {
   RunHandle& operator=(const RunHandle&) = delete;
   ~RunHandle() override = default;
 
-  /// Runs all steps, and keeps the report.
+  /// Runs all steps, on several threads if the run can be cut, and keeps the report.
   void execute(const pybind11::object& progress);
+  /// Writes the page of --view. Call it once, after `execute`.
+  void write_view();
 
   // The functions of KineticRun. Each one is refused while another thread uses the run.
   void push(const pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>& frame,
@@ -105,7 +110,14 @@ class RunHandle : private EventListener {
   class Use;
 
   void on_event(const Event& event) override { Watch::glance(event.lower); }
+  /// Opens a run over `scene_` that stands at its start.
+  void open();
   void listen();
+  /// Opens the run on several threads, or returns null if it takes one. Keeps a warning that says why.
+  [[nodiscard]] std::unique_ptr<ParallelRun> open_parts();
+  /// Does what `run_steps` does, on other threads. This thread looks at Python meanwhile.
+  void run_parts(ParallelRun& parts, Watch& watch, const std::function<void(std::size_t frame)>& at_frame);
+  [[nodiscard]] ReplayLabels labels() const;
   [[nodiscard]] std::size_t place_of(const std::string& structure) const;
   /// Goes to a time and returns the parameter in the step under way or just run.
   [[nodiscard]] Dyadic stand_at(std::optional<double> time);
@@ -114,9 +126,12 @@ class RunHandle : private EventListener {
 
   std::shared_ptr<FramesInMemory> memory_;
   RunOptions options_;
+  OnlyBeads only_;
   std::vector<std::string> warnings_;
   std::unique_ptr<Scene> scene_;  // empty if frames are pushed
   std::unique_ptr<KineticRun> run_;
+  bool is_behind_ = false;           // all steps were run on several threads, and `run_` stands at its start
+  std::optional<ViewResults> view_;  // listens to the session of `run_`
   EventColumns events_;
   std::optional<RunReport> report_;
   bool has_static_times_ = false;

@@ -17,11 +17,13 @@ from ._options import InputWarning
 from ._run import Run, Structure, run, run_options, structure_names
 from ._static import closest_pair, colliding_pairs, enclosing_sphere, power_diagram, wrapped_hierarchy
 from ._stepping import KineticRun, StreamFrame, stream
+from ._view import View
 
 AuditError.__module__ = InputError.__module__ = "kds"
 __version__ = _version()
 __all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "Contacts", "InputError", "InputWarning",
-           "KineticAnalysis", "KineticRun", "Run", "StreamFrame", "Structure", "Trade", "Updates", "closest_pair", "collide",
+           "KineticAnalysis", "KineticRun", "Run", "StreamFrame", "Structure", "Trade", "Updates", "View", "closest_pair",
+           "collide",
            "colliding_pairs", "compare", "conditions", "contacts", "enclosing_sphere", "generate", "power_diagram", "run",
            "run_options", "stream", "structure_names", "trade", "update", "wrapped_hierarchy"]
 

@@ -1,6 +1,7 @@
 """Runs of kinetic structures over a whole input."""
 
 import json
+import os
 
 import numpy as np
 
@@ -8,33 +9,41 @@ from . import _kds, _plots
 from ._inputs import open_input
 from ._options import arguments, call, warn
 from ._tables import indented
+from ._view import RecordedPage, view_of_new_run
 
 
-def _more_options(cutoff, surface, only):
+def more_options(only):
+    """Returns the options that have no text in the program."""
     more = _kds.MoreOptions()
-    if cutoff is not None:
-        more.cutoff = float(cutoff)
-    elif surface:
-        raise _kds.InputError("surface: says how cutoff is measured; expected a cutoff, too")
-    more.surface = bool(surface)
     if only is not None:
         more.only = {name: [int(bead) for bead in beads] for name, beads in only.items()}
     return more
 
 
-def open_run(source, *, start=None, stop=None, step=None, units=None, necklaces=None, times=None, groups=None,
-             radius=None, cutoff=None, surface=False, only=None, pull=False, **options):
-    """Opens an input and the run over it, and issues the warnings about the input."""
+def run_arguments(cutoff, surface, options):
+    """Returns the arguments of the program for the options of a run."""
     if np.ndim(cutoff) > 0:
         raise _kds.InputError(f"cutoff: is {cutoff}; expected one length; kds.contacts takes two")
-    if cutoff is not None and not 0 <= cutoff < np.inf:
-        raise _kds.InputError(f"cutoff: is {cutoff}; expected a length from 0")
-    given = arguments(options)
+    return arguments({"cutoff": cutoff, "surface": bool(surface), **options})
+
+
+def open_run(source, *, start=None, stop=None, step=None, units=None, necklaces=None, times=None, groups=None,
+             radius=None, cutoff=None, surface=False, only=None, view=None, pull=False, **options):
+    """Opens an input and the run over it, and issues the warnings about the input. `view` is the path of a page.
+
+    Returns the run, the input, and a function that opens the run over the same input again, with another page."""
+    given = run_arguments(cutoff, surface, options)
     opened = open_input(source, start=start, stop=stop, step=step, units=units, necklaces=necklaces, times=times,
                         groups=groups, radius=radius, pull=pull, options=options)
-    core = _kds.Run(opened.arguments + given, _more_options(cutoff, surface, only), opened.memory)
+    more = more_options(only)
+
+    def open_core(page):
+        shown = [] if page is None else ["--view", os.fspath(page)]
+        return _kds.Run(opened.arguments + given + shown, more, opened.memory)
+
+    core = open_core(view)
     warn(core.warnings())
-    return core, opened
+    return core, opened, open_core
 
 
 class Clock:
@@ -166,10 +175,10 @@ class Run:
     frame once.
     """
 
-    def __init__(self, source, verbose=False, **options):
+    def __init__(self, source, verbose=False, view=None, **options):
         if "rounds" in options:
             raise TypeError("rounds: is no argument of a run, which is made once; kds.compare takes it")
-        self._core, opened = open_run(source, **options)
+        self._core, opened, self._open_again = open_run(source, view=view, **options)
         self._options = options
         self._source = opened
         call(self._core.execute, verbose=verbose)
@@ -180,6 +189,10 @@ class Run:
         self._core.keep_events(False)
         self.fingerprint = f"{self._core.fingerprint():016x}"
         self._table = None
+        self._page = None
+        if view is not None:
+            self._core.write_view()
+            self._page = RecordedPage(view)
 
     @property
     def structures(self):
@@ -239,12 +252,33 @@ class Run:
         """Draws the number of events in each step, for each structure. Returns the axes of matplotlib."""
         return _plots.events(self, ax)
 
+    def view(self, path=None, verbose=False):
+        """Returns a page that shows the run, a :class:`kds.View`. Notebooks show it in a frame.
+
+        ``path`` is the file that the page is written to (default: no file). ``kds.run(..., view=path)`` writes the page
+        while it runs; otherwise this function runs the structures again, on one thread. Raises InputError if the input
+        is no longer what it was.
+        """
+        if self._page is not None and self._page.is_at(path):
+            return self._page.view()
+
+        def write(page):
+            core = self._open_again(page)
+            core.keep_events(False)
+            call(core.execute, verbose=verbose)
+            if f"{core.fingerprint():016x}" != self.fingerprint:
+                raise _kds.InputError("view: the input has changed since the run; expected the frames of the run")
+            core.write_view()
+
+        return view_of_new_run(write, path)
+
     def _contacts(self, **options):
         from ._analyses import Contacts
 
         options = {name: value for name, value in options.items() if value is not None}
         own = arguments({**{name: self._options.get(name) for name in ("motion", "apart", "topology", "select", "chain",
-                                                                      "obstacle", "dt", "until_damage")}, **options})
+                                                                      "obstacle", "dt", "until_damage", "threads")},
+                         **options})
         if "--cutoff" not in own:
             cutoff, surface = self._options.get("cutoff"), self._options.get("surface", False)
             own += ["--cutoff", repr(float(cutoff or 0))]
@@ -279,7 +313,7 @@ class Run:
 
 
 def run(source, *, start=None, stop=None, step=None, structures=None, radius=None, cutoff=None, surface=False, units=None,
-        verbose=False, **options):
+        verbose=False, view=None, **options):
     """Runs kinetic structures over moving beads and returns every event, exactly and in order.
 
     Parameters
@@ -303,6 +337,12 @@ def run(source, *, start=None, stop=None, step=None, structures=None, radius=Non
         ``angstrom`` (default) or ``nm``, for arrays and iterables.
     verbose : bool
         Shows a progress bar of tqdm.
+    view : path
+        Writes a page that shows the run in a browser to this file, as ``run.view`` does (default: none). The run then
+        takes one thread.
+    threads : int
+        The run is cut at frames, and its parts run on up to this many threads (default: all cores). Events and
+        fingerprint are the same. A warning says why a run takes one thread although more are asked for.
     necklaces : list of int
         The number of beads of each necklace, one after the other, for positions in memory (default: one, or the chains).
     times : array
@@ -337,7 +377,7 @@ def run(source, *, start=None, stop=None, step=None, structures=None, radius=Non
     2
     """
     return Run(source, start=start, stop=stop, step=step, structures=structures, radius=radius, cutoff=cutoff,
-               surface=surface, units=units, verbose=verbose, **options)
+               surface=surface, units=units, verbose=verbose, view=view, **options)
 
 
 def run_options():

@@ -4,8 +4,13 @@ import numpy as np
 
 from . import _kds
 from ._inputs import check_units, frame_of, is_frames
-from ._options import InputError, arguments
-from ._run import Clock, Structure, _more_options, events_array, open_run
+from ._options import InputError, warn
+from ._run import Clock, Structure, events_array, more_options, open_run, run_arguments
+
+
+def _warn_of_threads(options):
+    if (options.get("threads") or 1) != 1:
+        warn([f"threads {options['threads']}: the run takes one thread, because it is driven from outside"])
 
 
 class KineticRun:
@@ -26,7 +31,10 @@ class KineticRun:
     """
 
     def __init__(self, source, **options):
-        self._core, self._source = open_run(source, **options)
+        if "view" in options:
+            raise TypeError("view: is no argument of a run that you drive; kds.run takes it")
+        _warn_of_threads(options)
+        self._core, self._source, _ = open_run(source, **options)
         self._clock = Clock(self._core.stamp(0)[0], self._core.stamp(1)[0], self._core.frame_count)
 
     @classmethod
@@ -41,7 +49,8 @@ class KineticRun:
         counts = [int(beads)] if necklaces is None else [int(count) for count in necklaces]
         if sum(counts) != beads:
             raise InputError(f"necklaces: have {sum(counts)} beads; expected {beads}")
-        self._core = _kds.Run(arguments(options), _more_options(cutoff, surface, only), int(dimension), counts, radii)
+        _warn_of_threads(options)
+        self._core = _kds.Run(run_arguments(cutoff, surface, options), more_options(only), int(dimension), counts, radii)
         self._source = None
         self._clock = Clock(0, 1)
         self._pushed = 0

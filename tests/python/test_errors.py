@@ -63,9 +63,9 @@ class Errors(unittest.TestCase):
         self.refused(r"topology: is for files", kds.run, coil(), topology=PDB)
         self.refused(r"expected start, stop, step", kds.run, coil(), frames="1:2", error=TypeError)
         self.refused(r"results are attributes", kds.run, coil(), out="folder", error=TypeError)
-        self.refused(r"cutoff: is -1", kds.run, coil(), cutoff=-1)
+        self.refused(r"^cutoff: '-1' is not a number from 0", kds.run, coil(), cutoff=-1)
         self.refused(r"cutoff: is \(4, 6\); expected one length", kds.run, coil(), cutoff=(4, 6))
-        self.refused(r"surface: .*expected a cutoff", kds.run, coil(), surface=True)
+        self.refused(r"^surface: .*expected cutoff", kds.run, coil(), surface=True)
         self.refused(r"is no input; expected a path", kds.run, 17)
         self.refused(r"step: is 0; expected a number from 1", kds.run, coil(), step=0)
         self.refused(r"no frame of array is chosen, which has 6", kds.run, coil(), start=10)
@@ -124,8 +124,9 @@ class Errors(unittest.TestCase):
 
 
 class Interrupts(unittest.TestCase):
-    def test_ctrl_c_ends_a_run(self):
-        positions = np.random.default_rng(6).normal(size=(2000, 300, 3)).cumsum(axis=1)
+    positions = np.random.default_rng(6).normal(size=(2000, 300, 3)).cumsum(axis=1)
+
+    def interrupted(self, run):
         raised = []
 
         def interrupt():
@@ -135,9 +136,13 @@ class Interrupts(unittest.TestCase):
         timer = threading.Timer(0.4, interrupt)
         timer.start()
         with self.assertRaises(KeyboardInterrupt):
-            kds.run(positions, radius=1, structures=["power", "contacts"])
+            run()
         self.assertLess(time.monotonic() - raised[0], 1.0)  # 0.1 s on a machine without other work
         timer.join()
+
+    def test_ctrl_c_ends_a_run(self):
+        for threads in (1, 2):
+            self.interrupted(lambda: kds.run(self.positions, radius=1, structures=["power", "contacts"], threads=threads))
 
     def test_progress_may_raise(self):
         run = kds.KineticRun(coil(frames=200, beads=200), radius=1, structures=["power"])

@@ -1,13 +1,22 @@
 """What runs return, compared with static structures, with NumPy and with the program."""
 
+import base64
 import gc
+import html
 import itertools
+import json
+import os
+import re
+import shutil
+import tempfile
 import unittest
+import warnings
+import zlib
 
 import numpy as np
 
 import kds
-from data import DCD, PDB, coil, program
+from data import DCD, PDB, RESIDUES, coil, program
 
 
 def resident_bytes():
@@ -98,6 +107,141 @@ class Plots(unittest.TestCase):
         found = run.contacts.analysis(by="bead")
         np.testing.assert_array_equal(found.plot_map().images[0].get_array(), found.map())
         self.assertEqual(found.plot().get_xlabel(), "length of a contact (frames)")
+
+
+class Threads(unittest.TestCase):
+    positions = (np.linspace(1, 1.1, 101)[:, None, None] * coil(frames=1, beads=400)
+                 + np.random.default_rng(2).normal(scale=0.005, size=(101, 400, 3)))
+    options = {"radius": 1.25, "structures": ["wrapped", "contacts", "closest"]}
+
+    def test_they_do_not_change_the_run(self):
+        one = kds.run(self.positions, threads=1, **self.options)
+        two = kds.run(self.positions, threads=2, **self.options)
+        self.assertEqual((one.summary["engine"]["threads"], two.summary["engine"]["threads"]), (1, 2))
+        self.assertGreater(two.summary["engine"]["parts"], 1)
+        self.assertEqual(two.fingerprint, one.fingerprint)
+        for name in ("step", "structure", "kind", "beads"):
+            np.testing.assert_array_equal(two.events[name], one.events[name])
+        self.assertTrue((two.events["lower"] <= one.events["upper"]).all())
+        self.assertTrue((one.events["lower"] <= two.events["upper"]).all())
+        self.assertEqual(two.summary["closest_approach"]["beads"], one.summary["closest_approach"]["beads"])
+        np.testing.assert_array_equal(two.frames, one.frames)
+        for run in (one, two):  # where the run stands: at its end
+            self.assertEqual(run.contacts.pairs().tolist(), one.contacts.pairs(frame=100).tolist())
+            self.assertEqual(run.contacts.pairs(frame=3).tolist(), pairs_within(self.positions[3], 2.5, apart=2))
+        self.assertIn("threads 2", str(two))
+
+    def test_a_run_that_takes_one_says_so(self):
+        positions = coil(beads=40)
+        asked = {"radius": 1.1, "structures": ["contacts"], "threads": 2}
+        for pattern, call in ((r"^threads 2: .*kernel fast", lambda: kds.run(positions, kernel="fast", **asked)),
+                              (r"^threads 2: .*only", lambda: kds.run(positions, only={"contacts": range(9)}, **asked)),
+                              (r"^threads 2: .*limit of exact work", lambda: kds.run(positions, work=10**12, **asked)),
+                              (r"^threads 2: .*driven", lambda: kds.KineticRun(positions, **asked))):
+            with self.assertWarnsRegex(kds.InputWarning, pattern):
+                warnings.simplefilter("always")
+                call()
+
+    def test_analyses_take_them(self):
+        spiral = kds.generate("spiral", beads=30, frames=9)
+        rows = [kds.contacts(spiral, cutoff=4, by="bead", threads=threads).json["rows"] for threads in (1, 2)]
+        self.assertEqual(*rows)
+        events = [list(kds.compare(spiral, radius=1, strides=[1, 2], rounds=1, threads=threads).rows["events"])
+                  for threads in (1, 2)]
+        self.assertEqual(*events)
+
+
+def page_of(text):
+    """Returns what a page says about its run, and a function that returns the bytes of a block."""
+    head = json.loads(re.search(r'<script type="application/json" id="kds-replay">(.*?)</script>', text, re.S)[1])
+    blocks = dict(re.findall(r'<script type="text/plain" class="kds-block" id="kds-block-([^"]*)">(.*?)</script>', text, re.S))
+    return head, lambda name: zlib.decompress(base64.b64decode(blocks[name]))
+
+
+def events_of_page(head, block):
+    """Returns the events of a page in their order, as tuples of step, structure, kind and ids."""
+    found = []
+    for s, structure in enumerate(head["structures"]):
+        data, at = block(f"events-{s}"), 0
+        count = structure["events"]
+        columns = []
+        for dtype in ("<u4", "<u4", "<f8", "<f8", "u1", "u1", "u1"):
+            columns.append(np.frombuffer(data, dtype, count, at))
+            at += columns[-1].nbytes
+        ids = np.split(np.frombuffer(data, "<u4", offset=at).astype(np.int32), np.cumsum(columns[6]))
+        kinds = [kind["name"] for kind in structure["kinds"]]
+        found += [(order, step, structure["name"], kinds[kind], own.tolist())
+                  for order, step, kind, own in zip(columns[0], columns[1], columns[4], ids)]
+    return [event[1:] for event in sorted(found)]
+
+
+class Views(unittest.TestCase):
+    positions = coil(frames=8, beads=60)
+    options = {"radius": 1.1, "structures": ["wrapped", "power", "contacts"]}
+
+    def assert_shows(self, view, run):
+        head, block = page_of(view.page)
+        found = events_of_page(head, block)
+        self.assertEqual(len(found), len(run.events))
+        for (step, structure, kind, ids), event in zip(found, run.events):
+            self.assertEqual((step, structure, kind), (event["step"], event["structure"], event["kind"]))
+            self.assertEqual(ids, event["beads"][:len(ids)].tolist())
+        first = np.frombuffer(block("initial-2-0"), "<u4").reshape(-1, 2)
+        self.assertEqual(sorted(first.tolist()), run.contacts.pairs(frame=0).tolist())
+
+    def test_the_page_has_the_events_of_the_run(self):
+        run = kds.run(self.positions, **self.options)
+        events = run.events.copy()
+        view = run.view()
+        self.assertIsNone(view.path)
+        self.assert_shows(view, run)
+        assert_same(run.events, events)
+        shown = html.unescape(re.search(r'<iframe srcdoc="([^"]*)"', view._repr_html_())[1])
+        self.assertEqual(shown, view.page)
+
+    def test_a_page_is_written_while_the_run_goes_on(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "replay.html")
+            run = kds.run(self.positions, view=path, **self.options)
+            self.assertEqual(run.fingerprint, kds.run(self.positions, **self.options).fingerprint)
+            written = os.stat(path).st_mtime_ns
+            view = run.view()
+            self.assertEqual((view.path, os.stat(path).st_mtime_ns), (path, written))
+            self.assert_shows(view, run)
+            np.testing.assert_array_equal(run.power.edges(frame=2), kds.power_diagram(self.positions[2], 1.1)[0])
+            os.remove(path)
+            other = os.path.join(folder, "other.html")
+            self.assert_shows(run.view(other), run)
+            self.assertEqual(os.listdir(folder), ["other.html"])
+
+    def test_what_cannot_be_written_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = kds.run(self.positions.copy(), **self.options)
+            for view in (os.path.join(folder, "none", "replay.html"), folder):
+                with self.assertRaisesRegex(kds.InputError, "^view"):
+                    kds.run(self.positions, view=view, **self.options)
+                with self.assertRaisesRegex(kds.InputError, "^view"):
+                    run.view(view)
+            copy = os.path.join(folder, "md.pdb")
+            shutil.copy(RESIDUES, copy)
+            with self.assertRaisesRegex(kds.InputError, "md.pdb"):
+                kds.run(copy, view=copy)
+            with open(copy, "rb") as kept, open(RESIDUES, "rb") as original:
+                self.assertEqual(kept.read(), original.read())
+
+    def test_an_input_that_changed_is_not_shown(self):
+        positions = self.positions.copy()
+        run = kds.run(positions, **self.options)
+        positions[3] += np.random.default_rng(1).normal(size=(60, 3))
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaisesRegex(kds.InputError, "the input has changed"):
+                run.view(os.path.join(folder, "replay.html"))
+            self.assertEqual(os.listdir(folder), [])
+
+    def test_one_thread_writes_it(self):
+        with tempfile.TemporaryDirectory() as folder, self.assertWarnsRegex(kds.InputWarning, "^threads 2: .*view"):
+            warnings.simplefilter("always")
+            kds.run(self.positions, view=os.path.join(folder, "replay.html"), threads=2, **self.options)
 
 
 class StaticStructures(unittest.TestCase):
