@@ -28,7 +28,7 @@ def main():
     pictures = [output["data"]["image/png"] for output in outputs if "image/png" in output.get("data", {})]
     assert len(pictures) == 5, f"{len(pictures)} pictures"
     text = str(outputs)
-    for expected in ("fingerprint", "contacts, median life", "occupancy"):
+    for expected in ("fingerprint", "contacts, median life", "occupancy", "kds-replay"):
         assert expected in text, expected
     if len(sys.argv) > 1:
         for number, picture in enumerate(pictures):
