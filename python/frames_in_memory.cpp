@@ -54,13 +54,15 @@ MemoryNumbers numbers_of(const py::array& array, const std::string& label) {
   if ((array.flags() & py::array::c_style) == 0)
     throw InputError(fmt::format(
         "{}: its numbers are not in C order; expected numpy.ascontiguousarray(positions)", label));
+  if ((array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) == 0)
+    throw InputError(label + ": its numbers are not aligned in memory; expected positions.copy()");
   const py::dtype type = array.dtype();
   if (type.is(py::dtype::of<float>()) || type.equal(py::dtype::of<float>()))
     return {static_cast<const float*>(array.data()), nullptr};
   if (type.equal(py::dtype::of<double>())) return {nullptr, static_cast<const double*>(array.data())};
   throw InputError(
       fmt::format("{}: has the dtype {}; expected float32 or float64, as positions.astype(float)", label,
-                  std::string(py::str(type.attr("name")))));
+                  std::string(py::str(py::handle(type)))));
 }
 
 std::string shape_text(const py::array& array) { return py::str(array.attr("shape")); }
@@ -190,8 +192,11 @@ FramesOpened open_memory(const std::filesystem::path& path, const ReadOptions& o
 FramesInMemory::FramesInMemory(const py::array& positions, BeadsInMemory beads) {
   const std::string& label = beads.label;
   if (positions.ndim() != 3 || positions.shape(2) != 3)
-    throw InputError(
-        fmt::format("{}: has the shape {}; expected (frames, beads, 3)", label, shape_text(positions)));
+    throw InputError(fmt::format("{}: has the shape {}; expected (frames, beads, 3){}", label,
+                                 shape_text(positions),
+                                 positions.ndim() == 3 && positions.shape(2) == 2
+                                     ? ", where points in a plane have 0 as the third coordinate"
+                                     : ""));
   auto content = std::make_shared<Content>();
   content->numbers = numbers_of(positions, label);
   content->owner = positions;

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <exception>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -42,7 +43,11 @@ std::string in_python(std::string_view sentence) {
     const bool starts_word =
         i == 0 || std::string_view(" (,;'").find(sentence[i - 1]) != std::string_view::npos;
     const std::string_view rest = sentence.substr(i);
-    if (starts_word && rest.starts_with("--frames")) {
+    constexpr std::string_view stride = "--frames FIRST:LAST:STRIDE with a stride";
+    if (starts_word && rest.starts_with(stride)) {
+      text += "step";
+      i += stride.size() - 1;
+    } else if (starts_word && rest.starts_with("--frames")) {
       text += "start, stop, step";
       i += 7;
     } else if (starts_word && rest.size() > 2 && rest.starts_with("--") && std::isalpha(rest[2]) != 0) {
@@ -72,6 +77,8 @@ void translate_exceptions(py::module_& module) {
       PyErr_SetString(input_error.ptr(), in_python(error.what()).c_str());
     } catch (const kds::AuditError& error) {
       PyErr_SetString(audit_error.ptr(), in_python(error.what()).c_str());
+    } catch (const std::invalid_argument& error) {  // such as a bead that a structure does not have
+      PyErr_SetString(input_error.ptr(), in_python(error.what()).c_str());
     }
   });
 }

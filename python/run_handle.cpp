@@ -92,20 +92,31 @@ std::vector<BeadPair> edges_of_diagram(const PowerDiagram<Dimension>& diagram, s
 
 }  // namespace
 
-/// Reserves the run for one thread and lets Python run other threads meanwhile.
-class RunHandle::Use {
+/// Reserves the run for one thread.
+class RunHandle::Reserved {
  public:
-  explicit Use(RunHandle& run, const py::object& progress = py::none()) : run_(run), watch_(progress) {
+  explicit Reserved(RunHandle& run) : run_(run) {
     if (run.in_use_.exchange(true))
-      throw std::runtime_error("this run is in use by another thread; expected a run of one's own");
+      throw std::runtime_error(
+          "this run is in use, by another thread or by the function that calls this one; expected a run for "
+          "each thread");
   }
-  Use(const Use&) = delete;
-  Use& operator=(const Use&) = delete;
-  ~Use() { run_.in_use_ = false; }
-  [[nodiscard]] Watch& watch() { return watch_; }
+  Reserved(const Reserved&) = delete;
+  Reserved& operator=(const Reserved&) = delete;
+  ~Reserved() { run_.in_use_ = false; }
 
  private:
   RunHandle& run_;
+};
+
+/// Reserves the run for one thread and lets Python run other threads meanwhile.
+class RunHandle::Use {
+ public:
+  explicit Use(RunHandle& run, const py::object& progress = py::none()) : reserved_(run), watch_(progress) {}
+  [[nodiscard]] Watch& watch() { return watch_; }
+
+ private:
+  Reserved reserved_;
   Watch watch_;
 };
 
@@ -327,6 +338,7 @@ void RunHandle::bend(const std::vector<BeadId>& beads,
 }
 
 py::array_t<double> RunHandle::control_points() {
+  const Reserved reserved(*this);
   if (!run_->load_step())
     throw std::logic_error("control_points(): no step is known; push another frame first");
   return std::visit(
@@ -343,12 +355,19 @@ py::array_t<double> RunHandle::control_points() {
 }
 
 double RunHandle::time() {
+  const Reserved reserved(*this);
   Simulator& simulator = run_->simulator();
   const auto step = static_cast<double>(simulator.step());
   return run_->within_step() ? step + 0.5 * (simulator.now().lower() + simulator.now().upper()) : step;
 }
 
+py::dict RunHandle::take_events() {
+  const Reserved reserved(*this);
+  return events_.take();
+}
+
 std::uint64_t RunHandle::fingerprint() {
+  const Reserved reserved(*this);
   return report_ ? report_->fingerprint : run_->simulator().fingerprint();
 }
 

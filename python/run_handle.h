@@ -86,7 +86,7 @@ class RunHandle : private EventListener {
   /// the ids are its place. Absent ids are -1.
   [[nodiscard]] pybind11::tuple elements(const std::string& structure, std::size_t frame);
 
-  [[nodiscard]] pybind11::dict take_events() { return events_.take(); }
+  [[nodiscard]] pybind11::dict take_events();
   void keep_events(bool keeps) { events_.keep(keeps); }
   /// Returns, for each structure in order, its name and the names of its kinds of events.
   [[nodiscard]] std::vector<std::pair<std::string, std::vector<std::string>>> structures();
@@ -107,6 +107,7 @@ class RunHandle : private EventListener {
   [[nodiscard]] std::vector<std::string> bead_names() const;
 
  private:
+  class Reserved;
   class Use;
 
   void on_event(const Event& event) override { Watch::glance(event.lower); }
