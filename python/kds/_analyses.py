@@ -6,7 +6,7 @@ import numpy as np
 
 from . import _kds, _plots
 from ._inputs import open_input
-from ._options import InputError, arguments, call, warn
+from ._options import InputError, arguments, call, number, warn
 from ._tables import Result, table, table_of_rows
 
 
@@ -71,6 +71,12 @@ class Contacts(Result):
         return _plots.survival(self, ax)
 
 
+def cutoff_text(cutoff):
+    """Returns one or two lengths as the program takes them."""
+    lengths = cutoff if np.ndim(cutoff) > 0 else [cutoff]
+    return ":".join(repr(number("cutoff", length, "a length in angstrom, or a pair of lengths")) for length in lengths)
+
+
 def contacts(source, *, cutoff, by=None, gap=0, surface=False, start=None, stop=None, step=None, radius=None, units=None,
              necklaces=None, times=None, groups=None, verbose=False, **options):
     """Measures how long contacts last, exactly, and what a look at frames alone would have told.
@@ -88,9 +94,7 @@ def contacts(source, *, cutoff, by=None, gap=0, surface=False, start=None, stop=
     >>> found.unit, len(found.rows) == found.all["contacts"] - sum(found.rows["contacts"] - 1)
     ('frames', True)
     """
-    lengths = cutoff if isinstance(cutoff, (list, tuple)) else [cutoff]
-    options = dict(options, cutoff=":".join(repr(float(length)) for length in lengths), by=by, gap=gap or None,
-                   surface=surface)
+    options = dict(options, cutoff=cutoff_text(cutoff), by=by, gap=gap or None, surface=surface)
     return Contacts(_analyse(_kds.contacts, source, verbose, "step", start, stop, step, units, necklaces, times, groups,
                              radius, options))
 
@@ -234,6 +238,8 @@ def generate(model, **options):
     >>> kds.generate("spiral", beads=30, frames=10).shape
     (10, 30, 3)
     """
+    if str(model).startswith("-"):
+        raise InputError(f"model: '{model}' is no model; help(kds.generate) has examples")
     try:
         necklaces = _kds.generate([str(model), *arguments(options, own=["frames"]), "-o", "necklace.xyz"])
     except InputError as error:

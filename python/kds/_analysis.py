@@ -2,6 +2,8 @@
 
 from MDAnalysis.analysis.base import AnalysisBase
 
+from ._inputs import is_atom_group
+from ._options import InputError
 from ._run import Run
 
 
@@ -13,6 +15,8 @@ class KineticAnalysis(AnalysisBase):
     """
 
     def __init__(self, atomgroup, verbose=False, **options):
+        if not is_atom_group(atomgroup):
+            raise InputError(f"{type(atomgroup).__name__}: is no AtomGroup; expected one, such as u.select_atoms('name CA')")
         super().__init__(atomgroup.universe.trajectory, verbose=verbose)
         self.atomgroup = atomgroup
         self._options = options

@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from . import _kds
-from ._options import InputError, warn
+from ._options import InputError, number, numbers, warn, whole, wholes
 
 _UNITS = ("angstrom", "nm")
 
@@ -44,35 +44,47 @@ def _refuse_others(source):
     if hasattr(source, "select_atoms") and hasattr(source, "trajectory"):
         raise InputError("Universe: all its atoms are seldom one necklace; expected an AtomGroup, such as "
                          "u.select_atoms('name CA')")
-    if not hasattr(source, "__iter__"):
+    if isinstance(source, (list, tuple)) and any(is_atom_group(item) for item in source):
+        raise InputError("list of AtomGroups: is no input; expected one AtomGroup, such as first + second")
+    if not hasattr(source, "__iter__") or isinstance(source, (bytes, dict, set)):
         raise InputError(f"{type(source).__name__}: is no input; expected a path, an array (frames, beads, 3), an "
                          "AtomGroup, an mdtraj Trajectory or an iterable of frames")
 
 
 def _range_text(start, stop, step):
-    for name, value in (("start", start), ("stop", stop), ("step", step)):
-        if value is not None and value < 0:
+    for name, value in (("start", start), ("stop", stop)):
+        if value is not None and whole(name, value) < 0:
             raise InputError(f"{name}: is {value}; expected a number from 0 for a file, whose length is not known")
+    if step is not None:
+        whole("step", step, 1)
+    if stop is not None and stop <= (start or 0):
+        raise InputError(f"stop: is {stop}; expected a number above start, which is {start or 0}")
     return ":".join("" if part is None else str(int(part)) for part in (start, stop, step))
 
 
 def _indices(start, stop, step, frames, label):
     """Returns range(first, end, step) of the frames asked for."""
-    if step is not None and step < 1:
-        raise InputError(f"step: is {step}; expected a number from 1")
+    for name, value, least in (("start", start, None), ("stop", stop, None), ("step", step, 1)):
+        if value is not None:
+            whole(name, value, least)
     chosen = range(*slice(start, stop, step).indices(frames))
     if frames > 0 and len(chosen) == 0:
         raise InputError(f"start, stop, step: no frame of {label} is chosen, which has {frames}")
     return chosen
 
 
-def frame_of(item, label="frame"):
-    """Returns the positions and the time of a frame that an iterable gives."""
+def frame_of(item, label):
+    """Returns the positions and the time of a frame that an iterable gives. The time is None if it is not known."""
+    time = None
     if isinstance(item, tuple) and len(item) == 2:
-        return np.asarray(item[0]), float(item[1])
-    if hasattr(item, "positions"):
-        return np.asarray(item.positions), getattr(item, "time", None)
-    return np.asarray(item), None
+        item, time = item
+        time = None if time is None else number(f"{label}: time", time, "picoseconds, as in (positions, 2.0)")
+    elif hasattr(item, "positions"):
+        item, time = item.positions, getattr(item, "time", None)
+    positions = numbers(label, item)
+    if positions.ndim != 2:
+        raise InputError(f"{label}: has the shape {positions.shape}; expected (beads, 3)")
+    return positions, time
 
 
 def _array(source):
@@ -86,8 +98,9 @@ def check_units(positions, nanometres, label):
     """Warns if the median bond of a frame is so short that the unit is probably another one."""
     if len(positions) < 2 or positions.ndim != 2:
         return
-    bonds = np.linalg.norm(np.diff(np.asarray(positions, dtype=float), axis=0), axis=1)
-    median = float(np.median(bonds)) * (10 if nanometres else 1)
+    with np.errstate(over="ignore", invalid="ignore"):
+        bonds = np.linalg.norm(np.diff(np.asarray(positions, dtype=float), axis=0), axis=1)
+        median = float(np.median(bonds)) * (10 if nanometres else 1)
     if median < 0.3:
         cure = "units='angstrom'" if nanometres else "units='nm'"
         warn([f"{label}: the median bond is {median:.3g} angstrom, shorter than any; expected {cure}?"])
@@ -96,8 +109,8 @@ def check_units(positions, nanometres, label):
 def _set_groups(beads, groups, count, members):
     if groups is None:
         return []
-    if len(groups) != 2:
-        raise InputError(f"groups: has {len(groups)} groups; expected two")
+    if not isinstance(groups, (list, tuple)) or len(groups) != 2:
+        raise InputError("groups: are not two; expected a pair, such as (first, second)")
     bits = np.zeros(count, dtype=np.uint8)
     for k, group in enumerate(groups):
         bits[members(group)] |= 1 << k
@@ -111,6 +124,8 @@ def _indices_of_beads(count):
     def members(group):
         index = np.asarray(group)
         if index.dtype == bool:
+            if index.shape != (count,):
+                raise InputError(f"groups: a mask has the shape {index.shape}; expected ({count},)")
             index = np.flatnonzero(index)
         if index.size and (index.dtype.kind not in "iu" or index.min() < 0 or index.max() >= count):
             raise InputError(f"groups: expected indices of beads from 0 to {count - 1}")
@@ -122,8 +137,8 @@ def _indices_of_beads(count):
 def _add_chains(beads, necklaces, keys, names):
     """Adds a chain for each run of equal keys, or those that the user gives."""
     if necklaces is not None:
-        for k, count in enumerate(necklaces):
-            beads.add_chain(chr(65 + k) if k < 26 else str(k), int(count))
+        for k, count in enumerate(wholes("necklaces", necklaces, 1)):
+            beads.add_chain(chr(65 + k) if k < 26 else str(k), count)
         return
     if keys is None or len(keys) == 0:
         return
@@ -176,6 +191,12 @@ def _positions_of_group(group, count, frame):
     return positions
 
 
+def _cell_of(ts):
+    """Returns the periodic cell of a frame, or None. MDAnalysis divides by zero if the cell is empty."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return ts.dimensions
+
+
 class _Kept:
     """Puts a trajectory back to the frame where it stood."""
 
@@ -195,7 +216,7 @@ def _collect_group(group, beads, chosen):
     library follows the images of chains through them."""
     with _Kept(group.universe.trajectory) as trajectory:
         trajectory[chosen.start]
-        has_cell = trajectory.ts.dimensions is not None
+        has_cell = _cell_of(trajectory.ts) is not None
         read = range(chosen.start, chosen[-1] + 1) if has_cell else chosen
         count = len(group)
         positions = np.empty((len(read), count, 3), dtype=np.float32)
@@ -204,7 +225,8 @@ def _collect_group(group, beads, chosen):
             positions[k] = _positions_of_group(group, count, ts.frame)
             times.append(ts.time)
             if has_cell:
-                cells.extend(np.zeros(6) if ts.dimensions is None else np.asarray(ts.dimensions, dtype=float))
+                cell = _cell_of(ts)
+                cells.extend(np.zeros(6) if cell is None else np.asarray(cell, dtype=float))
     beads.times, beads.cells = times, cells
     beads.first_frame, beads.frame_step = read.start, read.step
     check_units(positions[0], False, beads.label)
@@ -219,8 +241,8 @@ def _pull_group(group):
         with _Kept(group.universe.trajectory) as trajectory:
             ts = trajectory[frame]
             positions = np.ascontiguousarray(_positions_of_group(group, count, frame))
-            cell = None if ts.dimensions is None else [float(number) for number in ts.dimensions]
-            return positions, float(ts.time), cell
+            cell = _cell_of(ts)
+            return positions, float(ts.time), None if cell is None else [float(length) for length in cell]
 
     return read
 
@@ -266,7 +288,10 @@ def _open_array(source, chosen_of, units, necklaces, times, groups):
         positions = _array(source)
     else:
         # Trajectories give views of one buffer, so each frame is copied before the next one comes.
-        frames = [(np.array(positions), time) for positions, time in map(frame_of, source)]
+        frames = []
+        for k, item in enumerate(source):
+            positions, time = frame_of(item, f"frame {k}")
+            frames.append((positions.copy(), time))
         shapes = {np.shape(frame) for frame, _ in frames}
         if len(shapes) > 1:
             raise InputError(f"frames: have the shapes {sorted(shapes)}; expected one shape (beads, 3)")
@@ -274,7 +299,10 @@ def _open_array(source, chosen_of, units, necklaces, times, groups):
         if times is None and frames and all(time is not None for _, time in frames):
             times = [time for _, time in frames]
     if times is not None:
-        beads.times = np.asarray(times, dtype=float).tolist()
+        times = numbers("times", times)
+        if times.ndim != 1 or positions.ndim == 3 and len(times) != len(positions):
+            raise InputError(f"times: has {times.size} times; expected {len(positions)}, one for each frame")
+        beads.times = [number("times", time, "finite picoseconds") for time in times]
     _add_chains(beads, necklaces, None, None)
     more = []
     if groups is not None and positions.ndim == 3:
@@ -291,6 +319,14 @@ def _open_positions(positions, beads, chosen_of, more):
     return beads, more, (positions,)
 
 
+def _path_text(path):
+    """Returns a path as an argument of the program, which does not take it for an option."""
+    text = os.fspath(path)
+    if "\0" in text or text != text.encode("utf-8", "replace").decode("utf-8"):
+        raise InputError(f"{text!r}: is no path in UTF-8; expected one without null characters")
+    return os.path.join(".", text) if text.startswith("-") else text
+
+
 def _open_paths(paths, start, stop, step, units, necklaces, times, groups, radius):
     for name, value in (("necklaces", necklaces), ("times", times)):
         if value is not None:
@@ -304,7 +340,7 @@ def _open_paths(paths, start, stop, step, units, necklaces, times, groups, radiu
         more += ["--groups", *(str(group) for group in groups)]
     if radius is not None:
         more += ["--radius", str(radius)]
-    return Input([*(os.fspath(path) for path in paths), *more])
+    return Input([*(_path_text(path) for path in paths), *more])
 
 
 def open_input(source, *, start=None, stop=None, step=None, units=None, necklaces=None, times=None, groups=None,
@@ -321,6 +357,8 @@ def open_input(source, *, start=None, stop=None, step=None, units=None, necklace
         raise InputError(f"units: is '{units}'; expected angstrom or nm")
     if (is_atom_group(source) or is_mdtraj(source)) and units is not None:
         raise InputError("units: an AtomGroup and an mdtraj Trajectory have their own; expected no units")
+    if (is_atom_group(source) or is_mdtraj(source)) and times is not None:
+        raise InputError("times: an AtomGroup and an mdtraj Trajectory have their own; expected no times, or dt")
     if not is_frames(source):
         _refuse_others(source)
 
@@ -335,7 +373,9 @@ def open_input(source, *, start=None, stop=None, step=None, units=None, necklace
     else:
         beads, more, frames = _open_array(source, chosen_of, units, necklaces, times, groups)
     if radius is not None and np.ndim(radius) > 0:
-        beads.radii = np.asarray(radius, dtype=float).ravel().tolist()
+        beads.radii = numbers("radius", radius).ravel().tolist()
+        if not beads.radii:
+            raise InputError("radius: is empty; expected one number for each bead")
         more = more + ["--radius", "element"]
     elif radius is not None:
         more = more + ["--radius", str(radius)]

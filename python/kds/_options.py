@@ -1,8 +1,13 @@
 """Keyword arguments become the options of the program, which checks them and knows their defaults."""
 
+import operator
 import os
 
+import numpy as np
+
 from . import _kds
+
+InputError = _kds.InputError
 
 # Options of the program that say where its results go. In Python results are attributes.
 _OUTPUTS = {*_kds.run_outputs(), "data"}
@@ -21,9 +26,58 @@ def warn(lines):
         warnings.warn(line, InputWarning, stacklevel=4)
 
 
+def number(name, value, expected="a number"):
+    """Returns a finite float. Refuses text, arrays and truth values."""
+    if isinstance(value, (str, bytes, bool, np.bool_)) or np.ndim(value) > 0 or not np.isreal(value):
+        raise InputError(f"{name}: is {value!r}; expected {expected}")
+    try:
+        found = float(value)
+    except (TypeError, ValueError):
+        found = np.nan
+    if not np.isfinite(found):
+        raise InputError(f"{name}: is {value}; expected {expected}")
+    return found
+
+
+def numbers(name, values):
+    """Returns an array of numbers, which is not copied. Refuses text, dates, complex numbers and masked arrays."""
+    if isinstance(values, np.ma.MaskedArray):
+        raise InputError(f"{name}: is masked; expected an array with all numbers, such as filled() returns")
+    try:
+        found = np.asarray(values)
+    except ValueError:
+        raise InputError(f"{name}: has rows of different lengths; expected an array of numbers") from None
+    if found.size and found.dtype.kind not in "iuf":
+        raise InputError(f"{name}: has the dtype {found.dtype}; expected an array of numbers")
+    return found
+
+
+def whole(name, value, least=None):
+    """Returns a whole number, at least `least`. Refuses 1.5, which int() would round."""
+    expected = "a whole number" if least is None else f"a whole number from {least}"
+    try:
+        found = operator.index(value)
+    except TypeError:
+        raise InputError(f"{name}: is {value!r}; expected {expected}") from None
+    if least is not None and found < least:
+        raise InputError(f"{name}: is {found}; expected {expected}")
+    return found
+
+
+def wholes(name, values, least=0):
+    """Returns a list of whole numbers."""
+    if isinstance(values, (str, bytes)) or not hasattr(values, "__iter__"):
+        raise InputError(f"{name}: is {values!r}; expected a list of whole numbers")
+    return [whole(name, value, least) for value in values]
+
+
 def _text(value):
     if isinstance(value, slice):
+        if value.step not in (None, 1):
+            raise InputError(f"{value}: has a step; expected slice(first, end)")
         return ":".join("" if part is None else str(part) for part in (value.start, value.stop))
+    if isinstance(value, np.ndarray) and value.ndim > 0:
+        value = value.tolist()
     if isinstance(value, (list, tuple)):
         return ",".join(_text(item) for item in value)
     if isinstance(value, float) or (hasattr(value, "dtype") and getattr(value, "ndim", 1) == 0):
@@ -42,6 +96,8 @@ def arguments(options, own=()):
             raise TypeError(f"{name}: is no argument here; results are attributes of what is returned")
         if name in _RENAMED and name not in own:
             raise TypeError(f"{name}: is no argument here; expected {_RENAMED[name]}")
+        if not name.isidentifier():
+            raise TypeError(f"{name!r}: is no argument; expected a name without dashes and spaces")
         if value is None or value is False:
             continue
         found.append("--" + name.replace("_", "-"))
@@ -79,6 +135,3 @@ def call(function, *given, verbose=False, unit="step"):
         return function(*given, show)
     finally:
         close()
-
-
-InputError = _kds.InputError

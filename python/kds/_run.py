@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _kds, _plots
 from ._inputs import open_input
-from ._options import arguments, call, warn
+from ._options import InputError, arguments, call, number, warn, wholes
 from ._tables import indented
 from ._view import RecordedPage, view_of_new_run
 
@@ -16,14 +16,16 @@ def more_options(only):
     """Returns the options that have no text in the program."""
     more = _kds.MoreOptions()
     if only is not None:
-        more.only = {name: [int(bead) for bead in beads] for name, beads in only.items()}
+        if not isinstance(only, dict):
+            raise InputError("only: is no dictionary; expected beads by structures, as in {'contacts': [3, 4, 5]}")
+        more.only = {str(name): wholes(f"only: {name}", beads) for name, beads in only.items()}
     return more
 
 
 def run_arguments(cutoff, surface, options):
     """Returns the arguments of the program for the options of a run."""
     if np.ndim(cutoff) > 0:
-        raise _kds.InputError(f"cutoff: is {cutoff}; expected one length; kds.contacts takes two")
+        raise InputError(f"cutoff: is {cutoff}; expected one length; kds.contacts takes two")
     return arguments({"cutoff": cutoff, "surface": bool(surface), **options})
 
 
@@ -57,7 +59,7 @@ class Clock:
     def time(self, frame):
         if frame is None:
             return None
-        time = (float(frame) - self.first) / self.stride
+        time = (number("frame", frame) - self.first) / self.stride
         if self.steps is not None and not 0 <= time <= self.steps:
             raise _kds.InputError(f"frame: {frame} is outside the run, which goes from frame {self.first} to "
                                   f"{self.first + self.steps * self.stride}")
@@ -115,6 +117,7 @@ class Structure:
         supports of nodes (``boxes``), cells (``power``), pairs (``contacts``, ``closest``), ranks (``sorted``), ends
         (``box``) or corners (``hull``); docs/python.md lists their ids.
         """
+        number("frame", frame)  # None is no frame here
         time = self._run._clock.time(frame)
         if time != int(time):
             raise _kds.InputError(f"frame: {frame} is no frame of the run")
@@ -132,11 +135,11 @@ class Structure:
 
     def spheres(self, frame=None):
         """Returns the spheres of a hierarchy's nodes, an array (nodes, 4): x, y, z and radius in angstrom."""
-        return self._run._core.spheres(self.name, self._run._clock.time(frame))[1]
+        return self._spheres(frame)[1]
 
     def nodes(self, frame=None):
         """Returns the first and the last bead of each node of ``spheres``, an array (nodes, 2)."""
-        return self._run._core.spheres(self.name, self._run._clock.time(frame))[0]
+        return self._spheres(frame)[0]
 
     def lifetimes(self, by=None, **options):
         """Returns a table of how long contacts last, one row for each pair that is ever in contact.
@@ -151,6 +154,12 @@ class Structure:
         """Returns the result of :func:`kds.contacts` over the frames of the run, at the cutoff of the run."""
         self._only("contacts", "analysis")
         return self._run._contacts(by=by, **options)
+
+    def _spheres(self, frame):
+        nodes, spheres = self._run._core.spheres(self.name, self._run._clock.time(frame))
+        if len(nodes) == 0:
+            raise AttributeError(f"{self.name} has no spheres; hierarchies such as wrapped have")
+        return nodes, spheres
 
     def _only(self, name, function):
         if self.name != name:
@@ -273,17 +282,21 @@ class Run:
         return view_of_new_run(write, path)
 
     def _contacts(self, **options):
-        from ._analyses import Contacts
+        from ._analyses import Contacts, cutoff_text
 
         options = {name: value for name, value in options.items() if value is not None}
+        for name in ("start", "stop", "step", "radius", "units", "necklaces", "times", "groups"):
+            if name in options:
+                raise InputError(f"{name}: is that of the run; expected kds.contacts(source, {name}=...)")
+        if "cutoff" in options:
+            options["cutoff"] = cutoff_text(options["cutoff"])
+        else:
+            cutoff = self._options.get("cutoff")
+            options["cutoff"] = cutoff_text(cutoff or 0)
+            options.setdefault("surface", self._options.get("surface", False) or cutoff is None)
         own = arguments({**{name: self._options.get(name) for name in ("motion", "apart", "topology", "select", "chain",
                                                                       "obstacle", "dt", "until_damage", "threads")},
                          **options})
-        if "--cutoff" not in own:
-            cutoff, surface = self._options.get("cutoff"), self._options.get("surface", False)
-            own += ["--cutoff", repr(float(cutoff or 0))]
-            if surface or cutoff is None:
-                own += ["--surface"]
         found = call(_kds.contacts, self._source.arguments + own)
         return Contacts(found)
 
@@ -320,9 +333,9 @@ def run(source, *, start=None, stop=None, step=None, structures=None, radius=Non
     ----------
     source : path, list of paths, array, AtomGroup, mdtraj Trajectory or iterable
         Positions of the beads in every frame. An array has the shape (frames, beads, 3), float32 or float64 in C order;
-        it is not copied. A path is any file that ``kds run`` reads. Frames of an AtomGroup are copied, and its
-        trajectory then stands at the frame where it stood. An iterable gives arrays (beads, 3), pairs of an array and a
-        time in picoseconds, or objects with ``positions``.
+        it is not copied and must not change while the run is in use. A path is any file that ``kds run`` reads. Frames
+        of an AtomGroup are copied, and its trajectory then stands at the frame where it stood. An iterable gives arrays
+        (beads, 3), pairs of an array and a time in picoseconds, or objects with ``positions``.
     start, stop, step : int
         Frames of the trajectory, as a slice has them.
     structures : str or list of str
@@ -387,7 +400,7 @@ def run_options():
     >>> print(kds.run_options()["kernel"])
     arithmetic: fast, filtered or exact (default: filtered)
     """
-    hidden = ("frames", "format", "rounds")
+    hidden = ("frames", "format", "rounds", "threads")
     return {name: help for name, help in _kds.run_arguments() if name not in hidden}
 
 

@@ -3,10 +3,12 @@
 import numpy as np
 
 from . import _kds
+from ._options import number, numbers, whole, wholes
 
 
-def _radii(radius):
-    return np.ravel(np.asarray(radius, dtype=float))
+def _balls(centers, radius):
+    """Returns both as arrays of numbers."""
+    return numbers("centers", centers), np.ravel(numbers("radius", radius))
 
 
 def power_diagram(centers, radius):
@@ -20,7 +22,7 @@ def power_diagram(centers, radius):
     >>> len(edges), len(hidden)
     (6, 0)
     """
-    return _kds.power_diagram(centers, _radii(radius))
+    return _kds.power_diagram(*_balls(centers, radius))
 
 
 def enclosing_sphere(centers, radius):
@@ -31,7 +33,7 @@ def enclosing_sphere(centers, radius):
     >>> float(radius), basis.tolist()
     (3.0, [0, 1])
     """
-    return _kds.enclosing_sphere(centers, _radii(radius))
+    return _kds.enclosing_sphere(*_balls(centers, radius))
 
 
 def wrapped_hierarchy(centers, radius, necklaces=()):
@@ -42,7 +44,7 @@ def wrapped_hierarchy(centers, radius, necklaces=()):
     >>> nodes[0].tolist(), spheres[0].tolist()
     ([0, 2], [2.0, 0.0, 0.0, 3.0])
     """
-    return _kds.wrapped_hierarchy(centers, _radii(radius), list(necklaces))
+    return _kds.wrapped_hierarchy(*_balls(centers, radius), wholes("necklaces", necklaces, 1))
 
 
 def colliding_pairs(centers, radius, *, within=0, apart=2, necklaces=()):
@@ -54,7 +56,8 @@ def colliding_pairs(centers, radius, *, within=0, apart=2, necklaces=()):
     >>> kds.colliding_pairs([[0, 0, 0], [2, 0, 0], [1, 1, 0]], 1).tolist()
     [[0, 2]]
     """
-    return _kds.colliding_pairs(centers, _radii(radius), list(necklaces), apart, float(within))
+    return _kds.colliding_pairs(*_balls(centers, radius), wholes("necklaces", necklaces, 1), whole("apart", apart, 1),
+                                number("within", within, "a length from 0"))
 
 
 def closest_pair(centers, radius, *, apart=2, necklaces=()):
@@ -64,4 +67,4 @@ def closest_pair(centers, radius, *, apart=2, necklaces=()):
     >>> kds.closest_pair([[0, 0, 0], [2, 0, 0], [9, 0, 0]], 1)
     (0, 2, 7.0)
     """
-    return _kds.closest_pair(centers, _radii(radius), list(necklaces), apart)
+    return _kds.closest_pair(*_balls(centers, radius), wholes("necklaces", necklaces, 1), whole("apart", apart, 1))

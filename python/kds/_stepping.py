@@ -3,8 +3,8 @@
 import numpy as np
 
 from . import _kds
-from ._inputs import check_units, frame_of, is_frames
-from ._options import InputError, warn
+from ._inputs import _refuse_others, check_units, frame_of, is_frames
+from ._options import InputError, number, numbers, warn, whole, wholes
 from ._run import Clock, Structure, events_array, more_options, open_run, run_arguments
 
 
@@ -45,12 +45,17 @@ class KineticRun:
         ``dimension`` 1 to 3, ``necklaces`` the number of beads of each necklace. Name the ``structures``.
         """
         self = cls.__new__(cls)
-        radii = [] if radius is None else np.ravel(np.asarray(radius, dtype=float)).tolist()
-        counts = [int(beads)] if necklaces is None else [int(count) for count in necklaces]
+        for name in ("topology", "select", "chain", "obstacle", "dt", "until_damage", "groups"):
+            if options.get(name):
+                raise InputError(f"{name}: is for inputs that have their frames; frames are pushed as they are")
+        beads = whole("beads", beads, 1)
+        radii = [] if radius is None else np.ravel(numbers("radius", radius)).tolist()
+        counts = [beads] if necklaces is None else wholes("necklaces", necklaces, 1)
         if sum(counts) != beads:
             raise InputError(f"necklaces: have {sum(counts)} beads; expected {beads}")
         _warn_of_threads(options)
-        self._core = _kds.Run(run_arguments(cutoff, surface, options), more_options(only), int(dimension), counts, radii)
+        self._core = _kds.Run(run_arguments(cutoff, surface, options), more_options(only),
+                              whole("dimension", dimension, 1), counts, radii)
         self._source = None
         self._clock = Clock(0, 1)
         self._pushed = 0
@@ -64,7 +69,9 @@ class KineticRun:
         """
         if self._source is not None:
             raise InputError("push: the run has frames of its own; expected KineticRun.pushed(beads)")
-        positions = np.asarray(positions, dtype=float)
+        positions = numbers(f"frame {self._pushed}", positions)
+        if time is not None:
+            time = number(f"frame {self._pushed}: time", time, "picoseconds")
         shape = (self._core.bead_count, self._core.dimension)
         if positions.shape != shape:
             raise InputError(f"frame {self._pushed}: has the shape {positions.shape}; expected {shape}")
@@ -105,6 +112,7 @@ class KineticRun:
 
         Edits up to that frame are repeated, later ones are forgotten. Returns the events on the way forward.
         """
+        number("frame", frame)  # None is no frame here
         self._core.go_to(self._clock.time(frame))
         return events_array(self._core)
 
@@ -119,11 +127,11 @@ class KineticRun:
 
     def insert(self, structure, bead):
         """Adds a bead to a structure, within a step, from now on. Returns the events that this causes."""
-        return self._edit(self._core.insert, self._place(structure), bead)
+        return self._edit(self._core.insert, self._place(structure), whole("bead", bead, 0))
 
     def erase(self, structure, bead):
         """Removes a bead from a structure, within a step, from now on. Returns the events that this causes."""
-        return self._edit(self._core.erase, self._place(structure), bead)
+        return self._edit(self._core.erase, self._place(structure), whole("bead", bead, 0))
 
     def control_points(self):
         """Returns the Bezier control points of the present step, an array (beads, degree + 1, dimension)."""
@@ -135,7 +143,7 @@ class KineticRun:
         ``points`` has the shape (beads, degree + 1, dimension): control points for the whole step, including the part
         before now. At the end of the step each bead must be where the next frame has it.
         """
-        return self._edit(self._core.bend, [int(bead) for bead in beads], points)
+        return self._edit(self._core.bend, wholes("beads", beads), numbers("points", points))
 
     def _edit(self, function, *given):
         function(*given)
@@ -230,10 +238,14 @@ def _stream_pushed(source, chosen, radius, necklaces, units, options):
     if isinstance(radius, str) or (radius is None and options.get("cutoff") is None):
         raise InputError("radius: frames that come one by one have no longest bond; expected a number, one for each bead, "
                          "or a cutoff")
-    numbers = itertools.count(chosen.start or 0, chosen.step or 1)
+    _refuse_others(source)
+    for name, value in (("start", chosen.start), ("stop", chosen.stop), ("step", chosen.step)):
+        if value is not None:
+            whole(name, value, 1 if name == "step" else 0)
+    places = itertools.count(chosen.start or 0, chosen.step or 1)
     run = None
     for item in itertools.islice(source, chosen.start, chosen.stop, chosen.step):
-        positions, time = frame_of(item)
+        positions, time = frame_of(item, f"frame {0 if run is None else run._pushed}")
         if units == "nm":
             positions = 10 * positions if positions.dtype == float else np.float32(10) * positions.astype(np.float32)
         if run is None:
@@ -243,7 +255,7 @@ def _stream_pushed(source, chosen, radius, necklaces, units, options):
             radius = 1.0 if radius is None else radius
             run = KineticRun.pushed(len(positions), radius, dimension=positions.shape[1], necklaces=necklaces, **options)
         events = run.push(positions, time)
-        yield StreamFrame(next(numbers), time, events, run)
+        yield StreamFrame(next(places), time, events, run)
     if run is None:
         raise InputError("frames: there are none; expected two or more")
     if run._pushed > 1:

@@ -40,6 +40,70 @@ class Errors(unittest.TestCase):
         self.refused(r"radii; expected 30", run, coil(), radius=[1.0, 2.0])
         self.refused(r"expected finite numbers from 0", run, coil(), radius=[-1.0] * 30)
 
+        self.refused(r"dtype >f8; expected float32 or float64", run, coil().astype(">f8"))
+        self.refused(r"in a plane have 0", run, np.zeros((6, 30, 2)))
+        unaligned = np.frombuffer(b"0" + coil().tobytes(), dtype=np.uint8)[1:].view(float).reshape(coil().shape)
+        self.refused(r"not aligned in memory; expected positions.copy\(\)", run, unaligned)
+        self.refused(r"^radius: is empty", run, coil(), radius=[])
+        self.refused(r"^radius: has the dtype <U1", run, coil(), radius=["a"] * 30)
+        self.refused(r"^frame 0: has the dtype object", run, [None, None])
+        self.refused(r"^frame 0: has rows of different lengths", run, iter([[[1, 2, 3], [1, 2]]] * 2))
+        self.refused(r"^frame 1: time: is 'late'", run, iter([(coil()[0], 0.0), (coil()[1], "late")]))
+        self.refused(r"^dict: is no input", run, {"positions": coil()})
+
+    def test_numbers_are_not_rounded_or_guessed(self):
+        dates = np.array(["2026-11-26"] * 6, dtype="M8[ns]")
+        self.refused(r"^start: is 1.5; expected a whole number", kds.run, coil(), start=1.5)
+        self.refused(r"^start: is 1.5; expected a whole number", kds.run, DCD, topology=PDB, start=1.5)
+        self.refused(r"^stop: is 3; expected a number above start", kds.run, DCD, topology=PDB, start=5, stop=3)
+        self.refused(r"^necklaces: is 15.5", kds.run, coil(), necklaces=[15.5, 15.5])
+        self.refused(r"^necklaces: is -1", kds.run, coil(), necklaces=[-1, 31])
+        self.refused(r"^times: has the dtype datetime64", kds.run, coil(), times=dates)
+        self.refused(r"^times: is nan", kds.run, coil(), times=[np.nan] * 6)
+        self.refused(r"^times: has 0 times; expected 6", kds.run, coil(), times=[])
+        self.refused(r"^only: contacts: is 1.5", kds.run, coil(), structures=["contacts"], only={"contacts": [1.5]})
+        self.refused(r"^groups: a mask has the shape \(29,\)", kds.run, coil(), structures=["contacts"],
+                     groups=(np.ones(30, bool), np.ones(29, bool)))
+        self.refused(r"has a step", kds.run, coil(), structures=["wrapped"], levels=slice(0, 3, 2))
+        self.refused(r"^cutoff: is True", kds.run, coil(), cutoff=True)
+        self.refused(r"^cutoff: is None", kds.contacts, coil(), cutoff=None)
+        self.refused(r"^centers: is masked", kds.power_diagram, np.ma.masked_less(coil()[0], 0), 1)
+        self.refused(r"^centers: has the dtype complex128", kds.enclosing_sphere, coil()[0] * 1j, 1)
+        self.refused(r"^apart: is 1.5", kds.colliding_pairs, coil()[0], 1, apart=1.5)
+        self.refused(r"threads", kds.run, coil(), threads=2, error=TypeError)
+
+    def test_a_path_is_no_option(self):
+        self.refused(r"-radius.xtc: cannot open this file", kds.run, "-radius.xtc")
+        self.refused(r"no path in UTF-8", kds.run, "a\0b.xtc")
+        self.refused(r"no path in UTF-8", kds.run, "\udcff.xtc")
+        self.refused(r"is no argument", kds.run, coil(), **{"radius ": 1}, error=TypeError)
+
+    def test_pushed_and_driven_runs(self):
+        pushed = kds.KineticRun.pushed
+        self.refused(r"^beads: is -1", pushed, -1, 1)
+        self.refused(r"^cutoff: is -3", pushed, 30, 1, cutoff=-3, structures=["contacts"])
+        self.refused(r"^dt: is for inputs that have their frames", pushed, 30, 1, dt=2)
+        self.refused(r"^frame 0: time: is 'x'", pushed(30, 1, structures=["power"]).push, coil()[0], "x")
+        self.refused(r"^frame 0: has the dtype complex128", pushed(30, 1, structures=["power"]).push, coil()[0] * 1j)
+        run = kds.KineticRun(coil(), radius=1, structures=["contacts", "power"])
+        run.go_to(2.5)
+        self.refused(r"there is no bead 99", run.erase, "contacts", 99)
+        self.refused(r"^bead: is 1.5", run.erase, "contacts", 1.5)
+        self.refused(r"not a finite number", run.bend, [3], run.control_points()[[3]] * np.nan)
+        self.refused(r"^frame: is '3'", run.go_to, "3")
+        self.refused(r"contacts has no spheres", run.contacts.spheres, error=AttributeError)
+        self.refused(r"^start: is -1", lambda: list(kds.stream(iter(coil()), radius=1, start=-1)))
+        self.refused(r"^int: is no input", lambda: list(kds.stream(17, radius=1)))
+
+    def test_lifetimes_keep_the_input_of_their_run(self):
+        run = kds.run(coil(), radius=1, structures=["contacts"], cutoff=3)
+        self.refused(r"^radius: is that of the run", run.contacts.lifetimes, radius=2)
+        both = kds.contacts(coil(), cutoff=(2.5, 3.5), surface=True).json["rows"]
+        self.assertEqual(run.contacts.analysis(cutoff=(2.5, 3.5)).json["rows"],
+                         kds.contacts(coil(), cutoff=(2.5, 3.5)).json["rows"])
+        self.assertEqual(kds.run(coil(), radius="auto", structures=["contacts"]).contacts.analysis(
+            cutoff=(2.5, 3.5), surface=True).json["rows"], both)
+
     def test_one_bead(self):
         self.refused(r"bead", kds.run, coil(beads=1))
 
@@ -66,8 +130,9 @@ class Errors(unittest.TestCase):
         self.refused(r"^cutoff: '-1' is not a number from 0", kds.run, coil(), cutoff=-1)
         self.refused(r"cutoff: is \(4, 6\); expected one length", kds.run, coil(), cutoff=(4, 6))
         self.refused(r"^surface: .*expected cutoff", kds.run, coil(), surface=True)
+        self.refused(r"certify: .* expected step above 1, or tolerance", kds.run, coil(), radius=1, certify=True)
         self.refused(r"is no input; expected a path", kds.run, 17)
-        self.refused(r"step: is 0; expected a number from 1", kds.run, coil(), step=0)
+        self.refused(r"step: is 0; expected a whole number from 1", kds.run, coil(), step=0)
         self.refused(r"no frame of array is chosen, which has 6", kds.run, coil(), start=10)
         self.refused(r"stop: is -1; expected a number from 0 for a file", kds.run, DCD, stop=-1)
         self.refused(r"missing\.xyz", kds.run, "missing.xyz")
@@ -169,6 +234,20 @@ sys.modules["builtins"].kept = kept
 
 
 class Threads(unittest.TestCase):
+    def test_a_run_is_read_by_one_thread(self):
+        run, refused = kds.KineticRun(coil(frames=60, beads=120), radius=1, structures=["power"]), []
+
+        def look(done, within, total):
+            for read in (run._core.take_events, run._core.control_points, lambda: run.frame, lambda: run.fingerprint):
+                try:
+                    read()
+                except RuntimeError as error:
+                    refused.append(str(error))
+
+        run._core.execute(look)
+        self.assertGreaterEqual(len(refused), 4)
+        self.assertIn("this run is in use", refused[0])
+
     def test_two_threads_find_what_one_finds(self):
         positions = coil(frames=40, beads=120)
         expected = kds.run(positions, radius=1).fingerprint
