@@ -191,24 +191,24 @@ def _positions_of_group(group, count, frame):
     return positions
 
 
-def _cell_of(ts):
-    """Returns the periodic cell of a frame, or None. MDAnalysis divides by zero if the cell is empty."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return ts.dimensions
-
-
 class _Kept:
-    """Puts a trajectory back to the frame where it stood."""
+    """Puts a trajectory back to the frame where it stood. MDAnalysis divides by zero in a file with empty cells, which
+    NumPy would warn of at each frame."""
 
     def __init__(self, trajectory):
         self.trajectory = trajectory
         self.frame = trajectory.frame
+        self.quiet = np.errstate(divide="ignore", invalid="ignore")
 
     def __enter__(self):
+        self.quiet.__enter__()
         return self.trajectory
 
     def __exit__(self, *raised):
-        self.trajectory[self.frame]
+        try:
+            self.trajectory[self.frame]
+        finally:
+            self.quiet.__exit__(*raised)
 
 
 def _collect_group(group, beads, chosen):
@@ -216,7 +216,7 @@ def _collect_group(group, beads, chosen):
     library follows the images of chains through them."""
     with _Kept(group.universe.trajectory) as trajectory:
         trajectory[chosen.start]
-        has_cell = _cell_of(trajectory.ts) is not None
+        has_cell = trajectory.ts.dimensions is not None
         read = range(chosen.start, chosen[-1] + 1) if has_cell else chosen
         count = len(group)
         positions = np.empty((len(read), count, 3), dtype=np.float32)
@@ -225,8 +225,7 @@ def _collect_group(group, beads, chosen):
             positions[k] = _positions_of_group(group, count, ts.frame)
             times.append(ts.time)
             if has_cell:
-                cell = _cell_of(ts)
-                cells.extend(np.zeros(6) if cell is None else np.asarray(cell, dtype=float))
+                cells.extend(np.zeros(6) if ts.dimensions is None else np.asarray(ts.dimensions, dtype=float))
     beads.times, beads.cells = times, cells
     beads.first_frame, beads.frame_step = read.start, read.step
     check_units(positions[0], False, beads.label)
@@ -241,8 +240,8 @@ def _pull_group(group):
         with _Kept(group.universe.trajectory) as trajectory:
             ts = trajectory[frame]
             positions = np.ascontiguousarray(_positions_of_group(group, count, frame))
-            cell = _cell_of(ts)
-            return positions, float(ts.time), None if cell is None else [float(length) for length in cell]
+            cell = None if ts.dimensions is None else [float(length) for length in ts.dimensions]
+            return positions, float(ts.time), cell
 
     return read
 

@@ -147,6 +147,13 @@ class PathArrayGroupAndMdtraj(unittest.TestCase):
                                  structures=["power"]))
         np.testing.assert_array_equal(np.concatenate([frame.events for frame in pushed])["beads"], run.events["beads"])
 
+    def test_empty_cells_are_quiet(self):
+        group = universe(self.xtc).select_atoms("name CA")  # the writer gave each frame an empty cell
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", RuntimeWarning)
+            kds.run(group, structures=["sorted"], radius=1, stop=5)
+            self.assertEqual(len(list(kds.stream(group, structures=["sorted"], radius=1, stop=5))), 5)
+
     def test_the_trajectory_stays_where_it_was(self):
         group = universe(self.xtc).select_atoms(BACKBONE)
         group.universe.trajectory[7]
