@@ -55,6 +55,9 @@ struct Found {
   }
 };
 
+/// The default of analyses, because Ctrl-C ends them at once only on one thread.
+constexpr std::size_t one_thread = 1;
+
 auto progress_of(Watch& watch) {
   return [&watch](std::size_t done, std::size_t total) { watch.look(done, 0, total); };
 }
@@ -99,7 +102,8 @@ struct Intervals {
 }  // namespace
 
 py::dict contacts(const Arguments& arguments, const py::object& progress) {
-  const ContactsTask task = parse_contacts_options(arguments).task;
+  ContactsTask task = parse_contacts_options(arguments).task;
+  if (!task.threads) task.threads = one_thread;
   Found found;
   std::vector<std::string> names;
   std::string columns;
@@ -130,7 +134,8 @@ py::dict contacts(const Arguments& arguments, const py::object& progress) {
 }
 
 py::dict compare(const Arguments& arguments, const py::object& progress) {
-  const CompareOptions options = parse_compare_options(arguments);
+  CompareOptions options = parse_compare_options(arguments);
+  if (!options.threads) options.threads = one_thread;
   Found found;
   {
     Watch watch(progress);

@@ -70,7 +70,6 @@ class Errors(unittest.TestCase):
         self.refused(r"^centers: is masked", kds.power_diagram, np.ma.masked_less(coil()[0], 0), 1)
         self.refused(r"^centers: has the dtype complex128", kds.enclosing_sphere, coil()[0] * 1j, 1)
         self.refused(r"^apart: is 1.5", kds.colliding_pairs, coil()[0], 1, apart=1.5)
-        self.refused(r"threads", kds.run, coil(), threads=2, error=TypeError)
 
     def test_a_path_is_no_option(self):
         self.refused(r"-radius.xtc: cannot open this file", kds.run, "-radius.xtc")
