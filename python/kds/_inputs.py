@@ -184,6 +184,12 @@ def _beads_of_group(group, label, wants_elements, necklaces, groups):
     return beads, _set_groups(beads, groups, len(group), members)
 
 
+def _has_times(trajectory):
+    """Whether the times of a trajectory are known. Many writers of DCD leave the time step at 1 in CHARMM's unit, which
+    MDAnalysis takes for 0.0489 ps. The program does not."""
+    return trajectory.format != "DCD" or abs(trajectory.dt - 0.04888821) > 1e-6
+
+
 def _positions_of_group(group, count, frame):
     positions = group.positions
     if len(positions) != count:
@@ -223,7 +229,8 @@ def _collect_group(group, beads, chosen):
         times, cells = [], []
         for k, ts in enumerate(trajectory[read.start:read.stop:read.step]):
             positions[k] = _positions_of_group(group, count, ts.frame)
-            times.append(ts.time)
+            if _has_times(trajectory):
+                times.append(ts.time)
             if has_cell:
                 cells.extend(np.zeros(6) if ts.dimensions is None else np.asarray(ts.dimensions, dtype=float))
     beads.times, beads.cells = times, cells
@@ -241,7 +248,7 @@ def _pull_group(group):
             ts = trajectory[frame]
             positions = np.ascontiguousarray(_positions_of_group(group, count, frame))
             cell = None if ts.dimensions is None else [float(length) for length in ts.dimensions]
-            return positions, float(ts.time), cell
+            return positions, float(ts.time) if _has_times(trajectory) else None, cell
 
     return read
 

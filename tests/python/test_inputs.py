@@ -8,7 +8,7 @@ import warnings
 import numpy as np
 
 import kds
-from data import BACKBONE, PDB, RESIDUES, coil, program, program_events, universe
+from data import BACKBONE, DCD, PDB, RESIDUES, coil, program, program_events, universe
 
 STRUCTURES = ["sorted", "wrapped", "power", "contacts"]
 FRAMES = 40
@@ -146,6 +146,18 @@ class PathArrayGroupAndMdtraj(unittest.TestCase):
         pushed = list(kds.stream(iter([group.positions.copy() for _ in group.universe.trajectory]), radius=radius,
                                  structures=["power"]))
         np.testing.assert_array_equal(np.concatenate([frame.events for frame in pushed])["beads"], run.events["beads"])
+
+    def test_a_dcd_without_a_time_step_has_no_times(self):
+        import MDAnalysis
+
+        group = universe().select_atoms(BACKBONE)
+        options = {"structures": ["contacts"], "cutoff": 6, "stop": 5}
+        self.assertTrue(np.isnan(kds.run(group, **options).times).all())
+        self.assertTrue(np.isnan(kds.run(DCD, topology=PDB, **options).times).all())
+        self.assertIsNone(next(kds.stream(group, **options)).time)
+        told = MDAnalysis.Universe(PDB, DCD, dt=0.02).select_atoms(BACKBONE)
+        for run in (kds.run(told, **options), kds.run(group, dt=0.02, **options)):
+            np.testing.assert_allclose(run.times, 0.02 * np.arange(5))
 
     def test_empty_cells_are_quiet(self):
         group = universe(self.xtc).select_atoms("name CA")  # the writer gave each frame an empty cell
