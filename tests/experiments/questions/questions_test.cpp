@@ -195,10 +195,10 @@ TEST(Questions, AllOfThemWithAPage) {
   expect_bounds(rows_of(json, "bounds"));
   expect_trust(rows_of(json, "trust"));
   expect_combination(rows_of(json, "combination"));
-#ifndef KDS_SANITIZED
-  expect_energy(rows_of(json, "energy"));
-  expect_energy_of_runs(rows_of(json, "energy"));
-#endif
+  if (arguments[1] != "bounds") {
+    expect_energy(rows_of(json, "energy"));
+    expect_energy_of_runs(rows_of(json, "energy"));
+  }
   const std::string csv = content_of(scratch / "out/questions.csv");
   const auto commas = [&](std::size_t from) {
     return count_of(csv.substr(from, csv.find('\n', from) - from), ",");
