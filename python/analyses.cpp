@@ -38,7 +38,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// What an analysis returns, before it becomes objects of Python.
+/// The results of an analysis, before they become objects of Python.
 struct Found {
   std::string json, table;
   std::vector<std::string> warnings;

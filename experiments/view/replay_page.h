@@ -22,7 +22,7 @@
 
 namespace kds {
 
-/// What a replay says about its run, besides the scene and the record.
+/// Title, inputs and settings of the run, as the page names them.
 struct ReplayLabels {
   std::string title = "kds run";
   std::string command = {};              ///< the command line that made the page; may be empty

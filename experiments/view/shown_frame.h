@@ -1,6 +1,6 @@
 #pragma once
-// What a recorded run has at a frame, in the input's coordinates: beads, spheres of nodes, edges and
-// contacts. Files for other viewers are made of it: VTK files for ParaView, scripts for PyMOL and ChimeraX.
+// A frame of a recorded run in the input's coordinates: beads, spheres of nodes, edges and contacts. VTK
+// files for ParaView and scripts for PyMOL and ChimeraX are made of such frames.
 
 #include <Eigen/Core>
 #include <array>

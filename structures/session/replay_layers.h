@@ -1,6 +1,6 @@
 #pragma once
-// What a replay shows of a structure: layers of elements that events remove and add. An element is a few ids,
-// for example the two beads of an edge. A layer is a set of elements, for example all edges of a diagram.
+// Layers of a structure, as replays show them. A layer is a set of elements, for example all edges of a
+// diagram. An element is a few ids, for example the two beads of an edge. Events remove and add elements.
 
 #include <array>
 #include <cstddef>
