@@ -26,6 +26,8 @@ def run_arguments(cutoff, surface, options):
     """Returns the arguments of the program for the options of a run."""
     if np.ndim(cutoff) > 0:
         raise InputError(f"cutoff: is {cutoff}; expected one length; kds.contacts takes two")
+    if cutoff is not None:
+        number("cutoff", cutoff, "a length from 0")
     return arguments({"cutoff": cutoff, "surface": bool(surface), **options})
 
 

@@ -80,7 +80,7 @@ class Errors(unittest.TestCase):
     def test_pushed_and_driven_runs(self):
         pushed = kds.KineticRun.pushed
         self.refused(r"^beads: is -1", pushed, -1, 1)
-        self.refused(r"^cutoff: is -3", pushed, 30, 1, cutoff=-3, structures=["contacts"])
+        self.refused(r"^cutoff: '-3' is not a number from 0", pushed, 30, 1, cutoff=-3, structures=["contacts"])
         self.refused(r"^dt: is for inputs that have their frames", pushed, 30, 1, dt=2)
         self.refused(r"^frame 0: time: is 'x'", pushed(30, 1, structures=["power"]).push, coil()[0], "x")
         self.refused(r"^frame 0: has the dtype complex128", pushed(30, 1, structures=["power"]).push, coil()[0] * 1j)
