@@ -170,11 +170,12 @@ TEST(Program, AnInterruptedRunLeavesNothingBehind) {
   }
 }
 
+// On one thread, the dump of the first frame is written at once.
 TEST(Program, WhatAKilledRunLeftIsClearedByTheNext) {
   const ScratchDirectory directory;
   const std::string there = directory.path().string();
   const ProgramRun killed = run_shell(
-      "\"$0\" run \"$1\" --dump \"$2\" --audit events & "
+      "\"$0\" run \"$1\" --dump \"$2\" --audit events --threads 1 & "
       "i=0; while [ -z \"$seen\" ] && [ $i -lt 200 ]; do sleep 0.05; seen=$(ls -A \"$2\"/.kds-*); "
       "i=$((i+1)); done; kill -KILL $!; wait $!",
       {data_file("trajectories/villin_hp36_300K.dcd"), there});
