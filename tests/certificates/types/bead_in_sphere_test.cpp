@@ -6,6 +6,7 @@
 #include "certificates/types/power_test.h"
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/rational_geometry.h"
+#include "tests/support/rounds.h"
 #include "tests/support/searches.h"
 
 namespace kds::bead_in_sphere_test {
@@ -83,7 +84,7 @@ void expect_circumsphere(const M& motion, const Dyadic& time) {
 
 TEST(BeadInSphere, AgreesWithTheCentreSolvedFor) {
   test::Random random(721);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < test::rounds(60); ++i) {
     for (const test::MotionKind kind : test::all_motion_kinds) {
       SCOPED_TRACE("seed 721, round " + std::to_string(i) + ", kind " +
                    std::to_string(static_cast<int>(kind)));

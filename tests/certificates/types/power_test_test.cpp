@@ -6,6 +6,7 @@
 
 #include "tests/support/inputs/random_motion.h"
 #include "tests/support/judges/rational_geometry.h"
+#include "tests/support/rounds.h"
 #include "tests/support/searches.h"
 
 namespace kds::power_test_test {
@@ -85,7 +86,7 @@ TEST(PowerTest, IsAntisymmetric) {
 TEST(PowerTest, IsThePowerToTheOrthogonalSphere) {
   test::Random random(712);
   int proper = 0;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < test::rounds(40); ++i) {
     for (const test::MotionKind kind : test::all_motion_kinds) {
       const auto motion = test::random_motion<BezierMotion<3, 2>>(random, 5, kind);
       const Dyadic time = test::random_dyadic(random);
@@ -118,7 +119,7 @@ TEST(PowerTest, IsThePowerToTheOrthogonalSphere) {
       EXPECT_EQ(found, test::sign(test::determinant_of(orientation)) * test::sign(power));
     }
   }
-  EXPECT_GT(proper, 150);
+  EXPECT_GT(proper, test::rounds(150));
 }
 
 TEST(PowerTest, HasAnIdentityByType) {

@@ -88,7 +88,7 @@ void expect_larger_sphere(const M& motion, const Dyadic& time, double share) {
 
 TEST(RelaxedBeadInSphere, AgreesWithTheCentreSolvedFor) {
   test::Random random(731);
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < test::rounds(40); ++i) {
     for (const test::MotionKind kind : test::all_motion_kinds) {
       SCOPED_TRACE("seed 731, round " + std::to_string(i) + ", kind " +
                    std::to_string(static_cast<int>(kind)));

@@ -143,7 +143,7 @@ TEST(Periodic, NearestImagesInExtremeCells) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> magnitude(0, 7.7), place(-1, 1);
   int used = 0;
-  for (int round = 0; round < 20'000; ++round) {
+  for (int round = 0; round < test::rounds(20'000); ++round) {
     Cell cell;
     for (Eigen::Index i = 0; i < 3; ++i)
       for (Eigen::Index axis = 0; axis < 3; ++axis)
@@ -158,7 +158,7 @@ TEST(Periodic, NearestImagesInExtremeCells) {
     EXPECT_EQ(shift, shift.array().round().matrix());
     EXPECT_LE((difference + cell * shift).norm(), difference.norm() * (1 + 1e-9));
   }
-  EXPECT_GT(used, 1000);
+  EXPECT_GT(used, test::rounds(1000));
 }
 
 TEST(Periodic, VerySkewCellsMakeChainsWhole) {

@@ -17,6 +17,7 @@
 #include "structures/hierarchy/bead_orders.h"
 #include "structures/hierarchy/layered_hierarchy.h"
 #include "tests/structures/collision/collision_scenes.h"
+#include "tests/support/rounds.h"
 
 namespace kds::separating_families_test {
 namespace {
@@ -172,7 +173,7 @@ void expect_sound_families(const CollisionScene& scene, std::size_t k) {
 
 TEST(SeparatingFamilies, OfRandomScenesCoverEachPairOnce) {
   Random random(31);
-  for (std::size_t k = 0; k < 153; ++k) {  // each rule 17 times
+  for (std::size_t k = 0; k < test::rounds(153U, 18U); ++k) {  // each rule 17 times
     const CollisionScene scene = test::random_scene(random, 40);
     expect_sound_families<3>(scene, k);
     expect_sound_families<2>(scene, k);

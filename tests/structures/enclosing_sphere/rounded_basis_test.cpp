@@ -5,6 +5,7 @@
 #include "motions/curves/bezier_motion.h"
 #include "structures/enclosing_sphere/integer_balls.h"
 #include "tests/support/inputs/random_motion.h"
+#include "tests/support/rounds.h"
 
 namespace kds::rounded_basis_test {
 namespace {
@@ -16,7 +17,7 @@ void expect_proofs_are_right(bool equal_radii) {
   Random random(5);
   const Dyadic time(Integer(3), 3);
   int proved = 0, right = 0;
-  for (int round = 0; round < 400; ++round) {
+  for (int round = 0; round < rounds(400); ++round) {
     const MotionKind kind =
         round % 2 == 0 ? MotionKind::generic : all_motion_kinds[random() % all_motion_kinds.size()];
     auto motion = random_motion<BezierMotion<dimension, 1>>(random, 7, kind);
@@ -40,7 +41,7 @@ void expect_proofs_are_right(bool equal_radii) {
       right += is_right ? 1 : 0;
     }
   }
-  EXPECT_GT(right, 150);
+  EXPECT_GT(right, rounds(150));
   EXPECT_EQ(proved, right);
 }
 

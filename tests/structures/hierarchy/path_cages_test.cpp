@@ -11,6 +11,7 @@
 
 #include "motions/models/shapes.h"
 #include "tests/support/inputs/random.h"
+#include "tests/support/rounds.h"
 
 namespace kds::path_cages_test {
 namespace {
@@ -26,7 +27,7 @@ Eigen::Vector3d random_vector(Random& random, int dimension) {
 
 TEST(PathCages, NoPointInBothSpheresIsFarther) {
   Random random(4);
-  for (int k = 0; k < 300; ++k) {
+  for (int k = 0; k < test::rounds(300); ++k) {
     const int dimension = 2 + k % 2;
     const Sphere a{random_vector(random, dimension), uniform(random, 0.4, 1.5)};
     Sphere b{a.center, uniform(random, 0.4, 1.5)};

@@ -233,7 +233,7 @@ INSTANTIATE_TEST_SUITE_P(ReplayRecorder, RecordedIn,
 
 TEST(ReplayRecorder, KeepsChangesOfTiesRepairsAndRebuilds) {
   std::size_t rebuilds = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 1; seed <= rounds(40U, 8U); ++seed) {
     const auto lattice = lattice_scene(seed);
     const Scene scene({&lattice.necklace, 1}, lattice.radii);
     SCOPED_TRACE(seed);
@@ -246,7 +246,7 @@ TEST(ReplayRecorder, KeepsChangesOfTiesRepairsAndRebuilds) {
     }
     expect_replay(scene, three, false, 0);
   }
-  EXPECT_GT(rebuilds, 10U);
+  EXPECT_GT(rebuilds, rounds(10U));
 }
 
 TEST(ReplayRecorder, KeepsDegenerateInstances) {
