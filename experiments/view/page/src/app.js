@@ -92,10 +92,9 @@ export class App {
   }
 
   findPairs() {
-    const found = this.state.layersNamed("contacts").flatMap(({ layer, s }) =>
+    return this.state.layersNamed("contacts").flatMap(({ layer, s }) =>
       contactIntervals(layer, this.state.structures[s].events, this.state.lastStep).map((row) => ({ ...row, s })),
     );
-    return found;
   }
 
   connect() {
@@ -180,7 +179,7 @@ export class App {
     return this.goTo(0, 0, event);
   }
 
-  // Goes to the next (`way` 1) or previous event of the structures that are switched on.
+  // Goes to the next (`way` 1) or previous event: of the structures that are switched on, or of the events `within`, if given.
   goToNearest(way, within = null) {
     const takes = within ? () => true : (s) => !this.timeline.muted.has(s);
     const event = way > 0 ? this.state.next(takes, within) : this.state.previous(takes, within);
@@ -282,7 +281,7 @@ export class App {
     });
   }
 
-  // Draws after a change of layers, colours or what is chosen.
+  // Draws again, after a change of layers or colours or another choice of event or bead.
   changed() {
     this.request();
     saveViewSoon(this);
@@ -335,7 +334,7 @@ export class App {
     if (top < side.scrollTop || top + 200 > side.scrollTop + side.clientHeight) side.scrollTop = top - 8;
   }
 
-  // Tells people who use a screen reader.
+  // Gives a text to screen readers.
   say(text) {
     byId("said").textContent = text;
   }
@@ -395,7 +394,7 @@ export class App {
     this.changed();
   }
 
-  // Makes the snapshots for seeking while nothing else is to be done.
+  // Makes the snapshots for seeking in the background.
   async makeSnapshots() {
     try {
       for (const { layers } of this.state.structures) {

@@ -1,4 +1,4 @@
-// The named blocks of a replay. A block is unpacked when it is first read, and not kept.
+// The named blocks of a replay. A block is unpacked whenever it is read, and not kept.
 import { fromBase64, inflate } from "./codec.js";
 
 export class Blocks {

@@ -1,5 +1,5 @@
-// Colours. Kinds of events and layers take those of Okabe and Ito, which people with colour blindness tell apart.
-// Edges that go are also dashed, so that no meaning depends on a colour alone.
+// Colours. Kinds of events and layers have the colours of Okabe and Ito, which people with colour blindness tell apart.
+// Edges that go are dashed too, because no meaning may depend on colour alone.
 
 export const categories = {
   light: ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8c8c8c", "#b8a900"],
@@ -21,7 +21,7 @@ const themes = {
 
 export const theme = (name) => themes[name];
 
-// From blue over green to yellow: viridis (van der Walt and Smith 2015) without its dark fifth. It is even in lightness.
+// From blue over green to yellow: viridis (van der Walt and Smith 2015) without its dark fifth. Its lightness grows evenly.
 const viridis = ["#414487", "#355f8d", "#2a788e", "#21918c", "#22a884", "#44bf70", "#7ad151", "#bddf26", "#fde725"];
 
 export function rgb(colour) {

@@ -83,7 +83,7 @@ export function subtitle(meta) {
   return `${count(meta.beads, "bead")}, ${count(meta.frames, "frame")}${stride}, ${count(events, "event")}`;
 }
 
-// Returns what is to be known about a replay, for the foot of the panel.
+// Returns the text at the foot of the panel: input, motion, rounding and command of the replay.
 export function aboutText(meta) {
   const unit = meta.length_unit ? ` ${meta.length_unit}` : "";
   const note = meta.quantum_note ? ` (${meta.quantum_note})` : "";

@@ -24,7 +24,7 @@ export class Layer {
     this.set.assign(initial);
     this.position = 0;  // number of records applied
     this.version = 0;   // grows whenever the elements change
-    this.scout = new ElementSet(arity);
+    this.scout = new ElementSet(arity);  // runs ahead and leaves snapshots
     this.scout.assign(initial);
     this.scouted = 0;
     this.snapshots = [{ position: 0, words: initial }];

@@ -37,7 +37,7 @@ export class LayerList {
     this.setBeadSize();
   }
 
-  // Cages and contacts look right at the beads' true size, which covers edges.
+  // Cages and contacts fit beads of their true size, but such beads cover edges.
   setBeadSize() {
     const touched = this.names.includes("cages") || this.names.includes("contacts");
     byId("bead-size").value = this.points || !this.names.includes("edges") ? 1 : touched ? 0.6 : 0.4;
@@ -103,12 +103,12 @@ export class LayerList {
     this.forget();
   }
 
-  // Everything is drawn anew.
+  // Makes the next picture draw all layers anew.
   forget() {
     this.drawn.clear();
   }
 
-  // True if the elements of a layer are not those that were drawn last. They count as drawn from now on.
+  // Returns whether the elements of a layer differ from those drawn last, and notes the present ones as drawn.
   isStale(name) {
     const version = this.state.layersNamed(name).reduce((sum, { layer }) => sum + layer.version, 0);
     if (this.drawn.get(name) === version) return false;

@@ -52,5 +52,5 @@ export function readLink(hash) {
   return view;
 }
 
-// False for a camera at its target or without a positive zoom.
+// Returns false for a camera at its target or without a positive zoom.
 const seesScene = ([x, y, z, ...rest]) => rest[3] > 0 && (x !== rest[0] || y !== rest[1] || z !== rest[2]);

@@ -6,8 +6,8 @@ import { decimals, explainKind, residueOf, timeText, trim } from "./explain.js";
 const longList = 12;
 
 export class Panels {
-  // `data`: meta, frames, times, names, state. `actions`: choose(event), bead(b), next(), previous(), follow(on),
-  // beadEvent(way).
+  // `data`: meta, frames, times, names, state, radii, positions(). `actions`: bead(b) chooses a bead, follow(on), and
+  // beadEvent(way) goes to the bead's next (1) or previous event.
   constructor(data, actions) {
     this.data = data;
     this.actions = actions;
@@ -113,8 +113,8 @@ export class Panels {
     return rows;
   }
 
-  // Shows a bead: {number, events (indices by structure), follow}. While the run plays only what has changed is replaced, so
-  // that buttons keep the focus.
+  // Shows a bead: {number, events (indices by structure), follow}. While the run plays, only values that have changed are
+  // replaced, so that buttons keep the focus.
   showBead(bead) {
     if (this.shownBead !== bead) {
       this.shownBead = bead;
@@ -160,7 +160,7 @@ export class Panels {
     );
   }
 
-  // Returns what is known of a bead at the present: [name, value, how to show it].
+  // Returns what is known of a bead at the present: [name, value, function that shows the value].
   beadRows(bead) {
     const { state, radii, positions, meta } = this.data;
     const b = bead.number;

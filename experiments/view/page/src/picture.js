@@ -1,4 +1,4 @@
-// Fills the scene: layers as far as they have changed, and marks of what is chosen or has just happened.
+// Fills the scene: the layers that have changed, marks of the chosen event and bead, and flashes of recent events.
 import { rgb } from "./colours.js";
 import { noBead } from "./events.js";
 
@@ -24,7 +24,7 @@ export class Picture {
         // Many lines would cover each other, so they are fainter.
         const [few, most, least] = name === "edges" ? [400, 150, 40] : [60, 230, 110];
         const alpha = Math.max(least, most * Math.min(1, Math.sqrt(few / (all.length / 2))));
-        scene.setEdges(target, all, 2, scene.colours[name], alpha);
+        scene.setEdges(target, all, scene.colours[name], alpha);
       }
       target.visible = layers.shows(name);
     }
@@ -35,7 +35,7 @@ export class Picture {
     if (layers.isStale("cages")) this.cages = layers.shows("cages") ? this.app.layers.cages(scene.colours.cage, this.app.dark) : [];
   }
 
-  // Marks what the chosen event changes, the chosen bead's neighbours, and while playing the events just passed.
+  // Marks the changes of the chosen event, the neighbours of the chosen bead and, while playing, the events just passed.
   drawMarks() {
     const { scene, state } = this.app;
     const marks = [];

@@ -27,7 +27,7 @@ export async function openView(app) {
   app.showTexts();
 }
 
-// Writes the view to the URL a little later, because browsers limit how often that may happen.
+// Writes the view to the URL a little later, because browsers limit how often a page may change its URL.
 export function saveViewSoon(app) {
   if (app.linking) return;
   app.linking = setTimeout(() => {

@@ -144,7 +144,7 @@ export class Scene {
     this.renderer.setClearColor(this.colours.page);
     const [r, g, b] = rgb(this.colours.fog).map((value) => value / 255);
     this.uniforms.fog.value.setRGB(r, g, b);
-    this.setEdges(this.chain, this.chainPairs, 2, this.colours.chain, 255);
+    this.setEdges(this.chain, this.chainPairs, this.colours.chain, 255);
     this.paintBeads(new Set());
   }
 
@@ -168,15 +168,13 @@ export class Scene {
   }
 
   // Shows the pairs of `words` as segments, all alike.
-  setEdges(layer, words, arity, colour, alpha) {
-    const count = words.length / arity;
+  setEdges(layer, words, colour, alpha) {
+    const count = words.length / 2;
     layer.reserve(count);
-    const ends = layer.array("ends");
+    layer.array("ends").set(words);
     const tint = layer.array("tint");
     const [r, g, b] = rgb(colour);
     for (let k = 0; k < count; ++k) {
-      ends[2 * k] = words[k * arity];
-      ends[2 * k + 1] = words[k * arity + 1];
       tint[4 * k] = r;
       tint[4 * k + 1] = g;
       tint[4 * k + 2] = b;
@@ -253,9 +251,13 @@ export class Scene {
     return { up, back, halfWidth: reach(across), halfHeight: reach(back.clone().cross(across)) };
   }
 
-  resetCamera() {
+  get centre() {
     const { low, high } = this.meta.box;
-    this.controls.target.set(...[0, 1, 2].map((axis) => ((low[axis] ?? 0) + (high[axis] ?? 0)) / 2));
+    return new Vector3(...[0, 1, 2].map((axis) => ((low[axis] ?? 0) + (high[axis] ?? 0)) / 2));
+  }
+
+  resetCamera() {
+    this.controls.target.copy(this.centre);
     this.camera.position.copy(this.axes.back).multiplyScalar(4 * this.radius).add(this.controls.target);
     this.camera.zoom = 1;
     this.resize();
@@ -278,10 +280,8 @@ export class Scene {
 
   // Puts the clipping planes and the fog around the scene.
   placeClipping() {
-    const { low, high } = this.meta.box;
-    const middle = new Vector3(...[0, 1, 2].map((axis) => ((low[axis] ?? 0) + (high[axis] ?? 0)) / 2));
     this.camera.updateMatrixWorld();
-    const depth = middle.applyMatrix4(this.camera.matrixWorldInverse).z;
+    const depth = this.centre.applyMatrix4(this.camera.matrixWorldInverse).z;
     this.camera.near = -depth - 3 * this.radius;
     this.camera.far = -depth + 3 * this.radius;
     this.camera.updateProjectionMatrix();

@@ -2,7 +2,7 @@
 // centre and radius, |c - p_i| = R - r_i for every ball. Differences of these equations are linear in c and R, which
 // leaves one quadratic equation for R. The centre lies in the affine hull of the balls' centres.
 
-const flat = 1e-10;  // of the largest squared distance: such a bead adds no direction
+const flat = 1e-10;  // share of the largest squared distance below which a ball adds no direction
 
 // Writes x, y, z and radius of the sphere to out[at..at+3]. `positions` has x, y, z of each bead. Returns false if the balls
 // have no such sphere.

@@ -1,7 +1,7 @@
-// Pointer and wheel on the timeline: a drag goes through the time, a click to an event, the wheel and two fingers zoom.
+// Pointer and wheel on the timeline. A drag goes through the time, a click goes to an event, wheel and two fingers zoom.
 import { byId } from "./dom.js";
 import { trim } from "./explain.js";
-import { eventNear, layoutEvents, layoutSpans, moved } from "./timeline_layout.js";
+import { binWidth, eventNear, layoutEvents, layoutSpans, moved } from "./timeline_layout.js";
 
 const near = 5;  // pixels
 
@@ -74,7 +74,7 @@ function describe(view, element, x, time) {
   if (!row) return at(time);
   const { events } = view.state.structures[row.s];
   const layout = layoutEvents(events, view.window);
-  const bin = layout.bins?.find((one) => x >= one.x && x < one.x + 4);
+  const bin = layout.bins?.find((one) => x >= one.x && x < one.x + binWidth);
   if (bin) {
     const kinds = [...bin.counts].flatMap((number, k) => (number ? [`${number} ${events.kinds[k].name}`] : []));
     return `${at(time)}: ${kinds.join(", ")}`;

@@ -29,11 +29,12 @@ export function moved([from], span, end) {
   return [start, start + span];
 }
 
-const sparse = 7;  // pixels between events from which on they stand singly
+export const binWidth = 4;  // pixels
+const sparse = 7;           // pixels: events that stand singly are at least so far apart, on average
 
 // Lays out the events of one structure. Returns {single: true, marks: [{x, event, kind}]}, or {single: false, bins:
 // [{x, first, last, counts}], most} with the number of events by kind in each bin.
-export function layoutEvents(events, window, binWidth = 4) {
+export function layoutEvents(events, window) {
   const first = events.countBefore(window.from);
   const last = Math.max(first, events.countBefore(window.to + 1e-12));
   if ((last - first) * sparse <= window.width) {

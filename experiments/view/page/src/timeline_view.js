@@ -3,7 +3,7 @@ import { categories, theme } from "./colours.js";
 import { byId, count, make } from "./dom.js";
 import { explainStructure } from "./explain.js";
 import { listenToTimeline } from "./timeline_input.js";
-import { Window, axisTicks, layoutEvents, layoutSpans, moved, zoomed } from "./timeline_layout.js";
+import { Window, axisTicks, binWidth, layoutEvents, layoutSpans, moved, zoomed } from "./timeline_layout.js";
 
 const rowHeight = 38;
 const base = 32;  // bars stand on it, and below are the marks of the chosen bead
@@ -12,8 +12,8 @@ const eventsBeside = 16;
 const inset = 4;  // pixels left of a text, for the line of the present
 
 export class TimelineView {
-  // `actions`: seek(time), choose([structure, event]), structures() once one is switched on or off, changed() once another part
-  // is shown, loop() and pairName(pair).
+  // `actions`: seek(time), choose([structure, event]), structures() after one is switched on or off, changed() after another
+  // part of the run is shown, loop() and pairName(pair).
   constructor(state, frames, pairs, actions) {
     this.state = state;
     this.end = Math.max(1e-9, state.lastStep);
@@ -118,8 +118,7 @@ export class TimelineView {
       return [...events.time.subarray(Math.max(0, here - eventsBeside), here + eventsBeside)];
     });
     const now = this.state.time;
-    const sorted = (list) => list.sort((a, b) => Math.abs(a - now) - Math.abs(b - now));
-    const nearest = sorted(times).slice(0, eventsBeside);
+    const nearest = times.sort((a, b) => Math.abs(a - now) - Math.abs(b - now)).slice(0, eventsBeside);
     if (nearest.length === 0) return;
     const half = 1.1 * Math.abs(nearest.at(-1) - now) + 1e-9 * this.end;
     this.show(moved([now - half], Math.min(this.end, 2 * half), this.end));
@@ -134,7 +133,7 @@ export class TimelineView {
     this.show(moved([this.range[0] + (pixels / this.width) * span], span, this.end));
   }
 
-  // Turns the page if the present has left the window.
+  // Shows another part of the run if the present has left the window.
   keepInView() {
     const [from, to] = this.range;
     const now = this.state.time;
@@ -225,7 +224,7 @@ export class TimelineView {
         if (!number) return;
         const height = Math.max(0.7, (number / layout.most) * (base - 12));
         context.fillStyle = this.categories[kind % 8];
-        context.fillRect(x, y - height, 3.4, height);
+        context.fillRect(x, y - height, binWidth - 0.6, height);
         y -= height;
       });
     }

@@ -66,6 +66,6 @@ test("a block of another length is refused", async () => {
   await assert.rejects(long.prepare(0), /is too long/);
 });
 
-test("weights of control points add up to 1", () => {
+test("weights of control points are Bernstein polynomials", () => {
   assert.deepEqual(bernstein(3, 0.5), [0.125, 0.375, 0.375, 0.125]);
 });

@@ -14,6 +14,7 @@ const away = (p, [x, y, z]) => Math.hypot(p[0] - x, p[1] - y, (p[2] ?? 0) - z);
 
 test("the sphere touches every ball of the basis from outside", () => {
   const next = random(1);
+  let spheres = 0;
   for (let round = 0; round < 2000; ++round) {
     const size = 1 + (round % 4);
     const dimension = size < 4 && round % 3 === 0 ? 2 : 3;
@@ -21,8 +22,10 @@ test("the sphere touches every ball of the basis from outside", () => {
     const radii = points.map(() => (round % 5 === 0 ? 0.7 : 0.2 + 0.5 * next()));
     const found = sphere(points, radii);
     if (!found) continue;
+    ++spheres;
     points.forEach((p, k) => assert.ok(Math.abs(away(p, found) + radii[k] - found[3]) < 1e-7 * (1 + found[3])));
   }
+  assert.ok(spheres > 1500, `${spheres} spheres`);
 });
 
 test("the sphere of a basis is the smallest ball around its balls", () => {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Window, axisTicks, eventNear, layoutEvents, layoutSpans, moved, zoomed } from "../src/timeline_layout.js";
+import { Window, axisTicks, binWidth, eventNear, layoutEvents, layoutSpans, moved, zoomed } from "../src/timeline_layout.js";
 import { loadRun } from "./load_run.mjs";
 import { random, sampleRun } from "./sample_run.mjs";
 
@@ -28,7 +28,7 @@ test("bars hold all events of the window, by kind", () => {
       assert.equal(sum, inside.filter((e) => events.kind[e] === kind).length);
     }
     for (const { x, first, last } of layout.bins)
-      for (let e = first; e < last; ++e) assert.ok(window.x(times[e]) >= x - 1e-6 && window.x(times[e]) <= x + 4 + 1e-6 + 4);
+      for (let e = first; e < last; ++e) assert.ok(window.x(times[e]) >= x - 1e-6 && window.x(times[e]) <= x + binWidth + 1e-6);
     assert.equal(layout.most, Math.max(...layout.bins.map(({ first, last }) => last - first)));
   }
   assert.ok(bars > 10);
