@@ -115,8 +115,8 @@ class CertificateTable final : public FailureSource {
   void expect_fewer(std::uint64_t times) { most_in_step_ /= times; }
 
   /// Guards the structure by `certificate` from now to the end of the step. `place` is the certificate's
-  /// place in the structure: it is passed back with the failure, and KineticStructure::tie_of makes of it
-  /// what breaks ties between certificates of one function.
+  /// place in the structure. The place is passed back with the failure, and KineticStructure::tie_of turns it
+  /// into the number that breaks ties between certificates of one function.
   [[nodiscard]] CertificateHandle watch(const Certificate& certificate, std::uint32_t place,
                                         KnownAtStart birth = KnownAtStart::unknown) {
     Failure failure;

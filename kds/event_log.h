@@ -83,7 +83,7 @@ class EventListener {
     return false;
   }
   /// Returns whether the listener asks Simulator::now for the exact time of this event. In a run on several
-  /// threads it is known only for such events.
+  /// threads, exact times are known only for such events.
   [[nodiscard]] virtual bool reads_exact_time_of(const Event& event) const {
     static_cast<void>(event);
     return false;
@@ -117,8 +117,8 @@ class WordHash {
 /// equal fingerprints on every kernel, run and machine.
 ///
 /// The fingerprint is the sum, modulo 2^64, of one WordHash for each step that has events. The hash of a step
-/// takes the step's number and then its changes in order. So the parts of a run, each of whole steps, may be
-/// hashed apart and joined in any order. A history without events has the fingerprint 0.
+/// takes the step's number and then its changes in order. So parts of a run that consist of whole steps may
+/// be hashed separately and joined in any order. A history without events has the fingerprint 0.
 class Fingerprint {
  public:
   /// Adds the next change. The changes of one step must be added one after the other.

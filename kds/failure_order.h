@@ -14,8 +14,8 @@
 
 namespace kds {
 
-/// Orders simultaneous failures of one function. Depends on the structure's state, not on how the structure
-/// came there.
+/// Orders simultaneous failures of one function. Depends on the structure's state, not on the events that led
+/// to this state.
 struct TiePlace {
   std::uint32_t table = 0;  ///< of all tables of the run
   std::uint64_t place = 0;  ///< among the certificates of the table (KineticStructure::tie_of)

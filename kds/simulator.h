@@ -107,16 +107,16 @@ class Simulator {
   void build_for_replay();
   void replay_step(std::span<const Replayed> events);
 
-  // A run in parts (structures/session/parallel_run.h): several simulators each run some steps, and another
-  // one, whose structures only have names, joins them.
+  // A run in parts (structures/session/parallel_run.h): several simulators run some steps each. Another
+  // simulator, whose structures only have names, joins them.
 
   /// Sets the number of the first step. Throws std::logic_error once the structures are built.
   void start_at(std::size_t step);
   /// The time of an event as another simulator needs it.
   struct RelayedTime {
     FailureTime time;
-    ExactFunction function =
-        {};  ///< whose root is the time; null if the time is a double or is not asked for
+    /// The function whose root is the time. Null if the time is a double, or if no listener reads it.
+    ExactFunction function = {};
     std::optional<RoundedTime> rounded = {};
     bool first_at_its_time = true;  ///< whether no event was relayed at this very time before
   };

@@ -217,9 +217,9 @@ struct BallNumbers {
 template <Motion M>
 using BallView = ExactView<M, BallNumbers>;
 
-/// Appends the numbers that tell a function's own formula from its type's: those of its multiples. Exact
-/// functions are cached by the type's formula and these numbers. Throws std::logic_error if the formulas
-/// differ in anything else, as those of a type do that branches on its numbers.
+/// Appends the numbers by which a function's own formula differs from the formula of its type: the factors of
+/// its multiples. Exact functions are cached by the type's formula and these numbers. Throws
+/// std::logic_error if the formulas differ in anything else, because the type branches on its numbers.
 void add_own_numbers(const BeadFunction& function, std::vector<double>& numbers) {
   if (&function.formula == &function.known.formula()) return;
   const auto own = function.formula.steps(), common = function.known.formula().steps();

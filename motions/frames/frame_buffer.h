@@ -1,5 +1,5 @@
 #pragma once
-// Frames that are read once and used twice: by parts of a run on other threads, and then by the run itself.
+// Frames that are read once and used twice: by a part of a run on another thread, and by the run itself.
 
 #include <cstddef>
 #include <deque>
@@ -36,9 +36,9 @@ class FrameBuffer final : public FrameSource {
   [[nodiscard]] bool is_truncated() const override { return source_->is_truncated(); }
   [[nodiscard]] std::vector<std::string> warnings() const override { return source_->warnings(); }
 
-  /// Returns the frames from `first` to `last`, and keeps them. Ranges must be asked for in
-  /// ascending order and may overlap; a range before those kept begins another pass. An error of a frame ends
-  /// the range, and comes with each later one that reaches the frame.
+  /// Returns the frames from `first` to `last`, and keeps them. Ranges must be asked for in ascending order
+  /// and may overlap. A range before those kept begins another pass. If a frame cannot be read, the range
+  /// ends before this frame and holds the error; so does each later range that reaches the frame.
   [[nodiscard]] SharedFrames read_ahead(std::size_t first, std::size_t last);
   /// Forgets frames below this one that were read ahead.
   void release(std::size_t below);
@@ -52,13 +52,15 @@ class FrameBuffer final : public FrameSource {
   std::exception_ptr error_;  ///< of the frame after those kept
 };
 
-/// A source of frames in memory that are added range by range. Frames are numbered as in the whole run.
+/// A source of frames in memory that are added range by range. Frames have their numbers in the whole run.
+/// `next` throws std::logic_error for a frame before those held, and the error of a frame that cannot be
+/// read.
 class FrameRanges final : public FrameSource {
  public:
   /// The necklaces must outlive the source.
   explicit FrameRanges(const std::vector<NecklaceBeads>& necklaces) : necklaces_(necklaces) {}
 
-  /// Adds a range, which may overlap the ranges before it.
+  /// Adds a range, which may overlap the ranges before it. Throws std::logic_error if it leaves a gap.
   void add(const SharedFrames& range);
   /// Forgets frames below this one.
   void release(std::size_t below);

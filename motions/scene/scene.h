@@ -77,7 +77,7 @@ class Scene {
   [[nodiscard]] std::size_t frame_count() const { return steps_->frame_count(); }
   [[nodiscard]] std::size_t step_count() const { return frame_count() == 0 ? 0 : frame_count() - 1; }
 
-  // A run on several threads reads frames ahead, and makes scenes of their own for its parts.
+  // A run on several threads reads frames ahead, and makes a scene for each of its parts.
 
   /// Returns the buffer through which the scene reads its frames, or null if its frames cannot be read ahead
   /// (an instance, pushed frames). The first call makes the buffer.
@@ -85,8 +85,8 @@ class Scene {
   /// Returns the number of frames beyond each end of a step that the step needs.
   [[nodiscard]] std::size_t reach() const { return steps_->reach(); }
   /// Returns a scene with the same beads, steps and numbers of frames that reads its frames from `frames`.
-  /// Only steps whose frames are there may be loaded. Other threads may use the scene. Must not be called for
-  /// an instance.
+  /// Only steps whose frames are there may be loaded. Another thread may use the scene. Must not be called
+  /// for an instance.
   [[nodiscard]] std::unique_ptr<const Scene> over(std::unique_ptr<FrameSource> frames) const;
 
   // Functions with an index of a frame, step or bead throw std::invalid_argument if it is too large. The
