@@ -83,11 +83,11 @@ class BoxHierarchy final : public EditableBase {
   /// node.
   [[nodiscard]] std::span<const BeadId> supports(NodeId node) const;
 
-  /// Keeps, from the next step on, the beads whose certificates may have become more, for count_certificates.
+  /// From the next step on, notes the beads whose number of certificates may have grown (count_certificates).
   void follow_certificates() { follows_certificates_ = true; }
-  /// Raises statistics.certificates.per_bead_max to the most certificates that name one bead now. Starts of
-  /// steps count without this call. Costs O(height) per side for each support that has changed since the last
-  /// call, and for each bead after an edit.
+  /// Raises statistics.certificates.per_bead_max to the most certificates that name one bead now. The start
+  /// of a step needs no call. Costs O(height) per side for each support that has changed since the last call,
+  /// and for each bead after an edit.
   void count_certificates();
 
   void build() override;

@@ -38,7 +38,7 @@ class ConvexHull final : public EditableBase {
   /// Returns the corners counterclockwise, starting with the least one.
   [[nodiscard]] const std::vector<BeadId>& corners() const { return corners_; }
 
-  /// Returns the corners and both chains, which determine all later events.
+  /// Returns the corners and both chains, which determine all later events (RunningStructure::state).
   [[nodiscard]] std::vector<BeadId> state() const;
 
   void build() override;

@@ -201,7 +201,7 @@ struct DiagramState {
   }
 
  private:
-  /// Compares a failure time with the present time exactly, because their brackets overlap.
+  /// Returns whether a failure, whose bracket overlaps the present one, is at exactly the present time.
   template <class Table>
   [[nodiscard]] bool vanishes_now(const Table& table, std::uint32_t slot) const {
     if (simulator.kernel() == Kernel::fast) return true;

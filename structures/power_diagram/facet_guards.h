@@ -182,8 +182,8 @@ class FacetGuards {
   }
   void forget_ends() { proofs_.forget_ends(); }
 
-  /// Returns the two beads opposite a facet as one number. Facets with the certificates of one function have
-  /// different such numbers, because their beads are the same but for the two.
+  /// Returns the two beads opposite a facet as one number. All facets whose certificates have one function
+  /// have the same D + 2 beads, so these two beads tell the facets apart.
   [[nodiscard]] std::uint64_t tie_of(FacetId facet) const {
     const auto [low, high] = std::minmax(
         {state_.vertex(cell_of(facet), index_of(facet)), state_.apex(cell_of(facet), index_of(facet))});

@@ -66,7 +66,8 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   /// If cells are flat at the end, builds the diagram by CGAL there. Throws InputError if there were no cells
   /// at any time.
   void finish() override;
-  /// Facets of one function are told apart by the two beads opposite them, never by the numbers of cells.
+  /// Certificates of one function are told apart by the two beads opposite their facets, never by cell
+  /// numbers.
   [[nodiscard]] std::uint64_t tie_of(unsigned table, std::uint32_t place) const override;
   void apply(const Change& change) override;
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
@@ -81,9 +82,9 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   /// Returns the finite cells and the hidden beads at the frame just reached: the first frame of the step if
   /// `first`, otherwise its last. If cells are flat there, returns the static build.
   [[nodiscard]] StaticTriangulation<Dimension> at_frame(bool first) const;
-  /// Returns the finite cells and the hidden beads at a frame just reached, which determine all later events.
-  /// Returns nothing if more than positions decided them: if a cell is flat, or if a hidden bead lies on the
-  /// boundary of its host.
+  /// Returns the finite cells and the hidden beads at a frame just reached, which determine all later events
+  /// (RunningStructure::state). Returns nothing if a cell is flat or if a hidden bead lies on the boundary of
+  /// its host, because the events before have then decided the state too.
   [[nodiscard]] std::optional<std::vector<BeadId>> state() const;
   /// Returns the edges of the diagram at that frame, as closest_pair (closest_pair.h) needs them. No bead may
   /// be absent.

@@ -1,13 +1,13 @@
 #pragma once
 // A run over a scene on several threads. The scene is cut at frames into parts. Each part starts from a
 // static build at its first frame, because a kinetic structure at a frame is what a static build there is.
-// The caller's thread reads the frames, once, and joins the parts in order, so its listeners see one run.
+// The caller's thread reads each frame once and joins the parts in order, so its listeners see one run.
 //
 // Law of splits: wherever a run is cut, its events, their beads and order, its fingerprint, and the
 // structures at the frames are the same. Each part records the state of its structures at its first frame
 // (RunningStructure::state). If this is not the state at the end of the part before, or if more than
-// positions decided that state (cells that are flat, ties), the part is run again from the true state. That
-// is counted.
+// positions decided that state (cells that are flat, ties), the part is run again from the true state, and
+// PartCounts counts it.
 //
 // Brackets of times may differ from those of an uncut run, but enclose the same roots. Counts of work
 // (certificates never searched because of slack, stages, comparisons, peaks) depend on the cuts.
@@ -26,11 +26,11 @@
 
 namespace kds {
 
-/// The number of processors that this process may use, at least 1.
+/// Returns the number of processors that this process may use, at least 1.
 [[nodiscard]] std::size_t all_threads();
 
 struct ParallelOptions {
-  /// At most so many threads work, among them the caller's. Runs too short to gain from it use fewer.
+  /// The largest number of threads that work, including the caller's. Short runs use fewer.
   std::size_t threads = 1;
   /// Number of steps in a part; 0: chosen by the length of the run and its number of beads.
   std::size_t steps_per_part = 0;

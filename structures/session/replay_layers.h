@@ -49,13 +49,16 @@ struct ReplayNode {
   for (NodeId node = 0; node < nodes.size(); ++node) {  // visits children after their parents
     nodes[node].beads = tree.range(node);
     for (const NodeId child : {tree.left(node), tree.right(node)})
-      if (child != NecklaceTree::leaf) nodes[child].level = nodes[node].level + 1, nodes[child].parent = node;
+      if (child != NecklaceTree::leaf) {
+        nodes[child].level = nodes[node].level + 1;
+        nodes[child].parent = node;
+      }
   }
   return nodes;
 }
 
-/// The layers of a structure. They change at events, and at frames if the structure was rebuilt there, which
-/// its statistics then count as a rebuild.
+/// The layers of a structure. Layers change at events. A rebuild at a frame, which the structure's statistics
+/// count, changes layers too.
 ///
 ///   cages     node, then the beads of the node's basis; unused places last
 ///   edges     the two beads of an edge, ascending

@@ -61,9 +61,10 @@ class RunningStructure {
   /// Returns whether a run of the structure may be cut at frames, because `state` tells all that later events
   /// depend on.
   [[nodiscard]] virtual bool can_be_cut() const { return false; }
-  /// Returns numbers at a frame just reached (first frame: just built) that determine, with the motion, all
-  /// later events and their order. Returns nothing if more than positions decided the state there, for
-  /// example if cells are flat. Must say nothing about memory, such as numbers of cells.
+  /// Returns numbers that determine, with the motion, all later events and their order. Called at a frame
+  /// just reached; at the first frame, the structure has just been built. Returns nothing if more than
+  /// positions decided the state, for example if cells are flat. The numbers must not depend on memory, as
+  /// cell ids do.
   [[nodiscard]] virtual std::optional<std::vector<BeadId>> state() const { return std::nullopt; }
   /// Returns the changes that build the structure from nothing, with which logs of its events begin.
   [[nodiscard]] virtual std::vector<Change> built() const { return {}; }
