@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""Checks kds sweep from outside: interrupted, killed, poisoned and run by other engines, its collected results are
-those of one undisturbed process.
+"""Checks kds sweep from outside: a sweep that is interrupted, killed, poisoned or run by another engine collects the
+results of one undisturbed process.
 
 usage: check_sweep.py PROGRAM DATA FOLDER CHECK
 CHECK is kills, signals, faults, twice, parallel, snakemake, slurm or many. Exit code 77: an engine is not installed.
-KDS_SWEEP_KILLS sets the number of kills, KDS_SWEEP_TASKS the number of trivial tasks of `many`, KDS_SWEEP_BUDGET the
-seconds after which batches of Slurm stop and are requeued.
+Environment variables set
+  KDS_SWEEP_KILLS   the number of kills
+  KDS_SWEEP_SEED    the seed of the moments of kills
+  KDS_SWEEP_TASKS   the number of trivial tasks of `many`
+  KDS_SWEEP_BUDGET  the seconds after which batches of Slurm stop and are requeued
 """
 
 import collections
@@ -116,7 +119,7 @@ def kills():
         worker.wait(DEADLINE)
     expect(killed >= min(count, 2), f"only {killed} of {count} kills met a running worker")
     print(f"{killed} workers were killed")
-    # A task that ran during two kills is taken for the culprit.
+    # A task that ran during two kills counts as crashed.
     kds("sweep", sweep, "-o", folder, "--retry")
     expect_equal(folder, expected)
 
@@ -255,7 +258,7 @@ def slurm():
     # Three batches, since short tasks need one only.
     script = folder / "slurm.sh"
     script.write_text(script.read_text().replace("--array=1-1 ", "--array=1-3 ").replace("ID/1\"", "ID/3\""))
-    if budget:  # seconds after which batches stop and are requeued
+    if budget:
         script.write_text(re.sub("--time-budget .*", "--time-budget " + budget, script.read_text()))
     cluster = pathlib.Path(__file__).parent / "local_slurm.sh"
     place = FOLDER / "cluster"
