@@ -61,8 +61,8 @@ if(KDS_WERROR)
 endif()
 if(KDS_SANITIZE)
   # The address sanitizer finds bad pointers. Checking each pointer for null and alignment too would take at least a quarter of
-  # the compile time. Checking pointer arithmetic for overflow doubles it in files of lanes, so only the motions library has
-  # that check: its readers compute addresses from the bytes of files.
+  # the compile time. Checking pointer arithmetic for overflow doubles the compile time of files of lanes. Only the motions
+  # library has that check, because its readers compute addresses from the bytes of files.
   set(reads_files "$<STREQUAL:$<TARGET_PROPERTY:NAME>,kds_motions>")
   target_compile_options(kds_options INTERFACE -fsanitize=${KDS_SANITIZE} -fno-sanitize=null,alignment,object-size
                                                "$<$<NOT:${reads_files}>:-fno-sanitize=pointer-overflow>"
