@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -254,9 +255,8 @@ TEST(ParallelRun, RunsStructuresAddedByType) {
   EXPECT_GT(built, 0U);
   whole.run();
   EXPECT_EQ(cut.simulator().fingerprint(), whole.simulator().fingerprint());
-  EXPECT_EQ(log.events.size(), whole.session().structures()[0]->statistics.events_by_kind[0] +
-                                   whole.session().structures()[0]->statistics.events_by_kind[1] +
-                                   whole.session().structures()[0]->statistics.events_by_kind[2]);
+  const std::vector<std::uint64_t>& by_kind = contacts.statistics.events_by_kind;
+  EXPECT_EQ(log.events.size(), std::reduce(by_kind.begin(), by_kind.end()));
   EXPECT_FALSE(log.events.empty());
   EXPECT_EQ(cut.parts().parts, 4U);
 }

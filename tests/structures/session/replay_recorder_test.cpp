@@ -130,6 +130,18 @@ State state_of(std::vector<ReplayElement> elements, std::size_t arity) {
   return state;
 }
 
+/// Compares the elements that the recorder has now with those that the structures hold.
+void expect_elements_of_run(const ReplayRecorder& recorder, KineticRun& run) {
+  for (std::size_t s = 0; s < recorder.structures().size(); ++s) {
+    const auto elements = run.session().running(s).replay_elements(false);
+    for (std::size_t l = 0; l < elements.size(); ++l) {
+      std::vector<ReplayElement> own = elements[l];
+      std::sort(own.begin(), own.end());
+      ASSERT_EQ(recorder.elements(s, l), own) << recorder.structures()[s].name << ", layer " << l;
+    }
+  }
+}
+
 /// Runs event by event. At each event compares the recorder with the structures, and at each frame with
 /// static ones if the scene is in general position there. Then replays all frames forward and backward.
 void expect_replay(const Scene& scene, const SessionOptions& options, bool general_position,
@@ -164,14 +176,7 @@ void expect_replay(const Scene& scene, const SessionOptions& options, bool gener
   for (std::size_t frame = 1; frame < scene.frame_count(); ++frame) {
     while (run.enter_step()) {
       const bool more = run.simulator().run_next();
-      for (std::size_t s = 0; s < recorder.structures().size(); ++s) {
-        const auto elements = run.session().running(s).replay_elements(false);
-        for (std::size_t l = 0; l < elements.size(); ++l) {
-          std::vector<ReplayElement> own = elements[l];
-          std::sort(own.begin(), own.end());
-          ASSERT_EQ(recorder.elements(s, l), own) << frame;
-        }
-      }
+      ASSERT_NO_FATAL_FAILURE(expect_elements_of_run(recorder, run)) << "before frame " << frame;
       if (!more) break;
     }
     ASSERT_TRUE(run.run_step());
@@ -292,26 +297,16 @@ TEST(ReplayRecorder, RecordsEditsOfBeads) {
   run.listen(recorder);
   run.build();
   recorder.begin();
-  const auto expect_own_state = [&] {
-    for (std::size_t s = 0; s < 2; ++s) {
-      const auto elements = run.session().running(s).replay_elements(false);
-      for (std::size_t l = 0; l < elements.size(); ++l) {
-        std::vector<ReplayElement> own = elements[l];
-        std::sort(own.begin(), own.end());
-        EXPECT_EQ(recorder.elements(s, l), own);
-      }
-    }
-  };
   run.go_to(0.5);
   for (const std::size_t s : {0U, 1U}) {
     for (const BeadId bead : {3U, 11U, 17U}) run.erase(s, bead);
-    expect_own_state();
+    expect_elements_of_run(recorder, run);
     for (const BeadId bead : {11U, 3U}) run.insert(s, bead);
-    expect_own_state();
+    expect_elements_of_run(recorder, run);
   }
   run.go_to(1.25);
   recorder.reach_frame();
-  expect_own_state();
+  expect_elements_of_run(recorder, run);
 }
 
 }  // namespace
