@@ -2,14 +2,14 @@
 import { blocksOfPage, metaOfPage } from "./blocks.js";
 import { float64, pause, uint32 } from "./codec.js";
 import { contactIntervals } from "./contact_intervals.js";
+import { connectControls } from "./controls.js";
 import { byId } from "./dom.js";
-import { aboutText, subtitle, trim } from "./explain.js";
+import { aboutText, subtitle } from "./explain.js";
 import { Frames } from "./frames.js";
-import { listenToKeys } from "./keys.js";
 import { LayerList } from "./layer_list.js";
 import { Panels } from "./panel.js";
 import { Picture } from "./picture.js";
-import { Player, speeds } from "./player.js";
+import { Player } from "./player.js";
 import { fail } from "./problems.js";
 import { RunState, loadStructures } from "./run_state.js";
 import { openView, saveViewSoon } from "./saved_view.js";
@@ -69,7 +69,7 @@ export class App {
       pairName: ([i, j]) => (this.names ? `${this.names[i]} – ${this.names[j]}` : `${i} – ${j}`),
     });
     byId("axis").setAttribute("aria-valuemax", this.state.lastStep);
-    this.connect();
+    connectControls(this);
     await openView(this);
     this.cost.ready = performance.now();
     document.body.dataset.ready = "";
@@ -95,62 +95,6 @@ export class App {
     return this.state.layersNamed("contacts").flatMap(({ layer, s }) =>
       contactIntervals(layer, this.state.structures[s].events, this.state.lastStep).map((row) => ({ ...row, s })),
     );
-  }
-
-  connect() {
-    const on = (id, action) => (byId(id).onclick = action);
-    on("play", () => this.togglePlay());
-    on("next-event", () => this.goToNearest(1));
-    on("previous-event", () => this.goToNearest(-1));
-    byId("next-event").disabled = byId("previous-event").disabled = this.panels.eventCount === 0;
-    on("next-frame", () => this.stepFrame(1));
-    on("previous-frame", () => this.stepFrame(-1));
-    on("loop-from", () => this.setLoop(0));
-    on("loop-to", () => this.setLoop(1));
-    on("loop-clear", () => this.clearLoop());
-    on("theme", () => this.setTheme(this.dark ? "light" : "dark"));
-    on("png", () => this.savePicture());
-    on("reset-camera", () => {
-      this.setFollow(false);
-      this.scene?.resetCamera();
-      this.changed();
-    });
-    const speed = byId("speed");
-    for (const value of speeds) speed.add(new Option(`${value}×`, value, value === 1, value === 1));
-    speed.title = `1× shows ${trim(this.player.rate, 2)} frames in a second`;
-    speed.onchange = () => {
-      this.player.speed = Number(speed.value);
-      saveViewSoon(this);
-    };
-    byId("bead-size").oninput = () => this.changed();
-    listenToKeys(this);
-    this.listenToScene();
-    window.addEventListener("hashchange", () => {
-      if (location.hash !== this.written) openView(this);
-    });
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
-      if (!this.theme) this.setTheme(null);
-    });
-    const resized = () => {
-      this.scene?.resize();
-      this.timeline.draw();
-      this.request();
-    };
-    new ResizeObserver(resized).observe(byId("stage"));
-    new ResizeObserver(resized).observe(byId("rows"));
-    byId("contact-rows").addEventListener("toggle", resized);
-  }
-
-  listenToScene() {
-    const canvas = byId("scene");
-    let start = null;
-    canvas.addEventListener("pointerdown", (event) => (start = event));
-    canvas.addEventListener("pointerup", (event) => {
-      const still = start && Math.hypot(event.clientX - start.clientX, event.clientY - start.clientY) < 5;
-      if (still && event.isPrimary && event.button === 0) this.chooseBead(this.scene.pick(event.clientX, event.clientY));
-      start = null;
-    });
-    canvas.addEventListener("webglcontextlost", () => this.report("The browser took the graphics away. Load the page again."));
   }
 
   // Going to a time.
