@@ -112,7 +112,7 @@ macro(read_machine machine)
   math(EXPR last "${count} - 1")
 endmacro()
 
-# Where and when the rows of a subject were measured, in one line.
+# Says in one line where and when the rows of a subject were measured.
 function(origin variable k)
   string(REGEX REPLACE "^[0-9.]+[+]" "" commit "${row_${k}_version}")
   set(command "kds bench ${row_${k}_subject}")
