@@ -38,6 +38,9 @@ struct Event {
   FrameStamp from, to;
   /// The time of the event in digits that are all certain. Set only if a listener prints it.
   std::optional<RoundedTime> rounded;
+  /// The stage that decided the time of the failure behind the event; unknown for an event of another origin,
+  /// such as an edit or a repair at the start of a step.
+  DecidedBy decided_by = DecidedBy::unknown;
 
   [[nodiscard]] std::span<const BeadId> ids() const { return {change.ids.data(), change.size}; }
   /// Returns the time counted in frames, with a fraction between two: `rounded` if it is set, otherwise the

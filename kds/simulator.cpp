@@ -420,7 +420,10 @@ void Simulator::start_at(std::size_t step) {
 }
 
 auto Simulator::time_to_relay(const Event& event, bool first_at_its_time, bool exact) const -> RelayedTime {
-  RelayedTime relayed{{event.lower, event.upper, 0, false}, {}, event.rounded, first_at_its_time};
+  RelayedTime relayed{{event.lower, event.upper, 0, false, false, false, event.decided_by},
+                      {},
+                      event.rounded,
+                      first_at_its_time};
   if (exact && event.lower < event.upper && present_.source != nullptr) {
     relayed.time = present_.time;
     relayed.function = present_.source->exact_function(present_.slot);
@@ -460,6 +463,7 @@ void Simulator::MutationScope::tell(Simulator& simulator, std::size_t structure,
   const KineticStructure& s = *simulator.structures_[structure];
   Event event{simulator.step_, simulator.now_.lower(), simulator.now_.upper(), structure,     change,
               s.name(),        s.kinds()[change.kind], simulator.from_,        simulator.to_, {}};
+  event.decided_by = (relayed != nullptr ? relayed->time : simulator.present_.time).decided_by;
   MutationScope mutation(simulator);  // also if the change is an edit
   for (EventListener* listener : simulator.listeners_) {
     if (!event.rounded && listener->prints_time_of(event)) {

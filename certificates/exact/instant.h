@@ -12,6 +12,17 @@ class Dyadic;
 class ExactPolynomial;
 class ExactTime;
 
+/// The stage of the failure-time cascade that decided a failure time (docs/exactness.md). A certificate that
+/// shares another one's search has its stage. Like counts of work, the stage of a time depends on where a run
+/// starts or is cut.
+enum class DecidedBy : std::uint8_t {
+  unknown,    ///< no stage: the time is not that of a certificate that failed, or comes from a log
+  unproved,   ///< doubles without proof, kernel `fast`
+  isolation,  ///< doubles with proved error bounds
+  refined,    ///< doubles, with error bounds followed operation by operation
+  exact,      ///< integers
+};
+
 /// The time at which a certificate fails: a bracket of two doubles, and which root of the certificate's
 /// function in the bracket is meant.
 ///
@@ -28,7 +39,9 @@ struct FailureTime {
   bool isolating = true;
   bool touch = false;  ///< the function only touches zero there, which is no failure, see TouchPolicy
   bool last = false;   ///< known to be the function's last root in the step, and not at its end
+  DecidedBy decided_by = DecidedBy::unknown;
 };
+static_assert(sizeof(FailureTime) == 24, "the queue holds failure times: keep them small");
 
 /// Whether a structure is notified when a function touches zero without changing sign. A touch is not a
 /// failure. However, motions in general position have no touches, so a structure may have to examine itself

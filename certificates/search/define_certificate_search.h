@@ -74,9 +74,9 @@ class LanesFilter {
         ++stages.isolation;
         const double lower = descent.lower.v[lane], upper = descent.upper.v[lane];
         const double middle = 0.5 * (lower + upper);
-        failures[place] = {
-            Failure::Kind::later,
-            {fast ? middle : lower, fast ? middle : upper, 0, !fast, false, search.last[lane] != 0}};
+        failures[place] = {Failure::Kind::later,
+                           {fast ? middle : lower, fast ? middle : upper, 0, !fast, false,
+                            search.last[lane] != 0, fast ? DecidedBy::unproved : DecidedBy::isolation}};
       } else if (outcome.violated[lane] != 0 && !fast) {  // without proofs, a zero may appear negative
         ++stages.isolation;
         failures[place] = failed_at_birth(now);
@@ -219,7 +219,7 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
       if (!failure && now.narrow()) failure = proved_failure(tracked, now, known);
       if (failure) {
         ++stages.refined;
-        return *failure;
+        return decided(*failure, DecidedBy::refined);
       }
     }
     // Functions that touch zero reach this point: doubles prove only nonzero signs.

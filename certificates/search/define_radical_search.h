@@ -80,7 +80,7 @@ class RadicalSearch final : public CertificateSearch<Certificate> {
       if (const auto failure =
               proved_failure(InDouble(Errors::own_filter, certificate, curves), now, known)) {
         ++stages.isolation;
-        return *failure;
+        return decided(*failure, DecidedBy::isolation);
       }
       const InDouble tracked(Errors::tracked, certificate, curves);
       auto failure = proved_failure(tracked, now, known);
@@ -88,7 +88,7 @@ class RadicalSearch final : public CertificateSearch<Certificate> {
       if (!failure && now.narrow()) failure = proved_failure(tracked, now, known);
       if (failure) {
         ++stages.refined;
-        return *failure;
+        return decided(*failure, DecidedBy::refined);
       }
     }
     return exact_first_failure(exact(certificate, curves), now, stages, touches);

@@ -79,7 +79,7 @@ Failure fast_first_failure(BoundedPolynomial function, const Instant& now, Known
   }
   ++stages.isolation;
   const double time = 0.5 * (result.bracket.lower + result.bracket.upper);
-  return {Failure::Kind::later, {time, time, 0, false}};
+  return decided({Failure::Kind::later, {time, time, 0, false}}, DecidedBy::unproved);
 }
 
 Failure to_failure(const ExactPolynomial& function, ExactFailure& failure) {
@@ -123,7 +123,7 @@ Failure exact_first_failure(const ExactPolynomial& function, const Instant& now,
   if (sign_after(function, time) < 0) return {Failure::Kind::at_birth, {now.lower(), now.upper(), 0, false}};
   std::optional<ExactFailure> root = first_failure_after(function, time, touches);
   if (!root) return {};
-  return to_failure(function, *root);
+  return decided(to_failure(function, *root), DecidedBy::exact);
 }
 
 Failure rounded_first_failure(const ExactPolynomial& function, const Instant& now, KnownAtStart known,
@@ -132,7 +132,7 @@ Failure rounded_first_failure(const ExactPolynomial& function, const Instant& no
     if (const auto failure = proved_failure(RoundedPolynomial(function), now, known)) {
       ++stages.exact;
       stages.largest_bits = std::max<std::uint64_t>(stages.largest_bits, function.largest_bit_length());
-      return *failure;
+      return decided(*failure, DecidedBy::exact);
     }
   }
   return exact_first_failure(function, now, stages, touches);

@@ -18,7 +18,14 @@ namespace kds {
   return {Failure::Kind::at_birth, {now.lower(), now.upper(), 0, false}};
 }
 
-/// Returns the failure that doubles prove for a certificate with this function, or nothing.
+/// Returns the failure with the stage that decided it.
+[[nodiscard]] inline Failure decided(Failure failure, DecidedBy stage) {
+  failure.time.decided_by = stage;
+  return failure;
+}
+
+/// Returns the failure that doubles prove for a certificate with this function, or nothing. The caller names
+/// the stage.
 [[nodiscard]] std::optional<Failure> proved_failure(const BoundedFunction& bounded, const Instant& now,
                                                     KnownAtStart known);
 

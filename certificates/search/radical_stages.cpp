@@ -110,7 +110,7 @@ Failure fast_first_failure(const RadicalInDouble& certificate, const Instant& no
   }
   ++stages.isolation;
   const double time = 0.5 * (failure->time.lower + failure->time.upper);
-  return {Failure::Kind::later, {time, time, 0, false}};
+  return decided({Failure::Kind::later, {time, time, 0, false}}, DecidedBy::unproved);
 }
 
 int ExactRadical::sign(ExactTime& time, int (*sign_of)(const ExactPolynomial&, ExactTime&)) const {
@@ -171,7 +171,7 @@ Failure exact_first_failure(const ExactRadicalCertificate& certificate, const In
       const bool touch = after > 0 && touches == TouchPolicy::reported && certificate.touches(candidate);
       if (after >= 0 && !touch) continue;
       ExactFailure failure{std::move(candidate), touch};
-      return answer(to_failure(candidates, failure));
+      return answer(decided(to_failure(candidates, failure), DecidedBy::exact));
     }
   }
   return answer(zero ? Failure{Failure::Kind::zero, {}} : Failure{});

@@ -339,7 +339,8 @@ struct Crossing {
       find_motion(paths, basis, {bracket, bracket, bracket, bracket}, sphere);
       if ((sphere.proved & 1U) == 0 || !names_root_of_norm(gaps_in(sphere), 0, most)) return std::nullopt;
     }
-    return Failure{Failure::Kind::later, {bracket.from, bracket.to, 0, true}};
+    return Failure{Failure::Kind::later,
+                   {bracket.from, bracket.to, 0, true, false, false, DecidedBy::isolation}};
   }
 
   /// Returns whether the norm has this root too, and no other.

@@ -59,7 +59,7 @@ void ReplayRecorder::on_event(const Event& event) {
   if (!begun_) throw std::logic_error("a replay is recorded from the first frame on: call begin() first");
   const std::size_t s = event.structure_index;
   add_event(s, static_cast<std::uint32_t>(event.step), event.lower, event.upper, event.change.kind,
-            event.ids());
+            event.decided_by, event.ids());
   edits_.clear();
   if (session_.running(s).replay_edits(event.change, edits_)) {
     if (!edits_.empty()) add_changes(s, changes_by(s, edits_));
@@ -82,7 +82,8 @@ void ReplayRecorder::reach_frame() {
     const std::size_t own_kinds = kinetic.kinds().size();
     if (structure.kinds.size() == own_kinds) structure.kinds.push_back(rebuilt_at_frame);
     const std::size_t step = session_.simulator().step() - 1;
-    add_event(s, static_cast<std::uint32_t>(step), 1, 1, static_cast<std::uint8_t>(own_kinds), {});
+    add_event(s, static_cast<std::uint32_t>(step), 1, 1, static_cast<std::uint8_t>(own_kinds),
+              DecidedBy::unknown, {});
     add_changes(s, changes);
   }
 }
@@ -97,13 +98,14 @@ std::vector<ReplayElement> ReplayRecorder::elements(std::size_t structure, std::
 }
 
 void ReplayRecorder::add_event(std::size_t structure, std::uint32_t step, double lower, double upper,
-                               std::uint8_t kind, std::span<const BeadId> ids) {
+                               std::uint8_t kind, DecidedBy stage, std::span<const BeadId> ids) {
   Events& events = structures_[structure].events;
   events.order.push_back(order_++);
   events.step.push_back(step);
   events.lower.push_back(lower);
   events.upper.push_back(upper);
   events.kind.push_back(kind);
+  events.stage.push_back(stage);
   events.size.push_back(static_cast<std::uint8_t>(ids.size()));
   events.ids.insert(events.ids.end(), ids.begin(), ids.end());
 }

@@ -33,6 +33,7 @@ class ReplayRecorder final : public EventListener {
     std::vector<std::uint32_t> step;
     std::vector<double> lower, upper;  ///< bracket of the time u in the step
     std::vector<std::uint8_t> kind;    ///< index into Structure::kinds
+    std::vector<DecidedBy> stage;      ///< that decided the time
     std::vector<std::uint8_t> size;    ///< number of ids
     std::vector<BeadId> ids;           ///< of all events, one after another
 
@@ -82,7 +83,7 @@ class ReplayRecorder final : public EventListener {
   };
 
   void add_event(std::size_t structure, std::uint32_t step, double lower, double upper, std::uint8_t kind,
-                 std::span<const BeadId> ids);
+                 DecidedBy stage, std::span<const BeadId> ids);
   /// Returns the changes of a structure's layers that lead to its state now.
   [[nodiscard]] std::vector<LayerChange> changes_to_now(std::size_t structure);
   [[nodiscard]] std::vector<LayerChange> changes_by(std::size_t structure,
