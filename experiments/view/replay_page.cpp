@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "experiments/output/output_files.h"
+#include "experiments/view/replay_columns.h"
 #include "experiments/view/replay_template.h"
 #include "motions/base/input_error.h"
 #include "motions/readers/bead_name.h"
@@ -24,7 +25,11 @@ constexpr double kAngstromQuantum = 0.02;
 constexpr double kMostLength = 1e18, kLeastLength = 1e-15;
 /// Rounded coordinates stay below this number, so that their differences have 32 bits.
 constexpr double kMostQuanta = 1 << 28;
-constexpr std::uint8_t kUnknownStage = 255;
+constexpr int kVersion = 2;
+/// In the order of DecidedBy. No text: the page names no stage.
+const std::vector<std::string> kStages{
+    "", "floating point, without proof", "floating point, with proved error bounds",
+    "floating point, with errors followed through each operation", "integers"};
 
 /// Returns a text in which no tag begins, for a script element.
 std::string without_tags(const std::string& text) {
@@ -222,27 +227,17 @@ void ReplayPage::write_beads() {
 
 Json ReplayPage::write_structure(std::size_t index, const ReplayRecorder::Structure& structure) {
   const ReplayRecorder::Events& events = structure.events;
-  BlockBytes block;
-  add_words(block, events.order);
-  add_words(block, events.step);
-  for (const double lower : events.lower) block.add_double(lower);
-  for (const double upper : events.upper) block.add_double(upper);
-  for (const std::uint8_t kind : events.kind) block.add_byte(kind);
-  for (std::size_t e = 0; e < events.count(); ++e) block.add_byte(kUnknownStage);
-  for (const std::uint8_t size : events.size) block.add_byte(size);
-  add_words(block, events.ids);
-  put_block(fmt::format("events-{}", index), block.bytes());
+  put_block(fmt::format("events-{}", index), event_columns(events).bytes());
 
   Json kinds = Json::array(), layers = Json::array();
   for (const EventKind& kind : structure.kinds)
     kinds.push_back({{"name", kind.name}, {"external", kind.external}, {"roles", roles_json(kind)}});
   for (std::size_t l = 0; l < structure.layers.size(); ++l) {
     const ReplayRecorder::Layer& layer = structure.layers[l];
-    BlockBytes initial, changes;
+    BlockBytes initial;
     add_words(initial, layer.initial);
-    add_words(changes, layer.changes);
     put_block(fmt::format("initial-{}-{}", index, l), initial.bytes());
-    put_block(fmt::format("changes-{}-{}", index, l), changes.bytes());
+    put_block(fmt::format("changes-{}-{}", index, l), change_columns(layer, events).bytes());
     layers.push_back({{"name", layer.layer.name},
                       {"arity", layer.layer.arity},
                       {"initial", layer.initial.size() / layer.layer.arity},
@@ -255,7 +250,7 @@ Json ReplayPage::write_structure(std::size_t index, const ReplayRecorder::Struct
     put_block(fmt::format("nodes-{}", index), nodes.bytes());
   }
   return {{"name", structure.name},   {"kinds", kinds},
-          {"stages", Json::array()},  {"events", events.count()},
+          {"stages", kStages},        {"events", events.count()},
           {"layers", layers},         {"nodes", structure.nodes.size()},
           {"relax", structure.relax}, {"note", note_on(structure)}};
 }
@@ -276,7 +271,7 @@ void ReplayPage::write_record(const ReplayRecorder& recorder) {
                                              : Json(nullptr);
   const ReplayLabels& labels = options_.labels;
   const Json meta{{"format", "kds-replay"},
-                  {"version", 1},
+                  {"version", kVersion},
                   {"program", "kds " + program_version()},
                   {"title", labels.title},
                   {"inputs", labels.inputs},

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <bit>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -132,27 +132,75 @@ class ReplayData {
 
   struct Events {
     Ids order, step;
-    std::vector<double> lower, upper;
-    std::vector<std::string> kind;
+    std::vector<double> lower, upper;  ///< equal if the time is exact
+    std::vector<std::string> kind, stage;
     std::vector<Ids> ids;
   };
   [[nodiscard]] Events events(std::size_t structure) const {
     const Json& about = meta["structures"][structure];
     const std::size_t n = about["events"];
     const std::string bytes = block("events-" + std::to_string(structure));
-    Events events{words_of(bytes, 0, n), words_of(bytes, 4 * n, n), {}, {}, {}, {}};
-    std::size_t ids = 27 * n;
+    std::size_t at = 0;
+    Events events{sums(bytes, at, n), sums(bytes, at, n), {}, {}, {}, {}, std::vector<Ids>(n)};
+    std::vector<std::int64_t> middles;
     for (std::size_t e = 0; e < n; ++e) {
-      events.lower.push_back(number(bytes, 8 * n + 8 * e));
-      events.upper.push_back(number(bytes, 16 * n + 8 * e));
-      events.kind.push_back(about["kinds"].at(static_cast<std::uint8_t>(bytes.at(24 * n + e)))["name"]);
-      EXPECT_EQ(static_cast<std::uint8_t>(bytes.at(25 * n + e)), 255);
-      const auto size = static_cast<std::uint8_t>(bytes.at(26 * n + e));
-      events.ids.push_back(words_of(bytes, ids, size));
-      ids += 4U * size;
+      const bool continues = e > 0 && events.step[e] == events.step[e - 1];
+      middles.push_back(varint(bytes, at) + (continues ? middles.back() : 0));
     }
-    EXPECT_EQ(ids, bytes.size());
+    const auto next_byte = [&] { return static_cast<std::uint8_t>(bytes.at(at++)); };
+    for (std::size_t e = 0; e < n; ++e) {
+      const std::uint8_t reach = next_byte();
+      const double middle = static_cast<double>(middles[e]), away = reach == 0 ? 0 : std::ldexp(1, reach - 1);
+      events.lower.push_back(std::max(0.0, std::ldexp(middle - away, -32)));
+      events.upper.push_back(std::min(1.0, std::ldexp(middle + away, -32)));
+    }
+    for (std::size_t e = 0; e < n; ++e) events.kind.push_back(about["kinds"].at(next_byte())["name"]);
+    for (std::size_t e = 0; e < n; ++e) events.stage.push_back(about["stages"].at(next_byte()));
+    std::vector<std::uint8_t> sizes;
+    for (std::size_t e = 0; e < n; ++e) sizes.push_back(next_byte());
+    for (std::uint8_t k = 0; k < 255; ++k)
+      for (std::size_t e = 0; e < n; ++e)
+        if (k < sizes[e])
+          events.ids[e].push_back(
+              static_cast<std::uint32_t>(varint(bytes, at) + (k == 0 ? 0 : events.ids[e].back())));
+    EXPECT_EQ(at, bytes.size());
     return events;
+  }
+
+  struct Change {
+    std::uint32_t event = 0;
+    std::vector<Ids> removed, added;
+  };
+  /// Returns the changes of layer `l` of structure `s`.
+  [[nodiscard]] std::vector<Change> changes(std::size_t s, std::size_t l) const {
+    const Json& layer = meta["structures"][s]["layers"][l];
+    const std::size_t n = layer["changes"], arity = layer["arity"];
+    const std::vector<Ids> event_ids = events(s).ids;
+    const std::string bytes = block("changes-" + std::to_string(s) + "-" + std::to_string(l));
+    std::size_t at = 0;
+    const Ids of_events = sums(bytes, at, n);
+    std::vector<Change> changes(n);
+    for (std::size_t c = 0; c < n; ++c) changes[c].event = of_events[c];
+    for (Change& change : changes) change.removed.resize(static_cast<std::size_t>(varint(bytes, at)));
+    for (Change& change : changes) change.added.resize(static_cast<std::size_t>(varint(bytes, at)));
+    std::size_t others = at;
+    for (const Change& change : changes) others += arity * (change.removed.size() + change.added.size());
+    for (Change& change : changes) {
+      std::int64_t other = 0;
+      for (auto* const elements : {&change.removed, &change.added}) {
+        for (Ids& element : *elements) {
+          for (std::size_t k = 0; k < arity; ++k) {
+            const auto place = static_cast<std::uint8_t>(bytes.at(at++));
+            if (place == 254) other += varint(bytes, others);
+            element.push_back(place == 255   ? 0xffffffffU
+                              : place == 254 ? static_cast<std::uint32_t>(other)
+                                             : event_ids.at(change.event).at(place));
+          }
+        }
+      }
+    }
+    EXPECT_EQ(others, bytes.size());
+    return changes;
   }
 
   /// Returns the elements of a layer when all events of the steps before `step` are applied.
@@ -161,23 +209,18 @@ class ReplayData {
       const Json& layers = meta["structures"][s]["layers"];
       for (std::size_t l = 0; l < layers.size(); ++l) {
         if (layers[l]["name"] != layer_name) continue;
-        const std::string suffix = "-" + std::to_string(s) + "-" + std::to_string(l);
         const std::size_t arity = layers[l]["arity"];
-        const Ids initial = words("initial" + suffix), changes = words("changes" + suffix);
+        const Ids initial = words("initial-" + std::to_string(s) + "-" + std::to_string(l));
         const Ids steps = events(s).step;
         State state;
         for (std::size_t i = 0; i < initial.size(); i += arity)
           state.insert(Ids(initial.begin() + static_cast<std::ptrdiff_t>(i),
                            initial.begin() + static_cast<std::ptrdiff_t>(i + arity)));
         EXPECT_EQ(state.size(), layers[l]["initial"]);
-        for (std::size_t at = 0; at < changes.size() && steps.at(changes[at]) < step;) {
-          const std::size_t gone = changes.at(at + 1), all = gone + changes.at(at + 2);
-          at += 3;
-          for (std::size_t k = 0; k < all; ++k, at += arity) {
-            const Ids ids(changes.begin() + static_cast<std::ptrdiff_t>(at),
-                          changes.begin() + static_cast<std::ptrdiff_t>(at + arity));
-            EXPECT_TRUE(k < gone ? state.erase(ids) == 1 : state.insert(ids).second);
-          }
+        for (const Change& change : changes(s, l)) {
+          if (steps.at(change.event) >= step) break;
+          for (const Ids& ids : change.removed) EXPECT_EQ(state.erase(ids), 1U);
+          for (const Ids& ids : change.added) EXPECT_TRUE(state.insert(ids).second);
         }
         return state;
       }
@@ -201,10 +244,12 @@ class ReplayData {
     }
     return words;
   }
-  static double number(const std::string& bytes, std::size_t at) {
-    std::uint64_t bits = 0;
-    for (std::size_t k = 8; k-- > 0;) bits = bits << 8U | static_cast<std::uint8_t>(bytes.at(at + k));
-    return std::bit_cast<double>(bits);
+  /// Returns words that are stored as differences from the word before.
+  static Ids sums(const std::string& bytes, std::size_t& at, std::size_t count) {
+    Ids words;
+    while (words.size() < count)
+      words.push_back(static_cast<std::uint32_t>(varint(bytes, at) + (words.empty() ? 0 : words.back())));
+    return words;
   }
   static std::int64_t varint(const std::string& bytes, std::size_t& at) {
     std::uint64_t zigzag = 0;

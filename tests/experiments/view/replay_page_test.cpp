@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 #include <optional>
 #include <set>
@@ -12,12 +13,14 @@
 #include <string>
 #include <vector>
 
+#include "experiments/view/replay_columns.h"
 #include "experiments/view/replay_template.h"
 #include "motions/base/input_error.h"
 #include "motions/curves/bezier_motion.h"
 #include "motions/readers/instance.h"
 #include "motions/readers/read_trajectory.h"
 #include "structures/session/kinetic_run.h"
+#include "structures/session/parallel_run.h"
 #include "tests/experiments/replay_data.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
@@ -97,6 +100,15 @@ void expect_frames(const ReplayData& data, const Scene& scene) {
   }
 }
 
+/// The shown bracket encloses that of the event and is hardly wider.
+void expect_bracket(double lower, double upper, const Event& event) {
+  EXPECT_LE(lower, event.lower);
+  EXPECT_GE(upper, event.upper);
+  EXPECT_LE(upper - lower, 4 * (event.upper - event.lower) + 0x1p-30);
+  EXPECT_TRUE(lower < upper || event.lower == event.upper);
+  EXPECT_TRUE(upper > 0 || event.upper == 0);
+}
+
 void expect_events(const ReplayData& data, const EventLog& log) {
   std::size_t all = 0;
   std::set<std::uint32_t> orders;
@@ -108,8 +120,7 @@ void expect_events(const ReplayData& data, const EventLog& log) {
       if (events.kind.at(k) == "rebuild-at-frame") ++k;
       ASSERT_LT(k, events.step.size());
       EXPECT_EQ(events.step[k], event.step);
-      EXPECT_EQ(events.lower[k], event.lower);
-      EXPECT_EQ(events.upper[k], event.upper);
+      expect_bracket(events.lower[k], events.upper[k], event);
       EXPECT_EQ(events.kind[k], event.kind.name);
       EXPECT_EQ(events.ids[k], ReplayData::Ids(event.ids().begin(), event.ids().end()));
       ++k;
@@ -119,6 +130,59 @@ void expect_events(const ReplayData& data, const EventLog& log) {
   }
   EXPECT_EQ(orders.size(), all);
   EXPECT_EQ(data.meta["events_total"], all);
+}
+
+TEST(ShownTime, EnclosesBracketsAndKeepsTimesOfTheGrid) {
+  for (const double u : {0.0, 0.5, 1.0, 0x1p-32, 1 - 0x1p-32}) {
+    EXPECT_EQ(shown_time(u, u).reach, 0);
+    EXPECT_EQ(std::ldexp(static_cast<double>(shown_time(u, u).middle), -32), u);
+  }
+  Random random(5);
+  for (int round = 0; round < 2000; ++round) {
+    const double width = std::ldexp(uniform(random, 0, 1), round % 60 == 0 ? -2000 : -(round % 60));
+    const double lower = uniform(random, 0, 1 - width), upper = round % 60 == 0 ? lower : lower + width;
+    const ShownTime time = shown_time(lower, upper);
+    const double middle = static_cast<double>(time.middle), away = std::ldexp(1, time.reach - 1);
+    ASSERT_GE(time.reach, 1);
+    EXPECT_LE(std::ldexp(middle - away, -32), lower);
+    EXPECT_GE(std::ldexp(middle + away, -32), upper);
+    EXPECT_GE(time.middle, 1);
+    if (time.reach > 1) {  // half of it is too little
+      EXPECT_TRUE(std::ldexp(middle - away / 2, -32) > lower || std::ldexp(middle + away / 2, -32) < upper);
+    }
+  }
+  EXPECT_EQ(shown_time(0x1p-80, 0x1p-79).middle, 1) << "an event just after a frame is not at the frame";
+}
+
+std::set<std::string> stages_of(const Scene& scene, Kernel kernel) {
+  const Recorded recorded =
+      record(scene, {.structures = {"wrapped", "power", "contacts"}, .kernel = kernel}, {});
+  const ReplayData data(recorded.page);
+  std::set<std::string> stages;
+  for (std::size_t s = 0; s < 3; ++s)
+    for (const std::string& stage : data.events(s).stage) stages.insert(stage);
+  return stages;
+}
+
+TEST(ReplayPage, NamesTheStageThatDecidedAnEvent) {
+  const Scene scene = random_scene(3, FrameMotion::linear, 5, 7);
+  EXPECT_THAT(stages_of(scene, Kernel::exact), testing::ElementsAre("integers"));
+  EXPECT_THAT(stages_of(scene, Kernel::fast), testing::ElementsAre("floating point, without proof"));
+  EXPECT_THAT(stages_of(scene, Kernel::filtered),
+              testing::AllOf(testing::Contains("floating point, with proved error bounds"),
+                             testing::Not(testing::Contains("")),
+                             testing::Not(testing::Contains("floating point, without proof"))));
+}
+
+TEST(ReplayPage, StagesSurviveTheJoiningOfParts) {
+  const Scene scene = random_scene(3, FrameMotion::linear, 5, 7);
+  EventLog log;
+  ParallelRun run(scene, {.structures = {"power", "contacts"}, .kernel = Kernel::exact},
+                  {.threads = 2, .steps_per_part = 1});
+  run.listen(log);
+  run.run([](std::size_t) {});
+  EXPECT_GT(log.events.size(), 20U);
+  for (const Event& event : log.events) EXPECT_EQ(event.decided_by, DecidedBy::exact);
 }
 
 class PageOf : public testing::TestWithParam<std::pair<int, FrameMotion>> {};

@@ -43,7 +43,7 @@ export function metaOfPage(document) {
   } catch {
     throw new Error("the file is cut off before its end");
   }
-  if (meta.format !== "kds-replay" || meta.version !== 1)
-    throw new Error(`the replay is of format '${meta.format}' ${meta.version}, this page shows 'kds-replay' 1`);
+  if (meta.format !== "kds-replay" || meta.version !== 2)
+    throw new Error(`the replay is of format '${meta.format}' ${meta.version}, this page shows 'kds-replay' 2`);
   return meta;
 }

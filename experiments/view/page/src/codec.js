@@ -14,13 +14,14 @@ export async function inflate(bytes) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// Reads zigzag LEB128 varints of at most 32 bits one after another.
-export class VarintReader {
+// Reads columns one after another. A varint is a zigzag LEB128 number.
+export class ColumnReader {
   constructor(bytes) {
     this.bytes = bytes;
     this.at = 0;
   }
 
+  // Reads a varint of at most 32 bits.
   next() {
     const bytes = this.bytes;
     let value = 0;
@@ -31,6 +32,30 @@ export class VarintReader {
       if (byte < 128) return (value >>> 1) ^ -(value & 1);
     }
     throw new RangeError("a number of the block has more than 32 bits");
+  }
+
+  // Reads a varint of at most 53 bits.
+  nextLong() {
+    let value = 0;
+    for (let unit = 1; unit < 2 ** 53; unit *= 128) {
+      if (this.at >= this.bytes.length) throw new RangeError("the block ends inside a number");
+      const byte = this.bytes[this.at++];
+      value += (byte & 127) * unit;
+      if (byte < 128) return value % 2 === 0 ? value / 2 : -(value + 1) / 2;
+    }
+    throw new RangeError("a number of the block has more than 53 bits");
+  }
+
+  // Reads varints that are differences of 32-bit words from the word before.
+  words(count) {
+    const words = new Uint32Array(count);
+    for (let k = 0, word = 0; k < count; ++k) words[k] = word = (word + this.next()) >>> 0;
+    return words;
+  }
+
+  byteColumn(count) {
+    if (this.at + count > this.bytes.length) throw new RangeError("the block is too short");
+    return this.bytes.subarray(this.at, (this.at += count));
   }
 
   get ended() {
@@ -47,7 +72,6 @@ function column(Type, bytes, at, count) {
 
 export const uint32 = (bytes, at = 0, count = (bytes.length - at) >> 2) => column(Uint32Array, bytes, at, count);
 export const float64 = (bytes, at = 0, count = (bytes.length - at) >> 3) => column(Float64Array, bytes, at, count);
-export const uint8 = (bytes, at, count) => column(Uint8Array, bytes, at, count);
 
 // Lets the page draw and answer while long work goes on.
 export const pause = () => new Promise((resolve) => setTimeout(resolve, 0));

@@ -1,7 +1,8 @@
 // Events of one structure, column by column.
-import { float64, uint32, uint8 } from "./codec.js";
+import { ColumnReader } from "./codec.js";
 
 export const noBead = 0xffffffff;
+export const timeScale = 2 ** 32;  // times of events are whole multiples of 1 / timeScale of a step
 
 // Returns the number of leading k in 0..count-1 for which `holds(k)` is true. It is true up to some k and false after.
 export function countWhile(count, holds) {
@@ -20,32 +21,51 @@ export class Events {
     this.count = n;
     this.kinds = structure.kinds;
     this.stages = structure.stages;
-    let at = 0;
-    const next = (read, size) => {
-      const values = read(bytes, at, n);
-      at += n * size;
-      return values;
-    };
-    this.order = next(uint32, 4);
-    this.step = next(uint32, 4);
-    this.lower = next(float64, 8);
-    this.upper = next(float64, 8);
-    this.kind = next(uint8, 1);
-    this.stage = next(uint8, 1);
-    const size = next(uint8, 1);
-    this.ids = uint32(bytes, at);
-    this.firstId = new Uint32Array(n + 1);
-    for (let e = 0; e < n; ++e) this.firstId[e + 1] = this.firstId[e] + size[e];
-    if (this.firstId[n] !== this.ids.length)
-      throw new Error(`events of '${structure.name}' have ${this.ids.length} ids, expected ${this.firstId[n]}`);
-    // Brackets may overlap, so their middles need not ascend. The times that the page uses do.
+    const reader = new ColumnReader(bytes);
+    this.order = reader.words(n);
+    this.step = reader.words(n);
+    // Middles of brackets need not ascend. The times that the page uses do.
+    this.middle = new Float64Array(n);
     this.u = new Float64Array(n);
     this.time = new Float64Array(n);
-    for (let e = 0; e < n; ++e) {
-      const middle = (this.lower[e] + this.upper[e]) / 2;
-      this.u[e] = e > 0 && this.step[e - 1] === this.step[e] ? Math.max(this.u[e - 1], middle) : middle;
+    for (let e = 0, middle = 0; e < n; ++e) {
+      const continues = e > 0 && this.step[e - 1] === this.step[e];
+      middle = reader.nextLong() + (continues ? middle : 0);
+      this.middle[e] = middle;
+      this.u[e] = continues ? Math.max(this.u[e - 1], middle / timeScale) : middle / timeScale;
       this.time[e] = this.step[e] + this.u[e];
     }
+    this.reach = reader.byteColumn(n);
+    this.kind = reader.byteColumn(n);
+    this.stage = reader.byteColumn(n);
+    this.size = reader.byteColumn(n);
+    this.readIds(reader);
+    if (!reader.ended) throw new Error(`events of '${structure.name}' are followed by other bytes`);
+  }
+
+  // The first ids of all events come first, then the second ones, and so on.
+  readIds(reader) {
+    this.firstId = new Uint32Array(this.count + 1);
+    let most = 0;
+    for (let e = 0; e < this.count; ++e) {
+      this.firstId[e + 1] = this.firstId[e] + this.size[e];
+      most = Math.max(most, this.size[e]);
+    }
+    this.ids = new Uint32Array(this.firstId[this.count]);
+    for (let k = 0; k < most; ++k) {
+      for (let e = 0; e < this.count; ++e) {
+        if (k >= this.size[e]) continue;
+        const at = this.firstId[e] + k;
+        this.ids[at] = (k ? this.ids[at - 1] : 0) + reader.next();
+      }
+    }
+  }
+
+  // Returns the bracket of u: the time lies strictly between both numbers or, if they are equal, is that number.
+  bracketOf(e) {
+    if (this.reach[e] === 0) return [this.middle[e] / timeScale, this.middle[e] / timeScale];
+    const away = 2 ** (this.reach[e] - 1);
+    return [Math.max(0, this.middle[e] - away) / timeScale, Math.min(timeScale, this.middle[e] + away) / timeScale];
   }
 
   // Number of events at or before u in the step.

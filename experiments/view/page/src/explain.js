@@ -74,6 +74,21 @@ export function timeText(step, u, frames, times, unit) {
 // Returns the number of decimals that positions rounded to multiples of `quantum` need.
 export const decimals = (quantum) => Math.min(100, Math.max(0, Math.ceil(-Math.log10(quantum))));
 
+// Times of events are multiples of 2^-32, so 32 decimals are exact.
+const allDecimals = 32;
+const bracketDecimals = 10;
+
+export const exactText = (u) => u.toFixed(allDecimals).replace(/\.?0+$/, "");
+// Returns the largest number of few decimals that is at most u.
+export const lowerText = (u) => u.toFixed(allDecimals).slice(0, 2 + bracketDecimals);
+// Returns the smallest number of few decimals that is at least u.
+export function upperText(u) {
+  const below = lowerText(u);
+  if (/^0*$/.test(u.toFixed(allDecimals).slice(below.length))) return below;
+  const next = String(BigInt(below.replace(".", "")) + 1n).padStart(1 + bracketDecimals, "0");
+  return `${next.slice(0, 1)}.${next.slice(1)}`;
+}
+
 export const trim = (value, digits) => String(Number(value.toFixed(digits)));
 
 // Returns the line below the title.
@@ -90,7 +105,7 @@ export function aboutText(meta) {
   const parts = [
     `Input: ${meta.inputs.join(", ")}.`,
     `Motion between frames: ${meta.motion}.`,
-    `Positions are rounded to multiples of ${meta.quantum}${unit}${note}, times of events are not.`,
+    `Positions are rounded to multiples of ${meta.quantum}${unit}${note}. Events come from the exact motion; their times are shown to 2^-32 of a step, in brackets that hold the true times.`,
     ...(meta.stride > 1 ? [`The run takes one frame in ${meta.stride} of the input, which keeps the page small.`] : []),
     `Made by ${meta.program}: ${meta.command}`,
   ];

@@ -1,6 +1,6 @@
 // Positions of the beads at any time. Positions at frames are quantised integers, unpacked block by block. In a step the
 // beads move on Bezier curves, as in the run.
-import { VarintReader, pause } from "./codec.js";
+import { ColumnReader, pause } from "./codec.js";
 
 const numbersAtOnce = 1 << 17;  // about 2 ms
 
@@ -93,7 +93,7 @@ export class Frames {
     const frames = Math.min(this.perBlock, this.count - first);
     const perFrame = this.numbersPerFrame;
     const numbers = new Int32Array(frames * perFrame);
-    const reader = new VarintReader(await this.blocks.bytes(name));
+    const reader = new ColumnReader(await this.blocks.bytes(name));
     for (let k = 0; k < numbers.length; ++k) {
       const before = k >= perFrame ? numbers[k - perFrame] : k % this.beads ? numbers[k - 1] : 0;
       numbers[k] = before + reader.next();
@@ -109,7 +109,7 @@ export class Frames {
     const perFrame = this.numbersPerFrame;
     const inner = this.degree - 1;
     const numbers = new Int32Array(steps * inner * perFrame);
-    const reader = new VarintReader(await this.blocks.bytes(name));
+    const reader = new ColumnReader(await this.blocks.bytes(name));
     let at = 0;
     for (let s = 0; s < steps; ++s) {
       await this.prepareEnds(first + s);

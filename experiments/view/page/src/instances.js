@@ -5,21 +5,25 @@ import {
   InstancedBufferGeometry,
   BufferAttribute,
   DynamicDrawUsage,
+  LineSegments,
   Mesh,
   RawShaderMaterial,
 } from "three";
 
 const square = new Float32Array([-1, -1, 1, -1, 1, 1, -1, -1, 1, 1, -1, 1]);
 const strip = new Float32Array([0, -1, 1, -1, 1, 1, 0, -1, 1, 1, 0, 1]);
+const line = new Float32Array([0, 0, 1, 0]);
 
 export class Instances {
-  // `attributes`: {name: [array type, numbers per instance, normalized]}.
-  constructor({ vertex, fragment, uniforms, attributes, segments = false, transparent = false, depthTest = true, order }) {
+  // `attributes`: {name: [array type, numbers per instance, normalized]}. `shape`: square, strip (of a segment) or line (one pixel
+  // wide, which takes a third of the corners of a strip).
+  constructor({ vertex, fragment, uniforms, attributes, shape = "square", transparent = false, depthTest = true, order }) {
     this.attributes = attributes;
     this.capacity = 0;
     this.geometry = new InstancedBufferGeometry();
-    this.geometry.setAttribute("corner", new BufferAttribute(segments ? strip : square, 2));
-    this.geometry.setDrawRange(0, 6);  // three.js finds the number of corners in "position" only
+    const corners = { square, strip, line }[shape];
+    this.geometry.setAttribute("corner", new BufferAttribute(corners, 2));
+    this.geometry.setDrawRange(0, corners.length / 2);  // three.js finds the number of corners in "position" only
     this.material = new RawShaderMaterial({
       glslVersion: GLSL3,
       vertexShader: vertex,
@@ -29,7 +33,7 @@ export class Instances {
       depthTest,
       depthWrite: !transparent,
     });
-    this.mesh = new Mesh(this.geometry, this.material);
+    this.mesh = new (shape === "line" ? LineSegments : Mesh)(this.geometry, this.material);
     this.mesh.frustumCulled = false;
     this.mesh.renderOrder = order;
     this.count = 0;

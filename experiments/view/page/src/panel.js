@@ -1,7 +1,7 @@
 // The panels of the chosen event and of the chosen bead.
 import { byId, count, make } from "./dom.js";
 import { noBead } from "./events.js";
-import { decimals, explainKind, residueOf, timeText, trim } from "./explain.js";
+import { decimals, exactText, explainKind, lowerText, residueOf, timeText, trim, upperText } from "./explain.js";
 
 const longList = 12;
 
@@ -93,9 +93,10 @@ export class Panels {
 
   bracketText(events, e) {
     const { frames } = this.data;
-    const [step, lower, upper] = [events.step[e], events.lower[e], events.upper[e]];
+    const step = events.step[e];
+    const [lower, upper] = events.bracketOf(e);
     const between = step + 1 < frames.length ? `frames ${frames[step]} and ${frames[step + 1]}` : `frame ${frames[step]}`;
-    const lines = lower === upper ? [`u = ${lower}`] : [`u ≥ ${lower}`, `u ≤ ${upper}`];
+    const lines = lower === upper ? [`u = ${exactText(lower)}`] : [`u ≥ ${lowerText(lower)}`, `u ≤ ${upperText(upper)}`];
     return make("span", {}, ...lines.map((line) => make("div", { class: "bounds" }, line)), `between ${between}`);
   }
 

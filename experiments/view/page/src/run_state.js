@@ -1,6 +1,7 @@
 // The structures of the run at the present time, and the order of all events.
 import { Events, countWhile, noBead } from "./events.js";
 import { Layer } from "./layer.js";
+import { changesOfColumns } from "./layer_changes.js";
 import { uint32 } from "./codec.js";
 
 export async function loadStructures(meta, blocks) {
@@ -10,7 +11,8 @@ export async function loadStructures(meta, blocks) {
     const layers = [];
     for (const [l, layer] of structure.layers.entries()) {
       const initial = uint32(await blocks.bytes(`initial-${s}-${l}`));
-      layers.push(new Layer(layer, initial, uint32(await blocks.bytes(`changes-${s}-${l}`))));
+      const changes = changesOfColumns(layer, await blocks.bytes(`changes-${s}-${l}`), events);
+      layers.push(new Layer(layer, initial, changes));
     }
     const nodes = structure.nodes ? uint32(await blocks.bytes(`nodes-${s}`)) : new Uint32Array(0);
     structures.push({ name: structure.name, note: structure.note, relax: structure.relax ?? 0, events, layers, nodes });

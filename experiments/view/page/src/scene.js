@@ -23,6 +23,8 @@ export const hasWebGL2 = () => document.createElement("canvas").getContext("webg
 const linked = { ends: [Uint32Array, 2, false], tint: [Uint8Array, 4, true], dash: [Uint8Array, 1, false] };
 const ringed = { bead: [Uint32Array, 1, false], tint: [Uint8Array, 4, true] };
 
+const manyEdges = 20000;  // above, edges are thin lines
+
 const textHeight = 56;  // pixels above the scene that the text takes
 
 export class Scene {
@@ -74,13 +76,13 @@ export class Scene {
       fog: { value: new Color() },
       reach: { value: new Vector3(1, -1, 0.5) },
     };
-    const segments = (order, thickness, depthTest = true) =>
+    const segments = (order, thickness, depthTest = true, shape = "strip") =>
       new Instances({
         vertex: shaders.segmentVertex,
         fragment: shaders.segmentFragment,
         uniforms: { ...this.uniforms, thickness: { value: thickness } },
         attributes: linked,
-        segments: true,
+        shape,
         transparent: true,
         depthTest,
         order,
@@ -93,7 +95,9 @@ export class Scene {
       order: 0,
     });
     this.chain = segments(1, 3);
-    this.edges = segments(2, 1.2);
+    const edges = this.meta.structures.flatMap(({ layers }) => layers).filter(({ name }) => name === "edges");
+    const edgeCount = edges.reduce((sum, { initial }) => sum + initial, 0);
+    this.edges = edgeCount > manyEdges ? segments(2, 1, true, "line") : segments(2, 1.2);
     this.contacts = segments(3, 3, false);
     this.cages = new Instances({
       vertex: shaders.cageVertex,

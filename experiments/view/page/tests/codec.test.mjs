@@ -1,21 +1,33 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { VarintReader, fromBase64, inflate } from "../src/codec.js";
+import { ColumnReader, fromBase64, inflate } from "../src/codec.js";
 import { Blocks, metaOfPage } from "../src/blocks.js";
 import { encodeReplay, intoPage, packed } from "./encode_replay.mjs";
 import { sampleRun } from "./sample_run.mjs";
 
 test("varints of all lengths are read", () => {
   const bytes = [0, 1, 2, 0x7f, 0x80, 0x01, 0xff, 0xff, 0xff, 0xff, 0x0f, 0xfe, 0xff, 0xff, 0xff, 0x0f];
-  const reader = new VarintReader(Uint8Array.from(bytes));
+  const reader = new ColumnReader(Uint8Array.from(bytes));
   const values = [];
   while (!reader.ended) values.push(reader.next());
   assert.deepEqual(values, [0, -1, 1, -64, 64, -2147483648, 2147483647]);
 });
 
 test("a varint that is cut off or too long is refused", () => {
-  assert.throws(() => new VarintReader(Uint8Array.of(0x80)).next(), /ends inside a number/);
-  assert.throws(() => new VarintReader(new Uint8Array(6).fill(0x80)).next(), /more than 32 bits/);
+  assert.throws(() => new ColumnReader(Uint8Array.of(0x80)).next(), /ends inside a number/);
+  assert.throws(() => new ColumnReader(new Uint8Array(6).fill(0x80)).next(), /more than 32 bits/);
+});
+
+test("long varints are read, and those beyond 53 bits refused", () => {
+  const bytes = [0x80, 0x80, 0x80, 0x80, 0x20, 0xff, 0xff, 0xff, 0xff, 0x1f];
+  const reader = new ColumnReader(Uint8Array.from(bytes));
+  assert.deepEqual([reader.nextLong(), reader.nextLong()], [2 ** 32, -(2 ** 32)]);
+  assert.throws(() => new ColumnReader(new Uint8Array(9).fill(0x80)).nextLong(), /more than 53 bits/);
+});
+
+test("words are sums of their differences, also around 2^32", () => {
+  const words = new ColumnReader(Uint8Array.of(0x0a, 0x0b, 0x06)).words(3);
+  assert.deepEqual([...words], [5, 0xffffffff, 2]);
 });
 
 test("blocks are unpacked, and damage is named", async () => {
@@ -44,6 +56,6 @@ test("a page without a replay, one that is cut off and one of another version ar
   assert.throws(() => metaOfPage(page(null, null)), /has no replay in it: write one with 'kds view/);
   assert.throws(() => metaOfPage(page(null, {})), /cut off/);
   assert.throws(() => metaOfPage({ getElementById: () => ({ textContent: '{"format": "kds-' }) }), /cut off/);
-  assert.throws(() => metaOfPage(page({ format: "kds-replay", version: 2 })), /is of format 'kds-replay' 2, .* 'kds-replay' 1/);
-  assert.equal(metaOfPage(page({ format: "kds-replay", version: 1 })).version, 1);
+  assert.throws(() => metaOfPage(page({ format: "kds-replay", version: 1 })), /is of format 'kds-replay' 1, .* 'kds-replay' 2/);
+  assert.equal(metaOfPage(page({ format: "kds-replay", version: 2 })).version, 2);
 });

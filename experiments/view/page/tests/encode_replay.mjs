@@ -37,9 +37,24 @@ class Bytes {
     this.push(Buffer.from(bytes));
   }
 
+  // Differences of 32-bit words, as signed numbers of 32 bits.
+  differences(words) {
+    words.forEach((word, k) => this.varint((word - (k ? words[k - 1] : 0)) | 0));
+  }
+
   get buffer() {
     return Buffer.concat(this.parts);
   }
+}
+
+// Returns [middle, reach] of a bracket: its middle in units of 2^-32, and 0 or 1 more than the logarithm of how far the bracket
+// reaches from there.
+export function shownTime(lower, upper) {
+  const [from, to] = [lower * 2 ** 32, upper * 2 ** 32];
+  if (from === to && Number.isInteger(from)) return [from, 0];
+  const middle = Math.max(1, Math.round((from + to) / 2));
+  const away = Math.max(middle - from, to - middle, 1);
+  return [middle, 1 + Math.ceil(Math.log2(away))];
 }
 
 export const quantised = (value, origin, quantum) => Math.round((value - origin) / quantum);
@@ -96,37 +111,43 @@ export function encodeReplay(run) {
   run.structures.forEach((structure, s) => {
     const { events } = structure;
     put(`events-${s}`, (bytes) => {
-      bytes.uint32(events.map((e) => e.order));
-      bytes.uint32(events.map((e) => e.step));
-      bytes.float64(events.map((e) => e.lower));
-      bytes.float64(events.map((e) => e.upper));
+      bytes.differences(events.map((e) => e.order));
+      bytes.differences(events.map((e) => e.step));
+      const times = events.map((e) => shownTime(e.lower, e.upper));
+      times.forEach(([middle], e) =>
+        bytes.varint(middle - (e && events[e].step === events[e - 1].step ? times[e - 1][0] : 0)),
+      );
+      bytes.uint8(times.map(([, reach]) => reach));
       bytes.uint8(events.map((e) => e.kind));
       bytes.uint8(events.map((e) => e.stage));
       bytes.uint8(events.map((e) => e.ids.length));
-      bytes.uint32(events.flatMap((e) => e.ids));
+      for (let k = 0; k < Math.max(0, ...events.map((e) => e.ids.length)); ++k)
+        for (const { ids } of events.filter((e) => e.ids.length > k)) bytes.varint((ids[k] - (k ? ids[k - 1] : 0)) | 0);
     });
     structure.layers.forEach((layer, l) => {
       const padded = (elements) =>
         elements.flatMap((element) => [...element, ...Array(layer.arity - element.length).fill(0xffffffff)]);
       put(`initial-${s}-${l}`, (bytes) => bytes.uint32(padded(layer.initial)));
       put(`changes-${s}-${l}`, (bytes) => {
-        events.forEach((event, e) => {
-          for (const change of (event.changes ?? []).filter((c) => c.layer === layer.name))
-            bytes.uint32([
-              e,
-              change.removed.length,
-              change.added.length,
-              ...padded(change.removed),
-              ...padded(change.added),
-            ]);
-        });
+        const changes = events.flatMap((event, e) =>
+          (event.changes ?? []).filter((c) => c.layer === layer.name).map((change) => ({ e, event, ...change })),
+        );
+        bytes.differences(changes.map(({ e }) => e));
+        changes.forEach(({ removed }) => bytes.varint(removed.length));
+        changes.forEach(({ added }) => bytes.varint(added.length));
+        const wordsOf = ({ removed, added }) => padded([...removed, ...added]);
+        const isOther = (word, { event }) => word !== 0xffffffff && !event.ids.includes(word);
+        for (const change of changes)
+          bytes.uint8(wordsOf(change).map((word) =>
+            word === 0xffffffff ? 255 : isOther(word, change) ? 254 : change.event.ids.indexOf(word)));
+        for (const change of changes) bytes.differences(wordsOf(change).filter((word) => isOther(word, change)));
       });
     });
     if (structure.nodes) put(`nodes-${s}`, (bytes) => bytes.uint32(structure.nodes.flat()));
   });
   const meta = {
     format: "kds-replay",
-    version: 1,
+    version: 2,
     program: run.program ?? "kds test",
     title: run.title ?? "test",
     inputs: run.inputs ?? ["test.pdb"],

@@ -79,6 +79,17 @@ test("an event names its beads and its changes", () => {
   assert.deepEqual(events.withBead(bead), expected);
 });
 
+test("a shown bracket holds the bracket of the run, and is hardly wider", () => {
+  for (const [s, structure] of run.structures.entries()) {
+    structure.events.forEach((event, e) => {
+      const [lower, upper] = state.structures[s].events.bracketOf(e);
+      assert.ok(lower <= event.lower && event.upper <= upper, `${lower} ${event.lower} ${event.upper} ${upper}`);
+      assert.ok(upper - lower <= 4 * (event.upper - event.lower) + 2 ** -30);
+      assert.ok(lower < upper || (lower === event.lower && upper === event.upper));
+    });
+  }
+});
+
 test("contact intervals cover a time exactly if the pair is in contact", () => {
   const s = state.structures.findIndex(({ name }) => name === "contacts");
   const rows = contactIntervals(state.structures[s].layers[0], state.structures[s].events, 7);

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { decimals, residueOf, timeText } from "../src/explain.js";
+import { decimals, exactText, lowerText, residueOf, timeText, upperText } from "../src/explain.js";
 import { readLink, writeLink } from "../src/link.js";
 import { beadAt } from "../src/picking.js";
 import { Player } from "../src/player.js";
@@ -19,6 +19,19 @@ test("parts of a link that make no sense are left out", () => {
   assert.deepEqual(readLink("#cam=0,0,1,0,0,0,0"), {});
   assert.deepEqual(readLink("#cam=1,2,3,1,2,3,1&speed=0.03"), {});
   assert.deepEqual(readLink(""), {});
+});
+
+test("decimals of a bracket enclose it", () => {
+  const next = random(2);
+  const scaled = (text) => BigInt(text.replace(".", "").padEnd(33, "0"));
+  for (const u of [0, 1, 0.5, 2 ** -32, 1 - 2 ** -32, ...Array.from({ length: 500 }, () => Math.floor(next() * 2 ** 32) / 2 ** 32)]) {
+    const exact = (BigInt(u * 2 ** 32) * 10n ** 32n) / 2n ** 32n;  // 2^32 divides 10^32
+    const [lower, upper] = [scaled(lowerText(u)), scaled(upperText(u))];
+    assert.ok(lower <= exact && exact - lower < 10n ** 22n, `${lowerText(u)} below ${u}`);
+    assert.ok(upper >= exact && upper - exact < 10n ** 22n, `${upperText(u)} above ${u}`);
+    const text = exactText(u);
+    assert.equal(scaled(text.includes(".") ? text : `${text}.`), exact);
+  }
 });
 
 test("the picked bead is the first that a ray meets", () => {
