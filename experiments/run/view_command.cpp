@@ -62,8 +62,8 @@ const OptionList<ViewOptions>& view_options() {
                           &O::quantum, {0, 1e300, true}),
               real_option(
                   {"--max-mb", "MB",
-                   "largest page in megabytes; above, the run takes every 2nd, 3rd ... frame (default: "
-                   "64)"},
+                   "largest page in megabytes; above, the run, and so --vtk too, takes every 2nd, 3rd ... "
+                   "frame (default: 64)"},
                   &O::most_megabytes, {0, 1e6, true}),
               path_option(
                   {"--vtk", "DIR",
@@ -109,11 +109,20 @@ void check_before_view(const ViewOptions& options) {
 }
 
 std::string counts_of(const Scene& scene, const ReplayRecorder& recorder) {
-  std::string text = fmt::format("{} beads, {} frames", with_thousands(scene.bead_count()),
-                                 with_thousands(scene.frame_count()));
+  const auto number_of = [](std::size_t count, const char* noun) {
+    return fmt::format("{} {}{}", with_thousands(count), noun, count == 1 ? "" : "s");
+  };
+  std::string text = number_of(scene.bead_count(), "bead") + ", " + number_of(scene.frame_count(), "frame");
   for (const ReplayRecorder::Structure& structure : recorder.structures())
-    text += fmt::format(", {} events of {}", with_thousands(structure.events.count()), structure.name);
+    text += ", " + number_of(structure.events.count(), "event") + " of " + structure.name;
   return text + "\n";
+}
+
+/// Names the outputs that have the frames of the run: the page and, if asked for, those of other viewers.
+std::string outputs_of(const ViewOptions& options) {
+  if (options.vtk && options.script) return "the page, the files of --vtk and --script";
+  if (options.vtk) return "the page and the files of --vtk";
+  return options.script ? "the page and the file of --script" : "the page";
 }
 
 /// Runs every stride-th frame and writes the files. Returns what to print. Throws ReplayTooLarge if the page
@@ -162,10 +171,11 @@ int view_command(const Arguments& arguments) {
       const std::string text = write_view(options, stride, frames, bar);
       bar.erase();
       if (stride > 1)
-        print_warning(bar,
-                      fmt::format("--max-mb {}: the page shows a run over one in {} of the {} frames, whose "
-                                  "steps are longer; a larger --max-mb shows all",
-                                  options.most_megabytes, stride, with_thousands(all_frames)));
+        print_warning(
+            bar,
+            fmt::format("--max-mb {}: the run, and with it {}, takes one in {} of the {} frames, so "
+                        "its steps are longer; a larger --max-mb takes all",
+                        options.most_megabytes, outputs_of(options), stride, with_thousands(all_frames)));
       if (!options.quiet) print_to_stdout(text);
       return 0;
     } catch (const ReplayTooLarge& large) {

@@ -149,8 +149,10 @@ TEST(View, TakesAStrideToStayBelowMaxMb) {
   for (const std::string_view piece : replay_template()) template_size += piece.size();
   const double most =
       (static_cast<double>(template_size) + 0.6 * static_cast<double>(all - template_size)) / 1e6;
-  const ProgramRun run = run_program(with(arguments, {"--max-mb", std::to_string(most)}));
+  const std::string vtk = scratch / "vtk";
+  const ProgramRun run = run_program(with(arguments, {"--max-mb", std::to_string(most), "--vtk", vtk}));
   ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("the page and the files of --vtk, takes one in"));
   EXPECT_THAT(run.err, HasSubstr("of the 100 frames"));
   EXPECT_LE(count_of(run.err, "a stride of "), 1U) << run.err;  // of the run that is shown
   const ReplayData data(content_of(page));
@@ -158,6 +160,8 @@ TEST(View, TakesAStrideToStayBelowMaxMb) {
   EXPECT_GE(stride, 2U);
   EXPECT_LE(std::filesystem::file_size(page), most * 1e6);
   EXPECT_EQ(data.words("frames")[1], stride);
+  EXPECT_TRUE(std::filesystem::exists(vtk + "/beads-" + std::to_string(stride) + ".vtp"));
+  EXPECT_FALSE(std::filesystem::exists(vtk + "/beads-1.vtp"));
   expect_refused(with(arguments, {"--max-mb", "0.001"}),
                  {"--max-mb 0.001: the page of 2 frames", "expected at least --max-mb "});
 }
