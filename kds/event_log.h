@@ -38,8 +38,8 @@ struct Event {
   FrameStamp from, to;
   /// The time of the event in digits that are all certain. Set only if a listener prints it.
   std::optional<RoundedTime> rounded;
-  /// The stage that decided the time of the failure behind the event; unknown for an event of another origin,
-  /// such as an edit or a repair at the start of a step.
+  /// The stage that decided the time of the event, which is the time of the last failure handled. It is
+  /// unknown if no failure led there, as for repairs at the start of a step or edits between failures.
   DecidedBy decided_by = DecidedBy::unknown;
 
   [[nodiscard]] std::span<const BeadId> ids() const { return {change.ids.data(), change.size}; }
