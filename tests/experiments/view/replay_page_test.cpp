@@ -167,7 +167,10 @@ std::set<std::string> stages_of(const Scene& scene, Kernel kernel) {
 TEST(ReplayPage, NamesTheStageThatDecidedAnEvent) {
   const Scene scene = random_scene(3, FrameMotion::linear, 5, 7);
   EXPECT_THAT(stages_of(scene, Kernel::exact), testing::ElementsAre("integers"));
-  EXPECT_THAT(stages_of(scene, Kernel::fast), testing::ElementsAre("floating point, without proof"));
+  // Where kernel fast was wrong, the diagram is built anew at the frame, which no stage decides.
+  EXPECT_THAT(stages_of(scene, Kernel::fast),
+              testing::AllOf(testing::Contains("floating point, without proof"),
+                             testing::IsSubsetOf({"", "floating point, without proof"})));
   EXPECT_THAT(stages_of(scene, Kernel::filtered),
               testing::AllOf(testing::Contains("floating point, with proved error bounds"),
                              testing::Not(testing::Contains("")),

@@ -5,25 +5,21 @@ import {
   InstancedBufferGeometry,
   BufferAttribute,
   DynamicDrawUsage,
-  LineSegments,
   Mesh,
   RawShaderMaterial,
 } from "three";
 
 const square = new Float32Array([-1, -1, 1, -1, 1, 1, -1, -1, 1, 1, -1, 1]);
 const strip = new Float32Array([0, -1, 1, -1, 1, 1, 0, -1, 1, 1, 0, 1]);
-const line = new Float32Array([0, 0, 1, 0]);
 
 export class Instances {
-  // `attributes`: {name: [array type, numbers per instance, normalized]}. `shape`: square, strip (of a segment) or line (one pixel
-  // wide, which takes a third of the corners of a strip).
-  constructor({ vertex, fragment, uniforms, attributes, shape = "square", transparent = false, depthTest = true, order }) {
+  // `attributes`: {name: [array type, numbers per instance, normalized]}.
+  constructor({ vertex, fragment, uniforms, attributes, segments = false, transparent = false, depthTest = true, order }) {
     this.attributes = attributes;
     this.capacity = 0;
     this.geometry = new InstancedBufferGeometry();
-    const corners = { square, strip, line }[shape];
-    this.geometry.setAttribute("corner", new BufferAttribute(corners, 2));
-    this.geometry.setDrawRange(0, corners.length / 2);  // three.js finds the number of corners in "position" only
+    this.geometry.setAttribute("corner", new BufferAttribute(segments ? strip : square, 2));
+    this.geometry.setDrawRange(0, 6);  // three.js finds the number of corners in "position" only
     this.material = new RawShaderMaterial({
       glslVersion: GLSL3,
       vertexShader: vertex,
@@ -33,7 +29,7 @@ export class Instances {
       depthTest,
       depthWrite: !transparent,
     });
-    this.mesh = new (shape === "line" ? LineSegments : Mesh)(this.geometry, this.material);
+    this.mesh = new Mesh(this.geometry, this.material);
     this.mesh.frustumCulled = false;
     this.mesh.renderOrder = order;
     this.count = 0;
@@ -68,6 +64,23 @@ export class Instances {
       attribute.addUpdateRange(0, count * attribute.itemSize);
       attribute.needsUpdate = true;
     }
+  }
+
+  // Shows the pairs of `words`, the first two of each `arity`, in one colour.
+  setPairs(words, arity, [r, g, b], alpha) {
+    const count = words.length / arity;
+    this.reserve(count);
+    const ends = this.array("ends");
+    const tint = this.array("tint");
+    for (let k = 0; k < count; ++k) {
+      ends[2 * k] = words[k * arity];
+      ends[2 * k + 1] = words[k * arity + 1];
+      tint[4 * k] = r;
+      tint[4 * k + 1] = g;
+      tint[4 * k + 2] = b;
+      tint[4 * k + 3] = alpha;
+    }
+    this.changed(count, "ends", "tint");
   }
 
   set visible(shown) {

@@ -24,7 +24,7 @@ export class Picture {
         // Many lines would cover each other, so they are fainter.
         const [few, most, least] = name === "edges" ? [400, 150, 40] : [60, 230, 110];
         const alpha = Math.max(least, most * Math.min(1, Math.sqrt(few / (all.length / 2))));
-        scene.setEdges(target, all, scene.colours[name], alpha);
+        target.setPairs(all, 2, rgb(scene.colours[name]), alpha);
       }
       target.visible = layers.shows(name);
     }

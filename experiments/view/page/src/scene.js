@@ -14,6 +14,7 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { alongChain, categories, rgb, theme } from "./colours.js";
 import { Instances } from "./instances.js";
+import { Lines } from "./lines.js";
 import { beadAt } from "./picking.js";
 import * as shaders from "./shaders.js";
 import { sphereOfBasis } from "./spheres.js";
@@ -76,13 +77,13 @@ export class Scene {
       fog: { value: new Color() },
       reach: { value: new Vector3(1, -1, 0.5) },
     };
-    const segments = (order, thickness, depthTest = true, shape = "strip") =>
+    const segments = (order, thickness, depthTest = true) =>
       new Instances({
         vertex: shaders.segmentVertex,
         fragment: shaders.segmentFragment,
         uniforms: { ...this.uniforms, thickness: { value: thickness } },
         attributes: linked,
-        shape,
+        segments: true,
         transparent: true,
         depthTest,
         order,
@@ -97,7 +98,7 @@ export class Scene {
     this.chain = segments(1, 3);
     const edges = this.meta.structures.flatMap(({ layers }) => layers).filter(({ name }) => name === "edges");
     const edgeCount = edges.reduce((sum, { initial }) => sum + initial, 0);
-    this.edges = edgeCount > manyEdges ? segments(2, 1, true, "line") : segments(2, 1.2);
+    this.edges = edgeCount > manyEdges ? new Lines({ uniforms: this.uniforms, order: 2 }) : segments(2, 1.2);
     this.contacts = segments(3, 3, false);
     this.cages = new Instances({
       vertex: shaders.cageVertex,
@@ -148,7 +149,7 @@ export class Scene {
     this.renderer.setClearColor(this.colours.page);
     const [r, g, b] = rgb(this.colours.fog).map((value) => value / 255);
     this.uniforms.fog.value.setRGB(r, g, b);
-    this.setEdges(this.chain, this.chainPairs, this.colours.chain, 255);
+    this.chain.setPairs(this.chainPairs, 2, rgb(this.colours.chain), 255);
     this.paintBeads(new Set());
   }
 
@@ -169,22 +170,6 @@ export class Scene {
       first += count;
     });
     this.beads.changed(this.meta.beads, "tint");
-  }
-
-  // Shows the pairs of `words` as segments, all alike.
-  setEdges(layer, words, colour, alpha) {
-    const count = words.length / 2;
-    layer.reserve(count);
-    layer.array("ends").set(words);
-    const tint = layer.array("tint");
-    const [r, g, b] = rgb(colour);
-    for (let k = 0; k < count; ++k) {
-      tint[4 * k] = r;
-      tint[4 * k + 1] = g;
-      tint[4 * k + 2] = b;
-      tint[4 * k + 3] = alpha;
-    }
-    layer.changed(count, "ends", "tint");
   }
 
   // Shows marked pairs, {pair, colour, dashed, alpha}, and rings around beads, {bead, colour, alpha}.

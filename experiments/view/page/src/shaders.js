@@ -109,6 +109,25 @@ void main() {
   pixel = vec4(faded(colour.rgb, depth), colour.a * edge);
 }`;
 
+// Lines between two beads, one pixel wide, all of one colour.
+export const lineVertex = `${header}
+in uint end;
+out float depth;
+void main() {
+  vec4 place = viewMatrix * vec4(ball(end).xyz, 1.0);
+  depth = place.z;
+  gl_Position = projectionMatrix * place;
+}`;
+
+export const lineFragment = `${header}${depthCue}
+uniform vec3 tint;
+uniform float alpha;
+in float depth;
+out vec4 pixel;
+void main() {
+  pixel = vec4(faded(tint, depth), alpha);
+}`;
+
 // Cages: spheres that are clear in the middle.
 export const cageVertex = `${header}
 in vec2 corner;
