@@ -1,5 +1,5 @@
 #pragma once
-// The outputs of `kds contacts`: tables of pairs and of samplings, and the page.
+// The outputs of `kds contacts`: tables of pairs and of samples, and the page.
 
 #include <optional>
 #include <ostream>

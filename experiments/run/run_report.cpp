@@ -130,10 +130,7 @@ Json structure_json(const StructureReport& structure, std::size_t rounds) {
 }
 
 Json stride_json(const StrideCertificate& stride) {
-  const StrideDeviation& deviation = stride.deviation;
-  Json json{
-      {"skipped", deviation.skipped},
-      {"deviation", {{"largest", deviation.largest}, {"frame", deviation.frame}, {"bead", deviation.bead}}}};
+  Json json = deviation_json(stride.deviation);
   if (stride.contacts)
     json["contacts"] = {{"found", stride.contacts->found.size()},
                         {"sure", stride.contacts->sure.size()},
@@ -188,6 +185,12 @@ Json run_json(const RunReport& report) {
 }
 
 }  // namespace
+
+Json deviation_json(const StrideDeviation& deviation) {
+  return {
+      {"skipped", deviation.skipped},
+      {"deviation", {{"largest", deviation.largest}, {"frame", deviation.frame}, {"bead", deviation.bead}}}};
+}
 
 std::string report_json(const RunReport& report) { return text_of(run_json(report)); }
 

@@ -62,7 +62,7 @@ struct RunReport {
   double listeners_seconds = 0;  ///< time for writing and counting events
   NamedCounts comparisons;       ///< failure times with overlapping brackets, by the method that settled them
   std::uint64_t exact_work = 0;  ///< limb operations of exact arithmetic
-  std::size_t threads = 1;
+  std::size_t threads = 1;       ///< threads that ran parts of the run
   PartCounts parts;
   std::uint64_t fingerprint = 0;            ///< printed as 16 hex digits
   std::optional<StrideCertificate> stride;  ///< from --certify
@@ -91,6 +91,9 @@ class StepCounts;  // run_scene.h
 /// Collects the counts of the structures of a session.
 [[nodiscard]] RunReport report_of(Session& session, const Scene& scene, const RunOptions& options,
                                   const StepCounts& counts);
+
+/// Returns the members `skipped` and `deviation` of a certificate.
+[[nodiscard]] Json deviation_json(const StrideDeviation& deviation);
 
 /// Returns JSON text that ends with a newline.
 [[nodiscard]] std::string report_json(const RunReport& report);
