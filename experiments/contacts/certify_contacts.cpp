@@ -5,9 +5,9 @@
 #include <compare>
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "experiments/output/sorted_records.h"
+#include "experiments/run/certify_stride.h"
 #include "experiments/run/load_scene.h"
 #include "motions/base/input_error.h"
 
@@ -43,7 +43,7 @@ struct PlacedInterval {
   }
 };
 
-/// Sharpens the bounds of disjoint intervals in their order, so that both bounds ascend.
+/// Sharpens the bounds of disjoint intervals, which stand in their order. Both bounds then ascend.
 void sharpen(std::vector<PlacedInterval>& intervals) {
   for (std::size_t k = 1; k < intervals.size(); ++k)
     intervals[k].earliest = std::max(intervals[k].earliest, intervals[k - 1].earliest);
@@ -144,21 +144,13 @@ class ContactBounder {
   std::vector<std::uint8_t> is_certain_;  // by interval of enlarged balls: whether a true contact lies in it
 };
 
-/// Returns groups with which only pairs of these beads are asked about, and among them the pairs of `groups`.
+/// Returns `groups` without the beads that have no ball.
 BeadGroups without_empty_balls(BeadGroups groups, const std::vector<std::uint8_t>& has_a_ball) {
   constexpr std::uint8_t both = 3;
   if (groups.empty()) groups.assign(has_a_ball.size(), both);
   for (std::size_t bead = 0; bead < groups.size(); ++bead)
     if (has_a_ball[bead] == 0) groups[bead] = 0;
   return groups;
-}
-
-RadiiWithin certified_radii(const StrideDeviation& deviation, const std::vector<double>& radii) {
-  try {
-    return radii_within(deviation, radii);
-  } catch (const InputError& error) {
-    throw InputError(std::string("--certify: ") + error.what());
-  }
 }
 
 }  // namespace

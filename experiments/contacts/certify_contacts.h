@@ -1,19 +1,18 @@
 #pragma once
 // Bounds what frames left out (a stride in --frames) may hide from `kds contacts`, for the task's rule.
 //
-// The truth is the linear motion between all frames up to the run's last one; time runs evenly from each
-// frame used to the next. At any time the true position of a bead lies within its deviation of its position
-// in the run (motions/scene/stride_deviation.h). Balls shrunk by the deviations therefore meet only while two
-// beads are truly within a cutoff, and enlarged balls meet whenever they are.
+// Truth, deviations, shrunk and enlarged balls are those of experiments/run/certify_stride.h: shrunk balls
+// meet only while two beads are truly within a cutoff, and enlarged balls meet whenever they are. Time runs
+// evenly from each frame used to the next.
 //
 // Let S, F, T and P be the sets of times at which a pair is in contact: with shrunk balls, in the run, in
 // truth, and with enlarged balls. Each set is a function of the times within the inner and the outer cutoff
 // that is monotone: more times within a cutoff give more times in contact. For two cutoffs, a time is in
 // contact if some earlier time is within the inner cutoff and all times from there on are within the outer
 // one. For a gap, a time is in contact too if it lies in an absence shorter than the gap, and more times in
-// contact make absences shorter. So S lies in F and in T, and F and T lie in P. Beads of the run are also
-// at their true positions in each frame used. A pair that is within the inner cutoff there is in contact in
-// the run, in truth and in P: the frame is a sure moment. This means:
+// contact make absences shorter. So S lies in F and in T, and F and T lie in P. In each frame used, the beads
+// of the run are at their true positions. A pair that is within the inner cutoff in such a frame is in
+// contact in the run, in truth and in P: the frame is a *sure moment*. It follows that:
 //
 // - A contact of the run that contains a contact of S or a sure moment is *sure*: the pair is truly in
 //   contact during it.
@@ -57,8 +56,8 @@ struct ContactsCertificate {
 /// Throws InputError if the task asks for --certify and leaves out no frame.
 void refuse_needless_certificate(const ContactsTask& task);
 
-/// Bounds the contacts of a report that follow_contacts returned. Runs the contacts three times more and
-/// reads all frames. Throws InputError for faults of the input.
+/// Bounds the contacts of a report that follow_contacts returned. Reads all frames and runs the contacts
+/// three more times. Throws InputError for faults of the input.
 [[nodiscard]] ContactsCertificate certify_contacts(
     const ContactsTask& task, const Scene& scene, const ContactsReport& report,
     const std::function<void(std::size_t done, std::size_t total)>& progress);

@@ -105,12 +105,7 @@ void bound_contacts(const RunOptions& options, const Scene& scene, const std::op
   const FrameSurvey survey = survey_frames(*frames_of(options, options.reading.frames.stride), false);
   const auto distance = contact_distance_of(options.cutoff, options.surface);
   const std::vector<double> own = distance ? contact_radii(*distance, scene.radii()) : scene.radii();
-  RadiiWithin radii;
-  try {
-    radii = radii_within(certificate.deviation, own);
-  } catch (const InputError& error) {
-    throw InputError(std::string("--certify: ") + error.what());
-  }
+  RadiiWithin radii = certified_radii(certificate.deviation, own);
   const auto found = contacts_met(options, survey, own, tolerance);
   const auto possible = contacts_met(options, survey, std::move(radii.larger), tolerance);
   const auto smaller = contacts_met(options, survey, std::move(radii.smaller), tolerance);
@@ -124,6 +119,14 @@ void bound_contacts(const RunOptions& options, const Scene& scene, const std::op
 }
 
 }  // namespace
+
+RadiiWithin certified_radii(const StrideDeviation& deviation, std::span<const double> radii) {
+  try {
+    return radii_within(deviation, radii);
+  } catch (const InputError& error) {
+    throw InputError(std::string("--certify: ") + error.what());
+  }
+}
 
 void refuse_needless_certificate(const RunOptions& options) {
   if (options.certify && options.reading.frames.stride == 1 && !options.tolerance)

@@ -8,8 +8,8 @@
 // most the sum of their deviations. A pair that truly comes within the sum of its radii is therefore in
 // contact in the run with enlarged balls: the pair is *possible*. A pair in contact in the run with shrunk
 // balls is truly in contact at that time: the pair is *sure*. The argument holds for each single contact of a
-// pair too (MetContacts). Deviations are rounded up and radii outward. With --cutoff, the balls are those
-// that meet while two beads are within the cutoff (contact_distance.h).
+// pair too (MetContacts). Deviations are rounded up and radii outward. With --cutoff, two balls meet while
+// their beads are within the cutoff (contact_distance.h).
 
 #include <cstddef>
 #include <cstdint>
@@ -113,6 +113,10 @@ struct StrideCertificate {
 
 /// Certifies a run over `scene`. Throws InputError if the run leaves out no frame or its input has no frames.
 [[nodiscard]] StrideCertificate certify_stride(const RunOptions& options, const Scene& scene);
+
+/// Returns the radii of the enlarged and the shrunk balls. Throws InputError that names --certify if a
+/// deviation is too large.
+[[nodiscard]] RadiiWithin certified_radii(const StrideDeviation& deviation, std::span<const double> radii);
 
 /// Throws InputError if --certify has nothing to certify.
 void refuse_needless_certificate(const RunOptions& options);
