@@ -1,6 +1,5 @@
 #pragma once
-// The data blocks of a replay page (docs/formats.md): numbers as bytes, compressed and as text that a page
-// can hold.
+// The data blocks of a replay page (docs/formats.md): numbers as bytes, compressed, in base64.
 
 #include <bit>
 #include <cstddef>
@@ -21,7 +20,6 @@ class BlockBytes {
   void add_double(double value) { add_little_endian(std::bit_cast<std::uint64_t>(value), 8); }
   /// Adds a signed number as a zigzag varint (LEB128): 7 bits a byte, the lowest first.
   void add_varint(std::int64_t value);
-  void add_text(std::string_view text) { bytes_ += text; }
 
   [[nodiscard]] std::string_view bytes() const { return bytes_; }
   [[nodiscard]] bool empty() const { return bytes_.empty(); }
@@ -43,8 +41,8 @@ class BlockBytes {
 /// Receives a finished block.
 using BlockSink = std::function<void(const std::string& name, std::string_view bytes)>;
 
-/// Encodes the frames of a replay as blocks `positions-K`, and the curves between them as blocks
-/// `controls-K`. Memory is that of one block.
+/// Encodes the frames of a replay as blocks `positions-K`, and the curves between frames as blocks
+/// `controls-K`. Holds one block of each in memory.
 class FrameBlocks {
  public:
   /// Numbers of one frame or control point: all beads on the first axis, then on the next.
@@ -52,8 +50,8 @@ class FrameBlocks {
 
   FrameBlocks(std::size_t beads, int degree, std::size_t block_frames, BlockSink sink);
 
-  /// Adds a frame. `controls` are the inner control points of the step that leads to it, one after another;
-  /// none for the first frame or for a motion of degree 1.
+  /// Adds a frame. `controls` are the inner control points of the step that ends at this frame, one after
+  /// another. There are none for the first frame or for a motion of degree 1.
   void add(Numbers positions, std::span<const Numbers> controls);
   /// Passes on the last blocks.
   void finish();

@@ -21,7 +21,7 @@ namespace kds {
 namespace {
 
 constexpr double kAngstromQuantum = 0.02;
-/// The graphics of browsers square lengths in 32-bit floats.
+/// Browsers square lengths in 32-bit floats.
 constexpr double kMostLength = 1e18, kLeastLength = 1e-15;
 /// Rounded coordinates stay below this number, so that their differences have 32 bits.
 constexpr double kMostQuanta = 1 << 28;
@@ -31,7 +31,7 @@ const std::vector<std::string> kStages{
     "", "floating point, without proof", "floating point, with proved error bounds",
     "floating point, with errors followed through each operation", "integers"};
 
-/// Returns a text in which no tag begins, for a script element.
+/// Returns a JSON text in which no tag begins, so that it can stand in a script element.
 std::string without_tags(const std::string& text) {
   std::string safe;
   for (const char c : text) {

@@ -22,7 +22,7 @@
 
 namespace kds {
 
-/// Title, inputs and settings of the run, as the page names them.
+/// Title, inputs and command of a run, as the page shows them.
 struct ReplayLabels {
   std::string title = "kds run";
   std::string command = {};              ///< the command line that made the page; may be empty
@@ -39,7 +39,7 @@ struct ReplayPageOptions {
   std::optional<std::uint64_t> most_bytes = {};  ///< no value: the page may have any size
 };
 
-/// Thrown if a page exceeds `most_bytes`. The number of bytes that it would have is estimated.
+/// Thrown if a page would exceed `most_bytes`. `expected` estimates the number of bytes of the page.
 class ReplayTooLarge : public std::runtime_error {
  public:
   explicit ReplayTooLarge(std::uint64_t expected_bytes)
@@ -52,15 +52,14 @@ class ReplayPage {
   /// Begins a page. The stream and the scene must outlive it. Throws InputError if the scene is on a line.
   ReplayPage(std::ostream& stream, const Scene& scene, ReplayPageOptions options);
 
-  /// Writes all frames; reads them from the scene's first one on. Throws InputError if the coordinates are
-  /// too large for the quantum, and ReplayTooLarge.
+  /// Reads all frames of the scene, from the first one on, and writes them. Throws InputError if coordinates
+  /// are too large for the quantum. Throws ReplayTooLarge.
   void write_frames();
   /// Writes the record and ends the page. `write_frames` must have been called. Throws ReplayTooLarge.
   void write_record(const ReplayRecorder& recorder);
 
   /// Returns the number of bytes written.
   [[nodiscard]] std::uint64_t bytes() const { return written_; }
-  [[nodiscard]] double quantum() const { return quantum_; }
 
  private:
   void choose_quantum(const Eigen::Matrix3Xd& first);
@@ -77,7 +76,7 @@ class ReplayPage {
   std::ostream& stream_;
   const Scene& scene_;
   ReplayPageOptions options_;
-  std::string_view rest_of_page_;  // behind the data
+  std::string_view rest_of_page_;  // the text after the data
   std::string page_;
   std::uint64_t written_ = 0;
   double quantum_ = 0;

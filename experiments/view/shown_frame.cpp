@@ -16,7 +16,7 @@ namespace kds {
 
 namespace {
 
-/// Returns a data array of a VTK file: base64 of the number of bytes and the bytes.
+/// Returns a data array of a VTK file: the number of bytes, then the bytes, in base64.
 template <class Number>
 std::string data_array(std::string_view name, std::string_view type, std::span<const Number> numbers,
                        int components = 1) {
@@ -36,19 +36,19 @@ std::string data_array(std::string_view name, std::string_view type, std::span<c
       name, components, base64(bytes.bytes()));
 }
 
-std::string of_doubles(std::string_view name, std::span<const double> numbers, int components = 1) {
+std::string double_array(std::string_view name, std::span<const double> numbers, int components = 1) {
   return data_array(name, "Float64", numbers, components);
 }
-std::string of_words(std::string_view name, const std::vector<std::uint32_t>& numbers) {
+std::string word_array(std::string_view name, const std::vector<std::uint32_t>& numbers) {
   return data_array(name, "UInt32", std::span<const std::uint32_t>(numbers));
 }
 
-/// Returns cells of equal size, as points in rows of `size`.
+/// Returns cells of `size` points each. `points` lists the points of all cells.
 std::string cells(std::string_view element, const std::vector<std::uint32_t>& points, std::uint32_t size) {
   std::vector<std::uint32_t> offsets;
   for (std::uint32_t end = size; end <= points.size(); end += size) offsets.push_back(end);
-  return fmt::format("<{0}>\n{1}{2}</{0}>\n", element, of_words("connectivity", points),
-                     of_words("offsets", offsets));
+  return fmt::format("<{0}>\n{1}{2}</{0}>\n", element, word_array("connectivity", points),
+                     word_array("offsets", offsets));
 }
 
 std::string poly_data(std::size_t points, std::size_t lines, const std::string& content) {
@@ -82,11 +82,11 @@ std::string beads_of(const ShownFrame& frame) {
   return poly_data(
       beads, ends.size() / 2,
       fmt::format("<PointData>\n{}{}{}{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n{}{}",
-                  of_doubles("radius", frame.radii), of_words("bead", counted_up(beads)),
-                  of_words("chain", frame.chains),
+                  double_array("radius", frame.radii), word_array("bead", counted_up(beads)),
+                  word_array("chain", frame.chains),
                   data_array("hidden", "UInt8", std::span<const std::uint8_t>(hidden)),
                   data_array("kind", "UInt8", std::span<const std::uint8_t>(kinds)),
-                  of_doubles("Points", {frame.centers.data(), 3 * beads}, 3),
+                  double_array("Points", {frame.centers.data(), 3 * beads}, 3),
                   cells("Verts", counted_up(beads), 1), cells("Lines", ends, 2)));
 }
 
@@ -102,12 +102,13 @@ std::string cages_of(const ShownFrame& frame) {
   }
   return poly_data(
       frame.cages.size(), 0,
-      fmt::format("<PointData>\n{}{}{}{}</PointData>\n<Points>\n{}</Points>\n{}", of_doubles("radius", radii),
-                  of_words("level", levels), of_words("first", firsts), of_words("last", lasts),
-                  of_doubles("Points", points, 3), cells("Verts", counted_up(radii.size()), 1)));
+      fmt::format("<PointData>\n{}{}{}{}</PointData>\n<Points>\n{}</Points>\n{}",
+                  double_array("radius", radii), word_array("level", levels), word_array("first", firsts),
+                  word_array("last", lasts), double_array("Points", points, 3),
+                  cells("Verts", counted_up(radii.size()), 1)));
 }
 
-// Colours that colour-blind readers tell apart (Okabe and Ito): red, green, blue from 0 to 1.
+// Colours for all colour vision (Okabe and Ito): red, green, blue from 0 to 1.
 constexpr std::array<double, 3> kBead{0.60, 0.60, 0.60}, kBond{0.20, 0.20, 0.20}, kEdge{0.34, 0.71, 0.91},
     kContact{0.84, 0.37, 0.00}, kCage{0.00, 0.62, 0.45};
 

@@ -36,16 +36,13 @@ struct ShownFrame {
   std::vector<Cage> cages;
 };
 
-/// Returns what the run has at the frame just reached (frame 0: just built).
+/// Returns the state of the run at the frame that it has just reached. At frame 0 the structures have just
+/// been built.
 [[nodiscard]] ShownFrame shown_frame(std::size_t frame, const Scene& scene, const Session& session,
                                      const ReplayRecorder& recorder);
 
-/// VTK files of all frames (XML PolyData, base64), and replay.pvd, which lists them with their times.
-///
-///   beads-N.vtp  points with arrays radius, bead, chain, hidden; a vertex for each bead and a line for each
-///                pair, with array kind: 0 bead, 1 bond, 2 edge of the power diagram, 3 contact
-///   cages-N.vtp  centres of the spheres of a wrapped hierarchy, with arrays radius, level, first, last;
-///                only if the run has these spheres
+/// VTK files of all frames, and replay.pvd, which lists these files with their times (docs/formats.md). A
+/// frame has a file of spheres only if the run has a wrapped hierarchy.
 class VtkFrames {
  public:
   /// Throws an InputError or OutputError that names the option and the path.
@@ -64,7 +61,7 @@ class VtkFrames {
 /// Returns the text of a scene for another viewer: a PyMOL script if the file's name ends in .pml, a BILD
 /// file for ChimeraX if it ends in .bild.
 [[nodiscard]] std::string scene_script(const std::filesystem::path& file, const ShownFrame& frame);
-/// Throws InputError if the ending is another one.
+/// Throws InputError if the name of the file has another ending.
 void check_script_ending(const std::filesystem::path& file);
 
 }  // namespace kds

@@ -1,6 +1,6 @@
 #pragma once
-// Writes what shows a run: the replay page, VTK files, and a script for another viewer. Listens to the run
-// while it goes on. All files appear together with the other results of the command.
+// Writes the files that show a run: the replay page, VTK files, and a script for another viewer. Listens to
+// the run while it goes on. All files appear together with the other results of the command.
 
 #include <cstddef>
 #include <cstdint>
