@@ -36,8 +36,8 @@ struct CollideOptions : InputOptions {
 
 class CollideFrames;  // compare_detectors.h
 struct CollideTask;
-/// Returns the methods and pairs that the options ask for. Throws InputError if there are no two necklaces to
-/// look between.
+/// Returns the methods and pairs that the options ask for. Throws InputError if they ask for pairs between
+/// necklaces and there is only one.
 [[nodiscard]] CollideTask collide_task(const CollideOptions& options, const CollideFrames& frames);
 
 }  // namespace kds

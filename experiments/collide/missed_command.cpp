@@ -105,7 +105,7 @@ std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, const
   std::vector<std::size_t> spacings;
   for (const std::size_t stride : strides) spacings.push_back(stride * ticks_per_frame);
   FrameContacts frames(spacings, 0, scene.step_count());
-  // By the step in which a contact begins; `missed` at each stride.
+  // Contacts by the step in which they begin. `missed` has such counts for each stride.
   std::vector<double> contacts(scene.step_count());
   std::vector<std::vector<double>> missed(strides.size(), contacts);
   ContactIntervals intervals(run->simulator(), {.rounds_times = false}, [&](const ContactInterval& interval) {

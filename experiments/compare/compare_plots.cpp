@@ -18,7 +18,7 @@ namespace kds {
 namespace {
 
 using Points = std::vector<std::pair<double, double>>;
-// The points of a row, with an error bar for each or none.
+// The points of a row. `bars` has an error bar for each point, or is empty.
 struct PlottedRow {
   Points points, bars = {};
 };
@@ -68,7 +68,7 @@ std::string plot_of(const Comparison& comparison, const LinePlot& empty,
   return svg_plot(panels);
 }
 
-// `interval` is none, or the interval of `value`.
+// Plots `value` by stride, with `interval`, if given, as its error bar.
 std::string over_strides(const Comparison& comparison, const char* label, const char* caption,
                          const std::function<std::optional<double>(const CompareRow&)>& value,
                          const std::function<std::optional<MeanInterval>(const CompareRow&)>& interval = {}) {

@@ -66,7 +66,7 @@ std::size_t strided(std::size_t frames, std::size_t stride) { return (frames + s
 // The names of the inputs, as ComparedInput has them.
 class InputNames {
  public:
-  // Throws InputError if two inputs are the same run. The inputs exist.
+  // Throws InputError if two inputs are the same run. The inputs must exist or be in memory.
   explicit InputNames(const CompareOptions& options) : options_(options) {
     for (std::size_t i = 0; i < options.inputs.size(); ++i)
       for (std::size_t other = 0; other < i; ++other)
@@ -88,9 +88,9 @@ class InputNames {
 
  private:
   [[nodiscard]] bool are_one_file(std::size_t a, std::size_t b) const {
-    std::error_code in_memory;
+    std::error_code ignored;  // inputs in memory have no file
     return options_.inputs[a] == options_.inputs[b] ||
-           std::filesystem::equivalent(options_.inputs[a], options_.inputs[b], in_memory);
+           std::filesystem::equivalent(options_.inputs[a], options_.inputs[b], ignored);
   }
   [[nodiscard]] std::optional<std::string> chain_of(std::size_t input) const {
     return reading_of(options_, input).chain;

@@ -97,7 +97,7 @@ class ContactsRun {
     if (!radii.outer.empty()) run_.add<Contacts<D>>(asked, radii.outer);
   }
 
-  /// Follows the contacts by one more rule. Rules are served in the order of these calls.
+  /// Follows the contacts by one more rule. Events reach the rules in the order of these calls.
   void follow(const ContactRule& rule, ContactIntervals::Sink sink) {
     followed_.push_back({rule.inner, rule.outer,
                          std::make_unique<ContactIntervals>(run_.simulator(), rule, std::move(sink))});

@@ -1,6 +1,5 @@
 #pragma once
-// The work of `kds contacts`: one run follows the contacts of all pairs exactly, and counts them at
-// samples too.
+// Follows the contacts of all pairs for `kds contacts`: exactly, and as counted at samples.
 
 #include <cstddef>
 #include <cstdint>
@@ -47,7 +46,7 @@ inline constexpr BeadId default_contacts_apart = 3;
 [[nodiscard]] std::vector<std::size_t> strides_that_fit(const std::vector<std::size_t>& given,
                                                         std::size_t frames, const InputOptions& input);
 
-/// An interval as it waits on disk.
+/// An interval as it is stored on disk.
 struct IntervalRecord {
   std::uint32_t first = 0, second = 0;                ///< elements
   double begin_frame = 0, end_frame = 0;              ///< in frames of the file, with a fraction
@@ -97,7 +96,7 @@ struct ContactsReport {
   [[nodiscard]] std::string unit() const { return has_times() ? "ps" : "frames"; }
 };
 
-/// Radii of balls that meet while two beads are within the inner or the outer cutoff, one for each bead.
+/// A radius for each bead: two balls meet while their beads are within the inner or the outer cutoff.
 struct CutoffRadii {
   std::vector<double> inner;
   std::vector<double> outer;  ///< empty unless there are two cutoffs
@@ -105,9 +104,9 @@ struct CutoffRadii {
 /// Returns the radii for the task's cutoffs.
 [[nodiscard]] CutoffRadii radii_of(const ContactsTask& task, const Scene& scene);
 
-/// Follows the contacts by the rule of the task once more, with other radii or groups. The report comes from
-/// follow_contacts. Intervals arrive at `sink` as ContactIntervals says. Intervals within the inner cutoff,
-/// without any gap, arrive at `inner_sink` if it is not null.
+/// Follows the contacts by the rule of the task once more, with other radii or groups. `report` comes from
+/// follow_contacts. `sink` receives intervals in the order of ContactIntervals. `inner_sink`, if not null,
+/// receives intervals within the inner cutoff, without any gap.
 void follow_again(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
                   const CutoffRadii& radii, const BeadGroups& groups, const ContactIntervals::Sink& sink,
                   const ContactIntervals::Sink& inner_sink,

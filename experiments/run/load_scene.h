@@ -50,18 +50,16 @@ inline constexpr int highest_relaxed_degree = 7;
 /// The SIMD lanes are compiled only up to this degree of the motion.
 inline constexpr int highest_fast_degree = 3;
 
-/// Returns the options of a session over the scene, as the options of the run ask for it. If they name no
-/// structures, the input's default structures are used. Throws InputError.
+/// Returns the options of a session for the options of a run over the scene. If the options name no
+/// structures, the session has the input's default structures. Throws InputError.
 [[nodiscard]] SessionOptions session_options(const RunOptions& options, const Scene& scene, AuditMode audits);
-/// Opens a run on as many threads as the options ask for, as `open_run` does. If the run cannot be cut
-/// although --threads asks for several threads, a line to `warn` says why.
+/// Opens the run with `session_options`. Throws InputError, also for a structure that refuses the scene.
+[[nodiscard]] std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene,
+                                                   AuditMode audits);
+/// Opens the run on as many threads as --threads asks for, otherwise like `open_run`. If --threads asks for
+/// several threads and the run cannot be cut, a line to `warn` says why.
 [[nodiscard]] std::unique_ptr<ParallelRun> open_parallel_run(
     const RunOptions& options, const Scene& scene, AuditMode audits, ParallelOptions parallel,
     const std::function<void(const std::string&)>& warn);
-
-/// Opens the run with the structures that the options ask for. If the options name none, the input's default
-/// structures are used. Throws InputError.
-[[nodiscard]] std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene,
-                                                   AuditMode audits);
 
 }  // namespace kds

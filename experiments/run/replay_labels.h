@@ -13,7 +13,7 @@ namespace kds {
 /// in units `lj` name no unit. Opens the inputs.
 [[nodiscard]] bool in_angstrom(const InputOptions& options);
 
-/// `command` is run or view, whichever writes this page again.
+/// Returns the labels. `command` is the command that writes this page again: run or view.
 [[nodiscard]] ReplayLabels replay_labels(const RunOptions& options, const std::string& command);
 
 }  // namespace kds

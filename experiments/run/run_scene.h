@@ -76,12 +76,12 @@ class ProgressWithinSteps final : public EventListener {
 void run_steps(KineticRun& run, const RunOptions& options,
                const std::function<void(std::size_t frame)>& at_frame);
 
-/// Does the same on the threads of the run. `at_frame` is called on the caller's thread.
+/// Like `run_steps` of a KineticRun, on the threads of the run. `at_frame` is called on the caller's thread.
 void run_steps(ParallelRun& run, const RunOptions& options,
                const std::function<void(std::size_t frame)>& at_frame);
 
-/// Follows the closest approach while the run goes on, if it has closest pairs that its kernel proves. Call
-/// it before the run.
+/// Follows the closest approach while the run goes on, if the run has the closest pair and does not use
+/// `fast`. Must be called before the run.
 void follow_approach(ParallelRun& run, const RunOptions& options);
 /// Returns the closest approach after the run, or nothing if it was not followed.
 [[nodiscard]] std::optional<ClosestApproach> followed_approach(const ParallelRun& run);

@@ -227,6 +227,7 @@ void refuse_lone_frame(const TradeOptions& options, const std::vector<Trajectory
                                  name_of(frames), necklaces.front().file));
 }
 
+// The input, and the measurements that the options ask for.
 struct TradeSubject {
   FinestData finest;
   TradeTask task;
