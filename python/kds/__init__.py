@@ -5,7 +5,7 @@
     run = kds.run(u.select_atoms("name CA"), structures=["power", "contacts"], cutoff=8)
     run.contacts.lifetimes(by="residue")
 
-Start with ``help(kds.run)``. Lengths are in angstrom and times in picoseconds. ``docs/python.md`` of the project is the
+Start with ``help(kds.run)``. Lengths are in angstrom and times in picoseconds. ``docs/python.md`` in the project is the
 manual.
 """
 
@@ -14,22 +14,22 @@ from ._analyses import (Collisions, Comparison, Conditions, Contacts, Trade, Upd
 from ._kds import AuditError, InputError
 from ._kds import version as _version
 from ._options import InputWarning
-from ._run import Run, Structure, run, run_options, structure_names
+from ._run import Run, run, run_options, structure_names
 from ._static import closest_pair, colliding_pairs, enclosing_sphere, power_diagram, wrapped_hierarchy
 from ._stepping import KineticRun, StreamFrame, stream
+from ._structure import Structure
 from ._view import View
 
 AuditError.__module__ = InputError.__module__ = "kds"
 __version__ = _version()
 __all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "Contacts", "InputError", "InputWarning",
            "KineticAnalysis", "KineticRun", "Run", "StreamFrame", "Structure", "Trade", "Updates", "View", "closest_pair",
-           "collide",
-           "colliding_pairs", "compare", "conditions", "contacts", "enclosing_sphere", "generate", "power_diagram", "run",
-           "run_options", "stream", "structure_names", "trade", "update", "wrapped_hierarchy"]
+           "collide", "colliding_pairs", "compare", "conditions", "contacts", "enclosing_sphere", "generate",
+           "power_diagram", "run", "run_options", "stream", "structure_names", "trade", "update", "wrapped_hierarchy"]
 
 
 def __getattr__(name):
-    if name == "KineticAnalysis":  # needs MDAnalysis, which is not needed otherwise
+    if name == "KineticAnalysis":  # only this class needs MDAnalysis
         from ._analysis import KineticAnalysis
 
         return KineticAnalysis

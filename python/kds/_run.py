@@ -8,6 +8,7 @@ import numpy as np
 from . import _kds, _plots
 from ._inputs import open_input
 from ._options import InputError, arguments, call, number, warn, wholes
+from ._structure import Clock, Structure, events_array
 from ._tables import indented
 from ._view import RecordedPage, view_of_new_run
 
@@ -48,124 +49,6 @@ def open_run(source, *, start=None, stop=None, step=None, units=None, necklaces=
     core = open_core(view)
     warn(core.warnings())
     return core, opened, open_core
-
-
-class Clock:
-    """Converts numbers of frames in the trajectory to times of the run, which count its steps."""
-
-    def __init__(self, first, second, frames=None):
-        self.first = first
-        self.stride = second - first
-        self.steps = None if frames is None else frames - 1  # None: frames may still come
-
-    def time(self, frame):
-        if frame is None:
-            return None
-        time = (number("frame", frame) - self.first) / self.stride
-        if self.steps is not None and not 0 <= time <= self.steps:
-            raise _kds.InputError(f"frame: {frame} is outside the run, which goes from frame {self.first} to "
-                                  f"{self.first + self.steps * self.stride}")
-        return time
-
-    def frame(self, time):
-        return self.first + time * self.stride
-
-
-def events_array(core):
-    """Returns the events since the last call as one structured array."""
-    columns = core.take_events()
-    structures = core.structures()
-    names = np.array([name for name, _ in structures] or [""])
-    width = max((len(kinds) for _, kinds in structures), default=1)
-    kinds = np.array([kinds + [""] * (width - len(kinds)) for _, kinds in structures] or [[""]])
-    beads = columns["beads"]
-    events = np.empty(len(columns["frame"]), dtype=[
-        ("frame", float), ("time", float), ("lower", float), ("upper", float), ("step", np.int64),
-        ("structure", names.dtype), ("kind", kinds.dtype), ("beads", np.int32, (beads.shape[1],))])
-    for name in ("frame", "time", "lower", "upper", "step", "beads"):
-        events[name] = columns[name]
-    events["structure"] = names[columns["structure"]]
-    events["kind"] = kinds[columns["structure"], columns["kind"]]
-    return events
-
-
-class Structure:
-    """A structure of a run. Frames are numbers of frames in the trajectory; None means where the run stands.
-
-    Frames in ascending order cost no more than one run. A frame before the one asked for last repeats the run from its
-    start up to that frame.
-    """
-
-    def __init__(self, run, name):
-        self._run = run
-        self.name = name
-
-    def __repr__(self):
-        return f"<kds structure {self.name} of {self._run!r}>"
-
-    def __str__(self):
-        return self.name
-
-    @property
-    def events(self):
-        """The events of this structure, a structured array as ``Run.events``."""
-        events = self._run.events
-        return events[events["structure"] == self.name]
-
-    def elements(self, frame):
-        """Returns the structure's state at a frame as a set of elements, an array (elements, 6) of ids.
-
-        ``frame`` is a whole number. Ids that an element does not have are -1. Elements are bases of nodes (``wrapped``),
-        supports of nodes (``boxes``), cells (``power``), pairs (``contacts``, ``closest``), ranks (``sorted``), ends
-        (``box``) or corners (``hull``); docs/python.md lists their ids.
-        """
-        number("frame", frame)  # None is no frame here
-        time = self._run._clock.time(frame)
-        if time != int(time):
-            raise _kds.InputError(f"frame: {frame} is no frame of the run")
-        return self._run._core.elements(self.name, int(time))[0]
-
-    def edges(self, frame=None):
-        """Returns the pairs of beads whose cells of the power diagram share a face, an array (m, 2), ascending."""
-        self._only("power", "edges")
-        return self._run._core.edges(self._run._clock.time(frame))
-
-    def pairs(self, frame=None):
-        """Returns the pairs of beads in contact, an array (m, 2), ascending."""
-        self._only("contacts", "pairs")
-        return self._run._core.contacts(self._run._clock.time(frame))
-
-    def spheres(self, frame=None):
-        """Returns the spheres of a hierarchy's nodes, an array (nodes, 4): x, y, z and radius in angstrom."""
-        return self._spheres(frame)[1]
-
-    def nodes(self, frame=None):
-        """Returns the first and the last bead of each node of ``spheres``, an array (nodes, 2)."""
-        return self._spheres(frame)[0]
-
-    def lifetimes(self, by=None, **options):
-        """Returns a table of how long contacts last, one row for each pair that is ever in contact.
-
-        ``by`` is ``residue``, ``bead`` or ``chain`` (default: residue if the input names residues, otherwise bead). The
-        other options are those of :func:`kds.contacts`. Lengths of time are in picoseconds if the frames have times,
-        otherwise in frames. Runs the contacts again over all frames, at the cutoff of the run.
-        """
-        return self.analysis(by=by, **options).rows
-
-    def analysis(self, by=None, **options):
-        """Returns the result of :func:`kds.contacts` over the frames of the run, at the cutoff of the run."""
-        self._only("contacts", "analysis")
-        return self._run._contacts(by=by, **options)
-
-    def _spheres(self, frame):
-        nodes, spheres = self._run._core.spheres(self.name, self._run._clock.time(frame))
-        if len(nodes) == 0:
-            raise AttributeError(f"{self.name} has no spheres; hierarchies such as wrapped have")
-        return nodes, spheres
-
-    def _only(self, name, function):
-        if self.name != name:
-            raise AttributeError(f"{self.name} has no {function}; {name} has")
 
 
 class Run:
@@ -268,7 +151,7 @@ class Run:
 
         ``path`` is the file that the page is written to (default: no file). ``kds.run(..., view=path)`` writes the page
         while it runs; otherwise this function runs the structures again, on one thread. Raises InputError if the input
-        is no longer what it was.
+        has changed.
         """
         if self._page is not None and self._page.is_at(path):
             return self._page.view()
@@ -278,7 +161,7 @@ class Run:
             core.keep_events(False)
             call(core.execute, verbose=verbose)
             if f"{core.fingerprint():016x}" != self.fingerprint:
-                raise _kds.InputError("view: the input has changed since the run; expected the frames of the run")
+                raise InputError("view: the input has changed since the run; expected the frames of the run")
             core.write_view()
 
         return view_of_new_run(write, path)
@@ -335,7 +218,7 @@ def run(source, *, start=None, stop=None, step=None, structures=None, radius=Non
     ----------
     source : path, list of paths, array, AtomGroup, mdtraj Trajectory or iterable
         Positions of the beads in every frame. An array has the shape (frames, beads, 3), float32 or float64 in C order;
-        it is not copied and must not change while the run is in use. A path is any file that ``kds run`` reads. Frames
+        it is not copied and must not change while the run is used. A path is any file that ``kds run`` reads. Frames
         of an AtomGroup are copied, and its trajectory then stands at the frame where it stood. An iterable gives arrays
         (beads, 3), pairs of an array and a time in picoseconds, or objects with ``positions``.
     start, stop, step : int
@@ -357,7 +240,7 @@ def run(source, *, start=None, stop=None, step=None, structures=None, radius=Non
         takes one thread.
     threads : int
         The run is cut at frames, and its parts run on up to this many threads (default: all cores). Events and
-        fingerprint are the same. A warning says why a run takes one thread although more are asked for.
+        fingerprint do not depend on the number. If a run cannot be cut, a warning says why.
     necklaces : list of int
         The number of beads of each necklace, one after the other, for positions in memory (default: one, or the chains).
     times : array

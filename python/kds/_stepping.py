@@ -3,9 +3,10 @@
 import numpy as np
 
 from . import _kds
-from ._inputs import _refuse_others, check_units, frame_of, is_frames
+from ._inputs import check_unit_name, check_units, frame_of, is_frames, refuse_others
 from ._options import InputError, number, numbers, warn, whole, wholes
-from ._run import Clock, Structure, events_array, more_options, open_run, run_arguments
+from ._run import more_options, open_run, run_arguments
+from ._structure import Clock, Structure, events_array
 
 
 def _warn_of_threads(options):
@@ -18,7 +19,7 @@ class KineticRun:
 
     ``KineticRun(source, **options)`` takes everything that :func:`kds.run` takes. The run stands at its first frame.
     Frames are numbers of frames in the trajectory; 2.25 lies a quarter of the way from frame 2 to the next frame.
-    Functions that let time pass return the events on the way, a structured array as ``Run.events``.
+    Functions that let time pass return the events of that time, a structured array as ``Run.events``.
 
     >>> import kds
     >>> run = kds.KineticRun(kds.generate("spiral", beads=30, frames=5), radius=1, structures=["contacts"])
@@ -104,7 +105,7 @@ class KineticRun:
         return events_array(self._core) if self._core.step() else None
 
     def next_event(self):
-        """Runs to the next time at which something happens. Returns the events then, or None if nothing follows."""
+        """Runs to the next time of events. Returns the events of that time, or None if no event follows."""
         return events_array(self._core) if self._core.next_event() else None
 
     def go_to(self, frame):
@@ -126,11 +127,11 @@ class KineticRun:
         self._core.audit()
 
     def insert(self, structure, bead):
-        """Adds a bead to a structure, within a step, from now on. Returns the events that this causes."""
+        """Adds a bead to a structure from the present time on, within a step. Returns the events that the edit causes."""
         return self._edit(self._core.insert, self._place(structure), whole("bead", bead, 0))
 
     def erase(self, structure, bead):
-        """Removes a bead from a structure, within a step, from now on. Returns the events that this causes."""
+        """Removes a bead from a structure from the present time on, within a step. Returns the events that the edit causes."""
         return self._edit(self._core.erase, self._place(structure), whole("bead", bead, 0))
 
     def control_points(self):
@@ -138,10 +139,10 @@ class KineticRun:
         return self._core.control_points()
 
     def bend(self, beads, points):
-        """Gives beads other curves from now on, within a step. Returns the events that this causes.
+        """Gives beads other curves from the present time on, within a step. Returns the events that the edit causes.
 
         ``points`` has the shape (beads, degree + 1, dimension): control points for the whole step, including the part
-        before now. At the end of the step each bead must be where the next frame has it.
+        before the present time. At the end of the step each bead must be where the next frame has it.
         """
         return self._edit(self._core.bend, wholes("beads", beads), numbers("points", points))
 
@@ -177,9 +178,6 @@ class _Standing(Structure):
     def analysis(self, by=None, **options):
         raise AttributeError("analysis: is of kds.run and kds.contacts")
 
-    def __repr__(self):
-        return f"<kds structure {self.name} of {self._run!r}>"
-
 
 class StreamFrame:
     """A frame of :func:`kds.stream`: ``frame`` (its number), ``time`` (picoseconds or None) and ``events``, those since the
@@ -207,7 +205,8 @@ def stream(source, *, start=None, stop=None, step=None, radius=None, necklaces=N
     ``frame.events`` (those since the frame before) and the structures, as in ``frame.power.edges()``. Frames of an
     AtomGroup or of files are read twice if ``radius`` is ``auto``.
 
-    An iterable gives its frames only once: then ``radius`` must be a number or one for each bead, or ``cutoff`` is given.
+    An iterable gives its frames only once. ``radius`` must then be a number or one for each bead, unless ``cutoff`` is
+    given.
 
     >>> import kds
     >>> spiral = kds.generate("spiral", beads=30, frames=5)
@@ -233,12 +232,11 @@ def _stream_frames(source, **options):
 def _stream_pushed(source, chosen, radius, necklaces, units, options):
     import itertools
 
-    if units not in (None, "angstrom", "nm"):
-        raise InputError(f"units: is '{units}'; expected angstrom or nm")
+    check_unit_name(units)
     if isinstance(radius, str) or (radius is None and options.get("cutoff") is None):
         raise InputError("radius: frames that come one by one have no longest bond; expected a number, one for each bead, "
                          "or a cutoff")
-    _refuse_others(source)
+    refuse_others(source)
     for name, value in (("start", chosen.start), ("stop", chosen.stop), ("step", chosen.step)):
         if value is not None:
             whole(name, value, 1 if name == "step" else 0)
