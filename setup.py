@@ -1,11 +1,12 @@
 """Builds the Python module with CMake, for `pip install .`. The version is that of CMakeLists.txt.
 
-KDS_BUILD names a build folder that is configured with -DKDS_PYTHON_MODULE=ON; what it has built is then used again. Without
-it, the folder is build/pip. A folder that is not configured yet is configured with CMAKE_ARGS, separated by blanks, too.
+KDS_BUILD names a build folder that is configured with -DKDS_PYTHON_MODULE=ON (default: build/pip). What the folder has built
+already is used again. If the folder is not configured, CMake is called with the options in CMAKE_ARGS, separated by blanks.
 """
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -18,8 +19,6 @@ ROOT = Path(__file__).resolve().parent
 
 class BuildByCMake(build_ext):
     def build_extension(self, extension):
-        import shutil
-
         target = Path(self.get_ext_fullpath(extension.name)).resolve()
         build = Path(os.environ.get("KDS_BUILD", ROOT / "build" / "pip")).resolve()
         if not (build / "CMakeCache.txt").exists():

@@ -30,7 +30,7 @@ class Contacts(Result):
     ``survival``
         the survival function of Kaplan and Meier with its 95% band.
     ``frames``
-        what a look at frames alone would have told, by the spacing of frames.
+        the same figures as frames alone show them, by the spacing of frames.
     ``all``
         the figures of all contacts together, a dictionary.
     ``unit``
@@ -79,7 +79,7 @@ def cutoff_text(cutoff):
 
 def contacts(source, *, cutoff, by=None, gap=0, surface=False, start=None, stop=None, step=None, radius=None, units=None,
              necklaces=None, times=None, groups=None, verbose=False, **options):
-    """Measures how long contacts last, exactly, and what a look at frames alone would have told.
+    """Measures how long contacts last, exactly, and as frames alone show them.
 
     ``source``, ``start``, ``stop``, ``step``, ``radius``, ``units``, ``necklaces``, ``times`` and ``groups`` are those of
     :func:`kds.run`. ``cutoff`` is the distance in angstrom within which centres are in contact (surfaces if

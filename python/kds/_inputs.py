@@ -35,12 +35,13 @@ def is_paths(source):
 
 
 def is_frames(source):
-    """Whether the source has all its frames: they can be read more than once."""
+    """Whether the frames of the source can be read more than once."""
     return (is_path(source) or is_paths(source) or is_atom_group(source) or is_mdtraj(source)
             or hasattr(source, "__array__"))
 
 
-def _refuse_others(source):
+def refuse_others(source):
+    """Refuses objects that are no input."""
     if hasattr(source, "select_atoms") and hasattr(source, "trajectory"):
         raise InputError("Universe: all its atoms are seldom one necklace; expected an AtomGroup, such as "
                          "u.select_atoms('name CA')")
@@ -94,6 +95,11 @@ def _array(source):
     return np.asarray(source)
 
 
+def check_unit_name(units):
+    if units is not None and units not in _UNITS:
+        raise InputError(f"units: is '{units}'; expected angstrom or nm")
+
+
 def check_units(positions, nanometres, label):
     """Warns if the median bond of a frame is so short that the unit is probably another one."""
     if len(positions) < 2 or positions.ndim != 2:
@@ -135,7 +141,7 @@ def _indices_of_beads(count):
 
 
 def _add_chains(beads, necklaces, keys, names):
-    """Adds a chain for each run of equal keys, or those that the user gives."""
+    """Adds the chains that the user gives, otherwise a chain for each run of equal keys."""
     if necklaces is not None:
         for k, count in enumerate(wholes("necklaces", necklaces, 1)):
             beads.add_chain(chr(65 + k) if k < 26 else str(k), count)
@@ -186,7 +192,7 @@ def _beads_of_group(group, label, wants_elements, necklaces, groups):
 
 def _has_times(trajectory):
     """Whether the times of a trajectory are known. Many writers of DCD leave the time step at 1 in CHARMM's unit, which
-    MDAnalysis takes for 0.0489 ps. The program does not."""
+    MDAnalysis reads as 0.0489 ps. The program takes such times as unknown."""
     return trajectory.format != "DCD" or abs(trajectory.dt - 0.04888821) > 1e-6
 
 
@@ -198,8 +204,8 @@ def _positions_of_group(group, count, frame):
 
 
 class _Kept:
-    """Puts a trajectory back to the frame where it stood. MDAnalysis divides by zero in a file with empty cells, which
-    NumPy would warn of at each frame."""
+    """Returns a trajectory to the frame where it stood. Silences NumPy meanwhile, because MDAnalysis divides by zero at
+    each frame of a file with empty cells."""
 
     def __init__(self, trajectory):
         self.trajectory = trajectory
@@ -218,8 +224,8 @@ class _Kept:
 
 
 def _collect_group(group, beads, chosen):
-    """Copies the frames of an AtomGroup. With a cell, the frames between those asked for are copied, too: the
-    library follows the images of chains through them."""
+    """Copies the frames of an AtomGroup. If there is a cell, the frames between those asked for are copied too, because
+    the library follows the images of chains from frame to frame."""
     with _Kept(group.universe.trajectory) as trajectory:
         trajectory[chosen.start]
         has_cell = trajectory.ts.dimensions is not None
@@ -293,7 +299,7 @@ def _open_array(source, chosen_of, units, necklaces, times, groups):
     if hasattr(source, "__array__"):
         positions = _array(source)
     else:
-        # Trajectories give views of one buffer, so each frame is copied before the next one comes.
+        # A trajectory reuses one buffer for all frames, so each frame is copied.
         frames = []
         for k, item in enumerate(source):
             positions, time = frame_of(item, f"frame {k}")
@@ -326,7 +332,7 @@ def _open_positions(positions, beads, chosen_of, more):
 
 
 def _path_text(path):
-    """Returns a path as an argument of the program, which does not take it for an option."""
+    """Returns a path as an argument that the program does not take for an option."""
     text = os.fspath(path)
     if "\0" in text or text != text.encode("utf-8", "replace").decode("utf-8"):
         raise InputError(f"{text!r}: is no path in UTF-8; expected one without null characters")
@@ -359,14 +365,13 @@ def open_input(source, *, start=None, stop=None, step=None, units=None, necklace
     for name in ("topology", "select", "chain", "format", "until_damage"):
         if (options or {}).get(name):
             raise InputError(f"{name}: is for files; positions in memory are the beads that were chosen")
-    if units is not None and units not in _UNITS:
-        raise InputError(f"units: is '{units}'; expected angstrom or nm")
+    check_unit_name(units)
     if (is_atom_group(source) or is_mdtraj(source)) and units is not None:
         raise InputError("units: an AtomGroup and an mdtraj Trajectory have their own; expected no units")
     if (is_atom_group(source) or is_mdtraj(source)) and times is not None:
         raise InputError("times: an AtomGroup and an mdtraj Trajectory have their own; expected no times, or dt")
     if not is_frames(source):
-        _refuse_others(source)
+        refuse_others(source)
 
     def chosen_of(frames, label):
         return _indices(start, stop, step, frames, label)

@@ -15,7 +15,7 @@ _RENAMED = {"frames": "start, stop, step", "format": "a path with the ending of 
 
 
 class InputWarning(UserWarning):
-    """Something about the input that the user should know: chain breaks, doubtful units, unused cells."""
+    """A doubt about the input: a chain break, a doubtful unit, an unused cell."""
 
 
 def warn(lines):
@@ -87,7 +87,7 @@ def _text(value):
 
 def arguments(options, own=()):
     """Returns the arguments of the program for a dictionary of options. None and False are left out. `own` are options
-    that the function takes although others do not."""
+    that only the calling function takes."""
     found = []
     for name, value in options.items():
         if name == "help":

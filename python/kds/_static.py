@@ -15,7 +15,7 @@ def power_diagram(centers, radius):
     """Returns the edges of the power diagram, an array (m, 2), and the hidden beads.
 
     ``centers`` is an array (beads, 3) or (beads, 2), ``radius`` a number or one for each bead. An edge joins two beads
-    whose cells share a face.
+    whose power cells share a facet.
 
     >>> import kds
     >>> edges, hidden = kds.power_diagram([[0, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 2]], 1)
@@ -61,7 +61,7 @@ def colliding_pairs(centers, radius, *, within=0, apart=2, necklaces=()):
 
 
 def closest_pair(centers, radius, *, apart=2, necklaces=()):
-    """Returns the closest pair of balls and the distance of their surfaces, or None if no pair is asked for.
+    """Returns the closest pair of balls and the distance of their surfaces, or None if no pair is at least ``apart`` apart.
 
     >>> import kds
     >>> kds.closest_pair([[0, 0, 0], [2, 0, 0], [9, 0, 0]], 1)
