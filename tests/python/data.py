@@ -28,7 +28,7 @@ def program(*arguments):
 
 
 def program_events(*arguments):
-    """Returns the events that `kds run --events` writes, as tuples of frame, structure, kind and beads."""
+    """Returns the events that `kds run --events` writes, a dictionary for each line of the CSV."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "events.csv")
         program("run", *arguments, "--events", path)

@@ -1,7 +1,7 @@
 """Installs the module with pip into a virtual environment without a network, and uses it there.
 
-KDS_BUILD names a build folder with the module, so that nothing is compiled. Exit code 77 (skipped) if pip has not what it
-needs.
+KDS_BUILD names a build folder with the module, so that nothing is compiled. Exit code 77 (skipped) if pip lacks a package
+that it needs.
 """
 
 import os

@@ -1,5 +1,5 @@
-// A structure of one's own in the Python module: registers `nearest` before the module is used.
-// CMake takes this file by -DKDS_PYTHON_EXTENSIONS.
+// Registers the structure `nearest` of tests/extension/ when the Python module is loaded. The CMake option
+// KDS_PYTHON_EXTENSIONS takes this file.
 #include "structures/session/structure_spec.h"
 #include "tests/extension/nearest.h"
 

@@ -1,4 +1,4 @@
-"""What documents say about the module is true: examples of docstrings and of docs/python.md run, stubs fit."""
+"""Examples of docstrings and of docs/python.md run, and stubs have the signatures of the module."""
 
 import ast
 import contextlib
