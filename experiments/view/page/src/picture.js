@@ -22,7 +22,7 @@ export class Picture {
         const words = state.layersNamed(name).map(({ layer }) => layer.set.packed);
         const all = words.length === 1 ? words[0] : Uint32Array.from(words.flatMap((list) => [...list]));
         // Many lines would cover each other, so they are fainter.
-        const [few, most, least] = name === "edges" ? [400, 150, 40] : [60, 230, 110];
+        const [few, most, least] = name === "edges" ? [400, 150, 40] : [60, 230, all.length / 2 > 2000 ? 60 : 110];
         const alpha = Math.max(least, most * Math.min(1, Math.sqrt(few / (all.length / 2))));
         target.setPairs(all, 2, rgb(scene.colours[name]), alpha);
       }

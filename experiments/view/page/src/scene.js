@@ -24,7 +24,7 @@ export const hasWebGL2 = () => document.createElement("canvas").getContext("webg
 const linked = { ends: [Uint32Array, 2, false], tint: [Uint8Array, 4, true], dash: [Uint8Array, 1, false] };
 const ringed = { bead: [Uint32Array, 1, false], tint: [Uint8Array, 4, true] };
 
-const manyEdges = 20000;  // above, edges are thin lines
+const manyPairs = 20000;  // above, the pairs of a layer are thin lines
 
 const textHeight = 56;  // pixels above the scene that the text takes
 
@@ -96,10 +96,13 @@ export class Scene {
       order: 0,
     });
     this.chain = segments(1, 3);
-    const edges = this.meta.structures.flatMap(({ layers }) => layers).filter(({ name }) => name === "edges");
-    const edgeCount = edges.reduce((sum, { initial }) => sum + initial, 0);
-    this.edges = edgeCount > manyEdges ? new Lines({ uniforms: this.uniforms, order: 2 }) : segments(2, 1.2);
-    this.contacts = segments(3, 3, false);
+    const pairs = (name, order, thickness, depthTest) => {
+      const layers = this.meta.structures.flatMap(({ layers }) => layers).filter((layer) => layer.name === name);
+      const count = layers.reduce((sum, { initial }) => sum + initial, 0);
+      return count > manyPairs ? new Lines({ uniforms: this.uniforms, order }) : segments(order, thickness, depthTest);
+    };
+    this.edges = pairs("edges", 2, 1.2, true);
+    this.contacts = pairs("contacts", 3, 3, false);
     this.cages = new Instances({
       vertex: shaders.cageVertex,
       fragment: shaders.cageFragment,
