@@ -11,6 +11,7 @@
 
 #include "certificates/exact/exact_time.h"
 #include "kds/kinetic_structure.h"
+#include "motions/base/interruption.h"
 #include "motions/numbers/lanes.h"
 
 namespace kds {
@@ -85,6 +86,7 @@ void Simulator::build() {
   if (phase_ == Phase::within_step) require(Phase::between_steps, "build()");
   phase_ = Phase::between_steps;
   for (std::size_t s = 0; s < structures_.size(); ++s) {
+    InterruptionCheck::ask();
     watch_.charge(lane_of(s));
     structures_[s]->build();
     watch_.charge(Stopwatch::stopped);
@@ -126,6 +128,7 @@ void Simulator::start_step() {
   begin_step();
   MutationScope mutation(*this);
   for (std::size_t s = 0; s < structures_.size(); ++s) {
+    InterruptionCheck::ask();
     watch_.charge(lane_of(s));
     structures_[s]->start_step();
   }
@@ -270,6 +273,7 @@ void Simulator::replay_step(std::span<const Replayed> events) {
   require(Phase::between_steps, "a step");
   begin_step();
   for (const Replayed& event : events) {
+    InterruptionCheck::ask();
     now_ = Instant(FailureTime{event.lower, event.upper, 0, false});
     watch_.charge(lane_of(event.structure));
     try {
@@ -290,6 +294,7 @@ bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
   const bool alone = structures_.size() == 1;  // then the engine's time is charged to the structure
   watch_.charge(alone ? lane_of(0) : engine_lane);
   while (true) {
+    InterruptionCheck::ask();
     if ((audits_ == AuditMode::events || must_settle()) && is_batch_over()) {
       settle_batch();
       if (audits_ == AuditMode::events) static_cast<void>(audit_before(next_failure()));
@@ -379,6 +384,7 @@ void Simulator::retire_present() {
 void Simulator::audit(const Dyadic& time) {
   const std::size_t before = watch_.charge(Stopwatch::stopped);
   for (KineticStructure* structure : structures_) {
+    InterruptionCheck::ask();
     ++structure->statistics.audits_run;
     if (const auto difference = structure->audit(time)) {
       ++structure->statistics.audits_failed;
@@ -438,6 +444,7 @@ void Simulator::begin_relayed_step(std::size_t step, const FrameStamp& from, con
 }
 
 void Simulator::relay(std::size_t structure, const Change& change, const RelayedTime& time) {
+  InterruptionCheck::ask();
   const ComputeScope scope(*this);
   require_index("structure", structure, structures_.size());
   if (time.first_at_its_time) ++moment_;

@@ -4,10 +4,17 @@
 #include <utility>
 
 #include "certificates/exact/recent_functions.h"
+#include "motions/base/interruption.h"
 
 namespace kds {
 
-ExactWork::ExactWork() : recent_(std::make_unique<RecentFunctions>()) {}
+namespace {
+
+constexpr std::uint64_t a_millisecond = 1U << 20U;  // of limb operations, roughly
+
+}  // namespace
+
+ExactWork::ExactWork() : recent_(std::make_unique<RecentFunctions>()) { set_next_stop(); }
 ExactWork::~ExactWork() = default;
 
 ExactWork& ExactWork::current() {
@@ -35,6 +42,7 @@ std::optional<Identity> ExactWork::subject() const {
 
 void ExactWork::stop() {
   if (done_ > limit_) throw WorkLimitReached(subject());
+  InterruptionCheck::ask();
   if (done_ >= next_watch_) {
     next_watch_ = done_ + watch_every_;
     watcher_();
@@ -43,7 +51,7 @@ void ExactWork::stop() {
 }
 
 void ExactWork::set_next_stop() {
-  next_stop_ = std::min(next_watch_, limit_ == no_limit ? no_limit : limit_ + 1);
+  next_stop_ = std::min({done_ + a_millisecond, next_watch_, limit_ == no_limit ? no_limit : limit_ + 1});
 }
 
 }  // namespace kds

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "motions/base/interruption.h"
+
 namespace kds {
 
 bool FrameBuffer::next(FrameRead& frame) {
@@ -42,6 +44,7 @@ SharedFrames FrameBuffer::read_ahead(std::size_t first, std::size_t last) {
       source_next_ = k + 1;
       kept_.push_back(there ? std::move(frame) : nullptr);
     } catch (...) {
+      InterruptionCheck::ask();  // an interruption is no error of a frame
       error_ = std::current_exception();
     }
   }

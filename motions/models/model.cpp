@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "motions/base/input_error.h"
+#include "motions/base/interruption.h"
 #include "motions/models/shape_motion.h"
 #include "motions/models/shapes.h"
 
@@ -63,8 +64,10 @@ double at(const Span& span, std::size_t frame, std::size_t frames) {
 
 std::vector<Shape> rolling(const Settings& s) {
   std::vector<Shape> frames;
-  for (std::size_t k = 0; k < s.frames; ++k)
+  for (std::size_t k = 0; k < s.frames; ++k) {
+    InterruptionCheck::ask();
     frames.push_back(spiral(s.beads, *s.turns, at(*s.rolled, k, s.frames), *s.bond));
+  }
   return frames;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "motions/base/interruption.h"
 #include "motions/models/elementary.h"
 #include "motions/scene/near_pairs.h"
 
@@ -85,6 +86,7 @@ std::vector<Shape> rotating(const Shape& shape, std::size_t frames, double step,
   if (turns == 0) return std::vector<Shape>(frames, shape);
   std::vector<Shape> result{shape};
   for (std::size_t frame = 1; frame < frames; ++frame) {
+    InterruptionCheck::ask();
     const auto [sine, cosine] = sine_cosine(turns * static_cast<double>(frame));
     Shape turned = shape;
     for (Index b = 0; b < shape.cols(); ++b) {
@@ -106,6 +108,7 @@ std::vector<Shape> wandering(const Shape& shape, std::size_t frames, double step
     const Neighbours neighbours(before, step * radius);
     Shape now = before;
     for (Index bead = 0; bead < now.cols(); ++bead) {
+      InterruptionCheck::ask();
       for (int n = 0; n < tries; ++n) {
         const Vector3d place = before.col(bead) + step * radius * random.direction(dimension);
         if (!keeps_bonds(before, now, bead, place)) continue;

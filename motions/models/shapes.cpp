@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "motions/base/input_error.h"
+#include "motions/base/interruption.h"
 
 namespace kds::models {
 
@@ -232,6 +233,7 @@ Shape random_chain(std::size_t beads, double fill, Random& random, double bond) 
   Occupied occupied;  // all beads except the last
   std::size_t dead_ends = 0;
   while (chain.size() < beads) {
+    InterruptionCheck::ask();
     int tries = tries_a_bead;
     for (; tries > 0; --tries) {
       const Eigen::Vector3d next = chain.back() + 2 * radius * bond * random.direction();

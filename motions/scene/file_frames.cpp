@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "motions/base/input_error.h"
+#include "motions/base/interruption.h"
 #include "motions/base/text_input.h"
 #include "motions/frames/periodic.h"
 
@@ -21,6 +22,7 @@ FileFrames::FileFrames(std::vector<NecklaceStream> files)
 }
 
 bool FileFrames::next(FrameRead& frame) {
+  InterruptionCheck::ask();
   std::optional<std::size_t> more, truncated;  // files that give a frame, or have lost it
   for (std::size_t f = 0; f < files_.size(); ++f) {
     if (files_[f].next(present_[f])) {
