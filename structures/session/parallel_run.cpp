@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -14,6 +15,7 @@
 #include "certificates/base/kernel.h"
 #include "kds/simulator.h"
 #include "motions/base/floating_point_guard.h"
+#include "motions/base/interruption.h"
 #include "motions/frames/frame_buffer.h"
 
 namespace kds {
@@ -25,6 +27,10 @@ constexpr std::size_t least_steps_of_part = 4, least_bead_steps_of_part = 20'000
 // Longer parts keep more frames and events in memory.
 constexpr std::size_t most_steps_of_part = 512, most_coordinates_of_part = std::size_t{1} << 22U;
 constexpr std::size_t parts_per_thread = 8;
+constexpr std::chrono::milliseconds between_asks{20};
+
+/// Ends the parts under way when the run ends early.
+struct RunHasEnded {};
 
 /// Returns the number of steps of each part; `threads` becomes the number of threads that have parts.
 std::size_t length_of_parts(const Scene& scene, std::size_t& threads) {
@@ -212,7 +218,7 @@ class ParallelRun::Workers {
       stopping_ = true;
       waiting_.clear();
     }
-    run_.is_stopped_ = true;  // the parts under way end after their step
+    run_.is_stopped_ = true;  // the parts under way end soon
     changed_.notify_all();
     for (std::thread& thread : threads_) thread.join();
   }
@@ -228,8 +234,12 @@ class ParallelRun::Workers {
   void wait_for(const Part& part) {
     std::unique_lock lock(mutex_);
     while (!part.done) {
+      lock.unlock();
+      InterruptionCheck::ask();
+      lock.lock();
+      if (part.done) return;
       if (waiting_.empty()) {
-        changed_.wait(lock);
+        changed_.wait_for(lock, between_asks);
       } else {
         run_first(lock);
       }
@@ -418,6 +428,9 @@ std::unique_ptr<ParallelRun::Part> ParallelRun::read_part(std::size_t first) con
 /// Runs the part from a static build, or goes on with `worker`. Exceptions are kept in the part.
 void ParallelRun::run_part(Part& part, std::unique_ptr<Worker> worker) const {
   const bool is_fresh = worker == nullptr;
+  const InterruptionCheck ends_with_run([this] {
+    if (is_stopped_) throw RunHasEnded();
+  });
   try {
     if (is_fresh) worker = std::make_unique<Worker>(scene_, options_, additions_, listeners_);
     worker->frames.add(part.frames);
