@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "motions/base/floating_point_guard.h"
+#include "motions/base/interruption.h"
 #include "structures/blocks/float_frame.h"
 
 namespace kds {
@@ -103,6 +104,7 @@ auto BlockTree<Dimension>::search(const Balls<Dimension>& balls, bool may_give_u
   expand_levels();
   block_pairs_.count = 0;
   const auto expand = [&](std::size_t k) {
+    InterruptionCheck::ask();
     const std::uint32_t a = nodes_.first[k], b = nodes_.second[k];
     fetch(blocks_.levels()[0][nodes_.second[std::min(k + fetched_ahead, nodes_.count - 1)]]);
     if (candidate_count_ > most_candidates_ || !asks(a, b, 0)) return;

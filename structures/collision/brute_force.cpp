@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "motions/base/floating_point_guard.h"
+#include "motions/base/interruption.h"
 #include "structures/collision/balls_meet.h"
 #include "structures/enclosing_sphere/sphere_scan.h"
 #include "structures/necklace/pairs_in_question.h"
@@ -53,12 +54,19 @@ template <int Dimension, class Distance, class Visit>
 void visit_near(const Balls<Dimension>& balls, const PairsAsked& asked, const Distance& distance,
                 const Visit& visit) {
   const FloatingPointGuard to_nearest;
-  if (!asked.groups.empty()) return PairsInQuestion(asked).for_each(visit);
+  if (!asked.groups.empty()) {
+    std::uint64_t visited = 0;
+    return PairsInQuestion(asked).for_each([&](BeadId i, BeadId j) {
+      if (++visited % beads_at_a_time == 0) InterruptionCheck::ask();
+      visit(i, j);
+    });
+  }
   Found found;
   for (std::size_t n = 0; n < asked.necklaces.size(); ++n) {
     for (BeadId i = asked.necklaces[n].first; i <= asked.necklaces[n].last; ++i) {
       for (const Run& run : asked_of(i, n, asked)) {
         for (BeadId first = run.first; first < run.end;) {
+          InterruptionCheck::ask();
           const BeadId end = first + std::min(beads_at_a_time, run.end - first);
           const std::size_t count = find_near(balls, i, distance(), first, end, found);
           for (std::size_t k = 0; k < count; ++k) visit(i, found[k]);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "motions/base/floating_point_guard.h"
+#include "motions/base/interruption.h"
 #include "motions/numbers/lanes.h"
 
 namespace kds {
@@ -160,6 +161,7 @@ void CellList<Dimension>::look_around(const Balls<Dimension>& balls, const Grid&
   constexpr std::size_t rows = dimension == 3 ? 4 : 1;
   std::array<std::uint32_t, 4> from{};  // sorted form: the first entry in or after a row of cells
   for (std::uint32_t begin = 0, end; begin < beads; begin = end) {
+    InterruptionCheck::ask();
     const std::uint64_t key = keys[begin];
     end = begin + 1;
     while (keys[end] == key) ++end;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "motions/base/floating_point_guard.h"
+#include "motions/base/interruption.h"
 #include "structures/collision/balls_meet.h"
 #include "structures/collision/node_pairs.h"
 #include "structures/necklace/ball_distance.h"
@@ -207,7 +208,7 @@ PairsFound search(std::span<const Node> nodes, std::span<const std::uint32_t> ro
       static_cast<std::uint32_t>(nodes.empty() ? 0 : nodes.size() - 1 - nodes.back().last);
   // Returns whether the two nodes have to be split.
   const auto look_at = [&](const NodePair& pair) {
-    ++found.tests;
+    if (++found.tests % 1024 == 0) InterruptionCheck::ask();
     const Separation verdict = judge(pair);
     if (verdict == Separation::apart) {
       ++found.family;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "motions/base/floating_point_guard.h"
+#include "motions/base/interruption.h"
 #include "structures/hierarchy/hierarchy_passes.h"
 #include "structures/hierarchy/parallel_passes.h"
 
@@ -41,8 +42,10 @@ void wrap_groups(NodeWrapper<Form>& wrapper, const BottomUpOrder& order,
     if (start == Start::old_bases && 2 * beads(g) <= most_in_block)
       while (g + together < groups.size() && 2 * beads(g + together) <= most_in_block) ++together;
     const auto nodes = nodes_of(order, groups, g, together);
-    for (std::size_t i = 0; i < nodes.size(); i += nodes_at_a_time)
+    for (std::size_t i = 0; i < nodes.size(); i += nodes_at_a_time) {
+      InterruptionCheck::ask();
       wrapper.wrap(nodes.data() + i, std::min(nodes_at_a_time, nodes.size() - i), start);
+    }
   }
 }
 

@@ -7,6 +7,8 @@
 #include <CGAL/Regular_triangulation_face_base_2.h>
 #include <CGAL/Regular_triangulation_vertex_base_2.h>
 #include <CGAL/Regular_triangulation_vertex_base_3.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
@@ -47,10 +49,19 @@ struct CgalTriangulation<Geometry, 2> {
                                                          CGAL::Regular_triangulation_face_base_2<Geometry>>;
   using Type = CGAL::Regular_triangulation_2<Geometry, CGAL::Triangulation_data_structure_2<Vertex, Face>>;
   using Cell = typename Type::Face_handle;
+  template <class PointOf>
+  using SortTraits = CGAL::Spatial_sort_traits_adapter_2<Geometry, PointOf>;
 
   static typename Type::Bare_point point(const typename Geometry::FT& x, const typename Geometry::FT& y,
                                          const typename Geometry::FT&) {
     return {x, y};
+  }
+  /// Inserts a point, which `near` helps to find. Moves `near` to it. Returns no vertex if the point is
+  /// hidden.
+  static auto insert(Type& t, const typename Type::Weighted_point& point, Cell& near) {
+    const auto vertex = t.insert(point, near);
+    if (vertex != typename Type::Vertex_handle()) near = vertex->face();
+    return vertex;
   }
   static auto all_cells(const Type& t) { return t.all_face_handles(); }
   static auto finite_cells(const Type& t) { return t.finite_face_handles(); }
@@ -93,10 +104,20 @@ struct CgalTriangulation<Geometry, 3> {
   using Type =
       CGAL::Regular_triangulation_3<Geometry, CGAL::Triangulation_data_structure_3<Vertex, CellBase>>;
   using Cell = typename Type::Cell_handle;
+  template <class PointOf>
+  using SortTraits = CGAL::Spatial_sort_traits_adapter_3<Geometry, PointOf>;
 
   static typename Type::Bare_point point(const typename Geometry::FT& x, const typename Geometry::FT& y,
                                          const typename Geometry::FT& z) {
     return {x, y, z};
+  }
+  static auto insert(Type& t, const typename Type::Weighted_point& point, Cell& near) {
+    typename Type::Locate_type type{};
+    int i = 0, j = 0;
+    near = t.locate(point, type, i, j, near);
+    const auto vertex = t.insert(point, type, near, i, j);
+    if (vertex != typename Type::Vertex_handle()) near = vertex->cell();
+    return vertex;
   }
   static auto all_cells(const Type& t) { return t.all_cell_handles(); }
   static auto finite_cells(const Type& t) { return t.finite_cell_handles(); }

@@ -3,8 +3,13 @@
 // few files that use CGAL.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/spatial_sort.h>
+
+#include <boost/property_map/function_property_map.hpp>
+#include <numeric>
 
 #include "motions/base/grow_little.h"
+#include "motions/base/interruption.h"
 #include "structures/triangulation/cgal_triangulations.h"
 
 namespace kds {
@@ -21,14 +26,26 @@ template <int Dimension>
   return {CgalOf<Dimension>::point(c.x(), c.y(), c.z()), weights[bead]};
 }
 
+/// Inserts all beads in the order in which CGAL inserts a range, but asks in between whether to go on.
 template <int Dimension>
 void insert_all(typename CgalOf<Dimension>::Type& triangulation, const Eigen::Matrix3Xd& centers,
                 std::span<const double> weights) {
-  std::vector<std::pair<typename CgalOf<Dimension>::Type::Weighted_point, BeadId>> points;
-  points.reserve(weights.size());
-  for (std::size_t b = 0; b < weights.size(); ++b)
-    points.emplace_back(weighted_point<Dimension>(centers, weights, b), static_cast<BeadId>(b));
-  triangulation.insert(points.begin(), points.end());
+  const auto point = [&](BeadId bead) {
+    const auto c = centers.col(static_cast<Eigen::Index>(bead));
+    return CgalOf<Dimension>::point(c.x(), c.y(), c.z());
+  };
+  std::vector<BeadId> beads(weights.size());
+  std::iota(beads.begin(), beads.end(), BeadId{0});
+  const auto point_of = boost::make_function_property_map<BeadId>(point);
+  CGAL::spatial_sort(beads.begin(), beads.end(),
+                     typename CgalOf<Dimension>::template SortTraits<decltype(point_of)>(point_of));
+  auto near = typename CgalOf<Dimension>::Cell();
+  for (const BeadId bead : beads) {
+    InterruptionCheck::ask();
+    const auto vertex =
+        CgalOf<Dimension>::insert(triangulation, weighted_point<Dimension>(centers, weights, bead), near);
+    if (vertex != typename CgalOf<Dimension>::Type::Vertex_handle()) vertex->info() = bead;
+  }
 }
 
 template <int Dimension>
