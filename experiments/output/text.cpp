@@ -42,7 +42,8 @@ std::string short_decimal(double value) {
   if (size >= 10) return fmt::format("{:.2f}", value);
   if (size >= 0.01) return fmt::format("{:.3f}", value);
   if (size >= 1e-4) return fmt::format("{:.6f}", value);
-  return fmt::format("{:.3e}", value);
+  if (size >= 1e-9) return fmt::format("{:.{}f}", value, 3 - static_cast<int>(std::floor(std::log10(size))));
+  return fmt::format("{:.3e}", value);  // so small only as an error
 }
 
 std::string tick_label(double value) {

@@ -12,7 +12,8 @@ namespace kds {
 /// Returns 1234567 as 1,234,567.
 [[nodiscard]] std::string with_thousands(std::uint64_t value);
 
-/// Returns seconds or a ratio with about four figures, never with an exponent.
+/// Returns seconds or a ratio with about four figures. From 1e-9 to 1e15 there is no exponent, so the cells
+/// of a row have one notation.
 [[nodiscard]] std::string short_decimal(double value);
 
 /// The unit of lengths, as figures name it: XYZ files, LAMMPS units lj and instance files name none.

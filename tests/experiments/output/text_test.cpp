@@ -18,7 +18,10 @@ TEST(Text, GroupsThousands) {
 TEST(Text, ShortensDecimals) {
   EXPECT_EQ(short_decimal(0), "0");
   EXPECT_EQ(short_decimal(0.00123449), "0.001234");
-  EXPECT_EQ(short_decimal(0.00000123449), "1.234e-06");
+  EXPECT_EQ(short_decimal(0.0000123449), "0.00001234");
+  EXPECT_EQ(short_decimal(0.00000123449), "0.000001234");
+  EXPECT_EQ(short_decimal(1.23449e-9), "0.000000001234");
+  EXPECT_EQ(short_decimal(1.23449e-10), "1.234e-10");
   EXPECT_EQ(short_decimal(0.12345), "0.123");
   EXPECT_EQ(short_decimal(12.345678), "12.35");
   EXPECT_EQ(short_decimal(123.45678), "123.5");
