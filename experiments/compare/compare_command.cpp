@@ -11,7 +11,9 @@
 #include "experiments/program/commands.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
+#include "experiments/run/load_scene.h"
 #include "experiments/run/run_options.h"
+#include "experiments/run/run_view.h"
 
 namespace kds {
 
@@ -80,7 +82,10 @@ const OptionList<CompareOptions>& compare_options() {
                                "repeat each run N times and report the median time, and the shortest and "
                                "longest (default: 3)"},
                               &O::rounds, 1, 1000),
-                 threads_option(&O::threads)})
+                 threads_option(&O::threads),
+                 view_option(&O::view,
+                             "run the first INPUT once more, with the first of --strides and --motions, and "
+                             "write a page that shows it in a browser to FILE (default: none)")})
           .with(
               destination_options("write compare.json, compare.csv and report.html to DIR (default: none)"));
   return list;
@@ -99,9 +104,19 @@ CompareOptions parse_compare_options(const Arguments& arguments) {
 int compare_command(const Arguments& arguments) {
   const CompareOptions options = parse_compare_options(arguments);
   TableCommand command("compare", arguments, options, "step");
-  command.check_inputs_and_destinations(options);
+  check_inputs_exist(options);
+  TakenPaths taken;
+  taken.read(options);
+  if (options.view) taken.write("--view", *options.view);
+  command.check_destinations(std::move(taken));
+  if (options.view) ensure_writable_file(*options.view, "--view");
 
   const Comparison comparison = compare_runs(options, command.progress(), command.warn());
+  if (options.view) {
+    const RunOptions run = first_run(options, comparison);
+    const Scene scene = load_scene(run, [](const std::string&) {});
+    write_run_view(run, scene, *options.view, command.add_replay(*options.view), command.progress());
+  }
 
   Json json;
   json["inputs"] = compared_inputs_json(comparison);

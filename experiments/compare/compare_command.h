@@ -2,6 +2,7 @@
 // The options of `kds compare` and their parser.
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,10 +19,11 @@ struct CompareOptions : InputOptions, Destinations {
   std::vector<std::string> structures;  ///< in the order of the registry; empty for the input's default
   std::vector<std::size_t> strides{1};  ///< ascending
   std::vector<FrameMotion> motions{FrameMotion::linear};
-  std::size_t rounds = 3;              ///< timed repetitions of each run
-  std::optional<BeadId> apart;         ///< --apart
-  std::optional<int> directions;       ///< --directions
-  std::optional<std::size_t> threads;  ///< --threads; empty for all cores
+  std::size_t rounds = 3;                     ///< timed repetitions of each run
+  std::optional<BeadId> apart;                ///< --apart
+  std::optional<int> directions;              ///< --directions
+  std::optional<std::size_t> threads;         ///< --threads; empty for all cores
+  std::optional<std::filesystem::path> view;  ///< page that shows the first run
 };
 
 /// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for

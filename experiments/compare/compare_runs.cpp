@@ -397,6 +397,26 @@ std::vector<PooledRow> pooled_rows(const Comparison& comparison) {
   return pooled;
 }
 
+namespace {
+
+/// Returns the options of one of the runs.
+RunOptions strided_run(const CompareOptions& options, const Comparison& comparison, std::size_t input,
+                       FrameMotion motion, std::size_t stride) {
+  RunOptions run = run_of(options, input, motion);
+  run.reading.frames.stride *= stride;
+  if (run.radius == "auto" && !is_instance_file(options.inputs[input]))
+    run.radius = fmt::format("{}", comparison.inputs[input].radius_min);
+  return run;
+}
+
+}  // namespace
+
+RunOptions first_run(const CompareOptions& options, const Comparison& comparison) {
+  RunOptions run = strided_run(options, comparison, 0, options.motions.front(), options.strides.front());
+  run.threads.reset();
+  return run;
+}
+
 Comparison compare_runs(const CompareOptions& options,
                         const std::function<void(std::size_t, std::size_t)>& progress, const Warn& warn) {
   for (const auto& input : options.inputs)
@@ -413,10 +433,7 @@ Comparison compare_runs(const CompareOptions& options,
   for (std::size_t i = 0; i < options.inputs.size(); ++i)
     for (const FrameMotion motion : options.motions)
       for (const std::size_t stride : options.strides) {
-        RunOptions run = run_of(options, i, motion);
-        run.reading.frames.stride *= stride;
-        if (run.radius == "auto" && !is_instance_file(options.inputs[i]))
-          run.radius = fmt::format("{}", comparison.inputs[i].radius_min);
+        const RunOptions run = strided_run(options, comparison, i, motion, stride);
         const Scene scene = load_scene(run, [](const std::string&) {});
         for (CompareRow& row : measure_runs(scene, run, options.rounds, [&] { progress(++done, total); })) {
           row.input = comparison.inputs[i].name;

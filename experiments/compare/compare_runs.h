@@ -160,6 +160,9 @@ struct Comparison {
                                                    std::size_t rounds,
                                                    const std::function<void()>& step_done);
 
+/// Returns the options of the first run of a comparison: its input, motion and stride are the first ones.
+[[nodiscard]] RunOptions first_run(const CompareOptions& options, const Comparison& comparison);
+
 /// Runs the comparison. All radii come from the frames that the options ask for, whatever the stride. Finds
 /// all errors that the user can fix before the first run and throws InputError. Each warning about an input
 /// goes to `warn` as one line.

@@ -14,6 +14,7 @@
 #include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/radius_hint.h"
+#include "experiments/run/run_view.h"
 #include "motions/base/input_error.h"
 #include "structures/necklace/pairs_in_question.h"
 
@@ -131,6 +132,21 @@ void warn_of_none(const ContactsTask& task, const Scene& scene, const ContactsRe
   warn(line);
 }
 
+/// Returns the run whose contacts are followed, within the inner cutoff, before elements and gaps are looked
+/// at.
+RunOptions run_to_show(const ContactsTask& task, const InputOptions& loaded, const Scene& scene,
+                       const ContactsReport& report) {
+  RunOptions run;
+  static_cast<InputOptions&>(run) = loaded;
+  run.structures = {"contacts"};
+  run.motion = task.motion;
+  // No two beads of a chain are as far apart as all beads.
+  run.apart = report.by == ContactElement::chain ? static_cast<BeadId>(scene.bead_count()) : report.apart;
+  run.cutoff = task.cutoff->inner;
+  run.surface = task.surface;
+  return run;
+}
+
 }  // namespace
 
 ContactsOptions parse_contacts_options(const Arguments& arguments) {
@@ -141,7 +157,11 @@ ContactsOptions parse_contacts_options(const Arguments& arguments) {
           .with(&O::destinations,
                 destination_options("write contacts.json, contacts.csv, intervals.csv, frames.csv, "
                                     "report.html and, with --certify, possible_intervals.csv to DIR "
-                                    "(default: none)"));
+                                    "(default: none)"))
+          .with(
+              {view_option(&O::view,
+                           "run once more, and write a page that shows the contacts of beads in a browser to "
+                           "FILE (default: none)")});
   O options;
   const ParsedArguments parsed = read_arguments(with_inputs(kContactsCommand), list, arguments, options);
   take_inputs(parsed, kContactsCommand.name, options.task);
@@ -163,10 +183,12 @@ int contacts_command(const Arguments& arguments) {
   check_inputs_exist(task);
   TakenPaths taken;
   taken.read(task);
+  if (options.view) taken.write("--view", *options.view);
   std::vector<std::string> files{"contacts.json", "contacts.csv", "intervals.csv", "frames.csv",
                                  "report.html"};
   if (task.certify) files.emplace_back("possible_intervals.csv");
   command.check_destinations(std::move(taken), files);
+  if (options.view) ensure_writable_file(*options.view, "--view");
 
   if (const auto instance = read_lone_instance(task))
     throw InputError(instance->file + ": an instance file has points and one step; expected a trajectory");
@@ -179,6 +201,9 @@ int contacts_command(const Arguments& arguments) {
   ContactsFigures figures = figures_of(*report);
   if (task.certify) figures.certificate = certify_contacts(task, scene, *report, command.progress());
   if (figures.all.contacts == 0) warn_of_none(task, scene, *report, warn);
+  if (options.view)
+    write_run_view(run_to_show(task, loaded, scene, *report), scene, *options.view,
+                   command.add_replay(*options.view), command.progress());
 
   Json json;
   json["input"] = input_json(task,

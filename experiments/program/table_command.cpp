@@ -149,8 +149,14 @@ Page TableCommand::page(Json settings, std::vector<std::string> data) const {
   page.command_line = command_line_;
   page.settings = std::move(settings);
   page.data = std::move(data);
-  if (destinations_.out) page.replay = replay_beside(*destinations_.out);
+  if (destinations_.out) page.replay = replay_beside(*destinations_.out, replay_);
   return page;
+}
+
+AtomicFiles& TableCommand::add_replay(const std::filesystem::path& page) {
+  replay_ = page;
+  replay_files_ = std::make_unique<AtomicFiles>();
+  return *replay_files_;
 }
 
 void TableCommand::deliver(Json json, const std::string& csv, const std::string& table,
@@ -182,11 +188,12 @@ void TableCommand::deliver_text(const std::string& json, const Json& settings, c
   }
   AtomicFiles json_file;
   if (json_path && !json_on_stdout) json_file.write(*json_path, json);
-  commit_together({files ? &*files : nullptr, &json_file});
+  commit_together({files ? &*files : nullptr, replay_files_.get(), &json_file});
   if (json_on_stdout) print_to_stdout(json);
   if (quiet || json_on_stdout) return;
   print_to_stdout(table);
   if (out && page_of) print_report_path(*out);
+  if (replay_) print_to_stdout("replay " + replay_->string() + "\n");
 }
 
 }  // namespace kds

@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -102,6 +104,9 @@ class TableCommand {
   /// Returns a page without content that says how it was made and which data files lie next to it.
   [[nodiscard]] Page page(Json settings, std::vector<std::string> data = {}) const;
 
+  /// Returns the files for a replay page at `page`, which `deliver` then links and writes with the results.
+  [[nodiscard]] AtomicFiles& add_replay(const std::filesystem::path& page);
+
   /// Adds command, version and machine to `json` and writes all results. The page also shows the member
   /// `settings` of `json`. The files in --out appear together. The table is printed unless --quiet is given
   /// or the JSON goes to standard output.
@@ -119,6 +124,8 @@ class TableCommand {
   Destinations destinations_;
   ProgressBar bar_;
   HeldWarnings held_;
+  std::optional<std::filesystem::path> replay_;
+  std::unique_ptr<AtomicFiles> replay_files_;
 };
 
 }  // namespace kds

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -298,6 +300,68 @@ TEST(View, RefusesBadOptions) {
   expect_refused({"view", data_file("kinetic/d1_n20_linear.txt"), "-o", page}, {"in the plane or in space"});
   expect_refused({"run", kVillin, "--view", kVillin}, {"--view", "is the file of an input"});
   EXPECT_EQ(scratch.entries(), 0U);
+}
+
+TEST(View, ShowsTheContactsThatKdsContactsFollows) {
+  const ScratchDirectory scratch;
+  const std::string out = scratch / "out", page = out + "/replay.html";
+  std::filesystem::create_directory(out);
+  constexpr double cutoff = 8;
+  const ProgramRun run = run_program({"contacts", kVillin, "--topology", kNames, "--select", "ca", "--frames",
+                                      "0:12", "--cutoff", "8", "--apart", "4", "--out", out, "--view", page});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("replay " + page));
+  EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("<a href=\"replay.html\">"));
+  const ReplayData data(content_of(page));
+  const auto positions = data.positions();
+  ASSERT_EQ(positions.size(), 12U);
+  std::size_t pairs = 0;
+  for (std::size_t frame = 0; frame < positions.size(); ++frame) {
+    const State state = data.state("contacts", frame);
+    for (std::uint32_t i = 0; i < positions[frame].size(); ++i) {
+      for (std::uint32_t j = i + 1; j < positions[frame].size(); ++j) {
+        double square = 0;
+        for (int axis = 0; axis < 3; ++axis)
+          square += std::pow(positions[frame][i][axis] - positions[frame][j][axis], 2);
+        const double distance = std::sqrt(square);
+        if (std::abs(distance - cutoff) < 0.05) continue;  // positions are rounded
+        EXPECT_EQ(state.contains({i, j}), distance < cutoff && j - i >= 4) << frame << ": " << i << " " << j;
+        pairs += state.contains({i, j}) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(pairs, 100U);
+  const std::string by_chain = scratch / "chains.html";
+  ASSERT_EQ(run_program({"contacts", kVillin, "--topology", kNames, "--frames", "0:2", "--cutoff", "8",
+                         "--by", "chain", "--obstacle", kNames, "--view", by_chain, "--quiet"})
+                .code,
+            0);
+  const ReplayData chains(content_of(by_chain));
+  const std::uint32_t first_of_second = chains.meta["necklaces"][0];
+  const State between = chains.state("contacts", 0);
+  EXPECT_FALSE(between.empty());
+  for (const Ids& pair : between) EXPECT_TRUE(pair[0] < first_of_second && pair[1] >= first_of_second);
+}
+
+TEST(View, ShowsTheFirstRunOfAComparison) {
+  const ScratchDirectory scratch;
+  const std::string out = scratch / "out", page = out + "/replay.html";
+  std::filesystem::create_directory(out);
+  const ProgramRun run = run_program({"compare", kVillin, "--topology", kNames, "--frames", "0:12",
+                                      "--strides", "2,4", "--motions", "hermite,linear", "--structures",
+                                      "wrapped,contacts", "--rounds", "1", "--out", out, "--view", page});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("<a href=\"replay.html\">"));
+  const ReplayData data(content_of(page));
+  EXPECT_EQ(data.words("frames"), (Ids{0, 2, 4, 6, 8, 10}));
+  EXPECT_EQ(data.meta["motion"], "linear");  // the first in the order of motions
+  const auto rows = nlohmann::json::parse(content_of(out + "/compare.json"))["rows"];
+  for (std::size_t s = 0; s < 2; ++s) {
+    EXPECT_EQ(rows[s]["structure"], data.meta["structures"][s]["name"]);
+    EXPECT_EQ(rows[s]["events"], data.meta["structures"][s]["events"]);
+  }
+  expect_refused({"compare", kVillin, "--view", kVillin}, {"--view"});
+  expect_refused({"contacts", kVillin, "--cutoff", "8", "--view", kVillin}, {"--view"});
 }
 
 }  // namespace
