@@ -132,12 +132,19 @@ void warn_of_none(const ContactsTask& task, const Scene& scene, const ContactsRe
   warn(line);
 }
 
+/// Returns the options with which the input is read. Centres have contacts whatever the radii, so `auto` is
+/// not computed for them.
+InputOptions options_of_input(const ContactsTask& task) {
+  InputOptions options = task;
+  if (!task.surface && task.radius == "auto") options.radius = "1";
+  return options;
+}
+
 /// Returns the run whose contacts are followed, within the inner cutoff, before elements and gaps are looked
 /// at.
-RunOptions run_to_show(const ContactsTask& task, const InputOptions& loaded, const Scene& scene,
-                       const ContactsReport& report) {
+RunOptions run_to_show(const ContactsTask& task, const Scene& scene, const ContactsReport& report) {
   RunOptions run;
-  static_cast<InputOptions&>(run) = loaded;
+  static_cast<InputOptions&>(run) = options_of_input(task);
   run.structures = {"contacts"};
   run.motion = task.motion;
   // No two beads of a chain are as far apart as all beads.
@@ -176,6 +183,20 @@ ContactsOptions parse_contacts_options(const Arguments& arguments) {
   return options;
 }
 
+ContactsFound find_contacts(const ContactsTask& task,
+                            const std::function<void(std::size_t, std::size_t)>& progress,
+                            const std::function<void(const std::string&)>& warn) {
+  if (const auto instance = read_lone_instance(task))
+    throw InputError(instance->file + ": an instance file has points and one step; expected a trajectory");
+  ContactsFound found;
+  found.scene = std::make_unique<const Scene>(load_necklaces(options_of_input(task), task.motion, 1, warn));
+  found.report = follow_contacts(task, *found.scene, progress);
+  found.figures = figures_of(*found.report);
+  if (task.certify) found.figures.certificate = certify_contacts(task, *found.scene, *found.report, progress);
+  if (found.figures.all.contacts == 0) warn_of_none(task, *found.scene, *found.report, warn);
+  return found;
+}
+
 int contacts_command(const Arguments& arguments) {
   const ContactsOptions options = parse_contacts_options(arguments);
   const ContactsTask& task = options.task;
@@ -190,20 +211,13 @@ int contacts_command(const Arguments& arguments) {
   command.check_destinations(std::move(taken), files);
   if (options.view) ensure_writable_file(*options.view, "--view");
 
-  if (const auto instance = read_lone_instance(task))
-    throw InputError(instance->file + ": an instance file has points and one step; expected a trajectory");
-  const TableCommand::Warn warn = command.warn();
-  InputOptions loaded = task;
-  if (!task.surface && task.radius == "auto")
-    loaded.radius = "1";  // centres have contacts whatever the radii
-  const Scene scene = load_necklaces(loaded, task.motion, 1, warn);
-  const auto report = follow_contacts(task, scene, command.progress());
-  ContactsFigures figures = figures_of(*report);
-  if (task.certify) figures.certificate = certify_contacts(task, scene, *report, command.progress());
-  if (figures.all.contacts == 0) warn_of_none(task, scene, *report, warn);
+  const ContactsFound found = find_contacts(task, command.progress(), command.warn());
+  const Scene& scene = *found.scene;
+  const std::unique_ptr<ContactsReport>& report = found.report;
+  const ContactsFigures& figures = found.figures;
   if (options.view)
-    write_run_view(run_to_show(task, loaded, scene, *report), scene, *options.view,
-                   command.add_replay(*options.view), command.progress());
+    write_run_view(run_to_show(task, scene, *report), scene, *options.view, command.add_replay(*options.view),
+                   command.progress());
 
   Json json;
   json["input"] = input_json(task,

@@ -139,17 +139,6 @@ class ApproachOfPart final : public FrameObserver {
   bool began_ = false;
 };
 
-// Warns of extraordinary exact work in any part. Warnings may come from several threads at once.
-void watch_exact_work(ParallelRun& run, const std::function<void(const std::string&)>& warn) {
-  const auto mutex = std::make_shared<std::mutex>();
-  run.prepare([mutex, warn](KineticRun& part) {
-    watch_exact_work(part.simulator(), part.scene(), [mutex, warn](const std::string& warning) {
-      const std::lock_guard lock(*mutex);
-      warn(warning);
-    });
-  });
-}
-
 void add_times(const Times& times, RunReport& report) {
   for (std::size_t s = 0; s < report.structures.size(); ++s) {
     StructureReport& structure = report.structures[s];
@@ -168,6 +157,16 @@ void watch_exact_work(Simulator& simulator, const Scene& scene,
                       const std::function<void(const std::string&)>& warn, std::uint64_t extraordinary) {
   simulator.exact_work().set_watcher(WorkWatcher(simulator, scene, warn, extraordinary),
                                      extraordinary / 16 + 1);
+}
+
+void watch_exact_work(ParallelRun& run, const std::function<void(const std::string&)>& warn) {
+  const auto mutex = std::make_shared<std::mutex>();
+  run.prepare([mutex, warn](KineticRun& part) {
+    watch_exact_work(part.simulator(), part.scene(), [mutex, warn](const std::string& warning) {
+      const std::lock_guard lock(*mutex);
+      warn(warning);
+    });
+  });
 }
 
 StepCounts::StepCounts(Session& session, const Scene& scene)
@@ -224,6 +223,16 @@ std::optional<ClosestApproach> followed_approach(const ParallelRun& run) {
   return least;
 }
 
+void complete_report(const RunOptions& options, const Scene& scene,
+                     const std::optional<ClosestApproach>& approach,
+                     const std::function<void(const std::string&)>& warn, RunReport& report) {
+  if (const auto hint = hint_of(options, scene, report)) warn(*hint);
+  if (options.certify) report.stride = certify_stride(options, scene);
+  report.approach = approach;
+  if (const auto deviation = deviation_of_run(options, scene, report); deviation && approach)
+    report.approach_in_all_frames = within_deviation(approach->distance, *deviation);
+}
+
 RunReport run_scene(const RunOptions& options, const Progress& progress,
                     const std::function<void(const std::string&)>& warn, RunResults& results) {
   HeldWarnings warnings;
@@ -253,14 +262,8 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   RunReport report = report_of(run->session(), scene, options, counts);
   report.threads = run->threads();
   report.parts = run->parts();
-  if (const auto hint = hint_of(options, scene, report)) warn(*hint);
-  if (options.certify) {
-    report.stride = certify_stride(options, scene);
-    results.add_certificate(*report.stride, scene);
-  }
-  report.approach = followed_approach(*run);
-  if (const auto deviation = deviation_of_run(options, scene, report); deviation && report.approach)
-    report.approach_in_all_frames = within_deviation(report.approach->distance, *deviation);
+  complete_report(options, scene, followed_approach(*run), warn, report);
+  if (report.stride) results.add_certificate(*report.stride, scene);
   Times times{std::vector<std::vector<double>>(report.structures.size()),
               std::vector<std::vector<double>>(report.structures.size())};
   add_round(*run, times);

@@ -32,6 +32,10 @@ void watch_exact_work(Simulator& simulator, const Scene& scene,
                       const std::function<void(const std::string&)>& warn,
                       std::uint64_t extraordinary = extraordinary_work);
 
+/// Does the same in each part of a run. Call it before the run. `warn` is called on the threads of the run,
+/// by one thread at a time.
+void watch_exact_work(ParallelRun& run, const std::function<void(const std::string&)>& warn);
+
 /// Moves the counts of each step out of the structures, so that memory does not grow with the number of
 /// steps.
 class StepCounts {
@@ -85,6 +89,12 @@ void run_steps(ParallelRun& run, const RunOptions& options,
 void follow_approach(ParallelRun& run, const RunOptions& options);
 /// Returns the closest approach after the run, or nothing if it was not followed.
 [[nodiscard]] std::optional<ClosestApproach> followed_approach(const ParallelRun& run);
+
+/// Adds to the report of a run what needs the whole run: the certificate of --certify, the closest approach,
+/// and its bounds over all frames. Passes a hint to `warn` if the run has no contacts.
+void complete_report(const RunOptions& options, const Scene& scene,
+                     const std::optional<ClosestApproach>& approach,
+                     const std::function<void(const std::string&)>& warn, RunReport& report);
 
 /// Runs the structures. Each warning about the input goes to `warn` as one line. The output goes to
 /// `results`, which the caller delivers. Throws InputError for errors that the user can fix. Throws

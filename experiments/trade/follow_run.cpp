@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kds/event_log.h"
+#include "motions/base/interruption.h"
 #include "motions/numbers/exact_number.h"
 #include "structures/session/kinetic_run.h"
 
@@ -137,6 +138,7 @@ class Follower {
   /// Compares the run with the truth at a time. `u` is the time within the step, `time` is the same time in
   /// parts of a frame.
   void look(const Session& session, std::size_t step, double u, std::size_t time) {
+    InterruptionCheck::ask();
     truth_.move_to(time);
     const Eigen::Matrix3Xd here = motion_.positions(step, u);
     raise(errors.displacement, displacement(here));
@@ -191,6 +193,7 @@ class Follower {
     if (nodes.empty()) return;
     SearchCost cost(nodes);
     for (NodeSphere& node : nodes) {
+      InterruptionCheck::ask();
       node = promised(node);
       const double smallest = truth_.smallest_radius(node.range);
       const double excess = smallest > 0 ? std::abs(node.sphere.radius / smallest - 1) : 0;

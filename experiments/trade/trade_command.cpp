@@ -245,13 +245,25 @@ TradeSubject read_subject(const TradeOptions& options, const std::function<void(
   return subject;
 }
 
+std::vector<TradeRow> measure_subject(const TradeOptions& options, const TradeSubject& subject,
+                                      const std::function<void(std::size_t, std::size_t)>& progress,
+                                      const std::function<void(const std::string&)>& warn) {
+  std::vector<TradeRow> rows = measure_trade(subject.finest, subject.task, progress, warn);
+  const bool no_contacts = std::ranges::any_of(rows, [](const TradeRow& row) {
+    return row.want == Want::contacts && row.is_exact && row.cost.events == 0;
+  });
+  if (no_contacts && options.radius == "auto" && options.reading.groups.empty())
+    if (const auto hint = radius_hint(subject.finest.scene(), subject.task.apart)) warn(*hint);
+  return rows;
+}
+
 }  // namespace
 
 std::vector<TradeRow> measure_trade_of(const Arguments& arguments,
                                        const std::function<void(std::size_t, std::size_t)>& progress,
                                        const std::function<void(const std::string&)>& warn) {
-  const TradeSubject subject = read_subject(parse_trade_options(arguments), warn);
-  return measure_trade(subject.finest, subject.task, progress, warn);
+  const TradeOptions options = parse_trade_options(arguments);
+  return measure_subject(options, read_subject(options, warn), progress, warn);
 }
 
 int trade_command(const Arguments& arguments) {
@@ -263,12 +275,7 @@ int trade_command(const Arguments& arguments) {
   const FinestData& finest = subject.finest;
   const TradeTask& task = subject.task;
   if (!options.quiet) foretell(foretold_seconds(finest, task));
-  const std::vector<TradeRow> rows = measure_trade(finest, task, command.progress(), command.warn());
-  const bool no_contacts = std::ranges::any_of(rows, [](const TradeRow& row) {
-    return row.want == Want::contacts && row.is_exact && row.cost.events == 0;
-  });
-  if (no_contacts && options.radius == "auto" && options.reading.groups.empty())
-    if (const auto hint = radius_hint(finest.scene(), task.apart)) command.warn()(*hint);
+  const std::vector<TradeRow> rows = measure_subject(options, subject, command.progress(), command.warn());
 
   Json json;
   json["input"] = input_json(

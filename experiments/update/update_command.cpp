@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
@@ -261,16 +262,15 @@ std::string update_page(std::span<const UpdateRow> rows, const std::string& inpu
   return html_page(page);
 }
 
-int update_command(const Arguments& arguments) {
-  const UpdateOptions options = parse_update_options(arguments);
-  TableCommand command("update", arguments, options, "round");
-  command.check_inputs_and_destinations(options);
-
+std::vector<UpdateRow> measure_updates(const UpdateOptions& options,
+                                       const std::function<void(std::size_t, std::size_t)>& progress,
+                                       const std::function<void(const std::string&)>& warn,
+                                       const std::function<void(const Scene& all)>& look_at) {
   if (const auto instance = read_lone_instance(options))
     throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
   std::map<std::size_t, FrameSurvey> surveys;  // by stride
-  const std::unique_ptr<FrameSource> all = open_frames(options, command.warn());
-  surveys.emplace(1, survey_frames(*all, options.radius == "auto", command.warn()));
+  const std::unique_ptr<FrameSource> all = open_frames(options, warn);
+  surveys.emplace(1, survey_frames(*all, options.radius == "auto", warn));
   const std::vector<double> radii = bead_radii(options.radius, all->necklaces(), surveys.at(1));
   const SceneAtStride scene_at = [&](std::size_t stride, FrameMotion motion) {
     auto frames = open_frames(
@@ -278,16 +278,28 @@ int update_command(const Arguments& arguments) {
     if (!surveys.contains(stride)) surveys.emplace(stride, survey_frames(*frames, false));
     return Scene(std::move(frames), surveys.at(stride), radii, motion);
   };
-  const std::vector<UpdateRow> rows = compare_updates(scene_at, options, command.progress());
+  if (look_at) look_at(scene_at(1, FrameMotion::linear));
+  return compare_updates(scene_at, options, progress);
+}
 
-  const Scene scene = scene_at(1, FrameMotion::linear);
+int update_command(const Arguments& arguments) {
+  const UpdateOptions options = parse_update_options(arguments);
+  TableCommand command("update", arguments, options, "round");
+  command.check_inputs_and_destinations(options);
+
+  Json input;
+  const std::vector<UpdateRow> rows =
+      measure_updates(options, command.progress(), command.warn(), [&](const Scene& all) {
+        input = input_json(options,
+                           {.frames = all.frame_count(),
+                            .dimension = all.dimension(),
+                            .truncated = all.is_truncated(),
+                            .picoseconds = times_of(all.stamp(0), all.stamp(all.frame_count() - 1))},
+                           all.radii());
+      });
+
   Json json;
-  json["input"] = input_json(options,
-                             {.frames = scene.frame_count(),
-                              .dimension = scene.dimension(),
-                              .truncated = scene.is_truncated(),
-                              .picoseconds = times_of(scene.stamp(0), scene.stamp(scene.frame_count() - 1))},
-                             scene.radii());
+  json["input"] = std::move(input);
   json["settings"] = update_options().settings_json(options);
   json["rows"] = update_columns().json(rows);
   json["warnings"] = command.warnings();

@@ -1,7 +1,9 @@
 #pragma once
-// The options and the report of `kds update`.
+// The options, the measurements and the report of `kds update`.
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,6 +45,13 @@ struct UpdateOptions : InputOptions, Destinations {  // results: update.json, up
 [[nodiscard]] UpdateOptions parse_update_options(const Arguments& arguments);
 
 struct UpdateRow;  // compare_updates.h
+
+/// Reads the inputs, once for each stride, and compares the techniques. `all` is called with the scene of all
+/// frames before the first run. Each warning goes to `warn` as one line. Throws InputError.
+[[nodiscard]] std::vector<UpdateRow> measure_updates(
+    const UpdateOptions& options, const std::function<void(std::size_t, std::size_t)>& progress,
+    const std::function<void(const std::string&)>& warn,
+    const std::function<void(const Scene& all)>& look_at = {});
 
 /// Returns the columns of update.json and update.csv, of the terminal and of the page.
 [[nodiscard]] const Table<UpdateRow>& update_columns();
