@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -40,26 +39,31 @@ namespace {
 
 /// The results of an analysis, before they become objects of Python.
 struct Found {
-  std::string json, table;
-  std::vector<std::string> warnings;
-
-  [[nodiscard]] auto warn() {
-    return [this](const std::string& warning) { warnings.push_back(warning); };
-  }
-  [[nodiscard]] py::dict dict() const {
-    py::dict found;
-    found["json"] = json;
-    found["table"] = table;
-    found["warnings"] = warnings;
-    return found;
-  }
+  Json json;
+  std::string table;
 };
 
-/// The default of analyses, because Ctrl-C ends them at once only on one thread.
-constexpr std::size_t one_thread = 1;
+using Warn = std::function<void(const std::string&)>;
+using Progress = std::function<void(std::size_t done, std::size_t total)>;
 
-auto progress_of(Watch& watch) {
-  return [&watch](std::size_t done, std::size_t total) { watch.look(done, 0, total); };
+/// Calls `find(progress, warn)`, which returns a Found, without the GIL. Returns the results as a dictionary.
+template <class Find>
+py::dict run_analysis(const py::object& progress, const Find& find) {
+  std::vector<std::string> warnings;
+  std::string json, table;
+  {
+    Watch watch(progress);
+    const Found found =
+        find(Progress([&](std::size_t done, std::size_t total) { watch.look(done, 0, total); }),
+             Warn([&](const std::string& warning) { warnings.push_back(warning); }));
+    json = text_of(found.json);
+    table = found.table;
+  }
+  py::dict result;
+  result["json"] = json;
+  result["table"] = table;
+  result["warnings"] = warnings;
+  return result;
 }
 
 void refuse_instance(const InputOptions& options) {
@@ -102,31 +106,21 @@ struct Intervals {
 }  // namespace
 
 py::dict contacts(const Arguments& arguments, const py::object& progress) {
-  ContactsTask task = parse_contacts_options(arguments).task;
-  if (!task.threads) task.threads = one_thread;
-  Found found;
+  const ContactsTask task = parse_contacts_options(arguments).task;
   std::vector<std::string> names;
   std::string columns;
   std::unique_ptr<Intervals> intervals;
-  {
-    Watch watch(progress);
-    refuse_instance(task);
-    InputOptions loaded = task;
-    loaded.at_frame_surveyed = [] { Watch::glance(); };
-    if (!task.surface && task.radius == "auto") loaded.radius = "1";  // radii do not matter between centres
-    const Scene scene = load_necklaces(loaded, task.motion, 1, found.warn());
-    const auto report = follow_contacts(task, scene, progress_of(watch));
-    const ContactsFigures figures = figures_of(*report);
-    if (figures.all.contacts == 0) found.warnings.emplace_back("there are no contacts within the cutoff");
-    Json json;
-    add_contacts(*report, figures, json);
-    found.json = text_of(json);
-    found.table = contacts_text(*report, figures);
-    names = report->elements.names;
-    columns = contacts_csv(*report, ContactsFigures());
-    intervals = std::make_unique<Intervals>(*report);
-  }
-  py::dict result = found.dict();
+  py::dict result = run_analysis(progress, [&](const Progress& look, const Warn& warn) {
+    ContactsFound contacts = find_contacts(task, look, warn);
+    Found found;
+    add_contacts(*contacts.report, contacts.figures, found.json);
+    found.table = contacts_text(*contacts.report, contacts.figures);
+    names = contacts.report->elements.names;
+    contacts.figures.pairs.clear();
+    columns = contacts_csv(*contacts.report, contacts.figures);
+    intervals = std::make_unique<Intervals>(*contacts.report);
+    return found;
+  });
   result["names"] = names;
   result["columns"] = columns;
   intervals->move_to(result);
@@ -134,54 +128,31 @@ py::dict contacts(const Arguments& arguments, const py::object& progress) {
 }
 
 py::dict compare(const Arguments& arguments, const py::object& progress) {
-  CompareOptions options = parse_compare_options(arguments);
-  if (!options.threads) options.threads = one_thread;
-  Found found;
-  {
-    Watch watch(progress);
-    const Comparison comparison = compare_runs(options, progress_of(watch), found.warn());
-    Json json;
-    json["pooled"] = pooled_columns().json(pooled_rows(comparison));
-    json["rows"] = compare_columns(comparison).json(comparison.rows);
-    found.json = text_of(json);
+  const CompareOptions options = parse_compare_options(arguments);
+  return run_analysis(progress, [&](const Progress& look, const Warn& warn) {
+    const Comparison comparison = compare_runs(options, look, warn);
+    Found found;
+    found.json["pooled"] = pooled_columns().json(pooled_rows(comparison));
+    found.json["rows"] = compare_columns(comparison).json(comparison.rows);
     found.table = compare_table(comparison);
-  }
-  return found.dict();
+    return found;
+  });
 }
 
 py::dict update(const Arguments& arguments, const py::object& progress) {
   const UpdateOptions options = parse_update_options(arguments);
-  Found found;
-  {
-    Watch watch(progress);
-    refuse_instance(options);
-    std::map<std::size_t, FrameSurvey> surveys;  // by stride
-    const std::unique_ptr<FrameSource> all = open_frames(options, found.warn());
-    surveys.emplace(1, survey_frames(*all, options.radius == "auto", found.warn()));
-    const std::vector<double> radii = bead_radii(options.radius, all->necklaces(), surveys.at(1));
-    const SceneAtStride scene_at = [&](std::size_t stride, FrameMotion motion) {
-      auto frames = open_frames(
-          options, [](const std::string&) {}, stride);
-      if (!surveys.contains(stride)) surveys.emplace(stride, survey_frames(*frames, false));
-      return Scene(std::move(frames), surveys.at(stride), radii, motion);
-    };
-    const std::vector<UpdateRow> rows = compare_updates(scene_at, options, progress_of(watch));
-    Json json;
-    json["rows"] = update_columns().json(rows);
-    found.json = text_of(json);
-    found.table = update_table(rows);
-  }
-  return found.dict();
+  return run_analysis(progress, [&](const Progress& look, const Warn& warn) {
+    const std::vector<UpdateRow> rows = measure_updates(options, look, warn);
+    return Found{{{"rows", update_columns().json(rows)}}, update_table(rows)};
+  });
 }
 
 py::dict collide(const Arguments& arguments, const py::object& progress) {
   const CollideOptions options = parse_collide_options(arguments);
-  Found found;
   std::vector<std::int64_t> frame_of_pairs, beads;
-  {
-    Watch watch(progress);
+  py::dict result = run_analysis(progress, [&](const Progress& look, const Warn& warn) {
     refuse_instance(options);
-    CollideFrames frames(options, found.warn());
+    CollideFrames frames(options, warn);
     const CollideTask task = collide_task(options, frames);
     std::vector<FrameFound> in_frames;
     const CollideReport report = compare_detectors(
@@ -194,14 +165,13 @@ py::dict collide(const Arguments& arguments, const py::object& progress) {
             beads.push_back(pair.second);
           }
         },
-        found.warn(), progress_of(watch));
-    Json json;
-    json["rows"] = collide_columns(report.timed).json(report.rows);
-    json["frames"] = collide_frame_columns(report.timed).json(in_frames);
-    found.json = text_of(json);
+        warn, look);
+    Found found;
+    found.json["rows"] = collide_columns(report.timed).json(report.rows);
+    found.json["frames"] = collide_frame_columns(report.timed).json(in_frames);
     found.table = collide_table(report);
-  }
-  py::dict result = found.dict();
+    return found;
+  });
   const auto count = static_cast<py::ssize_t>(frame_of_pairs.size());
   result["frames"] = array_of(std::move(frame_of_pairs));
   result["pairs"] = array_of(std::move(beads), {count, 2});
@@ -209,51 +179,52 @@ py::dict collide(const Arguments& arguments, const py::object& progress) {
 }
 
 py::dict trade(const Arguments& arguments, const py::object& progress) {
-  Found found;
-  {
-    Watch watch(progress);
-    const std::vector<TradeRow> rows = measure_trade_of(arguments, progress_of(watch), found.warn());
-    Json json;
-    json["rows"] = trade_rows_json(rows);
-    json["recommendation"] = recommendation(rows);
-    found.json = text_of(json);
+  return run_analysis(progress, [&](const Progress& look, const Warn& warn) {
+    const std::vector<TradeRow> rows = measure_trade_of(arguments, look, warn);
+    Found found;
+    found.json["rows"] = trade_rows_json(rows);
+    found.json["recommendation"] = recommendation(rows);
     found.table = trade_table(rows) + "\n" + recommendation(rows) + "\n";
-  }
-  return found.dict();
+    return found;
+  });
 }
 
 py::dict conditions(const Arguments& arguments, const py::object& progress) {
   const InfoOptions options = parse_info_options(arguments);
-  Found found;
-  {
-    Watch watch(progress);
+  return run_analysis(progress, [&](const Progress& look, const Warn& warn) {
     refuse_instance(options);
-    const auto frames = open_frames(options, found.warn());
-    const FrameSurvey survey = survey_frames(*frames, options.radius == "auto", found.warn());
+    const auto frames = open_frames(options, warn);
+    const FrameSurvey survey = survey_frames(*frames, options.radius == "auto", warn);
     const std::vector<double> radii = bead_radii(options.radius, frames->necklaces(), survey);
-    SceneInfo info = describe_frames(frames->heads(), frames->frame_counts(), *frames, radii,
-                                     options.validate, progress_of(watch));
+    SceneInfo info =
+        describe_frames(frames->heads(), frames->frame_counts(), *frames, radii, options.validate, look);
     info.first_time = survey.first.picoseconds;
     info.last_time = survey.last.picoseconds;
     info.truncated = survey.truncated;
-    Json json;
-    add_scene(json, info);
-    found.json = text_of(json);
+    Found found;
+    add_scene(found.json, info);
     found.table = scene_table(info);
-  }
-  return found.dict();
+    return found;
+  });
 }
 
 py::list generate(const Arguments& arguments) {
   const GenerateOptions options = parse_generate_options(arguments);
-  py::list arrays;
-  for (const Trajectory& necklace : models::generate(*options.model, options.settings)) {
-    std::vector<double> numbers;
-    for (const Eigen::Matrix3Xd& frame : necklace.frames)
-      numbers.insert(numbers.end(), frame.data(), frame.data() + frame.size());
-    arrays.append(array_of(std::move(numbers), {static_cast<py::ssize_t>(necklace.frames.size()),
-                                                static_cast<py::ssize_t>(necklace.bead_count()), 3}));
+  std::vector<std::vector<double>> numbers;
+  std::vector<std::vector<py::ssize_t>> shapes;
+  {
+    const Watch watch;
+    for (const Trajectory& necklace : models::generate(*options.model, options.settings)) {
+      std::vector<double>& all = numbers.emplace_back();
+      for (const Eigen::Matrix3Xd& frame : necklace.frames)
+        all.insert(all.end(), frame.data(), frame.data() + frame.size());
+      shapes.push_back({static_cast<py::ssize_t>(necklace.frames.size()),
+                        static_cast<py::ssize_t>(necklace.bead_count()), 3});
+    }
   }
+  py::list arrays;
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    arrays.append(array_of(std::move(numbers[k]), std::move(shapes[k])));
   return arrays;
 }
 

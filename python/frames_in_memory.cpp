@@ -15,7 +15,6 @@
 #include "motions/readers/nanometres.h"
 #include "motions/readers/reader_registry.h"
 #include "motions/readers/vdw_radii.h"
-#include "python/watch.h"
 
 namespace kds::python {
 
@@ -85,7 +84,6 @@ class AtomsInMemory final : public AtomFrames {
     return content_->frame || !content_->beads.cells.empty();
   }
   void read(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) override {
-    Watch::glance();  // collisions and updates survey frames without an option to look
     frame.positions.resize(3, static_cast<Eigen::Index>(atoms.size()));
     if (content_->frame) return call(k, atoms, frame);
     const BeadsInMemory& beads = content_->beads;

@@ -4,18 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <future>
 #include <stdexcept>
 
 #include "experiments/events/closest_approach.h"
 #include "experiments/output/output_files.h"
 #include "experiments/program/table_command.h"
-#include "experiments/run/certify_stride.h"
 #include "experiments/run/load_scene.h"
-#include "experiments/run/radius_hint.h"
 #include "experiments/run/replay_labels.h"
 #include "motions/base/input_error.h"
+#include "motions/base/interruption.h"
 #include "python/arrays.h"
 #include "structures/contacts/contacts.h"
 #include "structures/power_diagram/power_diagram.h"
@@ -35,8 +32,6 @@ RunOptions pushed_options(const Arguments& arguments) {
   return options;
 }
 
-constexpr std::uint64_t a_millisecond = 1U << 20U;  // of limb operations, roughly
-
 void check_view(const RunOptions& options) {
   if (!options.view) return;
   TakenPaths paths;
@@ -44,21 +39,6 @@ void check_view(const RunOptions& options) {
   paths.write("--view", *options.view);
   ensure_writable_file(*options.view, "--view");
 }
-
-/// Ends the parts of a run when it is asked to. Is asked on one thread and listens on others.
-class Stop final : public EventListener {
- public:
-  struct Stopped {};
-
-  void ask() { asked_ = true; }
-  void check() const {
-    if (asked_) throw Stopped();
-  }
-  void on_event(const Event&) override { check(); }
-
- private:
-  std::atomic<bool> asked_ = false;
-};
 
 py::array_t<std::int64_t> array_of_pairs(const std::vector<BeadPair>& pairs) {
   std::vector<std::int64_t> ids;
@@ -124,7 +104,6 @@ RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more,
                      std::shared_ptr<FramesInMemory> memory)
     : memory_(std::move(memory)), options_(parse_run_options(arguments)), only_(more.only) {
   check_view(options_);
-  options_.at_frame_surveyed = [] { Watch::glance(); };
   const auto warn = [this](const std::string& warning) { warnings_.push_back(warning); };
   scene_ = std::make_unique<Scene>(load_scene(options_, warn));
   open();
@@ -153,8 +132,6 @@ void RunHandle::open() {
 
 void RunHandle::listen() {
   run_->listen(events_);
-  run_->listen(*this);
-  run_->watch_work([] { Watch::glance(); }, a_millisecond);
   if (options_.work) run_->limit_work(*options_.work);
 }
 
@@ -169,34 +146,6 @@ std::unique_ptr<ParallelRun> RunHandle::open_parts() {
   auto parts = open_parallel_run(options_, *scene_, options_.audit, {},
                                  [this](const std::string& warning) { warnings_.push_back(warning); });
   return parts->threads() > 1 ? std::move(parts) : nullptr;
-}
-
-void RunHandle::run_parts(ParallelRun& parts, Watch& watch,
-                          const std::function<void(std::size_t frame)>& at_frame) {
-  constexpr std::chrono::milliseconds between_looks{20};
-  Stop stop;
-  std::atomic<std::size_t> reached = 0;
-  parts.prepare([&stop](KineticRun& part) {
-    part.listen(stop);
-    part.watch_work([&stop] { stop.check(); }, a_millisecond);
-  });
-  std::future<void> all = std::async(std::launch::async, [&] {
-    run_steps(parts, options_, [&](std::size_t frame) {
-      stop.check();
-      at_frame(frame);
-      reached = frame;
-    });
-  });
-  while (all.wait_for(between_looks) != std::future_status::ready) {
-    try {
-      watch.look(reached, 0, scene().step_count());
-    } catch (...) {
-      stop.ask();
-      all.wait();
-      throw;
-    }
-  }
-  all.get();
 }
 
 ReplayLabels RunHandle::labels() const {
@@ -227,6 +176,8 @@ void RunHandle::execute(const py::object& progress) {
     request.page = options_.view;
     view_.emplace(request, labels(), scene(), session);
   }
+  const auto warn = [this](const std::string& warning) { warnings_.push_back(warning); };
+  parts ? watch_exact_work(*parts, warn) : watch_exact_work(run_->simulator(), scene(), warn);
   const auto at_frame = [&](std::size_t frame) {
     if (frame == 0) {
       counts.begin();
@@ -238,30 +189,31 @@ void RunHandle::execute(const py::object& progress) {
     if (view_) view_->add_frame(frame);
     const FrameStamp stamp = scene().stamp(frame);
     stamps_.emplace_back(stamp.number, stamp.picoseconds);
-    if (!parts) watch.look(frame, 0, steps);
+    watch.look(frame, 0, steps);
   };
-  parts ? run_parts(*parts, watch, at_frame) : run_steps(*run_, options_, at_frame);
+  const InterruptionCheck within_step([&] {
+    const double now = run_->simulator().now().lower();
+    watch.set_within(now < 1 ? now : 0);  // 1 between steps
+  });
+  parts ? run_steps(*parts, options_, at_frame) : run_steps(*run_, options_, at_frame);
   is_behind_ = parts != nullptr;
   watch.end(steps);
   if (view_) view_->finish();
   report_ = report_of(session, scene(), options_, counts);
-  if (approach) report_->approach = approach->least();
+  complete_report(options_, scene(),
+                  parts      ? followed_approach(*parts)
+                  : approach ? approach->least()
+                             : std::nullopt,
+                  warn, *report_);
   if (parts) {
-    report_->approach = followed_approach(*parts);
     report_->threads = parts->threads();
     report_->parts = parts->parts();
   }
-  if (options_.certify) report_->stride = certify_stride(options_, scene());
   report_->command_line = "kds.run in Python";
   if (memory_) {
     report_->files = {memory_->label()};
     std::erase_if(report_->settings, [](const auto& setting) { return setting.first == "format"; });
   }
-  if (options_.radius != "auto" || options_.cutoff || !options_.reading.groups.empty()) return;
-  for (const StructureReport& structure : report_->structures)
-    if (structure.name == "contacts" && structure.events_total == 0 && structure.contacts_at_start == 0U)
-      if (const auto hint = radius_hint(scene(), options_.apart.value_or(StructureSettings().apart)))
-        warnings_.push_back(*hint);
 }
 
 void RunHandle::write_view() {

@@ -38,7 +38,7 @@ struct PythonOptions {
   OnlyBeads only;
 };
 
-class RunHandle : private EventListener {
+class RunHandle {
  public:
   /// A run over the inputs that `arguments` name, as `kds run` takes them. `memory` keeps the input alive if
   /// it is in memory. Warnings are kept for `warnings`. Throws InputError also if the page of --view could
@@ -48,7 +48,7 @@ class RunHandle : private EventListener {
   RunHandle(const Arguments& arguments, const PythonOptions& more, PushedFrames frames);
   RunHandle(const RunHandle&) = delete;
   RunHandle& operator=(const RunHandle&) = delete;
-  ~RunHandle() override = default;
+  ~RunHandle() = default;
 
   /// Runs all steps, on several threads if the run can be cut, and keeps the report.
   void execute(const pybind11::object& progress);
@@ -110,14 +110,11 @@ class RunHandle : private EventListener {
   class Reserved;
   class Use;
 
-  void on_event(const Event& event) override { Watch::glance(event.lower); }
   /// Opens a run over `scene_` that stands at its start.
   void open();
   void listen();
   /// Opens the run on several threads, or returns null if it takes one. Keeps a warning that says why.
   [[nodiscard]] std::unique_ptr<ParallelRun> open_parts();
-  /// Does what `run_steps` does, on other threads. This thread looks at Python meanwhile.
-  void run_parts(ParallelRun& parts, Watch& watch, const std::function<void(std::size_t frame)>& at_frame);
   [[nodiscard]] ReplayLabels labels() const;
   [[nodiscard]] std::size_t place_of(const std::string& structure) const;
   /// Goes to a time and returns the parameter in the step under way or just run.

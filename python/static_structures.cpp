@@ -113,9 +113,12 @@ py::tuple power_diagram(const Numbers& centers, const Numbers& radii) {
 py::tuple enclosing_sphere(const Numbers& centers, const Numbers& radii) {
   const BallsGiven balls(centers, radii);
   const auto last = static_cast<BeadId>(balls.radii.size() - 1);
-  const SmallestSphere smallest = balls.in_dimension([&](auto dimension) {
-    return smallest_sphere<dimension>(Balls<dimension>(balls.centers, balls.radii), 0, last);
-  });
+  const SmallestSphere smallest = [&] {
+    const Watch watch;
+    return balls.in_dimension([&](auto dimension) {
+      return smallest_sphere<dimension>(Balls<dimension>(balls.centers, balls.radii), 0, last);
+    });
+  }();
   const Eigen::Vector3d& center = smallest.sphere.center;
   std::vector<std::int64_t> basis(smallest.basis.begin(), smallest.basis.end());
   return py::make_tuple(array_of(std::vector<double>(center.data(), center.data() + balls.dimension)),

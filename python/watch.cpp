@@ -6,7 +6,7 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr std::chrono::milliseconds between_looks{50};
+constexpr std::chrono::milliseconds between_looks{20};
 
 bool is_main_thread() {
   const py::module_ threading = py::module_::import("threading");
@@ -16,18 +16,16 @@ bool is_main_thread() {
 }  // namespace
 
 Watch::Watch(const py::object& progress)
-    : outer_(present),
-      progress_(progress.is_none() ? py::handle() : py::handle(progress)),
+    : progress_(progress.is_none() ? py::handle() : py::handle(progress)),
       main_thread_(is_main_thread()),
-      next_(Clock::now() + between_looks) {
-  present = this;
-}
+      next_(Clock::now() + between_looks),
+      check_([this] { look(); }) {}
 
 void Watch::look() {
+  if (raised_) std::rethrow_exception(raised_);
   if (!main_thread_ && !progress_) return;
   if (Clock::now() < next_) return;
   call();
-  next_ = Clock::now() + between_looks;
 }
 
 void Watch::look(std::size_t done, double within, std::size_t total) {
@@ -43,16 +41,17 @@ void Watch::end(std::size_t total) {
   call();
 }
 
-void Watch::glance(double within) {
-  if (present == nullptr) return;
-  present->within_ = within;
-  present->look();
-}
-
 void Watch::call() {
-  const py::gil_scoped_acquire gil;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  if (progress_) progress_(done_, within_, total_);
+  next_ = Clock::time_point::max();  // the function may start a computation, which asks this watch too
+  try {
+    const py::gil_scoped_acquire gil;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (progress_) progress_(done_, within_, total_);
+  } catch (...) {
+    raised_ = std::current_exception();
+    throw;
+  }
+  next_ = Clock::now() + between_looks;
 }
 
 }  // namespace kds::python

@@ -1,15 +1,19 @@
 #pragma once
 // Looks at Python from inside a long computation: lets Ctrl-C end the computation and shows progress. The
-// computation runs without the GIL. A look takes the GIL, at most about twenty times a second.
+// computation runs without the GIL. A look takes the GIL, at most fifty times a second.
 
 #include <pybind11/pybind11.h>
 
 #include <chrono>
 #include <cstddef>
+#include <exception>
+
+#include "motions/base/interruption.h"
 
 namespace kds::python {
 
-/// Releases the GIL while it lives, for a computation of this thread.
+/// Releases the GIL while it lives, for a computation of this thread. Looks when the computation asks whether
+/// to go on (InterruptionCheck::ask).
 class Watch {
  public:
   /// `progress` is None or a function. It is called with the number of units done, the completed share of the
@@ -18,30 +22,27 @@ class Watch {
   explicit Watch(const pybind11::object& progress = pybind11::none());
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
-  ~Watch() { present = outer_; }
 
   /// Looks if the last look is long ago. Throws pybind11::error_already_set if Python has raised an
-  /// exception, such as KeyboardInterrupt.
+  /// exception, such as KeyboardInterrupt, and throws that exception again at each later look.
   void look(std::size_t done, double within, std::size_t total);
   /// Looks in any case, at the end of all units.
   void end(std::size_t total);
-  /// Looks like `look`, if a computation of this thread is watched. `within` is the completed share of the
-  /// present unit.
-  static void glance(double within = 0);
+  /// Sets the completed share of the present unit, for the next look.
+  void set_within(double within) { within_ = within; }
 
  private:
   using Clock = std::chrono::steady_clock;
   void look();
   void call();
 
-  static thread_local inline Watch* present = nullptr;
-
-  Watch* outer_;               // the computation during which this one was called, or null
   pybind11::handle progress_;  // owned by the caller; null for none
   bool main_thread_;
   Clock::time_point next_;
   std::size_t done_ = 0, total_ = 0;
   double within_ = 0;
+  std::exception_ptr raised_;
+  InterruptionCheck check_;
   pybind11::gil_scoped_release released_;  // the last member: released when all others are set
 };
 

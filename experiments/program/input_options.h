@@ -43,8 +43,6 @@ struct InputOptions {
   ReadOptions reading;  ///< --topology, --select, --chain (as given, for all inputs), --frames; --groups
   std::string radius = "auto";
   std::optional<std::filesystem::path> obstacle = {};  ///< --obstacle, for the commands that have it
-  /// Called for each frame of the first pass over the inputs, if it is set. May throw to end the pass.
-  std::function<void()> at_frame_surveyed = {};
 };
 
 /// Returns the options --topology, --select, --chain, --frames and --radius.

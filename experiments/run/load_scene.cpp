@@ -246,26 +246,6 @@ void end_with_truncated(std::vector<Trajectory>& necklaces,
   }
 }
 
-// Frames of another source. Calls a function for each frame.
-class WatchedFrames final : public FrameSource {
- public:
-  WatchedFrames(FrameSource& frames, std::function<void()> at_frame)
-      : frames_(frames), at_frame_(std::move(at_frame)) {}
-
-  [[nodiscard]] const std::vector<NecklaceBeads>& necklaces() const override { return frames_.necklaces(); }
-  [[nodiscard]] bool next(FrameRead& frame) override {
-    if (at_frame_) at_frame_();
-    return frames_.next(frame);
-  }
-  void seek(std::size_t k) override { frames_.seek(k); }
-  [[nodiscard]] bool is_truncated() const override { return frames_.is_truncated(); }
-  [[nodiscard]] std::vector<std::string> warnings() const override { return frames_.warnings(); }
-
- private:
-  FrameSource& frames_;
-  std::function<void()> at_frame_;
-};
-
 }  // namespace
 
 std::vector<Trajectory> read_necklaces(const InputOptions& options,
@@ -296,8 +276,7 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
                      const std::function<void(const std::string&)>& warn,
                      const std::optional<MotionTolerance>& tolerance) {
   std::unique_ptr<FileFrames> files = open_frames(input, warn);
-  WatchedFrames surveyed(*files, input.at_frame_surveyed);
-  const FrameSurvey survey = survey_frames(surveyed, input.radius == "auto", warn);
+  const FrameSurvey survey = survey_frames(*files, input.radius == "auto", warn);
   if (survey.frame_count < 2 && !files->early_end().empty())
     throw InputError(fmt::format("{}; a run needs at least two frames", files->early_end()));
   std::unique_ptr<FrameSource> frames = std::move(files);

@@ -86,7 +86,7 @@ def contacts(source, *, cutoff, by=None, gap=0, surface=False, start=None, stop=
     ``surface``); a pair of lengths are two cutoffs: a contact begins within the first and ends outside the second.
     ``by`` is ``residue``, ``bead`` or ``chain``. An absence shorter than ``gap`` (picoseconds if the frames have times,
     otherwise frames) does not end a contact. Further options: ``apart``, ``strides``, ``intermittency``, ``motion``,
-    ``topology``, ``select``, ``chain``, ``obstacle``, ``dt``, ``threads`` (default: 1). Returns
+    ``topology``, ``select``, ``chain``, ``obstacle``, ``dt``, ``certify``, ``threads`` (default: all cores). Returns
     :class:`kds.Contacts`.
 
     >>> import kds
@@ -113,7 +113,7 @@ def compare(source, *, start=None, stop=None, step=None, radius=None, units=None
 
     The input is that of :func:`kds.run`; each path of a list is a run of its own. Options: ``structures``, ``strides``
     (such as [1, 2, 4]), ``motions`` (such as ["linear", "hermite"]), ``rounds``, ``apart``, ``directions``, ``threads``
-    (default: 1). Returns :class:`kds.Comparison`, whose ``rows`` have a row for each structure, stride and motion.
+    (default: all cores). Returns :class:`kds.Comparison`, whose ``rows`` have a row for each structure, stride and motion.
 
     >>> import kds
     >>> found = kds.compare(kds.generate("spiral", beads=30, frames=9), radius=1, strides=[1, 2], rounds=1)

@@ -11,6 +11,8 @@ import tempfile
 
 import numpy as np
 
+from kds._kds import in_python
+
 PROGRAM = os.environ["KDS_PROGRAM"]
 DATA = os.environ["KDS_DATA"]
 DCD = os.path.join(DATA, "trajectories", "villin_hp36_300K.dcd")
@@ -25,6 +27,13 @@ def program(*arguments):
     if run.returncode != 0:
         raise RuntimeError(run.stderr)
     return json.loads(run.stdout)
+
+
+def program_warnings(*arguments):
+    """Returns the warnings that a command of the program prints, in words of Python."""
+    run = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=True)
+    start = "kds: warning: "
+    return [in_python(line[len(start):]) for line in run.stderr.splitlines() if line.startswith(start)]
 
 
 def program_events(*arguments):

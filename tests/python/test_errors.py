@@ -189,24 +189,60 @@ class Errors(unittest.TestCase):
 
 class Interrupts(unittest.TestCase):
     positions = np.random.default_rng(6).normal(size=(2000, 300, 3)).cumsum(axis=1)
+    balls = np.random.default_rng(7).normal(size=(400000, 3))
 
-    def interrupted(self, run):
+    def interrupted(self, call):
+        """Interrupts a call that takes seconds."""
         raised = []
 
         def interrupt():
             raised.append(time.monotonic())
             signal.raise_signal(signal.SIGINT)
 
-        timer = threading.Timer(0.4, interrupt)
+        timer = threading.Timer(0.15, interrupt)
         timer.start()
-        with self.assertRaises(KeyboardInterrupt):
-            run()
-        self.assertLess(time.monotonic() - raised[0], 1.0)  # 0.1 s on a machine without other work
-        timer.join()
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                call()
+            self.assertLess(time.monotonic() - raised[0], 1.0)  # 0.1 s on a machine without other work
+        finally:
+            timer.cancel()
+            timer.join()
 
-    def test_ctrl_c_ends_a_run(self):
-        for threads in (1, 2):
-            self.interrupted(lambda: kds.run(self.positions, radius=1, structures=["power", "contacts"], threads=threads))
+    def test_ctrl_c_ends_every_analysis(self):
+        of_runs = {"radius": 1, "structures": ["power", "contacts"]}
+        calls = {
+            "contacts": lambda threads: kds.contacts(self.positions, cutoff=6, by="bead", threads=threads),
+            "compare": lambda threads: kds.compare(self.positions, **of_runs, threads=threads),
+            "run": lambda threads: kds.run(self.positions, **of_runs, threads=threads),
+        }
+        for name, call in calls.items():
+            for threads in (1, 2):
+                with self.subTest(name, threads=threads):
+                    self.interrupted(lambda: call(threads))
+        calls = {
+            "trade": lambda: kds.trade(self.positions, radius=1),
+            "update": lambda: kds.update(self.positions, radius=1),
+            "collide": lambda: kds.collide(self.positions, radius=1, method="all"),
+            "conditions": lambda: kds.conditions(self.positions, radius=1),
+            "generate": lambda: kds.generate("random-chain", beads=20000, frames=2000),
+            "exact": lambda: kds.run(self.positions, radius=1, structures=["power"], kernel="exact", threads=1),
+            "stepping": lambda: kds.KineticRun(self.positions, **of_runs).go_to(1999),
+            "stream": lambda: list(kds.stream(iter(self.positions), **of_runs)),
+        }
+        for name, call in calls.items():
+            with self.subTest(name):
+                self.interrupted(call)
+
+    def test_ctrl_c_ends_static_structures(self):
+        calls = {
+            "diagram": lambda: kds.power_diagram(self.balls, 0.001),
+            "pairs": lambda: kds.colliding_pairs(self.balls[:60000], 1),
+            "first step": lambda: kds.run(self.balls[:200000].reshape(2, -1, 3), radius=0.01, structures=["power"]),
+        }
+        for name, call in calls.items():
+            with self.subTest(name):
+                self.interrupted(call)
 
     def test_progress_may_raise(self):
         run = kds.KineticRun(coil(frames=200, beads=200), radius=1, structures=["power"])

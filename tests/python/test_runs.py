@@ -16,7 +16,7 @@ import zlib
 import numpy as np
 
 import kds
-from data import DCD, PDB, RESIDUES, coil, program
+from data import DCD, PDB, RESIDUES, coil, program, program_warnings
 
 
 def resident_bytes():
@@ -299,6 +299,38 @@ class Analyses(unittest.TestCase):
         found = kds.contacts(coil(), cutoff=0.001)
         self.assertEqual(len(found.rows), 0)
         self.assertIn("contacts", list(found.rows.columns) if hasattr(found.rows, "columns") else found.rows.dtype.names)
+
+    def test_certified_contacts_are_those_of_the_program(self):
+        expected = program("contacts", DCD, "--topology", PDB, "--frames", "0:60:4", "--cutoff", "8", "--select", "ca",
+                           "--certify")
+        found = kds.contacts(DCD, topology=PDB, stop=60, step=4, cutoff=8, select="ca", certify=True)
+        self.assertIn("sure", found.json["rows"][0])
+        for name in ("rows", "all", "certificate"):
+            self.assertEqual(found.json.get(name), expected.get(name))
+
+    def test_hints_are_those_of_the_program(self):
+        given, options = [DCD, "--topology", PDB, "--frames", "0:3", "--select", "ca"], {"topology": PDB, "stop": 3, "select": "ca"}
+        run = {"structures": ["contacts"]}
+        for command, arguments, call in (
+                ("run", ["--structures", "contacts", "--cutoff", "1"], lambda: kds.run(DCD, cutoff=1, **run, **options)),
+                ("run", ["--structures", "contacts"], lambda: kds.run(DCD, **run, **options)),
+                ("contacts", ["--cutoff", "1"], lambda: kds.contacts(DCD, cutoff=1, **options)),
+                ("contacts", ["--cutoff", "8", "--apart", "99"],
+                 lambda: kds.contacts(DCD, cutoff=8, apart=99, **options)),
+                ("trade", ["--want", "contacts", "--rounds", "1", "--times", "2", "--without-exact"],
+                 lambda: kds.trade(DCD, want=["contacts"], rounds=1, times_examined=2, without_exact=True, **options))):
+            with self.subTest(command, arguments=arguments), warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                call()
+                expected = program_warnings(command, *given, *arguments)
+                self.assertGreater(len(expected), 0)
+                self.assertEqual([str(warning.message) for warning in caught], expected)
+
+    def test_approach_in_all_frames_is_that_of_the_program(self):
+        expected = program("run", DCD, "--topology", PDB, "--frames", "0:31:3", "--structures", "closest", "--certify")
+        found = kds.run(DCD, topology=PDB, stop=31, step=3, structures=["closest"], certify=True).summary
+        self.assertIsNotNone(expected["closest_approach"])
+        self.assertEqual(found["closest_approach"], expected["closest_approach"])
 
     def test_compare_update_collide_conditions(self):
         given = [DCD, "--topology", PDB, "--frames", "0:20"]
