@@ -131,6 +131,7 @@ void RunHandle::open() {
 }
 
 void RunHandle::listen() {
+  events_.set_structures(run_->structures());
   run_->listen(events_);
   if (options_.work) run_->limit_work(*options_.work);
 }
@@ -313,7 +314,7 @@ double RunHandle::time() {
   return run_->within_step() ? step + 0.5 * (simulator.now().lower() + simulator.now().upper()) : step;
 }
 
-py::dict RunHandle::take_events() {
+py::array RunHandle::take_events() {
   const Reserved reserved(*this);
   return events_.take();
 }

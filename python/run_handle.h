@@ -22,7 +22,7 @@
 #include "experiments/view/view_results.h"
 #include "motions/numbers/exact_number.h"
 #include "motions/scene/scene.h"
-#include "python/event_columns.h"
+#include "python/event_rows.h"
 #include "python/frames_in_memory.h"
 #include "python/watch.h"
 #include "structures/session/kinetic_run.h"
@@ -86,7 +86,8 @@ class RunHandle {
   /// the ids are its place. Absent ids are -1.
   [[nodiscard]] pybind11::tuple elements(const std::string& structure, std::size_t frame);
 
-  [[nodiscard]] pybind11::dict take_events();
+  /// Returns the events since the last call (EventRows::take).
+  [[nodiscard]] pybind11::array take_events();
   void keep_events(bool keeps) { events_.keep(keeps); }
   /// Returns, for each structure in order, its name and the names of its kinds of events.
   [[nodiscard]] std::vector<std::pair<std::string, std::vector<std::string>>> structures();
@@ -130,7 +131,7 @@ class RunHandle {
   std::unique_ptr<KineticRun> run_;
   bool is_behind_ = false;           // all steps were run on several threads, and `run_` stands at its start
   std::optional<ViewResults> view_;  // listens to the session of `run_`
-  EventColumns events_;
+  EventRows events_;
   std::optional<RunReport> report_;
   bool has_static_times_ = false;
   std::vector<Stamp> stamps_;

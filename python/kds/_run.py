@@ -8,7 +8,7 @@ import numpy as np
 from . import _kds, _plots
 from ._inputs import open_input
 from ._options import InputError, arguments, call, number, warn, wholes
-from ._structure import Clock, Structure, events_array
+from ._structure import Clock, Structure
 from ._tables import indented
 from ._view import RecordedPage, view_of_new_run
 
@@ -79,7 +79,7 @@ class Run:
         warn(self._core.warnings())
         self._stamps = self._core.stamps()
         self._clock = Clock(self._stamps[0][0], self._stamps[1][0], len(self._stamps))
-        self.events = events_array(self._core)
+        self.events = self._core.take_events()
         self._core.keep_events(False)
         self.fingerprint = f"{self._core.fingerprint():016x}"
         self._table = None

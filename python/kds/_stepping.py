@@ -6,7 +6,7 @@ from . import _kds
 from ._inputs import check_unit_name, check_units, frame_of, is_frames, refuse_others
 from ._options import InputError, number, numbers, warn, whole, wholes
 from ._run import more_options, open_run, run_arguments
-from ._structure import Clock, Structure, events_array
+from ._structure import Clock, Structure
 
 
 def _warn_of_threads(options):
@@ -78,7 +78,7 @@ class KineticRun:
             raise InputError(f"frame {self._pushed}: has the shape {positions.shape}; expected {shape}")
         self._core.push(positions, time)
         self._pushed += 1
-        return events_array(self._core)
+        return self._core.take_events()
 
     @property
     def frame(self):
@@ -102,11 +102,11 @@ class KineticRun:
 
     def step(self):
         """Runs to the next frame. Returns the events on the way, or None after the last frame."""
-        return events_array(self._core) if self._core.step() else None
+        return self._core.take_events() if self._core.step() else None
 
     def next_event(self):
         """Runs to the next time of events. Returns the events of that time, or None if no event follows."""
-        return events_array(self._core) if self._core.next_event() else None
+        return self._core.take_events() if self._core.next_event() else None
 
     def go_to(self, frame):
         """Runs to a frame, which may lie within a step: forward, or back by repeating the run from its start.
@@ -115,12 +115,12 @@ class KineticRun:
         """
         number("frame", frame)  # None is no frame here
         self._core.go_to(self._clock.time(frame))
-        return events_array(self._core)
+        return self._core.take_events()
 
     def finish(self):
         """Runs all steps that are left and ends the run. Returns the events."""
         self._core.finish()
-        return events_array(self._core)
+        return self._core.take_events()
 
     def audit(self):
         """Compares all structures with static ones where the run stands. Raises kds.AuditError if one is wrong."""
@@ -148,7 +148,7 @@ class KineticRun:
 
     def _edit(self, function, *given):
         function(*given)
-        return events_array(self._core)
+        return self._core.take_events()
 
     def _place(self, structure):
         names = self.structures
@@ -222,7 +222,7 @@ def stream(source, *, start=None, stop=None, step=None, radius=None, necklaces=N
 def _stream_frames(source, **options):
     run = KineticRun(source, pull=True, **options)
     run._core.build()
-    yield StreamFrame(*run._core.stamp(0), events_array(run._core), run)
+    yield StreamFrame(*run._core.stamp(0), run._core.take_events(), run)
     for k in range(1, run._core.frame_count):
         events = run.step()
         yield StreamFrame(*run._core.stamp(k), events, run)

@@ -1,6 +1,4 @@
-"""A structure of a run, and the events of all structures."""
-
-import numpy as np
+"""A structure of a run, and its clock."""
 
 from ._options import InputError, number
 
@@ -24,24 +22,6 @@ class Clock:
 
     def frame(self, time):
         return self.first + time * self.stride
-
-
-def events_array(core):
-    """Returns the events since the last call as one structured array."""
-    columns = core.take_events()
-    structures = core.structures()
-    names = np.array([name for name, _ in structures] or [""])
-    width = max((len(kinds) for _, kinds in structures), default=1)
-    kinds = np.array([kinds + [""] * (width - len(kinds)) for _, kinds in structures] or [[""]])
-    beads = columns["beads"]
-    events = np.empty(len(columns["frame"]), dtype=[
-        ("frame", float), ("time", float), ("lower", float), ("upper", float), ("step", np.int64),
-        ("structure", names.dtype), ("kind", kinds.dtype), ("beads", np.int32, (beads.shape[1],))])
-    for name in ("frame", "time", "lower", "upper", "step", "beads"):
-        events[name] = columns[name]
-    events["structure"] = names[columns["structure"]]
-    events["kind"] = kinds[columns["structure"], columns["kind"]]
-    return events
 
 
 class Structure:
