@@ -197,12 +197,40 @@ def instances_are_shown(browser, kds, data, place):
         check(shown["hidden"] == hidden and bool(hidden) == (columns == 4), f"hidden beads of {name}: {hidden}")
 
 
+SHARE_DRAWN = """
+  await kds.seek(0, args[0]);
+  const scene = document.getElementById('scene');
+  const context = new OffscreenCanvas(scene.width, scene.height).getContext('2d');
+  context.drawImage(scene, 0, 0);
+  const {data} = context.getImageData(0, 0, scene.width, scene.height);
+  let drawn = 0;
+  for (let k = 0; k < data.length; k += 4) drawn += data[k] !== data[0] || data[k + 1] !== data[1] || data[k + 2] !== data[2];
+  return drawn / (data.length / 4);
+"""
+
+
+def many_edges_are_drawn(browser, kds, place):
+    """Above 20,000 edges, the page draws them as thin lines."""
+    trajectory, replay = os.path.join(place, "many.xyz"), os.path.join(place, "many.html")
+    run_program(kds, "generate", "random-chain", "--beads", "3500", "--frames", "2", "-o", trajectory)
+    run_program(kds, "view", trajectory, "--radius", "1", "--structures", "power", "-o", replay)
+    browser.open(replay, "#layers=edges")
+    edges = len(browser.run("return kds.state().edges"))
+    check(edges > 20000, f"there are {edges} edges only")
+    drawn = browser.wait(SHARE_DRAWN, 0.5)
+    check(0.1 < drawn < 0.9, f"edges cover {drawn} of the picture")
+    browser.open(replay, "#layers=flashes")
+    drawn = browser.wait(SHARE_DRAWN, 0.5)
+    check(drawn < 0.01, f"without edges something covers {drawn} of the picture")
+
+
 def main(kds, data, place):
     os.makedirs(place, exist_ok=True)
     with Browser(480, 360) as browser:  # drawing takes most of the time
         states_are_those_of_the_run(browser, kds, data, place)
         positions_are_on_the_curves(browser, kds, place)
         instances_are_shown(browser, kds, data, place)
+        many_edges_are_drawn(browser, kds, place)
         complaints, requests = browser.complaints(), browser.requests()
         check(not complaints, f"the page complains: {complaints}")
         check(not requests, f"the page asks the network: {requests}")
