@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <map>
+#include <memory>
 #include <random>
 #include <set>
 #include <utility>
@@ -11,7 +13,7 @@
 #include "kds/event_log.h"
 #include "motions/base/interruption.h"
 #include "motions/numbers/exact_number.h"
-#include "structures/session/kinetic_run.h"
+#include "structures/session/parallel_run.h"
 
 namespace kds {
 
@@ -32,9 +34,11 @@ class Clock {
   [[nodiscard]] double place_in(std::size_t step, std::size_t time) const {
     return static_cast<double>(time - start_of(step)) / static_cast<double>(stride_ * parts_of_frame);
   }
+  /// The event must have a rounded time, because brackets depend on how a run is cut.
   [[nodiscard]] double time_of(const Event& event) const {
-    return static_cast<double>(frame(event.step)) +
-           static_cast<double>(stride_) * (0.5 * event.lower + 0.5 * event.upper);
+    const auto from = static_cast<double>(event.from.number), to = static_cast<double>(event.to.number);
+    const double u = (event.rounded.value().frame - from) / (to - from);
+    return static_cast<double>(frame(event.step)) + static_cast<double>(stride_) * u;
   }
   [[nodiscard]] std::size_t steps() const { return steps_; }
 
@@ -48,6 +52,7 @@ class Recorder final : public EventListener {
   void on_event(const Event& event) override {
     if (event.kind.external) events.push_back({clock_.time_of(event), event.change});
   }
+  [[nodiscard]] bool prints_time_of(const Event& event) const override { return event.kind.external; }
   std::vector<TimedEvent> events;
 
  private:
@@ -100,6 +105,52 @@ class SearchCost {
   std::uint64_t tests_ = 0;
 };
 
+/// The structure of a run at a time.
+struct Sample {
+  std::size_t time;  ///< in parts of a frame
+  std::size_t step;
+  double u;  ///< the same time within the step, above 0
+  std::vector<NodeSphere> spheres;
+  std::optional<CombinatorialElements> cells;  ///< only of power diagrams, and not at frames
+};
+
+/// Takes the samples of a part of a run.
+class Sampler final : public FrameObserver {
+ public:
+  Sampler(KineticRun& run, const Clock& clock, const std::set<std::size_t>& times, bool has_cells)
+      : run_(run), clock_(clock), times_(times), has_cells_(has_cells) {}
+
+  void in_step(std::size_t step) override {
+    in_step_ = step;
+    const auto end = times_.lower_bound(clock_.start_of(step + 1));
+    for (auto time = times_.upper_bound(clock_.start_of(step)); time != end; ++time) {
+      const double u = clock_.place_in(step, *time);
+      run_.go_to(static_cast<double>(step) + u);
+      take(*time, step, u);
+    }
+  }
+  void at_frame(std::size_t frame) override {
+    if (!in_step_ || *in_step_ + 1 != frame)
+      return;  // the part begins here, so this frame is of another part
+    const std::size_t time = clock_.start_of(frame);
+    if (times_.contains(time)) take(time, frame - 1, 1);
+  }
+
+  std::deque<Sample> samples;
+
+ private:
+  void take(std::size_t time, std::size_t step, double u) {
+    Sample& sample = samples.emplace_back(Sample{time, step, u, run_.session().spheres_at(0, Dyadic(u)), {}});
+    if (has_cells_ && time % parts_of_frame != 0) sample.cells = run_.session().elements(0, step + 1);
+  }
+
+  KineticRun& run_;
+  const Clock& clock_;
+  const std::set<std::size_t>& times_;
+  bool has_cells_;
+  std::optional<std::size_t> in_step_;  // the last step that was run
+};
+
 void raise(std::optional<double>& largest, double value) { largest = std::max(largest.value_or(0), value); }
 
 std::set<std::pair<BeadId, BeadId>> short_edges(const std::vector<std::vector<BeadId>>& cells,
@@ -135,17 +186,15 @@ class Follower {
         cutoff_(cutoff),
         deviation_(deviation) {}
 
-  /// Compares the run with the truth at a time. `u` is the time within the step, `time` is the same time in
-  /// parts of a frame.
-  void look(const Session& session, std::size_t step, double u, std::size_t time) {
+  /// Compares the run with the truth at the time of a sample.
+  void look(Sample sample) {
     InterruptionCheck::ask();
-    truth_.move_to(time);
-    const Eigen::Matrix3Xd here = motion_.positions(step, u);
+    truth_.move_to(sample.time);
+    const Eigen::Matrix3Xd here = motion_.positions(sample.step, sample.u);
     raise(errors.displacement, displacement(here));
     if (setting_.structure == "contacts" && calpha_ == nullptr) look_at_distance(here);
-    const bool at_frame = time % parts_of_frame == 0;
-    if (setting_.structure == "power" && !at_frame) look_at_cells(session);
-    look_at_spheres(session.spheres_at(0, Dyadic(u)), at_frame);
+    if (sample.cells) look_at_cells(*sample.cells);
+    look_at_spheres(std::move(sample.spheres), sample.time % parts_of_frame == 0);
   }
   void finish() {
     if (nodes_ > 0) {
@@ -212,12 +261,11 @@ class Follower {
     for (const BeadRange& necklace : scene_.necklaces()) search_tests_ += cost.of(necklace);
     ++looks_at_spheres_;
   }
-  void look_at_cells(const Session& session) {
-    const auto elements = session.elements(0, 1);
+  void look_at_cells(const CombinatorialElements& elements) {
     std::vector<std::vector<BeadId>> found;
-    for (const CombinatorialElement& element : elements->all)
+    for (const CombinatorialElement& element : elements.all)
       found.emplace_back(element.begin(),
-                         std::find(element.begin() + elements->place_ids, element.end(), no_bead));
+                         std::find(element.begin() + elements.place_ids, element.end(), no_bead));
     std::sort(found.begin(), found.end());
     const auto& expected = truth_.cells();
     for (const auto& cell : found)
@@ -295,23 +343,25 @@ namespace {
 
 /// Returns all contacts of the setting's motion with these radii.
 std::vector<ContactTime> contacts_with(const FinestData& finest, const TradeSetting& setting,
-                                       std::vector<double> radii) {
+                                       std::vector<double> radii, std::size_t threads) {
   const Scene scene = finest.scene(setting, std::move(radii));
   const Clock clock(scene, setting.stride);
-  KineticRun run(scene, {{"contacts"}, setting.kernel, AuditMode::none, setting.settings});
+  ParallelRun run(scene, {{"contacts"}, setting.kernel, AuditMode::none, setting.settings},
+                  {.threads = threads});
   Recorder recorder(clock);
   run.listen(recorder);
-  run.build();
-  const std::vector<BeadPair> built = pairs_of(run.session().built(0));
-  run.finish();
+  std::vector<BeadPair> built;
+  run.run([&](std::size_t frame) {
+    if (frame == 0) built = pairs_of(run.session().built(0));
+  });
   return contact_times(built, recorder.events, 0, static_cast<double>(clock.frame(clock.steps())));
 }
 
 void certify_contacts(const FinestData& finest, const TradeSetting& setting, const Scene& scene,
-                      const StrideDeviation& deviation, RunHistory& history) {
+                      const StrideDeviation& deviation, std::size_t threads, RunHistory& history) {
   const RadiiWithin radii = radii_within(deviation, scene.radii());
-  history.contacts = contacts_with(finest, setting, radii.larger);
-  history.sure = contacts_with(finest, setting, radii.smaller);
+  history.contacts = contacts_with(finest, setting, radii.larger, threads);
+  history.sure = contacts_with(finest, setting, radii.smaller, threads);
   std::erase_if(history.sure, [&](const ContactTime& contact) {
     return radii.has_a_ball[contact.pair.first] == 0 || radii.has_a_ball[contact.pair.second] == 0;
   });
@@ -320,32 +370,37 @@ void certify_contacts(const FinestData& finest, const TradeSetting& setting, con
 }  // namespace
 
 FollowedRun follow_run(const FinestData& finest, const TradeSetting& setting, Truth& truth,
-                       const SamplingOfTimes& sampling, double cutoff) {
+                       const SamplingOfTimes& sampling, double cutoff, std::size_t threads) {
   const Scene scene = finest.scene(setting);
   const Clock clock(scene, setting.stride);
   const std::set<std::size_t> times = times_to_look(finest.frame_count(), sampling);
   std::optional<StrideDeviation> deviation;
   if (setting.certify) deviation = finest.deviation(setting, scene);
-  KineticRun run(scene, {{setting.structure}, setting.kernel, AuditMode::none, setting.settings});
+  ParallelRun run(scene, {{setting.structure}, setting.kernel, AuditMode::none, setting.settings},
+                  {.threads = threads});
   Recorder recorder(clock);
   run.listen(recorder);
+  run.observe([&](KineticRun& part) {
+    return std::make_unique<Sampler>(part, clock, times, setting.structure == "power");
+  });
   Follower follower(finest, scene, setting, truth, cutoff, deviation ? &*deviation : nullptr);
-  run.build();
-  const std::vector<BeadPair> built = pairs_of(run.session().built(0));
-  for (const std::size_t time : times) {
-    if (time > clock.start_of(clock.steps())) break;  // a stride may stop before the last frame
-    const std::size_t step = clock.step_to(time);
-    const double u = clock.place_in(step, time);
-    run.go_to(static_cast<double>(step) + u);
-    follower.look(run.session(), step, u, time);
-  }
-  run.finish();
+  std::vector<BeadPair> built;
+  run.run([&](std::size_t frame) {
+    if (frame == 0) {
+      built = pairs_of(run.session().built(0));
+      return;
+    }
+    auto& samples = dynamic_cast<Sampler&>(*run.observer()).samples;
+    for (; !samples.empty() && samples.front().time <= clock.start_of(frame); samples.pop_front())
+      follower.look(std::move(samples.front()));
+  });
   follower.finish();
   const auto end = static_cast<double>(clock.frame(clock.steps()));
-  FollowedRun followed{{end, std::move(recorder.events), {}, {}}, follower.errors, follower.tests};
+  FollowedRun followed{
+      {end, std::move(recorder.events), {}, {}}, follower.errors, follower.tests, run.threads()};
   if (setting.structure == "contacts") {
     followed.history.contacts = contact_times(built, followed.history.events, 0, end);
-    if (deviation) certify_contacts(finest, setting, scene, *deviation, followed.history);
+    if (deviation) certify_contacts(finest, setting, scene, *deviation, threads, followed.history);
   }
   return followed;
 }

@@ -10,6 +10,7 @@
 #include "kds/stopwatch.h"
 #include "motions/base/input_error.h"
 #include "structures/session/kinetic_run.h"
+#include "structures/session/parallel_run.h"
 
 namespace kds {
 
@@ -150,7 +151,8 @@ std::vector<TradeRow> measure_trade(const FinestData& finest, const TradeTask& t
         static_cast<void>(seconds_to_run(finest, setting, row.cost));
         return std::pair(std::move(row), 1.0);
       }
-      FollowedRun run = follow_run(finest, setting, *truth, task.sampling, task.cutoff.value_or(4 * largest));
+      FollowedRun run = follow_run(finest, setting, *truth, task.sampling, task.cutoff.value_or(4 * largest),
+                                   task.threads.value_or(all_threads()));
       if (rows.empty()) exact = run.history;
       if (setting.has_events()) compare_histories(exact, run, finest, setting);
       row.errors = run.errors;

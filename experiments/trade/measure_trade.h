@@ -60,11 +60,13 @@ struct FollowedRun {
   TradeErrors errors;  ///< all errors except those of events and contacts
   /// Sphere pairs tested by a contact search in the hierarchy, mean over the times examined.
   std::optional<double> tests;
+  std::size_t threads = 1;  ///< number of threads that ran parts of the run
 };
 
-/// `cutoff` is the length limit for edges_missed.
+/// Runs the setting on at most `threads` threads, on which the result does not depend. The caller's thread
+/// compares with the truth. `cutoff` is the length limit for edges_missed.
 [[nodiscard]] FollowedRun follow_run(const FinestData& finest, const TradeSetting& setting, Truth& truth,
-                                     const SamplingOfTimes& sampling, double cutoff);
+                                     const SamplingOfTimes& sampling, double cutoff, std::size_t threads);
 
 /// Adds the errors of events and contacts, computed from the history of the exact run.
 void compare_histories(const RunHistory& exact, FollowedRun& run, const FinestData& finest,
@@ -78,7 +80,8 @@ struct TradeTask {
   std::optional<double> cutoff;  ///< limit for short edges; empty for four times the largest radius
   /// Adds rows for the exact kernel: the same events, 100 to thousands of times the cost.
   bool exact_kernel = true;
-  FrameRange frames{};  ///< the frames that were read
+  FrameRange frames{};                   ///< the frames that were read
+  std::optional<std::size_t> threads{};  ///< of the runs that measure errors; empty for all cores
 };
 
 struct TradeCost {

@@ -109,7 +109,8 @@ const OptionList<TradeTask>& task_options() {
                        "number of random times, and of frames, at which errors are measured (default: 200)"},
                       &SamplingOfTimes::times, 1, 1'000'000),
                   whole_option({"--seed", "N", "seed of the random times (default: 1)"},
-                               &SamplingOfTimes::seed, 0, ~std::uint64_t{0})}});
+                               &SamplingOfTimes::seed, 0, ~std::uint64_t{0})}})
+          .with({threads_option(&O::threads)});
   return list;
 }
 

@@ -205,6 +205,8 @@ class ParallelRun::Joined final : public RunningStructure {
 };
 
 /// The threads besides the caller's, and the parts that wait for one. The caller helps while it waits.
+/// The threads end with the run: threads of a pool, like oneTBB's, would go on, and a process that forks then
+/// may copy a lock that such a thread holds (docs/measurements.md).
 class ParallelRun::Workers {
  public:
   Workers(const ParallelRun& run, std::size_t threads) : run_(run) {
@@ -364,15 +366,18 @@ void ParallelRun::run(const std::function<void(std::size_t)>& at_frame, Around a
 
 void ParallelRun::run_uncut(const std::function<void(std::size_t)>& at_frame) {
   if (prepare_) prepare_(*own_);
-  if (observe_) observers_.push_back(observe_(*own_));
+  if (observe_) observer_ = observers_.emplace_back(observe_(*own_)).get();
   const auto reach = [&](std::size_t frame) {
-    for (const auto& observer : observers_) observer->at_frame(frame);
+    if (observer_ != nullptr) observer_->at_frame(frame);
     at_frame(frame);
   };
   around_(*own_, std::nullopt, [&] { own_->build(); });
   reach(0);
   for (std::size_t step = 0; own_->load_step(); ++step) {
-    around_(*own_, step, [&] { own_->run_step(); });
+    around_(*own_, step, [&] {
+      if (observer_ != nullptr) observer_->in_step(step);
+      own_->run_step();
+    });
     reach(step + 1);
   }
   // An error that can occur only after all steps is reported for the last step.
@@ -448,7 +453,10 @@ void ParallelRun::run_part(Part& part, std::unique_ptr<Worker> worker) const {
     }
     for (std::size_t step = part.first; step < part.last && !is_stopped_; ++step) {
       static_cast<void>(run.load_step());
-      around_(run, step, [&] { static_cast<void>(run.run_step()); });
+      around_(run, step, [&] {
+        if (worker->observer) worker->observer->in_step(step);
+        static_cast<void>(run.run_step());
+      });
       if (worker->observer) worker->observer->at_frame(step + 1);
       note_frame(part, *worker, step + 1);
     }
@@ -504,6 +512,7 @@ bool ParallelRun::continues(const Part& part) const {
 
 /// Tells the listeners and the caller what happened in the part.
 void ParallelRun::join(Part& part, const std::function<void(std::size_t)>& at_frame) {
+  observer_ = part.worker ? part.worker->observer.get() : nullptr;
   for (std::size_t number = part.first == 0 ? 0 : part.first + 1; !part.reached.empty(); ++number) {
     show(part.reached.front(), number, at_frame);
     part.reached.pop_front();

@@ -52,6 +52,9 @@ class FrameObserver {
   virtual ~FrameObserver() = default;
   /// Called at the first frame of the part, whose structures have just been built, and at each further one.
   virtual void at_frame(std::size_t frame) = 0;
+  /// Called before each step is run, when its motion is loaded. May run the part to times within the step
+  /// (KineticRun::go_to).
+  virtual void in_step(std::size_t step) { static_cast<void>(step); }
 };
 
 class ParallelRun {
@@ -99,6 +102,9 @@ class ParallelRun {
   void observe(Observe observe) { observe_ = std::move(observe); }
   /// Returns the observers after the run, in the order of time.
   [[nodiscard]] const std::vector<std::unique_ptr<FrameObserver>>& observers() const { return observers_; }
+  /// Returns the observer of the part whose frame was just reached, or null. Call it from `at_frame` of
+  /// `run`.
+  [[nodiscard]] FrameObserver* observer() const { return observer_; }
   /// Limits exact work (ExactWork::set_limit). The limit counts the work of all steps in their order, so the
   /// run is then not cut.
   void limit_work(std::uint64_t most);
@@ -147,6 +153,7 @@ class ParallelRun {
   std::function<void(KineticRun&)> prepare_;
   Observe observe_;
   std::vector<std::unique_ptr<FrameObserver>> observers_;
+  FrameObserver* observer_ = nullptr;  // of the part that is shown
   Around around_;
   std::unique_ptr<Worker> truth_;  // whose structures are at the end of the last part that was joined
   std::vector<double> static_seconds_;

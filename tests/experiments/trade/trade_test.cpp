@@ -1,6 +1,7 @@
 // The measurements of `kds trade`, compared with results computed in another way, and the command itself.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -142,6 +143,46 @@ TEST(Trade, CertifiedRunsMissNothingAndNothingSureIsWrong) {
   EXPECT_TRUE(any_sure);
   EXPECT_GT(row_of(rows, "wrapped --frames ::2").errors.beads_outside.value(), 0);
   EXPECT_GT(row_of(rows, "contacts --frames ::2").errors.contacts_missed.value(), 0);
+}
+
+/// Returns all that a run of a setting gives, as text.
+std::string text_of(const FollowedRun& run) {
+  std::string text = fmt::format("end {} tests {}\n", run.history.end, run.tests.value_or(-1));
+  for (const auto& [name, error] : by_name(run.errors))
+    if (error) text += fmt::format("{} {}\n", name, *error);
+  for (const TimedEvent& event : run.history.events)
+    text += fmt::format("{} {} {}\n", event.time, event.change.kind,
+                        fmt::join(event.change.ids.data(), event.change.ids.data() + event.change.size, ","));
+  for (const auto* const contacts : {&run.history.contacts, &run.history.sure})
+    for (const ContactTime& contact : *contacts)
+      text += fmt::format("{}-{} {} {}\n", contact.pair.first, contact.pair.second, contact.from, contact.to);
+  return text;
+}
+
+// The runs stop within steps, on the threads of their parts.
+TEST(Trade, RunsAreTheSameOnSeveralThreads) {
+  const FinestData finest = villin(760, 2.0);
+  const Scene truest = finest.scene();
+  const std::unique_ptr<Truth> truth = make_truth(truest, {truest.necklaces(), true, 5, true, {}});
+  SamplingOfTimes sampling;
+  sampling.times = 12;
+  for (const auto& [structure, stride] : {std::pair("wrapped", 1U), std::pair("power", 1U),
+                                          std::pair("contacts", 1U), std::pair("contacts", 2U)}) {
+    SCOPED_TRACE(structure);
+    TradeSetting setting;
+    setting.structure = structure;
+    setting.stride = stride;
+    setting.certify = stride > 1;
+    setting.settings.apart = 5;
+    const auto on = [&](std::size_t threads) {
+      return follow_run(finest, setting, *truth, sampling, 8.0, threads);
+    };
+    const FollowedRun one = on(1), two = on(2);
+    EXPECT_EQ(one.threads, 1U);
+    EXPECT_EQ(two.threads, 2U);
+    EXPECT_GT(one.history.events.size(), 10U);
+    EXPECT_EQ(text_of(two), text_of(one));
+  }
 }
 
 TEST(Trade, CalphaAloneIsAnotherModel) {
