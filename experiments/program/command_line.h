@@ -3,6 +3,7 @@
 // declarations.
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,11 +30,16 @@ struct CommandSpec {
 };
 
 /// Thrown if --help is given. main prints the text and exits with 0. `kds sweep` asks each command for its
-/// help to learn the command's operand and options.
+/// help to learn the command's operand and options, and which values they take.
 struct HelpRequest {
+  using Check = std::function<void(std::string_view option, const std::vector<std::string>& values)>;
+
   std::string text;
   std::string operand = {};              ///< empty if the command takes none
   std::vector<OptionSpec> options = {};  ///< refer to texts that live as long as the command's option list
+  /// Throws the command's own InputError if the option, which has its dashes, cannot take these values. All
+  /// other options have their defaults. Null if the command does not use parse_for.
+  Check check = {};
 };
 
 class ParsedArguments {

@@ -106,13 +106,15 @@ class OptionList {
   }
 
   void read(const ParsedArguments& parsed, Options& options) const {
-    for (const auto& option : options_) {
-      if (!parsed.has(option.spec.name)) continue;
-      if (option.read_values)
-        option.read_values(options, parsed.values(option.spec.name));
-      else
-        option.read(options, *parsed.value(option.spec.name));
-    }
+    for (const auto& option : options_)
+      if (parsed.has(option.spec.name)) read_values_of(option, parsed.values(option.spec.name), options);
+  }
+
+  /// Reads one option, named with its dashes. Does nothing if there is none. `values` has one text for each
+  /// value, and one empty text for a flag.
+  void read_one(std::string_view name, const std::vector<std::string>& values, Options& options) const {
+    for (const auto& option : options_)
+      if (option.spec.name == name) read_values_of(option, values, options);
   }
 
   /// Returns the name (without dashes) and the text of each setting. The text is empty if the setting has no
@@ -153,6 +155,14 @@ class OptionList {
   }
 
  private:
+  static void read_values_of(const Option<Options>& option, const std::vector<std::string>& values,
+                             Options& options) {
+    if (option.read_values)
+      option.read_values(options, values);
+    else
+      option.read(options, values.front());
+  }
+
   template <class Part, class PartOf>
   [[nodiscard]] OptionList with_part(const OptionList<Part>& others, PartOf part_of) const {
     std::vector<Option<Options>> options;
@@ -182,12 +192,27 @@ class OptionList {
   std::vector<Option<Options>> options_;
 };
 
-/// Reads the arguments of a command into `options`. Throws InputError and HelpRequest as parse_arguments
-/// does.
+/// Parses the arguments of a command. Throws InputError and HelpRequest as parse_arguments does, with a check
+/// of values in the HelpRequest. The check reads them into a copy of `defaults`.
+template <class Options>
+[[nodiscard]] ParsedArguments parse_for(const CommandSpec& command, const OptionList<Options>& list,
+                                        const Arguments& arguments, const Options& defaults) {
+  try {
+    return parse_arguments(command, list.specs(), arguments);
+  } catch (HelpRequest& help) {
+    help.check = [list, defaults](std::string_view option, const std::vector<std::string>& values) {
+      Options options = defaults;
+      list.read_one(option, values, options);
+    };
+    throw;
+  }
+}
+
+/// Reads the arguments of a command into `options`, which has the defaults. Throws as parse_for does.
 template <class Options>
 ParsedArguments read_arguments(const CommandSpec& command, const OptionList<Options>& list,
                                const Arguments& arguments, Options& options) {
-  ParsedArguments parsed = parse_arguments(command, list.specs(), arguments);
+  ParsedArguments parsed = parse_for(command, list, arguments, options);
   list.read(parsed, options);
   return parsed;
 }

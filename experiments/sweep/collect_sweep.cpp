@@ -1,24 +1,19 @@
 #include "experiments/sweep/collect_sweep.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
-#include <optional>
-#include <set>
-#include <span>
 #include <unordered_map>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/html_page.h"
 #include "experiments/output/page/paper.h"
-#include "experiments/output/page/svg_plot.h"
 #include "experiments/output/page/table.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
 #include "experiments/sweep/pooled_figures.h"
 #include "experiments/sweep/result_rows.h"
+#include "experiments/sweep/sweep_page.h"
+#include "experiments/sweep/sweep_status.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -33,6 +28,12 @@ Field field_from(const Json& json) {
   if (json.whole_number() != nullptr) return Field(*json.whole_number());
   if (const auto number = json.number()) return Field(*number);
   return {};
+}
+
+// Returns JSON on one line, if it is UTF-8. File names need not be.
+std::string one_object(const Json& row) {
+  const auto line = line_of(row);
+  return line ? *line : text_of(row);
 }
 
 // Rows whose columns are found while they are added.
@@ -82,7 +83,7 @@ class WideTable {
       for (std::size_t c = 0; c < fixed_.size(); ++c)
         row[fixed_[c]] = rows_[k].fixed[c].empty() ? Json() : Json(rows_[k].fixed[c]);
       for (const auto& [column, value] : rows_[k].cells) row[columns_[column]] = value;
-      stream << (k > 0 ? ",\n    " : "\n    ") << line_of(row).value_or("{}");
+      stream << (k > 0 ? ",\n    " : "\n    ") << one_object(row);
     }
     stream << "\n  ]";
   }
@@ -94,222 +95,6 @@ class WideTable {
   std::unordered_map<std::string, std::uint32_t> by_name_;
   std::vector<Row> rows_;
 };
-
-struct FailedTask {
-  std::string task, command, input, status, error, repeat;
-  std::uint64_t code = 0;
-};
-
-std::string json_text(const Json& json, std::string_view name) {
-  const Json* const found = json.find(name);
-  return found != nullptr && found->text() != nullptr ? *found->text() : std::string();
-}
-
-std::vector<FailedTask> failed_tasks(const SweepPlan& plan, const TaskStates& states) {
-  std::vector<FailedTask> failed;
-  for (const SweepTask& task : plan.tasks()) {
-    const TaskState& state = states.of(task.name);
-    const TaskStatus status = status_of(state);
-    if (status != TaskStatus::failed && status != TaskStatus::crashed) continue;
-    const bool crashed = status == TaskStatus::crashed;
-    const RecordPlace& place = crashed ? state.death : state.failure;
-    const Json json = place.length > 0 ? parse_json(states.read(place)) : Json();
-    FailedTask& row = failed.emplace_back();
-    row.task = hex_digits(task.name);
-    row.command = plan.text(task, "command");
-    row.input = plan.text(task, "input");
-    row.status = crashed ? "crashed" : "failed";
-    row.error = json_text(json, "error");
-    if (row.error.empty()) row.error = "the sweep was killed";
-    if (crashed) row.error = fmt::format("{} attempts left no result; the last {}", state.lost(), row.error);
-    const Json* const code = json.find("code");
-    row.code = code != nullptr && code->whole_number() != nullptr ? *code->whole_number() : 0;
-    row.repeat = "kds " + shell_words(plan.arguments(task));
-  }
-  return failed;
-}
-
-Table<FailedTask> failed_table() {
-  using R = FailedTask;
-  return {{
-      {"task", "task", [](const R& r) { return Field(r.task); }},
-      {"command", "command", [](const R& r) { return Field(r.command); }},
-      {"input", "input", [](const R& r) { return text_or_nothing(r.input); }},
-      {"status", "status", [](const R& r) { return Field(r.status); }},
-      {"code", "", [](const R& r) { return r.code > 0 ? Field(r.code) : Field(); }},
-      {"error", "error", [](const R& r) { return Field(r.error); }},
-      {"repeat", "repeat", [](const R& r) { return Field(r.repeat); }},
-  }};
-}
-
-Table<SweepCount> count_table() {
-  using R = SweepCount;
-  return {{
-      {"command", "command", [](const R& r) { return Field(r.command); }},
-      {"tasks", "tasks", [](const R& r) { return Field(r.tasks); }},
-      {"done", "done", [](const R& r) { return Field(r.done); }},
-      {"failed", "failed", [](const R& r) { return Field(r.failed); }},
-      {"crashed", "crashed", [](const R& r) { return Field(r.crashed); }},
-      {"running", "running", [](const R& r) { return Field(r.running); }},
-      {"open", "open", [](const R& r) { return Field(r.open); }},
-      {.key = "seconds",
-       .heading = "seconds of tasks done",
-       .value = [](const R& r) { return Field(r.seconds); },
-       .format = shortly},
-      {.key = "left",
-       .heading = "core hours left",
-       .value =
-           [](const R& r) {
-             const auto left = static_cast<double>(r.open + r.running);
-             return r.done > 0 ? Field(r.seconds / static_cast<double>(r.done) * left / 3600) : Field();
-           },
-       .format = shortly},
-  }};
-}
-
-// Leaves out the sum over all commands if there is only one.
-std::span<const SweepCount> without_repeated_sum(const std::vector<SweepCount>& counts) {
-  return std::span(counts).first(counts.size() - (counts.size() == 2 ? 1 : 0));
-}
-
-std::vector<SweepCount> counts_from(const SweepPlan& plan, const TaskStates& states, const fs::path& folder) {
-  std::vector<SweepCount> counts;
-  const TaskLocks locks(locks_file(folder), TaskLocks::Use::look);
-  SweepCount all;
-  all.command = "all";
-  for (const SweepTask& task : plan.tasks()) {
-    const std::string command = plan.text(task, "command");
-    auto count = std::ranges::find(counts, command, &SweepCount::command);
-    if (count == counts.end()) {
-      counts.emplace_back().command = command;
-      count = counts.end() - 1;
-    }
-    const TaskState& state = states.of(task.name);
-    const TaskStatus status = status_of(state);
-    const bool settled = status == TaskStatus::done || status == TaskStatus::failed;
-    const bool running = !settled && state.lost() > 0 && locks.taken_by_another(task.name);
-    double seconds = 0;
-    if (status == TaskStatus::done) {
-      const std::string json = states.read(state.done);  // begins with {"seconds":
-      const std::size_t colon = json.find(':');
-      seconds = colon == std::string::npos ? 0 : std::strtod(json.c_str() + colon + 1, nullptr);
-    }
-    for (SweepCount* one : {&*count, &all}) {
-      ++one->tasks;
-      one->seconds += seconds;
-      if (running)
-        ++one->running;
-      else if (status == TaskStatus::done)
-        ++one->done;
-      else if (status == TaskStatus::failed)
-        ++one->failed;
-      else if (status == TaskStatus::crashed)
-        ++one->crashed;
-      else
-        ++one->open;
-    }
-  }
-  counts.push_back(std::move(all));
-  return counts;
-}
-
-// Plots the figures of a command over its first axis with several numbers, one plot for each of the first
-// measures. Axes of one value do not name series. `pooled` says over what the means are.
-std::string plots_of(const PooledFigures& pool, const std::string& command, const std::string& pooled) {
-  constexpr std::size_t most_plots = 4, most_series = 12;
-  const auto number_of = [](const std::string& text) -> std::optional<double> {
-    char* end = nullptr;
-    const double number = std::strtod(text.c_str(), &end);
-    return !text.empty() && *end == '\0' && number > 0 ? std::optional(number) : std::nullopt;
-  };
-  std::vector<const PooledFigure*> figures;
-  std::vector<std::set<std::string>> values(pool.names().size());
-  for (const PooledFigure& figure : pool.figures()) {
-    if (figure.command != command) continue;
-    figures.push_back(&figure);
-    for (std::size_t axis = 0; axis < values.size(); ++axis) values[axis].insert(figure.axes[axis]);
-  }
-  std::string html;
-  for (std::size_t axis = 0; axis < pool.names().size() && html.empty(); ++axis) {
-    std::map<std::string, PointPlot> plots;  // by measure
-    std::vector<std::string> order;
-    for (const PooledFigure* figure : figures) {
-      const auto x = number_of(figure->axes[axis]);
-      if (!x || !(figure->mean() > 0)) continue;
-      const std::string& name = figure->measure;
-      if (!plots.contains(name)) {
-        if (order.size() == most_plots) continue;
-        order.push_back(name);
-        plots[name] = {pool.names()[axis], name, {}, {}};
-      }
-      PointPlot& plot = plots[name];
-      std::string series = figure->row;
-      for (std::size_t k = 0; k < figure->axes.size(); ++k)
-        if (k != axis && values[k].size() > 1 && !figure->axes[k].empty() &&
-            figure->row.find(figure->axes[k]) == std::string::npos)
-          series += (series.empty() ? "" : ", ") + figure->axes[k];
-      auto found = std::ranges::find(plot.series, series);
-      if (found == plot.series.end()) {
-        if (plot.series.size() == most_series) continue;
-        plot.series.push_back(series);
-        found = plot.series.end() - 1;
-      }
-      plot.points.push_back({"", *x, figure->mean(), static_cast<std::size_t>(found - plot.series.begin())});
-    }
-    for (const std::string& name : order) {
-      std::vector<double> places;
-      for (const auto& point : plots[name].points) places.push_back(point.x);
-      std::ranges::sort(places);
-      if (places.empty() || places.front() == places.back()) continue;
-      html += html_figure(svg_plot(plots[name]),
-                          html_escaped(fmt::format("{}: {} by {}, means over {}, both axes logarithmic.",
-                                                   command, name, pool.names()[axis], pooled)));
-    }
-  }
-  return html;
-}
-
-std::string sweep_page(const SweepPlan& plan, const CollectedSweep& collected, const PooledFigures& pool,
-                       const std::vector<FailedTask>& failed, const std::vector<SweepCount>& counts,
-                       const std::string& command_line) {
-  constexpr std::size_t most_rows = 300;
-  Page page;
-  page.title = "kds sweep";
-  page.command_line = command_line;
-  page.data = {"results.csv", "results.json", "pooled.csv", "times.csv", "failed.csv"};
-  const std::size_t tasks = collected.tasks;
-  page.found = fmt::format(
-      "<p>{} of {} tasks have results, in {} rows.{}</p>\n", with_thousands(collected.done),
-      with_thousands(tasks), with_thousands(collected.rows),
-      collected.done == tasks ? " The sweep is complete."
-                              : fmt::format(" {} failed, {} crashed, {} are missing.", collected.failed,
-                                            collected.crashed, collected.missing));
-  std::vector<PooledFigure> figures = pool.figures();
-  std::erase_if(figures, [](const PooledFigure& figure) {
-    return std::ranges::all_of(figure.values, [](double value) { return value == 0; });
-  });
-  const auto shown = std::span(figures).first(std::min(most_rows, figures.size()));
-  std::string pooled = pooled_table(pool.names()).html(shown);
-  pooled += fmt::format("<p>{} of {} means; pooled.csv has all.</p>\n", shown.size(),
-                        with_thousands(pool.figures().size()));
-  const std::vector<std::string>& over = plan.spec().pooled;
-  std::string plots;
-  for (const SweepCount& count : counts)
-    plots += plots_of(pool, count.command,
-                      over.empty() ? "equal settings" : fmt::format("{}", fmt::join(over, " and ")));
-  page.body = html_section("Plots", plots);
-  if (!failed.empty())
-    page.body +=
-        html_section("Tasks without a result",
-                     failed_table().html(std::span(failed).first(std::min(most_rows, failed.size()))));
-  page.body += html_section("Tasks", count_table().html(without_repeated_sum(counts)));
-  page.body += html_section("Means", pooled);
-  page.words =
-      html_escaped(fmt::format("Means pool the tasks that differ in {} only. Their 95% intervals are "
-                               "Student's, for independent values.",
-                               fmt::join(plan.spec().pooled, ", ")));
-  return html_page(page);
-}
 
 // Returns the rows of a task's result, and the seconds that the task took.
 std::vector<ResultRow> read_rows(const TaskStates& states, const SweepTask& task, double& seconds,
@@ -329,26 +114,6 @@ std::vector<ResultRow> read_rows(const TaskStates& states, const SweepTask& task
 
 }  // namespace
 
-std::vector<SweepCount> count_tasks(const SweepPlan& plan, const fs::path& folder) {
-  TaskStates states(results_folder(folder));
-  states.refresh();
-  return counts_from(plan, states, folder);
-}
-
-std::string status_text(const std::vector<SweepCount>& counts) {
-  return count_table().text(without_repeated_sum(counts));
-}
-
-std::size_t write_failed(const SweepPlan& plan, const fs::path& folder) {
-  TaskStates states(results_folder(folder));
-  states.refresh();
-  const std::vector<FailedTask> failed = failed_tasks(plan, states);
-  AtomicFiles files;
-  files.write(folder / "failed.csv", failed_table().csv(failed));
-  commit_together({&files});
-  return failed.size();
-}
-
 CollectedSweep collect_sweep(const SweepPlan& plan, const fs::path& folder, const std::string& command_line) {
   TaskStates states(results_folder(folder));
   states.refresh();
@@ -359,12 +124,12 @@ CollectedSweep collect_sweep(const SweepPlan& plan, const fs::path& folder, cons
   PooledFigures pool(plan);
   CollectedSweep collected;
   const std::vector<SweepTask>& tasks = plan.tasks();
-  for (std::size_t first = 0; first < tasks.size(); first += tasks[first].parts) {
+  for (std::size_t first = 0; first < tasks.size(); first += tasks[first].segments) {
     const SweepTask& task = tasks[first];
-    std::vector<std::vector<ResultRow>> parts;
+    std::vector<std::vector<ResultRow>> segments;
     double seconds = 0, processor_seconds = 0;
-    for (std::size_t part = 0; part < task.parts; ++part) {
-      const SweepTask& one = tasks[first + part];
+    for (std::size_t segment = 0; segment < task.segments; ++segment) {
+      const SweepTask& one = tasks[first + segment];
       const TaskStatus status = status_of(states.of(one.name));
       ++collected.tasks;
       collected.done += status == TaskStatus::done ? 1U : 0U;
@@ -376,15 +141,16 @@ CollectedSweep collect_sweep(const SweepPlan& plan, const fs::path& folder, cons
         if (collected.first_missing.size() < most_named)
           collected.first_missing.push_back("kds " + shell_words(plan.arguments(one)));
       }
-      if (status == TaskStatus::done) parts.push_back(read_rows(states, one, seconds, processor_seconds));
+      if (status == TaskStatus::done) segments.push_back(read_rows(states, one, seconds, processor_seconds));
     }
-    if (parts.size() < task.parts) continue;
+    if (segments.size() < task.segments) continue;
     bool uneven = false;
-    const std::vector<ResultRow> rows = task.parts > 1 ? joined_parts(parts, uneven) : parts.front();
+    const std::vector<ResultRow> rows =
+        task.segments > 1 ? joined_segments(segments, uneven) : segments.front();
     if (uneven)
       throw InputError(
-          fmt::format("{}: its parts have different beads or dimensions and cannot be joined; expected "
-                      "no part_steps for this input",
+          fmt::format("{}: its segments have different beads or dimensions and cannot be joined; expected "
+                      "no segment_steps for this input",
                       plan.text(task, "input")));
     std::vector<std::string> names{hex_digits(task.name), plan.text(task, "command"),
                                    plan.text(task, "input")};

@@ -6,25 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/sweep/run_sweep.h"
 #include "experiments/sweep/sweep_plan.h"
-#include "experiments/sweep/task_journal.h"
 
 namespace kds {
-
-/// The states of the tasks of one command, for `kds sweep status`.
-struct SweepCount {
-  std::string command;
-  std::size_t tasks = 0, done = 0, failed = 0, crashed = 0, running = 0, open = 0;
-  double seconds = 0;  ///< of the tasks that are done
-};
-/// Counts the tasks by command, in the order of sweep.json. The last count is that of all tasks.
-[[nodiscard]] std::vector<SweepCount> count_tasks(const SweepPlan& plan, const std::filesystem::path& folder);
-[[nodiscard]] std::string status_text(const std::vector<SweepCount>& counts);
-
-/// Writes failed.csv: a line for each task that failed or crashed, with its message and the command that
-/// repeats it. Returns the number of lines.
-std::size_t write_failed(const SweepPlan& plan, const std::filesystem::path& folder);
 
 struct CollectedSweep {
   std::size_t tasks = 0, done = 0, failed = 0, crashed = 0, missing = 0;

@@ -27,6 +27,7 @@ namespace {
 
 constexpr std::string_view kRemembered = "inputs.json";
 constexpr std::int64_t kNanoseconds = 1'000'000'000;
+constexpr int kCannotBeCut = 1;  // exit code of the child that looks at frames
 
 std::string text_in(const fs::path& file) {
   std::string text;
@@ -71,9 +72,9 @@ std::uint64_t hash_of_content(const std::string& file, const std::function<bool(
 int print_frames(const Arguments& arguments) {
   try {
     const RunOptions options = parse_run_options(arguments);
-    if (read_lone_instance(options)) return 1;
+    if (read_lone_instance(options)) return kCannotBeCut;
     const Scene scene = load_necklaces(options, FrameMotion::linear, 1, [](const std::string&) {});
-    if (scene.necklaces().size() != 1) return 1;
+    if (scene.necklaces().size() != 1) return kCannotBeCut;
     Json found{{"frames", scene.frame_count()}};
     if (options.radius == "auto") found["radius"] = fmt::format("{}", scene.radii().front());
     print_to_stdout(text_of(found));
@@ -88,11 +89,17 @@ std::optional<std::uint64_t> hex_in(const Json* json) {
   return std::strtoull(json->text()->c_str(), nullptr, 16);
 }
 
+std::optional<std::uint64_t> whole_in(const Json& object, std::string_view name) {
+  const Json* const found = object.find(name);
+  if (found == nullptr || found->whole_number() == nullptr) return std::nullopt;
+  return *found->whole_number();
+}
+
 std::optional<FramesFound> frames_in(const Json& json) {
-  const Json* const frames = json.find("frames");
+  const auto frames = whole_in(json, "frames");
   const Json* const radius = json.find("radius");
-  if (frames == nullptr || frames->whole_number() == nullptr) return std::nullopt;
-  return FramesFound{*frames->whole_number(),
+  if (!frames) return std::nullopt;
+  return FramesFound{*frames,
                      radius != nullptr && radius->text() != nullptr ? *radius->text() : std::string()};
 }
 
@@ -103,18 +110,21 @@ void InputHashes::load(const fs::path& folder) {
   const Json* const files = json.find("files");
   if (files != nullptr && files->items() != nullptr)
     for (const Json& item : *files->items()) {
-      const Json *const path = item.find("path"), *const bytes = item.find("bytes"),
-                        *const modified = item.find("modified");
+      const Json *const path = item.find("path"), *const bytes = item.find("bytes");
       const auto hash = hex_in(item.find("hash"));
       if (path == nullptr || path->text() == nullptr || bytes == nullptr ||
-          bytes->whole_number() == nullptr || modified == nullptr || modified->whole_number() == nullptr ||
-          !hash)
+          bytes->whole_number() == nullptr || !hash)
         continue;
-      earlier_[*path->text()] = {.bytes = *bytes->whole_number(),
-                                 .hash = *hash,
-                                 .modified = static_cast<std::int64_t>(*modified->whole_number()),
-                                 .exists = true,
-                                 .trusted = true};
+      File file;
+      file.bytes = *bytes->whole_number();
+      file.hash = *hash;
+      const auto inode = whole_in(item, "inode"), modified = whole_in(item, "modified"),
+                 changed = whole_in(item, "changed");
+      file.trusted = inode && modified && changed;
+      if (file.trusted)
+        file.stamp = {*inode, static_cast<std::int64_t>(*modified), static_cast<std::int64_t>(*changed)};
+      file.exists = true;
+      earlier_[*path->text()] = file;
     }
   const Json* const cuts = json.find("frames");
   if (cuts != nullptr && cuts->items() != nullptr)
@@ -124,13 +134,20 @@ void InputHashes::load(const fs::path& folder) {
 
 void InputHashes::save(const fs::path& folder) {
   if (!changed_) return;
+  auto known = files_;
+  known.insert(earlier_.begin(), earlier_.end());
   Json files = Json::array(), cuts = Json::array();
-  for (const auto& [path, file] : files_)
-    if (file.trusted)
-      files.push_back({{"path", path},
-                       {"bytes", file.bytes},
-                       {"modified", static_cast<std::uint64_t>(file.modified)},
-                       {"hash", hex_digits(file.hash)}});
+  for (const auto& [path, file] : known) {
+    if (file.hash == 0 || !line_of(Json(path))) continue;  // JSON holds UTF-8 only
+    Json item{{"path", path}, {"bytes", file.bytes}};
+    if (file.trusted) {
+      item["inode"] = file.stamp.inode;
+      item["modified"] = static_cast<std::uint64_t>(file.stamp.modified);
+      item["changed"] = static_cast<std::uint64_t>(file.stamp.changed);
+    }
+    item["hash"] = hex_digits(file.hash);
+    files.push_back(std::move(item));
+  }
   for (const auto& [key, found] : frames_) {
     Json cut{{"key", hex_digits(key)}};
     if (found) {
@@ -148,37 +165,60 @@ void InputHashes::save(const fs::path& folder) {
 InputHashes::File InputHashes::seen(const std::string& file) {
   File found;
   struct stat status {};
+  const auto nanoseconds = [](const timespec& time) { return time.tv_sec * kNanoseconds + time.tv_nsec; };
   if (::stat(file.c_str(), &status) == 0 && S_ISREG(status.st_mode)) {
     found.exists = true;
     found.bytes = static_cast<std::uint64_t>(status.st_size);
-    found.modified = status.st_mtim.tv_sec * kNanoseconds + status.st_mtim.tv_nsec;
+    found.stamp = {status.st_ino, nanoseconds(status.st_mtim), nanoseconds(status.st_ctim)};
   }
   return found;
 }
 
-bool InputHashes::has_changed(const std::string& file) const {
-  const auto known = files_.find(file);
-  if (known == files_.end()) return false;
-  const File now = seen(file);
-  const File& then = known->second;
-  return now.exists != then.exists || now.bytes != then.bytes || now.modified != then.modified;
+bool InputHashes::are_alike(const File& a, const File& b) {
+  return a.exists == b.exists && a.bytes == b.bytes && a.stamp == b.stamp;
 }
 
+bool InputHashes::has_changed(const std::string& file) {
+  const auto known = files_.find(file);
+  if (known == files_.end()) return false;
+  File& then = known->second;
+  File now = seen(file);
+  if (now.exists ? are_alike(now, then) : !then.exists) return false;
+  if (!now.exists || now.bytes != then.bytes) return true;
+  try {
+    now.hash = hash_of_content(file, stopped_);
+  } catch (const SweepStopped&) {
+    return true;  // unknown; the sweep ends anyway
+  }
+  if (now.hash != then.hash) return true;
+  then = now;
+  return false;
+}
+
+// A file is looked at before it is read, so a change meanwhile gives it another time than the one noted.
 std::uint64_t InputHashes::hash(const std::string& file) {
   if (const auto known = files_.find(file); known != files_.end()) return known->second.hash;
   File found = seen(file);
+  const auto earlier = earlier_.find(file);
+  const bool remembered = earlier != earlier_.end();
   if (found.exists) {
-    const auto earlier = earlier_.find(file);
-    const bool same = earlier != earlier_.end() && earlier->second.bytes == found.bytes &&
-                      earlier->second.modified == found.modified;
+    const bool same = remembered && earlier->second.trusted && are_alike(earlier->second, found);
+    constexpr std::int64_t settled = 2 * kNanoseconds;
+    found.trusted = same || std::time(nullptr) * kNanoseconds - found.stamp.changed > settled;
     found.hash = same ? earlier->second.hash : hash_of_content(file, stopped_);
     changed_ = changed_ || !same;
-    constexpr std::int64_t settled = 2 * kNanoseconds;
-    found.trusted = found.hash != 0 && (same || std::time(nullptr) * kNanoseconds - found.modified > settled);
+  }
+  if (found.hash == 0 && remembered) {
+    found.bytes = earlier->second.bytes;
+    found.hash = earlier->second.hash;
+    found.trusted = false;
+    gone_.insert(file);
   }
   files_.emplace(file, found);
   return found.hash;
 }
+
+std::vector<std::string> InputHashes::gone() const { return {gone_.begin(), gone_.end()}; }
 
 std::uint64_t InputHashes::bytes(const std::string& file) const {
   const auto known = files_.find(file);
@@ -196,8 +236,10 @@ std::optional<FramesFound> InputHashes::frames(std::uint64_t key, const Argument
   }
   std::optional<FramesFound> found;
   if (end->signal == 0 && end->code == 0) found = frames_in(parse_json(child.output().out()));
-  frames_[key] = found;
-  changed_ = true;
+  if (end->signal == 0 && end->code <= kCannotBeCut) {  // else the next sweep may find more
+    frames_[key] = found;
+    changed_ = true;
+  }
   return found;
 }
 

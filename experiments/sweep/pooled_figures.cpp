@@ -8,12 +8,16 @@
 #include <numeric>
 
 #include "experiments/output/text.h"
-#include "experiments/program/mean_interval.h"
 
 namespace kds {
 
 double PooledFigure::mean() const {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::optional<MeanInterval> PooledFigure::interval() const {
+  const auto student = mean_of_independent(values);
+  return counts ? above_zero(student) : student;
 }
 
 PooledFigures::PooledFigures(const SweepPlan& plan) : plan_(plan) {
@@ -38,7 +42,9 @@ void PooledFigures::add(const SweepTask& task, const std::vector<ResultRow>& row
                                           fmt::join(axes, "\n"), identity, place, name);
       const auto [found, is_new] = by_key_.emplace(key, figures_.size());
       if (is_new) figures_.push_back({plan_.text(task, "command"), identity, name, axes, {}});
-      figures_[found->second].values.push_back(*number);
+      PooledFigure& figure = figures_[found->second];
+      figure.values.push_back(*number);
+      figure.counts = figure.counts && value.whole_number() != nullptr;
     }
   }
 }
@@ -47,7 +53,7 @@ Table<PooledFigure> pooled_table(const std::vector<std::string>& axes) {
   using R = PooledFigure;
   const auto end_of = [](double MeanInterval::*end) {
     return [end](const R& r) {
-      const auto interval = mean_of_independent(r.values);
+      const auto interval = r.interval();
       return interval ? Field((*interval).*end) : Field();
     };
   };
@@ -63,7 +69,7 @@ Table<PooledFigure> pooled_table(const std::vector<std::string>& axes) {
        .value = [](const R& r) { return Field(r.mean()); },
        .words =
            [](const R& r) {
-             const auto interval = mean_of_independent(r.values);
+             const auto interval = r.interval();
              return interval ? interval_text(*interval) : short_decimal(r.mean());
            }},
       {.key = "lower", .value = end_of(&MeanInterval::lower)},

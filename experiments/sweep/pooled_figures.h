@@ -1,11 +1,13 @@
 #pragma once
 // Means of a sweep's figures over the tasks that differ in the pooled axes only.
 
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "experiments/output/page/table.h"
+#include "experiments/program/mean_interval.h"
 #include "experiments/sweep/result_rows.h"
 #include "experiments/sweep/sweep_plan.h"
 
@@ -16,8 +18,12 @@ struct PooledFigure {
   std::string command, row, measure;
   std::vector<std::string> axes;  ///< texts of the axes that are not pooled
   std::vector<double> values;
+  bool counts = true;  ///< whole numbers, none below 0
 
   [[nodiscard]] double mean() const;
+  /// Returns Student's interval, for independent values. That of counts stays above 0 (above_zero). Nothing
+  /// if the values do not tell their spread.
+  [[nodiscard]] std::optional<MeanInterval> interval() const;
 };
 
 class PooledFigures {
@@ -40,7 +46,7 @@ class PooledFigures {
   std::vector<PooledFigure> figures_;
 };
 
-/// Returns the table of figures with these axes. The intervals are Student's, for independent values.
+/// Returns the table of figures with these axes.
 [[nodiscard]] Table<PooledFigure> pooled_table(const std::vector<std::string>& axes);
 
 }  // namespace kds

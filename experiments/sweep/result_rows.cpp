@@ -62,8 +62,8 @@ bool are_equal(const Json* a, const Json* b) {
 bool is_time(std::string_view name) {
   const std::string_view last = name.substr(name.rfind('.') + 1);  // npos + 1 is 0
   if (last == "ratio" || last.starts_with("ratio_")) return true;
-  for (const std::string& part : split(name, '.'))
-    for (const std::string& word : split(part, '_'))
+  for (const std::string& level : split(name, '.'))
+    for (const std::string& word : split(level, '_'))
       if (word == "seconds" || word == "responsiveness" || word == "memory" || word == "speedup") return true;
   return false;
 }
@@ -90,35 +90,35 @@ std::vector<ResultRow> rows_of_result(const Json& result) {
   return rows;
 }
 
-std::vector<ResultRow> joined_parts(const std::vector<std::vector<ResultRow>>& parts, bool& uneven) {
+std::vector<ResultRow> joined_segments(const std::vector<std::vector<ResultRow>>& segments, bool& uneven) {
   std::vector<ResultRow> joined;
   uneven = false;
-  for (std::size_t row = 0; row < parts.front().size(); ++row) {
-    const ResultRow& first = parts.front()[row];
-    for (const auto& part : parts)
+  for (std::size_t row = 0; row < segments.front().size(); ++row) {
+    const ResultRow& first = segments.front()[row];
+    for (const auto& segment : segments)
       for (const char* name : {"structure", "input.beads", "input.dimension"})
-        if (row >= part.size() || part.size() != parts.front().size() ||
-            !are_equal(field_of(part[row].fields, name), field_of(first.fields, name)))
+        if (row >= segment.size() || segment.size() != segments.front().size() ||
+            !are_equal(field_of(segment[row].fields, name), field_of(first.fields, name)))
           uneven = true;
     if (uneven) return {};
     ResultRow whole;
     for (const auto& [name, value] : first.fields) {
       std::uint64_t sum = 0;
-      for (const auto& part : parts) {
-        const Json* const own = field_of(part[row].fields, name);
+      for (const auto& segment : segments) {
+        const Json* const own = field_of(segment[row].fields, name);
         if (own != nullptr && own->whole_number() != nullptr) sum += *own->whole_number();
       }
       if (name == "structure" || name == "input.beads" || name == "input.dimension")
         whole.fields.emplace_back(name, value);
       else if (name == "input.frames")
-        whole.fields.emplace_back(name, sum - (parts.size() - 1));  // parts share a frame
+        whole.fields.emplace_back(name, sum - (segments.size() - 1));  // segments share a frame
       else if (name.starts_with("events.") || name.starts_with("audits."))
         whole.fields.emplace_back(name, sum);
     }
     for (const auto& [name, value] : first.times) {
       double sum = 0;
-      for (const auto& part : parts) {
-        const Json* const own = field_of(part[row].times, name);
+      for (const auto& segment : segments) {
+        const Json* const own = field_of(segment[row].times, name);
         sum += own != nullptr ? own->number().value_or(0) : 0;
       }
       whole.times.emplace_back(name, sum);

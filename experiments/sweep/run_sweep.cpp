@@ -88,9 +88,8 @@ struct RunningTask {
 
 class SweepRun {
  public:
-  SweepRun(const SweepPlan& plan, const InputHashes& hashes, const fs::path& folder,
-           const SweepLimits& limits, TaskLauncher& launcher, StopSignals& signals,
-           const std::function<void(const std::string&)>& warn)
+  SweepRun(const SweepPlan& plan, InputHashes& hashes, const fs::path& folder, const SweepLimits& limits,
+           TaskLauncher& launcher, StopSignals& signals, const std::function<void(const std::string&)>& warn)
       : plan_(plan),
         hashes_(hashes),
         folder_(folder),
@@ -123,7 +122,7 @@ class SweepRun {
   }
 
   const SweepPlan& plan_;
-  const InputHashes& hashes_;
+  InputHashes& hashes_;
   const fs::path& folder_;
   const SweepLimits& limits_;
   TaskLauncher& launcher_;
@@ -403,7 +402,7 @@ TrialRun try_task(const SweepPlan& plan, const SweepTask& task, double most_seco
   return run;
 }
 
-SweepOutcome run_sweep(const SweepPlan& plan, const InputHashes& hashes, const fs::path& folder,
+SweepOutcome run_sweep(const SweepPlan& plan, InputHashes& hashes, const fs::path& folder,
                        const SweepLimits& limits, TaskLauncher& launcher, StopSignals& signals,
                        const std::function<void(std::size_t, std::size_t)>& progress,
                        const std::function<void(const std::string&)>& warn) {

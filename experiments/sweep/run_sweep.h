@@ -64,7 +64,7 @@ struct TrialRun {
 /// signal or at the end of the budget, running tasks get a few seconds to end, then they are dropped. Throws
 /// OutputError if the journal cannot be written. A result that finds no room leaves its task open, and so
 /// does a result whose files have changed since `hashes` read them.
-SweepOutcome run_sweep(const SweepPlan& plan, const InputHashes& hashes, const std::filesystem::path& folder,
+SweepOutcome run_sweep(const SweepPlan& plan, InputHashes& hashes, const std::filesystem::path& folder,
                        const SweepLimits& limits, TaskLauncher& launcher, StopSignals& signals,
                        const std::function<void(std::size_t done, std::size_t total)>& progress,
                        const std::function<void(const std::string&)>& warn);

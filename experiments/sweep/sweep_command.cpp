@@ -23,6 +23,7 @@
 #include "experiments/sweep/engine_scripts.h"
 #include "experiments/sweep/estimate_sweep.h"
 #include "experiments/sweep/run_sweep.h"
+#include "experiments/sweep/sweep_status.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -157,11 +158,16 @@ std::string text_of_file(const fs::path& path) {
   return text.str();
 }
 
-// A folder keeps its sweep in plan.json, with the folder from which relative paths lead.
+// A folder keeps its sweep in plan.json, with the folder from which relative paths lead and the files that
+// patterns found.
 constexpr std::string_view kPlan = "plan.json";
 
-std::string plan_text(const Json& sweep, const fs::path& folder) {
-  return text_of({{"folder", folder.string()}, {"sweep", sweep}});
+std::string plan_text(const Json& sweep, const fs::path& folder, const PatternFiles& files) {
+  if (!line_of(Json(folder.string())))
+    throw InputError(fmt::format(
+        "{}: the name of this folder is not UTF-8; expected the file of the sweep in another folder",
+        folder.string()));
+  return text_of({{"folder", folder.string()}, {"files", files.json()}, {"sweep", sweep}});
 }
 
 // Returns whether a folder holds nothing, or what a sweep makes before and with plan.json.
@@ -265,6 +271,17 @@ void write_script(const fs::path& sweep, const SweepOptions& options, std::size_
   print_to_stdout(text + start_command(engine, request) + "\n");
 }
 
+// Results are named by the content of inputs, so those of an input that is gone are found all the same.
+void warn_of_gone(const InputHashes& hashes) {
+  constexpr std::size_t most_named = 3;
+  const std::vector<std::string> gone = hashes.gone();
+  ProgressBar none(false, "task");
+  for (std::size_t k = 0; k < std::min(gone.size(), most_named); ++k)
+    print_warning(none, gone[k] + ": cannot be read any more; its tasks are those of its last content");
+  if (gone.size() > most_named)
+    print_warning(none, fmt::format("{} more inputs cannot be read any more", gone.size() - most_named));
+}
+
 // `kds sweep status DIR` and `kds sweep collect DIR`.
 int look_at(const std::string& what, const fs::path& folder) {
   std::error_code none;
@@ -277,7 +294,10 @@ int look_at(const std::string& what, const fs::path& folder) {
     throw InputError(subject + ": expected the keys folder and sweep; run kds sweep SWEEP.json -o DIR again");
   InputHashes hashes([] { return false; });
   hashes.load(folder);
-  const SweepPlan plan(read_sweep(*sweep, *from->text(), subject), hashes, subject);
+  const Json* const files = plan_json.find("files");
+  PatternFiles found_before(files != nullptr ? *files : Json());
+  const SweepPlan plan(read_sweep(*sweep, *from->text(), found_before, subject), hashes, subject);
+  warn_of_gone(hashes);
   if (what == "status") {
     print_to_stdout(status_text(count_tasks(plan, folder)));
     return 0;
@@ -298,7 +318,7 @@ int look_at(const std::string& what, const fs::path& folder) {
   return found.done == found.tasks ? 0 : 1;
 }
 
-int run_shard(const SweepPlan& plan, const InputHashes& hashes, const SweepOptions& options,
+int run_shard(const SweepPlan& plan, InputHashes& hashes, const SweepOptions& options,
               const SweepLimits& limits, TaskLauncher& launcher, StopSignals& signals) {
   const fs::path& folder = *options.out;
   ProgressBar bar(!options.quiet, "task");
@@ -356,7 +376,8 @@ int sweep_command(const Arguments& arguments) {
   const fs::path file = operands[0];
   const Json sweep = read_json(text_of_file(file), file.string());
   const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
-  SweepSpec spec = read_sweep(sweep, folder, file.string());
+  PatternFiles found_files;
+  SweepSpec spec = read_sweep(sweep, folder, found_files, file.string());
   const Shard shard = shard_of(options);
   const std::size_t jobs = jobs_of(options);
   if (options.out && !options.dry_run) check_folder(*options.out);
@@ -365,8 +386,9 @@ int sweep_command(const Arguments& arguments) {
     InputHashes hashes([&signals] { return signals.stopped(); });
     if (options.out) hashes.load(*options.out);
     const SweepPlan plan(std::move(spec), hashes, file.string());
+    warn_of_gone(hashes);
     if (options.out && !options.dry_run) {
-      prepare_folder(*options.out, plan_text(sweep, folder));
+      prepare_folder(*options.out, plan_text(sweep, folder, found_files));
       hashes.save(*options.out);
     }
     if (runs) {

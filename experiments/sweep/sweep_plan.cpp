@@ -77,8 +77,8 @@ void SweepPlan::add_tasks(std::uint32_t block, InputHashes& hashes, const std::s
     for (task.setting = 0; task.setting < settings; ++task.setting) {
       if (is_excluded(task)) {
         ++excluded_;
-      } else if (spec_.blocks[block].part_steps) {
-        add_parts(task, hashes);
+      } else if (spec_.blocks[block].segment_steps) {
+        add_segments(task, hashes);
       } else {
         tasks_.push_back(task);
         tasks_.back().name = name_of(task, hashes);
@@ -86,7 +86,7 @@ void SweepPlan::add_tasks(std::uint32_t block, InputHashes& hashes, const std::s
     }
 }
 
-void SweepPlan::add_parts(const SweepTask& whole, InputHashes& hashes) {
+void SweepPlan::add_segments(const SweepTask& whole, InputHashes& hashes) {
   const auto options = options_of(whole);
   const std::string stride = stride_of(*this, whole), range = range_of(options);
   Arguments reading{input(whole).files};
@@ -107,7 +107,7 @@ void SweepPlan::add_parts(const SweepTask& whole, InputHashes& hashes) {
   key.add(program_version());
   const auto found = hashes.frames(key.value(), reading);
   const std::uint64_t steps = found && found->frames > 1 ? found->frames - 1 : 0;
-  const std::uint64_t most = *block(whole).part_steps;
+  const std::uint64_t most = *block(whole).segment_steps;
   if (steps <= most) {
     tasks_.push_back(whole);
     tasks_.back().name = name_of(whole, hashes);
@@ -117,13 +117,13 @@ void SweepPlan::add_parts(const SweepTask& whole, InputHashes& hashes) {
   const std::string begin = range.substr(0, range.find(':'));
   std::from_chars(begin.data(), begin.data() + begin.size(), first);
   std::from_chars(stride.data(), stride.data() + stride.size(), every);
-  const std::uint64_t parts = (steps + most - 1) / most;
-  for (std::uint64_t part = 0; part < parts; ++part) {
+  const std::uint64_t segments = (steps + most - 1) / most;
+  for (std::uint64_t segment = 0; segment < segments; ++segment) {
     SweepTask task = whole;
-    task.part = static_cast<std::uint32_t>(part);
-    task.parts = static_cast<std::uint32_t>(parts);
-    task.first_frame = first + steps * part / parts * every;
-    task.last_frame = first + steps * (part + 1) / parts * every;
+    task.segment = static_cast<std::uint32_t>(segment);
+    task.segments = static_cast<std::uint32_t>(segments);
+    task.first_frame = first + steps * segment / segments * every;
+    task.last_frame = first + steps * (segment + 1) / segments * every;
     task.radius = found->radius;
     task.name = name_of(task, hashes);
     tasks_.push_back(std::move(task));
@@ -204,10 +204,10 @@ Arguments SweepPlan::arguments(const SweepTask& task) const {
   const AxisValue* const stride = value(task, stride_axis);
   const bool strided = stride != nullptr && stride->given;
   for (const auto& [option, value] : options)
-    if (value->given && !(option == "frames" && (strided || task.parts > 1)) &&
+    if (value->given && !(option == "frames" && (strided || task.segments > 1)) &&
         !(option == "radius" && !task.radius.empty()))
       append(arguments, option, value->words);
-  if (task.parts > 1)
+  if (task.segments > 1)
     append(arguments, "frames",
            {fmt::format("{}:{}:{}", task.first_frame, task.last_frame + 1,
                         strided ? stride->words.front() : "1")});
@@ -233,7 +233,7 @@ TaskName SweepPlan::name_of(const SweepTask& task, InputHashes& hashes) const {
       name.add(shape_of(value->words.front()));
   }
   name.add(stride_of(*this, task));
-  name.add(task.parts > 1 ? fmt::format("{} {} {}", task.first_frame, task.last_frame, task.radius) : "");
+  name.add(task.segments > 1 ? fmt::format("{} {} {}", task.first_frame, task.last_frame, task.radius) : "");
   return name.value();
 }
 
@@ -275,7 +275,7 @@ std::vector<std::string> SweepPlan::files(const SweepTask& task) const {
 double SweepPlan::size(const SweepTask& task, const InputHashes& hashes) const {
   double bytes = 0;
   for (const std::string& file : input(task).files) bytes += static_cast<double>(hashes.bytes(file));
-  return std::max(bytes, 1.0) / std::stod(stride_of(*this, task)) / task.parts;
+  return std::max(bytes, 1.0) / std::stod(stride_of(*this, task)) / task.segments;
 }
 
 }  // namespace kds

@@ -1,5 +1,5 @@
 #pragma once
-// The tasks of a sweep, in the order of sweep.json: commands, inputs, options, parts.
+// The tasks of a sweep, in the order of sweep.json: commands, inputs, options, segments.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,10 +17,10 @@ namespace kds {
 struct SweepTask {
   TaskName name = 0;
   std::uint32_t block = 0, input = 0;
-  std::uint32_t part = 0, parts = 1;
+  std::uint32_t segment = 0, segments = 1;
   std::uint64_t setting = 0;                      ///< number of the combination of the block's axes
-  std::uint64_t first_frame = 0, last_frame = 0;  ///< of a part, both included
-  std::string radius = {};                        ///< of a part; empty if the option says it
+  std::uint64_t first_frame = 0, last_frame = 0;  ///< of a segment, both included
+  std::string radius = {};                        ///< of a segment; empty if the option says it
 };
 
 class SweepPlan {
@@ -49,12 +49,12 @@ class SweepPlan {
   /// Returns all files that a task reads: its input and those that its options name.
   [[nodiscard]] std::vector<std::string> files(const SweepTask& task) const;
   /// Returns a number that grows about as the work of the task: the bytes of its input, divided by its stride
-  /// and the number of parts.
+  /// and the number of segments.
   [[nodiscard]] double size(const SweepTask& task, const InputHashes& hashes) const;
 
  private:
   void add_tasks(std::uint32_t block, InputHashes& hashes, const std::string& subject);
-  void add_parts(const SweepTask& whole, InputHashes& hashes);
+  void add_segments(const SweepTask& whole, InputHashes& hashes);
   /// Notes which exclusions leave the task out, and returns whether one does.
   [[nodiscard]] bool is_excluded(const SweepTask& task);
   void refuse_idle_exclusions(const std::string& subject) const;

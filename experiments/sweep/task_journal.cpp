@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array<std::string_view, 5> kKinds{"try", "drop", "died", "fail", "done"};
-constexpr std::string_view kPart = ".part", kResults = ".results";
+constexpr std::string_view kGrowing = ".part", kResults = ".results";
 constexpr std::size_t kHex = 16;
 constexpr std::uint64_t kLongestJournal = std::uint64_t{64} << 20U;
 
@@ -52,36 +52,36 @@ std::string bytes_of(const fs::path& file, std::uint64_t offset, std::size_t siz
 
 }  // namespace
 
-fs::path TaskStates::path(const Journal& journal, bool part) const {
-  return folder_ / (journal.stem + std::string(part ? kPart : kResults));
+fs::path TaskStates::path(const Journal& journal, bool growing) const {
+  return folder_ / (journal.stem + std::string(growing ? kGrowing : kResults));
 }
 
 void TaskStates::refresh() {
   std::error_code error;
   for (fs::directory_iterator file(folder_, error), end; file != end && !error; file.increment(error)) {
     const std::string name = file->path().filename().string();
-    const bool part = name.ends_with(kPart);
-    if (!part && !name.ends_with(kResults)) continue;
-    const std::string stem = name.substr(0, name.size() - (part ? kPart : kResults).size());
+    const bool growing = name.ends_with(kGrowing);
+    if (!growing && !name.ends_with(kResults)) continue;
+    const std::string stem = name.substr(0, name.size() - (growing ? kGrowing : kResults).size());
     const auto [found, is_new] = by_stem_.emplace(stem, static_cast<std::uint32_t>(journals_.size()));
     if (is_new) journals_.push_back({stem, 0, false});
-    if (!journals_[found->second].complete) read_on(found->second, part);
+    if (!journals_[found->second].complete) read_on(found->second, growing);
   }
 }
 
-void TaskStates::read_on(std::uint32_t journal, bool part) {
+void TaskStates::read_on(std::uint32_t journal, bool growing) {
   Journal& own = journals_[journal];
   std::error_code error;
-  std::uint64_t size = fs::file_size(path(own, part), error);
-  if (error && part) {  // renamed in the meantime
-    part = false;
-    size = fs::file_size(path(own, part), error);
+  std::uint64_t size = fs::file_size(path(own, growing), error);
+  if (error && growing) {  // renamed in the meantime
+    growing = false;
+    size = fs::file_size(path(own, growing), error);
   }
   if (error) return;
   constexpr std::size_t block = std::size_t{4} << 20U;
   std::string text;
   for (std::uint64_t from = own.read; from < size;) {
-    const std::string read = bytes_of(path(own, part), from, std::min<std::uint64_t>(block, size - from));
+    const std::string read = bytes_of(path(own, growing), from, std::min<std::uint64_t>(block, size - from));
     if (read.empty()) break;
     from += read.size();
     text += read;
@@ -91,7 +91,7 @@ void TaskStates::read_on(std::uint32_t journal, bool part) {
     own.read += start;
     text.erase(0, start);
   }
-  own.complete = !part && own.read == size;
+  own.complete = !growing && own.read == size;
 }
 
 // A line is HASH KIND TASK JSON.
@@ -161,9 +161,9 @@ JournalWriter::~JournalWriter() {
 void JournalWriter::open() {
   std::uint64_t stem = 0;
   if (::getrandom(&stem, sizeof stem, 0) != sizeof stem) stem = static_cast<std::uint64_t>(::getpid());
-  part_ = folder_ / (hex_digits(stem) + std::string(kPart));
-  file_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file_ < 0) fail_to_write(part_.string(), errno);
+  growing_ = folder_ / (hex_digits(stem) + std::string(kGrowing));
+  file_ = ::open(growing_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file_ < 0) fail_to_write(growing_.string(), errno);
   size_ = 0;
 }
 
@@ -180,9 +180,9 @@ bool JournalWriter::add(RecordKind kind, TaskName task, std::string_view json) {
       const int error = errno;
       if (::ftruncate(file_, static_cast<off_t>(size_)) != 0 ||
           ::lseek(file_, static_cast<off_t>(size_), SEEK_SET) < 0)
-        fail_to_write(part_.string(), errno);
+        fail_to_write(growing_.string(), errno);
       if (error == ENOSPC || error == EDQUOT || error == EFBIG) return false;
-      fail_to_write(part_.string(), error);
+      fail_to_write(growing_.string(), error);
     }
     written += static_cast<std::size_t>(count);
   }
@@ -194,7 +194,7 @@ bool JournalWriter::add(RecordKind kind, TaskName task, std::string_view json) {
 }
 
 void JournalWriter::sync() {
-  if (::fdatasync(file_) != 0) fail_to_write(part_.string(), errno);
+  if (::fdatasync(file_) != 0) fail_to_write(growing_.string(), errno);
   waits_ = false;
 }
 
@@ -207,10 +207,10 @@ void JournalWriter::complete() {
   sync();
   ::close(file_);
   file_ = -1;
-  fs::path whole = part_;
+  fs::path whole = growing_;
   whole.replace_extension(kResults);
   std::error_code error;
-  fs::rename(part_, whole, error);
+  fs::rename(growing_, whole, error);
   if (error) fail_to_write(whole.string(), error.value());
   const int folder = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder >= 0) {

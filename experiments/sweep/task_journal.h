@@ -69,9 +69,9 @@ class TaskStates {
     std::uint64_t read = 0;  ///< bytes
     bool complete = false;   ///< renamed and read to its end
   };
-  void read_on(std::uint32_t journal, bool part);
+  void read_on(std::uint32_t journal, bool growing);
   void take(std::string_view line, std::uint32_t journal, std::uint64_t offset);
-  [[nodiscard]] std::filesystem::path path(const Journal& journal, bool part) const;
+  [[nodiscard]] std::filesystem::path path(const Journal& journal, bool growing) const;
 
   std::filesystem::path folder_;
   std::vector<Journal> journals_;
@@ -101,7 +101,7 @@ class JournalWriter {
   void open();
   void sync();
 
-  std::filesystem::path folder_, part_;
+  std::filesystem::path folder_, growing_;
   std::uint64_t size_ = 0;
   int file_ = -1;
   bool waits_ = false;

@@ -39,7 +39,7 @@ constexpr std::size_t kLongestRequest = std::size_t{1} << 20U;
 struct Received {
   Request request;
   Arguments arguments;
-  TaskOutput output;
+  TaskOutput output{-1, -1};
 };
 
 // Returns false at the end of the connection.

@@ -429,8 +429,9 @@ std::vector<Theorem> theorems_of(const std::vector<std::string>& operands) {
 }
 
 TheoremsAsked parse_theorems(const Arguments& arguments) {
-  const ParsedArguments parsed = parse_arguments(kTheoremsCommand, theorems_options().specs(), arguments);
   TheoremsAsked asked;
+  asked.measured.theorems = theorems_of({});
+  const ParsedArguments parsed = parse_for(kTheoremsCommand, theorems_options(), arguments, asked);
   asked.measured.theorems = theorems_of(parsed.operands());  // the theorems bound --beads
   theorems_options().read(parsed, asked);
   if (parsed.has("--rounds") && !measures_time(asked.measured.theorems))

@@ -21,7 +21,8 @@ namespace {
 using testing::HasSubstr;
 
 SweepSpec spec_of(const std::string& text, const std::filesystem::path& folder = "/nowhere") {
-  return read_sweep(read_json(text, "s.json"), folder, "s.json");
+  PatternFiles files;
+  return read_sweep(read_json(text, "s.json"), folder, files, "s.json");
 }
 
 std::string refusal(const std::string& text) {
@@ -60,10 +61,10 @@ TEST(SweepSpec, RefusesMistakesWithTheKeyAndTheNearestName) {
       {command(R"("options": {"stride": 2, "frames": "0:9:2"})"), {"expected FIRST:LAST beside"}},
       {command(R"("options": {"groups": ["A"]})"), {"--groups takes 2 values"}},
       {command(R"("options": {"motion": "--json"})"), {"--motion cannot take '--json'"}},
-      {command(R"("part_steps": 5, "options": {"motion": "hermite"})"),
-       {"--motion hermite", "no part_steps"}},
-      {command(R"("part_steps": 5, "options": {"relax": 0.1})"), {"--relax 0.1", "no part_steps"}},
-      {R"({"inputs": ["a.pdb"], "commands": [{"command": "contacts", "part_steps": 5}]})",
+      {command(R"("segment_steps": 5, "options": {"motion": "hermite"})"),
+       {"--motion hermite", "no segment_steps"}},
+      {command(R"("segment_steps": 5, "options": {"relax": 0.1})"), {"--relax 0.1", "no segment_steps"}},
+      {R"({"inputs": ["a.pdb"], "commands": [{"command": "contacts", "segment_steps": 5}]})",
        {"results of kds contacts are not sums over steps"}},
       {R"({"inputs": ["no*.pdb"], "commands": ["run"]})", {"s.json: inputs[0]: no file matches 'no*.pdb'"}},
       {R"({"seeds": 1000000000, "commands": ["scale"]})", {"seeds: '1000000000' is not", "1 to 1000000"}},
@@ -71,6 +72,9 @@ TEST(SweepSpec, RefusesMistakesWithTheKeyAndTheNearestName) {
       {R"({"inputs": [{"topology": "t.pdb"}], "commands": ["run"]})", {"needs the key 'file'"}},
       {R"({"inputs": [{"file": "a.pdb", "radius": 1}], "commands": [{"command": "run", "options": {"radius": 2}}]})",
        {"'a.pdb' sets --radius too"}},
+      {R"({"inputs": [{"file": "a.pdb", "radius": 1, "--radius": 2}], "commands": ["run"]})",
+       {"inputs[0]: option radius is listed twice"}},
+      {R"({"inputs": [{"file": ["a.pdb", ""]}], "commands": ["run"]})", {"lists an empty path"}},
       {R"({"inputs": ["a.pdb"], "commands": ["run"], "seeds": 3})",
        {"no command of this sweep has the option --seed"}},
       {R"({"inputs": ["a.pdb"], "commands": ["run"], "exclude": [{"motions": "x"}]})",
@@ -79,6 +83,46 @@ TEST(SweepSpec, RefusesMistakesWithTheKeyAndTheNearestName) {
   };
   for (const auto& [text, words] : mistakes)
     for (const std::string& word : words) EXPECT_THAT(refusal(text), HasSubstr(word)) << text;
+}
+
+// Each command checks the values of its own options before a task runs.
+TEST(SweepSpec, RefusesValuesThatNoTaskCanTake) {
+  struct Mistake {
+    const char *command, *options, *message;
+  };
+  for (const Mistake& mistake : {
+           Mistake{"run", R"("structures": ["power", "wraped"])", "structures: --structures: 'wraped'"},
+           {"run", R"("kernel": "exakt")", "kernel: --kernel: 'exakt'"},
+           {"run", R"("motion": ["linear", "linaer"])", "did you mean linear?"},
+           {"run", R"("audit": "often")", "audit: --audit: 'often'"},
+           {"run", R"("radius": "vdw")", "did you mean element?"},
+           {"run", R"("radius": [1, "1e"])", "radius: --radius: '1e'"},
+           {"run", R"("cutoff": "-1")", "cutoff: --cutoff: '-1'"},
+           {"run", R"("tolerance": "0.2x")", "tolerance: --tolerance: '0.2x'"},
+           {"run", R"("frames": "9:1")", "frames: --frames"},
+           {"run", R"("threads": 0)", "threads: --threads: '0'"},
+           {"run", R"("select": "cα")", "select: --select"},
+           {"compare", R"("strides": "1,x")", "strides: --strides: 'x'"},
+           {"collide", R"("methods": "al")", "methods: --methods: 'al'"},
+           {"contacts", R"("surface": "one")", "surface: --surface: 'one'"},
+           {"scale", R"("model": "randm-chain")", "did you mean random-chain?"},
+           {"stability", R"("cases": 1.5)", "cases: --cases: '1.5'"},
+           {"theorems", R"("beads": 5)", "beads: --beads: '5'"},
+       }) {
+    const std::string text = std::string(R"({"inputs": ["a.pdb"], "commands": ["info", {"command": ")") +
+                             mistake.command + R"(", "options": {)" + mistake.options + "}}]}";
+    EXPECT_THAT(refusal(text),
+                testing::AllOf(testing::StartsWith("s.json: commands[1]: "), HasSubstr(mistake.message)))
+        << text;
+  }
+  EXPECT_THAT(refusal(R"({"inputs": [{"file": "a.pdb", "units": "si"}], "commands": ["run"]})"),
+              HasSubstr("s.json: inputs[0]: units: --units: 'si'"));
+  EXPECT_EQ(refusal(R"({"inputs": [{"file": "a.pdb", "groups": ["protein", "water"]}], "commands": [
+      {"command": "run", "options": {"structures": ["power", "wrapped,contacts"], "motion": ["linear", "hermite"],
+       "radius": [1, "1.5", "auto", "element", "file:r"], "tolerance": [null, "0.2r", 3], "certify": [true, false],
+       "frames": ["::2", ":9"], "levels": "2:", "select": "chain A", "threads": 2}},
+      {"command": "theorems", "options": {"beads": 5000}}], "seeds": [0, 7]})"),
+            "accepted");
 }
 
 // A new option that names a file must be known to the sweep, which hashes such files or sets the option

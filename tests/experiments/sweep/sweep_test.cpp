@@ -4,13 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "experiments/output/text.h"
 #include "experiments/sweep/engine_scripts.h"
+#include "experiments/sweep/pooled_figures.h"
 #include "experiments/sweep/result_rows.h"
 #include "experiments/sweep/run_sweep.h"
 #include "tests/experiments/expect_refused.h"
@@ -92,7 +95,9 @@ TEST(Sweep, LeavesTasksWhoseInputChangesMeanwhile) {
   const std::string input = scratch.file("a.xyz", chain(0.2));
   const std::string text = R"({"inputs": ["a.xyz"], "commands": ["info", "run"]})";
   InputHashes hashes([] { return false; });
-  const SweepPlan plan(read_sweep(read_json(text, "s.json"), scratch.path(), "s.json"), hashes, "s.json");
+  PatternFiles files;
+  const SweepPlan plan(read_sweep(read_json(text, "s.json"), scratch.path(), files, "s.json"), hashes,
+                       "s.json");
   EXPECT_FALSE(hashes.has_changed(input));
   scratch.file("a.xyz", chain(0.2) + chain(0.3));
   std::filesystem::create_directories(results_folder(scratch / "out"));
@@ -105,6 +110,105 @@ TEST(Sweep, LeavesTasksWhoseInputChangesMeanwhile) {
   EXPECT_EQ(outcome.done + outcome.failed + outcome.crashed, 0U);
   EXPECT_TRUE(outcome.stopped);
   EXPECT_THAT(warnings, testing::ElementsAre(HasSubstr("a.xyz: changed while the sweep ran")));
+}
+
+// Results are found by the content that an input had, also after the input is gone.
+TEST(Sweep, CollectsResultsOfInputsThatAreGone) {
+  const ScratchDirectory scratch;
+  const std::string a = scratch.file("a.xyz", chain(0.2)), c = scratch.file("c.xyz", chain(0.4));
+  scratch.file("b.xyz", chain(0.3));
+  scratch.file("d[1].xyz", chain(0.5));
+  scratch.file("radii", "0.5\n0.6\n0.5\n0.6\n0.5\n0.6\n0.5\n0.6\n0.5\n0.6\n0.5\n0.6\n");
+  scratch.file("s.json", R"({"inputs": ["[ab].xyz", "./d[1].xyz", {"file": "c.xyz", "radius": "file:radii"}],
+      "commands": [{"command": "run", "segment_steps": 2, "options": {"structures": "power"}}]})");
+  static_cast<void>(run_sweep(scratch));
+  static_cast<void>(collected(scratch));
+  const std::string before = content_of(scratch / "out/results.csv");
+  for (const char* file : {"a.xyz", "c.xyz", "d[1].xyz", "radii"}) std::filesystem::remove(scratch / file);
+  const ProgramRun collect = run_program({"sweep", "collect", scratch / "out"});
+  EXPECT_EQ(collect.code, 0) << collect.err;
+  EXPECT_EQ(content_of(scratch / "out/results.csv"), before);
+  EXPECT_THAT(collect.err, HasSubstr(a + ": cannot be read any more"));
+  EXPECT_THAT(collect.err, HasSubstr("1 more inputs cannot be read any more"));
+  const ProgramRun status = run_program({"sweep", "status", scratch / "out"});
+  EXPECT_EQ(status.code, 0);
+  EXPECT_THAT(status.err, HasSubstr(c + ": cannot be read any more"));
+
+  scratch.file("a.xyz", chain(0.6));  // another content has no result
+  EXPECT_THAT(run_program({"sweep", "collect", scratch / "out"}).out, HasSubstr("2 are missing"));
+  scratch.file("a.xyz", chain(0.2));
+  EXPECT_EQ(run_program({"sweep", "collect", scratch / "out"}).code, 0);
+  EXPECT_EQ(content_of(scratch / "out/results.csv"), before);
+}
+
+TEST(Sweep, NoticesContentOfEqualSizeAndTime) {
+  const ScratchDirectory scratch;
+  const std::string input = scratch.file("a.xyz", chain(0.2));
+  const auto time = std::filesystem::last_write_time(input) - std::chrono::hours(1);
+  std::filesystem::last_write_time(input, time);
+  std::this_thread::sleep_for(std::chrono::milliseconds(2100));  // then the hash is remembered with its times
+  const auto hashes = [&] {
+    InputHashes found([] { return false; });
+    found.load(scratch.path());
+    return found;
+  };
+  InputHashes first = hashes();
+  const std::uint64_t hash = first.hash(input);
+  first.save(scratch.path());
+  EXPECT_THAT(content_of(scratch / "inputs.json"), HasSubstr("\"changed\""));
+  EXPECT_EQ(hashes().hash(input), hash);
+  std::filesystem::last_write_time(input, time + std::chrono::hours(2));
+  EXPECT_FALSE(first.has_changed(input));  // the content is as it was
+  EXPECT_EQ(hashes().hash(input), hash);
+
+  const std::string other = chain(0.3);
+  ASSERT_EQ(other.size(), chain(0.2).size());
+  scratch.file("a.xyz", other);
+  std::filesystem::last_write_time(input, time);
+  EXPECT_TRUE(first.has_changed(input));
+  EXPECT_NE(hashes().hash(input), hash);
+}
+
+// Several tasks run at a time, so a task has one thread unless the sweep says another number.
+TEST(Sweep, TasksHaveOneThreadUnlessTheSweepSaysMore) {
+  const ScratchDirectory scratch;
+  scratch.file("a.xyz", chain(0.2));
+  scratch.file("s.json", R"({"inputs": ["a.xyz"], "commands": [
+      {"command": "run", "options": {"threads": [null, 2], "structures": "power"}}]})");
+  static_cast<void>(run_sweep(scratch));
+  const Json rows = collected(scratch)["rows"];
+  EXPECT_EQ(rows[0]["engine.threads"], 1);
+  EXPECT_EQ(rows[1]["engine.threads"], 2);
+  EXPECT_EQ(rows[0]["fingerprint"], rows[1]["fingerprint"]);
+}
+
+// A name that is not UTF-8 is no reason to lose a row.
+TEST(Sweep, CollectsFilesOfAnyName) {
+  const ScratchDirectory scratch;
+  for (const char* name : {"a\xff.xyz", "a b\nc.xyz", "a\"',.xyz"}) scratch.file(name, chain(0.2));
+  scratch.file("s.json", R"({"inputs": ["a*.xyz"], "commands": ["info"]})");
+  static_cast<void>(run_sweep(scratch));
+  const Json rows = collected(scratch)["rows"];
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0]["input"], "a b\nc.xyz");
+  EXPECT_EQ(rows[1]["input"], "a\"',.xyz");
+  EXPECT_EQ(rows[2]["input"], "a\ufffd.xyz");
+  for (const Json& row : rows) EXPECT_EQ(row["input.beads"], rows[0]["input.beads"]);
+}
+
+TEST(Sweep, IntervalsOfCountsStayAboveZero) {
+  PooledFigure figure;
+  figure.values = {1, 100, 3};
+  ASSERT_TRUE(figure.interval());
+  EXPECT_GT(figure.interval()->lower, 0);
+  EXPECT_LT(figure.interval()->lower, figure.mean());
+  EXPECT_GT(figure.interval()->upper, figure.mean());
+  figure.counts = false;
+  EXPECT_LT(figure.interval()->lower, 0);
+  figure.values = {2, 2};
+  EXPECT_EQ(figure.interval()->lower, 2);
+  figure.counts = true;
+  EXPECT_FALSE(figure.interval());
 }
 
 // The twin: each task's own command, read by another JSON library.
@@ -138,32 +242,33 @@ TEST(Sweep, CollectsWhatTheCommandsPrint) {
     const std::string structure = cells[4].substr(cells[4].find(' ') + 1);
     const std::vector<double>& values = totals.at(structure + cells[3]);
     EXPECT_DOUBLE_EQ(std::stod(cells[7]), (values[0] + values[1]) / 2) << line;
+    if (values[0] != values[1]) EXPECT_GT(std::stod(cells[8]), 0) << line;
   }
   EXPECT_EQ(found, 4U);
 }
 
-// Counts of parts add up to those of the uncut trajectory.
-TEST(Sweep, PartsAddUpToTheWhole) {
+// Counts of segments add up to those of the uncut trajectory.
+TEST(Sweep, SegmentsAddUpToTheWhole) {
   const ScratchDirectory scratch;
-  const auto rows = [&](const std::string& part_steps) {
+  const auto rows = [&](const std::string& segment_steps) {
     const std::string input = data_file("trajectories/1l2y.dcd"), topology = data_file("proteins/1l2y.pdb");
     scratch.file("s.json", R"({"inputs": {"file": ")" + input + R"(", "topology": ")" + topology +
-                               R"(", "frames": "2:31"}, "commands": [{"command": "run", )" + part_steps +
+                               R"(", "frames": "2:31"}, "commands": [{"command": "run", )" + segment_steps +
                                R"("options": {"structures": "wrapped,power,contacts", "stride": [1, 3]}}]})");
     static_cast<void>(run_sweep(scratch));
     return collected(scratch)["rows"];
   };
-  const Json parts = rows(R"("part_steps": 5, )"), whole = rows("");
-  ASSERT_EQ(parts.size(), 6U);
-  for (std::size_t k = 0; k < parts.size(); ++k) {
+  const Json segments = rows(R"("segment_steps": 5, )"), whole = rows("");
+  ASSERT_EQ(segments.size(), 6U);
+  for (std::size_t k = 0; k < segments.size(); ++k) {
     std::size_t compared = 0;
-    for (const auto& [name, value] : parts[k].items()) {
+    for (const auto& [name, value] : segments[k].items()) {
       if (!name.starts_with("events.") && name != "input.frames") continue;
       EXPECT_EQ(value, whole[k][name]) << name;
       ++compared;
     }
     EXPECT_GE(compared, 4U);
-    EXPECT_FALSE(parts[k].contains("fingerprint"));
+    EXPECT_FALSE(segments[k].contains("fingerprint"));
   }
   EXPECT_EQ(records(scratch, "done"), 6U + 2U + 2U);
 }
@@ -221,11 +326,11 @@ TEST(Sweep, LimitsFailOneTaskAlone) {
   scratch.file("a.xyz", chain(0.2));
   scratch.file("s.json", R"({"inputs": ["a.xyz"], "commands": [
       {"command": "info"}, {"command": "compare", "options": {"rounds": 1000, "structures": "power"}},
-      {"command": "run", "options": {"motion": ["linear", "linaer"]}}]})");
+      {"command": "run", "options": {"frames": [null, "90:"]}}]})");
   static_cast<void>(run_sweep(scratch, {"--task-seconds", "0.3"}, 1));
   const std::string failed = content_of(scratch / "out/failed.csv");
   EXPECT_EQ(std::count(failed.begin(), failed.end(), '\n'), 3) << failed;
-  EXPECT_THAT(failed, HasSubstr("did you mean linear?"));
+  EXPECT_THAT(failed, HasSubstr("--frames"));
   EXPECT_THAT(failed, HasSubstr("takes more than 0.3"));
   EXPECT_EQ(collected(scratch, 1)["done"], 2);
 }

@@ -1,0 +1,124 @@
+#include "experiments/sweep/sweep_axis.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "experiments/output/text.h"
+#include "experiments/program/option_values.h"
+#include "motions/base/input_error.h"
+
+namespace kds {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array<std::string_view, 2> kFileOptions{"topology", "obstacle"};
+constexpr std::string_view kRadiusFile = "file:";
+
+// Makes the files of a value absolute, since tasks run in any folder.
+std::string with_absolute_files(const std::string& option, const std::string& word, const fs::path& folder) {
+  if (option == "radius" && word.starts_with(kRadiusFile))
+    return std::string(kRadiusFile) + in_folder(folder, word.substr(kRadiusFile.size())).string();
+  if (std::ranges::find(kFileOptions, option) == kFileOptions.end()) return word;
+  std::error_code none;
+  if (fs::exists(in_folder(folder, word), none))
+    return in_folder(folder, word).string();  // commas in its name
+  std::vector<std::string> files;
+  for (const std::string& file : split(word, ','))
+    files.push_back(file.empty() ? file : in_folder(folder, file).string());
+  return fmt::format("{}", fmt::join(files, ","));
+}
+
+}  // namespace
+
+std::string scalar_text(const Json& value, const std::string& where) {
+  if (value.text() != nullptr) return *value.text();
+  if (value.number()) return line_of(value).value_or("");
+  throw InputError(fmt::format("{}: expected a text or a number", where));
+}
+
+fs::path in_folder(const fs::path& folder, const std::string& path) {
+  return (folder / path).lexically_normal();  // an absolute path replaces the folder
+}
+
+AxisValue read_value(const SweptCommand& command, const std::string& name, const Json& json,
+                     const fs::path& folder, const std::string& where) {
+  AxisValue value;
+  if (json.is_null()) {
+    value.given = false;
+    return value;
+  }
+  if (name == stride_axis) {
+    value.text = scalar_text(json, where);
+    const auto stride = parse_whole_number(where, value.text, 1, 1'000'000'000);
+    value.words = {std::to_string(stride)};
+    return value;
+  }
+  const SweptCommand::Option& option = *command.find(name);
+  if (option.value.empty()) {
+    if (json.truth() == nullptr)
+      throw InputError(fmt::format("{}: --{} takes no value; expected true or false", where, name));
+    value.given = *json.truth();
+    value.text = value.given ? "yes" : "no";
+    return value;
+  }
+  if (option.count == 1) {
+    value.text = scalar_text(json, where);
+    value.words = {with_absolute_files(name, value.text, folder)};
+  } else {
+    if (json.items() == nullptr || json.items()->size() != option.count)
+      throw InputError(fmt::format("{}: --{} takes {} values; expected an array of {} texts", where, name,
+                                   option.count, option.count));
+    for (const Json& word : *json.items()) value.words.push_back(scalar_text(word, where));
+    value.text = fmt::format("{}", fmt::join(value.words, " "));
+  }
+  for (const std::string& word : value.words)
+    if (word.empty() || word.starts_with("--"))
+      throw InputError(
+          fmt::format("{}: --{} cannot take '{}'; null leaves the option out", where, name, word));
+  command.check_values(name, value.words, where);
+  return value;
+}
+
+// An array lists the values of an axis. For an option with several values, each item is an array itself.
+Axis read_axis(const SweptCommand& command, const std::string& key, const Json& json, const fs::path& folder,
+               const std::string& where) {
+  Axis axis{known_option(command, key, where), {}};
+  const SweptCommand::Option* const option = command.find(axis.name);
+  const Json::Items* const items = json.items();
+  const bool one_of_several = option != nullptr && option->count > 1 && items != nullptr &&
+                              (items->empty() || items->front().items() == nullptr);
+  if (items == nullptr || one_of_several) {
+    axis.values = {read_value(command, axis.name, json, folder, where)};
+    return axis;
+  }
+  if (items->empty()) throw InputError(where + ": has no value; expected at least one");
+  std::set<std::pair<bool, std::vector<std::string>>> listed;
+  for (const Json& item : *items) {
+    axis.values.push_back(read_value(command, axis.name, item, folder, where));
+    const AxisValue& value = axis.values.back();
+    if (!listed.emplace(value.given, value.words).second)
+      throw InputError(fmt::format("{}: value '{}' is listed twice", where, value.text));
+  }
+  return axis;
+}
+
+std::vector<std::string> files_of_value(const std::string& option, const AxisValue& value) {
+  std::vector<std::string> files;
+  if (!value.given || value.words.empty()) return files;
+  const std::string& word = value.words.front();
+  if (option == "radius" && word.starts_with(kRadiusFile)) files.push_back(word.substr(kRadiusFile.size()));
+  if (std::ranges::find(kFileOptions, option) == kFileOptions.end()) return files;
+  std::error_code none;
+  if (fs::exists(word, none)) return {word};
+  for (std::string& file : split(word, ','))
+    if (!file.empty()) files.push_back(std::move(file));
+  return files;
+}
+
+}  // namespace kds

@@ -1,0 +1,45 @@
+#pragma once
+// Values of options in sweep.json: each option is an axis, with one value or several.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/output/result_json.h"
+#include "experiments/sweep/swept_command.h"
+
+namespace kds {
+
+/// The setting of one option: the words that follow the option on the command line. A flag has no words.
+struct AxisValue {
+  std::vector<std::string> words;
+  bool given = true;  ///< false if the option is left out
+  std::string text;   ///< for tables
+};
+
+/// An option and the values that it takes in turn.
+struct Axis {
+  std::string name;
+  std::vector<AxisValue> values;
+};
+
+/// Returns a text or a number as text. Throws InputError if the value is neither.
+[[nodiscard]] std::string scalar_text(const Json& value, const std::string& where);
+/// Returns a path in `folder` without `..`. An absolute path stays as it is.
+[[nodiscard]] std::filesystem::path in_folder(const std::filesystem::path& folder, const std::string& path);
+
+/// Reads the value of an option that the command has. Relative files are those of `folder`. Throws
+/// InputError, which begins with `where`, if the option cannot take the value.
+[[nodiscard]] AxisValue read_value(const SweptCommand& command, const std::string& option, const Json& json,
+                                   const std::filesystem::path& folder, const std::string& where);
+/// Reads a value or an array of values. Throws as read_value, known_option do, and if a value is listed
+/// twice.
+[[nodiscard]] Axis read_axis(const SweptCommand& command, const std::string& key, const Json& json,
+                             const std::filesystem::path& folder, const std::string& where);
+
+/// Returns the files that an option's value names, as absolute paths: those of --topology, --obstacle and
+/// `--radius file:PATH`.
+[[nodiscard]] std::vector<std::string> files_of_value(const std::string& option, const AxisValue& value);
+
+}  // namespace kds

@@ -1,0 +1,122 @@
+#include "experiments/sweep/sweep_page.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+
+#include "experiments/output/page/html_page.h"
+#include "experiments/output/page/svg_plot.h"
+#include "experiments/output/page/table.h"
+#include "experiments/output/text.h"
+
+namespace kds {
+
+namespace {
+
+// Plots the figures of a command over its first axis with several numbers, one plot for each of the first
+// measures. Axes of one value do not name series. `pooled` says over what the means are.
+std::string plots_of(const PooledFigures& pool, const std::string& command, const std::string& pooled) {
+  constexpr std::size_t most_plots = 4, most_series = 12;
+  const auto number_of = [](const std::string& text) -> std::optional<double> {
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    return !text.empty() && *end == '\0' && number > 0 ? std::optional(number) : std::nullopt;
+  };
+  std::vector<const PooledFigure*> figures;
+  std::vector<std::set<std::string>> values(pool.names().size());
+  for (const PooledFigure& figure : pool.figures()) {
+    if (figure.command != command) continue;
+    figures.push_back(&figure);
+    for (std::size_t axis = 0; axis < values.size(); ++axis) values[axis].insert(figure.axes[axis]);
+  }
+  std::string html;
+  for (std::size_t axis = 0; axis < pool.names().size() && html.empty(); ++axis) {
+    std::map<std::string, PointPlot> plots;  // by measure
+    std::vector<std::string> order;
+    for (const PooledFigure* figure : figures) {
+      const auto x = number_of(figure->axes[axis]);
+      if (!x || !(figure->mean() > 0)) continue;
+      const std::string& name = figure->measure;
+      if (!plots.contains(name)) {
+        if (order.size() == most_plots) continue;
+        order.push_back(name);
+        plots[name] = {pool.names()[axis], name, {}, {}};
+      }
+      PointPlot& plot = plots[name];
+      std::string series = figure->row;
+      for (std::size_t k = 0; k < figure->axes.size(); ++k)
+        if (k != axis && values[k].size() > 1 && !figure->axes[k].empty() &&
+            figure->row.find(figure->axes[k]) == std::string::npos)
+          series += (series.empty() ? "" : ", ") + figure->axes[k];
+      auto found = std::ranges::find(plot.series, series);
+      if (found == plot.series.end()) {
+        if (plot.series.size() == most_series) continue;
+        plot.series.push_back(series);
+        found = plot.series.end() - 1;
+      }
+      plot.points.push_back({"", *x, figure->mean(), static_cast<std::size_t>(found - plot.series.begin())});
+    }
+    for (const std::string& name : order) {
+      std::vector<double> places;
+      for (const auto& point : plots[name].points) places.push_back(point.x);
+      std::ranges::sort(places);
+      if (places.empty() || places.front() == places.back()) continue;
+      html += html_figure(svg_plot(plots[name]),
+                          html_escaped(fmt::format("{}: {} by {}, means over {}, both axes logarithmic.",
+                                                   command, name, pool.names()[axis], pooled)));
+    }
+  }
+  return html;
+}
+
+}  // namespace
+
+std::string sweep_page(const SweepPlan& plan, const CollectedSweep& collected, const PooledFigures& pool,
+                       const std::vector<FailedTask>& failed, const std::vector<SweepCount>& counts,
+                       const std::string& command_line) {
+  constexpr std::size_t most_rows = 300;
+  Page page;
+  page.title = "kds sweep";
+  page.command_line = command_line;
+  page.data = {"results.csv", "results.json", "pooled.csv", "times.csv", "failed.csv"};
+  const std::size_t tasks = collected.tasks;
+  page.found = fmt::format(
+      "<p>{} of {} tasks have results, in {} rows.{}</p>\n", with_thousands(collected.done),
+      with_thousands(tasks), with_thousands(collected.rows),
+      collected.done == tasks ? " The sweep is complete."
+                              : fmt::format(" {} failed, {} crashed, {} are missing.", collected.failed,
+                                            collected.crashed, collected.missing));
+  std::vector<PooledFigure> figures = pool.figures();
+  std::erase_if(figures, [](const PooledFigure& figure) {
+    return std::ranges::all_of(figure.values, [](double value) { return value == 0; });
+  });
+  const auto shown = std::span(figures).first(std::min(most_rows, figures.size()));
+  std::string pooled = pooled_table(pool.names()).html(shown);
+  pooled += fmt::format("<p>{} of {} means; pooled.csv has all.</p>\n", shown.size(),
+                        with_thousands(pool.figures().size()));
+  const std::vector<std::string>& over = plan.spec().pooled;
+  std::string plots;
+  for (const SweepCount& count : counts)
+    plots += plots_of(pool, count.command,
+                      over.empty() ? "equal settings" : fmt::format("{}", fmt::join(over, " and ")));
+  page.body = html_section("Plots", plots);
+  if (!failed.empty())
+    page.body +=
+        html_section("Tasks without a result",
+                     failed_table().html(std::span(failed).first(std::min(most_rows, failed.size()))));
+  page.body += html_section("Tasks", count_table().html(without_repeated_sum(counts)));
+  page.body += html_section("Means", pooled);
+  page.words =
+      html_escaped(fmt::format("Means pool the tasks that differ in {} only. Their 95% intervals are "
+                               "Student's, for independent values; those of counts stay above 0.",
+                               fmt::join(plan.spec().pooled, ", ")));
+  return html_page(page);
+}
+
+}  // namespace kds
