@@ -190,6 +190,11 @@ Json read_json(std::string_view text, const std::string& subject) {
     const std::size_t column = bytes - (start == std::string_view::npos ? 0 : start + 1) + 1;
     throw InputError(subject + ": is not JSON at line " + std::to_string(line) + ", column " +
                      std::to_string(column) + "; a comma, quote or bracket may be missing or too many");
+  } catch (const Tree::out_of_range& error) {
+    const std::string_view message(error.what());
+    const std::size_t number = std::min(message.find('\''), message.size());
+    throw InputError(subject + ": number " + std::string(message.substr(number)) +
+                     " is too large, expected one that a double can hold");
   }
 }
 

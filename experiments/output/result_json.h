@@ -120,7 +120,7 @@ class JsonItems {
 [[nodiscard]] Json parse_json(std::string_view text);
 
 /// Returns the JSON of a file that people write. Throws InputError with `subject`, line and column if the
-/// text is not JSON, and with the key if an object has a key twice.
+/// text is not JSON, with the key if an object has a key twice, and with the number if it overflows.
 [[nodiscard]] Json read_json(std::string_view text, const std::string& subject);
 
 }  // namespace kds

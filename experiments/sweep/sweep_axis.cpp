@@ -22,7 +22,7 @@ constexpr std::string_view kRadiusFile = "file:";
 
 // Makes the files of a value absolute, since tasks run in any folder.
 std::string with_absolute_files(const std::string& option, const std::string& word, const fs::path& folder) {
-  if (option == "radius" && word.starts_with(kRadiusFile))
+  if (option == "radius" && word.starts_with(kRadiusFile) && word != kRadiusFile)
     return std::string(kRadiusFile) + in_folder(folder, word.substr(kRadiusFile.size())).string();
   if (std::ranges::find(kFileOptions, option) == kFileOptions.end()) return word;
   std::error_code none;
@@ -37,6 +37,8 @@ std::string with_absolute_files(const std::string& option, const std::string& wo
 }  // namespace
 
 std::string scalar_text(const Json& value, const std::string& where) {
+  if (value.text() != nullptr && value.text()->find('\0') != std::string::npos)
+    throw InputError(where + ": has a zero byte, which no argument of a command can have");
   if (value.text() != nullptr) return *value.text();
   if (value.number()) return line_of(value).value_or("");
   throw InputError(fmt::format("{}: expected a text or a number", where));

@@ -24,7 +24,7 @@ struct Axis {
   std::vector<AxisValue> values;
 };
 
-/// Returns a text or a number as text. Throws InputError if the value is neither.
+/// Returns a text or a number as text. Throws InputError if the value is neither or has a zero byte.
 [[nodiscard]] std::string scalar_text(const Json& value, const std::string& where);
 /// Returns a path in `folder` without `..`. An absolute path stays as it is.
 [[nodiscard]] std::filesystem::path in_folder(const std::filesystem::path& folder, const std::string& path);

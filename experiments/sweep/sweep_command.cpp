@@ -379,7 +379,15 @@ int sweep_command(const Arguments& arguments) {
   PatternFiles found_files;
   SweepSpec spec = read_sweep(sweep, folder, found_files, file.string());
   const Shard shard = shard_of(options);
-  const std::size_t jobs = jobs_of(options);
+  std::size_t jobs = jobs_of(options);
+  if (const std::size_t most = most_tasks_at_once(); runs && jobs > most) {
+    if (options.jobs)
+      throw InputError(fmt::format(
+          "--jobs: {} tasks at a time need more open files than this process may have (ulimit -n); "
+          "expected at most {}",
+          jobs, most));
+    jobs = most;
+  }
   if (options.out && !options.dry_run) check_folder(*options.out);
   StopSignals signals;
   try {

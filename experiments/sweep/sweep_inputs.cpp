@@ -77,7 +77,7 @@ std::vector<SweepInput> inputs_from(const SweptCommand& command, const Json& ite
   }
   if (files->text() == nullptr || files->text()->empty())
     throw InputError(where + ": expected a path, or an object with the key 'file'");
-  const std::string& path = *files->text();
+  const std::string path = scalar_text(*files, where);
   const std::string whole = in_folder(folder, path).string();
   for (const std::string& file : patterns.of(path, folder, where))
     inputs.push_back({file == whole ? path : short_name(file, folder), {file}, options});

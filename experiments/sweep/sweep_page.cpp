@@ -112,10 +112,10 @@ std::string sweep_page(const SweepPlan& plan, const CollectedSweep& collected, c
                      failed_table().html(std::span(failed).first(std::min(most_rows, failed.size()))));
   page.body += html_section("Tasks", count_table().html(without_repeated_sum(counts)));
   page.body += html_section("Means", pooled);
-  page.words =
-      html_escaped(fmt::format("Means pool the tasks that differ in {} only. Their 95% intervals are "
-                               "Student's, for independent values; those of counts stay above 0.",
-                               fmt::join(plan.spec().pooled, ", ")));
+  page.words = html_escaped(fmt::format(
+      "Means pool the tasks that {}. Their 95% intervals are Student's, for "
+      "independent values; those of counts stay above 0.",
+      over.empty() ? "differ in nothing" : fmt::format("differ in {} only", fmt::join(over, ", "))));
   return html_page(page);
 }
 

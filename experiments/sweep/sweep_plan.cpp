@@ -16,6 +16,8 @@ namespace kds {
 
 namespace {
 
+constexpr std::size_t most_tasks = 10'000'000;  // about 100 bytes each
+
 constexpr std::array<std::string_view, 9> kReadingOptions{
     "topology", "select", "chain", "format", "dt", "units", "groups", "until-damage", "obstacle"};
 
@@ -63,13 +65,16 @@ SweepPlan::SweepPlan(SweepSpec spec, InputHashes& hashes, const std::string& sub
 }
 
 void SweepPlan::add_tasks(std::uint32_t block, InputHashes& hashes, const std::string& subject) {
-  constexpr std::size_t most_tasks = 100'000'000;
+  const auto refuse_more_than_most = [&](std::uint64_t tasks) {
+    if (tasks > most_tasks)
+      throw InputError(
+          fmt::format("{}: commands[{}]: has more than {} tasks; expected fewer values of options", subject,
+                      block, with_thousands(most_tasks)));
+  };
   std::uint64_t settings = 1;
   for (const Axis& axis : spec_.blocks[block].axes) {
     settings *= axis.values.size();
-    if (settings * spec_.blocks[block].inputs.size() > most_tasks)
-      throw InputError(fmt::format("{}: commands[{}]: has more than {} tasks", subject, block,
-                                   with_thousands(most_tasks)));
+    refuse_more_than_most(settings * spec_.blocks[block].inputs.size());
   }
   SweepTask task;
   task.block = block;
@@ -83,6 +88,7 @@ void SweepPlan::add_tasks(std::uint32_t block, InputHashes& hashes, const std::s
         tasks_.push_back(task);
         tasks_.back().name = name_of(task, hashes);
       }
+      refuse_more_than_most(tasks_.size());
     }
 }
 

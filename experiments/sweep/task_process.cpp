@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -107,6 +108,13 @@ TaskOutput& TaskOutput::operator=(TaskOutput&& other) noexcept {
 
 std::string TaskOutput::out() const { return content(out_); }
 std::string TaskOutput::err() const { return content(err_); }
+
+std::size_t most_tasks_at_once() {
+  constexpr rlim_t others = 32;
+  rlimit files{};
+  if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return 1;
+  return std::max<std::size_t>(files.rlim_cur > others ? (files.rlim_cur - others) / 2 : 1, 1);
+}
 
 void ignore_stop_signals() {
   for (const int signal : kStopSignals) ::signal(signal, SIG_IGN);

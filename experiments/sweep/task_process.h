@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -39,6 +40,9 @@ class TaskOutput {
  private:
   int out_ = -1, err_ = -1;
 };
+
+/// Returns how many tasks can run at a time: each of them takes two descriptors of the sweep (ulimit -n).
+[[nodiscard]] std::size_t most_tasks_at_once();
 
 /// Makes this process ignore the signals that ask a program to end.
 void ignore_stop_signals();

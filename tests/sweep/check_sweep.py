@@ -101,13 +101,13 @@ def kills():
     seed = int(os.environ.get("KDS_SWEEP_SEED", time.time()))
     print(f"{count} kills, KDS_SWEEP_SEED={seed}")
     chance = random.Random(seed)
-    sweep = write_sweep(strides=(1, 2, 3, 4), radii=[1 + k / 100 for k in range(2 + count)])
+    sweep = write_sweep(strides=(1, 2, 3, 4), radii=[1 + k / 1000 for k in range(2 + 4 * count)])
     expected = reference(sweep)
     folder = FOLDER / "killed"
     workers = [start(sweep, "-o", folder, "--jobs", 2) for _ in range(2)]
     killed = 0
     while killed < count and any(worker.poll() is None for worker in workers):
-        time.sleep(chance.uniform(0.02, 0.3))
+        time.sleep(chance.uniform(0.02, 0.2))
         victim = chance.randrange(2)
         if workers[victim].poll() is not None:
             continue
@@ -117,7 +117,7 @@ def kills():
         workers[victim] = start(sweep, "-o", folder, "--jobs", 2)
     for worker in workers:
         worker.wait(DEADLINE)
-    expect(killed >= min(count, 2), f"only {killed} of {count} kills met a running worker")
+    expect(killed >= max(2, count // 2), f"only {killed} of {count} kills met a running worker")
     print(f"{killed} workers were killed")
     # A task that ran during two kills counts as crashed.
     kds("sweep", sweep, "-o", folder, "--retry")

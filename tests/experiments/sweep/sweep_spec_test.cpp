@@ -74,6 +74,9 @@ TEST(SweepSpec, RefusesMistakesWithTheKeyAndTheNearestName) {
        {"'a.pdb' sets --radius too"}},
       {R"({"inputs": [{"file": "a.pdb", "radius": 1, "--radius": 2}], "commands": ["run"]})",
        {"inputs[0]: option radius is listed twice"}},
+      {R"({"inputs": ["a\u0000b"], "commands": ["run"]})", {"inputs[0]: has a zero byte"}},
+      {command(R"("options": {"chain": "A\u0000--json"})"), {"chain: has a zero byte"}},
+      {command(R"("options": {"dt": 1e999})"), {"s.json: number '1e999' is too large"}},
       {R"({"inputs": [{"file": ["a.pdb", ""]}], "commands": ["run"]})", {"lists an empty path"}},
       {R"({"inputs": ["a.pdb"], "commands": ["run"], "seeds": 3})",
        {"no command of this sweep has the option --seed"}},
@@ -186,6 +189,20 @@ TEST(SweepSpec, NamesTasksByContentAndSettings) {
   const TaskName missing = name("missing.xyz", R"("radius": 1, "motion": "linear")");
   EXPECT_NE(missing, a);
   EXPECT_NE(name("gone.xyz", R"("radius": 1, "motion": "linear")"), missing);
+}
+
+TEST(SweepSpec, RefusesMoreTasksThanMemoryHolds) {
+  std::string numbers = "1";
+  for (int k = 2; k <= 220; ++k) numbers += ',' + std::to_string(k);
+  const std::string text =
+      R"({"inputs": ["a.xyz"], "commands": [{"command": "run", "options": {"stride": [)" + numbers +
+      R"(], "radius": [)" + numbers + R"(], "apart": [)" + numbers + "]}}]}";
+  try {
+    static_cast<void>(plan_of(text, "/nowhere"));
+    ADD_FAILURE() << "accepted 10,648,000 tasks";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("s.json: commands[0]: has more than 10,000,000 tasks"));
+  }
 }
 
 // A task that is listed twice would count twice in means.

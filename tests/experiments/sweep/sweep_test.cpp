@@ -242,7 +242,9 @@ TEST(Sweep, CollectsWhatTheCommandsPrint) {
     const std::string structure = cells[4].substr(cells[4].find(' ') + 1);
     const std::vector<double>& values = totals.at(structure + cells[3]);
     EXPECT_DOUBLE_EQ(std::stod(cells[7]), (values[0] + values[1]) / 2) << line;
-    if (values[0] != values[1]) EXPECT_GT(std::stod(cells[8]), 0) << line;
+    if (values[0] != values[1]) {
+      EXPECT_GT(std::stod(cells[8]), 0) << line;
+    }
   }
   EXPECT_EQ(found, 4U);
 }
@@ -349,6 +351,10 @@ TEST(Sweep, RefusesWrongUsage) {
   expect_refused({"sweep", "status", scratch.path(), "--retry"}, {"--retry: has no meaning"});
   expect_refused({"sweep", sweep, "-o", scratch.path()}, {"holds other files and no sweep"});
   expect_refused({"sweep", sweep, "-o", sweep}, {"is a file, expected a directory"});
+  const ProgramRun jobs = run_shell("ulimit -n 64; $0 sweep $1 -o $2 --jobs 40", {sweep, scratch / "o"});
+  EXPECT_EQ(jobs.code, 2);
+  EXPECT_THAT(jobs.err, HasSubstr("--jobs: 40 tasks at a time need more open files"));
+  EXPECT_THAT(jobs.err, HasSubstr("expected at most 16"));
   for (const char* shard : {"0/3", "4/3", "3", "a/b", "1/0"})
     expect_refused({"sweep", sweep, "-o", scratch / "o", "--shard", shard}, {"--shard", "is not I/N"});
   for (const char* memory : {"0", "1G2", "10", "99999999T"})
