@@ -20,6 +20,7 @@ class BlockBytes {
   void add_double(double value) { add_little_endian(std::bit_cast<std::uint64_t>(value), 8); }
   /// Adds a signed number as a zigzag varint (LEB128): 7 bits a byte, the lowest first.
   void add_varint(std::int64_t value);
+  void add(const BlockBytes& others) { bytes_ += others.bytes_; }
 
   [[nodiscard]] std::string_view bytes() const { return bytes_; }
   [[nodiscard]] bool empty() const { return bytes_.empty(); }

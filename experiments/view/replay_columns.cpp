@@ -40,7 +40,7 @@ void add_times(BlockBytes& block, const ReplayRecorder::Events& events) {
     before = time.middle;
     reaches.add_byte(time.reach);
   }
-  block.add_text(reaches.bytes());
+  block.add(reaches);
 }
 
 /// Returns for each event the place of its first id in `ids`, and the end.
@@ -113,7 +113,7 @@ BlockBytes change_columns(const ReplayRecorder::Layer& layer, const ReplayRecord
       }
     }
   }
-  for (const BlockBytes* const column : {&removed, &added, &places, &others}) block.add_text(column->bytes());
+  for (const BlockBytes* const column : {&removed, &added, &places, &others}) block.add(*column);
   return block;
 }
 
