@@ -9,6 +9,7 @@
 #include <exception>
 #include <mutex>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -210,7 +211,12 @@ class ParallelRun::Joined final : public RunningStructure {
 class ParallelRun::Workers {
  public:
   Workers(const ParallelRun& run, std::size_t threads) : run_(run) {
-    for (std::size_t i = 1; i < threads; ++i) threads_.emplace_back([this] { work(); });
+    threads_.reserve(threads);
+    try {
+      for (std::size_t i = 1; i < threads; ++i) threads_.emplace_back([this] { work(); });
+    } catch (const std::system_error&) {
+      // The system has no more threads. The caller and the threads that have started do the work.
+    }
   }
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
