@@ -190,8 +190,8 @@ def trade(source, *, start=None, stop=None, step=None, radius=None, units=None, 
     """Measures the speed and the errors of each lever of accuracy on an input: strides, tolerances, relaxed spheres, ...
 
     The input is that of :func:`kds.run`. Options: ``want`` (a list of contacts, cages, diagram, events, scenes), ``apart``,
-    ``rounds``, ``times_examined`` as ``times`` of the program, ``seed``, ``cutoff``, ``without_exact``. Returns
-    :class:`kds.Trade`, whose ``rows`` have a row for each setting. Takes several times as long as a run.
+    ``rounds``, ``times_examined`` as ``times`` of the program, ``seed``, ``cutoff``, ``without_exact`` and
+    ``threads``. Returns :class:`kds.Trade`, whose ``rows`` have a row for each setting. Takes several times as long as a run.
 
     >>> import kds
     >>> spiral = kds.generate("spiral", beads=30, frames=9)
