@@ -40,6 +40,13 @@ std::string text_in(const fs::path& file) {
   return text;
 }
 
+// Returns nanoseconds, as the times of files count them.
+std::int64_t now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_REALTIME, &time);
+  return time.tv_sec * kNanoseconds + time.tv_nsec;
+}
+
 // Returns 0 if the file cannot be read.
 std::uint64_t hash_of_content(const std::string& file, const std::function<bool()>& stopped) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
@@ -182,16 +189,16 @@ bool InputHashes::has_changed(const std::string& file) {
   const auto known = files_.find(file);
   if (known == files_.end()) return false;
   File& then = known->second;
-  File now = seen(file);
-  if (now.exists ? are_alike(now, then) : !then.exists) return false;
-  if (!now.exists || now.bytes != then.bytes) return true;
+  File found = seen(file);
+  if (found.exists ? are_alike(found, then) : !then.exists) return false;
+  if (!found.exists || found.bytes != then.bytes) return true;
   try {
-    now.hash = hash_of_content(file, stopped_);
+    found.hash = hash_of_content(file, stopped_);
   } catch (const SweepStopped&) {
     return true;  // unknown; the sweep ends anyway
   }
-  if (now.hash != then.hash) return true;
-  then = now;
+  if (found.hash != then.hash) return true;
+  then = found;
   return false;
 }
 
@@ -204,7 +211,7 @@ std::uint64_t InputHashes::hash(const std::string& file) {
   if (found.exists) {
     const bool same = remembered && earlier->second.trusted && are_alike(earlier->second, found);
     constexpr std::int64_t settled = 2 * kNanoseconds;
-    found.trusted = same || std::time(nullptr) * kNanoseconds - found.stamp.changed > settled;
+    found.trusted = same || now() - found.stamp.changed > settled;
     found.hash = same ? earlier->second.hash : hash_of_content(file, stopped_);
     changed_ = changed_ || !same;
   }

@@ -106,8 +106,8 @@ TEST(SweepSpec, RefusesValuesThatNoTaskCanTake) {
            {"run", R"("threads": 0)", "threads: --threads: '0'"},
            {"run", R"("select": "cα")", "select: --select"},
            {"compare", R"("strides": "1,x")", "strides: --strides: 'x'"},
-           {"collide", R"("methods": "al")", "methods: --methods: 'al'"},
-           {"contacts", R"("surface": "one")", "surface: --surface: 'one'"},
+           {"collide", R"("method": "al")", "method: --method: 'al'"},
+           {"contacts", R"("cutoff": "6,x")", "cutoff: --cutoff: 'x'"},
            {"scale", R"("model": "randm-chain")", "did you mean random-chain?"},
            {"stability", R"("cases": 1.5)", "cases: --cases: '1.5'"},
            {"theorems", R"("beads": 5)", "beads: --beads: '5'"},
@@ -120,10 +120,10 @@ TEST(SweepSpec, RefusesValuesThatNoTaskCanTake) {
   }
   EXPECT_THAT(refusal(R"({"inputs": [{"file": "a.pdb", "units": "si"}], "commands": ["run"]})"),
               HasSubstr("s.json: inputs[0]: units: --units: 'si'"));
-  EXPECT_EQ(refusal(R"({"inputs": [{"file": "a.pdb", "groups": ["protein", "water"]}], "commands": [
+  EXPECT_EQ(refusal(R"({"inputs": [{"file": "a.pdb", "groups": ["ca", "//A"]}], "commands": [
       {"command": "run", "options": {"structures": ["power", "wrapped,contacts"], "motion": ["linear", "hermite"],
        "radius": [1, "1.5", "auto", "element", "file:r"], "tolerance": [null, "0.2r", 3], "certify": [true, false],
-       "frames": ["::2", ":9"], "levels": "2:", "select": "chain A", "threads": 2}},
+       "frames": ["::2", ":9"], "levels": "2:", "select": "ca", "threads": 2}},
       {"command": "theorems", "options": {"beads": 5000}}], "seeds": [0, 7]})"),
             "accepted");
 }

@@ -171,29 +171,37 @@ TEST(Sweep, NoticesContentOfEqualSizeAndTime) {
 
 // Several tasks run at a time, so a task has one thread unless the sweep says another number.
 TEST(Sweep, TasksHaveOneThreadUnlessTheSweepSaysMore) {
-  const ScratchDirectory scratch;
-  scratch.file("a.xyz", chain(0.2));
-  scratch.file("s.json", R"({"inputs": ["a.xyz"], "commands": [
-      {"command": "run", "options": {"threads": [null, 2], "structures": "power"}}]})");
-  static_cast<void>(run_sweep(scratch));
-  const Json rows = collected(scratch)["rows"];
-  EXPECT_EQ(rows[0]["engine.threads"], 1);
-  EXPECT_EQ(rows[1]["engine.threads"], 2);
-  EXPECT_EQ(rows[0]["fingerprint"], rows[1]["fingerprint"]);
+  const std::string text = R"({"inputs": ["a.xyz"], "commands": ["info",
+      {"command": "run", "options": {"threads": [null, 2]}}]})";
+  PatternFiles files;
+  InputHashes hashes([] { return false; });
+  const SweepPlan plan(read_sweep(read_json(text, "s.json"), "/nowhere", files, "s.json"), hashes, "s.json");
+  std::vector<Arguments> arguments;
+  for (const SweepTask& task : plan.tasks()) arguments.push_back(task_arguments(plan, task));
+  const Arguments json{"--quiet", "--json", "-"};
+  const auto with = [&](Arguments words) {
+    words.insert(words.end(), json.begin(), json.end());
+    return words;
+  };
+  EXPECT_THAT(arguments, testing::ElementsAre(with({"info", "/nowhere/a.xyz"}),
+                                              with({"run", "/nowhere/a.xyz", "--threads", "1"}),
+                                              with({"run", "/nowhere/a.xyz", "--threads", "2"})));
 }
 
 // A name that is not UTF-8 is no reason to lose a row.
 TEST(Sweep, CollectsFilesOfAnyName) {
   const ScratchDirectory scratch;
   for (const char* name : {"a\xff.xyz", "a b\nc.xyz", "a\"',.xyz"}) scratch.file(name, chain(0.2));
-  scratch.file("s.json", R"({"inputs": ["a*.xyz"], "commands": ["info"]})");
+  scratch.file(
+      "s.json",
+      R"({"inputs": ["a*.xyz"], "commands": [{"command": "run", "options": {"structures": "power"}}]})");
   static_cast<void>(run_sweep(scratch));
   const Json rows = collected(scratch)["rows"];
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[0]["input"], "a b\nc.xyz");
   EXPECT_EQ(rows[1]["input"], "a\"',.xyz");
   EXPECT_EQ(rows[2]["input"], "a\ufffd.xyz");
-  for (const Json& row : rows) EXPECT_EQ(row["input.beads"], rows[0]["input.beads"]);
+  for (const Json& row : rows) EXPECT_EQ(row["input.beads"], 12);
 }
 
 TEST(Sweep, IntervalsOfCountsStayAboveZero) {
