@@ -107,7 +107,7 @@ TEST(SweepSpec, RefusesValuesThatNoTaskCanTake) {
            {"run", R"("select": "cα")", "select: --select"},
            {"compare", R"("strides": "1,x")", "strides: --strides: 'x'"},
            {"collide", R"("method": "al")", "method: --method: 'al'"},
-           {"contacts", R"("cutoff": "6,x")", "cutoff: --cutoff: 'x'"},
+           {"contacts", R"("cutoff": "6,x")", "cutoff: --cutoff: '6,x'"},
            {"scale", R"("model": "randm-chain")", "did you mean random-chain?"},
            {"stability", R"("cases": 1.5)", "cases: --cases: '1.5'"},
            {"theorems", R"("beads": 5)", "beads: --beads: '5'"},
