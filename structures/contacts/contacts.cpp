@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "motions/base/interruption.h"
 #include "motions/curves/positions.h"
 #include "motions/scene/near_pairs.h"
 #include "structures/necklace/pairs_in_question.h"
@@ -126,6 +127,7 @@ void Contacts<D>::build() {
   for (const BeadPair& pair : pairs_.overlapping) contacts_.insert(pair);
   const Instant start(0.0);
   for (const BeadPair& pair : pairs_.unclear) {
+    InterruptionCheck::ask();
     const int sign =
         disjoint_.search().sign_just_after(simulator().kernel(), disjoint(pair), start, statistics.stages);
     if (sign <= 0) contacts_.insert(pair);
@@ -168,6 +170,7 @@ void Contacts<D>::watch_from(std::uint32_t place, bool at_start) {
   }
   const Curves<D> curves = motion_.curves();
   disjoint_.watch_enqueued([&](std::uint32_t at, CertificateHandle handle) {
+    InterruptionCheck::ask();
     const BeadPair& pair = pair_at(at);
     if (handle == CertificateHandle::violated || handle == CertificateHandle::zero) {
       at_once_.push_back({pair, begin, handle == CertificateHandle::violated ? at : no_place});
@@ -176,6 +179,7 @@ void Contacts<D>::watch_from(std::uint32_t place, bool at_start) {
     }
   });
   overlapping_.watch_enqueued([&](std::uint32_t at, CertificateHandle handle) {
+    InterruptionCheck::ask();
     if (handle == CertificateHandle::violated) at_once_.push_back({pair_at(at), end, at});
   });
 }

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "motions/base/interruption.h"
 #include "motions/numbers/lanes.h"
 
 namespace kds {
@@ -273,6 +274,7 @@ void MovingFamily<Dimension>::split(Resting resting, std::size_t level, std::siz
   };
   const std::uint32_t resting_first = at_rest(first), resting_second = at_rest(second);
   const std::uint32_t present = boxes_.present(below, second);
+  InterruptionCheck::ask();
   for (std::size_t child = first * fan; child < end; ++child) {
     const std::size_t place = child - first * fan;
     std::uint32_t others = present;
