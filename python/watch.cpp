@@ -1,5 +1,7 @@
 #include "python/watch.h"
 
+#include <ctime>
+
 namespace kds::python {
 
 namespace py = pybind11;
@@ -14,6 +16,12 @@ bool is_main_thread() {
 }
 
 }  // namespace
+
+auto Watch::Clock::now() -> time_point {
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC_COARSE, &time);
+  return time_point(std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec));
+}
 
 Watch::Watch(const py::object& progress)
     : progress_(progress.is_none() ? py::handle() : py::handle(progress)),

@@ -32,7 +32,16 @@ class Watch {
   void set_within(double within) { within_ = within; }
 
  private:
-  using Clock = std::chrono::steady_clock;
+  /// The kernel's clock of its ticks, every few milliseconds. To read it takes a fourth of the time of
+  /// std::chrono::steady_clock, and each event reads it.
+  struct Clock {
+    using duration = std::chrono::nanoseconds;
+    using rep = duration::rep;
+    using period = duration::period;
+    using time_point = std::chrono::time_point<Clock>;
+    static constexpr bool is_steady = true;
+    static time_point now();
+  };
   void look();
   void call();
 
