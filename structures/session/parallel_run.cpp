@@ -479,6 +479,7 @@ void ParallelRun::note_frame(Part& part, Worker& worker, std::size_t number) con
   Session& session = worker.run.session();
   Frame frame;
   frame.events = std::exchange(worker.recorder.events, {});
+  worker.recorder.events.reserve(frame.events.size() + frame.events.size() / 8);  // steps resemble each other
   const bool is_end = number == 0 || number == scene_.step_count();
   for (std::size_t s = 0; s < session.structures().size(); ++s) {
     const RunningStructure& running = session.running(s);
