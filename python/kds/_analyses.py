@@ -24,7 +24,9 @@ class Contacts(Result):
 
     ``rows``
         one row for each pair that is ever in contact: the elements ``i``, ``j`` with their names, the number of contacts,
-        occupancy, total, mean, median and longest time in contact, rates and residence time.
+        occupancy (share of time in contact, from 0 to 1), total, mean, median and longest time in contact, ``begin_rate``
+        (beginnings per time without contact), ``end_rate`` (ends per time in contact) and ``residence`` (time in contact
+        divided by the number of ends, NaN without an end).
     ``intervals``
         one row for each contact, with its beginning and end.
     ``survival``
@@ -84,10 +86,12 @@ def contacts(source, *, cutoff, by=None, gap=0, surface=False, start=None, stop=
     ``source``, ``start``, ``stop``, ``step``, ``radius``, ``units``, ``necklaces``, ``times`` and ``groups`` are those of
     :func:`kds.run`. ``cutoff`` is the distance in angstrom within which centres are in contact (surfaces if
     ``surface``); a pair of lengths are two cutoffs: a contact begins within the first and ends outside the second.
-    ``by`` is ``residue``, ``bead`` or ``chain``. An absence shorter than ``gap`` (picoseconds if the frames have times,
-    otherwise frames) does not end a contact. Further options: ``apart``, ``strides``, ``intermittency``, ``motion``,
-    ``topology``, ``select``, ``chain``, ``obstacle``, ``dt``, ``certify``, ``threads`` (default: all cores). Returns
-    :class:`kds.Contacts`.
+    ``by`` is ``residue``, ``bead`` or ``chain`` (default: residue if the input names residues, otherwise bead). Two
+    residues are in contact while any two of their beads are, so a selection of heavy atoms suits a ``cutoff`` of 4.5 and
+    one of C-alpha atoms a ``cutoff`` of 8. Elements of one chain count from ``apart`` places along it on (default: 3).
+    An absence shorter than ``gap`` (picoseconds if the frames have times, otherwise frames) does not end a contact.
+    Further options: ``strides``, ``intermittency``, ``motion``, ``topology``, ``select``, ``chain``, ``obstacle``,
+    ``dt``, ``certify``, ``threads`` (default: all cores). Returns :class:`kds.Contacts`, whose help explains the rows.
 
     >>> import kds
     >>> found = kds.contacts(kds.generate("spiral", beads=30, frames=10), cutoff=2.5, by="bead")
