@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -192,13 +191,6 @@ TEST(ContactsCommand, RefusesInputsThatItCannotUse) {
       HasSubstr("still.gro, still.gro: the time does not advance from frame 1, 1 ps, to frame 2, 1 ps"));
 }
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 TEST(ContactsCommand, FilesAndPage) {
   const ScratchDirectory directory;
   const std::string out = (directory / "report").string();
@@ -206,14 +198,14 @@ TEST(ContactsCommand, FilesAndPage) {
                                       "--select", "ca", "--cutoff", "6:8", "--out", out});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("one frame in 2"));
-  const std::string page = text_of(out + "/report.html");
+  const std::string page = content_of(out + "/report.html");
   expect_sound(page);
   for (const char* part : {"Contact map", "When pairs are in contact", "Survival", "Contacts over time",
                            "Contacts counted at frames", "VAL 5 and ILE 13"})
     EXPECT_THAT(page, HasSubstr(part));
-  const Json json = Json::parse(text_of(out + "/contacts.json"));
+  const Json json = Json::parse(content_of(out + "/contacts.json"));
   std::map<std::string, int> contacts;
-  std::istringstream lines(text_of(out + "/intervals.csv"));
+  std::istringstream lines(content_of(out + "/intervals.csv"));
   std::string line;
   std::getline(lines, line);
   EXPECT_THAT(line, HasSubstr("i,j,first,second,begin_frame,end_frame"));
@@ -224,8 +216,8 @@ TEST(ContactsCommand, FilesAndPage) {
     EXPECT_EQ(row["contacts"], contacts[key]) << key;
     EXPECT_GE(row["j"].get<int>() - row["i"].get<int>(), 3);
   }
-  EXPECT_THAT(text_of(out + "/contacts.csv"), HasSubstr("i,j,first,second,contacts,occupancy"));
-  EXPECT_THAT(text_of(out + "/frames.csv"), HasSubstr("spacing,samples,found,plain_contacts"));
+  EXPECT_THAT(content_of(out + "/contacts.csv"), HasSubstr("i,j,first,second,contacts,occupancy"));
+  EXPECT_THAT(content_of(out + "/frames.csv"), HasSubstr("spacing,samples,found,plain_contacts"));
 }
 
 using Second = second::Rational;
@@ -299,7 +291,7 @@ void expect_as_brute_force(const std::string& dcd, const std::string& pdb, std::
                    std::to_string(cutoff), "--out", out, "--quiet"});
   ASSERT_EQ(run.code, 0) << run.err;
   std::map<std::pair<int, int>, Spans> found;
-  std::istringstream lines(text_of(out + "/intervals.csv"));
+  std::istringstream lines(content_of(out + "/intervals.csv"));
   std::string line;
   std::getline(lines, line);
   while (std::getline(lines, line)) {
@@ -464,16 +456,16 @@ TEST(ContactsCommand, AContactBetweenFramesMayNotExist) {
   const ProgramRun run = run_program({"contacts", rests, moves, "--cutoff", "1", "--frames", "::2",
                                       "--certify", "--strides", "1", "--out", out});
   ASSERT_EQ(run.code, 0) << run.err;
-  const Json contacts = Json::parse(text_of(out + "/contacts.json"))["stride"]["contacts"];
+  const Json contacts = Json::parse(content_of(out + "/contacts.json"))["stride"]["contacts"];
   EXPECT_EQ(contacts["found"], 1);
   EXPECT_EQ(contacts["sure"], 0);
   EXPECT_EQ(contacts["least"], 0);
-  EXPECT_THAT(text_of(out + "/intervals.csv"), HasSubstr(",certainty\n"));
-  EXPECT_THAT(text_of(out + "/intervals.csv"), HasSubstr(",possible\n"));
-  EXPECT_THAT(text_of(out + "/possible_intervals.csv"), HasSubstr(",found\n"));
-  EXPECT_THAT(text_of(out + "/possible_intervals.csv"), HasSubstr(",yes\n"));
-  EXPECT_THAT(text_of(out + "/contacts.csv"), HasSubstr(",unit,sure,least_occupancy,most_occupancy\n"));
-  EXPECT_THAT(text_of(out + "/report.html"), HasSubstr("<h2>Certificate</h2>"));
+  EXPECT_THAT(content_of(out + "/intervals.csv"), HasSubstr(",certainty\n"));
+  EXPECT_THAT(content_of(out + "/intervals.csv"), HasSubstr(",possible\n"));
+  EXPECT_THAT(content_of(out + "/possible_intervals.csv"), HasSubstr(",found\n"));
+  EXPECT_THAT(content_of(out + "/possible_intervals.csv"), HasSubstr(",yes\n"));
+  EXPECT_THAT(content_of(out + "/contacts.csv"), HasSubstr(",unit,sure,least_occupancy,most_occupancy\n"));
+  EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("<h2>Certificate</h2>"));
   // A longer cutoff reaches the bead at the first frame, which is at its true position there.
   const ProgramRun near =
       run_program({"contacts", rests, moves, "--cutoff", "5", "--frames", "::2", "--certify", "--json", "-"});

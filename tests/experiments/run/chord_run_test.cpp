@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "motions/numbers/exact_number.h"
+#include "tests/experiments/csv_cells.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
@@ -32,17 +33,6 @@ std::vector<std::string> villin(std::vector<std::string> more) {
   return arguments;
 }
 
-/// Returns the lines of a table without its header.
-std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
-  std::vector<std::vector<std::string>> lines;
-  std::istringstream text(csv.substr(csv.find('\n') + 1));
-  for (std::string line; std::getline(text, line);) {
-    std::istringstream cells(line);
-    for (lines.emplace_back(); cells >> std::ws;) std::getline(cells, lines.back().emplace_back(), ',');
-  }
-  return lines;
-}
-
 TEST(ChordRun, BasesDumpedAtFramesAreThoseOfTheRunWithEvents) {
   const ScratchDirectory scratch;
   for (const char* motion : {"linear", "hermite"}) {
@@ -53,8 +43,8 @@ TEST(ChordRun, BasesDumpedAtFramesAreThoseOfTheRunWithEvents) {
     }
     for (const char* frame : {"frame-0", "frame-3", "frame-5"}) {
       const std::string file = std::string("/") + frame + ".wrapped.csv";
-      const auto chord = cells_of(content_of(scratch / ("chord" + file)));
-      const auto events = cells_of(content_of(scratch / ("events" + file)));
+      const auto chord = csv_cells(scratch / ("chord" + file));
+      const auto events = csv_cells(scratch / ("events" + file));
       ASSERT_EQ(chord.size(), events.size());
       ASSERT_EQ(chord.size(), 107U);
       for (std::size_t node = 0; node < chord.size(); ++node) {
@@ -105,8 +95,7 @@ TEST(ChordRun, DumpedSpheresHoldTheirBeadsExactly) {
         const ProgramRun run = run_program(arguments);
         ASSERT_EQ(run.code, 0) << run.err;
         for (std::size_t k = 0; k < frames; ++k) {
-          const auto nodes =
-              cells_of(content_of(scratch / fmt::format("dump/frame-{}.{}.csv", k, structure)));
+          const auto nodes = csv_cells(scratch / fmt::format("dump/frame-{}.{}.csv", k, structure));
           ASSERT_EQ(nodes.size(), beads - 1);
           for (const auto& node : nodes) {
             const std::size_t at = node.size() - 4;

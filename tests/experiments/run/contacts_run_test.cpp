@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/experiments/csv_cells.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
@@ -39,18 +40,6 @@ std::string frames_at(const std::vector<std::string>& beads, const std::vector<d
     for (const std::string& bead : beads) frames += "C " + std::to_string(shift) + " " + bead + "\n";
   }
   return frames;
-}
-
-// Returns the cells of each line of a CSV, without its header.
-std::vector<std::vector<std::string>> cells_of(const std::filesystem::path& path) {
-  std::vector<std::vector<std::string>> rows;
-  for (const std::string& line : lines_of(path)) {
-    std::vector<std::string>& row = rows.emplace_back();
-    std::istringstream text(line);
-    for (std::string cell; std::getline(text, cell, ',');) row.push_back(cell);
-  }
-  rows.erase(rows.begin());
-  return rows;
 }
 
 void expect_refused(std::vector<std::string> arguments, const std::string& reason) {
@@ -324,14 +313,14 @@ TEST(ContactsRun, MapsAgreeWithTheFiles) {
   ASSERT_EQ(run.code, 0) << run.err;
   const auto without_chain = [](const std::string& name) { return name.substr(0, name.find(" in chain")); };
   std::map<std::string, double> lengths;
-  for (const auto& row : cells_of(std::filesystem::path(out) / "contacts.csv")) {
+  for (const auto& row : csv_cells(std::filesystem::path(out) / "contacts.csv")) {
     const double frame = std::stod(row[5]);
     double& length = lengths[without_chain(row[3]) + " and " + without_chain(row[4])];
     if (row[0] == "begin") length += frames - 1 - frame;
     if (row[0] == "end") length -= frames - 1 - frame;
   }
   std::map<int, int> events;  // by the first frame of the bin
-  for (const auto& row : cells_of(std::filesystem::path(out) / "events.csv"))
+  for (const auto& row : csv_cells(std::filesystem::path(out) / "events.csv"))
     if (row[1] == "contacts") events[begin + (std::stoi(row[0]) - begin) / 2 * 2] += std::stoi(row[2]);
 
   const std::string html = content_of(std::filesystem::path(out) / "report.html");

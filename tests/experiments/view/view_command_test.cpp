@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "experiments/view/replay_template.h"
+#include "tests/experiments/csv_cells.h"
 #include "tests/experiments/expect_refused.h"
 #include "tests/experiments/replay_data.h"
 #include "tests/experiments/run_program.h"
@@ -41,18 +42,6 @@ std::vector<std::string> with(std::vector<std::string> arguments, const std::vec
   return arguments;
 }
 
-std::vector<std::vector<std::string>> csv(const std::filesystem::path& path) {
-  std::vector<std::vector<std::string>> rows;
-  std::istringstream text(content_of(path));
-  for (std::string line; std::getline(text, line);) {
-    std::istringstream fields(line);
-    rows.emplace_back();
-    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
-  }
-  if (!rows.empty()) rows.erase(rows.begin());
-  return rows;
-}
-
 std::uint32_t number(const std::string& text) { return static_cast<std::uint32_t>(std::stoul(text)); }
 
 /// Returns the layers at each frame of a dump. Contacts follow from their events.
@@ -60,16 +49,16 @@ std::vector<std::map<std::string, State>> dumped(const std::filesystem::path& du
   std::vector<std::map<std::string, State>> states(frames);
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const std::string start = "frame-" + std::to_string(frame);
-    for (const auto& cell : csv(dump / (start + ".power.csv")))
+    for (const auto& cell : csv_cells(dump / (start + ".power.csv")))
       for (std::size_t i = 0; i < cell.size(); ++i)
         for (std::size_t j = i + 1; j < cell.size(); ++j)
           states[frame]["edges"].insert(
               {std::min(number(cell[i]), number(cell[j])), std::max(number(cell[i]), number(cell[j]))});
     states[frame]["hidden"] = {};
-    for (const auto& row : csv(dump / (start + ".hidden.csv")))
+    for (const auto& row : csv_cells(dump / (start + ".hidden.csv")))
       states[frame]["hidden"].insert({number(row[0])});
     std::uint32_t node = 0;
-    for (const auto& row : csv(dump / (start + ".wrapped.csv"))) {
+    for (const auto& row : csv_cells(dump / (start + ".wrapped.csv"))) {
       Ids cage{node++};
       std::istringstream basis(row[2]);
       for (std::uint32_t bead = 0; basis >> bead;) cage.push_back(bead);
@@ -77,7 +66,7 @@ std::vector<std::map<std::string, State>> dumped(const std::filesystem::path& du
       states[frame]["cages"].insert(cage);
     }
     State& contacts = states[frame]["contacts"];
-    for (const auto& row : csv(dump / "contacts.csv")) {
+    for (const auto& row : csv_cells(dump / "contacts.csv")) {
       const Ids pair{number(row[3]), number(row[4])};
       const bool at_start = row[0] == "0" && row[1] == "0" && row[2] == "0" && row[5] == "begin";
       if (number(row[0]) >= frame && !at_start) continue;
@@ -239,7 +228,7 @@ TEST(View, WritesFilesForOtherViewers) {
     // Spheres are those of the dump, rounded up.
     const std::string cages = content_of(std::filesystem::path(vtk) / ("cages-" + number_of_file + ".vtp"));
     const auto radii = vtk_array<double>(cages, "radius"), points = vtk_array<double>(cages, "Points");
-    const auto rows = csv(scratch / ("dump/frame-" + std::to_string(frame) + ".wrapped.csv"));
+    const auto rows = csv_cells(scratch / ("dump/frame-" + std::to_string(frame) + ".wrapped.csv"));
     ASSERT_EQ(radii.size(), rows.size());
     for (std::size_t k = 0; k < rows.size(); ++k) {
       EXPECT_NEAR(radii[k], std::stod(rows[k][6]), 1e-9);
