@@ -14,6 +14,7 @@
 
 #include "certificates/exact/exact_time.h"
 #include "motions/base/input_error.h"
+#include "motions/base/interruption.h"
 #include "motions/frames/trajectory.h"
 #include "structures/contacts/contacts.h"
 #include "tests/support/inputs/hard_scenes.h"
@@ -329,6 +330,25 @@ TEST(ParallelRun, TellsAllEventsBeforeAFaultyFrame) {
       EXPECT_EQ(cut_reached, whole_reached);
       EXPECT_EQ(of_cut.events.size(), of_whole.events.size());
     }
+  }
+}
+
+TEST(ParallelRun, EndsIfItsCallerIsInterrupted) {
+  struct Enough {};
+  const Scene scene = scene_of(wandering_chain(7, 20, 12), {0.5});
+  for (const std::size_t most : {0U, 30U, 1000U}) {
+    ParallelRun run(scene, {{"wrapped"}}, {3, 2});
+    std::size_t asked = 0, reached = 0;
+    const InterruptionCheck check([&] {
+      if (++asked > most) throw Enough();
+    });
+    const auto never_ends = [](KineticRun&, std::optional<std::size_t> step,
+                               const std::function<void()>& work) {
+      work();
+      while (step && *step >= 5) InterruptionCheck::ask();
+    };
+    EXPECT_THROW(run.run([&](std::size_t frame) { reached = frame; }, never_ends), Enough);
+    EXPECT_LT(reached, 6U);
   }
 }
 
