@@ -110,7 +110,8 @@ class ParallelRun {
   void limit_work(std::uint64_t most);
 
   /// Runs all steps and finishes. Calls `at_frame` at each frame reached, including the first, on this
-  /// thread. If a step throws, all events before the exception are told first. Call it once.
+  /// thread. If a step throws, all events before the exception are told first. Asks this thread's checks
+  /// (motions/base/interruption.h) while it waits; if one throws, all parts end first. Call it once.
   void run(const std::function<void(std::size_t frame)>& at_frame, Around around = {});
   /// Returns the seconds that static builds at all frames take, for each structure. Call it after the run.
   [[nodiscard]] std::vector<double> static_seconds();
