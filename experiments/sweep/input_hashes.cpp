@@ -47,6 +47,19 @@ std::int64_t now() {
   return time.tv_sec * kNanoseconds + time.tv_nsec;
 }
 
+/// Fills the block unless the file ends. Returns the number of bytes read, or -1 on an error.
+ssize_t read_block(int descriptor, std::vector<char>& block) {
+  std::size_t filled = 0;
+  while (filled < block.size()) {
+    const ssize_t count = ::read(descriptor, block.data() + filled, block.size() - filled);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return count;
+    if (count == 0) break;
+    filled += static_cast<std::size_t>(count);
+  }
+  return static_cast<ssize_t>(filled);
+}
+
 // Returns 0 if the file cannot be read.
 std::uint64_t hash_of_content(const std::string& file, const std::function<bool()>& stopped) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
@@ -55,7 +68,7 @@ std::uint64_t hash_of_content(const std::string& file, const std::function<bool(
   std::vector<char> block(std::size_t{1} << 20U);
   std::uint64_t size = 0;
   ssize_t count = 0;
-  while ((count = ::read(descriptor, block.data(), block.size())) > 0) {
+  while ((count = read_block(descriptor, block)) > 0) {
     const auto bytes = static_cast<std::size_t>(count);
     std::size_t at = 0;
     for (std::uint32_t word = 0; at + sizeof word <= bytes; at += sizeof word) {

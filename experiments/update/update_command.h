@@ -14,6 +14,7 @@
 #include "experiments/output/page/table.h"
 #include "experiments/program/input_options.h"
 #include "kds/kinetic_structure.h"
+#include "motions/scene/scene.h"
 #include "structures/power_diagram/diagram_update.h"
 
 namespace kds {
@@ -46,8 +47,8 @@ struct UpdateOptions : InputOptions, Destinations {  // results: update.json, up
 
 struct UpdateRow;  // compare_updates.h
 
-/// Reads the inputs, once for each stride, and compares the techniques. `all` is called with the scene of all
-/// frames before the first run. Each warning goes to `warn` as one line. Throws InputError.
+/// Reads the inputs, once for each stride, and compares the techniques. `look_at` is called with the scene of
+/// all frames before the first run. Each warning goes to `warn` as one line. Throws InputError.
 [[nodiscard]] std::vector<UpdateRow> measure_updates(
     const UpdateOptions& options, const std::function<void(std::size_t, std::size_t)>& progress,
     const std::function<void(const std::string&)>& warn,
