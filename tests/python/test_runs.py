@@ -170,20 +170,50 @@ def page_of(text):
     return head, lambda name: zlib.decompress(base64.b64decode(blocks[name]))
 
 
+class Columns:
+    """Reads the columns of a block of events, as docs/formats.md describes them."""
+
+    def __init__(self, data):
+        self._bytes = iter(data)
+
+    def small(self, count):
+        return [next(self._bytes) for _ in range(count)]
+
+    def varints(self, count):
+        return [self._varint() for _ in range(count)]
+
+    def differences(self, count):
+        return list(itertools.accumulate(self.varints(count), lambda sum, next: (sum + next) % 2**32))
+
+    def _varint(self):
+        value, shift = 0, 0
+        for byte in self._bytes:
+            value |= (byte & 127) << shift
+            shift += 7
+            if byte < 128:
+                break
+        return value >> 1 ^ -(value & 1)
+
+
 def events_of_page(head, block):
-    """Returns the events of a page in their order, as tuples of step, structure, kind and ids."""
+    """Returns the events of a page in their order, as tuples of step, structure, kind, ids and bracket of u."""
     found = []
     for s, structure in enumerate(head["structures"]):
-        data, at = block(f"events-{s}"), 0
-        count = structure["events"]
-        columns = []
-        for dtype in ("<u4", "<u4", "<f8", "<f8", "u1", "u1", "u1"):
-            columns.append(np.frombuffer(data, dtype, count, at))
-            at += columns[-1].nbytes
-        ids = np.split(np.frombuffer(data, "<u4", offset=at).astype(np.int32), np.cumsum(columns[6]))
-        kinds = [kind["name"] for kind in structure["kinds"]]
-        found += [(order, step, structure["name"], kinds[kind], own.tolist())
-                  for order, step, kind, own in zip(columns[0], columns[1], columns[4], ids)]
+        count, columns = structure["events"], Columns(block(f"events-{s}"))
+        orders, steps, times = columns.differences(count), columns.differences(count), columns.varints(count)
+        reaches, kinds, _, sizes = (columns.small(count) for _ in range(4))
+        ids = [[] for _ in range(count)]
+        for place in range(max(sizes, default=0)):
+            for own, size in zip(ids, sizes):
+                if size > place:
+                    own.append((columns.varints(1)[0] + (own[-1] if own else 0)) % 2**32)
+        middle = 0
+        for k, own in enumerate(ids):
+            middle = times[k] + (middle if k > 0 and steps[k] == steps[k - 1] else 0)
+            reach = 2**(reaches[k] - 1) if reaches[k] > 0 else 0
+            found.append((orders[k], steps[k], structure["name"], structure["kinds"][kinds[k]]["name"],
+                          np.array(own, dtype=np.uint32).astype(np.int32).tolist(),
+                          ((middle - reach) / 2**32, (middle + reach) / 2**32)))
     return [event[1:] for event in sorted(found)]
 
 
@@ -195,9 +225,10 @@ class Views(unittest.TestCase):
         head, block = page_of(view.page)
         found = events_of_page(head, block)
         self.assertEqual(len(found), len(run.events))
-        for (step, structure, kind, ids), event in zip(found, run.events):
+        for (step, structure, kind, ids, bracket), event in zip(found, run.events):
             self.assertEqual((step, structure, kind), (event["step"], event["structure"], event["kind"]))
             self.assertEqual(ids, event["beads"][:len(ids)].tolist())
+            self.assertTrue(bracket[0] <= event["lower"] <= event["upper"] <= bracket[1], (bracket, event))
         first = np.frombuffer(block("initial-2-0"), "<u4").reshape(-1, 2)
         self.assertEqual(sorted(first.tolist()), run.contacts.pairs(frame=0).tolist())
 
