@@ -181,17 +181,21 @@ class _Standing(Structure):
 
 class StreamFrame:
     """A frame of :func:`kds.stream`: ``frame`` (its number), ``time`` (picoseconds or None) and ``events``, those since the
-    frame before."""
+    frame before. Its structures can be read until the stream goes on to the next frame."""
 
-    def __init__(self, frame, time, events, run):
+    def __init__(self, frame, time, events, run, place):
         self.frame = frame
         self.time = time
         self.events = events
         self._run = run
+        self._place = place
 
     def __getattr__(self, name):
         if name.startswith("_") or name not in self._run.structures:
             raise AttributeError(name)
+        if self._run._core.time() != self._place:
+            raise InputError(f"frame {self.frame}: the stream has gone on, and {name} is no longer at this frame; expected "
+                             "its use before the next frame")
         return _Standing(self._run, name)
 
     def __repr__(self):
@@ -206,7 +210,8 @@ def stream(source, *, start=None, stop=None, step=None, radius=None, necklaces=N
     AtomGroup or of files are read twice if ``radius`` is ``auto``.
 
     An iterable gives its frames only once. ``radius`` must then be a number or one for each bead, unless ``cutoff`` is
-    given.
+    given. In Hermite motion a frame of an iterable is yielded when the frame after it is known. Structures at its first
+    frame are not known.
 
     >>> import kds
     >>> spiral = kds.generate("spiral", beads=30, frames=5)
@@ -222,10 +227,10 @@ def stream(source, *, start=None, stop=None, step=None, radius=None, necklaces=N
 def _stream_frames(source, **options):
     run = KineticRun(source, pull=True, **options)
     run._core.build()
-    yield StreamFrame(*run._core.stamp(0), run._core.take_events(), run)
+    yield StreamFrame(*run._core.stamp(0), run._core.take_events(), run, 0)
     for k in range(1, run._core.frame_count):
         events = run.step()
-        yield StreamFrame(*run._core.stamp(k), events, run)
+        yield StreamFrame(*run._core.stamp(k), events, run, k)
     run.finish()
 
 
@@ -242,6 +247,8 @@ def _stream_pushed(source, chosen, radius, necklaces, units, options):
             whole(name, value, 1 if name == "step" else 0)
     places = itertools.count(chosen.start or 0, chosen.step or 1)
     run = None
+    waiting = []  # frames that are pushed and not yet reached: Hermite motion needs the frame after a step
+    reached = 0
     for item in itertools.islice(source, chosen.start, chosen.stop, chosen.step):
         positions, time = frame_of(item, f"frame {0 if run is None else run._pushed}")
         if units == "nm":
@@ -253,10 +260,14 @@ def _stream_pushed(source, chosen, radius, necklaces, units, options):
             radius = 1.0 if radius is None else radius
             run = KineticRun.pushed(len(positions), radius, dimension=positions.shape[1], necklaces=necklaces, **options)
         events = run.push(positions, time)
-        yield StreamFrame(next(places), time, events, run)
+        waiting.append((next(places), time))
+        if run._core.time() >= reached:
+            yield StreamFrame(*waiting.pop(0), events, run, reached)
+            reached += 1
     if run is None:
         raise InputError("frames: there are none; expected two or more")
-    if run._pushed > 1:
-        run.finish()
-    else:
+    if run._pushed < 2:
         raise InputError("frames: there is one; expected two or more")
+    events = run.finish()
+    for frame in waiting:
+        yield StreamFrame(*frame, events, run, reached)

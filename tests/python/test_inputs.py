@@ -147,6 +147,26 @@ class PathArrayGroupAndMdtraj(unittest.TestCase):
                                  structures=["power"]))
         np.testing.assert_array_equal(np.concatenate([frame.events for frame in pushed])["beads"], run.events["beads"])
 
+    def test_a_stream_gives_all_events_at_their_frames(self):
+        positions = universe(self.xtc).trajectory.timeseries(order="fac")[:6].copy()
+        for motion in ("linear", "hermite"):
+            options = {"structures": ["contacts"], "cutoff": 8, "motion": motion}
+            run = kds.run(positions, **options)
+            for source in (positions, iter(positions)):
+                events = []
+                for frame in kds.stream(source, **options):
+                    events.append(frame.events)
+                    if frame.frame > 0:
+                        np.testing.assert_array_equal(frame.contacts.pairs(), run.contacts.pairs(frame.frame))
+                self.assertEqual(len(events), 6)
+                np.testing.assert_array_equal(np.concatenate(events)["beads"], run.events["beads"])
+
+    def test_a_frame_of_a_stream_ends_with_the_next(self):
+        frames = list(kds.stream(coil(), radius=1, structures=["contacts"]))
+        self.assertEqual(frames[-1].contacts.pairs().shape[1], 2)
+        with self.assertRaisesRegex(kds.InputError, "^frame 2: the stream has gone on"):
+            frames[2].contacts
+
     def test_a_dcd_without_a_time_step_has_no_times(self):
         import MDAnalysis
 
