@@ -6,7 +6,7 @@ import numpy as np
 
 from . import _kds, _plots
 from ._inputs import open_input
-from ._options import InputError, arguments, call, number, warn
+from ._options import InputError, arguments, call, flag, number, warn
 from ._tables import Result, table, table_of_rows
 
 
@@ -14,8 +14,23 @@ def _analyse(function, source, verbose, unit, start, stop, step, units, necklace
     given = arguments(options)
     opened = open_input(source, start=start, stop=stop, step=step, units=units, necklaces=necklaces, times=times,
                         groups=groups, radius=radius, options=options)
-    found = call(function, opened.arguments + given, verbose=verbose, unit=unit)
-    warn([_kds.in_python(line) for line in found["warnings"]])
+    return find(function, opened, given, verbose=verbose, unit=unit)
+
+
+def find(function, opened, given, known=(), verbose=False, unit="step"):
+    """Returns what an analysis of an input finds, and issues its warnings except the known ones."""
+    try:
+        found = call(function, opened.arguments + given, verbose=verbose, unit=unit)
+    except InputError as error:
+        if opened.memory is None or "or topology FILE" not in str(error):
+            raise
+        sentence = str(error).replace("or topology FILE", "or an AtomGroup or mdtraj Trajectory, which name residues")
+        raise InputError(sentence) from None
+    if opened.memory is not None:
+        path = opened.memory.path  # memory/NUMBER/LABEL
+        for text in ("json", "table"):
+            found[text] = found[text].replace(path, path.split("/", 2)[2])
+    warn([line for line in map(_kds.in_python, found["warnings"]) if line not in known])
     return found
 
 
@@ -98,7 +113,9 @@ def contacts(source, *, cutoff, by=None, gap=0, surface=False, start=None, stop=
     >>> found.unit, len(found.rows) == found.all["contacts"] - sum(found.rows["contacts"] - 1)
     ('frames', True)
     """
-    options = dict(options, cutoff=cutoff_text(cutoff), by=by, gap=gap or None, surface=surface)
+    if gap is not None:
+        gap = number("gap", gap, "a length of time from 0") or None
+    options = dict(options, cutoff=cutoff_text(cutoff), by=by, gap=gap, surface=flag("surface", surface))
     return Contacts(_analyse(_kds.contacts, source, verbose, "step", start, stop, step, units, necklaces, times, groups,
                              radius, options))
 

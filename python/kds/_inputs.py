@@ -91,7 +91,7 @@ def frame_of(item, label):
 def _array(source):
     """Returns the source as an array, without copying an array."""
     if isinstance(source, np.ma.MaskedArray):
-        raise InputError("array: is masked; expected an array with all positions, such as positions.filled()")
+        raise InputError("array: is masked; expected an array with all positions, such as positions.data if none is missing")
     return np.asarray(source)
 
 

@@ -10,8 +10,11 @@ from . import _kds
 InputError = _kds.InputError
 
 # Options of the program that say where its results go. In Python results are attributes.
-_OUTPUTS = {*_kds.run_outputs(), "data"}
+_OUTPUTS = {*_kds.run_outputs(), "data", "o"}
 _RENAMED = {"frames": "start, stop, step", "format": "a path with the ending of its format"}
+
+
+_FOLDER = os.path.dirname(__file__)
 
 
 class InputWarning(UserWarning):
@@ -20,10 +23,22 @@ class InputWarning(UserWarning):
 
 def warn(lines):
     """Issues each line as an InputWarning."""
+    import sys
     import warnings
 
+    level = 1  # that of the caller outside the package
+    frame = sys._getframe()
+    while frame is not None and os.path.dirname(frame.f_code.co_filename) == _FOLDER:
+        level, frame = level + 1, frame.f_back
     for line in lines:
-        warnings.warn(line, InputWarning, stacklevel=4)
+        warnings.warn(line, InputWarning, stacklevel=level)
+
+
+def flag(name, value):
+    """Returns a truth value. Refuses others, because the text "no" would be true."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise InputError(f"{name}: is {value!r}; expected True or False")
+    return bool(value)
 
 
 def number(name, value, expected="a number"):
@@ -42,7 +57,8 @@ def number(name, value, expected="a number"):
 def numbers(name, values):
     """Returns an array of numbers, which is not copied. Refuses text, dates, complex numbers and masked arrays."""
     if isinstance(values, np.ma.MaskedArray):
-        raise InputError(f"{name}: is masked; expected an array with all numbers, such as filled() returns")
+        raise InputError(f"{name}: is masked; expected an array with all numbers, such as its data if none is "
+                         "missing")
     try:
         found = np.asarray(values)
     except ValueError:
@@ -81,7 +97,7 @@ def _text(value):
     if isinstance(value, (list, tuple)):
         return ",".join(_text(item) for item in value)
     if isinstance(value, float) or (hasattr(value, "dtype") and getattr(value, "ndim", 1) == 0):
-        return repr(float(value)) if not float(value).is_integer() else str(int(value))
+        return str(int(value)) if float(value).is_integer() and abs(value) < 1e16 else repr(float(value))
     return os.fspath(value) if isinstance(value, os.PathLike) else str(value)
 
 
@@ -90,6 +106,8 @@ def arguments(options, own=()):
     that only the calling function takes."""
     found = []
     for name, value in options.items():
+        if isinstance(value, np.bool_):
+            value = bool(value)
         if name == "help":
             raise TypeError("help: is no argument here; expected help(kds.run) or kds.run_options()")
         if name in _OUTPUTS:

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _kds, _plots
 from ._inputs import open_input
-from ._options import InputError, arguments, call, number, warn, wholes
+from ._options import InputError, arguments, call, flag, number, warn, wholes
 from ._structure import Clock, Structure
 from ._tables import indented
 from ._view import RecordedPage, view_of_new_run
@@ -29,7 +29,7 @@ def run_arguments(cutoff, surface, options):
         raise InputError(f"cutoff: is {cutoff}; expected one length; kds.contacts takes two")
     if cutoff is not None:
         number("cutoff", cutoff, "a length from 0")
-    return arguments({"cutoff": cutoff, "surface": bool(surface), **options})
+    return arguments({"cutoff": cutoff, "surface": flag("surface", surface), **options})
 
 
 def open_run(source, *, start=None, stop=None, step=None, units=None, necklaces=None, times=None, groups=None,
@@ -167,12 +167,14 @@ class Run:
         return view_of_new_run(write, path)
 
     def _contacts(self, **options):
-        from ._analyses import Contacts, cutoff_text
+        from ._analyses import Contacts, cutoff_text, find
 
         options = {name: value for name, value in options.items() if value is not None}
         for name in ("start", "stop", "step", "radius", "units", "necklaces", "times", "groups"):
             if name in options:
                 raise InputError(f"{name}: is that of the run; expected kds.contacts(source, {name}=...)")
+        if "surface" in options:
+            options["surface"] = flag("surface", options["surface"])
         if "cutoff" in options:
             options["cutoff"] = cutoff_text(options["cutoff"])
         else:
@@ -182,8 +184,7 @@ class Run:
         own = arguments({**{name: self._options.get(name) for name in ("motion", "apart", "topology", "select", "chain",
                                                                       "obstacle", "dt", "until_damage", "threads")},
                          **options})
-        found = call(_kds.contacts, self._source.arguments + own)
-        return Contacts(found)
+        return Contacts(find(_kds.contacts, self._source, own, known=self._core.warnings()))
 
     def __getattr__(self, name):
         if name.startswith("_") or name not in dict(self._core.structures()):

@@ -67,6 +67,11 @@ class Errors(unittest.TestCase):
         self.refused(r"has a step", kds.run, coil(), structures=["wrapped"], levels=slice(0, 3, 2))
         self.refused(r"^cutoff: is True", kds.run, coil(), cutoff=True)
         self.refused(r"^cutoff: is None", kds.contacts, coil(), cutoff=None)
+        self.refused(r"^cutoff: '1e\+300' is not a number from 0", kds.run, coil(), cutoff=1e300, structures=["contacts"])
+        self.refused(r"^surface: is 'no'", kds.run, coil(), cutoff=3, structures=["contacts"], surface="no")
+        self.refused(r"^surface: is 'no'", kds.contacts, coil(), cutoff=3, surface="no")
+        self.refused(r"^gap: is array", kds.contacts, coil(), cutoff=3, gap=np.ones(2))
+        self.refused(r"expected by bead, or an AtomGroup or mdtraj", kds.contacts, coil(), cutoff=3, by="residue")
         self.refused(r"^centers: is masked", kds.power_diagram, np.ma.masked_less(coil()[0], 0), 1)
         self.refused(r"^centers: has the dtype complex128", kds.enclosing_sphere, coil()[0] * 1j, 1)
         self.refused(r"^apart: is 1.5", kds.colliding_pairs, coil()[0], 1, apart=1.5)
@@ -102,6 +107,20 @@ class Errors(unittest.TestCase):
                          kds.contacts(coil(), cutoff=(2.5, 3.5)).json["rows"])
         self.assertEqual(kds.run(coil(), radius="auto", structures=["contacts"]).contacts.analysis(
             cutoff=(2.5, 3.5), surface=True).json["rows"], both)
+
+    def test_warnings_of_lifetimes_and_their_place(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            run = kds.run(coil(), cutoff=0.01, structures=["contacts"])
+            run.contacts.lifetimes()
+            run.contacts.lifetimes(cutoff=0.02)
+        self.assertTrue(any("contacts within cutoff 0.02" in str(warning.message) for warning in caught))
+        self.assertEqual({warning.filename for warning in caught}, {__file__})
+
+    def test_a_comparison_names_its_input_in_memory(self):
+        found = kds.compare(coil(), radius=1, rounds=1, structures=["power"])
+        self.assertEqual(list(found.rows["input"]), ["array"])
+        self.assertTrue(str(found).startswith("array, linear motion"))
 
     def test_one_bead(self):
         self.refused(r"bead", kds.run, coil(beads=1))
