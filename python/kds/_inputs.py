@@ -82,6 +82,9 @@ def frame_of(item, label):
         time = None if time is None else number(f"{label}: time", time, "picoseconds, as in (positions, 2.0)")
     elif hasattr(item, "positions"):
         item, time = item.positions, getattr(item, "time", None)
+    if is_mdtraj(item):
+        raise InputError(f"{label}: is an mdtraj Trajectory; expected arrays (beads, 3), such as (frame for part in parts "
+                         "for frame in part.xyz) with units='nm'")
     positions = numbers(label, item)
     if positions.ndim != 2:
         raise InputError(f"{label}: has the shape {positions.shape}; expected (beads, 3)")
@@ -169,14 +172,16 @@ def _beads_of_group(group, label, wants_elements, necklaces, groups):
     """Returns the beads of an AtomGroup, and the arguments for its groups."""
     beads = _kds.Beads(label)
     chains = _chains_of(group)
-    icodes = getattr(group, "icodes", [""] * len(group))
-    numbers = [f"{number}{str(code).strip()}" for number, code in zip(group.resids, icodes)]
-    if hasattr(group, "names") and hasattr(group, "resnames"):
+    if hasattr(group, "names") and hasattr(group, "resnames") and hasattr(group, "resids"):
+        icodes = getattr(group, "icodes", [""] * len(group))
+        numbers = [f"{number}{str(code).strip()}" for number, code in zip(group.resids, icodes)]
         beads.names = _atom_names(group.names, group.resnames, numbers, chains)
     _add_chains(beads, necklaces, chains, chains)
     if wants_elements:
         elements = getattr(group, "elements", None)
         if elements is None or not all(elements):
+            if not hasattr(group, "names"):
+                raise InputError("radius: the AtomGroup has no elements and no names; expected auto or a number")
             from MDAnalysis.topology.guessers import guess_atom_element
 
             elements = [guess_atom_element(name) for name in group.names]
@@ -196,11 +201,11 @@ def _has_times(trajectory):
     return trajectory.format != "DCD" or abs(trajectory.dt - 0.04888821) > 1e-6
 
 
-def _positions_of_group(group, count, frame):
-    positions = group.positions
-    if len(positions) != count:
-        raise InputError(f"AtomGroup: has {len(positions)} atoms in frame {frame}; expected {count} as in the first")
-    return positions
+def _positions_of_group(group, atoms, frame):
+    if not np.array_equal(group.ix, atoms):
+        raise InputError(f"AtomGroup: has other atoms in frame {frame}; expected those of the first frame, as in "
+                         "u.atoms[group.ix]")
+    return group.positions
 
 
 class _Kept:
@@ -226,15 +231,15 @@ class _Kept:
 def _collect_group(group, beads, chosen):
     """Copies the frames of an AtomGroup. If there is a cell, the frames between those asked for are copied too, because
     the library follows the images of chains from frame to frame."""
+    atoms = np.array(group.ix)
     with _Kept(group.universe.trajectory) as trajectory:
         trajectory[chosen.start]
         has_cell = trajectory.ts.dimensions is not None
         read = range(chosen.start, chosen[-1] + 1) if has_cell else chosen
-        count = len(group)
-        positions = np.empty((len(read), count, 3), dtype=np.float32)
+        positions = np.empty((len(read), len(atoms), 3), dtype=np.float32)
         times, cells = [], []
         for k, ts in enumerate(trajectory[read.start:read.stop:read.step]):
-            positions[k] = _positions_of_group(group, count, ts.frame)
+            positions[k] = _positions_of_group(group, atoms, ts.frame)
             if _has_times(trajectory):
                 times.append(ts.time)
             if has_cell:
@@ -247,12 +252,12 @@ def _collect_group(group, beads, chosen):
 
 def _pull_group(group):
     """Returns a function that reads one frame of an AtomGroup."""
-    count = len(group)
+    atoms = np.array(group.ix)
 
     def read(frame):
         with _Kept(group.universe.trajectory) as trajectory:
             ts = trajectory[frame]
-            positions = np.ascontiguousarray(_positions_of_group(group, count, frame))
+            positions = np.ascontiguousarray(_positions_of_group(group, atoms, frame))
             cell = None if ts.dimensions is None else [float(length) for length in ts.dimensions]
             return positions, float(ts.time) if _has_times(trajectory) else None, cell
 

@@ -60,6 +60,7 @@ class KineticRun:
         self._source = None
         self._clock = Clock(0, 1)
         self._pushed = 0
+        self._time = None
         return self
 
     def push(self, positions, time=None):
@@ -77,6 +78,10 @@ class KineticRun:
         if positions.shape != shape:
             raise InputError(f"frame {self._pushed}: has the shape {positions.shape}; expected {shape}")
         self._core.push(positions, time)
+        if None not in (time, self._time) and time <= self._time:
+            warn([f"frame {self._pushed}: has the time {time:g} ps, which is not later than the {self._time:g} ps of the "
+                  "frame before"])
+        self._time = time
         self._pushed += 1
         return self._core.take_events()
 

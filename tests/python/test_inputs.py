@@ -179,6 +179,30 @@ class PathArrayGroupAndMdtraj(unittest.TestCase):
         for run in (kds.run(told, **options), kds.run(group, dt=0.02, **options)):
             np.testing.assert_allclose(run.times, 0.02 * np.arange(5))
 
+    def test_a_group_keeps_its_atoms(self):
+        import MDAnalysis
+
+        bare = MDAnalysis.Universe.empty(8, trajectory=True)  # without names and residues
+        positions = 4 * np.random.default_rng(3).normal(size=(6, 8, 3)).cumsum(axis=1).astype(np.float32)
+        positions[:, :4, 0], positions[:, 4:, 0] = 1, -1
+        positions[3, [0, 4], 0] = -1, 1
+        bare.load_new(positions)
+        options = {"radius": 1, "structures": ["contacts"]}
+        self.assertEqual(kds.run(bare.atoms, **options).fingerprint, kds.run(positions, **options).fingerprint)
+        with self.assertRaisesRegex(kds.InputError, "^radius: the AtomGroup has no elements"):
+            kds.run(bare.atoms, radius="element")
+        group = bare.select_atoms("prop x > 0", updating=True)
+        for call in (kds.run, lambda *given, **options: list(kds.stream(*given, **options))):
+            with self.assertRaisesRegex(kds.InputError, "^AtomGroup: has other atoms in frame 3"):
+                call(group, **options)
+        kds.run(bare.atoms[group.ix], **options)
+
+    def test_pushed_times_ascend(self):
+        frames = zip(coil(), (0, 1, 2, 2, 3, 4))
+        with self.assertWarnsRegex(kds.InputWarning, "^frame 3: has the time 2 ps, which is not later than the 2 ps"):
+            warnings.simplefilter("always")
+            list(kds.stream(frames, radius=1, structures=["contacts"]))
+
     def test_empty_cells_are_quiet(self):
         group = universe(self.xtc).select_atoms("name CA")  # the writer gave each frame an empty cell
         with warnings.catch_warnings():
