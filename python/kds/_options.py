@@ -94,11 +94,15 @@ def _text(value):
         return ":".join("" if part is None else str(part) for part in (value.start, value.stop))
     if isinstance(value, np.ndarray) and value.ndim > 0:
         value = value.tolist()
-    if isinstance(value, (list, tuple)):
+    if isinstance(value, (list, tuple, range)):
         return ",".join(_text(item) for item in value)
     if isinstance(value, float) or (hasattr(value, "dtype") and getattr(value, "ndim", 1) == 0):
         return str(int(value)) if float(value).is_integer() and abs(value) < 1e16 else repr(float(value))
-    return os.fspath(value) if isinstance(value, os.PathLike) else str(value)
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if hasattr(value, "__iter__") and not isinstance(value, (str, bytes)):
+        raise InputError(f"{value!r}: has no order or is read only once; expected a list")
+    return str(value)
 
 
 def arguments(options, own=()):

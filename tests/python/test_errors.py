@@ -69,6 +69,7 @@ class Errors(unittest.TestCase):
         self.refused(r"^cutoff: is None", kds.contacts, coil(), cutoff=None)
         self.refused(r"^cutoff: '1e\+300' is not a number from 0", kds.run, coil(), cutoff=1e300, structures=["contacts"])
         self.refused(r"^surface: is 'no'", kds.run, coil(), cutoff=3, structures=["contacts"], surface="no")
+        self.refused(r"expected a list$", kds.contacts, coil(), cutoff=3, strides={1, 2})
         self.refused(r"^surface: is 'no'", kds.contacts, coil(), cutoff=3, surface="no")
         self.refused(r"^gap: is array", kds.contacts, coil(), cutoff=3, gap=np.ones(2))
         self.refused(r"expected by bead, or an AtomGroup or mdtraj", kds.contacts, coil(), cutoff=3, by="residue")
