@@ -201,11 +201,14 @@ void RunHandle::execute(const py::object& progress) {
   watch.end(steps);
   if (view_) view_->finish();
   report_ = report_of(session, scene(), options_, counts);
+  const auto hint = [&](const std::string& warning) {
+    if (only_.empty()) warn(warning);  // hints are about all beads
+  };
   complete_report(options_, scene(),
                   parts      ? followed_approach(*parts)
                   : approach ? approach->least()
                              : std::nullopt,
-                  warn, *report_);
+                  hint, *report_);
   if (parts) {
     report_->threads = parts->threads();
     report_->parts = parts->parts();
