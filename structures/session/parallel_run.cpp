@@ -231,6 +231,8 @@ class ParallelRun::Workers {
     for (std::thread& thread : threads_) thread.join();
   }
 
+  [[nodiscard]] std::size_t count() const { return 1 + threads_.size(); }
+
   void submit(Part& part) {
     {
       const std::lock_guard lock(mutex_);
@@ -398,6 +400,7 @@ void ParallelRun::run_in_parts(const std::function<void(std::size_t)>& at_frame)
   std::deque<std::unique_ptr<Part>> in_flight;
   std::size_t again_in_a_row = 0;
   Workers workers(*this, threads_);  // destroyed before the parts
+  threads_ = workers.count();
   for (std::size_t joined = 0, next = 0; joined < steps; ++counts_.parts) {
     // If one part after the other has to be run again, the work of the threads is in vain.
     const bool in_vain = again_in_a_row > 2 * threads_;

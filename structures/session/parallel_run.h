@@ -89,7 +89,8 @@ class ParallelRun {
   [[nodiscard]] const Scene& scene() const { return scene_; }
   /// Returns why the run cannot be cut, as the end of a sentence, or nothing if it can.
   [[nodiscard]] const std::optional<std::string>& uncut();
-  /// Returns the number of threads that work, 1 if the run is not cut.
+  /// Returns the number of threads that work, 1 if the run is not cut. `run` lowers the number if the system
+  /// has no more threads.
   [[nodiscard]] std::size_t threads();
   [[nodiscard]] const PartCounts& parts() const { return counts_; }
 
