@@ -27,10 +27,8 @@ class Clock {
   [[nodiscard]] std::size_t frame(std::size_t of_setting) const { return of_setting * stride_; }
   /// Returns the time in parts of a frame.
   [[nodiscard]] std::size_t start_of(std::size_t step) const { return frame(step) * parts_of_frame; }
-  /// Returns the step that leads to this time or past it. The time must be after the first frame.
-  [[nodiscard]] std::size_t step_to(std::size_t time) const { return (time - 1) / start_of(1); }
-  /// Returns the place of such a time in its step, from 0 to 1. The result is exact because strides are
-  /// powers of two.
+  /// Returns the place of a time in its step, from 0 to 1. The result is exact because strides are powers of
+  /// two.
   [[nodiscard]] double place_in(std::size_t step, std::size_t time) const {
     return static_cast<double>(time - start_of(step)) / static_cast<double>(stride_ * parts_of_frame);
   }
