@@ -83,9 +83,11 @@ const OptionList<CompareOptions>& compare_options() {
                                "longest (default: 3)"},
                               &O::rounds, 1, 1000),
                  threads_option(&O::threads),
-                 view_option(&O::view,
-                             "run the first INPUT once more, with the first of --strides and --motions, and "
-                             "write a page that shows it in a browser to FILE (default: none)")})
+                 view_option(
+                     &O::view,
+                     "run the first INPUT once more, with the smallest of --strides and the first of "
+                     "--motions in the order linear, hermite, lifted, and write a page that shows it in a "
+                     "browser to FILE (default: none)")})
           .with(
               destination_options("write compare.json, compare.csv and report.html to DIR (default: none)"));
   return list;

@@ -160,7 +160,8 @@ struct Comparison {
                                                    std::size_t rounds,
                                                    const std::function<void()>& step_done);
 
-/// Returns the options of the first run of a comparison: its input, motion and stride are the first ones.
+/// Returns the options of the first run of a comparison: the first input with the smallest stride and the
+/// first motion in the order of FrameMotion.
 [[nodiscard]] RunOptions first_run(const CompareOptions& options, const Comparison& comparison);
 
 /// Runs the comparison. All radii come from the frames that the options ask for, whatever the stride. Finds
