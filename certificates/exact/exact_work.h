@@ -3,7 +3,7 @@
 // every machine. One limb operation passes over a polynomial's coefficient once, for each 64 bits of its
 // length. Evaluating n coefficients of 128 bits takes about 2 n operations. Restricting the polynomial to a
 // part of the step, or forming it, takes about 2 n^2. The count is only a measure, but every long computation
-// is counted, so work can be limited and watched.
+// is counted, so work can be limited, watched and interrupted (motions/base/interruption.h).
 //
 // A thread charges its work to the account that it has open (ExactWork::Open), or to an account without a
 // limit.
@@ -102,7 +102,7 @@ class ExactWork {
     if (done_ >= next_stop_) [[unlikely]]
       stop();
   }
-  /// Called when the limit is reached or the watcher is due.
+  /// Asks the checks of this thread, and calls the watcher if it is due. Throws above the limit.
   void stop();
   void set_next_stop();
 
