@@ -1,9 +1,9 @@
 #pragma once
-// Hashes of input files, and how trajectories are cut into segments. Both are remembered in the file
-// inputs.json of the sweep's folder, since reading long trajectories takes time. A hash is taken from there
-// if inode, size, modification time and status change time of the file are as they were. The system sets the
-// last of them, so another content with the size and the modification time of a file is noticed. A file that
-// is gone keeps the hash that the folder remembers.
+// Hashes of input files, and the numbers of frames of trajectories that are cut into segments. Both are
+// remembered in the file inputs.json of the sweep's folder, because reading long trajectories takes time. A
+// hash is taken from there if inode, size, modification time and status change time of the file are as they
+// were. Programs cannot set the status change time, so other content of equal size and modification time is
+// noticed. A file that is gone keeps the hash that the folder remembers.
 
 #include <cstdint>
 #include <filesystem>
@@ -43,7 +43,7 @@ class InputHashes {
   /// or 0 if there is none: the task will say why.
   [[nodiscard]] std::uint64_t hash(const std::string& file);
   [[nodiscard]] std::uint64_t bytes(const std::string& file) const;
-  /// Returns the files, in the order of their paths, whose hashes are remembered since they cannot be read.
+  /// Returns the files that cannot be read and have a remembered hash, in the order of their paths.
   [[nodiscard]] std::vector<std::string> gone() const;
   /// Returns whether a file has another content than when its hash was asked for, or has come or gone since.
   /// Reads a file whose inode, size or times differ.

@@ -21,8 +21,8 @@ struct PooledFigure {
   bool counts = true;  ///< whole numbers, none below 0
 
   [[nodiscard]] double mean() const;
-  /// Returns Student's interval, for independent values. That of counts stays above 0 (above_zero). Nothing
-  /// if the values do not tell their spread.
+  /// Returns Student's interval, for independent values. The interval of counts stays above 0 (above_zero).
+  /// Returns nothing for a single value, and for counts that are all equal.
   [[nodiscard]] std::optional<MeanInterval> interval() const;
 };
 

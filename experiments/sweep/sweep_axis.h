@@ -29,11 +29,11 @@ struct Axis {
 /// Returns a path in `folder` without `..`. An absolute path stays as it is.
 [[nodiscard]] std::filesystem::path in_folder(const std::filesystem::path& folder, const std::string& path);
 
-/// Reads the value of an option that the command has. Relative files are those of `folder`. Throws
+/// Reads the value of an option that the command has. Relative paths are relative to `folder`. Throws
 /// InputError, which begins with `where`, if the option cannot take the value.
 [[nodiscard]] AxisValue read_value(const SweptCommand& command, const std::string& option, const Json& json,
                                    const std::filesystem::path& folder, const std::string& where);
-/// Reads a value or an array of values. Throws as read_value, known_option do, and if a value is listed
+/// Reads a value or an array of values. Throws like read_value and known_option, and if a value is listed
 /// twice.
 [[nodiscard]] Axis read_axis(const SweptCommand& command, const std::string& key, const Json& json,
                              const std::filesystem::path& folder, const std::string& where);

@@ -279,7 +279,7 @@ void warn_of_gone(const InputHashes& hashes) {
   for (std::size_t k = 0; k < std::min(gone.size(), most_named); ++k)
     print_warning(none, gone[k] + ": cannot be read any more; its tasks are those of its last content");
   if (gone.size() > most_named)
-    print_warning(none, fmt::format("{} more inputs cannot be read any more", gone.size() - most_named));
+    print_warning(none, fmt::format("{} more cannot be read any more", gone.size() - most_named));
 }
 
 // `kds sweep status DIR` and `kds sweep collect DIR`.

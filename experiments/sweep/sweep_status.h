@@ -23,6 +23,7 @@ struct SweepCount {
 };
 /// Counts the tasks by command, in the order of sweep.json. The last count is that of all tasks.
 [[nodiscard]] std::vector<SweepCount> count_tasks(const SweepPlan& plan, const std::filesystem::path& folder);
+/// Returns these counts from states that have been read.
 [[nodiscard]] std::vector<SweepCount> counts_from(const SweepPlan& plan, const TaskStates& states,
                                                   const std::filesystem::path& folder);
 [[nodiscard]] Table<SweepCount> count_table();

@@ -129,7 +129,7 @@ TEST(Sweep, CollectsResultsOfInputsThatAreGone) {
   EXPECT_EQ(collect.code, 0) << collect.err;
   EXPECT_EQ(content_of(scratch / "out/results.csv"), before);
   EXPECT_THAT(collect.err, HasSubstr(a + ": cannot be read any more"));
-  EXPECT_THAT(collect.err, HasSubstr("1 more inputs cannot be read any more"));
+  EXPECT_THAT(collect.err, HasSubstr("1 more cannot be read any more"));
   const ProgramRun status = run_program({"sweep", "status", scratch / "out"});
   EXPECT_EQ(status.code, 0);
   EXPECT_THAT(status.err, HasSubstr(c + ": cannot be read any more"));
