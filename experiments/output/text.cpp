@@ -43,7 +43,7 @@ std::string short_decimal(double value) {
   if (size >= 0.01) return fmt::format("{:.3f}", value);
   if (size >= 1e-4) return fmt::format("{:.6f}", value);
   if (size >= 1e-9) return fmt::format("{:.{}f}", value, 3 - static_cast<int>(std::floor(std::log10(size))));
-  return fmt::format("{:.3e}", value);  // so small only as an error
+  return fmt::format("{:.3e}", value);  // only errors of rounding are so small
 }
 
 std::string tick_label(double value) {

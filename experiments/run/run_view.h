@@ -1,5 +1,5 @@
 #pragma once
-// The replay page of commands that measure runs and keep none: they run once more, to show the run.
+// Writes the replay page of a command that keeps no run. The command runs once more for the page.
 
 #include <cstddef>
 #include <filesystem>

@@ -103,7 +103,7 @@ def contacts(source, *, cutoff, by=None, gap=0, surface=False, start=None, stop=
     ``surface``); a pair of lengths are two cutoffs: a contact begins within the first and ends outside the second.
     ``by`` is ``residue``, ``bead`` or ``chain`` (default: residue if the input names residues, otherwise bead). Two
     residues are in contact while any two of their beads are, so a selection of heavy atoms suits a ``cutoff`` of 4.5 and
-    one of C-alpha atoms a ``cutoff`` of 8. Elements of one chain count from ``apart`` places along it on (default: 3).
+    one of C-alpha atoms a ``cutoff`` of 8. Two elements of one chain count only if they are at least ``apart`` apart along it (default: 3).
     An absence shorter than ``gap`` (picoseconds if the frames have times, otherwise frames) does not end a contact.
     Further options: ``strides``, ``intermittency``, ``motion``, ``topology``, ``select``, ``chain``, ``obstacle``,
     ``dt``, ``certify``, ``threads`` (default: all cores). Returns :class:`kds.Contacts`, whose help explains the rows.

@@ -17,7 +17,7 @@ class Clock:
         time = (number("frame", frame) - self.first) / self.stride
         if self.steps is not None and not 0 <= time <= self.steps:
             raise InputError(f"frame: {frame} is outside the run, which goes from frame {self.first} to "
-                                  f"{self.first + self.steps * self.stride}")
+                             f"{self.first + self.steps * self.stride}")
         return time
 
     def frame(self, time):
