@@ -116,6 +116,7 @@ class SweepRun {
   [[noreturn]] void refuse_full_disk() const;
   [[nodiscard]] bool must_stop();
   [[nodiscard]] bool has_changed_files(const SweepTask& task);
+  [[nodiscard]] bool lacks_file(const SweepTask& task) const;
   [[nodiscard]] double next_wait() const;
   [[nodiscard]] bool is_open(const SweepTask& task) const {
     return status_of(states_.of(task.name)) == TaskStatus::open;
@@ -224,8 +225,15 @@ bool SweepRun::has_changed_files(const SweepTask& task) {
   return changed;
 }
 
+// A task whose file is gone has the name of the file's last content. If the task failed for want of the file,
+// the failure would remain when the file comes back.
+bool SweepRun::lacks_file(const SweepTask& task) const {
+  return std::ranges::any_of(plan_.files(task),
+                             [this](const std::string& file) { return hashes_.is_gone(file); });
+}
+
 void SweepRun::start(const SweepTask& task) {
-  if (has_changed_files(task)) return locks_.release(task.name);
+  if (lacks_file(task) || has_changed_files(task)) return locks_.release(task.name);
   record(RecordKind::attempt, task, "{}");
   running_.push_back({&task, next_id_++, TaskOutput()});
   const RunningTask& started = running_.back();
@@ -356,9 +364,11 @@ SweepOutcome SweepRun::run(const std::function<void(std::size_t, std::size_t)>& 
     outcome_.done += status == TaskStatus::done ? 1U : 0U;
     outcome_.failed += status == TaskStatus::failed ? 1U : 0U;
     outcome_.crashed += status == TaskStatus::crashed ? 1U : 0U;
+    outcome_.without_input += status == TaskStatus::open && lacks_file(*task) ? 1U : 0U;
   }
   outcome_.tasks = shard_.size();
-  outcome_.stopped = outcome_.done + outcome_.failed + outcome_.crashed < shard_.size();
+  outcome_.stopped =
+      outcome_.done + outcome_.failed + outcome_.crashed + outcome_.without_input < shard_.size();
   return outcome_;
 }
 

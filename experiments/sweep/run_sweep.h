@@ -40,7 +40,8 @@ struct SweepOutcome {
   std::size_t done = 0, failed = 0, crashed = 0;  ///< tasks of the shard, in this run or before
   std::size_t ran = 0;                            ///< attempts of this run that ended
   std::size_t dropped = 0;
-  bool stopped = false;  ///< some tasks are open: a signal, the budget or a changed input ended the sweep
+  std::size_t without_input = 0;  ///< tasks without a result, with an input that is gone (InputHashes)
+  bool stopped = false;  ///< other tasks are open: a signal, the budget or a changed input ended the sweep
 };
 
 /// The folders of a sweep.

@@ -337,11 +337,14 @@ int run_shard(const SweepPlan& plan, InputHashes& hashes, const SweepOptions& op
     if (lost > 0)
       text += whole ? fmt::format("see {}; --retry runs them again\n", (folder / "failed.csv").string())
                     : std::string("kds sweep collect lists them; --retry runs them again\n");
+    if (outcome.without_input > 0)
+      text += fmt::format("{} wait for inputs that cannot be read; the same command continues\n",
+                          with_thousands(outcome.without_input));
     if (outcome.stopped) text += "stopped before the end; the same command continues\n";
     print_to_stdout(text);
   }
   if (outcome.stopped) return kContinueLater;
-  return lost > 0 ? 1 : 0;
+  return lost + outcome.without_input > 0 ? 1 : 0;
 }
 
 }  // namespace

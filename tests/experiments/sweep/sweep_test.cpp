@@ -141,6 +141,23 @@ TEST(Sweep, CollectsResultsOfInputsThatAreGone) {
   EXPECT_EQ(content_of(scratch / "out/results.csv"), before);
 }
 
+// Tasks have the name of the content, which does not fail because the file is away for a while.
+TEST(Sweep, TasksWaitForInputsThatAreGone) {
+  const ScratchDirectory scratch;
+  const std::string input = scratch.file("a.xyz", chain(0.2)), away = scratch / "away";
+  scratch.file("s.json", R"({"inputs": ["a.xyz"], "commands": ["info"]})");
+  static_cast<void>(run_sweep(scratch));
+  scratch.file("s.json", R"({"inputs": ["a.xyz"], "commands": ["info", "run"]})");
+  std::filesystem::rename(input, away);
+  EXPECT_THAT(run_sweep(scratch, {}, 1),
+              testing::AllOf(HasSubstr("1 of 2 tasks have results, 0 failed"), HasSubstr("1 wait for inputs"),
+                             HasSubstr("a.xyz: cannot be read any more")));
+  EXPECT_EQ(records(scratch, "fail"), 0U);
+  std::filesystem::rename(away, input);
+  static_cast<void>(run_sweep(scratch));
+  EXPECT_EQ(collected(scratch)["done"], 2);
+}
+
 TEST(Sweep, NoticesContentOfEqualSizeAndTime) {
   const ScratchDirectory scratch;
   const std::string input = scratch.file("a.xyz", chain(0.2));
