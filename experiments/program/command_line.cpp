@@ -29,12 +29,12 @@ std::string needs_values(const OptionSpec& option) {
 std::string explain(const CLI::ParseError& error, const CLI::App& parser,
                     const std::vector<OptionSpec>& options, const Arguments& arguments) {
   if (const std::vector<std::string> extras = parser.remaining(); !extras.empty()) {
-    const std::string& extra = extras.front();
+    const std::string_view extra = extras.front();
     if (!extra.starts_with('-')) return fmt::format("unexpected argument '{}'", extra);
+    const std::string_view unknown = extra.substr(0, extra.find('='));
     std::vector<std::string_view> names{kHelp.name};
     for (const OptionSpec& option : options) names.push_back(option.name);
-    return fmt::format("unknown option '{}'{}", extra,
-                       suggestion(std::string_view(extra).substr(0, extra.find('=')), names));
+    return fmt::format("unknown option '{}'{}", unknown, suggestion(unknown, names));
   }
   for (const OptionSpec& option : options)
     for (const std::string& argument : arguments)

@@ -122,13 +122,15 @@ def arguments(options, own=()):
             raise TypeError(f"{name!r}: is no argument; expected a name without dashes and spaces")
         if value is None or value is False:
             continue
-        found.append("--" + name.replace("_", "-"))
+        option = "--" + name.replace("_", "-")
         if value is True:
-            continue
-        if name == "groups":
-            found.extend(_text(group) for group in value)
+            found.append(option)
+        elif name == "groups":
+            found.extend([option, *(_text(group) for group in value)])
+        elif text := _text(value):
+            found.append(f"{option}={text}")  # one argument, so the text cannot be taken for an input
         else:
-            found.append(_text(value))
+            found.extend([option, text])
     return found
 
 

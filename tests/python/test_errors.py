@@ -71,6 +71,8 @@ class Errors(unittest.TestCase):
         self.refused(r"^surface: is 'no'", kds.run, coil(), cutoff=3, structures=["contacts"], surface="no")
         self.refused(r"expected a list$", kds.contacts, coil(), cutoff=3, strides={1, 2})
         self.refused(r"^surface: is 'no'", kds.contacts, coil(), cutoff=3, surface="no")
+        self.refused(r"^certify takes no value", kds.contacts, coil(), cutoff=3, certify="yes")
+        self.refused(r"^until_damage takes no value", kds.run, PDB, until_damage=PDB)
         self.refused(r"^gap: is array", kds.contacts, coil(), cutoff=3, gap=np.ones(2))
         self.refused(r"expected by bead, or an AtomGroup or mdtraj", kds.contacts, coil(), cutoff=3, by="residue")
         self.refused(r"^centers: is masked", kds.power_diagram, np.ma.masked_less(coil()[0], 0), 1)
