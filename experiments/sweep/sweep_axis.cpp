@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 #include <set>
 
 #include "experiments/output/text.h"
@@ -32,6 +34,15 @@ std::string with_absolute_files(const std::string& option, const std::string& wo
   for (const std::string& file : split(word, ','))
     files.push_back(file.empty() ? file : in_folder(folder, file).string());
   return fmt::format("{}", fmt::join(files, ","));
+}
+
+// Returns the words of a value such that equal numbers, as in 2 and 2.0, have equal words. A number of 2^53
+// or more keeps its digits, because a double does not tell it from its neighbours.
+std::vector<std::string> words_to_compare(const Json& json, const AxisValue& value) {
+  constexpr double whole_numbers_end = 0x1p53;
+  const std::optional<double> number = json.number();
+  if (!number || std::abs(*number) >= whole_numbers_end) return value.words;
+  return {fmt::format("{}", *number)};
 }
 
 }  // namespace
@@ -104,7 +115,7 @@ Axis read_axis(const SweptCommand& command, const std::string& key, const Json& 
   for (const Json& item : *items) {
     axis.values.push_back(read_value(command, axis.name, item, folder, where));
     const AxisValue& value = axis.values.back();
-    if (!listed.emplace(value.given, value.words).second)
+    if (!listed.emplace(value.given, words_to_compare(item, value)).second)
       throw InputError(fmt::format("{}: value '{}' is listed twice", where, value.text));
   }
   return axis;

@@ -57,6 +57,7 @@ TEST(SweepSpec, RefusesMistakesWithTheKeyAndTheNearestName) {
       {command(R"("options": {"certify": 1})"), {"--certify takes no value; expected true or false"}},
       {command(R"("options": {"motion": []})"), {"motion: has no value"}},
       {command(R"("options": {"motion": ["linear", "linear"]})"), {"'linear' is listed twice"}},
+      {command(R"("options": {"radius": [2, 2.0]})"), {"radius: value '2.0' is listed twice"}},
       {command(R"("options": {"stride": 0})"), {"'0' is not a whole number from 1"}},
       {command(R"("options": {"stride": 2, "frames": "0:9:2"})"), {"expected FIRST:LAST beside"}},
       {command(R"("options": {"groups": ["A"]})"), {"--groups takes 2 values"}},
