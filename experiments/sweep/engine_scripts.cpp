@@ -41,9 +41,10 @@ std::string slurm_script(const EngineRequest& request) {
   const std::string log = log_word(request, "slurm-%A_%a.out");
   return fmt::format(
       R"(#!/bin/bash
-# Submits {tasks} tasks as an array of {count} batches of about {minutes:.1f} minutes, and a job that collects their
-# results. A batch that reaches its time limit stops before it with exit code 75. It is requeued if the cluster has
-# RequeueExit=75; otherwise submit this script again, which runs only what has no result.
+# Submits {tasks} tasks as an array of {batches} of about {minutes:.1f} minutes, and a job that collects their
+# results. Add what the cluster needs, such as --account or --partition, to both commands sbatch.
+# A batch that nears its time limit stops with exit code 75. The cluster then requeues the batch if it has
+# RequeueExit=75 (scontrol show config). Otherwise submit this script again: only tasks without a result run.
 set -eu
 array=$(sbatch --parsable --array=1-{count} --cpus-per-task={jobs} --time={limit} --requeue --open-mode=append \
   --signal=B:USR1@{stop} --job-name=kds-sweep --output={log} <<'BATCH'
@@ -56,10 +57,10 @@ sbatch --parsable --dependency="afterany:${{array%%;*}}" --time=60 --job-name=kd
 exec {collect}
 COLLECT
 )",
-      fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("count", batches.count),
-      fmt::arg("minutes", batches.seconds / 60), fmt::arg("jobs", request.jobs),
-      fmt::arg("limit", batches.limit_minutes), fmt::arg("stop", kSecondsToStop), fmt::arg("log", log),
-      fmt::arg("sweep", sweep_words(request)),
+      fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("batches", batches_text(batches.count)),
+      fmt::arg("count", batches.count), fmt::arg("minutes", batches.seconds / 60),
+      fmt::arg("jobs", request.jobs), fmt::arg("limit", batches.limit_minutes),
+      fmt::arg("stop", kSecondsToStop), fmt::arg("log", log), fmt::arg("sweep", sweep_words(request)),
       fmt::arg("budget", batches.limit_minutes * 60 - kSecondsToStop),
       fmt::arg("collect", collect_words(request)),
       fmt::arg("collect_log", log_word(request, "slurm-collect.out")));
@@ -69,14 +70,15 @@ std::string parallel_script(const EngineRequest& request) {
   const Batches batches = batches_of(request);
   return fmt::format(
       R"(#!/bin/bash
-# Runs {tasks} tasks in {count} batches by GNU parallel, as many batches at a time as this machine has cores. For other
+# Runs {tasks} tasks in {batches} by GNU parallel, as many batches at a time as this machine has cores. For other
 # machines that share this folder, add --sshlogin HOSTS. Run it again to continue: only tasks without a result run.
 set -u
 seq {count} | parallel --quote --jobs 100% {sweep} --quiet --shard {{}}/{count} || true  # collect says what is missing
 exec {collect}
 )",
-      fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("count", batches.count),
-      fmt::arg("sweep", sweep_words(request)), fmt::arg("collect", collect_words(request)));
+      fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("batches", batches_text(batches.count)),
+      fmt::arg("count", batches.count), fmt::arg("sweep", sweep_words(request)),
+      fmt::arg("collect", collect_words(request)));
 }
 
 // In a Snakefile, braces of shell commands are doubled, and backslashes, quotes and line breaks of Python
@@ -97,7 +99,7 @@ std::string in_python(const std::string& shell) {
 std::string snakemake_script(const EngineRequest& request) {
   const Batches batches = batches_of(request);
   return fmt::format(
-      R"(# Runs {tasks} tasks in {count} batches: snakemake -s {name} --cores all
+      R"(# Runs {tasks} tasks in {batches}: snakemake -s {name} --cores all
 # The files of batches are temporary, so that each start visits all batches: kds knows which tasks have results.
 # Exit code 1 says that tasks failed, which failed.csv lists; all other tasks run.
 rule collect:
@@ -110,8 +112,8 @@ rule batch:
     retries: 3
     shell: "{sweep} --quiet --shard {{wildcards.i}}/{count} || [ $? -eq 1 ]"
 )",
-      fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("count", batches.count),
-      fmt::arg("name", script_name(SweepEngine::snakemake)),
+      fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("batches", batches_text(batches.count)),
+      fmt::arg("count", batches.count), fmt::arg("name", script_name(SweepEngine::snakemake)),
       fmt::arg("collect", in_python(collect_words(request))), fmt::arg("jobs", request.jobs),
       fmt::arg("sweep", in_python(sweep_words(request))));
 }
@@ -129,6 +131,10 @@ Batches batches_of(const EngineRequest& request) {
   const double longest = 2 * std::max(batches.seconds, request.longest);
   batches.limit_minutes = static_cast<std::size_t>(std::ceil(longest / 60)) + kSpareMinutes;
   return batches;
+}
+
+std::string batches_text(std::size_t count) {
+  return with_thousands(count) + (count == 1 ? " batch" : " batches");
 }
 
 std::string script_name(SweepEngine engine) {

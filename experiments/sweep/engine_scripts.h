@@ -34,6 +34,8 @@ struct Batches {
 };
 [[nodiscard]] Batches batches_of(const EngineRequest& request);
 
+/// Returns a number of batches with its noun, as in "1 batch" or "1,000 batches".
+[[nodiscard]] std::string batches_text(std::size_t count);
 /// Returns the name of the script in the sweep's folder.
 [[nodiscard]] std::string script_name(SweepEngine engine);
 /// Returns the command that starts the script.

@@ -264,8 +264,8 @@ void write_script(const fs::path& sweep, const SweepOptions& options, std::size_
   commit_together({&files});
   const Batches batches = batches_of(request);
   constexpr double longest_batch = 30 * 60;
-  std::string text =
-      fmt::format("{} batches of about {} minutes\n", batches.count, short_decimal(batches.seconds / 60));
+  std::string text = fmt::format("{} of about {} minutes\n", batches_text(batches.count),
+                                 short_decimal(batches.seconds / 60));
   if (batches.seconds > longest_batch)
     text += "batches are longer than half an hour; --jobs with more cores of a node makes them shorter\n";
   print_to_stdout(text + start_command(engine, request) + "\n");

@@ -424,6 +424,9 @@ TEST(Sweep, BatchesAreAtMostAThousand) {
   }
   request.tasks = 3;
   EXPECT_EQ(batches_of(request).count, 3U);
+  EXPECT_THAT(engine_script(SweepEngine::slurm, request), HasSubstr("as an array of 3 batches of about"));
+  request.tasks = 1;
+  EXPECT_THAT(engine_script(SweepEngine::slurm, request), HasSubstr("as an array of 1 batch of about"));
   request.program = "/a folder/kds";
   request.sweep = "/s'.json";
   request.folder = "/50%a\n";
