@@ -128,8 +128,17 @@ export class App {
     const takes = within ? () => true : (s) => !this.timeline.muted.has(s);
     const event = way > 0 ? this.state.next(takes, within) : this.state.previous(takes, within);
     if (event) return this.chooseEvent(event);
-    this.say(way > 0 ? "There is no later event." : "There is no earlier event.");
+    this.sayNoEvent(way > 0 ? "later" : "earlier", within !== null);
     return Promise.resolve();
+  }
+
+  // Says so in the place of the event's sentence, until the texts are shown again.
+  sayNoEvent(later, ofBead) {
+    const among = this.timeline.muted.size ? " of the structures that are switched on" : "";
+    const text = ofBead ? `The bead has no ${later} event.` : `There is no ${later} event${among}.`;
+    this.say(text);
+    byId("event-now").textContent = text;
+    this.shownEvent = null;
   }
 
   stepFrame(way) {

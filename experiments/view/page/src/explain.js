@@ -89,6 +89,10 @@ export function upperText(u) {
   return `${next.slice(0, 1)}.${next.slice(1)}`;
 }
 
+// Returns numerator / 2^exponent. `ids` are the exponent, then the 32-bit words of the numerator, lowest first.
+export const dyadic = ([exponent, ...words]) =>
+  words.reduceRight((sum, word) => sum * 2 ** 32 + word, 0) / 2 ** exponent;
+
 export const trim = (value, digits) => String(Number(value.toFixed(digits)));
 
 // Returns the line below the title.

@@ -1,7 +1,7 @@
 // The panels of the chosen event and of the chosen bead.
 import { byId, count, make } from "./dom.js";
 import { noBead } from "./events.js";
-import { decimals, exactText, explainKind, lowerText, residueOf, timeText, trim, upperText } from "./explain.js";
+import { decimals, dyadic, exactText, explainKind, lowerText, residueOf, timeText, trim, upperText } from "./explain.js";
 
 const longList = 12;
 
@@ -67,6 +67,7 @@ export class Panels {
     rows.push(...this.changeRows(s, e));
     for (const role of events.rolesOf(e)) {
       if (role.of === "node") rows.push([role.name, `beads ${role.ids[0]} to ${role.ids[1]}`]);
+      else if (kind.name === "rebuild" && role.name === "time") rows.push(["built anew at", `u = ${trim(dyadic(role.ids), 10)}`]);
       else if (role.of === "number") rows.push([role.name, role.ids.join(" ")]);
       else rows.push([role.name, this.beadButtons(role.ids)]);
     }

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { decimals, exactText, lowerText, residueOf, timeText, upperText } from "../src/explain.js";
+import { decimals, dyadic, exactText, lowerText, residueOf, timeText, upperText } from "../src/explain.js";
 import { readLink, writeLink } from "../src/link.js";
 import { beadAt } from "../src/picking.js";
 import { Player } from "../src/player.js";
@@ -32,6 +32,11 @@ test("decimals of a bracket enclose it", () => {
     const text = exactText(u);
     assert.equal(scaled(text.includes(".") ? text : `${text}.`), exact);
   }
+});
+
+test("the time of a rebuild is a numerator over a power of two", () => {
+  assert.equal(dyadic([8, 211]), 211 / 256);
+  assert.equal(dyadic([64, 0, 2 ** 31]), 0.5);
 });
 
 test("the picked bead is the first that a ray meets", () => {
