@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "experiments/contacts/contacts_report.h"
 #include "experiments/output/text.h"
@@ -140,15 +142,32 @@ InputOptions options_of_input(const ContactsTask& task) {
   return options;
 }
 
+/// Returns the least distance along a chain, in beads, of two beads whose elements are a pair of the task.
+BeadId beads_apart(const Scene& scene, const ContactsReport& report) {
+  auto least = static_cast<BeadId>(scene.bead_count());  // no two beads of a chain are as far apart
+  if (report.by == ContactElement::chain) return least;
+  const ContactElements& elements = report.elements;
+  std::vector<BeadId> first(elements.names.size(), least), last(elements.names.size());
+  for (BeadId bead = 0; bead < elements.of_bead.size(); ++bead) {
+    const std::uint32_t element = elements.of_bead[bead];
+    first[element] = std::min(first[element], bead);
+    last[element] = bead;
+  }
+  for (std::size_t e = 0; e + report.apart < first.size(); ++e)
+    if (elements.chains[e] == elements.chains[e + report.apart])
+      least = std::min(least, first[e + report.apart] - last[e]);
+  return least;
+}
+
 /// Returns the run whose contacts are followed, within the inner cutoff, before elements and gaps are looked
-/// at.
+/// at. If elements have several beads, some pairs are of elements that are closer along a chain than the task
+/// asks.
 RunOptions run_to_show(const ContactsTask& task, const Scene& scene, const ContactsReport& report) {
   RunOptions run;
   static_cast<InputOptions&>(run) = options_of_input(task);
   run.structures = {"contacts"};
   run.motion = task.motion;
-  // No two beads of a chain are as far apart as all beads.
-  run.apart = report.by == ContactElement::chain ? static_cast<BeadId>(scene.bead_count()) : report.apart;
+  run.apart = beads_apart(scene, report);
   run.cutoff = task.cutoff->inner;
   run.surface = task.surface;
   return run;

@@ -330,6 +330,17 @@ TEST(View, ShowsTheContactsThatKdsContactsFollows) {
   const State between = chains.state("contacts", 0);
   EXPECT_FALSE(between.empty());
   for (const Ids& pair : between) EXPECT_TRUE(pair[0] < first_of_second && pair[1] >= first_of_second);
+
+  // From C of a residue to N of the third after it are seven beads.
+  const std::string by_residue = scratch / "residues.html";
+  ASSERT_EQ(run_program({"contacts", kVillin, "--topology", kNames, "--frames", "0:2", "--cutoff", "6",
+                         "--view", by_residue, "--quiet"})
+                .code,
+            0);
+  const ReplayData residues(content_of(by_residue));
+  const State beads = residues.state("contacts", 0);
+  EXPECT_FALSE(beads.empty());
+  for (const Ids& pair : beads) EXPECT_GE(pair[1] - pair[0], 7U);
 }
 
 TEST(View, ShowsTheFirstRunOfAComparison) {
