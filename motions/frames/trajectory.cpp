@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace kds {
@@ -15,12 +16,38 @@ struct Bond {
   double length;
 };
 
+/// Calls `visit(first, vector)` for each bond, which joins bead `first` to the next one.
+template <class Visit>
+void for_bonds(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, const std::vector<std::size_t>& gaps,
+               Visit visit) {
+  auto gap = gaps.begin();
+  for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(frame.cols()); ++i) {
+    while (gap != gaps.end() && *gap < i) ++gap;
+    if (gap != gaps.end() && *gap == i) continue;
+    const auto column = static_cast<Eigen::Index>(i);
+    visit(i, Eigen::Vector3d(frame.col(column + 1) - frame.col(column)));
+  }
+}
+
+/// Returns whether the bonds are certainly so alike that none is 1.5 times as long as another. Most frames
+/// are, and this is told without square roots.
+bool are_bonds_alike(const Eigen::Ref<const Eigen::Matrix3Xd>& frame, const std::vector<std::size_t>& gaps) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for_bonds(frame, gaps, [&](std::size_t, const Eigen::Vector3d& bond) {
+    const double squared = bond.squaredNorm();
+    least = std::min(least, squared);
+    most = std::max(most, squared);
+  });
+  // Squares outside these bounds may have lost digits.
+  return least > 1e-280 && most < 1e280 && most < 2.24 * least;
+}
+
 std::vector<Bond> bonds_of(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
                            const std::vector<std::size_t>& gaps) {
   std::vector<Bond> bonds;
-  for (Eigen::Index i = 0; i + 1 < frame.cols(); ++i)
-    if (const auto bead = static_cast<std::size_t>(i); !std::binary_search(gaps.begin(), gaps.end(), bead))
-      bonds.push_back({bead, (frame.col(i + 1) - frame.col(i)).stableNorm()});
+  for_bonds(frame, gaps, [&](std::size_t first, const Eigen::Vector3d& bond) {
+    bonds.push_back({first, bond.stableNorm()});
+  });
   return bonds;
 }
 
@@ -36,6 +63,7 @@ double median(std::vector<double> values) {
 std::vector<std::size_t> find_chain_breaks(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
                                            const std::vector<std::size_t>& gaps) {
   std::vector<std::size_t> breaks;
+  if (are_bonds_alike(frame, gaps)) return breaks;
   const std::vector<Bond> bonds = bonds_of(frame, gaps);
   if (bonds.size() < 2) return breaks;
   std::vector<double> lengths;

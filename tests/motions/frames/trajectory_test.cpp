@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
 namespace kds::trajectory_test {
 namespace {
 
@@ -19,6 +24,40 @@ TEST(ChainBreaks, LongerThanOneAndAHalfMedians) {
   EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 11, 12, 13, 23, 24})), (Breaks{1, 4}));
   EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 11, 12, 13, 23, 24}), {1}), Breaks{4});
   EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 11, 21, 31}), {1, 2, 3}), Breaks{});
+}
+
+/// The definition, word for word.
+Breaks breaks_by_sorting(const Eigen::Matrix3Xd& frame) {
+  std::vector<double> lengths;
+  for (Eigen::Index i = 0; i + 1 < frame.cols(); ++i)
+    lengths.push_back(std::hypot(frame(0, i + 1) - frame(0, i), frame(1, i + 1) - frame(1, i),
+                                 frame(2, i + 1) - frame(2, i)));
+  std::vector<double> sorted = lengths;
+  std::sort(sorted.begin(), sorted.end());
+  const double median = (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]) / 2;
+  Breaks breaks;
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    if (median > 0 && lengths[i] > 1.5 * median) breaks.push_back(i);
+  return breaks;
+}
+
+TEST(ChainBreaks, BondsOfAllRatiosAndSizes) {
+  std::mt19937 random(1);
+  const auto uniform = [&] { return std::uniform_real_distribution<double>()(random); };
+  std::size_t broken = 0, whole = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const double size = std::pow(10, 600 * uniform() - 300),
+                 ratio = 1 + uniform() * (round % 2 == 0 ? 0.7 : 3);
+    Eigen::Matrix3Xd frame = Eigen::Matrix3Xd::Zero(3, 3 + round % 7);
+    for (Eigen::Index i = 0; i + 1 < frame.cols(); ++i)
+      frame.col(i + 1) =
+          frame.col(i) + size * (1 + (ratio - 1) * uniform()) * Eigen::Vector3d(0.36, 0.48, 0.8);
+    const Breaks breaks = find_chain_breaks(frame);
+    EXPECT_EQ(breaks, breaks_by_sorting(frame)) << "size " << size << ", ratio " << ratio;
+    (breaks.empty() ? whole : broken) += 1;
+  }
+  EXPECT_GT(whole, 200);
+  EXPECT_GT(broken, 200);
 }
 
 TEST(ChainBreaks, NeedThreeBeads) {
