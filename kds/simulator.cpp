@@ -38,9 +38,10 @@ class Simulator::MutationScope {
   void end() { running_ = before_; }
 
   /// Notifies the listeners of a change. Kept out of line, because most runs have none.
-  /// An event that another simulator recorded comes with its time.
-  [[gnu::noinline]] static void tell(Simulator& simulator, std::size_t structure, const Change& change,
-                                     const RelayedTime* relayed = nullptr);
+  [[gnu::noinline]] static void tell(Simulator& simulator, std::size_t structure, const Change& change);
+  /// Notifies the listeners of a change that may come from another simulator. Does not measure their time.
+  static void notify(Simulator& simulator, std::size_t structure, const Change& change,
+                     const RelayedEvent* relayed);
 
  private:
   bool& running_;
@@ -425,32 +426,38 @@ void Simulator::start_at(std::size_t step) {
   step_ = step;
 }
 
-auto Simulator::time_to_relay(const Event& event, bool first_at_its_time, bool exact) const -> RelayedTime {
-  RelayedTime relayed{{event.lower, event.upper, 0, false, false, false, event.decided_by},
-                      {},
-                      event.rounded,
-                      first_at_its_time};
-  if (exact && event.lower < event.upper && present_.source != nullptr) {
-    relayed.time = present_.time;
-    relayed.function = present_.source->exact_function(present_.slot);
+auto Simulator::event_to_relay(const Event& event, bool first_at_its_time, bool exact) const -> RelayedEvent {
+  RelayedEvent relayed{static_cast<std::uint32_t>(event.structure_index),
+                       event.change,
+                       {event.lower, event.upper, 0, false, false, false, event.decided_by},
+                       nullptr,
+                       first_at_its_time};
+  const bool has_function = exact && event.lower < event.upper && present_.source != nullptr;
+  if (has_function) relayed.time = present_.time;
+  if (has_function || event.rounded) {
+    ExactFunction function = has_function ? present_.source->exact_function(present_.slot) : nullptr;
+    relayed.certain =
+        std::make_unique<RelayedEvent::Certain>(RelayedEvent::Certain{std::move(function), event.rounded});
   }
   return relayed;
 }
 
-void Simulator::begin_relayed_step(std::size_t step, const FrameStamp& from, const FrameStamp& to) {
-  require(Phase::new_run, "begin_relayed_step()");
+void Simulator::relay(std::size_t step, const FrameStamp& from, const FrameStamp& to,
+                      std::span<const RelayedEvent> events) {
+  const ComputeScope scope(*this);
+  require(Phase::new_run, "relay()");
   step_ = step;
   set_frames(from, to);
-}
-
-void Simulator::relay(std::size_t structure, const Change& change, const RelayedTime& time) {
-  InterruptionCheck::ask();
-  const ComputeScope scope(*this);
-  require_index("structure", structure, structures_.size());
-  if (time.first_at_its_time) ++moment_;
-  held_.function = time.function;
-  now_ = time.function ? Instant(time.time, held_, 0) : Instant(time.time);
-  if (!listeners_.empty()) MutationScope::tell(*this, structure, change, &time);
+  const std::size_t before = watch_.charge(listener_lane);
+  for (const RelayedEvent& event : events) {
+    InterruptionCheck::ask();
+    require_index("structure", event.structure, structures_.size());
+    if (event.first_at_its_time) ++moment_;
+    held_.function = event.certain ? event.certain->function : nullptr;
+    now_ = held_.function ? Instant(event.time, held_, 0) : Instant(event.time);
+    MutationScope::notify(*this, event.structure, event.change, &event);
+  }
+  watch_.charge(before);
 }
 
 void Simulator::join(const Simulator& part) {
@@ -464,9 +471,15 @@ void Simulator::join(const Simulator& part) {
   for (std::size_t s = 0; s < structures_.size(); ++s) watch_.add(lane_of(s), part.seconds_of(s));
 }
 
-void Simulator::MutationScope::tell(Simulator& simulator, std::size_t structure, const Change& change,
-                                    const RelayedTime* relayed) {
+void Simulator::MutationScope::tell(Simulator& simulator, std::size_t structure, const Change& change) {
+  if (!simulator.listeners_have_lane_) return notify(simulator, structure, change, nullptr);
   const std::size_t before = simulator.watch_.charge(listener_lane);
+  notify(simulator, structure, change, nullptr);
+  simulator.watch_.charge(before);
+}
+
+void Simulator::MutationScope::notify(Simulator& simulator, std::size_t structure, const Change& change,
+                                      const RelayedEvent* relayed) {
   const KineticStructure& s = *simulator.structures_[structure];
   Event event{simulator.step_, simulator.now_.lower(), simulator.now_.upper(), structure,     change,
               s.name(),        s.kinds()[change.kind], simulator.from_,        simulator.to_, {}};
@@ -475,17 +488,18 @@ void Simulator::MutationScope::tell(Simulator& simulator, std::size_t structure,
   for (EventListener* listener : simulator.listeners_) {
     if (!event.rounded && listener->prints_time_of(event)) {
       if (relayed != nullptr) {
-        event.rounded = relayed->rounded;
+        if (relayed->certain) event.rounded = relayed->certain->rounded;
         listener->on_event(event);
         continue;
       }
       const ExactWork::Open account(simulator.listeners_work_);  // not counted as the run's own work
+      const std::size_t before = simulator.watch_.charge(listener_lane);
       event.rounded = rounded_time(simulator.now_, simulator.from_, simulator.to_);
+      simulator.watch_.charge(before);
     }
     listener->on_event(event);
   }
   mutation.end();
-  simulator.watch_.charge(before);
 }
 
 }  // namespace kds

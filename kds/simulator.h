@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -51,6 +52,9 @@ class Simulator {
   void add_table(FailureSource& table, const CertificateType& type);
   void listen(EventListener& listener) { listeners_.push_back(&listener); }
   [[nodiscard]] const std::vector<EventListener*>& listeners() const { return listeners_; }
+  /// Charges the time that listeners take to the structures. Use it for listeners that only keep events,
+  /// which is quicker than to read the clock. The time to compute certain digits is never charged to them.
+  void charge_listeners_to_structures() { listeners_have_lane_ = false; }
 
   /// Builds all structures. The motion must be that of the first step.
   void build();
@@ -112,20 +116,24 @@ class Simulator {
 
   /// Sets the number of the first step. Throws std::logic_error once the structures are built.
   void start_at(std::size_t step);
-  /// The time of an event as another simulator needs it.
-  struct RelayedTime {
+  /// An event that another simulator tells its listeners of. There may be millions, so it is small.
+  struct RelayedEvent {
+    std::uint32_t structure;
+    Change change;
     FailureTime time;
-    /// The function whose root is the time. Null if the time is a double, or if no listener reads it.
-    ExactFunction function = {};
-    std::optional<RoundedTime> rounded = {};
-    bool first_at_its_time = true;  ///< whether no event was relayed at this very time before
+    struct Certain {
+      ExactFunction function;  ///< its root is the time
+      std::optional<RoundedTime> rounded;
+    };
+    /// Null if no listener asks for what it holds. The function is null if the time is a double.
+    std::unique_ptr<const Certain> certain;
+    bool first_at_its_time;  ///< whether no event was relayed at this very time before
   };
-  /// Returns the time of `event`, which happens now.
-  [[nodiscard]] RelayedTime time_to_relay(const Event& event, bool first_at_its_time, bool exact) const;
-  /// Begins a step whose events another simulator recorded.
-  void begin_relayed_step(std::size_t step, const FrameStamp& from, const FrameStamp& to);
-  /// Tells the listeners of a change that another simulator recorded. The change is not counted.
-  void relay(std::size_t structure, const Change& change, const RelayedTime& time);
+  /// Returns `event`, which happens now, for another simulator.
+  [[nodiscard]] RelayedEvent event_to_relay(const Event& event, bool first_at_its_time, bool exact) const;
+  /// Tells the listeners of the events of a step that another simulator ran. The events are not counted.
+  void relay(std::size_t step, const FrameStamp& from, const FrameStamp& to,
+             std::span<const RelayedEvent> events);
   /// Adds the fingerprint, comparisons, exact work and seconds of another simulator, which has run other
   /// steps with the same structures.
   void join(const Simulator& part);
@@ -220,6 +228,7 @@ class Simulator {
   std::uint64_t moment_ = 0;
   Fingerprint fingerprint_;
   Stopwatch watch_;
+  bool listeners_have_lane_ = true;
   bool recording_ = true;  // false while a replayed structure builds itself
 };
 

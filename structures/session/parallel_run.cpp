@@ -24,25 +24,26 @@ namespace kds {
 namespace {
 
 // Parts shorter than this cost more in static builds and threads than they gain.
-constexpr std::size_t least_steps_of_part = 4, least_bead_steps_of_part = 20'000;
+constexpr std::size_t least_steps_of_part = 4, least_bead_steps_of_part = 10'000;
 // Longer parts keep more frames and events in memory.
 constexpr std::size_t most_steps_of_part = 512, most_coordinates_of_part = std::size_t{1} << 22U;
-constexpr std::size_t parts_per_thread = 8;
 constexpr std::chrono::milliseconds between_asks{20};
 
 /// Ends the parts under way when the run ends early.
 struct RunHasEnded {};
 
-/// Returns the number of steps of each part; `threads` becomes the number of threads that have parts.
-std::size_t length_of_parts(const Scene& scene, std::size_t& threads) {
-  const std::size_t steps = scene.step_count(), beads = std::max<std::size_t>(1, scene.bead_count());
-  const std::size_t least = std::max(least_steps_of_part, least_bead_steps_of_part / beads);
-  threads = std::max<std::size_t>(1, std::min(threads, steps / least));
-  const std::size_t parts =
-      threads * std::clamp<std::size_t>(steps / (threads * 4 * least), 1, parts_per_thread);
+std::size_t least_steps(const Scene& scene) {
+  return std::max(least_steps_of_part,
+                  least_bead_steps_of_part / std::max<std::size_t>(1, scene.bead_count()));
+}
+
+/// Returns the number of steps of a part that begins `left` steps before the end. The parts become shorter
+/// towards the end, so that all threads end at about the same time.
+std::size_t length_of_part(const Scene& scene, std::size_t left, std::size_t threads) {
+  const std::size_t beads = std::max<std::size_t>(1, scene.bead_count());
   const std::size_t most =
       std::min(most_steps_of_part, std::max<std::size_t>(1, most_coordinates_of_part / (3 * beads)));
-  return std::clamp<std::size_t>((steps + parts - 1) / parts, 1, most);
+  return std::min(left, std::clamp(left / (2 * threads), std::min(least_steps(scene), most), most));
 }
 
 void add_counts(const StructureStatistics& part, StructureStatistics& sum) {
@@ -91,19 +92,11 @@ class StructureElsewhere final : public KineticStructure {
 
 }  // namespace
 
-/// An event as the thread of a part keeps it.
-struct ParallelRun::RecordedEvent {
-  std::size_t step;
-  std::uint32_t structure;
-  Change change;
-  Simulator::RelayedTime time;
-};
-
 std::size_t all_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
 
 /// Results of a part at a frame, for all structures.
 struct ParallelRun::Frame {
-  std::vector<RecordedEvent> events;         ///< of the step that led here
+  std::vector<RelayedEvent> events;          ///< of the step that led here
   std::vector<std::uint64_t> external;       ///< number of external events in it, for each structure
   std::vector<std::vector<DumpFile>> dumps;  ///< of each structure
   std::vector<std::optional<CombinatorialElements>> elements;
@@ -133,15 +126,14 @@ class ParallelRun::Recorder final : public EventListener {
                                    [&](const auto* l) { return l->reads_exact_time_of(event); });
     const bool is_new = !last_moment_ || *last_moment_ != simulator_.moment();
     last_moment_ = simulator_.moment();
-    events.push_back({event.step, static_cast<std::uint32_t>(event.structure_index), event.change,
-                      simulator_.time_to_relay(event, is_new, exact)});
+    events.push_back(simulator_.event_to_relay(event, is_new, exact));
   }
   [[nodiscard]] bool prints_time_of(const Event& event) const override {
     return std::any_of(listeners_.begin(), listeners_.end(),
                        [&](const auto* l) { return l->prints_time_of(event); });
   }
 
-  std::vector<RecordedEvent> events;
+  std::vector<RelayedEvent> events;  // of the step under way
 
  private:
   const std::vector<EventListener*>& listeners_;
@@ -171,7 +163,9 @@ struct ParallelRun::Worker {
         scene(whole.over(std::move(ranges))),
         run(*scene, options),
         recorder(listeners, run.simulator()) {
-    if (!listeners.empty()) run.listen(recorder);
+    if (listeners.empty()) return;
+    run.listen(recorder);
+    run.simulator().charge_listeners_to_structures();
   }
 };
 
@@ -312,8 +306,8 @@ void ParallelRun::decide() {
                              own_->structures()[s]->name());
   }
   if (uncut_) threads_ = 1;
-  steps_per_part_ = parallel_.steps_per_part;
-  if (threads_ > 1 && steps_per_part_ == 0) steps_per_part_ = length_of_parts(scene_, threads_);
+  if (parallel_.steps_per_part == 0)
+    threads_ = std::clamp<std::size_t>(scene_.step_count() / least_steps(scene_), 1, threads_);
   if (uncut_ || (threads_ == 1 && parallel_.steps_per_part == 0) || own_->structures().empty()) {
     threads_ = 1;
     return;
@@ -432,7 +426,9 @@ void ParallelRun::run_in_parts(const std::function<void(std::size_t)>& at_frame)
 std::unique_ptr<ParallelRun::Part> ParallelRun::read_part(std::size_t first) const {
   auto part = std::make_unique<Part>();
   part->first = first;
-  part->last = std::min(first + steps_per_part_, scene_.step_count());
+  const std::size_t left = scene_.step_count() - first;
+  part->last = first + (parallel_.steps_per_part == 0 ? length_of_part(scene_, left, threads_)
+                                                      : std::min(parallel_.steps_per_part, left));
   const std::size_t reach = scene_.reach();
   part->frames = scene_.frames()->read_ahead(first - std::min(first, reach),
                                              std::min(part->last + reach, scene_.frame_count() - 1));
@@ -523,12 +519,13 @@ bool ParallelRun::continues(const Part& part) const {
 /// Tells the listeners and the caller what happened in the part.
 void ParallelRun::join(Part& part, const std::function<void(std::size_t)>& at_frame) {
   observer_ = part.worker ? part.worker->observer.get() : nullptr;
-  for (std::size_t number = part.first == 0 ? 0 : part.first + 1; !part.reached.empty(); ++number) {
+  std::size_t number = part.first == 0 ? 0 : part.first + 1;
+  for (; !part.reached.empty(); ++number) {
     show(part.reached.front(), number, at_frame);
     part.reached.pop_front();
   }
   if (part.error) {
-    if (part.worker) tell(part.worker->recorder.events);
+    if (part.worker && number > 0) tell(number - 1, part.worker->recorder.events);
     std::rethrow_exception(part.error);
   }
   if (truth_) retire(std::move(truth_));
@@ -536,7 +533,7 @@ void ParallelRun::join(Part& part, const std::function<void(std::size_t)>& at_fr
 }
 
 void ParallelRun::show(Frame& frame, std::size_t number, const std::function<void(std::size_t)>& at_frame) {
-  if (number > 0 && !listeners_.empty()) tell(frame.events);
+  if (number > 0) tell(number - 1, frame.events);
   for (std::size_t s = 0; s < structures_.size(); ++s) structures_[s]->show(frame, s);
   static_seconds_.resize(structures_.size(), 0);
   for (std::size_t s = 0; s < frame.static_seconds.size(); ++s) static_seconds_[s] += frame.static_seconds[s];
@@ -544,12 +541,10 @@ void ParallelRun::show(Frame& frame, std::size_t number, const std::function<voi
   scene_.frames()->release(number - std::min<std::size_t>(number, 2));
 }
 
-void ParallelRun::tell(const std::vector<RecordedEvent>& events) {
-  if (events.empty()) return;
-  Simulator& simulator = joined_->simulator();
-  const std::size_t step = events.front().step;
-  simulator.begin_relayed_step(step, scene_.stamp(step), scene_.stamp(step + 1));
-  for (const RecordedEvent& event : events) simulator.relay(event.structure, event.change, event.time);
+/// Tells the listeners of the events of a step.
+void ParallelRun::tell(std::size_t step, const std::vector<RelayedEvent>& events) {
+  if (listeners_.empty() || events.empty()) return;
+  joined_->simulator().relay(step, scene_.stamp(step), scene_.stamp(step + 1), events);
 }
 
 /// Adds the counts of a worker whose parts have all been joined.

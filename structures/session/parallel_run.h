@@ -32,7 +32,7 @@ namespace kds {
 struct ParallelOptions {
   /// The largest number of threads that work, including the caller's. Short runs use fewer.
   std::size_t threads = 1;
-  /// Number of steps in a part; 0: chosen by the length of the run and its number of beads.
+  /// Number of steps in a part; 0: chosen by the steps that are left and the number of beads.
   std::size_t steps_per_part = 0;
   bool dumps = false;          ///< whether Session::dump is called at frames
   bool elements = false;       ///< whether Session::elements is called at all frames, not only at both ends
@@ -120,11 +120,11 @@ class ParallelRun {
  private:
   class Joined;
   class Recorder;
-  struct RecordedEvent;
   struct Frame;
   struct Part;
   struct Worker;
   class Workers;
+  using RelayedEvent = Simulator::RelayedEvent;
   using States = std::vector<std::vector<BeadId>>;
 
   void plan(std::function<void(KineticRun&)> addition);
@@ -137,7 +137,7 @@ class ParallelRun {
   [[nodiscard]] bool continues(const Part& part) const;
   void join(Part& part, const std::function<void(std::size_t)>& at_frame);
   void show(Frame& frame, std::size_t number, const std::function<void(std::size_t)>& at_frame);
-  void tell(const std::vector<RecordedEvent>& events);
+  void tell(std::size_t step, const std::vector<RelayedEvent>& events);
   void retire(std::unique_ptr<Worker> worker);
   [[nodiscard]] static std::optional<States> states_of(const Session& session);
 
@@ -150,7 +150,7 @@ class ParallelRun {
   std::vector<std::function<void(KineticRun&)>> additions_;
   bool is_decided_ = false;  // whether the run is cut
   std::optional<std::string> uncut_;
-  std::size_t threads_ = 1, steps_per_part_ = 0;
+  std::size_t threads_ = 1;
   std::vector<EventListener*> listeners_;
   std::function<void(KineticRun&)> prepare_;
   Observe observe_;
