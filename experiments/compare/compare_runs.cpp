@@ -139,6 +139,8 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const In
   if (strided(found.frames, options.strides.back()) < 2)
     throw InputError(fmt::format("--strides: {} leaves one of the {} frames of {}; expected two or more",
                                  options.strides.back(), found.frames, found.file));
+  hint_at_threads(options.threads, strided(found.frames, options.strides.front()) - 1, found.beads, warn,
+                  options.inputs.size() > 1 ? found.short_name + ": " : "");
   return found;
 }
 

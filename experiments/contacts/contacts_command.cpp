@@ -209,6 +209,7 @@ ContactsFound find_contacts(const ContactsTask& task,
     throw InputError(instance->file + ": an instance file has points and one step; expected a trajectory");
   ContactsFound found;
   found.scene = std::make_unique<const Scene>(load_necklaces(options_of_input(task), task.motion, 1, warn));
+  hint_at_threads(task.threads, found.scene->step_count(), found.scene->bead_count(), warn);
   found.report = follow_contacts(task, *found.scene, progress);
   found.figures = figures_of(*found.report);
   if (task.certify) found.figures.certificate = certify_contacts(task, *found.scene, *found.report, progress);

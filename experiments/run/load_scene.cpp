@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "experiments/output/text.h"
 #include "experiments/program/contact_options.h"
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
@@ -425,7 +426,19 @@ std::unique_ptr<ParallelRun> open_parallel_run(const RunOptions& options, const 
   if (options.threads.value_or(1) > 1 && reason)
     warn(fmt::format("--threads {}: the run is not cut and takes one thread, because {}", *options.threads,
                      *reason));
+  if (!reason) hint_at_threads(options.threads, scene.step_count(), scene.bead_count(), warn);
   return run;
+}
+
+void hint_at_threads(std::optional<std::size_t> threads, std::size_t steps, std::size_t beads,
+                     const std::function<void(const std::string&)>& warn, const std::string& subject) {
+  if (!threads) return;
+  const std::size_t taken = threads_worth(steps, beads, *threads);
+  if (taken < *threads)
+    warn(fmt::format(
+        "{}--threads {}: the run takes {}, because {} threads need at least {} steps and it has {}", subject,
+        *threads, taken, taken + 1, with_thousands((taken + 1) * least_steps_of_thread(beads)),
+        with_thousands(steps)));
 }
 
 }  // namespace kds

@@ -1,6 +1,7 @@
 #pragma once
 // Builds the scene of a run from its inputs.
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -57,9 +58,14 @@ inline constexpr int highest_fast_degree = 3;
 [[nodiscard]] std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene,
                                                    AuditMode audits);
 /// Opens the run on as many threads as --threads asks for, otherwise like `open_run`. If --threads asks for
-/// several threads and the run cannot be cut, a line to `warn` says why.
+/// several threads and the run cannot be cut, or is too short for so many, a line to `warn` says why.
 [[nodiscard]] std::unique_ptr<ParallelRun> open_parallel_run(
     const RunOptions& options, const Scene& scene, AuditMode audits, ParallelOptions parallel,
     const std::function<void(const std::string&)>& warn);
+
+/// If --threads is given and a run of so many steps and beads takes fewer threads, a line to `warn` says how
+/// many. The line begins with `subject`.
+void hint_at_threads(std::optional<std::size_t> threads, std::size_t steps, std::size_t beads,
+                     const std::function<void(const std::string&)>& warn, const std::string& subject = "");
 
 }  // namespace kds

@@ -249,6 +249,8 @@ TradeSubject read_subject(const TradeOptions& options, const std::function<void(
 std::vector<TradeRow> measure_subject(const TradeOptions& options, const TradeSubject& subject,
                                       const std::function<void(std::size_t, std::size_t)>& progress,
                                       const std::function<void(const std::string&)>& warn) {
+  hint_at_threads(subject.task.threads, subject.finest.frame_count() - 1, subject.finest.radii().size(),
+                  warn);
   std::vector<TradeRow> rows = measure_trade(subject.finest, subject.task, progress, warn);
   const bool no_contacts = std::ranges::any_of(rows, [](const TradeRow& row) {
     return row.want == Want::contacts && row.is_exact && row.cost.events == 0;

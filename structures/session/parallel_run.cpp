@@ -32,18 +32,13 @@ constexpr std::chrono::milliseconds between_asks{20};
 /// Ends the parts under way when the run ends early.
 struct RunHasEnded {};
 
-std::size_t least_steps(const Scene& scene) {
-  return std::max(least_steps_of_part,
-                  least_bead_steps_of_part / std::max<std::size_t>(1, scene.bead_count()));
-}
-
 /// Returns the number of steps of a part that begins `left` steps before the end. The parts become shorter
 /// towards the end, so that all threads end at about the same time.
 std::size_t length_of_part(const Scene& scene, std::size_t left, std::size_t threads) {
   const std::size_t beads = std::max<std::size_t>(1, scene.bead_count());
   const std::size_t most =
       std::min(most_steps_of_part, std::max<std::size_t>(1, most_coordinates_of_part / (3 * beads)));
-  return std::min(left, std::clamp(left / (2 * threads), std::min(least_steps(scene), most), most));
+  return std::min(left, std::clamp(left / (2 * threads), std::min(least_steps_of_thread(beads), most), most));
 }
 
 void add_counts(const StructureStatistics& part, StructureStatistics& sum) {
@@ -91,6 +86,14 @@ class StructureElsewhere final : public KineticStructure {
 };
 
 }  // namespace
+
+std::size_t least_steps_of_thread(std::size_t beads) {
+  return std::max(least_steps_of_part, least_bead_steps_of_part / std::max<std::size_t>(1, beads));
+}
+
+std::size_t threads_worth(std::size_t steps, std::size_t beads, std::size_t threads) {
+  return std::max<std::size_t>(1, std::min(threads, steps / least_steps_of_thread(beads)));
+}
 
 std::size_t all_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
 
@@ -307,7 +310,7 @@ void ParallelRun::decide() {
   }
   if (uncut_) threads_ = 1;
   if (parallel_.steps_per_part == 0)
-    threads_ = std::clamp<std::size_t>(scene_.step_count() / least_steps(scene_), 1, threads_);
+    threads_ = threads_worth(scene_.step_count(), scene_.bead_count(), threads_);
   if (uncut_ || (threads_ == 1 && parallel_.steps_per_part == 0) || own_->structures().empty()) {
     threads_ = 1;
     return;

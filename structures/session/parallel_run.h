@@ -29,6 +29,12 @@ namespace kds {
 /// Returns the number of processors that this process may use, at least 1.
 [[nodiscard]] std::size_t all_threads();
 
+/// Returns the least number of steps that are worth a thread.
+[[nodiscard]] std::size_t least_steps_of_thread(std::size_t beads);
+/// Returns the number of threads that a run takes if it may take up to `threads`, at least 1. Short runs take
+/// fewer, and runs that cannot be cut take one (ParallelRun::uncut).
+[[nodiscard]] std::size_t threads_worth(std::size_t steps, std::size_t beads, std::size_t threads);
+
 struct ParallelOptions {
   /// The largest number of threads that work, including the caller's. Short runs use fewer.
   std::size_t threads = 1;

@@ -111,5 +111,30 @@ TEST_F(Threads, AreOneForRunsThatCannotBeCut) {
   EXPECT_EQ(run(one).code, 2);
 }
 
+// A short run takes fewer threads than asked for, and says how many.
+TEST_F(Threads, HintsAtThreadsThatShortRunsDoNotTake) {
+  const ProgramRun done = run({"run", "--radius", "1", "--structures", "wrapped", "--frames", "0:2100",
+                               "--threads", "64", "--json", "-", "--quiet"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  const std::string taken = Json::parse(done.out).at("engine").at("threads").dump();
+  EXPECT_EQ(taken, "2");
+  EXPECT_THAT(done.err, HasSubstr("--threads 64: the run takes " + taken +
+                                  ", because 3 threads need at least 3,000 steps and it has 2,099"));
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"contacts", "--cutoff", "2"},
+                                                  {"compare", "--structures", "wrapped", "--rounds", "1"},
+                                                  {"trade", "--want", "contacts", "--rounds", "1"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--radius", "1", "--frames", "0:9", "--quiet", "--threads", "2"});
+    const ProgramRun few = run(arguments);
+    EXPECT_EQ(few.code, 0) << few.err;
+    EXPECT_THAT(
+        few.err,
+        HasSubstr("--threads 2: the run takes 1, because 2 threads need at least 2,000 steps and it has 8"))
+        << command.front();
+    arguments.resize(arguments.size() - 2);
+    EXPECT_THAT(run(arguments).err, Not(HasSubstr("--threads"))) << command.front();
+  }
+}
+
 }  // namespace
 }  // namespace kds::test::threads_test
