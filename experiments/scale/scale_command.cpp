@@ -231,6 +231,7 @@ std::string scale_plots(std::span<const ScaleSeries> all) {
   for (const auto measures : {structure_measures(), frame_measures()})
     for (const ScaleMeasure& measure : measures) {
       PointPlot plot{"beads n", std::string(measure.name), {}, {}};
+      plot.x_is_chosen = true;
       for (const ScaleSeries& series : all) {
         if (series.measure != &measure) continue;
         for (const ScaleSeries::Size& size : series.sizes) {

@@ -258,6 +258,7 @@ bool is_plotted(const TheoremSeries& series) {
 PointPlot plot_of(std::span<const TheoremSeries> group) {
   const Theorem theorem = group.front().theorem;
   PointPlot plot{"beads n", std::string(quantity_of(theorem)), {}, {}};
+  plot.x_is_chosen = true;
   for (const TheoremSeries& series : group) {
     if (!is_plotted(series)) continue;
     const std::size_t number = plot.series.size();

@@ -177,6 +177,25 @@ class Labels {
   std::vector<Box> boxes_;
 };
 
+// Returns the values whose labels have room on a logarithmic axis of this length: the largest, the least, and
+// those between them, from the largest on.
+std::vector<double> labelled(std::vector<double> values, const Range& range, double pixels) {
+  constexpr double letter = 7, apart = 10;
+  const auto end_of = [&](double value, int side) {
+    const double place = std::log(value / range.least) / std::log(range.most / range.least) * pixels;
+    return place + side * (letter * static_cast<double>(tick_label(value).size()) + apart) / 2;
+  };
+  std::ranges::sort(values);
+  std::vector<double> kept;
+  for (std::size_t k = values.size(); k-- > 0;) {
+    const bool is_least = k == 0;
+    const bool fits = kept.empty() || end_of(values[k], 1) <= end_of(kept.back(), -1);
+    const bool leaves_room = is_least || kept.empty() || end_of(values[k], -1) >= end_of(values.front(), 1);
+    if (values[k] != (kept.empty() ? 0 : kept.back()) && fits && leaves_room) kept.push_back(values[k]);
+  }
+  return kept;
+}
+
 Drawing draw(const PointPlot& plot, const DrawingSize& size) {
   Range xs, ys;
   for (const PointPlot::Point& point : plot.points) {
@@ -202,6 +221,11 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
   Drawing drawing{size, axes(size, plot.x_label, plot.y_label), TextsOf::marks, {}};
   std::string& script = drawing.script;
   script += logarithmic('x', x, x_ticks(size)) + logarithmic('y', y, y_ticks);
+  if (plot.x_is_chosen && !plot.points.empty()) {
+    std::vector<double> chosen;
+    for (const PointPlot::Point& point : plot.points) chosen.push_back(point.x);
+    script += set_ticks('x', labelled(chosen, x, size.width - size.left - size.right));
+  }
   Labels labels(size.left, size.width - size.right);
   const auto share = [](const Range& range, double value) {
     return std::log(value / range.least) / std::log(range.most / range.least);

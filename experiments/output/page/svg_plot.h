@@ -67,6 +67,9 @@ struct PointPlot {
   std::vector<std::string> series;
   std::vector<Point> points;
   std::vector<Line> lines = {};
+  /// Whether x is a setting that somebody chose, not a measurement. Its ticks are at the values of the
+  /// points, the least and the largest among them, as far as their labels have room.
+  bool x_is_chosen = false;
 };
 
 /// Horizontal bars, one below the other, each with its value. The bars of a series share its colour.

@@ -45,6 +45,23 @@ TEST(SvgPlot, LogarithmicTicksArePowersOfTenWhereThereAreTwo) {
   test::expect_nested(svg_plot(PointPlot{"x", "y", {"a"}, {{"", 1e-12, 1, 0}, {"", 1e12, 1, 0}}}));
 }
 
+// The last stride would have no label among the ticks 1, 2 and 5. Labels that would cover others are left
+// out, those of both ends never.
+TEST(SvgPlot, ChosenValuesAreLabelled) {
+  PointPlot strides{
+      "stride", "events", {"a"}, {{"", 8, 5, 0}, {"", 4, 9, 0}, {"", 1, 40, 0}, {"", 4, 10, 0}}};
+  strides.x_is_chosen = true;
+  expect_ticks(svg_plot(strides), {"1", "4", "8"});
+  EXPECT_EQ(count_of(svg_plot(strides), ">2</text>"), 0U);
+  PointPlot many{"radius", "events", {"a"}, {}};
+  many.x_is_chosen = true;
+  for (int k = 0; k <= 200; ++k) many.points.push_back({"", 1 + k / 200.0, 10, 0});
+  const std::string html = svg_plot(many);
+  expect_ticks(html, {"1", "2"});
+  EXPECT_EQ(count_of(html, ">1.995</text>"), 0U);
+  EXPECT_EQ(count_of(html, ">1.005</text>"), 0U);
+}
+
 // gnuplot draws no axis of width 1e-310.
 TEST(SvgPlot, ValuesTooCloseForGnuplot) {
   for (const bool below_zero : {false, true}) {
