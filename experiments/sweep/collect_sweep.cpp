@@ -177,7 +177,10 @@ CollectedSweep collect_sweep(const SweepPlan& plan, const fs::path& folder, cons
                       program_version(), collected.tasks, collected.done);
   results.write_json(json);
   json << "\n}\n";
-  files.write(folder / "pooled.csv", pooled.csv(pool.figures()));
+  std::ostream& means = files.open(folder / "pooled.csv");
+  means << pooled.csv_header();
+  for (const PooledFigure& figure : pool.figures())
+    means << pooled.csv_line(figure);  // one in memory at a time
   files.write(folder / "failed.csv", failed_table().csv(failed));
   files.write(folder / "report.html",
               without_copies(sweep_page(plan, collected, pool, failed, counts_from(plan, states, folder),

@@ -16,8 +16,15 @@ double PooledFigure::mean() const {
 }
 
 std::optional<MeanInterval> PooledFigure::interval() const {
+  if (values.size() < least_pooled) return std::nullopt;
   const auto student = mean_of_independent(values);
   return counts ? above_zero(student) : student;
+}
+
+std::string PooledFigure::no_interval() const {
+  if (interval()) return "";
+  return values.size() < least_pooled ? fmt::format("fewer than {} values", least_pooled)
+                                      : "all values are equal";
 }
 
 PooledFigures::PooledFigures(const SweepPlan& plan) : plan_(plan) {
@@ -35,14 +42,22 @@ void PooledFigures::add(const SweepTask& task, const std::vector<ResultRow>& row
   for (const ResultRow& row : rows) {
     const std::string identity = identity_of(row, plan_.spec().pooled);
     const std::size_t place = seen[identity]++;  // rows that nothing else tells apart
+    const std::string key =
+        fmt::format("{}\n{}\n{}\n{}", plan_.text(task, "command"), fmt::join(axes, "\n"), identity, place);
+    Group& group = by_key_[key];
+    if (!group.row)
+      group.row = std::make_shared<PooledRow>(PooledRow{plan_.text(task, "command"), identity, axes});
     for (const auto& [name, value] : row.fields) {
       const auto number = value.number();
       if (!number || is_identity(name, value) || name.starts_with("input.")) continue;
-      const std::string key = fmt::format("{}\n{}\n{}\n{}\n{}", plan_.text(task, "command"),
-                                          fmt::join(axes, "\n"), identity, place, name);
-      const auto [found, is_new] = by_key_.emplace(key, figures_.size());
-      if (is_new) figures_.push_back({plan_.text(task, "command"), identity, name, axes, {}});
-      PooledFigure& figure = figures_[found->second];
+      const auto found = std::ranges::find_if(
+          group.figures, [&, &name = name](std::size_t k) { return figures_[k].measure == name; });
+      const std::size_t at = found != group.figures.end() ? *found : figures_.size();
+      if (at == figures_.size()) {
+        group.figures.push_back(at);
+        figures_.push_back({group.row, name, {}});
+      }
+      PooledFigure& figure = figures_[at];
       figure.values.push_back(*number);
       figure.counts = figure.counts && value.whole_number() != nullptr;
     }
@@ -57,11 +72,11 @@ Table<PooledFigure> pooled_table(const std::vector<std::string>& axes) {
       return interval ? Field((*interval).*end) : Field();
     };
   };
-  Table<R> table{{{"command", "command", [](const R& r) { return Field(r.command); }}}};
+  Table<R> table{{{"command", "command", [](const R& r) { return Field(r.of->command); }}}};
   for (std::size_t k = 0; k < axes.size(); ++k)
-    table.add({{axes[k], axes[k], [k](const R& r) { return text_or_nothing(r.axes[k]); }}});
+    table.add({{axes[k], axes[k], [k](const R& r) { return text_or_nothing(r.of->axes[k]); }}});
   table.add({
-      {"row", "row", [](const R& r) { return text_or_nothing(r.row); }},
+      {"row", "row", [](const R& r) { return text_or_nothing(r.of->row); }},
       {"measure", "measure", [](const R& r) { return Field(r.measure); }},
       {"tasks", "tasks", [](const R& r) { return Field(r.values.size()); }},
       {.key = "mean",
@@ -74,6 +89,7 @@ Table<PooledFigure> pooled_table(const std::vector<std::string>& axes) {
            }},
       {.key = "lower", .value = end_of(&MeanInterval::lower)},
       {.key = "upper", .value = end_of(&MeanInterval::upper)},
+      {"no_interval", "no interval", [](const R& r) { return text_or_nothing(r.no_interval()); }},
   });
   return table;
 }

@@ -1,6 +1,8 @@
 #pragma once
 // Means of a sweep's figures over the tasks that differ in the pooled axes only.
 
+#include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -13,17 +15,29 @@
 
 namespace kds {
 
+/// An interval takes this many values. For two values Student's quantile is 12.7, so that the interval of a
+/// count can reach a factor of exp(12.7), which is 330,000, to either side. For three it is 4.3.
+inline constexpr std::size_t least_pooled = 3;
+
+/// A row of the tasks that are pooled.
+struct PooledRow {
+  std::string command, row;
+  std::vector<std::string> axes;  ///< texts of the axes that are not pooled
+};
+
 /// A measure with its values in all tasks that are pooled.
 struct PooledFigure {
-  std::string command, row, measure;
-  std::vector<std::string> axes;  ///< texts of the axes that are not pooled
+  std::shared_ptr<const PooledRow> of;
+  std::string measure;
   std::vector<double> values;
   bool counts = true;  ///< whole numbers, none below 0
 
   [[nodiscard]] double mean() const;
   /// Returns Student's interval, for independent values. The interval of counts stays above 0 (above_zero).
-  /// Returns nothing for a single value, and for counts that are all equal.
+  /// Returns nothing for fewer than `least_pooled` values, and for counts that are all equal.
   [[nodiscard]] std::optional<MeanInterval> interval() const;
+  /// Returns why there is no interval, or an empty text if there is one.
+  [[nodiscard]] std::string no_interval() const;
 };
 
 class PooledFigures {
@@ -40,9 +54,14 @@ class PooledFigures {
   [[nodiscard]] const std::vector<PooledFigure>& figures() const { return figures_; }
 
  private:
+  struct Group {
+    std::shared_ptr<const PooledRow> row;
+    std::vector<std::size_t> figures;  ///< their places
+  };
+
   const SweepPlan& plan_;
   std::vector<std::string> names_;
-  std::unordered_map<std::string, std::size_t> by_key_;
+  std::unordered_map<std::string, Group> by_key_;
   std::vector<PooledFigure> figures_;
 };
 

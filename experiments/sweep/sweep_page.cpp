@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <optional>
@@ -26,34 +27,37 @@ std::string plots_of(const PooledFigures& pool, const std::string& command, cons
   const auto number_of = [](const std::string& text) -> std::optional<double> {
     char* end = nullptr;
     const double number = std::strtod(text.c_str(), &end);
-    return !text.empty() && *end == '\0' && number > 0 ? std::optional(number) : std::nullopt;
+    return !text.empty() && *end == '\0' && std::isfinite(number) ? std::optional(number) : std::nullopt;
   };
   std::vector<const PooledFigure*> figures;
   std::vector<std::set<std::string>> values(pool.names().size());
   for (const PooledFigure& figure : pool.figures()) {
-    if (figure.command != command) continue;
+    if (figure.of->command != command) continue;
     figures.push_back(&figure);
-    for (std::size_t axis = 0; axis < values.size(); ++axis) values[axis].insert(figure.axes[axis]);
+    for (std::size_t axis = 0; axis < values.size(); ++axis) values[axis].insert(figure.of->axes[axis]);
   }
   std::string html;
   for (std::size_t axis = 0; axis < pool.names().size() && html.empty(); ++axis) {
     std::map<std::string, PointPlot> plots;  // by measure
     std::vector<std::string> order;
+    bool leaves_out = false;  // values that have no place on a logarithmic axis
     for (const PooledFigure* figure : figures) {
-      const auto x = number_of(figure->axes[axis]);
-      if (!x || !(figure->mean() > 0)) continue;
+      const auto x = number_of(figure->of->axes[axis]);
+      leaves_out = leaves_out || (x && *x <= 0);
+      if (!x || *x <= 0 || !(figure->mean() > 0)) continue;
       const std::string& name = figure->measure;
       if (!plots.contains(name)) {
         if (order.size() == most_plots) continue;
         order.push_back(name);
         plots[name] = {pool.names()[axis], name, {}, {}};
+        plots[name].x_is_chosen = true;
       }
       PointPlot& plot = plots[name];
-      std::string series = figure->row;
-      for (std::size_t k = 0; k < figure->axes.size(); ++k)
-        if (k != axis && values[k].size() > 1 && !figure->axes[k].empty() &&
-            figure->row.find(figure->axes[k]) == std::string::npos)
-          series += (series.empty() ? "" : ", ") + figure->axes[k];
+      const auto& [of_command, row, texts] = *figure->of;
+      std::string series = row;
+      for (std::size_t k = 0; k < texts.size(); ++k)
+        if (k != axis && values[k].size() > 1 && !texts[k].empty() && row.find(texts[k]) == std::string::npos)
+          series += (series.empty() ? "" : ", ") + texts[k];
       auto found = std::ranges::find(plot.series, series);
       if (found == plot.series.end()) {
         if (plot.series.size() == most_series) continue;
@@ -67,9 +71,10 @@ std::string plots_of(const PooledFigures& pool, const std::string& command, cons
       for (const auto& point : plots[name].points) places.push_back(point.x);
       std::ranges::sort(places);
       if (places.empty() || places.front() == places.back()) continue;
-      html += html_figure(svg_plot(plots[name]),
-                          html_escaped(fmt::format("{}: {} by {}, means over {}, both axes logarithmic.",
-                                                   command, name, pool.names()[axis], pooled)));
+      html += html_figure(
+          svg_plot(plots[name]),
+          html_escaped(fmt::format("{}: {} by {}, means over {}, both axes logarithmic{}.", command, name,
+                                   pool.names()[axis], pooled, leaves_out ? ", values above 0 only" : "")));
     }
   }
   return html;
@@ -92,11 +97,11 @@ std::string sweep_page(const SweepPlan& plan, const CollectedSweep& collected, c
       collected.done == tasks ? " The sweep is complete."
                               : fmt::format(" {} failed, {} crashed, {} are missing.", collected.failed,
                                             collected.crashed, collected.missing));
-  std::vector<PooledFigure> figures = pool.figures();
-  std::erase_if(figures, [](const PooledFigure& figure) {
-    return std::ranges::all_of(figure.values, [](double value) { return value == 0; });
-  });
-  const auto shown = std::span(figures).first(std::min(most_rows, figures.size()));
+  std::vector<PooledFigure> shown;
+  for (const PooledFigure& figure : pool.figures())
+    if (shown.size() < most_rows &&
+        std::ranges::any_of(figure.values, [](double value) { return value != 0; }))
+      shown.push_back(figure);
   std::string pooled = pooled_table(pool.names()).html(shown);
   pooled += fmt::format("<p>{} of {} means; pooled.csv has all.</p>\n", shown.size(),
                         with_thousands(pool.figures().size()));
@@ -114,8 +119,9 @@ std::string sweep_page(const SweepPlan& plan, const CollectedSweep& collected, c
   page.body += html_section("Means", pooled);
   page.words = html_escaped(fmt::format(
       "Means pool the tasks that {}. Their 95% intervals are Student's, for "
-      "independent values; those of counts stay above 0.",
-      over.empty() ? "differ in nothing" : fmt::format("differ in {} only", fmt::join(over, ", "))));
+      "independent values; those of counts stay above 0. An interval takes {} values or more.",
+      over.empty() ? "differ in nothing" : fmt::format("differ in {} only", fmt::join(over, ", ")),
+      least_pooled));
   return html_page(page);
 }
 

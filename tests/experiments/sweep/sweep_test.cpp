@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -230,22 +231,40 @@ TEST(Sweep, IntervalsOfCountsStayAboveZero) {
   EXPECT_GT(figure.interval()->upper, figure.mean());
   figure.counts = false;
   EXPECT_LT(figure.interval()->lower, 0);
-  figure.values = {2, 2};
+  figure.values = {2, 2, 2};
   EXPECT_EQ(figure.interval()->lower, 2);
   figure.counts = true;
   EXPECT_FALSE(figure.interval());
+  EXPECT_EQ(figure.no_interval(), "all values are equal");
+}
+
+// Two counts would have an interval that reaches over many powers of ten.
+TEST(Sweep, IntervalsTakeThreeValues) {
+  PooledFigure figure;
+  figure.values = {300, 9000};
+  for (const bool counts : {true, false}) {
+    figure.counts = counts;
+    EXPECT_FALSE(figure.interval());
+    EXPECT_EQ(figure.no_interval(), "fewer than 3 values");
+  }
+  figure.counts = true;
+  figure.values.push_back(0);
+  ASSERT_TRUE(figure.interval());
+  EXPECT_EQ(figure.no_interval(), "");
+  EXPECT_LT(figure.interval()->upper / figure.mean(), 75);
 }
 
 // The twin: each task's own command, read by another JSON library.
 TEST(Sweep, CollectsWhatTheCommandsPrint) {
   const ScratchDirectory scratch;
-  scratch.file("a.xyz", chain(0.2));
-  scratch.file("b.xyz", chain(0.3));
-  scratch.file("s.json", R"({"inputs": ["a.xyz", "b.xyz"], "commands": [
+  for (const std::string seed : {"1", "2", "3"})
+    static_cast<void>(run_program({"generate", "random-chain", "--beads", "12", "--frames", "6", "--seed",
+                                   seed, "-o", scratch / (seed + ".xyz")}));
+  scratch.file("s.json", R"({"inputs": ["1.xyz", "2.xyz", "3.xyz"], "commands": [
       {"command": "run", "options": {"structures": "wrapped,power", "radius": [0.6, 0.9]}}]})");
   static_cast<void>(run_sweep(scratch));
   const Json all = collected(scratch);
-  ASSERT_EQ(all["rows"].size(), 8U);
+  ASSERT_EQ(all["rows"].size(), 12U);
   std::map<std::string, std::vector<double>> totals;
   for (const Json& row : all["rows"]) {
     const std::string structure = row["structure"], radius = row["radius"];
@@ -257,21 +276,32 @@ TEST(Sweep, CollectsWhatTheCommandsPrint) {
     EXPECT_FALSE(row.contains("seconds"));
     totals[structure + radius].push_back(row["events.total"]);
   }
-  std::size_t found = 0;
+  std::size_t found = 0, intervals = 0;
   for (const std::string& line : split(content_of(scratch / "out/pooled.csv"), '\n')) {
     if (line.find(",events.total,") == std::string::npos) continue;
     const std::vector<std::string> cells =
         split(line, ',');  // command, structures (quoted, 2), radius, row, ...
     ++found;
-    EXPECT_EQ(cells[6], "2") << line;
+    EXPECT_EQ(cells[6], "3") << line;
     const std::string structure = cells[4].substr(cells[4].find(' ') + 1);
     const std::vector<double>& values = totals.at(structure + cells[3]);
-    EXPECT_DOUBLE_EQ(std::stod(cells[7]), (values[0] + values[1]) / 2) << line;
-    if (values[0] != values[1]) {
-      EXPECT_GT(std::stod(cells[8]), 0) << line;
+    const double mean = (values[0] + values[1] + values[2]) / 3;
+    EXPECT_DOUBLE_EQ(std::stod(cells[7]), mean) << line;
+    double squares = 0;
+    for (const double value : values) squares += (value - mean) * (value - mean);
+    if (squares == 0) {
+      EXPECT_EQ(cells[8] + cells[9] + cells[10], "all values are equal") << line;
+      continue;
     }
+    ++intervals;
+    constexpr double student = 4.302652729749464;  // 97.5%, two degrees of freedom
+    const double factor = std::exp(student * std::sqrt(squares / 2 / 3) / mean);
+    EXPECT_NEAR(std::stod(cells[8]), mean / factor, 1e-9 * mean) << line;
+    EXPECT_NEAR(std::stod(cells[9]), mean * factor, 1e-9 * mean * factor) << line;
+    EXPECT_EQ(cells[10], "") << line;
   }
   EXPECT_EQ(found, 4U);
+  EXPECT_GE(intervals, 2U);
 }
 
 // Counts of segments add up to those of the uncut trajectory.
