@@ -18,6 +18,8 @@ constexpr std::size_t kSpareMinutes = 10;
 // The sweep stops this many seconds before the time limit.
 constexpr std::size_t kSecondsToStop = 120;
 
+constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20U;
+
 std::string sweep_words(const EngineRequest& request) {
   return fmt::format("{} sweep {} -o {} --jobs {}{}", shell_words({request.program.string()}),
                      shell_words({request.sweep.string()}), shell_words({request.folder.string()}),
@@ -29,6 +31,9 @@ std::string collect_words(const EngineRequest& request) {
                      shell_words({request.folder.string()}));
 }
 
+// Returns how many units hold this many bytes.
+std::uint64_t in_units(std::uint64_t bytes, std::uint64_t unit) { return (bytes + unit - 1) / unit; }
+
 // Slurm replaces % and a letter in the name of a log.
 std::string log_word(const EngineRequest& request, std::string_view name) {
   std::string path;
@@ -39,28 +44,38 @@ std::string log_word(const EngineRequest& request, std::string_view name) {
 std::string slurm_script(const EngineRequest& request) {
   const Batches batches = batches_of(request);
   const std::string log = log_word(request, "slurm-%A_%a.out");
+  const auto memory = batch_memory(request);
+  const std::string mem = memory ? fmt::format(" --mem={}M", in_units(*memory, kMebibyte)) : std::string();
   return fmt::format(
       R"(#!/bin/bash
 # Submits {tasks} tasks as an array of {batches} of about {minutes:.1f} minutes, and a job that collects their
 # results. Add what the cluster needs, such as --account or --partition, to both commands sbatch.
+# {about_memory}
 # A batch that nears its time limit stops with exit code 75. The cluster then requeues the batch if it has
 # RequeueExit=75 (scontrol show config). Otherwise submit this script again: only tasks without a result run.
 set -eu
-array=$(sbatch --parsable --array=1-{count} --cpus-per-task={jobs} --time={limit} --requeue --open-mode=append \
+array=$(sbatch --parsable --array=1-{count} --cpus-per-task={jobs}{mem} --time={limit} --requeue --open-mode=append \
   --signal=B:USR1@{stop} --job-name=kds-sweep --output={log} <<'BATCH'
 #!/bin/bash
 exec {sweep} --shard "$SLURM_ARRAY_TASK_ID/{count}" --time-budget {budget}
 BATCH
 )
-sbatch --parsable --dependency="afterany:${{array%%;*}}" --time=60 --job-name=kds-collect --output={collect_log} <<'COLLECT'
+sbatch --parsable --dependency="afterany:${{array%%;*}}"{mem} --time=60 --job-name=kds-collect --output={collect_log} <<'COLLECT'
 #!/bin/bash
 exec {collect}
 COLLECT
 )",
       fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("batches", batches_text(batches.count)),
       fmt::arg("count", batches.count), fmt::arg("minutes", batches.seconds / 60),
-      fmt::arg("jobs", request.jobs), fmt::arg("limit", batches.limit_minutes),
-      fmt::arg("stop", kSecondsToStop), fmt::arg("log", log), fmt::arg("sweep", sweep_words(request)),
+      fmt::arg("jobs", request.jobs), fmt::arg("mem", mem),
+      fmt::arg("about_memory",
+               memory
+                   ? fmt::format("--mem is the memory of {} by --task-memory, and that of the sweep itself.",
+                                 request.jobs == 1 ? "a task" : fmt::format("{} tasks", request.jobs))
+                   : "No memory is asked for, so that the cluster's default holds: add --mem, or write this "
+                     "script with --task-memory."),
+      fmt::arg("limit", batches.limit_minutes), fmt::arg("stop", kSecondsToStop), fmt::arg("log", log),
+      fmt::arg("sweep", sweep_words(request)),
       fmt::arg("budget", batches.limit_minutes * 60 - kSecondsToStop),
       fmt::arg("collect", collect_words(request)),
       fmt::arg("collect_log", log_word(request, "slurm-collect.out")));
@@ -98,6 +113,10 @@ std::string in_python(const std::string& shell) {
 
 std::string snakemake_script(const EngineRequest& request) {
   const Batches batches = batches_of(request);
+  const auto memory = batch_memory(request);
+  // Engines of Snakemake take mem_mb as 10^6 or as 2^20 bytes. The larger number is enough for both.
+  const std::string resources =
+      memory ? fmt::format("    resources: mem_mb={}\n", in_units(*memory, 1'000'000)) : std::string();
   return fmt::format(
       R"(# Runs {tasks} tasks in {batches}: snakemake -s {name} --cores all
 # The files of batches are temporary, so that each start visits all batches: kds knows which tasks have results.
@@ -109,13 +128,13 @@ rule collect:
 rule batch:
     output: temp(touch("batches/{{i}}"))
     threads: {jobs}
-    retries: 3
+{resources}    retries: 3
     shell: "{sweep} --quiet --shard {{wildcards.i}}/{count} || [ $? -eq 1 ]"
 )",
       fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("batches", batches_text(batches.count)),
       fmt::arg("count", batches.count), fmt::arg("name", script_name(SweepEngine::snakemake)),
       fmt::arg("collect", in_python(collect_words(request))), fmt::arg("jobs", request.jobs),
-      fmt::arg("sweep", in_python(sweep_words(request))));
+      fmt::arg("resources", resources), fmt::arg("sweep", in_python(sweep_words(request))));
 }
 
 }  // namespace
@@ -131,6 +150,12 @@ Batches batches_of(const EngineRequest& request) {
   const double longest = 2 * std::max(batches.seconds, request.longest);
   batches.limit_minutes = static_cast<std::size_t>(std::ceil(longest / 60)) + kSpareMinutes;
   return batches;
+}
+
+std::optional<std::uint64_t> batch_memory(const EngineRequest& request) {
+  if (!request.task_memory) return std::nullopt;
+  constexpr std::uint64_t own = 128 * kMebibyte, of_planned_task = 1024;
+  return request.jobs * *request.task_memory + own + of_planned_task * request.planned;
 }
 
 std::string batches_text(std::size_t count) {

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,12 +20,14 @@ inline constexpr std::array<std::string_view, 3> sweep_engine_names{"slurm", "pa
 
 /// Everything that a script depends on.
 struct EngineRequest {
-  std::filesystem::path program, sweep, folder;  ///< absolute paths
-  std::string options;                           ///< further options of kds sweep, quoted
-  std::size_t tasks = 0;
-  std::size_t jobs = 1;  ///< processor cores of a batch
-  double hours = 0;      ///< expected for all tasks on one core
-  double longest = 0;    ///< expected seconds of the longest task
+  std::filesystem::path program, sweep, folder;   ///< absolute paths
+  std::string options;                            ///< further options of kds sweep, quoted
+  std::size_t tasks = 0;                          ///< without a result
+  std::size_t planned = 0;                        ///< all tasks of the sweep
+  std::size_t jobs = 1;                           ///< tasks at a time, and processor cores, of a batch
+  std::optional<std::uint64_t> task_memory = {};  ///< --task-memory, in bytes
+  double hours = 0;                               ///< expected for all tasks on one core
+  double longest = 0;                             ///< expected seconds of the longest task
 };
 
 /// How tasks are divided: at most 1,000 batches, of about 15 minutes each if that many suffice.
@@ -33,6 +37,11 @@ struct Batches {
   std::size_t limit_minutes = 0;  ///< time limit of a batch
 };
 [[nodiscard]] Batches batches_of(const EngineRequest& request);
+
+/// Returns the bytes of memory that a batch asks its engine for, or nothing without --task-memory: the memory
+/// of `jobs` tasks, and for the sweep itself 128 MiB and 1 KiB for each planned task. A sweep of a million
+/// tasks takes half as much (docs/cluster.md).
+[[nodiscard]] std::optional<std::uint64_t> batch_memory(const EngineRequest& request);
 
 /// Returns a number of batches with its noun, as in "1 batch" or "1,000 batches".
 [[nodiscard]] std::string batches_text(std::size_t count);

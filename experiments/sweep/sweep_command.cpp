@@ -92,18 +92,17 @@ std::uint64_t parse_memory(const std::string& text) {
     shift = 10 * (static_cast<unsigned>(unit) + 1);
     digits.remove_suffix(1);
   }
+  constexpr std::uint64_t least = std::uint64_t{64} << 20U;  // below, no command starts
+  constexpr std::uint64_t most = std::uint64_t{64} << 40U;
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  const bool fits = error == std::errc() && end == digits.data() + digits.size() && number > 0 &&
-                    number <= (UINT64_MAX >> 2U) >> shift;
-  constexpr std::uint64_t least = std::uint64_t{64} << 20U;  // below, no command starts
+  const bool fits =
+      error == std::errc() && end == digits.data() + digits.size() && number > 0 && number <= most >> shift;
   if (!fits || number << shift < least)
     throw InputError(
-        fmt::format("--task-memory: '{}' is not a number of bytes with K, M, G or T, at least 64M", text));
+        fmt::format("--task-memory: '{}' is not a number of bytes with K, M, G or T, from 64M to 64T", text));
   return number << shift;
 }
-
-std::string memory_text(std::uint64_t bytes) { return std::to_string(bytes); }
 
 const OptionList<SweepOptions>& sweep_options() {
   using O = SweepOptions;
@@ -128,10 +127,11 @@ const OptionList<SweepOptions>& sweep_options() {
        flag_option("--retry", "run tasks again that failed or crashed", &O::retry),
        real_option({"--task-seconds", "S", "a task that takes longer fails (default: no limit)"},
                    &O::task_seconds, {0.01, 1e9}),
-       value_option(
-           {"--task-memory", "SIZE",
-            "a task that needs more memory fails: bytes, or with K, M, G or T, as in 4G (default: no limit)"},
-           &O::task_memory, parse_memory, memory_text),
+       value_option({"--task-memory", "SIZE",
+                     "a task that needs more memory fails: bytes, or with K, M, G or T, as in 4G; scripts of "
+                     "--write ask "
+                     "for this memory (default: no limit)"},
+                    &O::task_memory, parse_memory, [](std::uint64_t bytes) { return std::to_string(bytes); }),
        real_option({"--time-budget", "S",
                     "stop within S seconds, with exit code 75 if tasks are left (default: no limit)"},
                    &O::time_budget, {1, 1e9}),
@@ -251,12 +251,15 @@ void write_script(const fs::path& sweep, const SweepOptions& options, std::size_
   request.hours = sum_of_hours(estimates);
   for (const SweepEstimate& estimate : estimates) {
     request.tasks += estimate.open;
+    request.planned += estimate.tasks;
     request.longest = std::max(request.longest, estimate.longest);
   }
+  request.task_memory = options.task_memory;
   Arguments others;
   if (options.task_seconds)
     others.insert(others.end(), {"--task-seconds", fmt::format("{}", *options.task_seconds)});
-  if (options.task_memory) others.insert(others.end(), {"--task-memory", memory_text(*options.task_memory)});
+  if (options.task_memory)
+    others.insert(others.end(), {"--task-memory", std::to_string(*options.task_memory)});
   if (!others.empty()) request.options = shell_words(others);
   const SweepEngine engine = *options.write;
   AtomicFiles files;
@@ -268,7 +271,22 @@ void write_script(const fs::path& sweep, const SweepOptions& options, std::size_
                                  short_decimal(batches.seconds / 60));
   if (batches.seconds > longest_batch)
     text += "batches are longer than half an hour; --jobs with more cores of a node makes them shorter\n";
+  if (engine == SweepEngine::slurm && !options.task_memory)
+    text += "the script asks for no memory; with --task-memory SIZE it asks for that of its tasks\n";
   print_to_stdout(text + start_command(engine, request) + "\n");
+}
+
+// Returns why no script is written, if no task is open.
+std::string nothing_left(const SweepPlan& plan, const fs::path& sweep, const fs::path& folder) {
+  const SweepCount all = count_tasks(plan, folder).back();
+  if (all.done == all.tasks)
+    return fmt::format("all {} tasks have results, so there is no script to write; kds sweep collect {}\n",
+                       with_thousands(all.tasks), shell_words({folder.string()}));
+  return fmt::format(
+      "no task is left to run, so there is no script to write: {} of {} tasks have results, {} failed, {} "
+      "crashed; kds sweep {} --retry runs these again\n",
+      with_thousands(all.done), with_thousands(all.tasks), with_thousands(all.failed),
+      with_thousands(all.crashed), shell_words({sweep.string(), "-o", folder.string()}));
 }
 
 // Results are named by the content of inputs, so those of an input that is gone are found all the same.
@@ -415,6 +433,10 @@ int sweep_command(const Arguments& arguments) {
     }
     const std::vector<SweepEstimate> estimates =
         estimate_sweep(plan, hashes, options.out, options.retry, options.task_seconds, signals);
+    if (options.write && std::ranges::all_of(estimates, [](const auto& one) { return one.open == 0; })) {
+      print_to_stdout(nothing_left(plan, file, *options.out));
+      return 0;
+    }
     print_to_stdout(estimates_text(plan, estimates, jobs));
     if (options.write) write_script(file, options, jobs, estimates);
     return 0;

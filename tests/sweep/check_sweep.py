@@ -225,11 +225,11 @@ def twice():
     expect_equal(folder, expected)
 
 
-def write_script(engine, radii=(1, 1.5)):
+def write_script(engine, radii=(1, 1.5), more=()):
     sweep = write_sweep(radii=radii)
     expected = reference(sweep)
     folder = FOLDER / f"{engine}'s 100%j \"$HOME\" {{x}}"  # names that shells and engines must not interpret
-    run = kds("sweep", sweep, "-o", folder, "--write", engine)
+    run = kds("sweep", sweep, "-o", folder, "--write", engine, *more)
     return folder, expected, run.stdout.splitlines()[-1]
 
 
@@ -254,7 +254,8 @@ def slurm():
            for tool in ("slurmctld", "slurmd", "sbatch", "munged")) or os.geteuid() != 0:
         sys.exit(77)
     budget = os.environ.get("KDS_SWEEP_BUDGET")
-    folder, expected, command = write_script("slurm", [1 + k / 10 for k in range(12 if budget else 2)])
+    folder, expected, command = write_script("slurm", [1 + k / 10 for k in range(12 if budget else 2)],
+                                            ["--task-memory", "128M"])
     # Three batches, since short tasks need one only.
     script = folder / "slurm.sh"
     script.write_text(script.read_text().replace("--array=1-1 ", "--array=1-3 ").replace("ID/1\"", "ID/3\""))
@@ -280,6 +281,9 @@ def slurm():
         shares = [text for text in (path.read_text() for path in folder.glob("slurm-*_*.out")) if "of the shard" in text]
         print(f"{sum(text.count('stopped before the end') for text in shares)} batches were requeued")
         expect(len(shares) == 3, f"{len(shares)} batches reported, expected 3")
+        jobs = subprocess.run(["scontrol", "show", "job", "-o"], capture_output=True, text=True, env=environment).stdout
+        memory = re.findall("MinMemoryNode=([^ ]*)", jobs)
+        expect(memory == ["257M"] * 4, f"jobs were given the memory {memory}, expected 128 + 128 + 1 MiB each")
     finally:
         subprocess.run([cluster, "down", place], check=True, timeout=60)
     expect_equal(folder, expected)

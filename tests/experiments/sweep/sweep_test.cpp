@@ -26,6 +26,7 @@ namespace kds::test::sweep_test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using Json = nlohmann::ordered_json;
 
 std::string run_sweep(const ScratchDirectory& scratch, const std::vector<std::string>& more = {},
@@ -412,7 +413,7 @@ TEST(Sweep, RefusesWrongUsage) {
   EXPECT_THAT(jobs.err, HasSubstr("expected at most 16"));
   for (const char* shard : {"0/3", "4/3", "3", "a/b", "1/0"})
     expect_refused({"sweep", sweep, "-o", scratch / "o", "--shard", shard}, {"--shard", "is not I/N"});
-  for (const char* memory : {"0", "1G2", "10", "99999999T"})
+  for (const char* memory : {"0", "1G2", "10", "65T", "99999999999T"})
     expect_refused({"sweep", sweep, "-o", scratch / "o", "--task-memory", memory}, {"--task-memory", "64M"});
   expect_refused({"sweep", sweep, "-o", scratch / "o", "--write", "slrum"}, {"did you mean slurm?"});
   for (const std::vector<std::string>& options : {std::vector<std::string>{"--dry-run", "--write", "slurm"},
@@ -464,6 +465,47 @@ TEST(Sweep, BatchesAreAtMostAThousand) {
   EXPECT_THAT(engine_script(SweepEngine::snakemake, request), HasSubstr("-o '/50%a\\n' --jobs"));
   for (const SweepEngine engine : {SweepEngine::slurm, SweepEngine::parallel, SweepEngine::snakemake})
     EXPECT_THAT(engine_script(engine, request), HasSubstr("'/a folder/kds' sweep"));
+}
+
+// The default of a cluster may be too little memory for a task.
+TEST(Sweep, ScriptsAskForTheMemoryOfTheirTasks) {
+  EngineRequest request;
+  request.tasks = 5;
+  request.planned = 2048;  // 2 MiB of plan
+  request.jobs = 3;
+  EXPECT_THAT(engine_script(SweepEngine::slurm, request), Not(HasSubstr("--mem=")));
+  EXPECT_THAT(engine_script(SweepEngine::snakemake, request), Not(HasSubstr("mem_mb")));
+  request.task_memory = std::uint64_t{1} << 30U;
+  const std::string slurm = engine_script(SweepEngine::slurm, request);
+  EXPECT_THAT(slurm, HasSubstr("--cpus-per-task=3 --mem=3202M --time="));  // 3 * 1024 + 128 + 2
+  EXPECT_THAT(slurm, HasSubstr("--dependency=\"afterany:${array%%;*}\" --mem=3202M --time="));
+  EXPECT_THAT(engine_script(SweepEngine::snakemake, request), HasSubstr("    resources: mem_mb=3358\n"));
+  EXPECT_THAT(engine_script(SweepEngine::parallel, request), Not(HasSubstr("--mem")));
+}
+
+TEST(Sweep, WritesNoScriptIfNoTaskIsLeft) {
+  const ScratchDirectory scratch;
+  scratch.file("a.xyz", chain(0.2));
+  scratch.file("s.json",
+               R"({"inputs": ["a.xyz"], "commands": [{"command": "info", "options": {"radius": [1, 2]}}]})");
+  EXPECT_THAT(run_sweep(scratch, {"--write", "slurm"}), HasSubstr("the script asks for no memory"));
+  static_cast<void>(run_sweep(scratch, {"--write", "slurm", "--task-memory", "256M", "--jobs", "2"}));
+  EXPECT_THAT(content_of(scratch / "out/slurm.sh"), HasSubstr(" --mem=641M "));
+  std::filesystem::remove(scratch / "out/slurm.sh");
+  static_cast<void>(run_sweep(scratch));
+  const std::string all = run_sweep(scratch, {"--write", "slurm"});
+  EXPECT_THAT(all, testing::StartsWith(
+                       "all 2 tasks have results, so there is no script to write; kds sweep collect"));
+  EXPECT_EQ(std::ranges::count(all, '\n'), 1);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/slurm.sh"));
+
+  scratch.file("s.json", R"({"inputs": ["a.xyz", "none.xyz"], "commands": ["info"]})");
+  static_cast<void>(run_sweep(scratch, {}, 1));
+  EXPECT_THAT(
+      run_sweep(scratch, {"--write", "parallel"}),
+      HasSubstr("no task is left to run, so there is no script to write: 1 of 2 tasks have results, 1 "
+                "failed, 0 crashed; kds sweep"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/parallel.sh"));
 }
 
 }  // namespace
