@@ -1,28 +1,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <optional>
-#include <sstream>
-#include <thread>
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
-#include "experiments/program/option.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/sweep/collect_sweep.h"
 #include "experiments/sweep/engine_scripts.h"
 #include "experiments/sweep/estimate_sweep.h"
 #include "experiments/sweep/run_sweep.h"
+#include "experiments/sweep/sweep_folder.h"
+#include "experiments/sweep/sweep_options.h"
 #include "experiments/sweep/sweep_status.h"
 #include "motions/base/input_error.h"
 
@@ -54,190 +49,6 @@ constexpr CommandSpec kSweepCommand{
     "kds sweep sweep.json -o out --write slurm\n"
     "kds sweep collect out",
 };
-
-struct SweepOptions {
-  std::optional<fs::path> out;
-  bool dry_run = false, retry = false, quiet = false;
-  std::optional<Shard> shard;
-  std::optional<std::size_t> jobs;
-  std::optional<double> task_seconds, time_budget;
-  std::optional<std::uint64_t> task_memory;
-  std::optional<SweepEngine> write;
-};
-
-Shard parse_shard(const std::string& text) {
-  const auto refuse = [&] {
-    throw InputError(fmt::format("--shard: '{}' is not I/N, whole numbers from 1 with I at most N", text));
-  };
-  const std::size_t slash = text.find('/');
-  if (slash == std::string::npos) refuse();
-  constexpr std::uint64_t most = 1'000'000'000;
-  Shard shard;
-  try {
-    shard.number = parse_whole_number("--shard", std::string_view(text).substr(0, slash), 1, most);
-    shard.count = parse_whole_number("--shard", std::string_view(text).substr(slash + 1), 1, most);
-  } catch (const InputError&) {
-    refuse();
-  }
-  if (shard.number > shard.count) refuse();
-  return shard;
-}
-
-std::uint64_t parse_memory(const std::string& text) {
-  constexpr std::string_view units = "KMGT";
-  std::string_view digits(text);
-  unsigned shift = 0;
-  if (const std::size_t unit = text.empty() ? std::string::npos : units.find(text.back());
-      unit != std::string::npos) {
-    shift = 10 * (static_cast<unsigned>(unit) + 1);
-    digits.remove_suffix(1);
-  }
-  constexpr std::uint64_t least = std::uint64_t{64} << 20U;  // below, no command starts
-  constexpr std::uint64_t most = std::uint64_t{64} << 40U;
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  const bool fits =
-      error == std::errc() && end == digits.data() + digits.size() && number > 0 && number <= most >> shift;
-  if (!fits || number << shift < least)
-    throw InputError(
-        fmt::format("--task-memory: '{}' is not a number of bytes with K, M, G or T, from 64M to 64T", text));
-  return number << shift;
-}
-
-const OptionList<SweepOptions>& sweep_options() {
-  using O = SweepOptions;
-  static const auto list = OptionList<O>(
-      {path_option({"-o", "DIR", "folder of the sweep's results; required, except for --dry-run"}, &O::out),
-       flag_option(
-           "--dry-run",
-           "run nothing but one task of each command, and print how many tasks there are and how long "
-           "they may take",
-           &O::dry_run),
-       value_option(
-           {"--shard", "I/N",
-            "run tasks I, I + N, I + 2 N, ... only; I is from 1 to N (default: an element of a Slurm "
-            "array runs its share, otherwise all)"},
-           &O::shard, parse_shard,
-           [](const Shard& shard) { return fmt::format("{}/{}", shard.number, shard.count); }),
-       whole_option(
-           {"--jobs", "N",
-            "tasks to run at a time (default: SLURM_CPUS_PER_TASK if it is set, otherwise all cores; with "
-            "--write: 1)"},
-           &O::jobs, 1, 100'000),
-       flag_option("--retry", "run tasks again that failed or crashed", &O::retry),
-       real_option({"--task-seconds", "S", "a task that takes longer fails (default: no limit)"},
-                   &O::task_seconds, {0.01, 1e9}),
-       value_option({"--task-memory", "SIZE",
-                     "a task that needs more memory fails: bytes, or with K, M, G or T, as in 4G; scripts of "
-                     "--write ask "
-                     "for this memory (default: no limit)"},
-                    &O::task_memory, parse_memory, [](std::uint64_t bytes) { return std::to_string(bytes); }),
-       real_option({"--time-budget", "S",
-                    "stop within S seconds, with exit code 75 if tasks are left (default: no limit)"},
-                   &O::time_budget, {1, 1e9}),
-       choice_option(
-           {"--write", "ENGINE",
-            "write a script that runs the sweep by slurm, parallel (GNU parallel) or snakemake to DIR, and "
-            "run nothing but one task of each command"},
-           &O::write, sweep_engine_names),
-       flag_option("--quiet", "print no progress bar and no counts", &O::quiet)});
-  return list;
-}
-
-std::string text_of_file(const fs::path& path) {
-  std::error_code none;
-  if (!fs::exists(path, none)) throw InputError(path.string() + ": no such file");
-  if (fs::is_directory(path, none))
-    throw InputError(path.string() +
-                     ": is a directory, expected SWEEP.json; for its results use kds sweep status " +
-                     path.string());
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw InputError(path.string() + ": cannot be read");
-  return text.str();
-}
-
-// A folder keeps its sweep in plan.json, with the folder from which relative paths lead and the files that
-// patterns found.
-constexpr std::string_view kPlan = "plan.json";
-
-std::string plan_text(const Json& sweep, const fs::path& folder, const PatternFiles& files) {
-  if (!line_of(Json(folder.string())))
-    throw InputError(fmt::format(
-        "{}: the name of this folder is not UTF-8; expected the file of the sweep in another folder",
-        folder.string()));
-  return text_of({{"folder", folder.string()}, {"files", files.json()}, {"sweep", sweep}});
-}
-
-// Returns whether a folder holds nothing, or what a sweep makes before and with plan.json.
-bool is_new(const fs::path& folder) {
-  std::error_code error;
-  for (fs::directory_iterator file(folder, error), end; file != end && !error; file.increment(error)) {
-    const fs::path name = file->path().filename();
-    if (name != results_folder("").filename() && !name.string().starts_with(".kds-")) return false;
-  }
-  return true;
-}
-
-void check_folder(const fs::path& folder) {
-  std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-    throw InputError(fmt::format("-o {}: is a file, expected a directory", folder.string()));
-  if (!fs::exists(folder / kPlan, error) && !is_new(folder) && !fs::exists(folder / kPlan, error))
-    throw InputError(fmt::format(
-        "-o {}: holds other files and no sweep, expected a new folder or that of a sweep", folder.string()));
-}
-
-void prepare_folder(const fs::path& folder, const std::string& plan) {
-  std::error_code error;
-  fs::create_directories(results_folder(folder), error);
-  if (error) throw InputError(fmt::format("-o {}: {}", folder.string(), error.message()));
-  if (fs::exists(folder / kPlan, error) && text_of_file(folder / kPlan) == plan) return;
-  AtomicFiles files;
-  files.write(folder / kPlan, plan);
-  commit_together({&files});
-}
-
-// Refuses options of a run beside --dry-run and --write, which run no sweep.
-void refuse_conflicts(const ParsedArguments& parsed) {
-  const auto refuse = [&](std::string_view option, std::string_view other) {
-    if (parsed.has(option) && parsed.has(other))
-      throw InputError(fmt::format("{}: has no meaning beside {}; expected one of the two", option, other));
-  };
-  refuse("--dry-run", "--write");
-  for (const std::string_view other : {"--dry-run", "--write"})
-    for (const std::string_view option : {"--shard", "--time-budget"}) refuse(option, other);
-  refuse("--retry", "--write");
-}
-
-Shard shard_of(const SweepOptions& options) {
-  if (options.shard) return *options.shard;
-  if (options.write || options.dry_run) return {};
-  const auto from_slurm = [](const char* name) -> std::optional<std::uint64_t> {
-    const char* const text = std::getenv(name);
-    if (text == nullptr) return std::nullopt;
-    return parse_whole_number(name, text, 0, 1'000'000'000);
-  };
-  const auto id = from_slurm("SLURM_ARRAY_TASK_ID"), count = from_slurm("SLURM_ARRAY_TASK_COUNT");
-  if (!id || !count) return {};
-  const std::uint64_t first = from_slurm("SLURM_ARRAY_TASK_MIN").value_or(1);
-  const std::uint64_t step = std::max<std::uint64_t>(from_slurm("SLURM_ARRAY_TASK_STEP").value_or(1), 1);
-  if (*id < first || (*id - first) % step != 0 || (*id - first) / step >= *count)
-    throw InputError(
-        fmt::format("SLURM_ARRAY_TASK_ID {} is not one of {} numbers from {} on with step {}, so its share "
-                    "is unknown; expected --shard I/N",
-                    *id, *count, first, step));
-  return {(*id - first) / step + 1, *count};
-}
-
-std::size_t jobs_of(const SweepOptions& options) {
-  if (options.jobs) return *options.jobs;
-  if (options.write) return 1;
-  if (const char* const cpus = std::getenv("SLURM_CPUS_PER_TASK"); cpus != nullptr)
-    return parse_whole_number("SLURM_CPUS_PER_TASK", cpus, 1, 100'000);
-  return std::max(std::thread::hardware_concurrency(), 1U);
-}
 
 void write_script(const fs::path& sweep, const SweepOptions& options, std::size_t jobs,
                   const std::vector<SweepEstimate>& estimates) {
@@ -302,19 +113,12 @@ void warn_of_gone(const InputHashes& hashes) {
 
 // `kds sweep status DIR` and `kds sweep collect DIR`.
 int look_at(const std::string& what, const fs::path& folder) {
-  std::error_code none;
-  if (!fs::exists(folder / kPlan, none))
-    throw InputError(fmt::format("{}: is no folder of a sweep (it has no {})", folder.string(), kPlan));
-  const std::string subject = (folder / kPlan).string();
-  const Json plan_json = read_json(text_of_file(folder / kPlan), subject);
-  const Json *const from = plan_json.find("folder"), *const sweep = plan_json.find("sweep");
-  if (from == nullptr || from->text() == nullptr || sweep == nullptr)
-    throw InputError(subject + ": expected the keys folder and sweep; run kds sweep SWEEP.json -o DIR again");
+  const KeptPlan kept = kept_plan(folder);
   InputHashes hashes([] { return false; });
   hashes.load(folder);
-  const Json* const files = plan_json.find("files");
-  PatternFiles found_before(files != nullptr ? *files : Json());
-  const SweepPlan plan(read_sweep(*sweep, *from->text(), found_before, subject), hashes, subject);
+  PatternFiles found_before(kept.files);
+  const SweepPlan plan(read_sweep(kept.sweep, kept.relative, found_before, kept.subject), hashes,
+                       kept.subject);
   warn_of_gone(hashes);
   if (what == "status") {
     print_to_stdout(status_text(count_tasks(plan, folder)));
@@ -395,7 +199,7 @@ int sweep_command(const Arguments& arguments) {
   std::optional<TaskLauncher> launcher;
   if (runs) launcher.emplace();  // before the plan takes memory
   const fs::path file = operands[0];
-  const Json sweep = read_json(text_of_file(file), file.string());
+  const Json sweep = read_json(text_of_sweep(file), file.string());
   const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
   PatternFiles found_files;
   SweepSpec spec = read_sweep(sweep, folder, found_files, file.string());
@@ -409,7 +213,7 @@ int sweep_command(const Arguments& arguments) {
           jobs, most));
     jobs = most;
   }
-  if (options.out && !options.dry_run) check_folder(*options.out);
+  if (options.out && !options.dry_run) check_sweep_folder(*options.out);
   StopSignals signals;
   try {
     InputHashes hashes([&signals] { return signals.stopped(); });
@@ -417,7 +221,7 @@ int sweep_command(const Arguments& arguments) {
     const SweepPlan plan(std::move(spec), hashes, file.string());
     warn_of_gone(hashes);
     if (options.out && !options.dry_run) {
-      prepare_folder(*options.out, plan_text(sweep, folder, found_files));
+      keep_plan(*options.out, sweep, folder, found_files);
       hashes.save(*options.out);
     }
     if (runs) {
