@@ -32,13 +32,15 @@ struct CommandSpec {
 /// Thrown if --help is given. main prints the text and exits with 0. `kds sweep` asks each command for its
 /// help to learn the command's operand and options, and which values they take.
 struct HelpRequest {
-  using Check = std::function<void(std::string_view option, const std::vector<std::string>& values)>;
+  using Check = std::function<std::string(std::string_view option, const std::vector<std::string>& values)>;
 
   std::string text;
   std::string operand = {};              ///< empty if the command takes none
   std::vector<OptionSpec> options = {};  ///< refer to texts that live as long as the command's option list
-  /// Throws the command's own InputError if the option, which has its dashes, cannot take these values. All
-  /// other options have their defaults. Null if the command does not use parse_for.
+  /// Returns these values of an option, which has its dashes, as the command's settings show them; values of
+  /// an option that is no setting are joined as they are. Throws the command's own InputError if the option
+  /// cannot take the values. All other options have their defaults. Null if the command does not use
+  /// parse_for.
   Check check = {};
 };
 

@@ -30,6 +30,7 @@
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/result_json.h"
+#include "experiments/output/text.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/option_values.h"
 
@@ -110,11 +111,17 @@ class OptionList {
       if (parsed.has(option.spec.name)) read_values_of(option, parsed.values(option.spec.name), options);
   }
 
-  /// Reads one option, named with its dashes. Does nothing if there is none. `values` has one text for each
-  /// value, and one empty text for a flag.
-  void read_one(std::string_view name, const std::vector<std::string>& values, Options& options) const {
-    for (const auto& option : options_)
-      if (option.spec.name == name) read_values_of(option, values, options);
+  /// Reads one option, named with its dashes, and returns its setting. `values` has one text for each value,
+  /// and one empty text for a flag. Returns the values as they are if the option is no setting, or if there
+  /// is none.
+  std::string read_one(std::string_view name, const std::vector<std::string>& values,
+                       Options& options) const {
+    for (const auto& option : options_) {
+      if (option.spec.name != name) continue;
+      read_values_of(option, values, options);
+      if (option.text) return option.text(options);
+    }
+    return shell_words(values);
   }
 
   /// Returns the name (without dashes) and the text of each setting. The text is empty if the setting has no
@@ -202,7 +209,7 @@ template <class Options>
   } catch (HelpRequest& help) {
     help.check = [list, defaults](std::string_view option, const std::vector<std::string>& values) {
       Options options = defaults;
-      list.read_one(option, values, options);
+      return list.read_one(option, values, options);
     };
     throw;
   }

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <optional>
-#include <set>
+#include <charconv>
+#include <map>
 
 #include "experiments/output/text.h"
 #include "experiments/program/option_values.h"
@@ -36,13 +35,12 @@ std::string with_absolute_files(const std::string& option, const std::string& wo
   return fmt::format("{}", fmt::join(files, ","));
 }
 
-// Returns the words of a value such that equal numbers, as in 2 and 2.0, have equal words. A number of 2^53
-// or more keeps its digits, because a double does not tell it from its neighbours.
-std::vector<std::string> words_to_compare(const Json& json, const AxisValue& value) {
-  constexpr double whole_numbers_end = 0x1p53;
-  const std::optional<double> number = json.number();
-  if (!number || std::abs(*number) >= whole_numbers_end) return value.words;
-  return {fmt::format("{}", *number)};
+// Returns the setting of a value as the command shows it. --radius shows a number as it is written.
+std::string setting_of(const std::string& option, const std::string& shown) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(shown.data(), shown.data() + shown.size(), number);
+  const bool is_number = error == std::errc() && end == shown.data() + shown.size();
+  return option == "radius" && is_number ? fmt::format("{}", number) : shown;
 }
 
 }  // namespace
@@ -70,6 +68,7 @@ AxisValue read_value(const SweptCommand& command, const std::string& name, const
     value.text = scalar_text(json, where);
     const auto stride = parse_whole_number(where, value.text, 1, 1'000'000'000);
     value.words = {std::to_string(stride)};
+    value.setting = value.words.front();
     return value;
   }
   const SweptCommand::Option& option = *command.find(name);
@@ -94,7 +93,7 @@ AxisValue read_value(const SweptCommand& command, const std::string& name, const
     if (word.empty() || word.starts_with("--"))
       throw InputError(
           fmt::format("{}: --{} cannot take '{}'; null leaves the option out", where, name, word));
-  command.check_values(name, value.words, where);
+  value.setting = setting_of(name, command.setting(name, value.words, where));
   return value;
 }
 
@@ -111,12 +110,16 @@ Axis read_axis(const SweptCommand& command, const std::string& key, const Json& 
     return axis;
   }
   if (items->empty()) throw InputError(where + ": has no value; expected at least one");
-  std::set<std::pair<bool, std::vector<std::string>>> listed;
+  std::map<std::pair<bool, std::string>, std::string> listed;
   for (const Json& item : *items) {
     axis.values.push_back(read_value(command, axis.name, item, folder, where));
     const AxisValue& value = axis.values.back();
-    if (!listed.emplace(value.given, words_to_compare(item, value)).second)
+    const auto [earlier, is_new] = listed.emplace(std::pair(value.given, value.setting), value.text);
+    if (is_new) continue;
+    if (value.text == earlier->second)
       throw InputError(fmt::format("{}: value '{}' is listed twice", where, value.text));
+    throw InputError(fmt::format("{}: values '{}' and '{}' are the same setting; expected it once", where,
+                                 earlier->second, value.text));
   }
   return axis;
 }

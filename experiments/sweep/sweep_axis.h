@@ -14,8 +14,9 @@ namespace kds {
 /// The setting of one option: the words that follow the option on the command line. A flag has no words.
 struct AxisValue {
   std::vector<std::string> words;
-  bool given = true;  ///< false if the option is left out
-  std::string text;   ///< for tables
+  bool given = true;         ///< false if the option is left out
+  std::string text;          ///< for tables
+  std::string setting = {};  ///< equal for values that are the same setting, as 2 and "2.0"
 };
 
 /// An option and the values that it takes in turn.
@@ -33,8 +34,8 @@ struct Axis {
 /// InputError, which begins with `where`, if the option cannot take the value.
 [[nodiscard]] AxisValue read_value(const SweptCommand& command, const std::string& option, const Json& json,
                                    const std::filesystem::path& folder, const std::string& where);
-/// Reads a value or an array of values. Throws like read_value and known_option, and if a value is listed
-/// twice.
+/// Reads a value or an array of values. Throws like read_value and known_option, and if two values are the
+/// same setting.
 [[nodiscard]] Axis read_axis(const SweptCommand& command, const std::string& key, const Json& json,
                              const std::filesystem::path& folder, const std::string& where);
 

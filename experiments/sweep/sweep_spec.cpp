@@ -174,7 +174,8 @@ void add_seeds(const Json& json, std::vector<SweepBlock>& blocks, const std::str
     for (const Axis& axis : block.axes)
       if (axis.name == "seed")
         throw InputError(where + ": an option seed of a command says the seeds too; expected one of the two");
-    for (const AxisValue& seed : seeds.values) block.command->check_values("seed", seed.words, where);
+    for (const AxisValue& seed : seeds.values)
+      static_cast<void>(block.command->setting("seed", seed.words, where));
     block.axes.push_back(seeds);
     used = true;
   }

@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 
+#include "experiments/output/text.h"
 #include "experiments/program/commands.h"
 #include "experiments/program/option_values.h"
 #include "motions/base/input_error.h"
@@ -66,11 +67,11 @@ const SweptCommand::Option* SweptCommand::find(std::string_view option) const {
   return found == options.end() ? nullptr : &*found;
 }
 
-void SweptCommand::check_values(const std::string& option, const std::vector<std::string>& values,
-                                const std::string& where) const {
-  if (!check || find(option) == nullptr) return;
+std::string SweptCommand::setting(const std::string& option, const std::vector<std::string>& values,
+                                  const std::string& where) const {
+  if (!check || find(option) == nullptr) return shell_words(values);
   try {
-    check("--" + option, values);
+    return check("--" + option, values);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", where, error.what()));
   }

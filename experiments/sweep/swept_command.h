@@ -23,10 +23,11 @@ struct SweptCommand {
   HelpRequest::Check check;
 
   [[nodiscard]] const Option* find(std::string_view option) const;
-  /// Throws the command's own InputError, after `where`, if the option cannot take these values. Values that
+  /// Returns these values of an option as the command shows its settings: equal settings have equal texts.
+  /// Throws the command's own InputError, after `where`, if the option cannot take the values. Values that
   /// depend on the content of an input or on other options are not checked.
-  void check_values(const std::string& option, const std::vector<std::string>& values,
-                    const std::string& where) const;
+  [[nodiscard]] std::string setting(const std::string& option, const std::vector<std::string>& values,
+                                    const std::string& where) const;
 };
 
 /// Returns a command by its name, as its own help describes it. Throws InputError if there is no such command

@@ -57,7 +57,12 @@ TEST(SweepSpec, RefusesMistakesWithTheKeyAndTheNearestName) {
       {command(R"("options": {"certify": 1})"), {"--certify takes no value; expected true or false"}},
       {command(R"("options": {"motion": []})"), {"motion: has no value"}},
       {command(R"("options": {"motion": ["linear", "linear"]})"), {"'linear' is listed twice"}},
-      {command(R"("options": {"radius": [2, 2.0]})"), {"radius: value '2.0' is listed twice"}},
+      {command(R"("options": {"radius": [2, 2.0]})"), {"radius: values '2' and '2.0' are the same setting"}},
+      {command(R"("options": {"radius": [2, "2.0"]})"),
+       {"values '2' and '2.0' are the same setting; expected it once"}},
+      {command(R"("options": {"cutoff": [null, "10", 1e1]})"),
+       {"cutoff: values '10' and '10.0' are the same"}},
+      {command(R"("options": {"structures": ["power,wrapped", "wrapped,power"]})"), {"are the same setting"}},
       {command(R"("options": {"stride": 0})"), {"'0' is not a whole number from 1"}},
       {command(R"("options": {"stride": 2, "frames": "0:9:2"})"), {"expected FIRST:LAST beside"}},
       {command(R"("options": {"groups": ["A"]})"), {"--groups takes 2 values"}},
@@ -127,6 +132,34 @@ TEST(SweepSpec, RefusesValuesThatNoTaskCanTake) {
        "frames": ["::2", ":9"], "levels": "2:", "select": "ca", "threads": 2}},
       {"command": "theorems", "options": {"beads": 5000}}], "seeds": [0, 7]})"),
             "accepted");
+}
+
+// Values that are different settings must not be taken for the same. Numbers that are names stay names.
+TEST(SweepSpec, TellsDifferentSettingsApart) {
+  const std::vector<std::string> samples{"1",       "2",      "3.5",    "0:5",  "0:6",     "A",    "B",
+                                         "1,2",     "1,3",    "2:3",    "2:4",  "0.1r",    "0.2r", "power",
+                                         "wrapped", "linear", "lifted", "auto", "element", "ca",   "cb"};
+  std::size_t accepted = 0;
+  for (const std::string& name : swept_commands()) {
+    const SweptCommand& command = swept_command(name, "");
+    for (const SweptCommand::Option& option : command.options) {
+      std::set<std::string> settings;
+      std::size_t values = 0;
+      for (const std::string& sample : samples) try {
+          settings.insert(command.setting(option.name, std::vector<std::string>(option.count, sample), ""));
+          ++values;
+        } catch (const InputError&) {
+        }
+      if (option.value.empty()) continue;  // a flag
+      EXPECT_EQ(settings.size(), values) << name << " --" << option.name;
+      accepted += values;
+    }
+  }
+  EXPECT_GT(accepted, 300U);
+  EXPECT_EQ(
+      refusal(
+          R"({"inputs": ["a.pdb"], "commands": [{"command": "run", "options": {"chain": ["1", "01"]}}]})"),
+      "accepted");
 }
 
 // A new option that names a file must be known to the sweep, which hashes such files or sets the option
