@@ -45,6 +45,8 @@ class InputHashes {
   [[nodiscard]] std::uint64_t bytes(const std::string& file) const;
   /// Returns the files that cannot be read and have a remembered hash, in the order of their paths.
   [[nodiscard]] std::vector<std::string> gone() const;
+  /// Returns whether an earlier sweep in this folder read the file.
+  [[nodiscard]] bool remembers(const std::string& file) const { return earlier_.contains(file); }
   [[nodiscard]] bool is_gone(const std::string& file) const { return gone_.contains(file); }
   /// Returns whether a file has another content than when its hash was asked for, or has come or gone since.
   /// Reads a file whose inode, size or times differ.

@@ -21,18 +21,26 @@ namespace {
 constexpr std::array<std::string_view, 2> kFileOptions{"topology", "obstacle"};
 constexpr std::string_view kRadiusFile = "file:";
 
-// Makes the files of a value absolute, since tasks run in any folder.
-std::string with_absolute_files(const std::string& option, const std::string& word, const fs::path& folder) {
-  if (option == "radius" && word.starts_with(kRadiusFile) && word != kRadiusFile)
-    return std::string(kRadiusFile) + in_folder(folder, word.substr(kRadiusFile.size())).string();
-  if (std::ranges::find(kFileOptions, option) == kFileOptions.end()) return word;
-  std::error_code none;
-  if (fs::exists(in_folder(folder, word), none))
-    return in_folder(folder, word).string();  // commas in its name
-  std::vector<std::string> files;
-  for (const std::string& file : split(word, ','))
-    files.push_back(file.empty() ? file : in_folder(folder, file).string());
-  return fmt::format("{}", fmt::join(files, ","));
+// Sets the words and the files of a value. Files become absolute, since tasks run in any folder.
+void set_words(const std::string& option, const std::string& word, const fs::path& folder,
+               const PatternFiles& known, AxisValue& value) {
+  value.words = {word};
+  if (option == "radius" && word.starts_with(kRadiusFile) && word != kRadiusFile) {
+    value.files = {in_folder(folder, word.substr(kRadiusFile.size())).string()};
+    value.words = {std::string(kRadiusFile) + value.files.front()};
+  }
+  if (std::ranges::find(kFileOptions, option) == kFileOptions.end() || word.empty()) return;
+  const std::string whole = in_folder(folder, word).string();
+  if (known.is_file(whole)) {  // its name may have commas
+    value.words = value.files = {whole};
+    return;
+  }
+  std::vector<std::string> items;
+  for (const std::string& item : split(word, ',')) {
+    items.push_back(item.empty() ? item : in_folder(folder, item).string());
+    if (!item.empty()) value.files.push_back(items.back());
+  }
+  value.words = {fmt::format("{}", fmt::join(items, ","))};
 }
 
 // Returns the setting of a value as the command shows it. --radius shows a number as it is written.
@@ -53,12 +61,13 @@ std::string scalar_text(const Json& value, const std::string& where) {
   throw InputError(fmt::format("{}: expected a text or a number", where));
 }
 
-fs::path in_folder(const fs::path& folder, const std::string& path) {
-  return (folder / path).lexically_normal();  // an absolute path replaces the folder
+bool AxisValue::lists_files() const {
+  return !files.empty() && words.front() != files.front() &&
+         words.front() != std::string(kRadiusFile) + files.front();
 }
 
 AxisValue read_value(const SweptCommand& command, const std::string& name, const Json& json,
-                     const fs::path& folder, const std::string& where) {
+                     const fs::path& folder, const PatternFiles& files, const std::string& where) {
   AxisValue value;
   if (json.is_null()) {
     value.given = false;
@@ -81,7 +90,7 @@ AxisValue read_value(const SweptCommand& command, const std::string& name, const
   }
   if (option.count == 1) {
     value.text = scalar_text(json, where);
-    value.words = {with_absolute_files(name, value.text, folder)};
+    set_words(name, value.text, folder, files, value);
   } else {
     if (json.items() == nullptr || json.items()->size() != option.count)
       throw InputError(fmt::format("{}: --{} takes {} values; expected an array of {} texts", where, name,
@@ -99,20 +108,20 @@ AxisValue read_value(const SweptCommand& command, const std::string& name, const
 
 // An array lists the values of an axis. For an option with several values, each item is an array itself.
 Axis read_axis(const SweptCommand& command, const std::string& key, const Json& json, const fs::path& folder,
-               const std::string& where) {
+               const PatternFiles& files, const std::string& where) {
   Axis axis{known_option(command, key, where), {}};
   const SweptCommand::Option* const option = command.find(axis.name);
   const Json::Items* const items = json.items();
   const bool one_of_several = option != nullptr && option->count > 1 && items != nullptr &&
                               (items->empty() || items->front().items() == nullptr);
   if (items == nullptr || one_of_several) {
-    axis.values = {read_value(command, axis.name, json, folder, where)};
+    axis.values = {read_value(command, axis.name, json, folder, files, where)};
     return axis;
   }
   if (items->empty()) throw InputError(where + ": has no value; expected at least one");
   std::map<std::pair<bool, std::string>, std::string> listed;
   for (const Json& item : *items) {
-    axis.values.push_back(read_value(command, axis.name, item, folder, where));
+    axis.values.push_back(read_value(command, axis.name, item, folder, files, where));
     const AxisValue& value = axis.values.back();
     const auto [earlier, is_new] = listed.emplace(std::pair(value.given, value.setting), value.text);
     if (is_new) continue;
@@ -122,19 +131,6 @@ Axis read_axis(const SweptCommand& command, const std::string& key, const Json& 
                                  earlier->second, value.text));
   }
   return axis;
-}
-
-std::vector<std::string> files_of_value(const std::string& option, const AxisValue& value) {
-  std::vector<std::string> files;
-  if (!value.given || value.words.empty()) return files;
-  const std::string& word = value.words.front();
-  if (option == "radius" && word.starts_with(kRadiusFile)) files.push_back(word.substr(kRadiusFile.size()));
-  if (std::ranges::find(kFileOptions, option) == kFileOptions.end()) return files;
-  std::error_code none;
-  if (fs::exists(word, none)) return {word};
-  for (std::string& file : split(word, ','))
-    if (!file.empty()) files.push_back(std::move(file));
-  return files;
 }
 
 }  // namespace kds

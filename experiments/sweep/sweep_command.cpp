@@ -116,7 +116,7 @@ int look_at(const std::string& what, const fs::path& folder) {
   const KeptPlan kept = kept_plan(folder);
   InputHashes hashes([] { return false; });
   hashes.load(folder);
-  PatternFiles found_before(kept.files);
+  PatternFiles found_before(hashes, kept.files);
   const SweepPlan plan(read_sweep(kept.sweep, kept.relative, found_before, kept.subject), hashes,
                        kept.subject);
   warn_of_gone(hashes);
@@ -201,7 +201,10 @@ int sweep_command(const Arguments& arguments) {
   const fs::path file = operands[0];
   const Json sweep = read_json(text_of_sweep(file), file.string());
   const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
-  PatternFiles found_files;
+  StopSignals signals;
+  InputHashes hashes([&signals] { return signals.stopped(); });
+  if (options.out) hashes.load(*options.out);
+  PatternFiles found_files(hashes);
   SweepSpec spec = read_sweep(sweep, folder, found_files, file.string());
   const Shard shard = shard_of(options);
   std::size_t jobs = jobs_of(options);
@@ -214,10 +217,7 @@ int sweep_command(const Arguments& arguments) {
     jobs = most;
   }
   if (options.out && !options.dry_run) check_sweep_folder(*options.out);
-  StopSignals signals;
   try {
-    InputHashes hashes([&signals] { return signals.stopped(); });
-    if (options.out) hashes.load(*options.out);
     const SweepPlan plan(std::move(spec), hashes, file.string());
     warn_of_gone(hashes);
     if (options.out && !options.dry_run) {

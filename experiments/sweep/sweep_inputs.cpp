@@ -2,11 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <glob.h>
-
-#include <algorithm>
-#include <memory>
-#include <set>
 
 #include "motions/base/input_error.h"
 
@@ -15,29 +10,6 @@ namespace kds {
 namespace fs = std::filesystem;
 
 namespace {
-
-// Returns a pattern that matches the path only.
-fs::path as_pattern(const fs::path& path) {
-  std::string pattern;
-  for (const char c : path.string()) {
-    if (std::string_view("*?[\\").find(c) != std::string_view::npos) pattern += '\\';
-    pattern += c;
-  }
-  return pattern;
-}
-
-std::set<std::string> matching_files(const std::string& pattern, const fs::path& folder,
-                                     const std::string& where) {
-  if (pattern.find("**") != std::string::npos)
-    throw InputError(fmt::format(
-        "{}: '{}': ** is not supported; expected one pattern for each depth of folders", where, pattern));
-  glob_t found{};
-  const int failed = ::glob(in_folder(as_pattern(folder), pattern).c_str(), 0, nullptr, &found);
-  const std::unique_ptr<glob_t, decltype(&::globfree)> owner(&found, &::globfree);
-  if (failed == GLOB_NOMATCH) return {};
-  if (failed != 0) throw InputError(fmt::format("{}: cannot list the files of '{}'", where, pattern));
-  return {found.gl_pathv, found.gl_pathv + found.gl_pathc};
-}
 
 // Returns the path as sweep.json would give it.
 std::string short_name(const fs::path& file, const fs::path& folder) {
@@ -59,7 +31,8 @@ std::vector<SweepInput> inputs_from(const SweptCommand& command, const Json& ite
       const std::string name = known_option(command, key, where);
       for (const auto& [other, its_value] : options)
         if (other == name) throw InputError(fmt::format("{}: option {} is listed twice", where, name));
-      options.emplace_back(name, read_value(command, name, value, folder, fmt::format("{}: {}", where, key)));
+      options.emplace_back(
+          name, read_value(command, name, value, folder, patterns, fmt::format("{}: {}", where, key)));
     }
   }
   std::vector<SweepInput> inputs;
@@ -85,43 +58,6 @@ std::vector<SweepInput> inputs_from(const SweptCommand& command, const Json& ite
 }
 
 }  // namespace
-
-PatternFiles::PatternFiles(const Json& remembered) {
-  if (remembered.members() == nullptr) return;
-  for (const auto& [pattern, files] : *remembered.members()) {
-    if (files.items() == nullptr) continue;
-    for (const Json& file : *files.items())
-      if (file.text() != nullptr) remembered_[pattern].push_back(*file.text());
-  }
-}
-
-std::vector<std::string> PatternFiles::of(const std::string& pattern, const fs::path& folder,
-                                          const std::string& where) {
-  const fs::path whole = in_folder(folder, pattern);
-  if (pattern.find_first_of("*?[") == std::string::npos) return {whole.string()};
-  std::error_code none;
-  std::set<std::string> files;
-  if (const auto earlier = remembered_.find(pattern); earlier != remembered_.end())
-    files = {earlier->second.begin(), earlier->second.end()};
-  if (fs::exists(whole, none))
-    files.insert(whole.string());
-  else if (files != std::set{whole.string()})  // a file of this name that is gone
-    files.merge(matching_files(pattern, folder, where));
-  if (files.empty())
-    throw InputError(fmt::format("{}: no file matches '{}' in {}", where, pattern, folder.string()));
-  return found_[pattern] = {files.begin(), files.end()};
-}
-
-Json PatternFiles::json() const {
-  Json all = Json::object();
-  for (const auto& [pattern, files] : found_) {
-    Json names = Json::array();
-    for (const std::string& file : files)
-      if (line_of(Json(file))) names.push_back(file);
-    all[pattern] = std::move(names);
-  }
-  return all;
-}
 
 std::vector<SweepInput> read_inputs(const SweptCommand& command, const Json& json, const fs::path& folder,
                                     PatternFiles& files, const std::string& where) {

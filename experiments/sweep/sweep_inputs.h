@@ -2,12 +2,12 @@
 // The inputs of a sweep: files, patterns of files, and options that hold for one input only.
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "experiments/output/result_json.h"
+#include "experiments/sweep/pattern_files.h"
 #include "experiments/sweep/sweep_axis.h"
 #include "experiments/sweep/swept_command.h"
 
@@ -19,26 +19,6 @@ struct SweepInput {
                                    ///< and its options if several inputs are the same file
   std::vector<std::string> files;  ///< absolute paths
   std::vector<std::pair<std::string, AxisValue>> options;  ///< that hold for this input only
-};
-
-/// Lists the files of patterns. A sweep's folder remembers them, so that results of files that have been
-/// removed since can be collected.
-class PatternFiles {
- public:
-  PatternFiles() = default;
-  /// `remembered` is the JSON of an earlier object. Files of that object are listed too, even if they are
-  /// gone.
-  explicit PatternFiles(const Json& remembered);
-
-  /// Returns absolute paths in the order of their bytes. A path without *, ? and [, or of a file that exists,
-  /// is no pattern. Throws InputError if a pattern matches no file.
-  [[nodiscard]] std::vector<std::string> of(const std::string& pattern, const std::filesystem::path& folder,
-                                            const std::string& where);
-  /// Returns the files of each pattern, apart from names that are not UTF-8.
-  [[nodiscard]] Json json() const;
-
- private:
-  std::map<std::string, std::vector<std::string>> remembered_, found_;
 };
 
 /// Reads an input or an array of inputs. Relative paths are relative to `folder`. Throws InputError, which

@@ -106,7 +106,7 @@ void SweepPlan::add_segments(const SweepTask& whole, InputHashes& hashes) {
     append(reading, option, value->words);
     key.add(option);
     for (const std::string& word : value->words) key.add(word);
-    for (const std::string& file : files_of_value(option, *value)) key.add(hex_digits(hashes.hash(file)));
+    for (const std::string& file : value->files) key.add(hex_digits(hashes.hash(file)));
   }
   append(reading, "frames", {range + ":" + stride});
   key.add(range + ":" + stride);
@@ -231,12 +231,11 @@ TaskName SweepPlan::name_of(const SweepTask& task, InputHashes& hashes) const {
   for (const auto& [option, value] : options_of(task)) {
     if (!value->given) continue;
     name.add(option);
-    const std::vector<std::string> files = files_of_value(option, *value);
-    for (const std::string& file : files) add_file(name, file, hashes);
-    if (files.empty())
+    for (const std::string& file : value->files) add_file(name, file, hashes);
+    if (value->files.empty())
       for (const std::string& word : value->words) name.add(word);
     else
-      name.add(shape_of(value->words.front()));
+      name.add(value->lists_files() ? shape_of(value->words.front()) : "+");
   }
   name.add(stride_of(*this, task));
   name.add(task.segments > 1 ? fmt::format("{} {} {}", task.first_frame, task.last_frame, task.radius) : "");
@@ -258,7 +257,7 @@ void SweepPlan::refuse_equal_names(const std::string& subject) const {
     const auto settings = [&](const SweepTask& one) {
       std::string text = block(one).command->name + " " + stride_of(*this, one);
       for (const auto& [option, value] : options_of(one))
-        if (value->given && files_of_value(option, *value).empty())
+        if (value->given && value->files.empty())
           text += fmt::format(" {} {}", option, fmt::join(value->words, " "));
       return fmt::format("{} {} {} {}", text, input(one).files.size(), one.first_frame, one.last_frame);
     };
@@ -271,10 +270,8 @@ void SweepPlan::refuse_equal_names(const std::string& subject) const {
 
 std::vector<std::string> SweepPlan::files(const SweepTask& task) const {
   std::vector<std::string> files = input(task).files;
-  for (const auto& [option, value] : options_of(task)) {
-    const std::vector<std::string> named = files_of_value(option, *value);
-    files.insert(files.end(), named.begin(), named.end());
-  }
+  for (const auto& [option, value] : options_of(task))
+    files.insert(files.end(), value->files.begin(), value->files.end());
   return files;
 }
 

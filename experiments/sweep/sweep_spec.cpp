@@ -131,7 +131,7 @@ SweepBlock read_block(const Json& json, const Json* shared_inputs, const fs::pat
       throw InputError(fmt::format("{}: options: expected an object with options of kds {} as keys", where,
                                    block.command->name));
     for (const auto& [key, value] : *options->members()) {
-      Axis axis = read_axis(*block.command, key, value, folder, fmt::format("{}: {}", where, key));
+      Axis axis = read_axis(*block.command, key, value, folder, files, fmt::format("{}: {}", where, key));
       for (const Axis& other : block.axes)
         if (other.name == axis.name)
           throw InputError(fmt::format("{}: option {} is listed twice", where, axis.name));

@@ -143,6 +143,30 @@ TEST(Sweep, CollectsResultsOfInputsThatAreGone) {
   EXPECT_EQ(content_of(scratch / "out/results.csv"), before);
 }
 
+// A topology whose name has a comma is one file, also after it is gone.
+TEST(Sweep, KnowsATopologyWithACommaThatIsGone) {
+  const ScratchDirectory scratch;
+  const std::string topology = scratch / "1,l2y.pdb", away = scratch / "away";
+  std::filesystem::copy_file(data_file("proteins/1l2y.pdb"), topology);
+  scratch.file("s.json", R"({"inputs": {"file": ")" + data_file("trajectories/1l2y.dcd") +
+                             R"(", "topology": "1,l2y.pdb"}, "commands": [
+      {"command": "info", "options": {"frames": ["0:2", "900:"]}}]})");
+  static_cast<void>(run_sweep(scratch, {}, 1));
+  static_cast<void>(collected(scratch, 1));
+  const std::string results = content_of(scratch / "out/results.csv"),
+                    failed = content_of(scratch / "out/failed.csv");
+  EXPECT_THAT(failed, HasSubstr("--topology " + shell_words({topology})));
+  std::filesystem::rename(topology, away);
+  const ProgramRun collect = run_program({"sweep", "collect", scratch / "out"});
+  EXPECT_THAT(collect.out, HasSubstr("1 of 2 tasks have results"));
+  EXPECT_THAT(collect.err, HasSubstr(topology + ": cannot be read any more"));
+  EXPECT_EQ(content_of(scratch / "out/results.csv"), results);
+  EXPECT_EQ(content_of(scratch / "out/failed.csv"), failed);
+  EXPECT_THAT(run_sweep(scratch, {"--retry"}, 1), HasSubstr("1 wait for inputs"));
+  std::filesystem::rename(away, topology);
+  EXPECT_THAT(run_sweep(scratch, {}, 1), HasSubstr("1 of 2 tasks have results, 1 failed"));
+}
+
 // Tasks have the name of the content, which does not fail because the file is away for a while.
 TEST(Sweep, TasksWaitForInputsThatAreGone) {
   const ScratchDirectory scratch;
