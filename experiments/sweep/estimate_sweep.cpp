@@ -7,6 +7,7 @@
 #include "experiments/output/page/table.h"
 #include "experiments/output/text.h"
 #include "experiments/sweep/run_sweep.h"
+#include "experiments/sweep/swept_task.h"
 
 namespace kds {
 

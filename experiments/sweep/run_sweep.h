@@ -48,19 +48,6 @@ struct SweepOutcome {
 [[nodiscard]] std::filesystem::path results_folder(const std::filesystem::path& sweep);
 [[nodiscard]] std::filesystem::path locks_file(const std::filesystem::path& sweep);
 
-/// Returns the arguments of a task with those that make the program print JSON only, on one thread.
-[[nodiscard]] Arguments task_arguments(const SweepPlan& plan, const SweepTask& task);
-
-/// The times of one task that was run to estimate others. `error` is its message if it failed.
-struct TrialRun {
-  double seconds = 0;
-  bool cut_off = false;  ///< ended at the limit
-  std::string error;
-};
-/// Runs a task without recording it.
-[[nodiscard]] TrialRun try_task(const SweepPlan& plan, const SweepTask& task, double most_seconds,
-                                StopSignals& signals);
-
 /// Runs all tasks of the shard that have no result. Waits for tasks that another sweep is running. After a
 /// signal or at the end of the budget, running tasks get a few seconds to end, then they are dropped. Throws
 /// OutputError if the journal cannot be written. A result that finds no room leaves its task open, and so

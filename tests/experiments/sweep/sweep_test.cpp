@@ -17,6 +17,7 @@
 #include "experiments/sweep/pooled_figures.h"
 #include "experiments/sweep/result_rows.h"
 #include "experiments/sweep/run_sweep.h"
+#include "experiments/sweep/swept_task.h"
 #include "tests/experiments/expect_refused.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
