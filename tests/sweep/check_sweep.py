@@ -244,7 +244,7 @@ def parallel():
 def snakemake():
     if shutil.which("snakemake") is None:
         sys.exit(77)
-    folder, expected, command = write_script("snakemake")
+    folder, expected, command = write_script("snakemake", more=["--task-memory", "128M"])
     subprocess.run(command, shell=True, check=True, timeout=DEADLINE, capture_output=True)
     expect_equal(folder, expected)
 
