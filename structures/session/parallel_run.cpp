@@ -27,18 +27,21 @@ namespace {
 constexpr std::size_t least_steps_of_part = 4, least_bead_steps_of_part = 10'000;
 // Longer parts keep more frames and events in memory.
 constexpr std::size_t most_steps_of_part = 512, most_coordinates_of_part = std::size_t{1} << 22U;
+constexpr std::size_t parts_per_thread = 8;
 constexpr std::chrono::milliseconds between_asks{20};
 
 /// Ends the parts under way when the run ends early.
 struct RunHasEnded {};
 
-/// Returns the number of steps of a part that begins `left` steps before the end. The parts become shorter
-/// towards the end, so that all threads end at about the same time.
+/// Returns the number of steps of a part that begins `left` steps before the end. The last parts become
+/// shorter, so that all threads end at about the same time.
 std::size_t length_of_part(const Scene& scene, std::size_t left, std::size_t threads) {
   const std::size_t beads = std::max<std::size_t>(1, scene.bead_count());
+  const std::size_t least = least_steps_of_thread(beads);
   const std::size_t most =
-      std::min(most_steps_of_part, std::max<std::size_t>(1, most_coordinates_of_part / (3 * beads)));
-  return std::min(left, std::clamp(left / (2 * threads), std::min(least_steps_of_thread(beads), most), most));
+      std::min({most_steps_of_part, std::max<std::size_t>(1, most_coordinates_of_part / (3 * beads)),
+                std::max(4 * least, scene.step_count() / (parts_per_thread * threads))});
+  return std::min(left, std::clamp(left / threads, std::min(least, most), most));
 }
 
 void add_counts(const StructureStatistics& part, StructureStatistics& sum) {

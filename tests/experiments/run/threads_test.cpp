@@ -117,9 +117,9 @@ TEST_F(Threads, HintsAtThreadsThatShortRunsDoNotTake) {
                                "--threads", "64", "--json", "-", "--quiet"});
   ASSERT_EQ(done.code, 0) << done.err;
   const std::string taken = Json::parse(done.out).at("engine").at("threads").dump();
-  EXPECT_EQ(taken, "2");
+  EXPECT_EQ(taken, "4");
   EXPECT_THAT(done.err, HasSubstr("--threads 64: the run takes " + taken +
-                                  ", because 3 threads need at least 3,000 steps and it has 2,099"));
+                                  ", because 5 threads need at least 2,500 steps and it has 2,099"));
   for (const std::vector<std::string>& command : {std::vector<std::string>{"contacts", "--cutoff", "2"},
                                                   {"compare", "--structures", "wrapped", "--rounds", "1"},
                                                   {"trade", "--want", "contacts", "--rounds", "1"}}) {
@@ -129,7 +129,7 @@ TEST_F(Threads, HintsAtThreadsThatShortRunsDoNotTake) {
     EXPECT_EQ(few.code, 0) << few.err;
     EXPECT_THAT(
         few.err,
-        HasSubstr("--threads 2: the run takes 1, because 2 threads need at least 2,000 steps and it has 8"))
+        HasSubstr("--threads 2: the run takes 1, because 2 threads need at least 1,000 steps and it has 8"))
         << command.front();
     arguments.resize(arguments.size() - 2);
     EXPECT_THAT(run(arguments).err, Not(HasSubstr("--threads"))) << command.front();
