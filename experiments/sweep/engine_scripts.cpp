@@ -83,17 +83,19 @@ COLLECT
 
 std::string parallel_script(const EngineRequest& request) {
   const Batches batches = batches_of(request);
+  const std::string cores = request.jobs == 1 ? "each core" : fmt::format("each {} cores", request.jobs);
   return fmt::format(
       R"(#!/bin/bash
-# Runs {tasks} tasks in {batches} by GNU parallel, as many batches at a time as this machine has cores. For other
+# Runs {tasks} tasks in {batches} by GNU parallel, one batch at a time for {cores} of this machine. For other
 # machines that share this folder, add --sshlogin HOSTS. Run it again to continue: only tasks without a result run.
 set -u
-seq {count} | parallel --quote --jobs 100% {sweep} --quiet --shard {{}}/{count} || true  # collect says what is missing
+seq {count} | parallel --quote --jobs {percent}% {sweep} --quiet --shard {{}}/{count} || true  # collect says what is missing
 exec {collect}
 )",
       fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("batches", batches_text(batches.count)),
-      fmt::arg("count", batches.count), fmt::arg("sweep", sweep_words(request)),
-      fmt::arg("collect", collect_words(request)));
+      fmt::arg("cores", cores), fmt::arg("count", batches.count),
+      fmt::arg("percent", std::max<std::size_t>(100 / request.jobs, 1)),
+      fmt::arg("sweep", sweep_words(request)), fmt::arg("collect", collect_words(request)));
 }
 
 // In a Snakefile, braces of shell commands are doubled, and backslashes, quotes and line breaks of Python

@@ -508,6 +508,17 @@ TEST(Sweep, ScriptsAskForTheMemoryOfTheirTasks) {
   EXPECT_THAT(engine_script(SweepEngine::parallel, request), Not(HasSubstr("--mem")));
 }
 
+// Batches of several tasks at a time must not have more tasks than the machine has cores.
+TEST(Sweep, GnuParallelDividesTheCoresByTheJobsOfABatch) {
+  EngineRequest request;
+  request.tasks = 100;
+  EXPECT_THAT(engine_script(SweepEngine::parallel, request), HasSubstr(" --jobs 100% "));
+  request.jobs = 4;
+  EXPECT_THAT(engine_script(SweepEngine::parallel, request), HasSubstr(" --jobs 25% "));
+  request.jobs = 1000;
+  EXPECT_THAT(engine_script(SweepEngine::parallel, request), HasSubstr(" --jobs 1% "));
+}
+
 TEST(Sweep, WritesNoScriptIfNoTaskIsLeft) {
   const ScratchDirectory scratch;
   scratch.file("a.xyz", chain(0.2));
