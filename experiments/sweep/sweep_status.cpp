@@ -42,11 +42,7 @@ Table<SweepCount> count_table() {
        .format = shortly},
       {.key = "left",
        .heading = "core hours left",
-       .value =
-           [](const R& r) {
-             const auto left = static_cast<double>(r.open + r.running);
-             return r.done > 0 ? Field(r.seconds / static_cast<double>(r.done) * left / 3600) : Field();
-           },
+       .value = [](const R& r) { return r.hours_left ? Field(*r.hours_left) : Field(); },
        .format = shortly},
   }};
 }
@@ -124,6 +120,14 @@ std::vector<SweepCount> counts_from(const SweepPlan& plan, const TaskStates& sta
       else
         ++one->open;
     }
+  }
+  all.hours_left = 0;
+  for (SweepCount& count : counts) {
+    const auto left = static_cast<double>(count.open + count.running);
+    if (count.done > 0) count.hours_left = count.seconds / static_cast<double>(count.done) * left / 3600;
+    if (left == 0) count.hours_left = 0;
+    all.hours_left = all.hours_left && count.hours_left ? std::optional(*all.hours_left + *count.hours_left)
+                                                        : std::nullopt;
   }
   counts.push_back(std::move(all));
   return counts;

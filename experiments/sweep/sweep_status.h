@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ struct SweepCount {
   std::string command;
   std::size_t tasks = 0, done = 0, failed = 0, crashed = 0, running = 0, open = 0;
   double seconds = 0;  ///< of the tasks that are done
+  /// Expected for the tasks that run or are open, from the mean of those of the same command that are done.
+  /// Nothing if none of a command is done.
+  std::optional<double> hours_left = {};
 };
 /// Counts the tasks by command, in the order of sweep.json. The last count is that of all tasks.
 [[nodiscard]] std::vector<SweepCount> count_tasks(const SweepPlan& plan, const std::filesystem::path& folder);

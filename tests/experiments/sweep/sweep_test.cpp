@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "experiments/sweep/pooled_figures.h"
 #include "experiments/sweep/result_rows.h"
 #include "experiments/sweep/run_sweep.h"
+#include "experiments/sweep/sweep_status.h"
 #include "experiments/sweep/swept_task.h"
 #include "tests/experiments/expect_refused.h"
 #include "tests/experiments/run_program.h"
@@ -453,6 +455,27 @@ TEST(Sweep, RefusesWrongUsage) {
       scratch.file("none.json", R"({"commands": ["stability"], "exclude": [{"command": "*"}]})");
   expect_refused({"sweep", none, "-o", scratch / "o"}, {"exclude leaves no task"});
   EXPECT_FALSE(std::filesystem::exists(scratch / "o"));  // a sweep that is refused leaves no plan
+}
+
+// Tasks of one command say nothing about the time of another's.
+TEST(Sweep, HoursLeftAreThoseOfEachCommand) {
+  const ScratchDirectory scratch;
+  const std::string text = R"({"inputs": ["a.xyz"], "commands": [
+      {"command": "info", "options": {"radius": [1, 2, 3]}}, {"command": "run", "options": {"radius": [1, 2]}}]})";
+  PatternFiles files;
+  InputHashes hashes([] { return false; });
+  const SweepPlan plan(read_sweep(read_json(text, "s.json"), "/nowhere", files, "s.json"), hashes, "s.json");
+  std::filesystem::create_directory(results_folder(scratch.path()));
+  JournalWriter journal(results_folder(scratch.path()));
+  const auto hours_left = [&] {
+    std::vector<std::optional<double>> hours;
+    for (const SweepCount& count : count_tasks(plan, scratch.path())) hours.push_back(count.hours_left);
+    return hours;
+  };
+  ASSERT_TRUE(journal.add(RecordKind::done, plan.tasks()[0].name, R"({"seconds":3600})"));
+  EXPECT_THAT(hours_left(), testing::ElementsAre(2, std::nullopt, std::nullopt));
+  ASSERT_TRUE(journal.add(RecordKind::done, plan.tasks()[3].name, R"({"seconds":36000})"));
+  EXPECT_THAT(hours_left(), testing::ElementsAre(2, 10, 12));
 }
 
 TEST(Sweep, TellsTimesFromFigures) {
