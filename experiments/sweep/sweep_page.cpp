@@ -5,30 +5,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
+#include <string_view>
 
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/page/table.h"
 #include "experiments/output/text.h"
+#include "motions/base/text_input.h"
 
 namespace kds {
 
 namespace {
 
+// Returns whether a row tells a value of an axis: "structure power" tells power of --structures.
+bool tells(const std::string& row, const std::string& axis, const std::string& value) {
+  return std::ranges::any_of(split(row, ','), [&](const std::string& part) {
+    const std::string_view words = trimmed(part);
+    const std::size_t blank = words.find(' ');
+    return axis.starts_with(words.substr(0, blank)) && blank != std::string::npos &&
+           words.substr(blank + 1) == value;
+  });
+}
+
 // Plots the figures of a command over its first axis with several numbers, one plot for each of the first
 // measures. Axes of one value do not name series. `pooled` says over what the means are.
 std::string plots_of(const PooledFigures& pool, const std::string& command, const std::string& pooled) {
   constexpr std::size_t most_plots = 4, most_series = 12;
-  const auto number_of = [](const std::string& text) -> std::optional<double> {
-    char* end = nullptr;
-    const double number = std::strtod(text.c_str(), &end);
-    return !text.empty() && *end == '\0' && std::isfinite(number) ? std::optional(number) : std::nullopt;
-  };
   std::vector<const PooledFigure*> figures;
   std::vector<std::set<std::string>> values(pool.names().size());
   for (const PooledFigure& figure : pool.figures()) {
@@ -40,12 +45,16 @@ std::string plots_of(const PooledFigures& pool, const std::string& command, cons
   for (std::size_t axis = 0; axis < pool.names().size() && html.empty(); ++axis) {
     std::map<std::string, PointPlot> plots;  // by measure
     std::vector<std::string> order;
-    bool leaves_out = false;  // values that have no place on a logarithmic axis
+    std::set<std::string> above_zero_only;  // measures with values that have no place on a logarithmic axis
+    std::set<std::string> cut_off;          // measures with more series than a plot shows
     for (const PooledFigure* figure : figures) {
-      const auto x = number_of(figure->of->axes[axis]);
-      leaves_out = leaves_out || (x && *x <= 0);
-      if (!x || *x <= 0 || !(figure->mean() > 0)) continue;
+      const auto x = parse_double(figure->of->axes[axis]);
+      if (!x || !std::isfinite(*x)) continue;
       const std::string& name = figure->measure;
+      if (*x <= 0 || !(figure->mean() > 0)) {
+        above_zero_only.insert(name);
+        continue;
+      }
       if (!plots.contains(name)) {
         if (order.size() == most_plots) continue;
         order.push_back(name);
@@ -56,11 +65,14 @@ std::string plots_of(const PooledFigures& pool, const std::string& command, cons
       const auto& [of_command, row, texts] = *figure->of;
       std::string series = row;
       for (std::size_t k = 0; k < texts.size(); ++k)
-        if (k != axis && values[k].size() > 1 && !texts[k].empty() && row.find(texts[k]) == std::string::npos)
+        if (k != axis && values[k].size() > 1 && !texts[k].empty() && !tells(row, pool.names()[k], texts[k]))
           series += (series.empty() ? "" : ", ") + texts[k];
       auto found = std::ranges::find(plot.series, series);
       if (found == plot.series.end()) {
-        if (plot.series.size() == most_series) continue;
+        if (plot.series.size() == most_series) {
+          cut_off.insert(name);
+          continue;
+        }
         plot.series.push_back(series);
         found = plot.series.end() - 1;
       }
@@ -73,8 +85,10 @@ std::string plots_of(const PooledFigures& pool, const std::string& command, cons
       if (places.empty() || places.front() == places.back()) continue;
       html += html_figure(
           svg_plot(plots[name]),
-          html_escaped(fmt::format("{}: {} by {}, means over {}, both axes logarithmic{}.", command, name,
-                                   pool.names()[axis], pooled, leaves_out ? ", values above 0 only" : "")));
+          html_escaped(fmt::format(
+              "{}: {} by {}, means over {}, both axes logarithmic{}{}.", command, name, pool.names()[axis],
+              pooled, above_zero_only.contains(name) ? ", values above 0 only" : "",
+              cut_off.contains(name) ? fmt::format(", the first {} series only", most_series) : "")));
     }
   }
   return html;

@@ -18,6 +18,7 @@
 #include "experiments/sweep/pooled_figures.h"
 #include "experiments/sweep/result_rows.h"
 #include "experiments/sweep/run_sweep.h"
+#include "experiments/sweep/sweep_page.h"
 #include "experiments/sweep/sweep_status.h"
 #include "experiments/sweep/swept_task.h"
 #include "tests/experiments/expect_refused.h"
@@ -455,6 +456,33 @@ TEST(Sweep, RefusesWrongUsage) {
       scratch.file("none.json", R"({"commands": ["stability"], "exclude": [{"command": "*"}]})");
   expect_refused({"sweep", none, "-o", scratch / "o"}, {"exclude leaves no task"});
   EXPECT_FALSE(std::filesystem::exists(scratch / "o"));  // a sweep that is refused leaves no plan
+}
+
+// "stride 16" says neither a radius of 1 nor one of 6, so these are two series. A plot says what it leaves
+// out.
+TEST(Sweep, PlotsNameTheirSeriesAndWhatTheyLeaveOut) {
+  std::string apart = "1, 6";
+  for (int k = 7; k < 17; ++k) apart += ", " + std::to_string(k);
+  for (const bool too_many : {false, true}) {
+    const std::string text = R"({"inputs": ["a.xyz"], "commands": [{"command": "run", "options": {
+        "radius": [2, 4], "apart": [)" +
+                             apart + (too_many ? ", 17" : "") + "]}}]}";
+    PatternFiles files;
+    InputHashes hashes([] { return false; });
+    const SweepPlan plan(read_sweep(read_json(text, "s.json"), "/nowhere", files, "s.json"), hashes,
+                         "s.json");
+    PooledFigures pool(plan);
+    for (const SweepTask& task : plan.tasks())
+      pool.add(task, {{{{"stride", std::uint64_t{16}}, {"events", std::uint64_t{too_many ? 5U : 0U}}}, {}},
+                      {{{"stride", std::uint64_t{16}}, {"events", std::uint64_t{5}}}, {}}});
+    SweepCount count;
+    count.command = "run";
+    const std::string page = sweep_page(plan, {}, pool, {}, {count}, "");
+    expect_sound(page);
+    EXPECT_THAT(page, testing::AllOf(HasSubstr("stride 16, 1<"), HasSubstr("stride 16, 6<")));
+    EXPECT_EQ(page.find("values above 0 only") != std::string::npos, !too_many);
+    EXPECT_EQ(page.find("the first 12 series only") != std::string::npos, too_many);
+  }
 }
 
 // Tasks of one command say nothing about the time of another's.
