@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <map>
 
 #include "experiments/output/text.h"
 #include "experiments/program/option_values.h"
 #include "motions/base/input_error.h"
+#include "motions/base/text_input.h"
 
 namespace kds {
 
@@ -45,10 +45,8 @@ void set_words(const std::string& option, const std::string& word, const fs::pat
 
 // Returns the setting of a value as the command shows it. --radius shows a number as it is written.
 std::string setting_of(const std::string& option, const std::string& shown) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(shown.data(), shown.data() + shown.size(), number);
-  const bool is_number = error == std::errc() && end == shown.data() + shown.size();
-  return option == "radius" && is_number ? fmt::format("{}", number) : shown;
+  const auto number = parse_double(shown);
+  return option == "radius" && number ? fmt::format("{}", *number) : shown;
 }
 
 }  // namespace

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <string>
 #include <string_view>
-#include <thread>
 
 #include "motions/base/input_error.h"
+#include "motions/base/text_input.h"
+#include "structures/session/parallel_run.h"
 
 namespace kds {
 
@@ -44,14 +44,11 @@ std::uint64_t parse_memory(const std::string& text) {
   }
   constexpr std::uint64_t least = std::uint64_t{64} << 20U;  // below, no command starts
   constexpr std::uint64_t most = std::uint64_t{64} << 40U;
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  const bool fits =
-      error == std::errc() && end == digits.data() + digits.size() && number > 0 && number <= most >> shift;
-  if (!fits || number << shift < least)
+  const auto number = parse_count(digits);
+  if (!number || *number > most >> shift || *number << shift < least)
     throw InputError(
         fmt::format("--task-memory: '{}' is not a number of bytes with K, M, G or T, from 64M to 64T", text));
-  return number << shift;
+  return *number << shift;
 }
 
 }  // namespace
@@ -132,7 +129,7 @@ std::size_t jobs_of(const SweepOptions& options) {
   if (options.write) return 1;
   if (const char* const cpus = std::getenv("SLURM_CPUS_PER_TASK"); cpus != nullptr)
     return parse_whole_number("SLURM_CPUS_PER_TASK", cpus, 1, 100'000);
-  return std::max(std::thread::hardware_concurrency(), 1U);
+  return all_threads();
 }
 
 }  // namespace kds

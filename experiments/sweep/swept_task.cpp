@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <optional>
@@ -55,9 +54,7 @@ bool sets_threads(const SweepPlan& plan, const SweepTask& task) {
 
 Arguments task_arguments(const SweepPlan& plan, const SweepTask& task) {
   Arguments arguments = plan.arguments(task);
-  const SweptCommand& command = *plan.block(task).command;
-  constexpr std::string_view threads = "threads";
-  if (command.find(threads) != nullptr && std::ranges::find(arguments, "--threads") == arguments.end())
+  if (plan.block(task).command->find("threads") != nullptr && !sets_threads(plan, task))
     for (const char* word : {"--threads", "1"}) arguments.emplace_back(word);
   for (const char* word : {"--quiet", "--json", "-"}) arguments.emplace_back(word);
   return arguments;

@@ -1,5 +1,6 @@
 #pragma once
-// One task of a sweep: its arguments, the texts of its end, and a trial that estimates how long others take.
+// One task of a sweep: its arguments, the messages with which it ends, and a trial that estimates how long
+// other tasks take.
 
 #include <string>
 #include <string_view>
@@ -12,7 +13,7 @@ namespace kds {
 
 /// Returns the arguments of a task with those that make the program print JSON only, on one thread.
 [[nodiscard]] Arguments task_arguments(const SweepPlan& plan, const SweepTask& task);
-/// Returns whether the sweep says the number of threads of this task.
+/// Returns whether the sweep sets the number of threads of this task.
 [[nodiscard]] bool sets_threads(const SweepPlan& plan, const SweepTask& task);
 
 /// Returns JSON on one line. A line break of indented JSON is never inside a string.
