@@ -17,10 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string_view> views_of(const std::vector<std::string>& names) {
-  return {names.begin(), names.end()};
-}
-
 void check_keys(const Json& object, const std::string& where, std::initializer_list<std::string_view> known) {
   if (object.members() == nullptr)
     throw InputError(fmt::format("{}: expected an object with the keys {}", where, fmt::join(known, ", ")));
@@ -35,8 +31,7 @@ std::size_t read_whole(const Json& json, const std::string& where, std::size_t m
   return parse_whole_number(where, line_of(json).value_or("?"), 1, most);
 }
 
-// Steps are cut from one another only where the motion of a step and the events in it depend on that step
-// alone.
+// A trajectory is cut only if the motion of a step and the events in it depend on that step alone.
 void refuse_segments(const SweepBlock& block, const std::string& where) {
   if (block.command->name != "run")
     throw InputError(
@@ -45,8 +40,11 @@ void refuse_segments(const SweepBlock& block, const std::string& where) {
                     where, block.command->name));
   const auto refuse = [&](const std::string& option, const AxisValue& value) {
     if (!value.given) return;
+    if (option == "rounds")
+      throw InputError(where +
+                       ": median times of --rounds do not add up over segments; expected no "
+                       "segment_steps beside it");
     const bool cuttable = option != "tolerance" && option != "certify" && option != "relax" &&
-                          option != "log" && option != "rounds" &&
                           !(option == "motion" && value.text == "hermite");
     if (!cuttable)
       throw InputError(
@@ -194,7 +192,7 @@ void check_axis_name(const std::string& name, const std::vector<std::string>& na
                      const std::string& where) {
   if (std::ranges::find(names, name) == names.end())
     throw InputError(fmt::format("{}: '{}' is no axis of this sweep, expected one of {}{}", where, name,
-                                 fmt::join(names, ", "), suggestion(name, views_of(names))));
+                                 fmt::join(names, ", "), nearest_of(name, names)));
 }
 
 }  // namespace

@@ -56,11 +56,11 @@ const std::vector<SweptCommand>& all_swept() {
   return all;
 }
 
+}  // namespace
+
 std::string nearest_of(const std::string& name, const std::vector<std::string>& names) {
   return suggestion(name, std::vector<std::string_view>(names.begin(), names.end()));
 }
-
-}  // namespace
 
 const SweptCommand::Option* SweptCommand::find(std::string_view option) const {
   const auto found = std::ranges::find(options, option, &Option::name);

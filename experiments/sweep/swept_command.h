@@ -23,9 +23,9 @@ struct SweptCommand {
   HelpRequest::Check check;
 
   [[nodiscard]] const Option* find(std::string_view option) const;
-  /// Returns these values of an option as the command shows its settings: equal settings have equal texts.
-  /// Throws the command's own InputError, after `where`, if the option cannot take the values. Values that
-  /// depend on the content of an input or on other options are not checked.
+  /// Returns these values of an option as the command shows its settings. Throws the command's own
+  /// InputError, after `where`, if the option cannot take the values. Values that depend on the content of an
+  /// input or on other options are not checked.
   [[nodiscard]] std::string setting(const std::string& option, const std::vector<std::string>& values,
                                     const std::string& where) const;
 };
@@ -39,6 +39,8 @@ struct SweptCommand {
 /// An axis of every command that has --frames.
 inline constexpr std::string_view stride_axis = "stride";
 
+/// Returns ", did you mean NAME?", or "" if no name is near.
+[[nodiscard]] std::string nearest_of(const std::string& name, const std::vector<std::string>& names);
 /// Returns the name of an option without its dashes.
 [[nodiscard]] std::string without_dashes(std::string_view option);
 /// Returns the name of an option of the command, or `stride`, without dashes. Throws InputError if the

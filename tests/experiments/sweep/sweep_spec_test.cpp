@@ -70,6 +70,8 @@ TEST(SweepSpec, RefusesMistakesWithTheKeyAndTheNearestName) {
       {command(R"("segment_steps": 5, "options": {"motion": "hermite"})"),
        {"--motion hermite", "no segment_steps"}},
       {command(R"("segment_steps": 5, "options": {"relax": 0.1})"), {"--relax 0.1", "no segment_steps"}},
+      {command(R"("segment_steps": 5, "options": {"rounds": 3})"),
+       {"median times of --rounds do not add up"}},
       {R"({"inputs": ["a.pdb"], "commands": [{"command": "contacts", "segment_steps": 5}]})",
        {"results of kds contacts are not sums over steps"}},
       {R"({"inputs": ["no*.pdb"], "commands": ["run"]})", {"s.json: inputs[0]: no file matches 'no*.pdb'"}},
