@@ -89,7 +89,9 @@ std::string parallel_script(const EngineRequest& request) {
 # Runs {tasks} tasks in {batches} by GNU parallel, one batch at a time for {cores} of this machine. For other
 # machines that share this folder, add --sshlogin HOSTS. Run it again to continue: only tasks without a result run.
 set -u
-seq {count} | parallel --quote --jobs {percent}% {sweep} --quiet --shard {{}}/{count} || true  # collect says what is missing
+batch() {{ {sweep} --quiet --shard "$1/{count}"; }}
+export -f batch  # in the words of a command, parallel would replace braces
+seq {count} | parallel --env batch --jobs {percent}% batch || true  # collect says what is missing
 exec {collect}
 )",
       fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("batches", batches_text(batches.count)),
@@ -107,6 +109,8 @@ std::string in_python(const std::string& shell) {
     if (c == '{' || c == '}') text += c;
     if (c == '\n')
       text += "\\n";
+    else if (c == '\r')
+      text += "\\r";
     else
       text += c;
   }
