@@ -75,8 +75,7 @@ COLLECT
                    : "No memory is asked for, so that the cluster's default holds: add --mem, or write this "
                      "script with --task-memory."),
       fmt::arg("limit", batches.limit_minutes), fmt::arg("stop", kSecondsToStop), fmt::arg("log", log),
-      fmt::arg("sweep", sweep_words(request)),
-      fmt::arg("budget", batches.limit_minutes * 60 - kSecondsToStop),
+      fmt::arg("sweep", sweep_words(request)), fmt::arg("budget", batches.budget_seconds),
       fmt::arg("collect", collect_words(request)),
       fmt::arg("collect_log", log_word(request, "slurm-collect.out")));
 }
@@ -96,7 +95,7 @@ exec {collect}
 )",
       fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("batches", batches_text(batches.count)),
       fmt::arg("cores", cores), fmt::arg("count", batches.count),
-      fmt::arg("percent", std::max<std::size_t>(100 / request.jobs, 1)),
+      fmt::arg("percent", in_units(100, request.jobs)),
       fmt::arg("sweep", sweep_words(request)), fmt::arg("collect", collect_words(request)));
 }
 
@@ -129,7 +128,7 @@ std::string snakemake_script(const EngineRequest& request) {
 # Exit code 1 says that tasks failed, which failed.csv lists; all other tasks run.
 rule collect:
     input: expand("batches/{{i}}", i=range(1, {count} + 1))
-    shell: "{collect} || [ $? -eq 1 ]"
+{resources}    shell: "{collect} || [ $? -eq 1 ]"
 
 rule batch:
     output: temp(touch("batches/{{i}}"))
@@ -155,6 +154,7 @@ Batches batches_of(const EngineRequest& request) {
   batches.seconds = seconds / static_cast<double>(batches.count);
   const double longest = 2 * std::max(batches.seconds, request.longest);
   batches.limit_minutes = static_cast<std::size_t>(std::ceil(longest / 60)) + kSpareMinutes;
+  batches.budget_seconds = batches.limit_minutes * 60 - kSecondsToStop;
   return batches;
 }
 

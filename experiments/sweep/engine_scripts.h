@@ -33,8 +33,9 @@ struct EngineRequest {
 /// How tasks are divided: at most 1,000 batches, of about 15 minutes each if that many suffice.
 struct Batches {
   std::size_t count = 1;
-  double seconds = 0;             ///< expected for one batch
-  std::size_t limit_minutes = 0;  ///< time limit of a batch
+  double seconds = 0;              ///< expected for one batch
+  std::size_t limit_minutes = 0;   ///< time limit of a batch
+  std::size_t budget_seconds = 0;  ///< --time-budget of a batch, a little less
 };
 [[nodiscard]] Batches batches_of(const EngineRequest& request);
 

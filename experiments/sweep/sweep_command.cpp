@@ -84,6 +84,12 @@ void write_script(const fs::path& sweep, const SweepOptions& options, std::size_
     text += "batches are longer than half an hour; --jobs with more cores of a node makes them shorter\n";
   if (engine == SweepEngine::slurm && !options.task_memory)
     text += "the script asks for no memory; with --task-memory SIZE it asks for that of its tasks\n";
+  if (engine == SweepEngine::slurm && options.task_seconds &&
+      *options.task_seconds > static_cast<double>(batches.budget_seconds))
+    text += fmt::format(
+        "--task-seconds {:g} is longer than a batch, which stops after {} s; if a task may need it, raise "
+        "--time and --time-budget in the script\n",
+        *options.task_seconds, batches.budget_seconds);
   print_to_stdout(text + start_command(engine, request) + "\n");
 }
 

@@ -556,6 +556,8 @@ TEST(Sweep, ScriptsAskForTheMemoryOfTheirTasks) {
   EXPECT_THAT(slurm, HasSubstr("--cpus-per-task=3 --mem=3202M --time="));  // 3 * 1024 + 128 + 2
   EXPECT_THAT(slurm, HasSubstr("--dependency=\"afterany:${array%%;*}\" --mem=3202M --time="));
   EXPECT_THAT(engine_script(SweepEngine::snakemake, request), HasSubstr("    resources: mem_mb=3358\n"));
+  EXPECT_THAT(engine_script(SweepEngine::snakemake, request),
+              HasSubstr("+ 1))\n    resources: mem_mb=3358\n"));
   EXPECT_THAT(engine_script(SweepEngine::parallel, request), Not(HasSubstr("--mem")));
 }
 
@@ -566,8 +568,20 @@ TEST(Sweep, GnuParallelDividesTheCoresByTheJobsOfABatch) {
   EXPECT_THAT(engine_script(SweepEngine::parallel, request), HasSubstr(" --jobs 100% "));
   request.jobs = 4;
   EXPECT_THAT(engine_script(SweepEngine::parallel, request), HasSubstr(" --jobs 25% "));
+  request.jobs = 3;  // 33% of 6 cores is one batch, not two
+  EXPECT_THAT(engine_script(SweepEngine::parallel, request), HasSubstr(" --jobs 34% "));
   request.jobs = 1000;
   EXPECT_THAT(engine_script(SweepEngine::parallel, request), HasSubstr(" --jobs 1% "));
+}
+
+TEST(Sweep, SaysThatABatchIsShorterThanItsTasksMayBe) {
+  const ScratchDirectory scratch;
+  scratch.file("a.xyz", chain(0.2));
+  scratch.file("s.json", R"({"inputs": ["a.xyz"], "commands": [{"command": "info"}]})");
+  EXPECT_THAT(run_sweep(scratch, {"--write", "slurm", "--task-seconds", "600"}),
+              HasSubstr("--task-seconds 600 is longer than a batch, which stops after 540 s"));
+  EXPECT_THAT(run_sweep(scratch, {"--write", "slurm", "--task-seconds", "500"}),
+              Not(HasSubstr("longer than a batch")));
 }
 
 TEST(Sweep, WritesNoScriptIfNoTaskIsLeft) {
