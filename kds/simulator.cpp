@@ -39,7 +39,8 @@ class Simulator::MutationScope {
 
   /// Notifies the listeners of a change. Kept out of line, because most runs have none.
   [[gnu::noinline]] static void tell(Simulator& simulator, std::size_t structure, const Change& change);
-  /// Notifies the listeners of a change that may come from another simulator. Does not measure their time.
+  /// Notifies the listeners of a change, which comes from another simulator if `relayed` is not null. Charges
+  /// only the computing of certain digits to the listeners.
   static void notify(Simulator& simulator, std::size_t structure, const Change& change,
                      const RelayedEvent* relayed);
 

@@ -29,10 +29,11 @@ namespace kds {
 /// Returns the number of processors that this process may use, at least 1.
 [[nodiscard]] std::size_t all_threads();
 
-/// Returns the least number of steps that are worth a thread.
+/// Returns the least number of steps for each thread of a run. With fewer steps, a further thread would cost
+/// more than it gains.
 [[nodiscard]] std::size_t least_steps_of_thread(std::size_t beads);
-/// Returns the number of threads that a run takes if it may take up to `threads`, at least 1. Short runs take
-/// fewer, and runs that cannot be cut take one (ParallelRun::uncut).
+/// Returns how many threads, from 1 to `threads`, a run takes that can be cut (ParallelRun::uncut). Short
+/// runs take fewer than `threads`.
 [[nodiscard]] std::size_t threads_worth(std::size_t steps, std::size_t beads, std::size_t threads);
 
 struct ParallelOptions {
