@@ -191,7 +191,7 @@ std::vector<double> labelled(std::vector<double> values, const Range& range, dou
     const bool is_least = k == 0;
     const bool fits = kept.empty() || end_of(values[k], 1) <= end_of(kept.back(), -1);
     const bool leaves_room = is_least || kept.empty() || end_of(values[k], -1) >= end_of(values.front(), 1);
-    if (values[k] != (kept.empty() ? 0 : kept.back()) && fits && leaves_room) kept.push_back(values[k]);
+    if (fits && leaves_room) kept.push_back(values[k]);
   }
   return kept;
 }

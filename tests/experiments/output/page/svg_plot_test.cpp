@@ -45,8 +45,8 @@ TEST(SvgPlot, LogarithmicTicksArePowersOfTenWhereThereAreTwo) {
   test::expect_nested(svg_plot(PointPlot{"x", "y", {"a"}, {{"", 1e-12, 1, 0}, {"", 1e12, 1, 0}}}));
 }
 
-// The last stride would have no label among the ticks 1, 2 and 5. Labels that would cover others are left
-// out, those of both ends never.
+// The last stride would have no label among the ticks 1, 2 and 5. Labels of both ends come first; a label
+// that would cover another is left out.
 TEST(SvgPlot, ChosenValuesAreLabelled) {
   PointPlot strides{
       "stride", "events", {"a"}, {{"", 8, 5, 0}, {"", 4, 9, 0}, {"", 1, 40, 0}, {"", 4, 10, 0}}};
