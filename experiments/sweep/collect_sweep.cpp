@@ -96,7 +96,7 @@ class WideTable {
   std::vector<Row> rows_;
 };
 
-// Returns the rows of a task's result, and the seconds that the task took.
+// Returns the rows of a task's result. Adds its times to `seconds` and `processor_seconds`.
 std::vector<ResultRow> read_rows(const TaskStates& states, const SweepTask& task, double& seconds,
                                  double& processor_seconds) {
   const Json record = parse_json(states.read(states.of(task.name).done));

@@ -5,9 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
-#include <bit>
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 
@@ -47,7 +49,7 @@ std::int64_t now() {
   return time.tv_sec * kNanoseconds + time.tv_nsec;
 }
 
-/// Fills the block unless the file ends. Returns the number of bytes read, or -1 on an error.
+// Fills the block unless the file ends. Returns the number of bytes read, or -1 on an error.
 ssize_t read_block(int descriptor, std::vector<char>& block) {
   std::size_t filled = 0;
   while (filled < block.size()) {

@@ -63,7 +63,7 @@ std::vector<std::string> PatternFiles::of(const std::string& pattern, const fs::
     files = {earlier->second.begin(), earlier->second.end()};
   if (fs::exists(whole, none))
     files.insert(whole.string());
-  else if (files != std::set{whole.string()})  // a file of this name that is gone
+  else if (files != std::set{whole.string()})  // otherwise the pattern is the name of a file that is gone
     files.merge(matching_files(pattern, folder, where));
   if (files.empty())
     throw InputError(fmt::format("{}: no file matches '{}' in {}", where, pattern, folder.string()));

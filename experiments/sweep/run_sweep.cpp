@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <chrono>
 #include <cstring>
 #include <deque>
 #include <list>
 #include <set>
-#include <system_error>
 #include <unordered_set>
 #include <vector>
 
@@ -27,8 +26,8 @@ using Clock = TaskProcess::Clock;
 constexpr double kGrace = 7;         // seconds; less with a short budget
 constexpr double kLongAttempt = 60;  // a dropped attempt that ran as long counts, if it had most of the time
 constexpr std::size_t kMostClaimed = 256;
-constexpr std::size_t kMostWithoutRoom =
-    3;  // results in turn without room, until the disk is taken to be full
+// If this many results in turn have no room, the disk is taken to be full.
+constexpr std::size_t kMostWithoutRoom = 3;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -92,7 +91,7 @@ class SweepRun {
   std::optional<Clock::time_point> stop_;   ///< when the sweep began to stop
   std::vector<const SweepTask*> shard_;     ///< all tasks of the shard
   std::deque<const SweepTask*> unclaimed_;  ///< tasks without a result
-  std::deque<const SweepTask*> elsewhere_;  ///< those of them that another sweep had when we looked
+  std::deque<const SweepTask*> elsewhere_;  ///< tasks that another sweep had locked at the last look
   std::deque<const SweepTask*> claimed_;    ///< with their locks
   std::list<RunningTask> running_;
   std::uint64_t next_id_ = 0;
@@ -122,8 +121,8 @@ void SweepRun::list_open_tasks() {
   unclaimed_.insert(unclaimed_.end(), tried.begin(), tried.end());
 }
 
-// Claims about a tenth of a second of work for each job. A task is done only if its result was not there once
-// the task was locked.
+// Claims about a tenth of a second of work for each job. A task runs only if it still has no result once it
+// is locked.
 void SweepRun::claim() {
   if (unclaimed_.empty() && !elsewhere_.empty() && seconds_since(looked_elsewhere_) >= 0.2) {
     unclaimed_.swap(elsewhere_);
@@ -239,7 +238,8 @@ void SweepRun::settle(const RunningTask& ended, const TaskProcess::End& end) {
   locks_.release(task.name);
 }
 
-// A dropped attempt does not count. But if it had most of a long run for itself, another would end likewise.
+// A dropped attempt does not count. But if it had most of a long sweep for itself, another attempt would be
+// dropped too.
 void SweepRun::drop(const RunningTask& running) {
   const double seconds = seconds_since(running.start);
   launcher_.kill(running.id);

@@ -31,8 +31,8 @@ struct SweepLimits {
   bool retry = false;            ///< repeat tasks that failed or crashed
 };
 
-/// The states of a task. A task that two attempts have left without a result is crashed.
-enum class TaskStatus : std::uint8_t { open, running, done, failed, crashed };
+/// The states of a task in the journals. A task that two attempts have left without a result is crashed.
+enum class TaskStatus : std::uint8_t { open, done, failed, crashed };
 [[nodiscard]] TaskStatus status_of(const TaskState& state);
 
 struct SweepOutcome {
@@ -44,7 +44,7 @@ struct SweepOutcome {
   bool stopped = false;  ///< other tasks are open: a signal, the budget or a changed input ended the sweep
 };
 
-/// The folders of a sweep.
+/// The folder of journals and the file of locks, in the folder of a sweep.
 [[nodiscard]] std::filesystem::path results_folder(const std::filesystem::path& sweep);
 [[nodiscard]] std::filesystem::path locks_file(const std::filesystem::path& sweep);
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <optional>
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/text.h"

@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <map>
 #include <string>
@@ -17,7 +18,7 @@
 #include "experiments/output/output_files.h"
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
-#include "experiments/sweep/sweep_spec.h"
+#include "experiments/sweep/swept_command.h"
 
 namespace kds {
 
