@@ -31,8 +31,8 @@ std::string collect_words(const EngineRequest& request) {
                      shell_words({request.folder.string()}));
 }
 
-// Returns how many units hold this many bytes.
-std::uint64_t in_units(std::uint64_t bytes, std::uint64_t unit) { return (bytes + unit - 1) / unit; }
+// Returns how many units hold this amount.
+std::uint64_t in_units(std::uint64_t amount, std::uint64_t unit) { return (amount + unit - 1) / unit; }
 
 // Slurm replaces % and a letter in the name of a log.
 std::string log_word(const EngineRequest& request, std::string_view name) {
