@@ -95,8 +95,8 @@ exec {collect}
 )",
       fmt::arg("tasks", with_thousands(request.tasks)), fmt::arg("batches", batches_text(batches.count)),
       fmt::arg("cores", cores), fmt::arg("count", batches.count),
-      fmt::arg("percent", in_units(100, request.jobs)),
-      fmt::arg("sweep", sweep_words(request)), fmt::arg("collect", collect_words(request)));
+      fmt::arg("percent", in_units(100, request.jobs)), fmt::arg("sweep", sweep_words(request)),
+      fmt::arg("collect", collect_words(request)));
 }
 
 // In a Snakefile, braces of shell commands are doubled, and backslashes, quotes and line breaks of Python
