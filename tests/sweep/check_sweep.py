@@ -228,7 +228,7 @@ def twice():
 def write_script(engine, radii=(1, 1.5), more=()):
     sweep = write_sweep(radii=radii)
     expected = reference(sweep)
-    folder = FOLDER / f"{engine}'s 100%j \"$HOME\" {{#}} {{1}}"  # names that shells and engines must not interpret
+    folder = FOLDER / f"{engine}'s 100%j \"$HOME\" {{#}} {{x}}"  # names that shells and engines must not interpret
     run = kds("sweep", sweep, "-o", folder, "--write", engine, *more)
     return folder, expected, run.stdout.splitlines()[-1]
 
