@@ -49,7 +49,7 @@ struct MissedRow {
   std::size_t stride = 1;
   std::size_t frames = 0;  ///< number of frames examined
   std::uint64_t contacts = 0, found = 0;
-  /// The interval of the share that is missed, from a block bootstrap over the steps in which contacts begin.
+  /// The interval of the share that is missed, from ratio_over_time over the steps in which contacts begin.
   /// Empty for fewer than 50 steps, and if no contact or every contact is missed.
   std::optional<MeanInterval> interval = {};
 
@@ -353,9 +353,10 @@ std::string missed_page(std::span<const MissedRow> rows, const MissedTask& task,
       "or the last frame. The times are exact for the motion between frames that the run was asked for. One "
       "frame in <em>stride</em> is examined, beginning with the first; <em>frames</em> is their number. A "
       "contact is <em>found</em> if an examined frame lies in it, its ends included, and <em>missed</em> "
-      "otherwise. The 95% interval of the share is from a block bootstrap over the steps in which contacts "
-      "begin, and missing for fewer than 50 steps. It tells how the share varies within a run like this one; "
-      "the count itself is complete.";
+      "otherwise. The 95% interval of the share is from batch means over the steps in which contacts begin, "
+      "which may depend on each other, and missing for fewer than 50 steps. It is for runs of these beads "
+      "that "
+      "do not drift; the count itself is complete.";
   if (const std::string plot = plot_of(rows); !plot.empty())
     page.body = html_section(
         "By stride",

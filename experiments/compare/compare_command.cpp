@@ -33,9 +33,9 @@ constexpr CommandSpec kCompareCommand{
     "  locality        largest number of certificates on one bead, at any time\n"
     "  created, touched  certificates created, and created or ended, per event\n"
     "  responsiveness  seconds per event: mean, and longest at one time\n\n"
-    "Means per step have 95% intervals from a block bootstrap over the steps. Several INPUTs are also "
-    "pooled: means\n"
-    "per step, per bead and per picosecond, with intervals from the spread between inputs.",
+    "Means per step have 95% intervals, for runs that do not drift; steps may depend on each other. Several\n"
+    "INPUTs are also pooled: means per step, per bead and per picosecond, with intervals from the spread\n"
+    "between inputs, for independent inputs of one kind.",
     {},
     {},
     "kds compare villin.dcd --topology villin.pdb --strides 1,2,4,8,16,32 --out report\n"

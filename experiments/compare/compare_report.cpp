@@ -271,9 +271,10 @@ std::vector<std::pair<std::string, std::string>> terms() {
        "all events, internal ones included, divided by the external events: 1 if the structure needs no "
        "bookkeeping of its own"},
       {"events per step (95%)",
-       "events from one frame to the next, with the confidence interval of the mean from a block bootstrap "
-       "over the steps, on a logarithmic scale; without one for fewer than 50 steps, or if all steps have "
-       "equally many events. The interval assumes that the run does not drift: compare the first quarter of "
+       "events from one frame to the next, with the confidence interval of the mean, on a logarithmic scale, "
+       "from batch means that may depend on each other; without one for fewer than 50 steps, or if all steps "
+       "have equally many events. The interval is for runs of these beads that do not drift: compare the "
+       "first quarter of "
        "the steps with the last. Events per net change have such an interval, too"},
       {"net change",
        "a difference between one frame and the next, whatever happened in between: a node of the wrapped "
@@ -452,7 +453,8 @@ std::string compare_page(const Comparison& comparison, Page page) {
         html_section("Means over the inputs",
                      "<p>Each input counts alike. Intervals of 95% come from the spread between "
                      "inputs, on a logarithmic scale, so they are wide for few inputs and stay above "
-                     "0.</p>\n" +
+                     "0. They are for independent inputs of one kind, whose values spread by less than "
+                     "their mean.</p>\n" +
                          pooled_columns().html(pooled));
   page.body += html_section("By stride", plots_over_strides(comparison));
   page.body += html_section("Over time", plots_over_time(comparison));

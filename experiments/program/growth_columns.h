@@ -16,24 +16,17 @@ namespace kds {
 
 /// All fits to one quantity. A fit that needs more sizes than there are is empty.
 struct GrowthSummary {
-  std::optional<PowerFit> line;  ///< straight line through the logarithms, without lower-order terms
-  std::vector<double> local;     ///< local_exponents
-  std::optional<GrowthExponent> exponent;
+  std::optional<PowerFit> line;    ///< straight line through the logarithms, without lower-order terms
+  std::vector<double> local;       ///< local_exponents
+  std::optional<double> exponent;  ///< growth_exponent
   std::optional<GrowthFit> law;
   std::string size = "n";  ///< the name of the size in the law
 };
 
-/// Returns the columns sizes, line, last (the local exponent at the largest size), exponent, lower, upper,
-/// law, residual_most and prediction_error. The interval of `line` is not shown, because it does not allow
-/// for lower-order terms.
+/// Returns the columns sizes, line, last (the local exponent at the largest size), exponent, law,
+/// residual_most and prediction_error.
 template <class Row>
 std::vector<Column<Row>> growth_columns(const std::function<const GrowthSummary&(const Row&)>& growth) {
-  const auto end_of = [growth](std::optional<double> GrowthExponent::*end) {
-    return [growth, end](const Row& row) {
-      const auto& exponent = growth(row).exponent;
-      return exponent ? Field((*exponent).*end) : Field();
-    };
-  };
   const auto of_law = [growth](auto member) {
     return [growth, member](const Row& row) {
       const auto& law = growth(row).law;
@@ -50,16 +43,8 @@ std::vector<Column<Row>> growth_columns(const std::function<const GrowthSummary&
        },
        with_decimals(3)},
       {.key = "local_exponents", .json = [growth](const Row& r) { return Json(growth(r).local); }},
-      {.key = "exponent",
-       .heading = "beside lower-order terms",
-       .value =
-           [growth](const Row& r) {
-             const auto& exponent = growth(r).exponent;
-             return exponent ? Field(exponent->exponent) : Field();
-           },
-       .words = [growth](const Row& r) { return exponent_text(*growth(r).exponent); }},
-      {.key = "lower", .value = end_of(&GrowthExponent::lower)},
-      {.key = "upper", .value = end_of(&GrowthExponent::upper)},
+      {"exponent", "beside lower-order terms", [growth](const Row& r) { return Field(growth(r).exponent); },
+       with_decimals(3)},
       {.key = "law",
        .heading = "law",
        .value =

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/program/mean_interval.h"
-
 namespace kds {
 
 namespace {
@@ -103,8 +101,8 @@ std::span<const std::vector<GrowthTerm>> usual_forms() {
   return forms;
 }
 
-std::optional<GrowthExponent> growth_exponent(const GrowthPoints& points, GrowthTerm leading,
-                                              const std::vector<GrowthTerm>& lower) {
+std::optional<double> growth_exponent(const GrowthPoints& points, GrowthTerm leading,
+                                      const std::vector<GrowthTerm>& lower) {
   constexpr double most = 2;  // above the power of the lower-order term
   constexpr int steps = 400;
   const GrowthPoints sizes = one_per_size(points);
@@ -119,11 +117,12 @@ std::optional<GrowthExponent> growth_exponent(const GrowthPoints& points, Growth
   const double from = lower.front().power + (leading.logarithm != lower.front().logarithm ? 0 : 1e-6);
   const auto power_at = [&](int step) { return from + most * step / steps; };
   int best = 0;
-  std::vector<double> all;
-  for (int step = 0; step <= steps; ++step) {
-    all.push_back(squares(power_at(step)));
-    if (all.back() < all[static_cast<std::size_t>(best)]) best = step;
-  }
+  double least = squares(power_at(0));
+  for (int step = 1; step <= steps; ++step)
+    if (const double found = squares(power_at(step)); found < least) {
+      least = found;
+      best = step;
+    }
   // Narrows the minimum by golden section between the neighbours of the best step.
   double low = power_at(std::max(best - 1, 0)), high = power_at(std::min(best + 1, steps));
   const double section = (std::sqrt(5.0) - 1) / 2;
@@ -131,30 +130,7 @@ std::optional<GrowthExponent> growth_exponent(const GrowthPoints& points, Growth
     const double a = high - section * (high - low), b = low + section * (high - low);
     (squares(a) < squares(b) ? high : low) = squares(a) < squares(b) ? b : a;
   }
-  GrowthExponent result{(low + high) / 2, std::nullopt, std::nullopt};
-  const auto freedom = static_cast<double>(sizes.size() - lower.size() - 2);
-  const double quantile = student_95(freedom);
-  const double limit = squares(result.exponent) * (1 + quantile * quantile / freedom);
-  // The accepted exponents may form several intervals. The result encloses all of them.
-  const auto accepted = [&](int step) { return all[static_cast<std::size_t>(step)] <= limit; };
-  const auto boundary = [&](double outside, double inside) {
-    while (std::abs(inside - outside) > 1e-10) {
-      const double middle = (outside + inside) / 2;
-      (squares(middle) <= limit ? inside : outside) = middle;
-    }
-    return inside;
-  };
-  int first = 0, last = steps;
-  while (first < steps && !accepted(first)) ++first;
-  while (last > 0 && !accepted(last)) --last;
-  if (first > last) {  // the whole interval lies between two steps
-    result.lower = boundary(power_at(std::max(best - 1, 0)), result.exponent);
-    result.upper = boundary(power_at(std::min(best + 1, steps)), result.exponent);
-    return result;
-  }
-  if (first > 0) result.lower = boundary(power_at(first - 1), std::min(power_at(first), result.exponent));
-  if (last < steps) result.upper = boundary(power_at(last + 1), std::max(power_at(last), result.exponent));
-  return result;
+  return (low + high) / 2;
 }
 
 GrowthPoints one_per_size(GrowthPoints points) {
@@ -199,14 +175,6 @@ std::string growth_text(const GrowthFit& fit, std::string_view variable) {
     if (logarithm) text += fmt::format(" log2 {}", variable);
   }
   return text;
-}
-
-std::string exponent_text(const GrowthExponent& exponent) {
-  const auto& [best, lower, upper] = exponent;
-  if (lower && upper) return fmt::format("{:.3f} (95%: {:.3f} to {:.3f})", best, *lower, *upper);
-  if (upper) return fmt::format("{:.3f} (95%: below {:.3f})", best, *upper);
-  if (lower) return fmt::format("{:.3f} (95%: above {:.3f})", best, *lower);
-  return "not determined";
 }
 
 }  // namespace kds

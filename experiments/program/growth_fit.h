@@ -1,7 +1,9 @@
 #pragma once
 // Fits laws of growth to a quantity y that was measured at several sizes x: a leading term with a lower-order
-// term, as in a x^(4/3) + b x. A power law alone is biased by the terms that it leaves out, and so is its
-// interval; power_fit.h fits it where no such term is known.
+// term, as in a x^(4/3) + b x. A power law alone is biased by the terms that it leaves out; power_fit.h fits
+// it where no such term is known. No fit has an interval: residuals of sizes are no independent errors. They
+// hold the terms that a form leaves out, families of grids oscillate with the side, and means over seeds have
+// errors of their own, which the spread between seeds tells (mean_interval.h).
 
 #include <cstddef>
 #include <optional>
@@ -48,19 +50,12 @@ struct GrowthFit {
 /// with the terms below it that can be told apart from it.
 [[nodiscard]] std::span<const std::vector<GrowthTerm>> usual_forms();
 
-/// The exponent p of y = a x^p (log2 x)^l + b g(x) + ..., with lower-order terms g.
-struct GrowthExponent {
-  double exponent = 0;
-  /// The interval of 95% confidence for independent normal relative errors of y: all p whose residuals are
-  /// not significantly larger than those of `exponent` (F test). An end is empty if the interval reaches the
-  /// power of the first lower-order term, or two above it.
-  std::optional<double> lower, upper;
-};
-/// `leading` tells whether the leading term has a logarithm; its power is ignored. `lower` has at least one
-/// term, the highest first. The exponents tested are at least its power and at most two more. Returns nothing
-/// unless there are at least four more sizes than lower-order terms.
-[[nodiscard]] std::optional<GrowthExponent> growth_exponent(const GrowthPoints& points, GrowthTerm leading,
-                                                            const std::vector<GrowthTerm>& lower);
+/// Returns the exponent p of y = a x^p (log2 x)^l + b g(x) + ..., with lower-order terms g, by least squares
+/// of relative residuals. `leading` tells whether the leading term has a logarithm; its power is ignored.
+/// `lower` has at least one term, the highest first. The exponent is at least its power and at most two more.
+/// Returns nothing unless there are at least four more sizes than lower-order terms.
+[[nodiscard]] std::optional<double> growth_exponent(const GrowthPoints& points, GrowthTerm leading,
+                                                    const std::vector<GrowthTerm>& lower);
 
 /// Returns log(y2 / y1) / log(x2 / x1) for consecutive sizes, in ascending order of x. Points of one size are
 /// replaced by their mean.
@@ -71,7 +66,5 @@ struct GrowthExponent {
 
 /// Returns a form such as "3.1 n^(4/3) + 5.2 n log2 n".
 [[nodiscard]] std::string growth_text(const GrowthFit& fit, std::string_view variable = "n");
-/// Returns "1.335 (95%: 1.329 to 1.341)", with "below" or "above" for an open end.
-[[nodiscard]] std::string exponent_text(const GrowthExponent& exponent);
 
 }  // namespace kds

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
@@ -17,20 +18,6 @@ namespace {
 
 double mean_of(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-// Returns the standard error of the mean of a series with mean 0, by the circular block bootstrap.
-double block_error(std::span<const double> series, std::size_t block) {
-  const std::size_t count = series.size();
-  double sum = std::accumulate(series.begin(), series.begin() + static_cast<std::ptrdiff_t>(block), 0.0);
-  double squares = 0;
-  for (std::size_t first = 0; first < count; ++first) {
-    squares += sum * sum;
-    sum += series[(first + block) % count] - series[first];
-  }
-  const auto n = static_cast<double>(count), b = static_cast<double>(block);
-  // The mean square of all block means is the variance of a block mean less that of the whole mean.
-  return std::sqrt(squares / (b * b) / n * (b / n) / (1 - b / n));
 }
 
 }  // namespace
@@ -54,11 +41,23 @@ std::optional<MeanInterval> above_zero(const std::optional<MeanInterval>& interv
 
 std::optional<MeanInterval> mean_over_time(std::span<const double> series) {
   if (series.size() < least_series) return std::nullopt;
+  constexpr std::size_t batches = 16;
+  constexpr double count = batches, most_correlated = 0.999;
   const double mean = mean_of(series);
-  std::vector<double> centered(series.begin(), series.end());
-  for (double& value : centered) value -= mean;
-  constexpr std::size_t blocks = 5;
-  const double error = student_95(blocks - 1) * block_error(centered, series.size() / blocks);
+  double before = 0, squares = 0, products = 0;
+  for (std::size_t b = 0; b < batches; ++b) {
+    const std::size_t first = b * series.size() / batches, end = (b + 1) * series.size() / batches;
+    const double off = mean_of(series.subspan(first, end - first)) - mean;
+    squares += off * off;
+    products += off * before;
+    before = off;
+  }
+  const double found = squares > 0 ? products / squares : 0;
+  const double correlation = std::clamp(found + (1 + 4 * found) / count, 0.0, most_correlated);
+  const double in_one = (1 + correlation) / (1 - correlation);  // batches that tell as much as one
+  const double variance = squares / (count - std::min(in_one, count - 1));
+  const double freedom = std::max(count / in_one - 1, 1.0);
+  const double error = student_95(freedom) * std::sqrt(variance * in_one / count);
   return MeanInterval{mean, mean - error, mean + error, series.size()};
 }
 

@@ -26,25 +26,27 @@ struct MeanInterval {
 /// Returns the same mean with an interval that stays above 0, for a quantity that is never negative, such as
 /// a count. An interval of mean +- e becomes mean exp(-e / mean) to mean exp(e / mean): it is symmetric for
 /// the logarithm of the mean (delta method), and nearly the given one if e is small. For few and skewed
-/// values it holds the mean more often than the given one (test AboveZero.*). Returns nothing if there is no
-/// interval, if the mean is not above 0, if the interval has no width, because equal values do not tell their
-/// spread, or if an end is not finite.
+/// values it holds the mean more often than the given one. With mean_of_independent it holds the mean in 90
+/// to 98% of all samples of values whose standard deviation is below their mean; if they spread more, less
+/// often. Returns nothing if there is no interval, if the mean is not above 0, if the interval has no width,
+/// because equal values do not tell their spread, or if an end is not finite.
 [[nodiscard]] std::optional<MeanInterval> above_zero(const std::optional<MeanInterval>& interval);
 
 /// The least number of values for which mean_over_time gives an interval.
 inline constexpr std::size_t least_series = 50;
 
-/// Returns the mean of a stationary time series, with the interval of the circular block bootstrap (Politis
-/// and Romano, 1992). Blocks of a fifth of the series keep the correlation of neighbouring values, and
-/// Student's quantile with four degrees of freedom allows for so few blocks. The bootstrap's variance has a
-/// closed form, so no random numbers are drawn. The interval holds the mean in 93 to 98% of all series that
-/// are at least ten times as long as their integrated correlation time (test MeanOverTime.Covers...). A
-/// series that drifts has no such mean. Returns nothing for fewer than `least_series` values. O(n) time.
+/// Returns the mean of a stationary time series, whose values may depend on the values before them. The
+/// interval comes from 16 batch means (Conway, 1963) and an autoregressive process of order 1 through them,
+/// whose correlation is corrected for its bias (Marriott and Pope, 1954). Student's quantile is that of the
+/// number of independent batches, so the interval is very wide if the series is hardly longer than its
+/// correlation time. Together with above_zero it holds the mean in 90 to 98% of all series of the kinds in
+/// coverage_test.cpp, down to two correlation times; in more if values swing around the mean. It holds the
+/// mean less often if noise hides a motion that is as slow as the series is long, and a series that drifts
+/// has no such mean. Returns nothing for fewer than `least_series` values. O(n) time.
 [[nodiscard]] std::optional<MeanInterval> mean_over_time(std::span<const double> series);
 
-/// Returns sum(above) / sum(below) of two series over the same steps, with the interval of the block
-/// bootstrap for the linearized ratio. Returns nothing if mean_over_time does or if sum(below) is not
-/// positive.
+/// Returns sum(above) / sum(below) of two series over the same steps, with the interval of mean_over_time for
+/// the linearized ratio. Returns nothing if mean_over_time does or if sum(below) is not positive.
 [[nodiscard]] std::optional<MeanInterval> ratio_over_time(std::span<const double> above,
                                                           std::span<const double> below);
 

@@ -1,6 +1,7 @@
 #include "experiments/program/power_fit.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -14,7 +15,7 @@ std::optional<PowerFit> fit_power(std::span<const std::pair<double, double>> poi
     if (x > 0 && y > 0) logs.emplace_back(std::log2(x), std::log2(y));
   if (logs.size() < 3) return std::nullopt;
   const auto count = static_cast<double>(logs.size());
-  double mean_x = 0, mean_y = 0, spread = 0, together = 0, left = 0;
+  double mean_x = 0, mean_y = 0, spread = 0, together = 0;
   for (const auto& [x, y] : logs) {
     mean_x += x / count;
     mean_y += y / count;
@@ -25,15 +26,7 @@ std::optional<PowerFit> fit_power(std::span<const std::pair<double, double>> poi
   }
   if (!(spread > 0)) return std::nullopt;
   const double slope = together / spread;
-  for (const auto& [x, y] : logs) {
-    const double off = y - mean_y - slope * (x - mean_x);
-    left += off * off;
-  }
-  const std::size_t freedom = logs.size() - 2;
-  const double error =
-      student_95(static_cast<double>(freedom)) * std::sqrt(left / static_cast<double>(freedom) / spread);
-  return PowerFit{logs.size(),   points.size() - logs.size(),       slope, slope - error,
-                  slope + error, std::exp2(mean_y - slope * mean_x)};
+  return PowerFit{logs.size(), points.size() - logs.size(), slope, std::exp2(mean_y - slope * mean_x)};
 }
 
 std::optional<PowerFit> fit_power(std::span<const std::pair<double, double>> points,
@@ -50,17 +43,20 @@ std::optional<PowerFit> fit_power(std::span<const std::pair<double, double>> poi
     mean += of_rest->exponent / shares;
   }
   for (const double exponent : exponents) squares += (exponent - mean) * (exponent - mean);
-  const double error = student_95(shares - 1) * std::sqrt((shares - 1) / shares * squares);
-  fit->lower = fit->exponent - error;
-  fit->upper = fit->exponent + error;
+  fit->error = student_95(shares - 1) * std::sqrt((shares - 1) / shares * squares);
   return fit;
 }
 
 std::string exponent_text(const PowerFit& fit) {
-  const std::string left_out = fit.left_out == 0 ? ""
-                                                 : fmt::format("; {} of {} points are 0 and left out",
-                                                               fit.left_out, fit.points + fit.left_out);
-  return fmt::format("{:.3f} (95%: {:.3f} to {:.3f}{})", fit.exponent, fit.lower, fit.upper, left_out);
+  std::vector<std::string> notes;
+  if (fit.error)
+    notes.push_back(
+        fmt::format("95%: {:.3f} to {:.3f}", fit.exponent - *fit.error, fit.exponent + *fit.error));
+  if (fit.left_out > 0)
+    notes.push_back(
+        fmt::format("{} of {} points are 0 and left out", fit.left_out, fit.points + fit.left_out));
+  return fmt::format("{:.3f}{}", fit.exponent,
+                     notes.empty() ? "" : fmt::format(" ({})", fmt::join(notes, "; ")));
 }
 
 }  // namespace kds

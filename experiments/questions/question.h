@@ -49,7 +49,7 @@ struct QuestionCurve {
 
   /// Returns a fit to all points. For a crossover of at least eight points, returns fits to the four least,
   /// to the four before the last two, and to the three largest. Intervals come from `without`; if it is
-  /// empty, they are those of independent normal errors.
+  /// empty, there are none.
   [[nodiscard]] std::vector<CurveFit> fits() const;
 };
 

@@ -117,8 +117,8 @@ Json questions_json(std::span<const Question> questions) {
                         {"points", fit.points},
                         {"left_out", fit.left_out},
                         {"exponent", fit.exponent},
-                        {"lower", fit.lower},
-                        {"upper", fit.upper},
+                        {"lower", fit.error ? Json(fit.exponent - *fit.error) : Json()},
+                        {"upper", fit.error ? Json(fit.exponent + *fit.error) : Json()},
                         {"factor", fit.factor}});
     json.push_back({{"question", question.name},
                     {"title", question.title},
@@ -151,8 +151,8 @@ std::string questions_page(std::span<const Question> questions, Page page) {
   for (const Question& question : questions)
     page.found += fmt::format("<p>{}</p>\n", html_escaped(question.answer));
   page.found +=
-      "<p><strong>No theorem is claimed</strong>: the exponents hold for these chains, with intervals of 95% "
-      "confidence.</p>\n";
+      "<p><strong>No theorem is claimed</strong>: the exponents hold for these chains. Exponents of energy "
+      "have intervals of 95% confidence, for independent shares of the measurements.</p>\n";
   for (const Question& question : questions) {
     std::string section = fmt::format("<p>{}</p>\n<ul>\n", html_escaped(question.words));
     for (const std::string& finding : question.findings)
@@ -167,8 +167,9 @@ constexpr std::array<std::string_view, 4> kQuestions{"energy", "bounds", "trust"
 
 constexpr CommandSpec kQuestionsCommand{
     "kds questions",
-    "Measures answers to the open questions of Agarwal et al. (2004), and gives exponents with confidence "
-    "intervals.\n\n"
+    "Measures answers to the open questions of Agarwal et al. (2004), and fits exponents. Those of energy "
+    "have "
+    "95% intervals.\n\n"
     "  energy       how basis changes and flips grow with the energy of bending and torsion of a step\n"
     "  bounds       how many searches for near pairs a bound on speed or displacement saves\n"
     "  trust        time saved by not checking spheres for some frames, and how far beads then stick out\n"

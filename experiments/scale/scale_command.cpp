@@ -30,8 +30,7 @@ constexpr CommandSpec kScaleCommand{
     "kds theorems measures it.\n\n"
     "  line              slope of the straight line through the logarithms\n"
     "  local, last       slope between the two largest sizes\n"
-    "  beside ...        exponent of the leading term if lower-order terms are fitted too, with its 95% "
-    "interval\n"
+    "  beside ...        exponent of the leading term if lower-order terms are fitted too\n"
     "  law               the form with the least AICc, its largest residual, and the error of its prediction "
     "of "
     "the\n"
@@ -73,14 +72,14 @@ const OptionList<ScaleOptions>& scale_options() {
                      },
                      [](const std::string& name) { return name; }),
                  list_option({"--beads", "LIST",
-                              "sizes of the model (default: 64,128,256,512,1024,2048). An exponent with an "
-                              "interval needs six"},
+                              "sizes of the model (default: 64,128,256,512,1024,2048). Exponents beside "
+                              "lower-order terms need five, those of families six"},
                              &O::beads, parse_sizes),
                  whole_option({"--steps", "N", "steps of the model (default: 10)"}, &O::steps, 1, 100'000),
                  whole_option({"--seed", "N", "seed of the model (default: 1)"}, &O::seed, 0, UINT64_MAX),
                  whole_option({"--seeds", "N",
                                "random-chain: measure N chains of each size, of seeds from --seed on, and "
-                               "report means with 95% intervals (default: 1)"},
+                               "report means with 95% intervals from their spread (default: 1)"},
                               &O::seeds, 1, 1000)})
           .with(input_options())
           .with({list_option({"--structures", "LIST",
@@ -256,9 +255,10 @@ std::string scale_page(const ScaleOptions& options, std::span<const ScaleSeries>
   page.title = fmt::format("kds scale: {}", options.model ? *options.model : file_names(options));
   page.found = "<p>No theorem is claimed: exponents and laws hold for these scenes and sizes.</p>\n";
   page.words =
-      "Exponents are fitted beside lower-order terms, by least squares of relative residuals; their 95% "
-      "intervals "
-      "assume independent normal relative errors. For families the lower-order terms are b n + c, for pairs "
+      "Exponents are fitted beside lower-order terms, by least squares of relative residuals. They hold for "
+      "these sizes and have no interval, because the residuals are no independent errors. Means over several "
+      "scenes of a size have Student's 95% interval, for scenes drawn independently. For families the "
+      "lower-order terms are b n + c, for pairs "
       "looked "
       "at a term for the surface, otherwise a constant. The law is the form with the least AICc among the "
       "usual ones.";

@@ -84,7 +84,7 @@ std::optional<PowerFit> TheoremSeries::fit() const {
   return fit_power(divided);
 }
 
-std::optional<GrowthExponent> TheoremSeries::exponent() const {
+std::optional<double> TheoremSeries::exponent() const {
   return growth_exponent(growth(), {1, has_logarithm()}, lower_terms());
 }
 

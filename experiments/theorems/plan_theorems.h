@@ -70,7 +70,7 @@ struct TheoremSeries {
   /// Fits the exponent of the leading term together with lower-order terms: b n + c for families and
   /// searches, a term for the surface for 3.5, a constant for the others. For families and searches in the
   /// plane, the leading term has the factor log2 n.
-  [[nodiscard]] std::optional<GrowthExponent> exponent() const;
+  [[nodiscard]] std::optional<double> exponent() const;
   /// Fits the law of the theorem, with its lower-order terms or without, as AICc decides. If the theorem
   /// names no exponent or only bounds it, the usual forms (growth_fit.h) are compared too.
   [[nodiscard]] std::optional<GrowthFit> law() const;

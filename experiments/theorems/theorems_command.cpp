@@ -232,7 +232,7 @@ std::vector<std::string> findings_of(std::span<const TheoremSeries> group) {
     if (const auto local = local_exponents(series.growth()); !local.empty())
       text += fmt::format("; from the last size but one its exponent is {:.3f}", local.back());
     if (const auto exponent = series.exponent()) {
-      text += fmt::format("; beside lower-order terms {}{}", growing(series), exponent_text(*exponent));
+      text += fmt::format("; beside lower-order terms {}{:.3f}", growing(series), *exponent);
       if (series.expected) text += ", theorem " + theorem_exponent(series);
     }
     if (const auto law = series.law())
@@ -344,8 +344,10 @@ std::string theorems_page(std::span<const TheoremSeries> series, Page page) {
   page.words =
       "The theorems are those of Agarwal, Guibas, Nguyen, Russel and Zhang, <em>Collision detection for "
       "deforming necklaces</em> (2004). Exponents are fitted beside lower-order terms, by least squares of "
-      "relative residuals. Their intervals of 95% confidence assume independent normal relative errors: a "
-      "measurement proves no theorem. The law is the form with the least AICc: the theorem's, alone or with "
+      "relative residuals. They hold for these sizes and have no interval, because the residuals are no "
+      "independent errors: a measurement proves no theorem. Means over several seeds have Student's interval "
+      "of 95% confidence, for chains drawn independently. The law is the form with the least AICc: the "
+      "theorem's, alone or with "
       "lower-order terms, and the usual forms where the theorem only bounds the growth. Seconds are "
       "processor times: the median of the rounds, with the least and the most in brackets.";
   return html_page(page);
@@ -399,7 +401,7 @@ const OptionList<TheoremsAsked>& theorems_options() {
                              &M::seed, 0, UINT64_MAX),
                 whole_option({"--seeds", "N",
                               "measure N random necklaces of each size, of seeds from --seed on, and report "
-                              "means with 95% intervals (default: 1)"},
+                              "means with 95% intervals from their spread (default: 1)"},
                              &M::seeds, 1, 1000),
                 whole_option({"--rounds", "N",
                               "repeat each measurement of time (paths, 3.2, 3.3 and 3.5) N times and report "

@@ -13,7 +13,6 @@ namespace kds::growth_fit_test {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 constexpr double four_thirds = 4.0 / 3;
 
@@ -74,46 +73,24 @@ TEST(GrowthFit, NeedsThreeSizesMoreThanTerms) {
   EXPECT_FALSE(fit_growth({{1, 8}, {2, 4}, {4, 2}, {8, 1}, {16, 1}}, {{2}, {0}}));  // it falls
 }
 
-// A power law without the lower-order term excludes the true exponent in every trial.
-TEST(GrowthExponent, CoversTheTrueExponentAsOftenAsItClaims) {
-  constexpr int trials = 500;
-  int covered = 0, by_power = 0;
+// On average the exponent beside the lower-order term is right. The power law alone is too steep.
+TEST(GrowthExponent, IsNotBiasedByTheLowerOrderTerm) {
+  constexpr int trials = 200;
+  double mean = 0, by_power = 0;
   for (int trial = 0; trial < trials; ++trial) {
     const GrowthPoints points = grid_family(0.005, static_cast<std::uint64_t>(trial));
-    const auto exponent = growth_exponent(points, {}, {{1}});
-    ASSERT_TRUE(exponent);
-    covered +=
-        exponent->lower.value_or(1) <= four_thirds && four_thirds <= exponent->upper.value_or(3) ? 1 : 0;
-    const auto power = fit_power(points);
-    by_power += power->lower <= four_thirds && four_thirds <= power->upper ? 1 : 0;
+    mean += growth_exponent(points, {}, {{1}}).value() / trials;
+    by_power += fit_power(points)->exponent / trials;
   }
-  EXPECT_GE(covered, trials * 0.925);
-  EXPECT_LE(covered, trials * 0.99);
-  EXPECT_EQ(by_power, 0);
+  EXPECT_NEAR(mean, four_thirds, 0.005);
+  EXPECT_GT(by_power, four_thirds + 0.02);
 }
 
 TEST(GrowthExponent, ExactDataHaveAnExactExponent) {
-  const auto exponent = growth_exponent(grid_family(), {}, {{1}});
-  ASSERT_TRUE(exponent);
-  EXPECT_NEAR(exponent->exponent, four_thirds, 1e-6);
-  EXPECT_NEAR(exponent->lower.value(), four_thirds, 1e-5);
-  EXPECT_NEAR(exponent->upper.value(), four_thirds, 1e-5);
-}
-
-// Data that grow as n log n cannot be told from a power slightly above the linear term.
-TEST(GrowthExponent, IsOpenWhereTheLowerTermBegins) {
-  GrowthPoints points;
-  std::mt19937_64 random(5);
-  std::normal_distribution<double> normal;
-  for (double n = 1000; n < 300'000; n *= 2)
-    points.emplace_back(n, n * std::log2(n) * (1 + 0.02 * normal(random)));
-  const auto exponent = growth_exponent(points, {}, {{1}});
-  ASSERT_TRUE(exponent);
-  EXPECT_FALSE(exponent->lower);
-  ASSERT_TRUE(exponent->upper);
-  EXPECT_LT(*exponent->upper, 1.3);
-  EXPECT_THAT(exponent_text(*exponent), HasSubstr("(95%: below "));
+  EXPECT_NEAR(growth_exponent(grid_family(), {}, {{1}}).value(), four_thirds, 1e-6);
+  const GrowthPoints points = grid_family();
   EXPECT_FALSE(growth_exponent({points.begin(), points.begin() + 4}, {}, {{1}}));
+  EXPECT_TRUE(growth_exponent({points.begin(), points.begin() + 5}, {}, {{1}}));
 }
 
 TEST(LocalExponents, AreSlopesBetweenSizes) {
