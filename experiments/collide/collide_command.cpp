@@ -110,7 +110,7 @@ CollideTask collide_task(const CollideOptions& options, const CollideFrames& fra
     if (std::find(options.methods.begin(), options.methods.end(), method.name) != options.methods.end())
       task.methods.push_back(&method);
   task.query = {{frames.necklaces(), options.pairs != WhichPairs::between, options.apart,
-                 options.pairs != WhichPairs::within, frames.bead_groups()},
+                 options.pairs != WhichPairs::within, frames.bead_groups(), frames.at_rest()},
                 options.within};
   task.rounds = options.rounds;
   task.leave_out_refusing = options.all_methods;

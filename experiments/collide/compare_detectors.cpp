@@ -33,6 +33,7 @@ CollideFrames::CollideFrames(const InputOptions& options, const std::function<vo
   last_ = survey.last;
   bead_groups_ = kds::bead_groups(frames_->necklaces());
   necklaces_ = bead_ranges(frames_->necklaces());
+  at_rest_ = necklaces_at_rest(frames_->necklaces());
   bead_names_ = names_of_beads(frames_->necklaces());
 }
 

@@ -72,6 +72,8 @@ class CollideFrames {
   /// Returns the groups of each bead, or an empty vector if none were asked for.
   [[nodiscard]] const BeadGroups& bead_groups() const { return bead_groups_; }
   [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
+  /// Returns whether each necklace is at rest, as Scene::at_rest does.
+  [[nodiscard]] const std::vector<bool>& at_rest() const { return at_rest_; }
   [[nodiscard]] const std::vector<double>& radii() const { return radii_; }
   /// Returns the bead's name in the file, or an empty text if the file has no names.
   [[nodiscard]] const std::string& bead_name(BeadId bead) const {
@@ -87,6 +89,7 @@ class CollideFrames {
   bool truncated_ = false;
   BeadGroups bead_groups_;
   std::vector<BeadRange> necklaces_;
+  std::vector<bool> at_rest_;
   std::vector<double> radii_;
   std::vector<std::string> bead_names_;  // empty, or a name for every bead
 };

@@ -115,6 +115,9 @@ std::uint64_t pairs_asked(const Scene& scene, const ContactsReport& report) {
       asked.necklaces.push_back({element, element});
     asked.necklaces.back().last = element;
   }
+  if (!scene.at_rest().empty()) asked.at_rest.resize(asked.necklaces.size());
+  for (std::size_t n = 0; n < scene.at_rest().size(); ++n)
+    asked.at_rest[asked.necklace_of(elements.of_bead[scene.necklaces()[n].first])] = scene.at_rest()[n];
   if (!scene.bead_groups().empty()) asked.groups.assign(size, 0);
   for (BeadId bead = 0; bead < scene.bead_groups().size(); ++bead)
     asked.groups[elements.of_bead[bead]] |= scene.bead_groups()[bead];

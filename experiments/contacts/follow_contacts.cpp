@@ -92,7 +92,8 @@ class ContactsRun {
       : task_(task),
         scene_(scene),
         run_(scene, {.by_default = false}, {.threads = task.threads.value_or(all_threads())}) {
-    const PairsAsked asked{scene.necklaces(), report.by != ContactElement::chain, report.apart, true, groups};
+    const PairsAsked asked{scene.necklaces(), report.by != ContactElement::chain, report.apart, true, groups,
+                           scene.at_rest()};
     run_.add<Contacts<D>>(asked, radii.inner);
     if (!radii.outer.empty()) run_.add<Contacts<D>>(asked, radii.outer);
   }

@@ -215,7 +215,7 @@ std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
       throw InputError(
           fmt::format("--obstacle: {} has several frames, expected one", options.obstacle->string()));
   }
-  auto frames = std::make_unique<FileFrames>(std::move(files));
+  auto frames = std::make_unique<FileFrames>(std::move(files), options.obstacle.has_value());
   check_groups_have_beads(options.reading.groups, frames->necklaces());
   return frames;
 }

@@ -37,7 +37,7 @@ double to_three_digits(double x) {
 // cannot be achieved, returns an empty list.
 template <int Dimension>
 std::vector<double> half_distances_known(const Scene& scene, const Balls<Dimension>& balls, BeadId apart) {
-  DistanceQueries<Dimension> queries({scene.necklaces(), true, apart, true});
+  DistanceQueries<Dimension> queries({scene.necklaces(), true, apart, true, {}, scene.at_rest()});
   const auto closest = queries.closest_pair(balls);
   if (!closest || closest->sign <= 0) return {};
   for (double reach = 2 * closest->distance; std::isfinite(reach); reach *= 2) {

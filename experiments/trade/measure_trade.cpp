@@ -139,7 +139,7 @@ std::vector<TradeRow> measure_trade(const FinestData& finest, const TradeTask& t
   const Scene truest = finest.scene();
   const double largest = *std::max_element(finest.radii().begin(), finest.radii().end());
   const std::unique_ptr<Truth> truth =
-      make_truth(truest, {truest.necklaces(), true, task.apart, true, input.groups});
+      make_truth(truest, {truest.necklaces(), true, task.apart, true, input.groups, truest.at_rest()});
   std::vector<TradeRow> all;
   for (const TradeGroup& group : groups) {
     std::vector<TradeRow> rows;

@@ -64,6 +64,12 @@ BeadGroups bead_groups(std::span<const NecklaceBeads> necklaces) {
   return groups;
 }
 
+std::vector<bool> necklaces_at_rest(std::span<const NecklaceBeads> necklaces) {
+  std::vector<bool> at_rest;
+  for (const NecklaceBeads& necklace : necklaces) at_rest.push_back(necklace.at_rest);
+  return std::ranges::find(at_rest, true) == at_rest.end() ? std::vector<bool>() : at_rest;
+}
+
 namespace {
 
 const Trajectory& longest_of(std::span<const Trajectory> necklaces) {
@@ -92,6 +98,7 @@ MemoryFrames::MemoryFrames(std::span<const Trajectory> necklaces) {
   for (const Trajectory& necklace : necklaces) {
     check_frames(necklace, longest);
     necklaces_.push_back(beads_of(necklace));
+    necklaces_.back().at_rest = necklace.frames.size() < longest.frames.size();
     truncated_ = truncated_ || necklace.truncated;
   }
   beads_ = static_cast<Eigen::Index>(count_beads(necklaces_));

@@ -33,6 +33,7 @@ struct NecklaceBeads {
   /// b: beads b and b+1 are joined across a chain break or are not bonded at all; in ascending order.
   std::vector<std::size_t> breaks = {};
   BeadGroups groups = {};  ///< empty unless asked for
+  bool at_rest = false;    ///< an obstacle, or a necklace of one frame beside others that move
 };
 [[nodiscard]] NecklaceBeads beads_of(const Trajectory& necklace);
 
@@ -43,6 +44,9 @@ struct NecklaceBeads {
 [[nodiscard]] std::vector<std::string> names_of_beads(std::span<const NecklaceBeads> necklaces);
 /// Returns the groups of each bead, or nothing if a necklace has none.
 [[nodiscard]] BeadGroups bead_groups(std::span<const NecklaceBeads> necklaces);
+
+/// Returns whether each necklace is at rest, or nothing if none is.
+[[nodiscard]] std::vector<bool> necklaces_at_rest(std::span<const NecklaceBeads> necklaces);
 
 class FrameSource {
  public:

@@ -13,11 +13,17 @@
 
 namespace kds {
 
-FileFrames::FileFrames(std::vector<NecklaceStream> files)
+FileFrames::FileFrames(std::vector<NecklaceStream> files, bool last_is_obstacle)
     : files_(std::move(files)), present_(files_.size()), first_cells_(files_.size()), read_(files_.size()) {
+  const bool some_move = std::any_of(files_.begin(), files_.end(),
+                                     [](const NecklaceStream& file) { return !file.holds_one_frame(); });
   for (NecklaceStream& file : files_) {
     at_rest_.push_back(files_.size() > 1 && file.holds_one_frame());
-    for (const Trajectory& head : file.heads()) necklaces_.push_back(beads_of(head));
+    const bool is_obstacle = last_is_obstacle && &file == &files_.back();
+    for (const Trajectory& head : file.heads()) {
+      necklaces_.push_back(beads_of(head));
+      necklaces_.back().at_rest = is_obstacle || (at_rest_.back() && some_move);
+    }
   }
 }
 

@@ -14,7 +14,9 @@ namespace kds {
 
 class FileFrames final : public FrameSource {
  public:
-  explicit FileFrames(std::vector<NecklaceStream> files);
+  /// The last file is an obstacle if the caller says so. Otherwise files of one frame are at rest beside
+  /// files of more frames.
+  explicit FileFrames(std::vector<NecklaceStream> files, bool last_is_obstacle = false);
 
   [[nodiscard]] const std::vector<NecklaceBeads>& necklaces() const override { return necklaces_; }
   /// Reads the next frame of each file that has one. After the last frame, returns false, or throws

@@ -50,6 +50,7 @@ void Scene::take(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey,
                                  counted(count_beads(necklaces), "bead"), radii_.size()));
   check_radii(radii_);
   necklaces_ = bead_ranges(necklaces);
+  at_rest_ = necklaces_at_rest(necklaces);
   bead_names_ = names_of_beads(necklaces);
   bead_groups_ = kds::bead_groups(necklaces);
   truncated_ = survey.truncated;
@@ -113,6 +114,7 @@ void Scene::push(std::span<const double> coordinates, std::optional<double> pico
 std::unique_ptr<const Scene> Scene::over(std::unique_ptr<FrameSource> frames) const {
   std::unique_ptr<Scene> scene(new Scene());
   scene->necklaces_ = necklaces_;
+  scene->at_rest_ = at_rest_;
   scene->bead_names_ = bead_names_;
   scene->bead_groups_ = bead_groups_;
   scene->radii_ = radii_;

@@ -98,6 +98,9 @@ class Scene {
   [[nodiscard]] FrameStamp stamp(std::size_t frame) const;
   [[nodiscard]] std::size_t frame_number(std::size_t frame) const { return stamp(frame).number; }
   [[nodiscard]] const std::vector<BeadRange>& necklaces() const { return necklaces_; }
+  /// Returns whether each necklace is at rest, or an empty vector if none is: obstacles, and necklaces of one
+  /// frame beside others that move.
+  [[nodiscard]] const std::vector<bool>& at_rest() const { return at_rest_; }
   /// Returns the bead's name in the file, as in "CA of ALA 12 in chain A", or an empty text if it has none.
   [[nodiscard]] const std::string& bead_name(BeadId bead) const {
     static const std::string unnamed;
@@ -166,6 +169,7 @@ class Scene {
   }
 
   std::vector<BeadRange> necklaces_;
+  std::vector<bool> at_rest_;            // empty, or one per necklace
   std::vector<std::string> bead_names_;  // empty, or one per bead
   BeadGroups bead_groups_;               // empty, or one per bead
   std::vector<double> radii_;

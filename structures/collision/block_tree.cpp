@@ -55,6 +55,13 @@ bool BlockTree<Dimension>::asks(std::uint32_t a, std::uint32_t b, std::size_t le
   if (blocks_.order() == BlockOrder::spatial) return true;
   const std::size_t width = children_of_node << (4 * level), blocks = blocks_.size();
   const std::size_t first = a * width, last = std::min((b + 1) * width, blocks) - 1;
+  const auto all_rest = [&](std::uint32_t node) {
+    std::size_t n = blocks_.necklaces()[node * width];
+    const std::size_t end = blocks_.necklaces()[std::min((node + 1) * width, blocks) - 1];
+    while (n <= end && asked().rests(n)) ++n;
+    return n > end;
+  };
+  if (!asked().at_rest.empty() && all_rest(a) && all_rest(b)) return false;
   if (!asked().between &&
       blocks_.necklaces()[std::min((a + 1) * width, blocks) - 1] < blocks_.necklaces()[b * width])
     return false;
@@ -171,6 +178,7 @@ void BlockTree<Dimension>::compare_along(std::size_t first, std::size_t last) {
     reserve_candidates(near);
     for (std::size_t k = 0; k < near; ++k) {
       const std::uint32_t block = near_groups_[k] / 8, along = near_groups_[k] % 8;
+      if (asked().rests(blocks_.necklaces()[block])) continue;
       const BeadId end = asked().necklaces[blocks_.necklaces()[block]].last;
       for (unsigned bits = near_beads_[k]; bits != 0; bits &= bits - 1) {
         const BeadId bead = blocks_.first_bead(block) + static_cast<BeadId>(std::countr_zero(bits));
@@ -186,7 +194,7 @@ template <int Dimension>
 void BlockTree<Dimension>::compare_blocks() {
   const auto loop = blocks_.equal_radii() ? loops_.compare_equal : loops_.compare_unequal;
   const bool sequence = blocks_.order() == BlockOrder::sequence;
-  const bool one_necklace = asked().necklaces.size() == 1;
+  const bool one_necklace = asked().necklaces.size() == 1 && asked().at_rest.empty();
   const LanesAsked lanes{blocks_.necklaces().data(), sequence ? asked().apart : 1,
                          !sequence || asked().within, !sequence || asked().between, blocks_.goes_along()};
   counts_.block_pairs += block_pairs_.count;
@@ -200,6 +208,8 @@ void BlockTree<Dimension>::compare_blocks() {
       const std::uint32_t group = near_groups_[k];
       const std::uint32_t a = some.first[group / 16], b = some.second[group / 16];
       const std::size_t g = group / 4 % 4, h = group % 4;
+      if (sequence && asked().rests(blocks_.necklaces()[a]) && asked().rests(blocks_.necklaces()[b]))
+        continue;
       for (unsigned bits = near_beads_[k]; bits != 0; bits &= bits - 1) {
         const auto bit = static_cast<std::size_t>(std::countr_zero(bits));
         BeadPair pair{blocks_.bead_at(a, 4 * g + bit / 4), blocks_.bead_at(b, 4 * h + bit % 4)};

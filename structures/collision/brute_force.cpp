@@ -48,13 +48,13 @@ std::array<Run, 2> asked_of(BeadId bead, std::size_t necklace, const PairsAsked&
   return {Run{first, asked.within ? end : first}, Run{end, asked.between ? beads : end}};
 }
 
-// Calls visit(i, j) for pairs asked for, ascending; without groups it leaves out pairs that are surely_apart.
-// Reads `distance()` anew for each run of beads.
+// Calls visit(i, j) for pairs asked for, ascending; without groups and necklaces at rest it leaves out pairs
+// that are surely_apart. Reads `distance()` anew for each run of beads.
 template <int Dimension, class Distance, class Visit>
 void visit_near(const Balls<Dimension>& balls, const PairsAsked& asked, const Distance& distance,
                 const Visit& visit) {
   const FloatingPointGuard to_nearest;
-  if (!asked.groups.empty()) {
+  if (!asked.groups.empty() || !asked.at_rest.empty()) {
     std::uint64_t visited = 0;
     return PairsInQuestion(asked).for_each([&](BeadId i, BeadId j) {
       if (++visited % beads_at_a_time == 0) InterruptionCheck::ask();

@@ -13,7 +13,7 @@ namespace kds {
 
 template <int Dimension>
 CellList<Dimension>::CellList(PairsAsked asked)
-    : asked_(std::move(asked)), one_necklace_(asked_.necklaces.size() == 1) {
+    : asked_(std::move(asked)), one_necklace_(asked_.necklaces.size() == 1 && asked_.at_rest.empty()) {
   check_groups(asked_);
   if (one_necklace_) least_along_ = asked_.within ? asked_.apart : std::int64_t{no_bead} + 1;
 }

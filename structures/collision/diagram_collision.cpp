@@ -108,6 +108,8 @@ std::optional<std::string> diagram_refusal(const Balls<Dimension>& balls, const 
   if (!asked.within || (several && !asked.between))
     return "the power diagram is of all beads together; it does not answer about some pairs of necklaces "
            "only";
+  if (!asked.at_rest.empty())
+    return "the power diagram is of all beads together; it does not leave out pairs of beads at rest";
   if (!asked.groups.empty())
     return "the power diagram is of all beads together; it does not answer about groups of beads only";
   for (BeadId b = 0; b < balls.size(); ++b)

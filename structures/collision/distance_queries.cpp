@@ -16,9 +16,9 @@ void DistanceQueries<Dimension>::offer_some(ClosestSoFar<Dimension>& closest) co
   const PairsAsked& asked = tree_.asked();
   for (std::size_t n = 0; n < asked.necklaces.size(); ++n) {
     const BeadRange& range = asked.necklaces[n];
-    for (std::size_t b = range.first; asked.within && b + asked.apart <= range.last; ++b)
+    for (std::size_t b = range.first; asked.asks_of(n, n) && b + asked.apart <= range.last; ++b)
       closest.offer(static_cast<BeadId>(b), static_cast<BeadId>(b + asked.apart));
-    if (asked.between && n > 0) closest.offer(asked.necklaces[n - 1].last, range.first);
+    if (n > 0 && asked.asks_of(n - 1, n)) closest.offer(asked.necklaces[n - 1].last, range.first);
   }
 }
 

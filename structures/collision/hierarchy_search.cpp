@@ -347,9 +347,12 @@ std::optional<ClosestPair> find_closest_pair(const SphereTree<Dimension>& tree, 
                                              const PairsAsked& asked) {
   const FloatingPointGuard to_nearest;
   ClosestSoFar<Dimension> closest(balls);
-  if (asked.within)  // pairs near along the chain are close, which gives a good bound from the start
-    for (const auto& [first, last] : asked.necklaces)
-      for (BeadId b = first; last - b >= asked.apart && b <= last; ++b) closest.offer(b, b + asked.apart);
+  // Pairs near along the chain are close, which gives a good bound from the start.
+  for (std::size_t n = 0; n < asked.necklaces.size(); ++n) {
+    const auto& [first, last] = asked.necklaces[n];
+    if (!asked.asks_of(n, n)) continue;
+    for (BeadId b = first; last - b >= asked.apart && b <= last; ++b) closest.offer(b, b + asked.apart);
+  }
   const auto spheres = tree.spheres();
   detail::for_each_root(tree.roots(), asked, [&](const NodePair& roots, BeadId least_apart) {
     Stack<BoundedPair> stack;

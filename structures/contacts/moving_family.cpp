@@ -299,7 +299,7 @@ template <int Dimension>
 bool MovingFamily<Dimension>::asks(std::size_t first, std::size_t second) const {
   if (!groups_of_blocks_.empty() && !PairsAsked::joins(groups_of_blocks_[first], groups_of_blocks_[second]))
     return false;
-  return blocks_[first].necklace == blocks_[second].necklace ? asked_.within : asked_.between;
+  return asked_.asks_of(blocks_[first].necklace, blocks_[second].necklace);
 }
 
 template class MovingFamily<2>;

@@ -121,9 +121,9 @@ void SweptContacts<D>::traverse(const MayMeet& may_meet, FoundPairs& found) {
   };
   std::vector<Task> stack;
   for (std::size_t i = roots_.size(); i-- > 0;) {
-    for (std::size_t j = roots_.size(); asked_.between && j-- > i + 1;)
-      stack.push_back({roots_[i], roots_[j]});
-    if (asked_.within && roots_[i] < nodes_) stack.push_back({roots_[i], roots_[i]});
+    for (std::size_t j = roots_.size(); j-- > i + 1;)
+      if (asked_.asks_of(i, j)) stack.push_back({roots_[i], roots_[j]});
+    if (asked_.asks_of(i, i) && roots_[i] < nodes_) stack.push_back({roots_[i], roots_[i]});
   }
   while (!stack.empty()) {
     const auto [a, b] = stack.back();

@@ -6,6 +6,9 @@
 namespace kds {
 
 void check_groups(const PairsAsked& asked) {
+  if (!asked.at_rest.empty() && asked.at_rest.size() != asked.necklaces.size())
+    throw std::invalid_argument("expected whether each of " + std::to_string(asked.necklaces.size()) +
+                                " necklaces is at rest, found " + std::to_string(asked.at_rest.size()));
   const std::size_t beads = asked.necklaces.empty() ? 0 : std::size_t{asked.necklaces.back().last} + 1;
   if (asked.groups.empty() || asked.groups.size() == beads) return;
   throw std::invalid_argument("expected the groups of " + std::to_string(beads) + " beads, found those of " +

@@ -32,13 +32,24 @@ struct BeadPair {
 
 /// Selects the pairs of beads a query is about: pairs within one necklace that are far enough apart along it,
 /// pairs of two necklaces, or both. Pairs near along the chain meet by construction. With two groups of
-/// beads, only pairs with one bead in each group are asked about; a bead may be in both groups.
+/// beads, only pairs with one bead in each group are asked about; a bead may be in both groups. Two beads at
+/// rest are never asked about, because their distance never changes: those of one obstacle, and those of two.
 struct PairsAsked {
   std::vector<BeadRange> necklaces;  ///< one after the other, from bead 0 to the scene's last bead
   bool within = true;                ///< pairs within one necklace
   BeadId apart = 2;                  ///< least distance in sequence for these pairs, at least 1
   bool between = true;               ///< pairs of two necklaces
   BeadGroups groups = {};            ///< groups 0 and 1 of each bead; empty: pairs of any beads
+  /// Whether each necklace is at rest, as Scene::at_rest has it; empty: none is. The caller declares it:
+  /// edits that move a bead of such a necklace do not change which pairs are asked about.
+  std::vector<bool> at_rest = {};
+
+  [[nodiscard]] bool rests(std::size_t necklace) const { return !at_rest.empty() && at_rest[necklace]; }
+  /// Returns whether any pair of a bead of one necklace and a bead of the other may be asked about. Takes one
+  /// necklace twice.
+  [[nodiscard]] bool asks_of(std::size_t necklace, std::size_t other) const {
+    return (necklace == other ? within : between) && !(rests(necklace) && rests(other));
+  }
 
   /// Returns the index of the bead's necklace.
   [[nodiscard]] std::size_t necklace_of(BeadId bead) const {
@@ -51,8 +62,8 @@ struct PairsAsked {
   /// themselves.
   [[nodiscard]] bool asks(const BeadPair& pair) const {
     if (!joins_groups(pair)) return false;
-    if (necklace_of(pair.first) != necklace_of(pair.second)) return between;
-    return within && pair.second - pair.first >= apart;
+    const std::size_t first = necklace_of(pair.first), second = necklace_of(pair.second);
+    return asks_of(first, second) && (first != second || pair.second - pair.first >= apart);
   }
 
   /// Returns whether one bead is in group 0 and the other in group 1. True without groups.
@@ -65,7 +76,8 @@ struct PairsAsked {
   }
 };
 
-/// Throws std::invalid_argument if there are groups, but not those of all beads of the necklaces.
+/// Throws std::invalid_argument if there are groups, but not those of all beads of the necklaces, or if
+/// `at_rest` is neither empty nor of all necklaces.
 void check_groups(const PairsAsked& asked);
 /// Throws std::invalid_argument if there are groups. For a `method` that looks at all pairs.
 void refuse_groups(const PairsAsked& asked, std::string_view method);

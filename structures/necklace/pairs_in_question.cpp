@@ -14,15 +14,20 @@ PairsInQuestion::PairsInQuestion(const PairsAsked& asked) : asked_(&asked) {
   }
 }
 
-std::array<std::span<const BeadId>, 2> PairsInQuestion::partners(BeadId bead, std::size_t necklace) const {
+std::vector<std::span<const BeadId>> PairsInQuestion::partners(BeadId bead, std::size_t necklace) const {
   const std::vector<BeadId>& all = partners_[asked_->groups.empty() ? 0 : asked_->groups[bead] % 4];
-  const BeadId end = asked_->necklaces[necklace].last + 1, beads = asked_->necklaces.back().last + 1;
-  const BeadId apart = end - bead > asked_->apart ? bead + asked_->apart : end;
-  const auto run = [&all](BeadId from, BeadId to) -> std::span<const BeadId> {
+  const std::vector<BeadRange>& necklaces = asked_->necklaces;
+  std::vector<std::span<const BeadId>> runs;
+  const auto add = [&](BeadId from, BeadId to) {
     const auto first = std::lower_bound(all.begin(), all.end(), from);
-    return {first, std::lower_bound(first, all.end(), to)};
+    runs.push_back({first, std::lower_bound(first, all.end(), to)});
   };
-  return {run(apart, asked_->within ? end : apart), run(end, asked_->between ? beads : end)};
+  const BeadId end = necklaces[necklace].last + 1;
+  if (asked_->asks_of(necklace, necklace) && end - bead > asked_->apart) add(bead + asked_->apart, end);
+  if (asked_->between && !asked_->rests(necklace)) add(end, necklaces.back().last + 1);
+  for (std::size_t n = necklace + 1; asked_->rests(necklace) && n < necklaces.size(); ++n)
+    if (asked_->asks_of(necklace, n)) add(necklaces[n].first, necklaces[n].last + 1);
+  return runs;
 }
 
 std::uint64_t PairsInQuestion::count() const {

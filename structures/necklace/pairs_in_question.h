@@ -28,9 +28,9 @@ class PairsInQuestion {
   }
 
  private:
-  /// Returns the later beads that form pairs with a bead of this necklace: those within it, and those of
-  /// later necklaces.
-  [[nodiscard]] std::array<std::span<const BeadId>, 2> partners(BeadId bead, std::size_t necklace) const;
+  /// Returns the later beads that form pairs with a bead of this necklace, in ascending runs: those within
+  /// it, and those of later necklaces.
+  [[nodiscard]] std::vector<std::span<const BeadId>> partners(BeadId bead, std::size_t necklace) const;
 
   const PairsAsked* asked_;
   std::array<std::vector<BeadId>, 4> partners_;  ///< by the groups of the first bead; only 0 without groups

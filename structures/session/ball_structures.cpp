@@ -181,13 +181,13 @@ StructureSpec contacts_structure() {
       return "the points of an instance have no radii, and contacts are of balls; expected a trajectory";
     return std::nullopt;
   };
-  spec.make =
-      make_of_motion<2>([]<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
-                                  const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
-        const PairsAsked asked{scene.necklaces(), true, settings.apart, true, settings.groups};
-        if (simulator.kernel() == Kernel::exact) check_exact_pairs(asked);
-        return std::make_unique<ContactsInRun<D>>(simulator, scene, ref, asked, settings.contact_distance);
-      });
+  spec.make = make_of_motion<2>([]<int D>(
+                                    Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
+                                    const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
+    const PairsAsked asked{scene.necklaces(), true, settings.apart, true, settings.groups, scene.at_rest()};
+    if (simulator.kernel() == Kernel::exact) check_exact_pairs(asked);
+    return std::make_unique<ContactsInRun<D>>(simulator, scene, ref, asked, settings.contact_distance);
+  });
   return spec;
 }
 

@@ -38,7 +38,7 @@ inline std::vector<BeadPair> all_pairs(const Eigen::Matrix3Xd& centers, const st
   return found;
 }
 
-/// Returns a question about one, two or many necklaces, some of which have a single bead.
+/// Returns a question about one, two or many necklaces, some of which have a single bead or are at rest.
 inline PairsAsked some_pairs(Random& random, std::size_t beads) {
   PairsAsked asked;
   const std::uint64_t form = random() % 4;
@@ -52,6 +52,8 @@ inline PairsAsked some_pairs(Random& random, std::size_t beads) {
   asked.apart = static_cast<BeadId>(random() % 2 == 0 ? 2 : 1 + random() % 20);
   asked.within = random() % 4 != 0;
   asked.between = random() % 4 != 0;
+  if (random() % 3 == 0)
+    for (std::size_t n = 0; n < asked.necklaces.size(); ++n) asked.at_rest.push_back(random() % 2 != 0);
   return asked;
 }
 

@@ -32,6 +32,8 @@ PairsAsked random_question(Generator& random, BeadId beads) {
   asked.apart = apart[random() % apart.size()];
   asked.within = random() % 6 != 0;
   asked.between = random() % 6 != 0;
+  if (random() % 4 == 0)
+    for (std::size_t n = 0; n < asked.necklaces.size(); ++n) asked.at_rest.push_back(random() % 2 != 0);
   return asked;
 }
 
@@ -203,6 +205,7 @@ TEST(Detectors, TheDiagramRefusesWhatItDoesNotAnswer) {
   EXPECT_TRUE(diagram_refusal(equal, {two, true, 2, false}));
   EXPECT_TRUE(diagram_refusal(equal, {two, false, 2, true}));
   EXPECT_FALSE(diagram_refusal(equal, {two, true, 2, true}));
+  EXPECT_TRUE(diagram_refusal(equal, {two, true, 2, true, {}, {false, true}}));
   EXPECT_FALSE(diagram_refusal(equal, {{{0, 7}}, true, 2, false}));
   std::vector<double> radii(8, 0.1);
   radii[3] = 0x1p600;

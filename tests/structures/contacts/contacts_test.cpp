@@ -198,6 +198,8 @@ TEST(Contacts, SeveralNecklaces) {
     expect_right(steps, asked);
     asked = {{{0, 19}, {20, 20}, {21, 44}}, true, 2, false};
     expect_right(steps, asked);
+    asked = {{{0, 19}, {20, 20}, {21, 44}}, true, 2, true, {}, {true, round % 2 == 0, round > 1}};
+    expect_right(steps, asked);
     if (HasFailure()) return;
   }
 }

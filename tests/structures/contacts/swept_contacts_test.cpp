@@ -87,6 +87,7 @@ TYPED_TEST(SweptContactsIn, FindAllThatMeetInAStepAndNoOthers) {
       if (round >= 9 && kind != MotionKind::mixed_scales) scale(motion, round == 9 ? 400 : -400);
       PairsAsked asked{
           {{0, 7}, {8, 8}, {9, 13}}, round % 4 != 1, static_cast<BeadId>(pick(random, 1, 4)), round % 4 != 2};
+      if (round % 7 == 4) asked.at_rest = {true, false, true};
       if (round % 5 == 3) asked.groups = {1, 1, 0, 2, 3, 2, 0, 1, 2, 2, 1, 3, 0, 2};
       expect_all_found<StaticWrappedHierarchy<d>>(motion, asked, meeting);
       expect_all_found<LayeredHierarchy<d>>(motion, asked, meeting);

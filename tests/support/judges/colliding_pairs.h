@@ -23,6 +23,7 @@ inline std::vector<BeadPair> pairs_over_rationals(const Eigen::Matrix3Xd& center
       while (asked.necklaces[of_a].last < a) ++of_a;
       while (asked.necklaces[of_b].last < b) ++of_b;
       if (of_a == of_b ? !asked.within || b - a < asked.apart : !asked.between) continue;
+      if (!asked.at_rest.empty() && asked.at_rest[of_a] && asked.at_rest[of_b]) continue;
       // Doubles decide pairs that are farther apart than twice the reach.
       const double apart = (centers.col(Eigen::Index{a}) - centers.col(Eigen::Index{b})).norm();
       if (std::isfinite(apart) && apart > 2 * (radii[a] + radii[b] + distance)) continue;
