@@ -14,15 +14,19 @@ namespace kds {
 
 namespace {
 
-// Returns half the distance from each bead to its nearest partner in `pairs`, in ascending order. The entry
-// is infinite for a bead without a partner.
-std::vector<double> half_distances(const Eigen::Matrix3Xd& centers, std::span<const BeadPair> pairs) {
+// Returns half the distance from each bead that moves to its nearest partner in `pairs`, in ascending order.
+// The entry is infinite for a bead without a partner.
+std::vector<double> half_distances(const Scene& scene, std::span<const BeadPair> pairs) {
+  const Eigen::Matrix3Xd centers = scene.centers(0);
   std::vector<double> half(static_cast<std::size_t>(centers.cols()), HUGE_VAL);
   for (const auto& [a, b] : pairs) {
     const double distance = (centers.col(b) - centers.col(a)).norm() / 2;
     half[a] = std::min(half[a], distance);
     half[b] = std::min(half[b], distance);
   }
+  for (std::size_t n = scene.at_rest().size(); n-- > 0;)
+    if (const BeadRange& range = scene.necklaces()[n]; scene.at_rest()[n])
+      half.erase(half.begin() + range.first, half.begin() + range.last + 1);
   std::ranges::sort(half);
   return half;
 }
@@ -33,8 +37,8 @@ double to_three_digits(double x) {
   return std::ceil(x / unit) * unit;
 }
 
-// Returns the half distances of the beads in ascending order. At least half of them are finite; if that
-// cannot be achieved, returns an empty list.
+// Returns the half distances of the beads that move in ascending order. At least half of them are finite; if
+// that cannot be achieved, returns an empty list.
 template <int Dimension>
 std::vector<double> half_distances_known(const Scene& scene, const Balls<Dimension>& balls, BeadId apart) {
   DistanceQueries<Dimension> queries({scene.necklaces(), true, apart, true, {}, scene.at_rest()});
@@ -42,7 +46,7 @@ std::vector<double> half_distances_known(const Scene& scene, const Balls<Dimensi
   if (!closest || closest->sign <= 0) return {};
   for (double reach = 2 * closest->distance; std::isfinite(reach); reach *= 2) {
     const auto& pairs = queries.pairs_within(balls, reach);
-    std::vector<double> half = half_distances(scene.centers(0), pairs);
+    std::vector<double> half = half_distances(scene, pairs);
     if (half[(half.size() - 1) / 2] < HUGE_VAL) return half;
     if (pairs.size() > 64 * half.size()) break;  // some beads have no partner
   }

@@ -9,9 +9,9 @@
 
 namespace kds {
 
-/// Returns one line that names a radius at which half of the beads touch another bead in the first frame. Two
-/// beads of one chain count if they are at least `apart` apart, and at least 5 if the chain is long enough.
-/// Returns nothing if beads meet in that frame, radii differ or no pair counts.
+/// Returns one line that names a radius at which half of the beads that move touch another bead in the first
+/// frame. Two beads of one chain count if they are at least `apart` apart, and at least 5 if the chain is
+/// long enough. Returns nothing if beads meet in that frame, radii differ or no pair counts.
 [[nodiscard]] std::optional<std::string> radius_hint(const Scene& scene, BeadId apart);
 
 /// Returns a similar line that names a value of --factors instead. The radii of the scene are `factor` times
