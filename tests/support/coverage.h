@@ -13,14 +13,14 @@ namespace kds::test {
 
 inline constexpr int coverage_runs = 400;
 
-/// Whether intervals may hold the truth in more than 98% of all runs, as they do for a spread that is often
-/// unknown or that cancels.
+/// The share of intervals that must hold the truth: 90 to 98%; 90% or more, for data whose spread the
+/// interval overestimates; less than 90%, for data that the interval's header excludes.
 enum class Coverage { as_claimed, may_be_more, beyond_the_claim };
 
-/// Calls interval_of(random) for each run, which generates data and returns the ends of their interval as an
-/// optional pair, or nothing. Prints a row of a table: the kind of interval, the data, the share of intervals
-/// that hold `truth`, and the share of runs without an interval. Expects 90 to 98% of the intervals to hold
-/// the truth. For data beyond the claim, expects less than 90%: if they hold it, claim more.
+/// Calls interval_of(random) for each run. The function generates data and returns the ends of their interval
+/// as an optional pair, or nothing. Prints a row of a table: the kind of interval, the data, the share of
+/// intervals that hold `truth`, and the share of runs without an interval. Expects the share that `claim`
+/// says.
 template <class IntervalOf>
 void expect_coverage(std::string_view kind, std::string_view data, double truth,
                      const IntervalOf& interval_of, Coverage claim = Coverage::as_claimed) {
