@@ -65,9 +65,9 @@ void bench_kinetic_steps(const BenchChain& chain, std::size_t rounds, std::optio
     ours.push_back(run_all_steps(scene, "wrapped", {}).seconds);
     peer.push_back(0);
     for (std::size_t k = 1; k < chain.frames.size(); ++k)
-      peer.back() += (chain.dimension == 2 ? seconds_to_wrap<2>(tree.ranges(), chain.frames[k], chain.radii)
-                                           : seconds_to_wrap<3>(tree.ranges(), chain.frames[k], chain.radii))
-                         .processor;
+      peer.back() += processor_seconds_per_call(
+          chain.dimension == 2 ? spheres_by_cgal<2>(tree.ranges(), chain.frames[k], chain.radii)
+                               : spheres_by_cgal<3>(tree.ranges(), chain.frames[k], chain.radii));
   }
   const double nanoseconds = 1e9 / static_cast<double>(tree.node_count() * scene.step_count());
   rows.push_back(
@@ -150,8 +150,8 @@ class MeasuredHierarchies {
       trust.push_back(over_frames(trusting, [](auto& h, const auto& now) { h.update(now, Update::trust); }));
       peer.push_back(0);
       for (std::size_t k = 1; k < balls_.size(); ++k)
-        peer.back() +=
-            seconds_to_wrap<Dimension>(built.tree().ranges(), input_.frames[k], input_.radii).processor;
+        peer.back() += processor_seconds_per_call(
+            spheres_by_cgal<Dimension>(built.tree().ranges(), input_.frames[k], input_.radii));
     }
     const double nodes = static_cast<double>(built.tree().node_count() * later.size());
     const double cgal = median_of(peer) / nodes * 1e9;
@@ -198,8 +198,9 @@ void all_threads(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& r
   for (std::size_t round = 0; round < rounds; ++round) {
     for (const Threads threads : {Threads::one, Threads::all}) {
       const std::size_t all = threads == Threads::all ? 1 : 0;
-      build[all].push_back(seconds_of([&] { hierarchy.build(balls[0], threads); }).clock);
-      update[all].push_back(seconds_of([&] { hierarchy.update(balls[1], Update::blocks, threads); }).clock);
+      build[all].push_back(seconds_of<WallClock>([&] { hierarchy.build(balls[0], threads); }));
+      update[all].push_back(
+          seconds_of<WallClock>([&] { hierarchy.update(balls[1], Update::blocks, threads); }));
     }
   }
   const double nanoseconds = 1e9 / static_cast<double>(hierarchy.tree().node_count());
@@ -228,16 +229,12 @@ void lazy_query(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& ro
   std::vector<double> ours, peer;
   double apart = 0;  // used, so that the compiler keeps the work
   for (std::size_t round = 0; round < rounds; ++round) {
-    constexpr int queries = 1000;
-    ours.push_back(processor_seconds_of([&] {
-                     for (int i = 0; i < queries; ++i) {
-                       hierarchy.update(balls, Update::lazy);
-                       const Sphere a = hierarchy.sphere(0), b = hierarchy.sphere(second);
-                       apart += (a.center - b.center).norm() - a.radius - b.radius;
-                     }
-                   }) /
-                   queries);
-    peer.push_back(seconds_to_wrap<3>(hierarchy.tree().ranges(), both, radii).processor);
+    ours.push_back(processor_seconds_per_call([&] {
+      hierarchy.update(balls, Update::lazy);
+      const Sphere a = hierarchy.sphere(0), b = hierarchy.sphere(second);
+      apart += (a.center - b.center).norm() - a.radius - b.radius;
+    }));
+    peer.push_back(processor_seconds_per_call(spheres_by_cgal<3>(hierarchy.tree().ranges(), both, radii)));
   }
   rows.push_back(
       with_spread({"lazy update and query", "far helices", radii.size(), median_of(ours) * 1e9, "ns/frame",

@@ -49,8 +49,8 @@ void add_rows(const std::filesystem::path& path, std::size_t rounds, std::vector
   const bool has_goal = reader.name == "xtc" && first.positions.cols() >= fewest_for_goal;
   const std::size_t atoms = read_frames(*opened.frames);
   const auto seconds = seconds_in_turn(
-      rounds, {[&] { return processor_seconds_of([&] { (void)read_frames(*opened.frames); }); },
-               [&] { return processor_seconds_of([&] { read_bytes(file, block); }); }});
+      rounds, {[&] { return processor_seconds_per_call([&] { (void)read_frames(*opened.frames); }); },
+               [&] { return processor_seconds_per_call([&] { read_bytes(file, block); }); }});
   const double nanoseconds = 1e9 / static_cast<double>(atoms);
   const std::optional<double> goal = has_goal ? std::optional(most_for_xtc) : std::nullopt;
   const std::string name = "read " + reader.name, input = path.filename().string();

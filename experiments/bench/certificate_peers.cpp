@@ -34,7 +34,7 @@ namespace {
 
 template <class Tuples, class Predicate>
 double seconds_for_all(const Tuples& tuples, const Predicate& predicate) {
-  return processor_seconds_of([&] {
+  return processor_seconds_per_call([&] {
     int sum = 0;
     for (const auto& t : tuples) sum += static_cast<int>(predicate(t));
     keep(sum);
@@ -99,7 +99,7 @@ AlgebraicKernel::AlgebraicKernel(std::span<const ExactPolynomial> polynomials)
 double AlgebraicKernel::seconds_to_isolate() const {
   const auto solve = polynomials_->kernel.solve_1_object();
   std::vector<Algebraic::Algebraic_real_1> roots;
-  return processor_seconds_of([&] {
+  return processor_seconds_per_call([&] {
     for (const auto& p : polynomials_->all) {
       roots.clear();
       solve(p, true, std::back_inserter(roots));

@@ -17,22 +17,21 @@
 #include "motions/models/elementary.h"
 #include "motions/readers/instance.h"
 #include "structures/session/kinetic_run.h"
-#include "structures/triangulation/regular_triangulation.h"
 #include "structures/triangulation/static_build.h"
 
 namespace kds::bench {
 
 namespace {
 
-Seconds seconds_to_build(const Scene& scene, const Eigen::Matrix3Xd& centers,
-                         std::span<const double> weights) {
+StaticBuild static_build_of(const Scene& scene, const Eigen::Matrix3Xd& centers,
+                            std::span<const double> weights) {
   switch (scene.dimension()) {
     case 1:
-      return seconds_to_sort(centers);
+      return order_by_sorting(centers);
     case 2:
-      return seconds_to_triangulate<2>(centers, weights);
+      return triangulation_by_cgal<2>(centers, weights);
     default:
-      return seconds_to_triangulate<3>(centers, weights);
+      return triangulation_by_cgal<3>(centers, weights);
   }
 }
 
@@ -41,6 +40,7 @@ void run_instance(Turns& turns, const std::filesystem::path& file, Kernel kernel
   const std::string structure = scene.dimension() == 1 ? "sorted" : "power";
   const Eigen::Matrix3Xd centers = scene.centers(0);
   const std::vector<double> weights = scene.weights(0);
+  const StaticBuild build = static_build_of(scene, centers, weights);
   constexpr int builds = 20;
   std::vector<double> runs, static_builds, ratios;
   std::uint64_t events = 0;
@@ -52,9 +52,10 @@ void run_instance(Turns& turns, const std::filesystem::path& file, Kernel kernel
       events = std::accumulate(per_step.begin(), per_step.end(), std::uint64_t{0});
     }));
     turns.took(runs.back());
-    double seconds = 0;
-    for (int i = 0; i < builds; ++i) seconds += seconds_to_build(scene, centers, weights).processor;
-    static_builds.push_back(seconds / builds);
+    static_builds.push_back(processor_seconds_per_call([&] {
+                              for (int i = 0; i < builds; ++i) build();
+                            }) /
+                            builds);
     ratios.push_back(runs.back() / static_builds.back());
   }
   const double run = median_of(runs);

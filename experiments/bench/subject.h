@@ -54,21 +54,20 @@ class Turns {
   template <class Ours, class Peer>
   void take(std::size_t items, const Ours& ours, const Peer& peer) {
     std::vector<double> our_seconds, peer_seconds, ratios;
-    std::uint64_t allocated = 0;
     ours();  // warms up
+    const std::uint64_t before = allocations();
+    ours();
+    const std::uint64_t allocated = allocations() - before;
     while (another()) {
-      const std::uint64_t before = allocations();
-      const double seconds = processor_seconds_of(ours);
-      allocated += allocations() - before;
-      took(seconds);
-      our_seconds.push_back(seconds);
+      our_seconds.push_back(processor_seconds_per_call(ours));
+      took(our_seconds.back());
       peer_seconds.push_back(peer());
       ratios.push_back(our_seconds.back() / peer_seconds.back());
     }
     const auto n = static_cast<double>(items);
     note("items", n);
     note_spread("ns", our_seconds, 1e9 / n);
-    note("allocations", static_cast<double>(allocated) / (n * static_cast<double>(our_seconds.size())));
+    note("allocations", static_cast<double>(allocated) / n);
     if (std::isnan(ratios.front())) return;
     note("peer_ns", median_of(peer_seconds) / n * 1e9);
     note("ratio", median_of(ratios));

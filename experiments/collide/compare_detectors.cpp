@@ -288,9 +288,9 @@ class Comparison {
       for (std::size_t m = 0; m < methods_.size(); ++m) {
         Detector<Dimension>& detector = *methods_[m].detectors[round];
         found[m] = {};
-        methods_[m].seconds[round] += seconds_of([&] { detector.detect(balls, found[m]); }).clock;
+        methods_[m].seconds[round] += seconds_of<WallClock>([&] { detector.detect(balls, found[m]); });
         methods_[m].closest_seconds[round] +=
-            seconds_of([&] { detector.find_closest(balls, found[m]); }).clock;
+            seconds_of<WallClock>([&] { detector.find_closest(balls, found[m]); });
       }
     for (std::size_t m = 0; m < methods_.size(); ++m) {
       CollideRow& row = report_.rows[m];

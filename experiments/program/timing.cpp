@@ -2,40 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "experiments/output/text.h"
 
 namespace kds {
 
 namespace {
 
-class RepeatedWork {
- public:
-  RepeatedWork(std::function<double()> work, double enough) : work_(std::move(work)) {
-    constexpr double least = 1e-3;
-    double once = work_();
-    const bool is_short = once < least;
-    if (is_short) once = work_();  // fills the caches
-    calls_ = static_cast<std::size_t>(std::max(1.0, least / std::max(once, 1e-9)));
-    if (!is_short) seconds_.push_back(once);
-    only_once_ = once > enough;
-  }
-
-  [[nodiscard]] bool has(std::size_t rounds) const { return only_once_ || seconds_.size() >= rounds; }
-  void do_round() {
-    double sum = 0;
-    for (std::size_t call = 0; call < calls_; ++call) sum += work_();
-    seconds_.push_back(sum / static_cast<double>(calls_));
-  }
-  [[nodiscard]] const std::vector<double>& seconds() const { return seconds_; }
-
- private:
-  std::function<double()> work_;
-  std::size_t calls_ = 1;  // per round
-  bool only_once_ = false;
-  std::vector<double> seconds_;
-};
+// Calls the work, unless its first call took more than `enough` seconds.
+void do_round(const std::function<double()>& work, double enough, std::vector<double>& seconds) {
+  if (seconds.size() == 1 && seconds.front() > enough) return;
+  seconds.push_back(work());
+}
 
 }  // namespace
 
@@ -45,22 +22,18 @@ std::string spread_text(const Spread& spread) {
                      short_decimal(spread.most));
 }
 
-Spread repeated_seconds(std::size_t rounds, std::function<double()> work, double enough) {
-  RepeatedWork repeated(std::move(work), enough);
-  while (!repeated.has(rounds)) repeated.do_round();
-  return spread_of(repeated.seconds());
+Spread repeated_seconds(std::size_t rounds, const std::function<double()>& work, double enough) {
+  std::vector<double> seconds;
+  for (std::size_t round = 0; round < rounds; ++round) do_round(work, enough, seconds);
+  return spread_of(seconds);
 }
 
 std::vector<std::vector<double>> seconds_in_turn(std::size_t rounds,
-                                                 std::vector<std::function<double()>> works) {
+                                                 const std::vector<std::function<double()>>& works) {
   constexpr double enough = 1;
-  std::vector<RepeatedWork> repeated;
-  for (std::function<double()>& work : works) repeated.emplace_back(std::move(work), enough);
-  for (std::size_t round = 1; round <= rounds; ++round)
-    for (RepeatedWork& work : repeated)
-      if (!work.has(round)) work.do_round();
-  std::vector<std::vector<double>> seconds;
-  for (const RepeatedWork& work : repeated) seconds.push_back(work.seconds());
+  std::vector<std::vector<double>> seconds(works.size());
+  for (std::size_t round = 0; round < rounds; ++round)
+    for (std::size_t w = 0; w < works.size(); ++w) do_round(works[w], enough, seconds[w]);
   return seconds;
 }
 

@@ -12,9 +12,14 @@
 
 namespace kds {
 
+/// For work that cannot be repeated; otherwise use processor_seconds_per_call.
 template <class Work>
 double processor_seconds_of(const Work& work) {
-  return seconds_of(work).processor;
+  return seconds_of<ProcessorClock>(work);
+}
+template <class Work>
+double processor_seconds_per_call(const Work& work) {
+  return seconds_per_call<ProcessorClock>(work);
 }
 
 inline double median_of(std::vector<double> values) {
@@ -35,14 +40,14 @@ inline Spread spread_of(const std::vector<double>& values) {
 /// Returns "0.210 (0.204 to 0.233)", or "0.210" for a single round, which has no spread.
 [[nodiscard]] std::string spread_text(const Spread& spread);
 
-/// Returns the seconds per call, as `work` reports them. Short work is repeated within a round until the
-/// round is long enough to measure, after one call that fills the caches. For longer work the first call is
-/// the first round. Work that takes more than `enough` seconds is called only once.
-[[nodiscard]] Spread repeated_seconds(std::size_t rounds, std::function<double()> work, double enough = 1);
+/// Calls `work` once a round and returns the seconds that it reports. Work that takes more than `enough`
+/// seconds is called only once.
+[[nodiscard]] Spread repeated_seconds(std::size_t rounds, const std::function<double()>& work,
+                                      double enough = 1);
 
 /// Runs the works in turn, since the speed of a machine drifts. Returns the seconds of each work by round.
-[[nodiscard]] std::vector<std::vector<double>> seconds_in_turn(std::size_t rounds,
-                                                               std::vector<std::function<double()>> works);
+[[nodiscard]] std::vector<std::vector<double>> seconds_in_turn(
+    std::size_t rounds, const std::vector<std::function<double()>>& works);
 
 /// Returns the ratio of `seconds` to `others`, round by round. A work that was called only once is compared
 /// with every round of the other.

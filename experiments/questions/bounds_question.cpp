@@ -211,14 +211,13 @@ Question ask_about_trust(const MovingSubjects& subjects, std::size_t rounds,
       const Balls<3> first(subject.frames[0], subject.radii), later(subject.frames[trusted], subject.radii);
       const auto ratio_once = [&] {
         hierarchy.build(first);
-        const double trusting =
-            repeated_seconds(1, [&] {
-              return processor_seconds_of([&] { hierarchy.update(later, Update::trust); });
-            }).median;
-        const double verifying = repeated_seconds(1, [&] {
-                                   hierarchy.build(first);
-                                   return processor_seconds_of([&] { hierarchy.update(later); });
-                                 }).median;
+        const double trusting = processor_seconds_per_call([&] { hierarchy.update(later, Update::trust); });
+        hierarchy.build(first);
+        const double verifying = processor_seconds_per_call([&] {
+                                   hierarchy.update(later);
+                                   hierarchy.update(first);
+                                 }) /
+                                 2;
         return trusting / verifying;
       };
       std::vector<double> ratios;

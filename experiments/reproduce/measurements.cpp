@@ -37,7 +37,7 @@ std::array<Timed, Count> timed_in_turn(std::size_t rounds,
 
 template <class Work>
 std::function<double()> processor_time(Work work) {
-  return [work = std::move(work)]() mutable { return processor_seconds_of(work); };
+  return [work = std::move(work)] { return processor_seconds_per_call(work); };
 }
 
 template <int Dimension>
@@ -50,8 +50,8 @@ Construction construction(const Subject& subject, std::size_t frame, std::size_t
   Construction result;
   const auto times = timed_in_turn<4>(
       rounds, {processor_time([&] { wrapped.build(balls); }), processor_time([&] { layered.build(balls); }),
-               [&] { return seconds_to_wrap<Dimension>(wrapped.tree().ranges(), centers, zeros).processor; },
-               [&] { return seconds_to_triangulate<Dimension>(centers, zeros).processor; }});
+               processor_time(spheres_by_cgal<Dimension>(wrapped.tree().ranges(), centers, zeros)),
+               processor_time(triangulation_by_cgal<Dimension>(centers, zeros))});
   result.wrapped = times[0];
   result.layered = times[1];
   result.cgal = times[2];
@@ -133,38 +133,45 @@ std::uint64_t cells_changed(const Subject& subject, std::size_t from, std::size_
   return added.size();
 }
 
-// Times an update repeatedly. After each timed update the hierarchy moves back without being timed, so every
-// call starts from the same state.
+// Times an update from one frame to another. An update that trusts its bases leaves them as they are, so it
+// can be repeated. A cascade repairs bases, so it goes back by a cascade each time, which takes about as
+// long.
 template <int Dimension>
 class TimedUpdate {
  public:
   using Hierarchy = StaticWrappedHierarchy<Dimension>;
 
   TimedUpdate(const Subject& subject, std::size_t from, std::size_t to, Update how)
-      : before_(centers_at<Dimension>(subject, from)),
+      : from_(from),
+        to_(to),
+        before_(centers_at<Dimension>(subject, from)),
         after_(centers_at<Dimension>(subject, to)),
         hierarchy_(subject.necklaces),
         how_(how) {
     hierarchy_.build(before_);
-    go_back();
+    hierarchy_.update(before_, how_ == Update::cascade ? how_ : Update::naive);
   }
 
   [[nodiscard]] const Balls<Dimension>& after() const { return after_; }
 
-  /// The time includes `arrived`.
+  /// Returns the seconds of an update with `arrived`, which is called with the hierarchy, its counts and the
+  /// frame. For a cascade they are the mean of the way there and back.
   template <class Arrived>
   double seconds(const Arrived& arrived) {
-    const double seconds = processor_seconds_of([&] {
-      const WrapCounts counts = hierarchy_.update(after_, how_);
-      arrived(hierarchy_, counts);
-    });
-    go_back();
-    return seconds;
+    const auto go = [&](const Balls<Dimension>& balls, std::size_t frame) {
+      const WrapCounts counts = hierarchy_.update(balls, how_);
+      arrived(hierarchy_, counts, frame);
+    };
+    if (how_ != Update::cascade) return processor_seconds_per_call([&] { go(after_, to_); });
+    return processor_seconds_per_call([&] {
+             go(after_, to_);
+             go(before_, from_);
+           }) /
+           2;
   }
 
  private:
-  void go_back() { hierarchy_.update(before_, how_ == Update::cascade ? how_ : Update::naive); }
-
+  std::size_t from_, to_;
   Balls<Dimension> before_, after_;
   Hierarchy hierarchy_;
   Update how_;
@@ -205,30 +212,33 @@ double mean_frontier(const StaticWrappedHierarchy<Dimension>& hierarchy, const W
 template <int Dimension>
 Step step(const Subject& subject, std::size_t from, std::size_t to, std::size_t rounds) {
   Step result;
-  TimedUpdate<Dimension> lazy(subject, from, to, Update::trust), naive(subject, from, to, Update::trust),
-      cascade(subject, from, to, Update::cascade);
+  TimedUpdate<Dimension> lazy(subject, from, to, Update::trust), cascade(subject, to, to, Update::cascade),
+      naive(subject, to, to, Update::trust);
   std::size_t escaped = 0;  // used, so that the compiler keeps the work
   const auto times = timed_in_turn<3>(
-      rounds, {[&] { return lazy.seconds([](const auto&, const WrapCounts&) {}); },
+      rounds, {[&] { return lazy.seconds([](const auto&, const WrapCounts&, std::size_t) {}); },
+               [&] { return cascade.seconds([](const auto&, const WrapCounts&, std::size_t) {}); },
                [&] {
-                 return cascade.seconds([&](const auto& hierarchy, const WrapCounts& counts) {
-                   result.bases_changed = counts.changed;
-                   result.cascade_tests = static_cast<double>(counts.bead_tests + counts.cage_tests);
-                   result.frontier = mean_frontier(hierarchy, counts, subject);
-                 });
-               },
-               [&] {
-                 return naive.seconds([&](const auto& hierarchy, const WrapCounts&) {
+                 return naive.seconds([&](const auto& hierarchy, const WrapCounts&, std::size_t) {
                    escaped += escaped_nodes(hierarchy, naive.after());
                  });
                }});
   result.lazy = times[0];
   result.cascade = times[1];
   result.naive = times[2];
-  StaticWrappedHierarchy<Dimension> counted(subject.necklaces);
-  counted.build(centers_at<Dimension>(subject, from));
-  const WrapCounts counts = counted.update(naive.after(), Update::naive);
-  result.naive_tests = static_cast<double>(counts.bead_tests + counts.cage_tests);
+  StaticWrappedHierarchy<Dimension> moved(subject.necklaces);
+  const auto before = centers_at<Dimension>(subject, from);
+  const auto tests = [](const WrapCounts& counts) {
+    return static_cast<double>(counts.bead_tests + counts.cage_tests);
+  };
+  moved.build(before);
+  result.naive_tests = tests(moved.update(naive.after(), Update::naive));
+  moved.build(before);
+  moved.update(before, Update::cascade);
+  const WrapCounts counts = moved.update(naive.after(), Update::cascade);
+  result.cascade_tests = tests(counts);
+  result.bases_changed = counts.changed;
+  result.frontier = mean_frontier(moved, counts, subject);
   result.cells_changed = from == to ? 0 : cells_changed<Dimension>(subject, from, to);
   return result;
 }
@@ -318,22 +328,24 @@ CollisionBetween between(const Subject& subject, std::size_t from, std::size_t t
   LayeredHierarchy<Dimension> layered(subject.necklaces);
   TimedUpdate<Dimension> lazy(subject, from, to, Update::lazy), full(subject, from, to, Update::cascade);
   std::uint64_t lazily_found = 0;  // used, so that the compiler keeps the search
-  const auto times =
-      timed_in_turn<3>(rounds, {processor_time([&] {
-                                  layered.build(after);
-                                  result.layered_pairs = SearchBetween(layered, subject, to).pairs();
-                                }),
-                                [&] {
-                                  return lazy.seconds([&](const auto& hierarchy, const WrapCounts&) {
-                                    lazily_found += SearchBetween(hierarchy, subject, to).pairs();
-                                  });
-                                },
-                                [&] {
-                                  return full.seconds([&](const auto& hierarchy, const WrapCounts& counts) {
-                                    result.wrapped_pairs = SearchBetween(hierarchy, subject, to).pairs();
-                                    result.frontier = mean_frontier(hierarchy, counts, subject);
-                                  });
-                                }});
+  const auto times = timed_in_turn<3>(
+      rounds, {processor_time([&] {
+                 layered.build(after);
+                 result.layered_pairs = SearchBetween(layered, subject, to).pairs();
+               }),
+               [&] {
+                 return lazy.seconds([&](const auto& hierarchy, const WrapCounts&, std::size_t at) {
+                   lazily_found += SearchBetween(hierarchy, subject, at).pairs();
+                 });
+               },
+               [&] {
+                 return full.seconds([&](const auto& hierarchy, const WrapCounts& counts, std::size_t at) {
+                   const std::uint64_t pairs = SearchBetween(hierarchy, subject, at).pairs();
+                   if (at != to) return;
+                   result.wrapped_pairs = pairs;
+                   result.frontier = mean_frontier(hierarchy, counts, subject);
+                 });
+               }});
   result.layered = times[0];
   result.lazy = times[1];
   result.full = times[2];

@@ -45,12 +45,13 @@ struct SelfCollision {
 };
 [[nodiscard]] SelfCollision self_collision_of(const Subject& subject, std::size_t frame, std::size_t rounds);
 
-/// Tables 2, 5 and 6: the step from one frame to another, or to itself. The times are those of updating the
-/// wrapped hierarchy.
+/// Tables 2, 5 and 6: the step from one frame to another, or to itself. The times are those of the wrapped
+/// hierarchy at the later frame. It is verified with the bases of that frame, so that nothing is to be
+/// repaired.
 struct Step {
   Timed lazy;                                 ///< computes the spheres of the old bases
-  Timed cascade;                              ///< verifies by cages first, and repairs bases
-  Timed naive;                                ///< verifies bead by bead, and repairs no basis
+  Timed cascade;                              ///< computes spheres, and verifies them by cages first
+  Timed naive;                                ///< computes spheres, and verifies them bead by bead
   double cascade_tests = 0, naive_tests = 0;  ///< of beads and cages against spheres, repairs included
   double frontier = 0;                        ///< average over all nodes, beads included
   std::uint64_t bases_changed = 0;

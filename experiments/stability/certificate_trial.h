@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -20,6 +19,7 @@
 #include "experiments/stability/compare_answers.h"
 #include "experiments/stability/stability_scenes.h"
 #include "experiments/stability/stability_subjects.h"
+#include "kds/stopwatch.h"
 #include "motions/base/input_error.h"
 #include "motions/curves/bezier_motion.h"
 #include "motions/scene/scene.h"
@@ -193,10 +193,9 @@ class CertificateTrial {
     std::vector<std::vector<Answer>> answers;
     std::vector<double> spent;
     for (const auto& c : cases_) {
-      const auto start = std::chrono::steady_clock::now();
-      answers.push_back(follow(kernel, c->certificate, *c->search, stages));
-      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-      spent.push_back(time.count() / static_cast<double>(answers.back().size()));
+      const double time = seconds_of<WallClock>(
+          [&] { answers.push_back(follow(kernel, c->certificate, *c->search, stages)); });
+      spent.push_back(time / static_cast<double>(answers.back().size()));
     }
     seconds = median(std::move(spent));
     return answers;

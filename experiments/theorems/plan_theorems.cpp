@@ -142,7 +142,8 @@ ClosestByDiagram measure(const Eigen::Matrix3Xd& centers, std::size_t rounds) {
   result.seconds = repeated_seconds(
       rounds,
       [&] {
-        return processor_seconds_of([&] { report = closest_pair<Dimension>(centers, radii, neighbors); });
+        return processor_seconds_per_call(
+            [&] { report = closest_pair<Dimension>(centers, radii, neighbors); });
       },
       std::numeric_limits<double>::infinity());
   const PairsLookedAt& pairs = report.looked_at;
@@ -166,11 +167,12 @@ ClosestByDiagram closest_by_diagram(const Eigen::Matrix3Xd& centers, int dimensi
 template <int Dimension>
 FamilySize search_family(const SphereTree<Dimension>& tree, const PairsAsked& asked, std::size_t rounds) {
   FamilySize size;
-  const auto search = [&] { return processor_seconds_of([&] { size.found = find_pairs(tree, asked); }); };
+  const auto search = [&] { size.found = find_pairs(tree, asked); };
   if (rounds == 0)
     search();
   else
-    size.seconds = repeated_seconds(rounds, search, std::numeric_limits<double>::infinity());
+    size.seconds = repeated_seconds(
+        rounds, [&] { return processor_seconds_per_call(search); }, std::numeric_limits<double>::infinity());
   return size;
 }
 
@@ -225,7 +227,8 @@ std::array<TheoremPoint, 2> measure_paths(std::span<const Eigen::Matrix3Xd> fram
     point.seconds = repeated_seconds(
         rounds,
         [&] {
-          return processor_seconds_of([&] { cost = cascade_cost(trusted, now, after, with_paths == 1); });
+          return processor_seconds_per_call(
+              [&] { cost = cascade_cost(trusted, now, after, with_paths == 1); });
         },
         std::numeric_limits<double>::infinity());
     point.beads = beads;

@@ -184,15 +184,13 @@ double foretold_by_first_frames(const FinestData& finest, const TradeTask& task)
   pilot.sampling.times = 4;
   const FinestData first = finest.first_frames(few);
   // Two measurements separate the cost of examining a time from the cost of a run.
-  const double with_few = seconds_of([&] {
-                            static_cast<void>(measure_trade(
-                                first, pilot, [](auto, auto) {}, [](auto&) {}));
-                          }).clock;
+  const auto try_out = [&] {
+    static_cast<void>(measure_trade(
+        first, pilot, [](auto, auto) {}, [](auto&) {}));
+  };
+  const double with_few = seconds_of<WallClock>(try_out);
   pilot.sampling.times = 8;
-  const double with_more = seconds_of([&] {
-                             static_cast<void>(measure_trade(
-                                 first, pilot, [](auto, auto) {}, [](auto&) {}));
-                           }).clock;
+  const double with_more = seconds_of<WallClock>(try_out);
   const double a_look = std::max(0.0, with_more - with_few) / 4;
   const double a_round = std::max(0.0, with_few - 4 * a_look) / 2;
   const double steps = static_cast<double>(finest.frame_count() - 1) / (few - 1);

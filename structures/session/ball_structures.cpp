@@ -14,7 +14,7 @@
 #include "structures/session/own_structures.h"
 #include "structures/session/session.h"
 #include "structures/triangulation/diagram_edges.h"
-#include "structures/triangulation/regular_triangulation.h"
+#include "structures/triangulation/static_build.h"
 
 namespace kds {
 
@@ -91,7 +91,8 @@ class PowerInRun final : public RunningStructure {
     return change.kind == Events::wanders || change.kind == Events::clears || change.kind == Events::fills;
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
-    return seconds_to_triangulate<Dimension>(scene_.centers(frame), scene_.weights(frame)).clock;
+    return seconds_per_call<WallClock>(
+        triangulation_by_cgal<Dimension>(scene_.centers(frame), scene_.weights(frame)));
   }
 
  private:
@@ -134,7 +135,7 @@ class ContactsInRun final : public RunningStructure {
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     const Balls<Dimension> balls(scene_.centers(frame), radii_);
-    return seconds_of([&] { (void)cells_.pairs(balls); }).clock;
+    return seconds_per_call<WallClock>([&] { (void)cells_.pairs(balls); });
   }
 
  private:

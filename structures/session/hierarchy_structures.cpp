@@ -73,7 +73,8 @@ class LayeredInRun final : public ChordsInRun<LayeredHierarchy<Dimension>> {
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     const Balls<Dimension> balls(this->scene().centers(frame), this->scene().radii());
-    return seconds_of([&] { LayeredHierarchy<Dimension>(this->scene().necklaces()).build(balls); }).clock;
+    return seconds_per_call<WallClock>(
+        [&] { LayeredHierarchy<Dimension>(this->scene().necklaces()).build(balls); });
   }
 };
 
@@ -158,7 +159,8 @@ class WrappedInRun final : public RunningStructure {
     return state;
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
-    return seconds_to_wrap<Dimension>(kept_, scene_.centers(frame), scene_.radii()).clock;
+    return seconds_per_call<WallClock>(
+        spheres_by_cgal<Dimension>(kept_, scene_.centers(frame), scene_.radii()));
   }
 
  private:
@@ -203,9 +205,8 @@ class WrappedChordsInRun final : public ChordsInRun<StaticWrappedHierarchy<Dimen
     return {dump_wrapped(nodes)};
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
-    return seconds_to_wrap<Dimension>(this->cages().tree().ranges(), this->scene().centers(frame),
-                                      this->scene().radii())
-        .clock;
+    return seconds_per_call<WallClock>(spheres_by_cgal<Dimension>(
+        this->cages().tree().ranges(), this->scene().centers(frame), this->scene().radii()));
   }
 };
 
@@ -253,7 +254,8 @@ class BoxesInRun final : public RunningStructure {
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     const Balls<Dimension> balls(scene_.centers(frame), scene_.radii());
-    return seconds_of([&] { BoxTree<Dimension>(scene_.necklaces(), directions_).build(balls); }).clock;
+    return seconds_per_call<WallClock>(
+        [&] { BoxTree<Dimension>(scene_.necklaces(), directions_).build(balls); });
   }
 
  private:

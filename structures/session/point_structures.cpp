@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "kds/stopwatch.h"
 #include "structures/box/enclosing_box.h"
 #include "structures/closest/kinetic_closest_pair.h"
 #include "structures/hull/convex_hull.h"
 #include "structures/session/own_structures.h"
 #include "structures/sorted/sorted_list.h"
-#include "structures/triangulation/regular_triangulation.h"
 #include "structures/triangulation/static_build.h"
 
 namespace kds {
@@ -33,18 +33,14 @@ std::vector<BeadId> state_of(const KineticClosestPair<D>& closest) {
 }
 
 /// A structure of points in a run. Three functions say in what such structures differ: dump(structure) and
-/// elements(structure) return its state at a frame, static_seconds(structure, centers) times a static build.
-template <class Structure, class Dump, class Elements, class StaticSeconds>
+/// elements(structure) return its state at a frame, build(structure, centers) returns a StaticBuild.
+template <class Structure, class Dump, class Elements, class Build>
 class PointsInRun final : public RunningStructure {
  public:
   template <int D>
   PointsInRun(Simulator& simulator, const Scene& scene, const MotionRef<D>& motion, Dump dump,
-              Elements elements, StaticSeconds static_seconds)
-      : scene_(scene),
-        structure_(simulator, motion),
-        dump_(dump),
-        elements_(elements),
-        static_seconds_(static_seconds) {}
+              Elements elements, Build build)
+      : scene_(scene), structure_(simulator, motion), dump_(dump), elements_(elements), build_(build) {}
 
   [[nodiscard]] KineticStructure& kinetic() override { return structure_; }
   void count_certificates(std::span<const BeadId>) override {
@@ -57,7 +53,7 @@ class PointsInRun final : public RunningStructure {
   [[nodiscard]] bool can_be_cut() const override { return true; }
   [[nodiscard]] std::optional<std::vector<BeadId>> state() const override { return state_of(structure_); }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
-    return static_seconds_(structure_, scene_.centers(frame)).clock;
+    return seconds_per_call<WallClock>(build_(structure_, scene_.centers(frame)));
   }
 
  private:
@@ -65,22 +61,21 @@ class PointsInRun final : public RunningStructure {
   Structure structure_;
   Dump dump_;
   Elements elements_;
-  StaticSeconds static_seconds_;
+  Build build_;
 };
 
 /// Returns a specification's `make` for the structure Structure<D>, which exists in dimensions Least to Most.
 /// The specification must refuse other scenes beforehand.
-template <template <int> class Structure, int Least, int Most = 3, class Dump, class Elements,
-          class StaticSeconds>
-auto make_of_points(Dump dump, Elements elements, StaticSeconds static_seconds) {
+template <template <int> class Structure, int Least, int Most = 3, class Dump, class Elements, class Build>
+auto make_of_points(Dump dump, Elements elements, Build build) {
   return make_of_motion<Least>([=]<int D>(Simulator& simulator, const Scene& scene,
                                           const MotionRef<D>& motion,
                                           const StructureSettings&) -> std::unique_ptr<RunningStructure> {
     if constexpr (D > Most) {
       return nullptr;
     } else {
-      using InRun = PointsInRun<Structure<D>, Dump, Elements, StaticSeconds>;
-      return std::make_unique<InRun>(simulator, scene, motion, dump, elements, static_seconds);
+      using InRun = PointsInRun<Structure<D>, Dump, Elements, Build>;
+      return std::make_unique<InRun>(simulator, scene, motion, dump, elements, build);
     }
   });
 }
@@ -100,7 +95,7 @@ StructureSpec sorted_structure() {
   spec.make = make_of_points<SortedList, 1>(
       [](const auto& list) { return dump_sorted(list.order()); },
       [](const auto& list) { return elements_in_order(list.order()); },
-      [](const auto&, const Centers& centers) { return seconds_to_sort(centers); });
+      [](const auto&, const Centers& centers) { return order_by_sorting(centers); });
   return spec;
 }
 
@@ -111,7 +106,7 @@ StructureSpec box_structure() {
   spec.make = make_of_points<EnclosingBox, 1>(
       [](const auto& box) { return dump_box(box.ends()); },
       [](const auto& box) { return elements_in_order(box.ends()); },
-      [](const auto&, const Centers& centers) { return seconds_to_box(centers); });
+      [](const auto&, const Centers& centers) { return box_by_scanning(centers); });
   return spec;
 }
 
@@ -131,7 +126,7 @@ StructureSpec hull_structure() {
         for (const BeadId bead : hull.corners()) elements.add({bead});
         return elements;
       },
-      [](const ConvexHull&, const Centers& centers) { return seconds_to_hull(centers); });
+      [](const ConvexHull&, const Centers& centers) { return hull_by_cgal(centers); });
   return spec;
 }
 
@@ -153,7 +148,7 @@ StructureSpec closest_structure() {
       // One edge of the Delaunay triangulation joins the closest pair.
       []<int D>(const KineticClosestPair<D>&, const Centers& centers) {
         const std::vector<double> no_weights(static_cast<std::size_t>(centers.cols()), 0);
-        return seconds_to_triangulate<D>(centers, no_weights);
+        return triangulation_by_cgal<D>(centers, no_weights);
       });
   return spec;
 }

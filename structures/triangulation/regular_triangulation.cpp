@@ -4,11 +4,13 @@
 #include <iterator>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "motions/base/floating_point_guard.h"
 #include "structures/triangulation/regular_triangulation_cgal.h"
 #include "structures/triangulation/regular_triangulation_edits.h"
 #include "structures/triangulation/regular_triangulation_flips.h"
+#include "structures/triangulation/static_build.h"
 
 namespace kds {
 
@@ -270,21 +272,22 @@ StaticTriangulation<Dimension> static_triangulation(const Eigen::Matrix3Xd& cent
 }
 
 template <int Dimension>
-Seconds seconds_to_triangulate(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
-  const FloatingPointGuard to_nearest;
+StaticBuild triangulation_by_cgal(const Eigen::Matrix3Xd& centers, std::span<const double> weights) {
   std::vector<typename CgalOf<Dimension>::Type::Weighted_point> points;
   points.reserve(weights.size());
   for (std::size_t b = 0; b < weights.size(); ++b)
     points.push_back(weighted_point<Dimension>(centers, weights, b));
-  return seconds_of(
-      [&] { const typename CgalOf<Dimension>::Type triangulation(points.begin(), points.end()); });
+  return [points = std::move(points)] {
+    const FloatingPointGuard to_nearest;
+    const typename CgalOf<Dimension>::Type triangulation(points.begin(), points.end());
+  };
 }
 
 template class RegularTriangulation<2>;
 template class RegularTriangulation<3>;
 template StaticTriangulation<2> static_triangulation(const Eigen::Matrix3Xd&, std::span<const double>);
 template StaticTriangulation<3> static_triangulation(const Eigen::Matrix3Xd&, std::span<const double>);
-template Seconds seconds_to_triangulate<2>(const Eigen::Matrix3Xd&, std::span<const double>);
-template Seconds seconds_to_triangulate<3>(const Eigen::Matrix3Xd&, std::span<const double>);
+template StaticBuild triangulation_by_cgal<2>(const Eigen::Matrix3Xd&, std::span<const double>);
+template StaticBuild triangulation_by_cgal<3>(const Eigen::Matrix3Xd&, std::span<const double>);
 
 }  // namespace kds

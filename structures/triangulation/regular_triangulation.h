@@ -20,7 +20,6 @@
 #include <utility>
 #include <vector>
 
-#include "kds/stopwatch.h"
 #include "motions/base/bead.h"
 #include "motions/curves/snapshot.h"
 #include "structures/triangulation/cells.h"
@@ -32,12 +31,6 @@ namespace kds {
 template <int Dimension>
 [[nodiscard]] StaticTriangulation<Dimension> static_triangulation(const Eigen::Matrix3Xd& centers,
                                                                   std::span<const double> weights);
-
-/// Measures the time that CGAL takes for this triangulation from doubles, which a user would otherwise build
-/// at every frame.
-template <int Dimension>
-[[nodiscard]] Seconds seconds_to_triangulate(const Eigen::Matrix3Xd& centers,
-                                             std::span<const double> weights);
 
 template <int Dimension>
 class RegularTriangulation {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iterator>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "motions/base/floating_point_guard.h"
@@ -55,42 +56,46 @@ void wrap(std::span<const BeadRange> nodes,
 }  // namespace
 
 template <int Dimension>
-Seconds seconds_to_wrap(std::span<const BeadRange> nodes, const Eigen::Matrix3Xd& centers,
-                        std::span<const double> radii) {
-  const FloatingPointGuard to_nearest;
-  const auto spheres = cgal_spheres<Dimension>(centers, radii);
-  return seconds_of([&] { wrap<Dimension>(nodes, spheres); });
+StaticBuild spheres_by_cgal(std::span<const BeadRange> nodes, const Eigen::Matrix3Xd& centers,
+                            std::span<const double> radii) {
+  return [nodes, spheres = cgal_spheres<Dimension>(centers, radii)] {
+    const FloatingPointGuard to_nearest;
+    wrap<Dimension>(nodes, spheres);
+  };
 }
 
-template Seconds seconds_to_wrap<2>(std::span<const BeadRange>, const Eigen::Matrix3Xd&,
-                                    std::span<const double>);
-template Seconds seconds_to_wrap<3>(std::span<const BeadRange>, const Eigen::Matrix3Xd&,
-                                    std::span<const double>);
+template StaticBuild spheres_by_cgal<2>(std::span<const BeadRange>, const Eigen::Matrix3Xd&,
+                                        std::span<const double>);
+template StaticBuild spheres_by_cgal<3>(std::span<const BeadRange>, const Eigen::Matrix3Xd&,
+                                        std::span<const double>);
 
-Seconds seconds_to_sort(const Eigen::Matrix3Xd& centers) {
-  const FloatingPointGuard to_nearest;
-  std::vector<double> x(static_cast<std::size_t>(centers.cols()));
-  for (std::size_t b = 0; b < x.size(); ++b) x[b] = centers(0, static_cast<Eigen::Index>(b));
-  return seconds_of([&] { std::sort(x.begin(), x.end()); });
-}
-
-Seconds seconds_to_box(const Eigen::Matrix3Xd& centers) {
-  const FloatingPointGuard to_nearest;
-  return seconds_of([&] {
-    volatile double used = (centers.rowwise().maxCoeff() - centers.rowwise().minCoeff()).sum();
-    static_cast<void>(used);
-  });
-}
-
-Seconds seconds_to_hull(const Eigen::Matrix3Xd& centers) {
-  const FloatingPointGuard to_nearest;
+StaticBuild hull_by_cgal(const Eigen::Matrix3Xd& centers) {
   using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
   std::vector<Point> points;
   for (Eigen::Index b = 0; b < centers.cols(); ++b) points.emplace_back(centers(0, b), centers(1, b));
-  return seconds_of([&] {
+  return [points = std::move(points)] {
+    const FloatingPointGuard to_nearest;
     std::vector<Point> corners;
     CGAL::convex_hull_2(points.begin(), points.end(), std::back_inserter(corners));
-  });
+  };
+}
+
+StaticBuild order_by_sorting(const Eigen::Matrix3Xd& centers) {
+  std::vector<double> unsorted(static_cast<std::size_t>(centers.cols()));
+  for (std::size_t b = 0; b < unsorted.size(); ++b) unsorted[b] = centers(0, static_cast<Eigen::Index>(b));
+  return [unsorted = std::move(unsorted)] {
+    std::vector<double> sorted = unsorted;
+    std::sort(sorted.begin(), sorted.end());
+    volatile double used = sorted.front();  // keeps the compiler from omitting a build
+    static_cast<void>(used);
+  };
+}
+
+StaticBuild box_by_scanning(const Eigen::Matrix3Xd& centers) {
+  return [centers] {
+    volatile double used = (centers.rowwise().maxCoeff() - centers.rowwise().minCoeff()).sum();
+    static_cast<void>(used);
+  };
 }
 
 }  // namespace kds

@@ -1,28 +1,37 @@
 #pragma once
-// Measures the alternative to kinetic structures, for comparison: building each structure anew at every frame
-// with CGAL, in doubles.
+// The alternative to kinetic structures, for comparison: builds of a structure from nothing, as a user would
+// do them at every frame without this library. Each function converts its input and returns one build as a
+// function, which can be timed by seconds_of or seconds_per_call. Builds are in doubles.
 
 #include <Eigen/Core>
+#include <functional>
 #include <span>
 
-#include "kds/stopwatch.h"
 #include "motions/base/bead.h"
 
 namespace kds {
 
-/// Measures the time that CGAL takes for the minimum enclosing spheres of all nodes (Min_sphere_of_spheres_d
-/// with its defaults).
+/// A build of one structure. Each call does the whole build.
+using StaticBuild = std::function<void()>;
+
+/// Builds the minimum enclosing spheres of all nodes with CGAL (Min_sphere_of_spheres_d with its defaults).
+/// The caller keeps `nodes`.
 template <int Dimension>
-[[nodiscard]] Seconds seconds_to_wrap(std::span<const BeadRange> nodes, const Eigen::Matrix3Xd& centers,
-                                      std::span<const double> radii);
+[[nodiscard]] StaticBuild spheres_by_cgal(std::span<const BeadRange> nodes, const Eigen::Matrix3Xd& centers,
+                                          std::span<const double> radii);
 
-/// Measures the time to sort the beads along the first axis.
-[[nodiscard]] Seconds seconds_to_sort(const Eigen::Matrix3Xd& centers);
+/// Builds the regular triangulation with CGAL.
+template <int Dimension>
+[[nodiscard]] StaticBuild triangulation_by_cgal(const Eigen::Matrix3Xd& centers,
+                                                std::span<const double> weights);
 
-/// Measures the time to find the least and the greatest coordinates.
-[[nodiscard]] Seconds seconds_to_box(const Eigen::Matrix3Xd& centers);
+/// Builds the convex hull in the plane with CGAL. The third row is ignored.
+[[nodiscard]] StaticBuild hull_by_cgal(const Eigen::Matrix3Xd& centers);
 
-/// Measures the time that CGAL takes for the convex hull in the plane; the third row is ignored.
-[[nodiscard]] Seconds seconds_to_hull(const Eigen::Matrix3Xd& centers);
+/// Sorts the beads along the first axis.
+[[nodiscard]] StaticBuild order_by_sorting(const Eigen::Matrix3Xd& centers);
+
+/// Finds the least and the greatest coordinates.
+[[nodiscard]] StaticBuild box_by_scanning(const Eigen::Matrix3Xd& centers);
 
 }  // namespace kds

@@ -2,20 +2,25 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <cstddef>
+#include <cstdint>
 
 namespace kds::stopwatch_test {
 namespace {
 
 /// A clock that moves only when the test says so.
 struct StillClock {
-  using duration = std::chrono::seconds;
-  using time_point = std::chrono::time_point<StillClock, duration>;
   static inline int seconds = 0, reads = 0;
-  static time_point now() {
+  static std::int64_t nanoseconds() {
     ++reads;
-    return time_point(duration(seconds));
+    return std::int64_t{1000000000} * seconds;
   }
+};
+
+/// A clock of which each reading takes 7 nanoseconds.
+struct SlowClock {
+  static inline std::int64_t now = 0;
+  static std::int64_t nanoseconds() { return now += 7; }
 };
 
 TEST(Stopwatch, ChargesEachMomentToOneLane) {
@@ -41,6 +46,39 @@ TEST(Stopwatch, ChargesEachMomentToOneLane) {
   EXPECT_EQ(watch.seconds(2), 5);
   watch.reset();
   EXPECT_EQ(watch.seconds(1), 0);
+}
+
+// Work of 3 ns is called until 256 calls take longer than a hundred readings, 700 ns. No figure contains the
+// time of a reading.
+TEST(Stopwatch, LeavesOutItsReadings) {
+  EXPECT_EQ(nanoseconds_of_reading<SlowClock>(), 7);
+  std::size_t calls = 0;
+  const auto work = [&] {
+    ++calls;
+    SlowClock::now += 3;
+  };
+  EXPECT_DOUBLE_EQ(seconds_of<SlowClock>(work), 3e-9);
+  calls = 0;
+  EXPECT_DOUBLE_EQ(seconds_per_call<SlowClock>(work), 3e-9);
+  EXPECT_EQ(calls, 1U + 2 + 4 + 8 + 16 + 32 + 64 + 128 + 256);
+  EXPECT_DOUBLE_EQ(seconds_per_call<SlowClock>([] { SlowClock::now += 700; }), 700e-9);
+  EXPECT_DOUBLE_EQ(seconds_of<SlowClock>([] {}), 1e-9);  // the least that it returns
+  StopwatchOf<SlowClock> watch;
+  watch.charge(0);
+  SlowClock::now += 30;
+  watch.charge(decltype(watch)::stopped);
+  EXPECT_DOUBLE_EQ(watch.seconds(0), 30e-9);
+}
+
+TEST(Stopwatch, MeasuresShortWork) {
+  volatile double sum = 0;
+  const auto work = [&] {
+    for (int i = 0; i < 20; ++i) sum = sum + 1;
+  };
+  const double wall = seconds_per_call<WallClock>(work), processor = seconds_per_call<ProcessorClock>(work);
+  EXPECT_LT(wall, 1e-3);
+  EXPECT_LT(processor, 1e-3);
+  EXPECT_GT(processor, 1e-9);
 }
 
 }  // namespace
