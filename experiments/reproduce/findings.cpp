@@ -277,10 +277,9 @@ std::vector<Finding> on_stability(const PaperTable& table) {
 }
 
 std::vector<Finding> on_two_spirals(const PaperTable& table) {
-  // The last row is none of the paper's.
-  const PaperRow& closest = table.rows[table.rows.size() - 2];
-  const Range per_lazy_far = range_of(values_of(table, "layered_per_lazy", [](const PaperRow& row) {
-    return row.at == "straight" || row.at == "half rolled" || row.at == "nine tenths";
+  const PaperRow& closest = table.rows.back();
+  const Range per_lazy_far = range_of(values_of(table, "layered_per_lazy", [&](const PaperRow& row) {
+    return value_of(table, row, "wrapped_pairs") < 10;
   }));
   const Range per_full = range_of(values_of(table, "layered_per_full"));
   const std::vector<double> layered = values_of(table, "layered_pairs"),

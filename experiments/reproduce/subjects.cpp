@@ -1,7 +1,5 @@
 #include "experiments/reproduce/subjects.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "motions/models/model.h"
@@ -23,21 +21,6 @@ Subject of_frames(std::vector<Eigen::Matrix3Xd> frames, bool planar) {
   return subject;
 }
 
-// Returns the largest distance along y, measured between centroids at the origin, at which a bead of the
-// upper chain touches a bead of the lower one.
-double touching_distance(const models::Shape& lower, const models::Shape& upper) {
-  constexpr double reach = 2 * models::radius;
-  double distance = 0;
-  for (Eigen::Index i = 0; i < lower.cols(); ++i) {
-    for (Eigen::Index j = 0; j < upper.cols(); ++j) {
-      const double across = lower(0, i) - upper(0, j);
-      if (std::abs(across) > reach) continue;
-      distance = std::max(distance, lower(1, i) - upper(1, j) + std::sqrt(reach * reach - across * across));
-    }
-  }
-  return distance;
-}
-
 }  // namespace
 
 Subject spline_subject(std::size_t beads) {
@@ -56,17 +39,15 @@ Subject rolling_spiral(std::size_t beads, std::size_t frames) {
   return of_frames(models::generate(*models::find_model("spiral"), settings).front().frames, true);
 }
 
-Subject two_spirals(std::size_t beads, std::span<const FacingStage> stages) {
+Subject two_spirals(std::size_t beads, std::span<const PairedStage> stages) {
   std::vector<Eigen::Matrix3Xd> frames;
-  const auto count = static_cast<Eigen::Index>(beads);
-  for (const FacingStage& stage : stages) {
-    const models::Shape lower = models::spiral(beads, spiral_turns, stage.rolled);
-    models::Shape upper = models::facing_spiral(lower, 0);
-    upper.row(1).array() += stage.share * touching_distance(lower, upper) + stage.gap;
-    Eigen::Matrix3Xd& frame = frames.emplace_back(3, 2 * count);
-    frame << lower, upper;
+  for (const PairedStage& stage : stages) {
+    const models::Shape lower = models::spiral(beads, paired_spiral_turns, stage.rolled);
+    models::Shape upper = lower;
+    upper.row(2).array() += stage.distance;
+    frames.emplace_back(3, 2 * lower.cols()) << lower, upper;
   }
-  Subject subject = of_frames(std::move(frames), true);
+  Subject subject = of_frames(std::move(frames), false);
   const auto first = static_cast<BeadId>(beads);
   subject.necklaces = {{0, first - 1}, {first, 2 * first - 1}};
   return subject;

@@ -31,8 +31,11 @@ inline constexpr double static_helix_turns = 6.3;
 /// Turns of the scaling helix divided by the root of its number of beads. Fitted likewise, among multiples of
 /// 0.01 from 0.2 to 0.4. The deviations are 9%, 0%, 16% and 21%.
 inline constexpr double scaling_helix_turns = 0.29;
-/// Turns of the rolled spiral (caption of table 5). The text of section 4 says 18.
+/// Turns of the rolled spiral (caption of table 5).
 inline constexpr double spiral_turns = 16;
+/// Turns of the two rolled spirals of table 7 (text of section 4). Sets of 18 turns fit table 7 better than
+/// those of 16.
+inline constexpr double paired_spiral_turns = 18;
 /// How far the chain is rolled up in the first frame. An exactly straight chain has a diagram of n - 1 edges,
 /// but the paper counts 3000, so its first frame is not exactly straight.
 inline constexpr double first_rolled = 0.001;
@@ -46,15 +49,12 @@ inline constexpr double first_rolled = 0.001;
 /// Returns `frames` (at least 2) stages of a chain that rolls up in the plane.
 [[nodiscard]] Subject rolling_spiral(std::size_t beads, std::size_t frames);
 
-/// A stage of two spirals in one plane that face each other (models::facing_spiral). Their centroids are
-/// `share` times the touching distance plus `gap` apart. At the touching distance, beads of radius 1 touch
-/// for the first time as the spirals come together.
-struct FacingStage {
+/// A stage of two equal spirals in parallel planes, one above the other.
+struct PairedStage {
   double rolled = first_rolled;
-  double share = 1;
-  double gap = 0;  ///< radii
+  double distance = 0;  ///< of the planes, in radii
 };
-[[nodiscard]] Subject two_spirals(std::size_t beads, std::span<const FacingStage> stages);
+[[nodiscard]] Subject two_spirals(std::size_t beads, std::span<const PairedStage> stages);
 
 /// Returns the backbone of the first chain of a file in the folder `data`, with the radii of --radius auto.
 /// For a DCD file `topology` names the atoms, otherwise it is empty. Throws InputError.

@@ -45,26 +45,24 @@ TEST(PaperSubjects, AreThoseOfThePaper) {
   EXPECT_FALSE(helix_subject(50, 3).planar);
 }
 
-// The least distance between two beads of different spirals is two radii where share is 1 and gap is 0. No
-// larger distance of the centroids lets them touch.
-TEST(PaperSubjects, SpiralsTouch) {
-  const std::vector<FacingStage> stages{{0.2, 1, 0}, {0.7, 1, 0}, {0.7, 1, 0.5}, {0.7, 2, 0}, {0.7, 0.7, 0}};
-  const Subject spirals = two_spirals(60, stages);
-  EXPECT_EQ(spirals.beads(), 120U);
+// Rolled spirals in parallel planes have sets like those of the paper's last two rows, 1600 / 2400 and 2300 /
+// 3700.
+TEST(PaperSubjects, SpiralsInParallelPlanes) {
+  const std::vector<PairedStage> stages{{1, 36}, {1, 32}};
+  const Subject spirals = two_spirals(1000, stages);
+  EXPECT_FALSE(spirals.planar);
   ASSERT_EQ(spirals.necklaces.size(), 2U);
-  ASSERT_EQ(spirals.frames.size(), stages.size());
-  std::vector<double> least;
-  for (const Eigen::Matrix3Xd& frame : spirals.frames) {
-    least.push_back(1e9);
-    for (Eigen::Index i = 0; i < 60; ++i)
-      for (Eigen::Index j = 60; j < 120; ++j)
-        least.back() = std::min(least.back(), (frame.col(i) - frame.col(j)).norm());
-  }
-  EXPECT_NEAR(least[0], 2, 1e-9);
-  EXPECT_NEAR(least[1], 2, 1e-9);
-  EXPECT_GT(least[2], 2);
-  EXPECT_GT(least[3], least[2]);
-  EXPECT_LT(least[4], 2);
+  EXPECT_TRUE(spirals.frames[0].leftCols(1000).row(2).isZero(0));
+  EXPECT_EQ(spirals.frames[0](2, 1000), 36);
+  const PairsAsked asked{spirals.necklaces, false, 1, true};
+  std::vector<std::uint64_t> found;
+  for (const Eigen::Matrix3Xd& frame : spirals.frames)
+    for (const Hierarchy kind : {Hierarchy::wrapped, Hierarchy::layered}) {
+      SphereTree<3> tree(kind, spirals.necklaces);
+      tree.build(Balls<3>(frame, spirals.radii));
+      found.push_back(find_pairs(tree, asked).family);
+    }
+  EXPECT_EQ(found, (std::vector<std::uint64_t>{1642, 2769, 2326, 3169}));
 }
 
 // Counts the edges of all cells, and as edges to the infinite vertex the beads of facets that only one cell
@@ -199,16 +197,16 @@ TEST(PaperMeasurements, RemovalsEndTheStep) {
 }
 
 TEST(PaperMeasurements, TwoNecklaces) {
-  const std::vector<FacingStage> stages{{0.5, 4, 0}, {0.51, 4, 0}, {0.9, 0.7, 0}, {0.91, 0.7, 0}};
+  const std::vector<PairedStage> stages{{0.5, 400}, {0.51, 400}, {0.9, 4}, {0.91, 4}};
   const Subject spirals = two_spirals(100, stages);
   // The chains are far apart, so only the two roots are compared.
   EXPECT_EQ(collision_between(spirals, 0, 1, 1).wrapped_pairs, 1U);
   const CollisionBetween near = collision_between(spirals, 2, 3, 1);
-  const Balls<2> balls(spirals.frames[3], std::vector<double>(spirals.beads(), 0));
+  const Balls<3> balls(spirals.frames[3], std::vector<double>(spirals.beads(), 0));
   const PairsAsked asked{spirals.necklaces, false, 1, true};
   for (const auto& [kind, pairs] :
        {std::pair{Hierarchy::wrapped, near.wrapped_pairs}, {Hierarchy::layered, near.layered_pairs}}) {
-    SphereTree<2> tree(kind, spirals.necklaces);
+    SphereTree<3> tree(kind, spirals.necklaces);
     tree.build(balls);
     const PairsFound found = find_pairs(tree, asked);
     EXPECT_EQ(pairs, found.family + found.pairs.size());
