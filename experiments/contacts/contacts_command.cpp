@@ -26,8 +26,11 @@ namespace {
 
 constexpr CommandSpec kContactsCommand{
     "kds contacts",
-    "Measures how long contacts last: exact intervals for each pair of residues, beads or chains, their "
-    "survival function, and what frames alone would have shown.",
+    "Measures how long contacts last, exactly for the paths between the frames that are given; the spacing "
+    "of "
+    "frames is the error. Gives intervals for each pair of residues, beads or chains, their survival "
+    "function, "
+    "and what frames alone would have shown.",
     {},
     {},
     "kds contacts villin.dcd --topology villin.pdb --cutoff 8 --select ca --out report\n"

@@ -149,9 +149,9 @@ std::string contacts_page(const ContactsReport& report, const ContactsFigures& f
   page.title = "kds contacts: " + input;
   page.found = findings_of(report, figures);
   page.words =
-      "A <em>contact</em> lasts as long as two beads of the pair are within the cutoff. Its beginning and "
-      "end are "
-      "exact for the motion between frames. With two cutoffs, it begins within the first and ends outside "
+      "<strong>Times are exact for the paths between the frames that are given. The spacing of frames is the "
+      "error.</strong> A <em>contact</em> lasts as long as two beads of the pair are within the cutoff. With "
+      "two cutoffs, it begins within the first and ends outside "
       "the second. "
       "<em>Occupancy</em> is the share of the time in contact. A contact is <em>open</em> if it lasts at the "
       "first "

@@ -306,7 +306,10 @@ std::vector<std::pair<std::string, std::string>> certified_lines(const ContactsR
 
 std::string contacts_text(const ContactsReport& report, const ContactsFigures& figures) {
   constexpr std::size_t most = 20;
-  std::string text = sampling_columns(report).text(sampling_rows(report));
+  std::string text =
+      "Times are exact for the paths between the frames that are given; the spacing of frames is the "
+      "error.\n\n" +
+      sampling_columns(report).text(sampling_rows(report));
   if (figures.certificate) {
     text += '\n';
     for (const auto& [label, line] : certified_lines(report, figures))

@@ -96,7 +96,7 @@ def cutoff_text(cutoff):
 
 def contacts(source, *, cutoff, by=None, gap=0, surface=False, start=None, stop=None, step=None, radius=None, units=None,
              necklaces=None, times=None, groups=None, verbose=False, **options):
-    """Measures how long contacts last, exactly, and as frames alone show them.
+    """Measures how long contacts last, exactly for the paths between frames, and as frames alone show them.
 
     ``source``, ``start``, ``stop``, ``step``, ``radius``, ``units``, ``necklaces``, ``times`` and ``groups`` are those of
     :func:`kds.run`. ``cutoff`` is the distance in angstrom within which centres are in contact (surfaces if
