@@ -18,6 +18,7 @@ NecklaceBeads beads_of(const Trajectory& necklace) {
                       .count = necklace.bead_count(),
                       .names = necklace.bead_names,
                       .element_radii = necklace.element_radii,
+                      .element_lack = necklace.element_lack,
                       .groups = necklace.bead_groups};
   std::set_union(necklace.breaks.begin(), necklace.breaks.end(), necklace.gaps.begin(), necklace.gaps.end(),
                  std::back_inserter(beads.breaks));

@@ -304,7 +304,7 @@ struct AtomFilter::Rules {
     if (!atom_names.has(atom.name) ||
         !locations.has(atom.alternate == '\0' ? "" : std::string(1, atom.alternate)))
       return false;
-    if (!elements.any && !elements.has(is_martini(residue) ? "X" : element_of(atom).name())) return false;
+    if (!elements.any && !elements.has(element_of(residue, atom).name())) return false;
     return std::all_of(conditions.begin(), conditions.end(), [&](const NumberCondition& condition) {
       const std::optional<double>& value = condition.is_occupancy ? atom.occupancy : atom.b_factor;
       if (!value)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <optional>
@@ -24,6 +25,7 @@ struct ChosenAtoms {
   std::size_t bead_count = 0;
   BondPaths bonds;
   std::vector<double> element_radii;
+  std::string element_lack;
   std::vector<std::string> names;
   BeadGroups groups;
   std::vector<ChainRead> chains;
@@ -65,7 +67,8 @@ void compare_elements(const std::string& file, const std::string& topology, cons
                       const ChosenAtoms& chosen, std::vector<std::string>& warnings) {
   std::vector<std::string> guesses;
   const std::vector<double> radii = frames.element_radii(guesses);
-  if (radii.empty() || !guesses.empty() || chosen.element_radii.empty()) return;
+  const bool all_known = std::none_of(radii.begin(), radii.end(), [](double r) { return std::isnan(r); });
+  if (radii.empty() || !all_known || !guesses.empty() || chosen.element_radii.empty()) return;
   std::size_t differ = 0, first = 0;
   for (std::size_t bead = chosen.bead_count; bead-- > 0;) {
     if (radii[chosen.places[bead]] == chosen.element_radii[bead]) continue;
@@ -137,12 +140,32 @@ ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, co
   chosen.bonds = has_all ? std::move(topology.bonds) : without_guides(topology.bonds);
   if (has_all) warnings.insert(warnings.end(), topology.warnings.begin(), topology.warnings.end());
   chosen.element_radii = std::move(topology.element_radii);
+  chosen.element_lack = std::move(topology.element_lack);
   chosen.names = std::move(topology.bead_names);
   chosen.groups = std::move(topology.bead_groups);
   chosen.chains = std::move(topology.chains);
   chosen.chain_like = topology.chain_like;
   compare_elements(file, options.topology->string(), frames, chosen, warnings);
   return chosen;
+}
+
+// Takes the elements that the file itself names for the beads.
+void take_own_elements(const AtomFrames& frames, const ChosenAtoms& atoms, FramesOpened& opened) {
+  const std::vector<double> radii = frames.element_radii(opened.warnings);
+  for (std::size_t i = 0; i < atoms.bead_count; ++i) {
+    if (!radii.empty() && !std::isnan(radii[atoms.places[i]])) {
+      opened.element_radii.push_back(radii[atoms.places[i]]);
+      continue;
+    }
+    opened.element_radii.clear();
+    if (opened.element_lack.empty())
+      opened.element_lack =
+          radii.empty()
+              ? fmt::format("{} names no elements, which a file given by --topology may do", opened.file)
+              : fmt::format("{} does not tell the element of atom {} (bead {})", opened.file, atoms.places[i],
+                            i);
+    return;
+  }
 }
 
 class ChosenFrames final : public FrameReader {
@@ -183,11 +206,8 @@ FramesOpened open_atom_frames(const std::filesystem::path& path, const ReadOptio
   frames->read(asked[0], {}, first);
   ChosenAtoms atoms = choose_atoms(opened.file, options, *frames, opened.warnings);
   opened.element_radii = std::move(atoms.element_radii);
-  if (opened.element_radii.empty()) {
-    const std::vector<double> radii = frames->element_radii(opened.warnings);
-    for (std::size_t i = 0; i < atoms.bead_count && !radii.empty(); ++i)
-      opened.element_radii.push_back(radii[atoms.places[i]]);
-  }
+  opened.element_lack = std::move(atoms.element_lack);
+  if (opened.element_radii.empty()) take_own_elements(*frames, atoms, opened);
   opened.bonds = std::move(atoms.bonds);
   opened.bead_names = std::move(atoms.names);
   opened.bead_groups = std::move(atoms.groups);

@@ -35,8 +35,9 @@ class AtomFrames {
   /// the bytes of the frame are not what the format allows.
   virtual void read(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) = 0;
 
-  /// Returns the van der Waals radius of each atom; empty if the file does not name elements. A frame has
-  /// been read before. Adds lines about elements that are guessed to `warnings`, with the file's name.
+  /// Returns the van der Waals radius of each atom, NaN if its element is unknown; empty if the file does not
+  /// name elements. A frame has been read before. Adds lines about elements that are guessed to `warnings`,
+  /// with the file's name.
   [[nodiscard]] virtual std::vector<double> element_radii(std::vector<std::string>& warnings) const {
     static_cast<void>(warnings);
     return {};

@@ -46,7 +46,7 @@ bool is_ion(const StructureResidue& residue) {
 
 El element_by_name(const StructureResidue& residue, const std::string& name) {
   const std::string_view letters = letters_of(name);
-  if (letters.empty()) return El::X;
+  if (letters.empty() || names_site(residue, name)) return El::X;
   if (is_ion(residue))
     if (const El ion = ion_of(letters); ion != El::X) return ion;
   if (!is_tabulated_monomer(residue.name)) {
@@ -56,7 +56,6 @@ El element_by_name(const StructureResidue& residue, const std::string& name) {
       return gemmi::Element(std::string(two)).elem;
   }
   if (letters == "SE") return El::Se;
-  if (letters == "M" || letters == "MW" || letters == "LP") return El::X;  // virtual sites
   return gemmi::Element(std::string(letters.substr(0, 1))).elem;
 }
 
@@ -99,6 +98,8 @@ void guess_elements_by_name(StructureResidue& residue) {
 
 std::optional<std::string> set_elements_by_mass(std::vector<StructureResidue>& residues,
                                                 const std::vector<double>& masses) {
+  constexpr double least_of_nuclei = 0.9;
+  const bool any_mass = std::any_of(masses.begin(), masses.end(), [](double mass) { return mass != 0; });
   std::size_t guessed = 0;
   std::string first;
   for (StructureResidue& residue : residues) {
@@ -107,16 +108,20 @@ std::optional<std::string> set_elements_by_mass(std::vector<StructureResidue>& r
       continue;
     }
     for (StructureAtom& atom : residue.atoms) {
+      if (atom.element_is_given) continue;
       const double mass = masses[atom.place];
-      atom.element = element_by_mass(mass);
+      atom.is_massless = any_mass && mass < least_of_nuclei;
+      atom.element = any_mass ? element_by_mass(mass) : element_by_name(residue, atom.name);
       atom.element_is_given = true;
-      if (mass == 0 || (atom.element != El::X && (suits(atom.name, atom.element.elem) || is_ion(residue))))
+      if (!any_mass || atom.is_massless ||
+          (atom.element != El::X && (suits(atom.name, atom.element.elem) || is_ion(residue))))
         continue;
       atom.element = element_by_name(residue, atom.name);
       if (guessed++ == 0)
         first = fmt::format("{} of {} {}, {}", atom.name, residue.name, residue.number, mass);
     }
   }
+  if (!any_mass) return "all masses are 0: the names of atoms give their elements";
   if (guessed == 0) return std::nullopt;
   return fmt::format(
       "the mass of {} suits no element of its name, which gives the element instead (first: {})",

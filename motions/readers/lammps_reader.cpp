@@ -76,11 +76,8 @@ class LammpsFrames final : public AtomFrames {
   std::vector<double> element_radii(std::vector<std::string>& warnings) const override {
     if (elements_.empty()) return {};
     std::vector<double> radii;
-    for (const std::string& element : elements_) {
-      const auto radius = van_der_waals_radius(element);
-      if (!radius) return {};
-      radii.push_back(*radius);
-    }
+    for (const std::string& element : elements_)
+      radii.push_back(van_der_waals_radius(element).value_or(std::numeric_limits<double>::quiet_NaN()));
     if (elements_.size() > 1 &&
         std::all_of(elements_.begin(), elements_.end(), [](const auto& e) { return e == "C"; }))
       warnings.push_back(

@@ -112,6 +112,7 @@ std::vector<Trajectory> heads_of(const FramesOpened& opened) {
   if (opened.chains.size() < 2) {
     heads.emplace_back().file = opened.file;
     heads.front().element_radii = opened.element_radii;
+    heads.front().element_lack = opened.element_lack;
     heads.front().bead_names = opened.bead_names;
     heads.front().bead_groups = opened.bead_groups;
     if (!opened.chains.empty()) count_residues(opened.chains.front(), heads.front());
@@ -123,6 +124,7 @@ std::vector<Trajectory> heads_of(const FramesOpened& opened) {
     count_residues(chain, head);
     head.file = fmt::format("{} chain {}", opened.file, chain.name.empty() ? "' '" : chain.name);
     head.element_radii = of_chain(opened.element_radii, first, chain.bead_count);
+    head.element_lack = opened.element_lack;
     head.bead_names = of_chain(opened.bead_names, first, chain.bead_count);
     head.bead_groups = of_chain(opened.bead_groups, first, chain.bead_count);
     first += chain.bead_count;

@@ -110,7 +110,7 @@ class StructureFrames final : public FrameReader {
     names_ = names_of(selected.atoms);
     guide_names_ = names_of(selected.guides);
     opened.bonds = std::move(selected.bonds);
-    opened.element_radii = element_radii_of(selected.atoms);
+    opened.element_radii = element_radii_of(file_, selected.atoms, opened.element_lack);
     opened.bead_names = names_;
     opened.bead_groups = groups_of(selected.atoms, groups_);
     opened.chain_like = selected.chain_like;
@@ -181,7 +181,7 @@ Topology topology_of(const std::filesystem::path& path, const ReadOptions& optio
   for (const SelectedAtom& atom : selected.atoms) topology.selected.push_back(atom.atom->place);
   for (const SelectedAtom& guide : selected.guides) topology.guides.push_back(guide.atom->place);
   topology.bonds = std::move(selected.bonds);
-  topology.element_radii = element_radii_of(selected.atoms);
+  topology.element_radii = element_radii_of(path.string(), selected.atoms, topology.element_lack);
   topology.bead_names = names_of(selected.atoms);
   topology.bead_groups = groups_of(selected.atoms, options.groups);
   warn(path.string(), models->notes(), topology.warnings);

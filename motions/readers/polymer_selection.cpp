@@ -253,9 +253,9 @@ std::vector<const StructureAtom*> all_atoms(const StructureResidue& residue) {
   return atoms;
 }
 
-bool is_hydrogen(const StructureAtom* atom) {
-  const gemmi::Element element = element_of(*atom);
-  return element == gemmi::El::H || element == gemmi::El::D;
+bool is_heavy(const StructureResidue& residue, const StructureAtom& atom) {
+  const gemmi::Element element = element_of(residue, atom);
+  return element != gemmi::El::H && element != gemmi::El::D && !is_site(residue, atom);
 }
 
 // A selection, ready to be applied to residues.
@@ -278,13 +278,14 @@ class AtomChoice {
     if (filter_) return filter_->atoms_of(file_, residue);
     if (is_by_name()) return named_atoms(residue, selection_);
     std::vector<const StructureAtom*> atoms = all_atoms(residue);
-    if (selection_ == Selection::heavy) std::erase_if(atoms, is_hydrogen);
+    if (selection_ == Selection::heavy)
+      std::erase_if(atoms, [&](const StructureAtom* atom) { return !is_heavy(residue, *atom); });
     return atoms;
   }
   // Returns whether the selection has this atom of the residue, be it the first of its alternates or not.
   bool takes(const StructureResidue& residue, bool in_polymer, const StructureAtom& atom) const {
     if (filter_) return filter_->takes(file_, residue, atom);
-    if (selection_ == Selection::heavy) return !is_hydrogen(&atom);
+    if (selection_ == Selection::heavy) return is_heavy(residue, atom);
     if (!is_by_name()) return true;
     const std::vector<std::string_view> names = atom_names_of(selection_);
     return in_polymer && std::find(names.begin(), names.end(), atom.name) != names.end() &&
@@ -370,6 +371,7 @@ struct PartRead {
   std::vector<std::string> lacking;   // residues that lack an atom of the selection
   std::vector<std::string> repeated;  // residues read whose number repeats an earlier one
   std::vector<std::string> copies;    // residues read that contain a selected atom twice
+  std::vector<std::string> sites;     // massless sites that the selection `heavy` leaves out
   Selection selection = Selection::automatic;
 };
 
@@ -383,13 +385,16 @@ PartRead read_part(const Parts& parts, const PolymerPart& part, const AtomChoice
   read.chain.residues = candidates.size();
   BondWalk walk(parts.model().lists_bonds);
   const auto selected = [&](const StructureAtom& atom, const StructureResidue& residue) {
-    return SelectedAtom{&atom, is_martini(residue) ? "" : element_of(atom).name(),
+    return SelectedAtom{&atom, element_of(residue, atom).name(),
                         text_of({atom.name, residue.name, residue.number, part.label})};
   };
   const StructureResidue* last = nullptr;  // read
   for (const StructureResidue* residue : candidates) {
     if (last != nullptr && selection == Selection::atoms && is_alternate_of(*residue, *last)) continue;
     const std::vector<const StructureAtom*> atoms = choice.atoms_of(*residue);
+    if (selection == Selection::heavy)
+      for (const StructureAtom* atom : all_atoms(*residue))
+        if (is_site(*residue, *atom)) read.sites.push_back(atom->name + " of " + name_of(*residue));
     if (!atoms.empty()) last = residue;
     if (atoms.empty()) {
       if (choice.is_by_name()) read.lacking.push_back(name_of(*residue));
@@ -444,6 +449,10 @@ void add_notes(const Parts& parts, const PolymerPart& part, const PartRead& read
     notes.push_back(fmt::format("chain {}: {} of {} read; {} without {}: {}", label, read.chain.residues_read,
                                 counted(read.chain.residues, "residue"), read.lacking.size(),
                                 atoms_of(read.selection), joined(read.lacking, most)));
+  if (!read.sites.empty())
+    notes.push_back(fmt::format(
+        "chain {}: {} (lone pairs, virtual sites, Drude particles) left out, as they are no heavy atoms: {}",
+        label, counted(read.sites.size(), "massless site"), joined(read.sites, most)));
   if (!read.repeated.empty())
     notes.push_back(fmt::format("chain {}: {} with the number of an earlier one, read too: {}", label,
                                 counted(read.repeated.size(), "residue"), joined(read.repeated, most)));
@@ -668,11 +677,15 @@ SelectedChains select_chains(const std::string& file, const StructureModel& mode
   return selected;
 }
 
-std::vector<double> element_radii_of(const std::vector<SelectedAtom>& atoms) {
+std::vector<double> element_radii_of(const std::string& file, const std::vector<SelectedAtom>& atoms,
+                                     std::string& lack) {
   std::vector<double> radii;
   for (const SelectedAtom& selected : atoms) {
     const auto radius = van_der_waals_radius(selected.element);
-    if (!radius) return {};
+    if (!radius) {
+      lack = fmt::format("{} does not tell the element of {}", file, selected.name);
+      return {};
+    }
     radii.push_back(*radius);
   }
   return radii;

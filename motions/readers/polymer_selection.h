@@ -60,7 +60,9 @@ struct SelectedChains {
                                            const Selection& selection, const std::optional<std::string>& list,
                                            std::span<const Selection> groups = {});
 
-/// Returns the van der Waals radii of the atoms, or an empty vector if an element is unknown.
-[[nodiscard]] std::vector<double> element_radii_of(const std::vector<SelectedAtom>& atoms);
+/// Returns the van der Waals radii of the atoms, or an empty vector if an element is unknown. Then `lack`
+/// names the first such atom and the file.
+[[nodiscard]] std::vector<double> element_radii_of(const std::string& file,
+                                                   const std::vector<SelectedAtom>& atoms, std::string& lack);
 
 }  // namespace kds

@@ -212,16 +212,18 @@ StructureModel read_prmtop(const std::filesystem::path& path) {
   model.atom_count = atoms;
   model.residues = grouping.take();
   mark_polymers(model.residues);
-  if (prmtop.has("ATOMIC_NUMBER")) {
+  bool all_known = prmtop.has("ATOMIC_NUMBER");
+  if (all_known) {
     static_cast<void>(prmtop.texts("ATOMIC_NUMBER", atoms));
     for (StructureResidue& residue : model.residues)
       for (StructureAtom& atom : residue.atoms) {
         const double number = prmtop.number("ATOMIC_NUMBER", atom.place);
-        atom.element = number >= 1 && number < 104 ? gemmi::Element(static_cast<int>(number))
-                                                   : gemmi::Element(gemmi::El::X);
-        atom.element_is_given = true;
+        atom.element_is_given = number >= 1 && number < 104;
+        if (atom.element_is_given) atom.element = gemmi::Element(static_cast<int>(number));
+        all_known = all_known && atom.element_is_given;
       }
-  } else {
+  }
+  if (!all_known) {
     static_cast<void>(prmtop.texts("MASS", atoms));
     std::vector<double> masses;
     for (std::size_t i = 0; i < atoms; ++i) masses.push_back(prmtop.number("MASS", i));

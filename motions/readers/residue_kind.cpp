@@ -61,8 +61,23 @@ bool is_cap(const std::string& name) {
 
 bool is_martini(const StructureResidue& residue) { return first_named(residue, "BB") != nullptr; }
 
-gemmi::Element element_of(const StructureAtom& atom) {
+bool names_site(const StructureResidue& residue, const std::string& name) {
+  if (name.starts_with("LP") || name.starts_with("EP") || name == "M" || name == "MW") return true;
+  if (name.starts_with('M')) return is_tabulated_monomer(residue.name) || is_water(residue.name);
+  if (name == "OM") return is_water(residue.name);
+  return name.size() > 1 && name[0] == 'D' && std::string_view("CNOSP").find(name[1]) != std::string::npos &&
+         first_named(residue, std::string_view(name).substr(1)) != nullptr;
+}
+
+bool is_site(const StructureResidue& residue, const StructureAtom& atom) {
+  if (atom.is_massless) return true;
+  if (atom.element_is_given && atom.element != gemmi::El::X) return false;
+  return names_site(residue, atom.name) && !is_martini(residue);
+}
+
+gemmi::Element element_of(const StructureResidue& residue, const StructureAtom& atom) {
   using gemmi::El;
+  if (is_martini(residue) || is_site(residue, atom)) return El::X;
   if (atom.element_is_given) return atom.element;
   for (const El usual : {El::C, El::N, El::O, El::S, El::H, El::D, El::P, El::Se})
     if (atom.element == usual) return atom.element;

@@ -32,10 +32,18 @@ enum class ResidueKind {
 /// Returns whether the residue is a cap at an end of a protein chain, but no amino acid.
 [[nodiscard]] bool is_cap(const std::string& name);
 
-/// Returns the element that the file gives for the atom. If the file gives none, a name in the wrong column
-/// would turn CA into calcium and HG into mercury. An atom of a chain whose element would be unusual there
-/// therefore gets the element of its name's first letter.
-[[nodiscard]] gemmi::Element element_of(const StructureAtom& atom);
+/// Returns whether the name is that of a massless site: LP*, EP*, M and MW; M* in amino acids, nucleotides
+/// and waters; OM in waters; and, for a Drude particle, D with the name of a heavier atom of the residue.
+[[nodiscard]] bool names_site(const StructureResidue& residue, const std::string& name);
+
+/// Returns whether the atom is a massless site, that is a lone pair, a virtual site or a Drude particle. Its
+/// mass decides, otherwise the element that the file gives, otherwise its name.
+[[nodiscard]] bool is_site(const StructureResidue& residue, const StructureAtom& atom);
+
+/// Returns the element that the file gives for the atom; X for massless sites and beads of Martini. If the
+/// file gives none, a name in the wrong column would turn CA into calcium and HG into mercury. An atom of a
+/// chain whose element would be unusual there therefore gets the element of its name's first letter.
+[[nodiscard]] gemmi::Element element_of(const StructureResidue& residue, const StructureAtom& atom);
 
 /// Returns whether the name is that of an amino acid or a nucleotide in the table of residues, or their name
 /// in AMBER, CHARMM or GROMACS (HSD, CYX, DA5).

@@ -23,6 +23,7 @@ struct StructureAtom {
   char alternate = '\0';  ///< location indicator, 0 if the atom has one location
   gemmi::Element element{gemmi::El::X};
   bool element_is_given = false;  ///< given in its own column, not guessed from the name
+  bool is_massless = false;       ///< its mass is below that of any nucleus
   std::size_t place = 0;          ///< index among the model's atoms in the file, from 0
   std::optional<double> occupancy = {}, b_factor = {};
   Eigen::Vector3d position = Eigen::Vector3d::Zero();

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "motions/base/input_error.h"
@@ -62,9 +64,9 @@ std::vector<double> element_radii_of(const std::string& file, const std::vector<
         guessed.push_back(symbol);
       if (names) radius = van_der_waals_radius(std::string_view(&*letter, 1));
     }
-    if (!radius) return {};
-    radii.push_back(*radius);
+    radii.push_back(radius.value_or(std::numeric_limits<double>::quiet_NaN()));
   }
+  if (std::any_of(radii.begin(), radii.end(), [](double radius) { return std::isnan(radius); })) return radii;
   for (const std::string& symbol : guessed)
     warnings.push_back(
         fmt::format("{}: {} is taken for {}", file, symbol,

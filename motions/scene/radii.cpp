@@ -1,7 +1,6 @@
 #include "motions/scene/radii.h"
 
 #include <fmt/format.h>
-#include <filesystem>
 
 #include <algorithm>
 #include <cmath>
@@ -21,12 +20,8 @@ std::vector<double> element_radii(const std::string& policy, Necklaces necklaces
   for (const NecklaceBeads& necklace : necklaces) {
     if (necklace.element_radii.size() != necklace.count)
       throw InputError(fmt::format(
-          "--radius: {} needs the elements of all beads, which {} does not give; give --radius auto or a "
-          "number{}",
-          policy, necklace.file,
-          std::filesystem::path(necklace.file).filename().string().find(".dcd") != std::string::npos
-              ? ", or --topology"
-              : ""));
+          "--radius: {} needs the elements of all beads: {}; give --radius auto or a number", policy,
+          necklace.element_lack.empty() ? necklace.file + " names no elements" : necklace.element_lack));
     radii.insert(radii.end(), necklace.element_radii.begin(), necklace.element_radii.end());
   }
   return radii;

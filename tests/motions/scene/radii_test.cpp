@@ -97,6 +97,9 @@ TEST(Radii, Element) {
   trajectory.element_radii.clear();
   refuse("element", {necklace({{0}}), trajectory}, {"--radius", "element", "n.xyz"});
   refuse("element:fit", {trajectory}, {"--radius", "element:fit", "n.xyz"});
+  trajectory.element_lack = "t.psf does not tell the element of LP1";
+  refuse("element", {trajectory},
+         {"needs the elements of all beads: t.psf does not tell the element of LP1;"});
 }
 
 TEST(Radii, FittedBallsAreDisjoint) {
