@@ -25,7 +25,8 @@ namespace kds {
 namespace {
 
 // The columns of an atom's line. Numbers begin after column 20. The width of a number is the distance between
-// the first two decimal points.
+// the first two decimal points. If the first number does not end where this width says, the names before it
+// are not in their columns.
 class GroColumns {
  public:
   static constexpr std::size_t names_end = 20;
@@ -40,6 +41,11 @@ class GroColumns {
     columns.point_ = first - names_end;
     columns.width_ = second - first;
     if (columns.point_ >= columns.width_ || !columns.position_in(line)) return std::nullopt;
+    std::size_t decimals = columns.width_;  // numbers may touch, but not all three do
+    for (std::size_t point = first, axis = 0; axis < 3; ++axis, point += columns.width_)
+      decimals = std::min(decimals,
+                          std::min(line.find_first_not_of("0123456789", point + 1), line.size()) - point - 1);
+    if (columns.point_ + 1 + decimals != columns.width_) return std::nullopt;
     return columns;
   }
 
@@ -113,6 +119,14 @@ struct GroBox {
     return read_cell(vectors);
   }
 };
+
+// Returns whether numbers of a box have no blank between them.
+bool numbers_touch(std::string_view line) {
+  const auto fields = split_fields(line);
+  return std::any_of(fields.begin(), fields.end(), [](std::string_view field) {
+    return std::count(field.begin(), field.end(), '.') > 1 || field.find('-', 1) != std::string_view::npos;
+  });
+}
 
 enum class MoleculeKind { protein, nucleic, water, other };
 
@@ -285,7 +299,7 @@ class GroModels final : public StructureModels {
         throw damage(k,
                      fmt::format("atom {} of {} with {}", i + 1, atoms,
                                  columns ? "its numbers in the columns of atom 1"
-                                         : "three decimal numbers after column 20"),
+                                         : "names in columns 1 to 20, then three decimal numbers"),
                      line);
       if (model != nullptr) add_atom(k, i, line, *columns, blocks);
     }
@@ -295,7 +309,11 @@ class GroModels final : public StructureModels {
       held_.lacks_line_end = box.has_value();
       return Found::cut;
     }
-    if (!box) throw damage(k, fmt::format("a box of 3 or 9 numbers after {}", counted(atoms, "atom")), line);
+    if (!box)
+      throw damage(k,
+                   fmt::format("a box of 3 or 9 numbers after {}{}", counted(atoms, "atom"),
+                               numbers_touch(line) ? ", not numbers that touch" : ""),
+                   line);
     upright_without_line_end_ = lines_.cut() && box_size_ == 0 && box->lengths.size() == 3;
     box_size_ = box->lengths.size();
     if (model == nullptr) return Found::frame;

@@ -100,6 +100,16 @@ class Prmtop {
     return fields;
   }
 
+  // Does the same for names, which must not be blank: a line that lost one would give its place to the next.
+  const std::vector<std::string>& names(const std::string& name, std::size_t count) {
+    const std::vector<std::string>& fields = texts(name, count);
+    const auto blank = std::find(fields.begin(), fields.end(), "");
+    if (blank != fields.end())
+      throw InputError(fmt::format("{}:{}: value {} of section {} is blank, expected a name", lines_.name(),
+                                   named(name).line, 1 + (blank - fields.begin()), name));
+    return fields;
+  }
+
   // Returns a number of a section that `texts` has returned.
   double number(const std::string& name, std::size_t i) const {
     const Section& section = named(name);
@@ -139,9 +149,12 @@ class Prmtop {
   Section& named(const std::string& name) { return const_cast<Section&>(std::as_const(*this).named(name)); }
 
   // Fields need not have blanks between them. Lines may lack the blanks at their end.
-  static void take_fields(std::string_view line, const FieldForm& form, std::vector<std::string>& fields) {
+  void take_fields(std::string_view line, const FieldForm& form, std::vector<std::string>& fields) const {
     // The previous line was full, even if blanks at its end are missing.
     while (fields.size() % form.fields != 0) fields.emplace_back();
+    if (line.size() > form.fields * form.width && !trimmed(line.substr(form.fields * form.width)).empty())
+      throw refuse(fmt::format("at most {} of {} characters", counted(form.fields, "value"), form.width),
+                   line);
     for (std::size_t i = 0; i < form.fields && i * form.width < line.size(); ++i)
       fields.emplace_back(trimmed(line.substr(i * form.width, form.width)));
   }
@@ -170,8 +183,8 @@ StructureModel read_prmtop(const std::filesystem::path& path) {
   const std::size_t atoms = prmtop.count("POINTERS", 0, 1, most),
                     residues = prmtop.count("POINTERS", 11, 1, atoms),
                     bonds = prmtop.count("POINTERS", 12, 0, most);
-  const std::vector<std::string>& names = prmtop.texts("ATOM_NAME", atoms);
-  const std::vector<std::string>& labels = prmtop.texts("RESIDUE_LABEL", residues);
+  const std::vector<std::string>& names = prmtop.names("ATOM_NAME", atoms);
+  const std::vector<std::string>& labels = prmtop.names("RESIDUE_LABEL", residues);
   static_cast<void>(prmtop.texts("RESIDUE_POINTER", residues));
   std::vector<std::size_t> begins;
   for (std::size_t i = 0; i < residues; ++i) {

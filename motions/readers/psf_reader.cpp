@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,7 +29,18 @@ struct PsfAtom {
   double mass = 0;
 };
 
-// The form of the atoms' lines: serial number, segment, residue number, residue, atom, type, charge, mass.
+// Returns the mass at the end of an atom's line: type, charge, mass, a whole number, and further numbers in
+// pairs (fluctuating charges, polarizabilities). Returns nothing if a column is missing or one too many.
+std::optional<double> mass_in(std::span<const std::string_view> rest) {
+  const auto is_number = [](std::string_view field) { return parse_double(field).has_value(); };
+  if (rest.size() < 4 || rest.size() % 2 != 0 || !std::all_of(rest.begin() + 1, rest.end(), is_number))
+    return std::nullopt;
+  const std::string_view whole = rest[3];
+  if (!parse_count(whole.substr(whole.starts_with('-') ? 1 : 0))) return std::nullopt;
+  return parse_double(rest[2]);
+}
+
+// The form of the atoms' lines: serial number, segment, residue number, residue, atom, then as in mass_in.
 // NAMD separates them by blanks alone. The other forms have columns of this width, with a blank after each.
 struct PsfForm {
   bool has_columns = true;
@@ -63,8 +75,8 @@ struct PsfForm {
     if (has_columns)
       if (const auto atom = parse_columns(line)) return atom;
     const std::vector<std::string_view> fields = split_fields(line);
-    if (fields.size() < 8 || !parse_count(fields[0]) || !parse_double(fields[6])) return std::nullopt;
-    const auto mass = parse_double(fields[7]);
+    if (fields.size() < 9 || !parse_count(fields[0])) return std::nullopt;
+    const auto mass = mass_in(std::span(fields).subspan(5));
     if (!mass) return std::nullopt;
     return PsfAtom{fields[1], fields[2], fields[3], fields[4], *mass};
   }
@@ -82,9 +94,7 @@ struct PsfForm {
     }
     if (line.size() <= place || line[place] != ' ') return std::nullopt;
     // The type, which has four or six columns, then charge and mass.
-    const std::vector<std::string_view> rest = split_fields(line.substr(place));
-    if (rest.size() < 3 || !parse_double(rest[1])) return std::nullopt;
-    const auto mass = parse_double(rest[2]);
+    const auto mass = mass_in(split_fields(line.substr(place)));
     if (!mass || names[3].empty()) return std::nullopt;
     return PsfAtom{names[0], names[1], names[2], names[3], *mass};
   }
@@ -121,9 +131,9 @@ class PsfFile {
   }
 
  private:
-  InputError refuse(std::string_view expected, std::string_view found) const {
-    return InputError(fmt::format("{}:{}: expected {}, found {}", lines_.name(), lines_.number(), expected,
-                                  in_quotes(found)));
+  InputError refuse(std::string_view expected, std::string_view found, std::string_view count = "") const {
+    return InputError(fmt::format("{}:{}: expected {}, found {}{}", lines_.name(), lines_.number(), expected,
+                                  count, in_quotes(found)));
   }
   InputError refuse_cut_line() const {
     return InputError(fmt::format(
@@ -158,14 +168,14 @@ class PsfFile {
     for (std::size_t i = 0; i < atoms; ++i) {
       if (!lines_.next(line))
         throw InputError(fmt::format("{}: the file ends after atom {} of {}", lines_.name(), i, atoms));
+      if (lines_.cut()) throw refuse_cut_line();
       const std::optional<PsfAtom> read = form.parse(line);
       if (!read)
         throw refuse(
-            fmt::format("atom {} of {} (serial number, segment, residue number, residue, atom, type, "
-                        "charge, mass)",
+            fmt::format("atom {} of {} in 9, 11 or 13 columns (serial number, segment, residue number, "
+                        "residue, atom, type, charge, mass, 0)",
                         i + 1, atoms),
-            line);
-      if (lines_.cut()) throw refuse_cut_line();
+            line, counted(split_fields(line).size(), "column") + ": ");
       const std::string_view number = read->number.empty() ? "?" : read->number;
       const bool continues = !residues_.empty() && residues_.back().chain == read->segment &&
                              residues_.back().number == number && residues_.back().name == read->residue &&

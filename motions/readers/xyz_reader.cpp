@@ -268,6 +268,13 @@ class XyzFrames final : public AtomFrames {
     }
   }
 
+  // Returns how many numbers follow the symbol. A line that has lost one would be read one column off.
+  static std::size_t numbers_after(const std::vector<std::string_view>& fields) {
+    std::size_t numbers = 1;
+    while (numbers < fields.size() && parse_fortran_double(fields[numbers])) ++numbers;
+    return numbers - 1;
+  }
+
   Eigen::Vector3d atom(const XyzColumns& columns, std::size_t frame, std::size_t i) {
     const auto fields = split_fields(line_);
     if (columns.named && fields.size() != columns.count)
@@ -277,6 +284,14 @@ class XyzFrames final : public AtomFrames {
       fail(fmt::format("expected a symbol and 3 coordinates, found {}", counted(fields.size(), "field")));
     if (!columns.named && has_number(fields[0]))
       fail(fmt::format("expected a symbol, found {}: do columns run together?", in_quotes(fields[0])));
+    if (!columns.named && (i == 0 || fields.size() > 4 || numbers_ > 3)) {
+      const std::size_t numbers = numbers_after(fields);
+      if (i == 0) numbers_ = numbers;
+      const bool is_cut = lines_.cut() && numbers < numbers_;  // behind the coordinates
+      if (numbers >= 3 && numbers != numbers_ && !is_cut)
+        fail(fmt::format("expected {} after the symbol as in the frame's first atom, found {}",
+                         counted(numbers_, "number"), numbers));
+    }
     Eigen::Vector3d position;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string_view field = fields[columns.position + axis];
@@ -318,6 +333,7 @@ class XyzFrames final : public AtomFrames {
   bool may_have_cell_ = false;
   std::size_t next_ = 0;  // frame that the next line begins
   std::optional<std::size_t> first_frame_;
+  std::size_t numbers_ = 0;                 // after the symbol of the frame's first atom
   std::vector<std::string> symbols_, ids_;  // in the first frame
   Eigen::Matrix3Xd positions_;              // for all atoms
 };

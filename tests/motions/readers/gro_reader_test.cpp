@@ -255,7 +255,7 @@ TEST(GroReader, DamageIsRefusedWithFrameByteAndLine) {
   };
   refuse(1, "six", 0, {"line 11: expected the number of atoms, found 'six'"});
   refuse(2, "    1ALA      N    1   0 0 0", 0,
-         {"expected atom 1 of 6 with three decimal numbers after column 20"});
+         {"expected atom 1 of 6 with names in columns 1 to 20, then three decimal numbers"});
   refuse(3, "    1ALA     CA    2  0.150   0.000   0.000", 0,
          {"atom 2 of 6 with its numbers in the columns of atom 1"});
   refuse(1, "    5", 6, {"expected a box of 3 or 9 numbers after 5 atoms"});

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -84,7 +85,8 @@ TEST(XyzReader, FileThatEndsInsideAFrame) {
 // A number that is cut off must not be read as another one.
 TEST(XyzReader, LastNumberWithoutLineEnd) {
   const auto frame = [](const std::string& last) {
-    return "2\n\nC 0.125 1.000 0.500\nC 1.250 0.125 " + last;
+    const bool has_further_column = last.find(" 0") != std::string::npos;
+    return fmt::format("2\n\nC 0.125 1.000 0.500{}\nC 1.250 0.125 {}", has_further_column ? " 0" : "", last);
   };
   for (const std::string last : {"2", "2.", "2.3", "2.34"}) {
     const Trajectory before = read(frame("2.345\n") + frame(last));
@@ -104,6 +106,7 @@ TEST(XyzReader, LastNumberWithoutLineEnd) {
       EXPECT_FALSE(all.truncated) << text;
       EXPECT_TRUE(all.warnings.empty()) << text;
     }
+  EXPECT_EQ(read("2\n\nC 0 0 0 1.25 1.25\nC 1.5 0 2.3 1.2").frames[0](2, 1), 2.3) << "cut off behind it";
   // A symbol or an id may be cut off, too.
   refuse("1\nProperties=pos:R:3:species:S:1\n0.1 0.2 0.3 C", {"expected a line end"});
   refuse("1\nProperties=species:S:1:pos:R:3:id:I:1\nC 0.1 0.2 0.3 1", {"expected a line end"});
