@@ -43,8 +43,9 @@ class HeaderReader {
     read(marker, what);
     const std::uint64_t size = layout.marker(marker.data());
     if (size > layout.file_size - position())
-      throw InputError(fmt::format(
-          "{}: the file ends inside its {} (a record of {} bytes) and holds no frame", file_, what, size));
+      throw InputError(
+          fmt::format("{}: the file ends inside its {} (a record of {} bytes) and holds no frame", file_,
+                      what, layout.with_sign(size)));
     if (size > most)
       throw InputError(fmt::format("{}: the record of the {} holds {} bytes, expected at most {}", file_,
                                    what, size, most));
@@ -53,8 +54,34 @@ class HeaderReader {
     read(marker, what);
     if (layout.marker(marker.data()) != size)
       throw InputError(fmt::format("{}: the record of the {} begins with size {} and ends with {}", file_,
-                                   what, size, layout.marker(marker.data())));
+                                   what, size, layout.with_sign(layout.marker(marker.data()))));
     return bytes;
+  }
+
+  // Reads the title: the number of its lines, then the lines. Some programs write more lines than the markers
+  // say, and then the number of lines tells the size.
+  std::vector<char> title() {
+    const std::uint64_t begin = position(), text = begin + layout.marker_size;
+    std::array<char, 8> start{}, count{}, end{};
+    if (input_.read_at(begin, start.data(), layout.marker_size) && input_.read_at(text, count.data(), 4)) {
+      const std::uint64_t told = layout.marker(start.data());
+      const std::uint64_t size = 4 + std::uint64_t{80} * layout.number<std::uint32_t>(count.data());
+      const auto ends_at = [&](std::uint64_t bytes, std::uint64_t marker) {
+        return bytes <= most_title && input_.read_at(text + bytes, end.data(), layout.marker_size) &&
+               layout.marker(end.data()) == marker;
+      };
+      if (!ends_at(told, told) && (ends_at(size, told) || ends_at(size, size))) {
+        layout.title_note =
+            fmt::format("the record of the title tells {} bytes and holds {}; its {} tell the size",
+                        layout.with_sign(told), size, counted((size - 4) / 80, "line"));
+        std::vector<char> bytes(size);
+        static_cast<void>(input_.read_at(text, bytes.data(), size));
+        input_.seek(text + size + layout.marker_size);
+        return bytes;
+      }
+    }
+    input_.seek(begin);
+    return record("title", most_title);
   }
 
   std::vector<char> record_of(const char* what, std::uint64_t size) {
@@ -174,7 +201,7 @@ DcdLayout read_dcd_layout(InputFile& input) {
     layout.has_fourth = reader.integer(header, 12) != 0;
   }
   layout.version = reader.integer(header, 20);
-  const std::vector<char> title = reader.record("title", HeaderReader::most_title);
+  const std::vector<char> title = reader.title();
   if (title.size() > 4) layout.title.assign(title.begin() + 4, title.end());  // after the number of lines
   read_times(reader, header, layout);
 

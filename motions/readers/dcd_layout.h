@@ -39,6 +39,7 @@ struct DcdLayout {
   std::string times_note;    ///< a message that the unit of time is guessed or unknown; empty if it is known
   std::int32_t version = 0;  ///< CHARMM's version number, which other programs copy
   std::string title;         ///< all lines of the title
+  std::string title_note;    ///< a message that the record of the title tells a wrong size; else empty
   std::uint64_t frames_begin = 0;  ///< offset in the file
   std::uint64_t file_size = 0;     ///< size after unpacking
   bool cut = false;                ///< the gzipped file is truncated after these bytes
@@ -67,6 +68,10 @@ struct DcdLayout {
   }
   [[nodiscard]] std::uint64_t marker(const char* bytes) const {
     return marker_size == 4 ? number<std::uint32_t>(bytes) : number<std::uint64_t>(bytes);
+  }
+  /// Returns a marker as Fortran writes it, with a sign, for messages.
+  [[nodiscard]] std::int64_t with_sign(std::uint64_t marker) const {
+    return marker_size == 4 ? static_cast<std::int32_t>(marker) : static_cast<std::int64_t>(marker);
   }
 
   static constexpr std::uint64_t cell_bytes = 48;

@@ -115,11 +115,11 @@ class DcdFile {
   void check_marker(std::size_t k, std::uint64_t place, std::uint64_t found, std::uint64_t expected) const {
     if (found == expected) return;
     const std::uint64_t atoms = layout_.atoms_in_frame(k);
-    if (expected == 4 * atoms && found % 4 == 0)
+    if (expected == 4 * atoms && found % 4 == 0 && layout_.with_sign(found) >= 0)
       throw DamagedFrame(file_, k, place,
                          fmt::format("record holds {}, expected {}", counted(found / 4, "atom"), atoms));
     throw DamagedFrame(file_, k, place,
-                       fmt::format("record holds {}, expected {}", counted(found, "byte"), expected));
+                       fmt::format("record holds {} bytes, expected {}", layout_.with_sign(found), expected));
   }
 
   std::string file_;
@@ -196,7 +196,8 @@ class DcdFrames final : public AtomFrames {
         layout.frames_claimed != static_cast<std::int64_t>(held_.whole))
       notes.push_back(
           fmt::format("the header claims {} frames, the file holds {}", layout.frames_claimed, held_.whole));
-    if (!layout.times_note.empty()) notes.push_back(layout.times_note);
+    for (const std::string& note : {layout.title_note, layout.times_note})
+      if (!note.empty()) notes.push_back(note);
     return notes;
   }
 

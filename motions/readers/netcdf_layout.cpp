@@ -87,8 +87,8 @@ std::size_t NetcdfLayout::list(std::uint64_t tag, const char* items) {
   const std::uint64_t length = size();
   if (found != tag && (found != 0 || length != 0)) {
     place_ = begin;
-    fail(fmt::format("expected the NetCDF list of {} (tag {}), found tag {} and length {}", items, tag, found,
-                     length));
+    fail(fmt::format("expected the NetCDF list of {} (tag {}), found tag {} and length {}", items, tag,
+                     static_cast<std::int32_t>(found), with_sign(length)));
   }
   if (length > (header_.size() - place_) / 4) fail_end();
   return static_cast<std::size_t>(length);
@@ -107,7 +107,8 @@ int NetcdfLayout::type() {
   const std::uint64_t last = version_ == 5 ? bytes_of_type.size() - 1 : double_type;
   if (found == 0 || found > last) {
     place_ -= 4;
-    fail(fmt::format("expected a NetCDF type from 1 to {}, found {}", last, found));
+    fail(
+        fmt::format("expected a NetCDF type from 1 to {}, found {}", last, static_cast<std::int32_t>(found)));
   }
   return static_cast<int>(found);
 }
@@ -129,7 +130,7 @@ void NetcdfLayout::read_header() {
   const std::uint64_t streamed =
       version_ == 5 ? std::numeric_limits<std::uint64_t>::max() : std::numeric_limits<std::uint32_t>::max();
   if (records != streamed) records_claimed_ = records;
-  if (records_claimed_ > most_bytes) fail(fmt::format("no file has {} records", records));
+  if (records_claimed_ > most_bytes) fail(fmt::format("no file has {} records", with_sign(records)));
   std::vector<std::uint64_t> dimensions;
   for (std::size_t left = list(10, "dimensions"); left > 0; --left) {
     static_cast<void>(padded_bytes(size()));
@@ -152,7 +153,7 @@ void NetcdfLayout::read_variable(const std::vector<std::uint64_t>& dimensions) {
     if (dimension >= dimensions.size()) {
       place_ = begin;
       fail(fmt::format("expected the number of one of {} dimensions, counted from 0, found {}",
-                       dimensions.size(), dimension));
+                       dimensions.size(), with_sign(dimension)));
     }
     const std::uint64_t length = dimensions[static_cast<std::size_t>(dimension)];
     if (length == 0 && i > 0) fail("only the first dimension of a variable can be that of the records");
@@ -183,7 +184,7 @@ void NetcdfLayout::check_size(const NetcdfVariable& variable, std::uint64_t told
   if (told == 0 && variable.has_records && records_claimed_.value_or(0) == 0) return;
   place_ = place;
   fail(fmt::format("expected a size of {} for the variable {}, as its dimensions say, found {}", padded,
-                   in_quotes(variable.name), told));
+                   in_quotes(variable.name), with_sign(told)));
 }
 
 // Parts are padded to whole words, except if only one variable has records.

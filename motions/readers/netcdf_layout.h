@@ -55,6 +55,10 @@ class NetcdfLayout {
   [[nodiscard]] std::size_t list(std::uint64_t tag, const char* items);
   [[nodiscard]] std::string_view padded_bytes(std::uint64_t bytes);
   [[nodiscard]] int type();
+  /// Returns a size in the header as messages show it: sizes of classic files have signs.
+  [[nodiscard]] std::int64_t with_sign(std::uint64_t size) const {
+    return version_ == 5 ? static_cast<std::int64_t>(size) : static_cast<std::int32_t>(size);
+  }
   [[noreturn]] void fail(const std::string& what) const;
   [[noreturn]] void fail_end() const;
 

@@ -29,15 +29,9 @@ namespace {
 void require_classic(InputFile& input) {
   if (input.is_gzipped())
     throw InputError(fmt::format("{}: NetCDF is read unpacked only; unpack it with gunzip", input.name()));
-  constexpr std::string_view hdf5 = "\x89HDF\r\n\x1A\n";
-  std::array<char, hdf5.size()> bytes{};
+  std::array<char, 8> bytes{};
   const std::string_view start(bytes.data(), input.read(bytes.data(), bytes.size()));
   input.rewind();
-  if (start == hdf5)
-    throw InputError(
-        fmt::format("{0}: this is HDF5 (netCDF-4), expected classic NetCDF; convert it, as with "
-                    "nccopy -k classic {0} out.nc",
-                    input.name()));
   if (!looks_like_netcdf(start))
     throw InputError(
         fmt::format("{}: expected a NetCDF file (CDF-1, CDF-2 or CDF-5), which begins with CDF, found {}",
@@ -56,8 +50,6 @@ class NetcdfFile {
   ~NetcdfFile() { nc_close(id_); }
   NetcdfFile(const NetcdfFile&) = delete;
   NetcdfFile& operator=(const NetcdfFile&) = delete;
-
-  int id() const { return id_; }
 
   void check(int code, std::string_view what) const {
     if (code != NC_NOERR)
@@ -119,7 +111,7 @@ constexpr std::array<std::pair<std::string_view, double>, 2> netcdf_angles{
 class NetcdfFrames final : public AtomFrames {
  public:
   explicit NetcdfFrames(const std::filesystem::path& path)
-      : name_(path.string()), layout_(layout_of(path)), file_(name_) {
+      : name_(path.string()), layout_(layout_of(path)), file_(name_), input_(path) {
     check_conventions();
     const NetcdfVariable* const coordinates = layout_.find("coordinates");
     if (coordinates == nullptr)
@@ -134,7 +126,9 @@ class NetcdfFrames final : public AtomFrames {
       throw InputError(fmt::format("{}: expected coordinates of type float or double", name_));
     atoms_ = static_cast<std::size_t>(coordinates->lengths[rank - 2]);
     frames_ = rank == 2 ? 1 : coordinates->lengths[0];
-    if (coordinates->has_records) frames_ = layout_.records_claimed().value_or(layout_.whole_records());
+    is_counted_ = !coordinates->has_records || layout_.records_claimed().value_or(0) > 0;
+    if (coordinates->has_records)
+      frames_ = is_counted_ ? *layout_.records_claimed() : layout_.whole_records();
     coordinates_ = *series("coordinates", {atoms_, 3});
     time_ = series("time", {});
     lengths_ = series("cell_lengths", {3});
@@ -156,9 +150,9 @@ class NetcdfFrames final : public AtomFrames {
     frame.cell_doubt = std::move(cell.doubt);
     if (!frame.asked && !frame.cell) return;
     if (coordinates_.layout->type == NC_FLOAT)
-      read_positions(k, atoms, frame.positions, floats_, nc_get_vara_float);
+      read_positions(k, atoms, frame.positions, floats_);
     else
-      read_positions(k, atoms, frame.positions, doubles_, nc_get_vara_double);
+      read_positions(k, atoms, frame.positions, doubles_);
   }
 
  private:
@@ -190,6 +184,8 @@ class NetcdfFrames final : public AtomFrames {
                       (layout->has_records ? framed : !framed || layout->lengths[0] == frames_);
     if (!fits || layout->has_records != (framed && coordinates_has_records()))
       throw InputError(fmt::format("{}: {} has other dimensions than coordinates", name_, name));
+    if (layout->type != NC_FLOAT && layout->type != NC_DOUBLE && layout->type != NC_INT)
+      throw InputError(fmt::format("{}: expected {} of type float or double", name_, name));
     return NetcdfSeries{layout, framed, file_.scale(layout->id), lower_case(file_.text(layout->id, "units"))};
   }
   bool coordinates_has_records() const { return layout_.find("coordinates")->has_records; }
@@ -246,12 +242,15 @@ class NetcdfFrames final : public AtomFrames {
     }
     held_.ends_inside = held_.whole < frames_;
     const bool has_records = coordinates_.layout->has_records;
-    if (has_records && !layout_.records_claimed()) {
+    if (!is_counted_) {
       held_.ends_inside = layout_.file_size() > layout_.record_begin(layout_.whole_records());
+      if (layout_.records_claimed() && frames_ > 0)
+        notes_.push_back(
+            fmt::format("the header counts 0 frames, the file has room for {}, which are read", frames_));
     } else if (coordinates_.framed) {
       const NetcdfVariable& variable = *coordinates_.layout;
       const std::uint64_t room =
-          has_records ? layout_.whole_records() : layout_.room_of(variable) / (variable.bytes / frames_);
+          has_records ? layout_.whole_records() : layout_.room_of(variable) / frame_bytes(variable);
       if (room > frames_)
         notes_.push_back(
             fmt::format("the header counts {}, the file has room for {}; only those of the header are read",
@@ -260,12 +259,10 @@ class NetcdfFrames final : public AtomFrames {
     if (held_.ends_inside) held_.end = layout_.file_size();
   }
 
-  std::optional<double> time(std::size_t k) const {
+  std::optional<double> time(std::size_t k) {
     if (!time_) return std::nullopt;
-    const std::size_t start = k;
     double value = 0;
-    file_.check(nc_get_var1_double(file_.id(), time_->layout->id, &start, &value),
-                fmt::format("frame {}: cannot read its time", k));
+    read_values(*time_, k, 0, 1, &value);
     const bool is_float = time_->layout->type == NC_FLOAT;
     if (value == (is_float ? static_cast<double>(NC_FILL_FLOAT) : NC_FILL_DOUBLE)) return std::nullopt;
     if (is_float) value = xdr_time(static_cast<float>(value)).value_or(value);
@@ -274,34 +271,49 @@ class NetcdfFrames final : public AtomFrames {
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
   }
 
-  CellRead read_cell_of(std::size_t k) const {
+  CellRead read_cell_of(std::size_t k) {
     if (!may_have_cell()) return {};
     return read_cell_from_angles(three(*lengths_, k) * cell_to_angstrom_, three(*angles_, k) * to_degrees_);
   }
 
-  Eigen::Vector3d three(const NetcdfSeries& series, std::size_t k) const {
-    const std::array<std::size_t, 2> start{series.framed ? k : 0, 0}, count{series.framed ? 1U : 3U, 3};
+  Eigen::Vector3d three(const NetcdfSeries& series, std::size_t k) {
     Eigen::Vector3d values;
-    file_.check(nc_get_vara_double(file_.id(), series.layout->id, start.data(), count.data(), values.data()),
-                fmt::format("frame {}: cannot read its cell", k));
+    read_values(series, k, 0, 3, values.data());
     return values * series.scale;
+  }
+
+  std::uint64_t frame_bytes(const NetcdfVariable& variable) const {
+    return variable.has_records ? layout_.record_size() : variable.bytes / frames_;
+  }
+
+  // Reads values of frame k. libnetcdf would not read frames that the header does not count.
+  template <class Number>
+  void read_values(const NetcdfSeries& series, std::size_t k, std::size_t first, std::size_t count,
+                   Number* to) {
+    const NetcdfVariable& variable = *series.layout;
+    const std::size_t size = variable.type == NC_DOUBLE ? 8 : 4;
+    bytes_.resize(count * size);
+    const std::uint64_t begin =
+        variable.begin + (series.framed ? k * frame_bytes(variable) : 0) + first * size;
+    if (!input_.read_at(begin, bytes_.data(), bytes_.size()))
+      throw InputError(fmt::format("{}: frame {}: cannot read the file at byte {}", name_, k, begin));
+    for (const char* from = bytes_.data(); count > 0; --count, from += size)
+      *to++ = static_cast<Number>(variable.type == NC_DOUBLE  ? xdr_number<double>(from)
+                                  : variable.type == NC_FLOAT ? xdr_number<float>(from)
+                                                              : xdr_number<std::int32_t>(from));
   }
 
   // Reads from the first to the last of the wanted atoms at once. Floats are scaled and converted as floats,
   // as other programs do.
-  template <class Number, class Read>
+  template <class Number>
   void read_positions(std::size_t k, std::span<const std::size_t> atoms, Eigen::Matrix3Xd& positions,
-                      std::vector<Number>& numbers, const Read& read) const {
+                      std::vector<Number>& numbers) {
     positions.resize(3, static_cast<Eigen::Index>(atoms.size()));
     if (atoms.empty()) return;
     const auto [least, most] = std::minmax_element(atoms.begin(), atoms.end());
     const std::size_t first = *least, span = *most - *least + 1;
     numbers.resize(3 * span);
-    const std::array<std::size_t, 3> start{k, first, 0}, count{1, span, 3};
-    const std::size_t skipped = coordinates_.framed ? 0 : 1;
-    file_.check(read(file_.id(), coordinates_.layout->id, start.data() + skipped, count.data() + skipped,
-                     numbers.data()),
-                fmt::format("frame {}: cannot read its coordinates", k));
+    read_values(coordinates_, k, 3 * first, 3 * span, numbers.data());
     const auto scale = static_cast<Number>(coordinates_.scale);
     const bool is_nanometres = to_angstrom_ != 1;
     for (std::size_t bead = 0; bead < atoms.size(); ++bead)
@@ -316,10 +328,9 @@ class NetcdfFrames final : public AtomFrames {
 
   [[noreturn]] void fail_unwritten(std::size_t k, std::size_t atom) const {
     const NetcdfVariable& variable = *coordinates_.layout;
-    const std::uint64_t frame_bytes = variable.has_records ? layout_.record_size() : variable.bytes / frames_;
     const std::uint64_t atom_bytes = variable.type == NC_FLOAT ? 12 : 24;
     throw DamagedFrame(
-        name_, k, variable.begin + k * frame_bytes + atom * atom_bytes,
+        name_, k, variable.begin + k * frame_bytes(variable) + atom * atom_bytes,
         fmt::format("expected the coordinates of atom {}, found NetCDF's fill value: none were written",
                     atom));
   }
@@ -327,8 +338,10 @@ class NetcdfFrames final : public AtomFrames {
   std::string name_;
   NetcdfLayout layout_;
   NetcdfFile file_;
+  InputFile input_;
   std::size_t atoms_ = 0;
-  std::uint64_t frames_ = 0;  // by the header
+  std::uint64_t frames_ = 0;  // by the header, if it counts them, else by the size of the file
+  bool is_counted_ = true;
   NetcdfSeries coordinates_;
   std::optional<NetcdfSeries> time_, lengths_, angles_;
   double to_angstrom_ = 1, cell_to_angstrom_ = 1, to_degrees_ = 1, to_picoseconds_ = 1;
@@ -336,6 +349,7 @@ class NetcdfFrames final : public AtomFrames {
   std::vector<std::string> notes_;
   std::vector<float> floats_;
   std::vector<double> doubles_;
+  std::vector<char> bytes_;
 };
 
 }  // namespace

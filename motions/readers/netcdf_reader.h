@@ -1,7 +1,8 @@
 #pragma once
 // AMBER NetCDF trajectories and restart files in the classic formats CDF-1, CDF-2 and CDF-5. libnetcdf reads
-// the values. libnetcdf returns zeros without an error where a file ends early, so the size that the header
-// promises is compared with the file's size first.
+// the attributes. It returns zeros without an error where a file ends early, and no frame that the header
+// does not count. Values are therefore read here, after the sizes in the header are compared with the file's
+// size.
 
 #include <filesystem>
 #include <memory>

@@ -179,7 +179,7 @@ class TrrFrames final : public AtomFrames {
                                   numbers(part) == 0
                                       ? "0"
                                       : fmt::format("0 or {}", counted(header.real * numbers(part), "byte")),
-                                  bytes_told));
+                                  static_cast<std::int32_t>(bytes_told)));
     }
     if (header.real == 0) throw damaged(24, "expected a box, positions, velocities or forces, found none");
     header.size = header.real == 4 ? 84 : 92;

@@ -386,12 +386,12 @@ class XtcFrames final : public AtomFrames {
     header.small = static_cast<std::size_t>(small);
     check(header.small >= xtc_first_small && header.small <= xtc_end_small, 84,
           fmt::format("differences of {} to {} bits", xtc_first_small, xtc_end_small - 1), small);
-    header.data = magic == xtc_magic ? xdr_number<std::uint32_t>(bytes.data() + 88)
-                                     : xdr_number<std::uint64_t>(bytes.data() + 88);
+    const std::int64_t data = magic == xtc_magic ? integer(88) : xdr_number<std::int64_t>(bytes.data() + 88);
+    header.data = static_cast<std::uint64_t>(data);
     // An atom has at least 2 bits, and at most 3 times 32 bits and 6 bits.
     const std::uint64_t fewest = (header.atoms + 3) / 4, most = 13 * header.atoms;
     check(header.data >= fewest && header.data <= most, 88,
-          fmt::format("{} to {} bytes of coordinates", fewest, most), header.data);
+          fmt::format("{} to {} bytes of coordinates", fewest, most), data);
     return header;
   }
 

@@ -146,7 +146,8 @@ TEST(DcdReader, HeadersThatLie) {
   maker.free_atoms.clear();
   refuse(maker.header(), {"a.dcd", "no frame"});
   std::string title = maker.bytes();
-  title[4 + 84 + 4 + 3] = 0x7f;  // a title of two gigabytes
+  title[4 + 84 + 4 + 3] = 0x7f;      // a title of two gigabytes
+  title[4 + 84 + 4 + 4 + 3] = 0x7f;  // and of as many lines
   refuse(title, {"a.dcd", "title"});
   test::expect_refused([] { (void)read_trajectory("no-such-file.dcd"); },
                        {"no-such-file.dcd", "cannot open"});

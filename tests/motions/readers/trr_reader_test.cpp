@@ -147,7 +147,8 @@ TEST(TrrReader, DamagedHeadersAreNamed) {
   expect_damage(24, 4, "expected a size of 0, found 4");
   expect_damage(32, 40, "expected a size of 0 or 36 bytes, found 40");
   expect_damage(52, 140, "expected a size of 0 or 144 bytes, found 140");
-  expect_damage(56, -144, "expected a size of 0 or 144 bytes, found 4294967152");
+  expect_damage(56, -144, "expected a size of 0 or 144 bytes, found -144");
+  expect_damage(48, -5, "expected a size of 0, found -5");
   expect_damage(64, 11, "expected 12 atoms, found 11");
   expect_damage(64, -12, "expected at least 1 atom, found -12");
 }

@@ -229,6 +229,7 @@ TEST(XtcReader, DamagedHeadersAreNamed) {
   expect_damage(72, integer(-5000), "expected a greatest coordinate of at least");
   expect_damage(84, integer(8), "expected differences of 9 to 72 bits, found 8");
   expect_damage(84, integer(-1), "expected differences of 9 to 72 bits, found -1");
+  expect_damage(88, integer(-5), "expected 10 to 520 bytes of coordinates, found -5");
   expect_damage(88, integer(9), "expected 10 to 520 bytes of coordinates, found 9");
   expect_damage(88, integer(2'000'000'000), "expected 10 to 520 bytes of coordinates, found 2000000000");
 }
