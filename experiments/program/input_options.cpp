@@ -50,9 +50,14 @@ std::string parse_radius(const std::string& rule) {
 Selection parse_selection(std::string_view option, const std::string& text) {
   if (const std::optional<Selection> selection = Selection::parse(text, option)) return *selection;
   const auto names = std::span(selection_names).subspan(1);
-  refuse_unknown(
-      option, text, names,
-      fmt::format("one of {}, nor an atom selection as in {}", fmt::join(names, ", "), selection_example));
+  const std::vector<std::string> atoms = split(text, ',');
+  constexpr std::size_t longest = 4;
+  const bool may_be_atoms = std::all_of(atoms.begin(), atoms.end(), [](const std::string& atom) {
+    return !atom.empty() && atom.size() <= longest && atom.find_first_of(" \t!*") == std::string::npos;
+  });
+  throw InputError(fmt::format("{}: '{}' is not one of {}, nor an atom selection as in {}{}{}", option, text,
+                               fmt::join(names, ", "), selection_example, suggestion(text, names),
+                               may_be_atoms ? fmt::format("; //*//{} chooses atoms by name", text) : ""));
 }
 
 // A file whose name has a comma is a file, not a list.
@@ -98,6 +103,7 @@ void check_chains(const std::string& chains, std::size_t inputs, bool obstacle) 
 }  // namespace
 
 void check_exists(const std::filesystem::path& path) {
+  refuse_standard_input(path);
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError(fmt::format("{}: no such file", path.string()));
   if (std::filesystem::is_directory(path, error))

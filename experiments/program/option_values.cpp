@@ -72,7 +72,9 @@ std::size_t place_among(std::string_view option, std::string_view word,
 }
 
 std::filesystem::path parse_path(std::string_view option, const std::string& text) {
-  if (text == "-") throw InputError(fmt::format("{} needs a path; - is for --json only", option));
+  if (text == "-")
+    throw InputError(
+        fmt::format("{} needs a path; - is for --json only, and standard input is not read", option));
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include "experiments/output/output_files.h"
 #include "experiments/sweep/run_sweep.h"
 #include "motions/base/input_error.h"
+#include "motions/base/input_file.h"
 
 namespace kds {
 
@@ -38,6 +39,7 @@ bool is_new(const fs::path& folder) {
 }  // namespace
 
 std::string text_of_sweep(const fs::path& path) {
+  refuse_standard_input(path);
   std::error_code none;
   if (!fs::exists(path, none)) throw InputError(path.string() + ": no such file");
   if (fs::is_directory(path, none))

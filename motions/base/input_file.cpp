@@ -32,6 +32,7 @@ void check_kind(const std::string& name, mode_t mode) {
 
 // Returns a descriptor and the size of the file.
 std::pair<int, std::uint64_t> open_regular(const std::string& name) {
+  refuse_standard_input(name);
   struct stat status {};
   if (::stat(name.c_str(), &status) == 0) check_kind(name, status.st_mode);
   // Do not block if the path has meanwhile become a pipe without a writer.
@@ -185,6 +186,11 @@ std::size_t byte_order_mark(std::string_view start, const std::string& file) {
   if (start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF"))
     throw InputError(fmt::format("{}: this text is UTF-16, expected ASCII or UTF-8", file));
   return 0;
+}
+
+void refuse_standard_input(const std::filesystem::path& path) {
+  if (path == "-")
+    throw InputError("-: standard input is not read; give the path of a file (./- for a file of this name)");
 }
 
 void require_regular_file(const std::filesystem::path& path) {

@@ -13,6 +13,9 @@
 
 namespace kds {
 
+/// Throws InputError if the path is `-`, which stands for standard input in other programs.
+void refuse_standard_input(const std::filesystem::path& path);
+
 /// Throws InputError if the path is not a regular file. Pipes and devices are rejected because they may never
 /// end.
 void require_regular_file(const std::filesystem::path& path);

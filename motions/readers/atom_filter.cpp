@@ -253,13 +253,15 @@ struct AtomFilter::Rules {
     chains = parse_list(given, parts.chains);
     residue_names = parse_list(given, parts.residue_names);
     const auto range = parse_range(parts.numbers);
-    if (!range)
-      throw malformed(
-          given, fmt::format("has the residues {}, which are no number or range{}", in_quotes(parts.numbers),
-                             given.text.starts_with('/') || parts.residue_names != "*"
-                                 ? ""
-                                 : fmt::format(" (names of residues stand in brackets: ({})/{})",
-                                               parts.chains, parts.numbers)));
+    if (!range) {
+      std::string advice;
+      if (given.text == parts.numbers)
+        advice = fmt::format(" (//*//{} chooses atoms by name)", parts.numbers);
+      else if (!given.text.starts_with('/') && parts.residue_names == "*")
+        advice = fmt::format(" (names of residues stand in brackets: ({})/{})", parts.chains, parts.numbers);
+      throw malformed(given, fmt::format("has the residues {}, which are no number or range{}",
+                                         in_quotes(parts.numbers), advice));
+    }
     numbers = *range;
     take_atoms(parts.atoms);
     if (!parts.conditions.empty())

@@ -23,8 +23,12 @@ namespace {
 // Returns the reader of a file. Throws InputError if there is none.
 const ReaderSpec& reader_of(const std::filesystem::path& path,
                             const std::optional<std::string>& format = {}) {
-  if (const ReaderSpec* const reader = reader_registry().find(path, format)) return *reader;
-  refuse_unread_format(path);
+  const ReaderSpec* const reader = reader_registry().find(path, format);
+  if (reader != nullptr && (format || !reader->recognises)) return *reader;
+  const std::string start = ReaderRegistry::first_bytes(path);
+  if (reader == nullptr || !reader->recognises(start)) refuse_unread_content(path, start);
+  if (reader != nullptr) return *reader;
+  refuse_unread_ending(path);
   throw InputError(fmt::format("cannot tell the format of {} from its content or its ending; supported: {}",
                                path.string(), reader_registry().endings()));
 }

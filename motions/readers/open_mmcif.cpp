@@ -228,7 +228,10 @@ std::map<std::string, Entity> entities_of(const Source& source, const gemmi::cif
 void check_columns(const std::string& file, const Table& atoms) {
   for (const char* column : {"Cartn_x", "Cartn_y", "Cartn_z"})
     if (!atoms.has(column))
-      throw InputError(fmt::format("{}: the atoms have no column _atom_site.{}", file, column));
+      throw InputError(fmt::format(
+          "{}: the atoms have no column _atom_site.{}{}", file, column,
+          atoms.has("fract_x") ? "; this is a small-molecule CIF, whose coordinates are fractions of its cell"
+                               : ""));
   using Names = std::pair<const char*, const char*>;
   for (const auto& [one, other] :
        {Names("label_atom_id", "auth_atom_id"), Names("label_comp_id", "auth_comp_id")})
@@ -321,6 +324,25 @@ CellRead cell_of(const Source& source, const gemmi::cif::Block& block) {
   return read_cell_from_angles({numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]});
 }
 
+// Says what a file without atoms of mmCIF holds instead, by the tags of other dictionaries.
+std::string contents_of(const gemmi::cif::Document& document) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kinds{
+      {{"_atom_site_",
+        "; this is a small-molecule CIF, which is not read; convert it to PDB, as with obabel"},
+       {"_refln", "; this file holds structure factors; take the file with the model"},
+       {"_chem_comp_atom.", "; this file describes chemical components"},
+       {"_ihm_", "; this is an integrative model of IHMCIF"}}};
+  for (const auto& [start, what] : kinds)
+    for (const gemmi::cif::Block& block : document.blocks)
+      for (const gemmi::cif::Item& item : block.items) {
+        const bool is_loop = item.type == gemmi::cif::ItemType::Loop && !item.loop.tags.empty();
+        if (!is_loop && item.type != gemmi::cif::ItemType::Pair) continue;
+        if (begins_with(lower_case(is_loop ? item.loop.tags.front() : item.pair[0]), std::string(start)))
+          return std::string(what);
+      }
+  return "";
+}
+
 class MmcifModels : public StructureModels {
  public:
   explicit MmcifModels(const std::filesystem::path& path) {
@@ -337,7 +359,9 @@ class MmcifModels : public StructureModels {
       else
         others += (others.empty() ? "" : ", ") + in_quotes(block.name);
     }
-    if (chosen == nullptr) throw InputError(fmt::format("{}: no atom in any data block (_atom_site)", file));
+    if (chosen == nullptr)
+      throw InputError(
+          fmt::format("{}: no atom in any data block (_atom_site.){}", file, contents_of(document)));
     if (!others.empty())
       notes_.push_back(
           fmt::format("data block {} is read; the atoms of {} are not", in_quotes(chosen->name), others));

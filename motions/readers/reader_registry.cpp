@@ -60,10 +60,18 @@ bool has_ending(const ReaderSpec& reader, const std::string& ending) {
   return std::find(reader.endings.begin(), reader.endings.end(), ending) != reader.endings.end();
 }
 
-// Returns the first bytes of the file, unpacked and without a byte order mark.
-std::string first_bytes(const std::filesystem::path& path) {
+std::string listed(const std::vector<std::string>& texts) {
+  std::string list;
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    list += (i == 0 ? "" : i + 1 == texts.size() ? " or " : ", ") + texts[i];
+  return list;
+}
+
+}  // namespace
+
+std::string ReaderRegistry::first_bytes(const std::filesystem::path& path) {
   InputFile file(path);
-  std::string bytes(ReaderRegistry::bytes_seen, '\0');
+  std::string bytes(bytes_seen, '\0');
   std::size_t size = 0;
   try {
     while (size < bytes.size()) {
@@ -77,15 +85,6 @@ std::string first_bytes(const std::filesystem::path& path) {
   if (constexpr std::string_view mark = "\xef\xbb\xbf"; bytes.starts_with(mark)) bytes.erase(0, mark.size());
   return bytes;
 }
-
-std::string listed(const std::vector<std::string>& texts) {
-  std::string list;
-  for (std::size_t i = 0; i < texts.size(); ++i)
-    list += (i == 0 ? "" : i + 1 == texts.size() ? " or " : ", ") + texts[i];
-  return list;
-}
-
-}  // namespace
 
 void ReaderRegistry::add(ReaderSpec reader) {
   for (const ReaderSpec& other : readers_) {

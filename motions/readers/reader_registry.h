@@ -53,6 +53,9 @@ class ReaderRegistry {
   [[nodiscard]] std::string topology_endings() const;
 
   static constexpr std::size_t bytes_seen = 4096;
+  /// Returns the first bytes of the file, at most `bytes_seen`, unpacked and without a byte order mark.
+  /// Throws InputError if the file cannot be opened.
+  [[nodiscard]] static std::string first_bytes(const std::filesystem::path& path);
 
  private:
   std::vector<ReaderSpec> readers_;

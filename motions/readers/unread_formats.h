@@ -2,11 +2,14 @@
 // Formats of trajectories and topologies that other programs write and kds does not read.
 
 #include <filesystem>
+#include <string_view>
 
 namespace kds {
 
-/// Throws InputError if the file's ending belongs to such a format. The message names the program that
-/// converts the format.
-void refuse_unread_format(const std::filesystem::path& path);
+/// Throws InputError if `start`, the first bytes of the file, shows such a format. The message names the
+/// format and the program that converts it.
+void refuse_unread_content(const std::filesystem::path& path, std::string_view start);
+/// Does the same by the file's ending.
+void refuse_unread_ending(const std::filesystem::path& path);
 
 }  // namespace kds

@@ -2,6 +2,7 @@
 
 #include "experiments/run/run_options.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -163,6 +164,11 @@ TEST(RunOptions, RefusesUnknownNamesAndListsTheKnown) {
   EXPECT_THAT(
       refusal({"a", "--select", "cb"}),
       HasSubstr("'cb' is not one of backbone, ca, bb, p, heavy, all, nor an atom selection as in //A/"));
+  for (const char* atoms : {"CB", "CB,OG", "SG", "O5'", "OXT", "MN", "1HB2"})
+    EXPECT_THAT(refusal({"a", "--select", atoms}),
+                HasSubstr(fmt::format("//*//{} chooses atoms by name", atoms)));
+  for (const char* other : {"backbon", "protein", "name CA", "C*"})
+    EXPECT_THAT(refusal({"a", "--select", other}), testing::Not(HasSubstr("by name")));
   EXPECT_THAT(refusal({"a", "--select", "//A/10-x"}),
               HasSubstr("--select: '//A/10-x' has the residues '10-x'"));
 }

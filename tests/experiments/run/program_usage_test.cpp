@@ -60,6 +60,19 @@ TEST(Program, RefusesWrongUsage) {
   expect_refused({"replay", kSmall, kSmall}, {"one LOG"});
 }
 
+TEST(Program, StandardInputIsNotRead) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"run", "-"},
+           {"info", kTrajectory, "-"},
+           {"info", kTrajectory, "--topology", "-"},
+           {"run", kTrajectory, "--obstacle", "-"},
+           {"run", kTrajectory, "--structures", "contacts", "--radius", "file:-"},
+           {"replay", "-"},
+           {"contacts", "-"},
+           {"sweep", "-"}})
+    expect_refused(arguments, {"standard input is not read"});
+}
+
 TEST(Program, SuggestsTheNearestName) {
   expect_refused({"rnu"}, {"unknown command 'rnu', did you mean run?"});
   expect_refused({"help", "colide"}, {"did you mean collide?"});
