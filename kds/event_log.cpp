@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 
 #include "certificates/exact/exact_time.h"
@@ -153,6 +154,16 @@ RoundedTime rounded_time(const Instant& now, const FrameStamp& from, const Frame
   RoundedTime time{place.on(static_cast<double>(from.number), static_cast<double>(to.number)), {}};
   if (from.picoseconds && to.picoseconds) time.picoseconds = place.on(*from.picoseconds, *to.picoseconds);
   return time;
+}
+
+TimeBracket canonical_bracket(const Instant& now, unsigned places) {
+  const auto cells = static_cast<double>(std::uint64_t{1} << places);
+  const double first = std::floor(now.lower() * cells), last = std::ceil(now.upper() * cells);
+  if (last <= first + 1) return {first / cells, last / cells};
+  std::optional<ExactTime> time = now.exact_apart();
+  if (!time) return {now.lower(), now.upper()};
+  const double after = next_on_grid(*time, places).round_down(), before = after - 1 / cells;
+  return {before, time->is_dyadic() && time->lower() == Dyadic(before) ? before : after};
 }
 
 }  // namespace kds

@@ -26,10 +26,28 @@ struct RoundedTime {
 /// fewer digits if only a bracket is known (a replayed time).
 [[nodiscard]] RoundedTime rounded_time(const Instant& now, const FrameStamp& from, const FrameStamp& to);
 
+/// A time in a step, which lies strictly between both numbers or equals both.
+struct TimeBracket {
+  double lower = 0, upper = 0;
+
+  friend bool operator==(const TimeBracket&, const TimeBracket&) = default;
+};
+
+/// Brackets of events end at multiples of 2^-event_places. Searches leave brackets of up to 2^-24. The finer
+/// the grid is, the more often a number of the grid lies in such a bracket, which takes exact work: for 3% of
+/// the flips of a power diagram with 24 places, for all of them with 40.
+inline constexpr unsigned event_places = 24;
+
+/// Returns the canonical bracket of a time, which depends on the time alone and not on how a search found it:
+/// the time itself, twice, if it is a multiple of 2^-places, otherwise its two neighbours among these
+/// multiples. `places` is at most 52. Takes exact work if a multiple lies in the bracket of `now`, which is
+/// not narrowed. If then only a bracket is known (a replayed time), returns this bracket.
+[[nodiscard]] TimeBracket canonical_bracket(const Instant& now, unsigned places = event_places);
+
 /// A change of a structure as listeners receive it: a complete record that remains valid after the run.
 struct Event {
   std::size_t step = 0;
-  double lower = 0, upper = 0;      ///< the time in the step lies strictly between, or equals both
+  double lower = 0, upper = 0;      ///< canonical bracket of the time in the step
   std::size_t structure_index = 0;  ///< in the order in which structures were added to the simulator
   Change change;
   std::string_view structure;  ///< the structure's name, in static storage

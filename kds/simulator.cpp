@@ -429,16 +429,16 @@ void Simulator::start_at(std::size_t step) {
 
 auto Simulator::event_to_relay(const Event& event, bool first_at_its_time, bool exact) const -> RelayedEvent {
   RelayedEvent relayed{static_cast<std::uint32_t>(event.structure_index),
+                       first_at_its_time,
+                       event.decided_by,
                        event.change,
-                       {event.lower, event.upper, 0, false, false, false, event.decided_by},
-                       nullptr,
-                       first_at_its_time};
+                       {event.lower, event.upper},
+                       nullptr};
   const bool has_function = exact && event.lower < event.upper && present_.source != nullptr;
-  if (has_function) relayed.time = present_.time;
   if (has_function || event.rounded) {
     ExactFunction function = has_function ? present_.source->exact_function(present_.slot) : nullptr;
-    relayed.certain =
-        std::make_unique<RelayedEvent::Certain>(RelayedEvent::Certain{std::move(function), event.rounded});
+    relayed.certain = std::make_unique<RelayedEvent::Certain>(
+        RelayedEvent::Certain{std::move(function), present_.time, event.rounded});
   }
   return relayed;
 }
@@ -455,7 +455,8 @@ void Simulator::relay(std::size_t step, const FrameStamp& from, const FrameStamp
     require_index("structure", event.structure, structures_.size());
     if (event.first_at_its_time) ++moment_;
     held_.function = event.certain ? event.certain->function : nullptr;
-    now_ = held_.function ? Instant(event.time, held_, 0) : Instant(event.time);
+    now_ = held_.function ? Instant(event.certain->time, held_, 0)
+                          : Instant(FailureTime{event.bracket.lower, event.bracket.upper, 0, false});
     MutationScope::notify(*this, event.structure, event.change, &event);
   }
   watch_.charge(before);
@@ -479,12 +480,24 @@ void Simulator::MutationScope::tell(Simulator& simulator, std::size_t structure,
   simulator.watch_.charge(before);
 }
 
+template <class Work>
+auto Simulator::for_listeners(const Work& work) {
+  const ExactWork::Open account(listeners_work_);
+  const std::size_t before = watch_.charge(listener_lane);
+  auto result = work();
+  watch_.charge(before);
+  return result;
+}
+
 void Simulator::MutationScope::notify(Simulator& simulator, std::size_t structure, const Change& change,
                                       const RelayedEvent* relayed) {
   const KineticStructure& s = *simulator.structures_[structure];
-  Event event{simulator.step_, simulator.now_.lower(), simulator.now_.upper(), structure,     change,
-              s.name(),        s.kinds()[change.kind], simulator.from_,        simulator.to_, {}};
-  event.decided_by = (relayed != nullptr ? relayed->time : simulator.present_.time).decided_by;
+  const TimeBracket bracket =
+      relayed != nullptr ? relayed->bracket
+                         : simulator.for_listeners([&] { return canonical_bracket(simulator.now_); });
+  Event event{simulator.step_, bracket.lower,          bracket.upper,   structure,     change,
+              s.name(),        s.kinds()[change.kind], simulator.from_, simulator.to_, {}};
+  event.decided_by = relayed != nullptr ? relayed->decided_by : simulator.present_.time.decided_by;
   MutationScope mutation(simulator);  // also if the change is an edit
   for (EventListener* listener : simulator.listeners_) {
     if (!event.rounded && listener->prints_time_of(event)) {
@@ -493,10 +506,8 @@ void Simulator::MutationScope::notify(Simulator& simulator, std::size_t structur
         listener->on_event(event);
         continue;
       }
-      const ExactWork::Open account(simulator.listeners_work_);  // not counted as the run's own work
-      const std::size_t before = simulator.watch_.charge(listener_lane);
-      event.rounded = rounded_time(simulator.now_, simulator.from_, simulator.to_);
-      simulator.watch_.charge(before);
+      event.rounded = simulator.for_listeners(
+          [&] { return rounded_time(simulator.now_, simulator.from_, simulator.to_); });
     }
     listener->on_event(event);
   }

@@ -119,15 +119,17 @@ class Simulator {
   /// An event that another simulator tells its listeners of. There may be millions, so it is small.
   struct RelayedEvent {
     std::uint32_t structure;
+    bool first_at_its_time;  ///< whether no event was relayed at this very time before
+    DecidedBy decided_by;
     Change change;
-    FailureTime time;
+    TimeBracket bracket;
     struct Certain {
-      ExactFunction function;  ///< its root is the time
+      ExactFunction function;  ///< `time` is its root
+      FailureTime time;
       std::optional<RoundedTime> rounded;
     };
     /// Null if no listener asks for what it holds. The function is null if the time is a double.
     std::unique_ptr<const Certain> certain;
-    bool first_at_its_time;  ///< whether no event was relayed at this very time before
   };
   /// Returns `event`, which happens now, for another simulator.
   [[nodiscard]] RelayedEvent event_to_relay(const Event& event, bool first_at_its_time, bool exact) const;
@@ -186,6 +188,9 @@ class Simulator {
   class MutationScope;
 
   void require(Phase phase, const char* what) const;
+  /// Does work for the listeners, which is not counted as the run's own.
+  template <class Work>
+  auto for_listeners(const Work& work);
   void hold_now();
   void begin_step();
   void start_step();

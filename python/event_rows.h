@@ -24,8 +24,8 @@ class EventRows final : public EventListener {
   /// While events are not kept, the listener ignores them.
   void keep(bool keeps) { keeps_ = keeps; }
   /// Returns an array with one row for each event, and starts anew. Fields: `frame`, `time` (picoseconds, NaN
-  /// without times), `lower`, `upper` (the bracket in the step), `step`, `structure` and `kind` (names), and
-  /// `beads`, ten ids that end with -1. The infinite vertex is -1, too.
+  /// without times), `lower`, `upper` (the canonical bracket in the step), `step`, `structure` and `kind`
+  /// (names), and `beads`, ten ids that end with -1. The infinite vertex is -1, too.
   [[nodiscard]] pybind11::array take();
 
  private:

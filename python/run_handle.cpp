@@ -314,7 +314,9 @@ double RunHandle::time() {
   const Reserved reserved(*this);
   Simulator& simulator = run_->simulator();
   const auto step = static_cast<double>(simulator.step());
-  return run_->within_step() ? step + 0.5 * (simulator.now().lower() + simulator.now().upper()) : step;
+  if (!run_->within_step()) return step;
+  const auto [lower, upper] = canonical_bracket(simulator.now());
+  return step + 0.5 * (lower + upper);
 }
 
 py::array RunHandle::take_events() {

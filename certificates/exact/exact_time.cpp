@@ -104,14 +104,17 @@ void ExactTime::refine() {
   if (polynomial_.wide() == nullptr && root_.upper.exponent() > few_places)
     polynomial_ = ExactPolynomial(std::make_shared<const WidePolynomial>(polynomial_.scaled()));
   if (polynomial_.wide() != nullptr) return narrow_root(*polynomial_.wide(), root_);
-  Dyadic middle = Dyadic::midpoint(root_.lower, root_.upper);
-  const int sign = polynomial_.sign_at(middle);
+  cut_at(Dyadic::midpoint(root_.lower, root_.upper));
+}
+
+void ExactTime::cut_at(Dyadic place) {
+  const int sign = polynomial_.sign_at(place);
   if (sign == 0) {
-    root_ = {middle, middle};
+    root_ = {place, place};
   } else if (sign == root_.sign_at_lower) {
-    root_.lower = std::move(middle);
+    root_.lower = std::move(place);
   } else {
-    root_.upper = std::move(middle);
+    root_.upper = std::move(place);
   }
 }
 
@@ -345,21 +348,18 @@ Dyadic dyadic_between(ExactTime& a, ExactTime& b) {
 }
 
 Dyadic next_on_grid(ExactTime& time, unsigned bits) {
-  // Computes floor(x 2^bits) + 1.
-  const auto after = [bits](const Dyadic& x) -> Integer {
-    const Integer scaled = x.numerator() << bits;
-    return (scaled >> x.exponent()) + 1;
-  };
-  while (!time.is_dyadic()) {
-    const Dyadic next(after(time.lower()), bits);
-    if (time.upper() <= next) return next;
-    if (time.polynomial().sign_at(next) == 0) {  // halving would never reach a time that lies on the grid
-      time = ExactTime(next);
+  for (bool is_first = true;; is_first = false) {
+    // The grid has the numbers first, ..., last, times 2^-bits, strictly between the ends.
+    const Integer scaled_upper = (time.upper().numerator() << bits) - 1;
+    const Integer first = ((time.lower().numerator() << bits) >> time.lower().exponent()) + 1;
+    const Integer last = scaled_upper >> time.upper().exponent();
+    if (time.is_dyadic() || last < first) return {first, bits};
+    if (is_first && last - first > 2) {
+      time.narrow_for_doubles();
     } else {
-      time.refine();
+      time.cut_at({(first + last) >> 1, bits});
     }
   }
-  return {after(time.lower()), bits};
 }
 
 }  // namespace kds

@@ -40,6 +40,10 @@ class ExactTime {
   [[nodiscard]] static int compare(ExactTime& a, ExactTime& b);
 
  private:
+  friend Dyadic next_on_grid(ExactTime& time, unsigned bits);
+  /// Moves an end of the interval to `place`, which lies within, or both if `place` is the time.
+  void cut_at(Dyadic place);
+
   ExactPolynomial polynomial_;
   RootInterval root_;
 };

@@ -48,8 +48,9 @@ class ContactsCsv : public EventListener {
   virtual void add(const Event& event, std::string_view kind) = 0;
 };
 
-/// The file in --dump. The header is `step,lower,upper,i,j,event`. Each line has the bracket of the time in
-/// the step, the beads, and begin, end or touch. A contact at the start has step 0, bracket 0, 0 and begin.
+/// The file in --dump. The header is `step,lower,upper,i,j,event`. Each line has the canonical bracket of
+/// the time in the step, the beads, and begin, end or touch. A contact at the start has step 0, bracket 0, 0
+/// and begin.
 class ContactsDump final : public ContactsCsv {
  public:
   /// Writes the header.

@@ -79,7 +79,7 @@ class LogComparison final : public EventListener {
                       change.ids.begin() + change.size);
   }
 
-  // Brackets depend on the run, so those of the log and of the run need only enclose the same time.
+  // Brackets in logs of earlier versions are not canonical, so they need only enclose the time.
   bool is_time(const EventLogReader::Entry& entry, const Event& event) const {
     if (entry.lower == event.lower && entry.upper == event.upper) return true;
     if (simulator_.kernel() == Kernel::fast) return false;

@@ -17,8 +17,7 @@ namespace kds {
 /// line of the log was not written by the run.
 ///
 /// Two events are the same if their structure, kind, beads and time agree. The times agree if the log's
-/// bracket equals the run's bracket. If another version of the program wrote the log, the times agree if the
-/// log's bracket holds the exact failure time.
+/// bracket is the canonical one or, in logs of earlier versions, holds the exact failure time.
 [[nodiscard]] ReplayReport replay_log(const std::filesystem::path& log, const Progress& progress,
                                       const std::function<void(const std::string&)>& warn,
                                       RunResults* results = nullptr);

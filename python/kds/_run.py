@@ -56,7 +56,7 @@ class Run:
 
     ``events``
         structured array with a row for each event: ``frame`` (in frames of the trajectory, with a fraction), ``time``
-        (picoseconds, NaN without times), ``lower`` and ``upper`` (a bracket of the time in its step, from 0 to 1),
+        (picoseconds, NaN without times), ``lower`` and ``upper`` (canonical bracket of the time in its step),
         ``step``, ``structure``, ``kind`` and ``beads`` (ids, then -1).
     ``fingerprint``
         16 hex digits, a hash of all events in their order. Equal runs have equal fingerprints on every machine.

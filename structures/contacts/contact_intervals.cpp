@@ -50,20 +50,10 @@ StepClock ContactIntervals::clock_of(const FrameStamp& from, const FrameStamp& t
 }
 
 ContactMoment ContactIntervals::moment_of(const Event& event) const {
-  const Instant& now = simulator_.now();
-  now.narrow();
-  ContactMoment moment{event.step, now.lower(), now.upper(), clock_of(event.from, event.to),
-                       event.rounded.value_or(RoundedTime{event.frame(), event.picoseconds()})};
-  // Moves an end of the bracket to the only tick inside, if there is one.
-  constexpr double ticks = ticks_per_frame;
-  for (double tick = (std::floor(moment.lower * ticks) + 1) / ticks; tick < moment.upper; tick += 1 / ticks) {
-    std::optional<ExactTime> exact = now.exact_apart();
-    if (!exact) break;  // a replayed run knows brackets only
-    const int sign = compare_with(*exact, Rational(tick));
-    if (sign >= 0) moment.lower = tick;
-    if (sign <= 0) moment.upper = tick;
-  }
-  return moment;
+  constexpr unsigned places = 44;  // lengths are as certain as the readings of clocks
+  const TimeBracket bracket = canonical_bracket(simulator_.now(), places);
+  return {event.step, bracket.lower, bracket.upper, clock_of(event.from, event.to),
+          event.rounded.value_or(RoundedTime{event.frame(), event.picoseconds()})};
 }
 
 void ContactIntervals::add_built(std::span<const BeadPair> inner, std::span<const BeadPair> outer,

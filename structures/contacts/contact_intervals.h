@@ -41,11 +41,9 @@ inline constexpr std::size_t ticks_per_frame = 256;
 /// An end of an interval.
 struct ContactMoment {
   std::size_t step = 0;
-  /// Bracket of the parameter in the step. Equal if they are the time itself, otherwise the time lies
-  /// strictly between. No tick lies strictly between.
-  double lower = 0, upper = 0;
-  StepClock clock;      ///< readings at the ends of the step
-  RoundedTime rounded;  ///< twelve certain digits if ContactRule::rounds_times
+  double lower = 0, upper = 0;  ///< canonical bracket of the parameter in the step, no wider than 2^-44
+  StepClock clock;              ///< readings at the ends of the step
+  RoundedTime rounded;          ///< twelve certain digits if ContactRule::rounds_times
 
   [[nodiscard]] double u() const { return 0.5 * (lower + upper); }
   /// Return the last tick of the run that is not after this time, and the first that is not before.

@@ -20,7 +20,7 @@ namespace kds {
 /// frames have times, `picoseconds` follows `upper`.
 ///
 /// - `frame` is the number of the frame with which the event's step begins.
-/// - `lower` and `upper` bracket the event's time in the step.
+/// - `lower` and `upper` are the canonical bracket of the event's time in the step (kds/event_log.h).
 /// - `picoseconds` is the event's time, rounded; empty if its frames have none.
 /// - `node` is FIRST-LAST for an event of a hierarchy.
 /// - `beads` are the other beads that the event names, separated by spaces.
@@ -51,7 +51,7 @@ class EventCsv final : public EventListener {
 ///
 /// - `step` and `frame`, the number of the frame with which the step begins.
 /// - `time`, the event's time counted in frames, rounded; and, if frames have times, `picoseconds`.
-/// - `lower` and `upper`, which bracket the time in the step.
+/// - `lower` and `upper`, the canonical bracket of the time in the step.
 /// - `structure`, `kind` and `external`.
 /// - `ids`, an object with one array for each role of ids; null means the infinite vertex.
 /// - `residues`, if the scene names beads: the names of the beads in `ids`, in the same order.

@@ -9,8 +9,8 @@
 // positions decided that state (cells that are flat, ties), the part is run again from the true state, and
 // PartCounts counts it.
 //
-// Brackets of times may differ from those of an uncut run, but enclose the same roots. Counts of work
-// (certificates never searched because of slack, stages, comparisons, peaks) depend on the cuts.
+// Counts of work (certificates never searched because of slack, stages, comparisons, peaks) depend on the
+// cuts.
 
 #include <atomic>
 #include <concepts>

@@ -31,7 +31,7 @@ class ReplayRecorder final : public EventListener {
   struct Events {
     std::vector<std::uint32_t> order;  ///< place among the events of all structures
     std::vector<std::uint32_t> step;
-    std::vector<double> lower, upper;  ///< bracket of the time u in the step
+    std::vector<double> lower, upper;  ///< canonical bracket of the time u in the step
     std::vector<std::uint8_t> kind;    ///< index into Structure::kinds
     std::vector<DecidedBy> stage;      ///< that decided the time
     std::vector<std::uint8_t> size;    ///< number of ids

@@ -1,4 +1,4 @@
-// Tests printed times: twelve digits, correctly rounded.
+// Tests times as listeners receive them: canonical brackets, and twelve digits, correctly rounded.
 
 #include "kds/event_log.h"
 
@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "certificates/exact/exact_time.h"
 #include "tests/support/inputs/polynomial_source.h"
@@ -130,6 +131,68 @@ TEST(RoundedTime, IsTheNearestNumberOfTwelveDigits) {
       EXPECT_LE(off * Rational(2), unit) << p << '/' << q << " from " << from << " to " << to;
     }
   }
+}
+
+/// Returns the canonical bracket of a rational time, computed by its definition.
+TimeBracket bracket_of(const Rational& time, unsigned places) {
+  const double cell = std::ldexp(1.0, -static_cast<int>(places));
+  const Rational scaled = time / Rational(cell);
+  Integer whole;
+  mpz_fdiv_q(whole.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
+  const double lower = whole.get_d() * cell;
+  return {lower, Rational(whole) == scaled ? lower : lower + cell};
+}
+
+TEST(CanonicalBracket, IsDefinedByTheTimeAlone) {
+  const Rational grid(0x1p-24), tiny = fraction(Integer(1), power_of_ten(300));
+  std::vector<Rational> times{
+      Rational(1, 2), Rational(1, 3), Rational(1, 256), Rational(255, 256), Rational(2, 7),
+      tiny,           grid,           1 - grid,         1 - grid * tiny,    grid / 2,
+      grid * 3 / 2,   Rational(0.1),  Rational(0x1p-50)};
+  for (const Rational& on_grid : {Rational(1, 2), Rational(5, 256), Rational(0.75 + 0x1p-24)})
+    for (const Rational& off : {tiny, Rational(grid / 1024), Rational(0x1p-44), Rational(0x1p-52)})
+      for (const int sign : {-1, 1}) times.emplace_back(on_grid + sign * off);
+  Random random(49);
+  for (const Rational& time : times) {
+    const Scaled function = linear(numerator(time), denominator(time));
+    for (int round = 0; round < rounds(40, 10); ++round) {
+      // A bracket as a search may find it: the time lies strictly between its ends.
+      const double reach = round == 0 ? 1 : std::ldexp(1.0, -pick(random, 1, 60));
+      double lower = std::max(0.0, time.get_d() - reach), upper = std::min(1.0, time.get_d() + reach);
+      while (!(Rational(lower) < time)) lower = std::nextafter(lower, -1);
+      while (!(time < Rational(upper))) upper = std::nextafter(upper, 2);
+      if (lower < 0 || upper > 1) continue;
+      const Root root(function, lower, upper);
+      for (const unsigned places : {8U, event_places, 44U})
+        EXPECT_EQ(canonical_bracket(root.now(), places), bracket_of(time, places)) << lower << ' ' << upper;
+      EXPECT_EQ(root.now().lower(), lower);
+      EXPECT_EQ(root.now().upper(), upper);
+    }
+    const double u = time.get_d();
+    if (Rational(u) == time) {
+      EXPECT_EQ(canonical_bracket(Instant(u)), bracket_of(time, event_places)) << u;
+    }
+  }
+  EXPECT_EQ(canonical_bracket(Instant(0)), (TimeBracket{0, 0}));
+  EXPECT_EQ(canonical_bracket(Instant(Dyadic(1, 400))), (TimeBracket{0, 0x1p-24}));
+}
+
+TEST(CanonicalBracket, ChoosesAmongManyRoots) {
+  // (3u - 1) (2u - 1) (3u - 2)^2, whose last root is a touch, all in one bracket
+  const Scaled function = product(product(linear(1, 3), linear(1, 2)), product(linear(2, 3), linear(2, 3)));
+  PolynomialSource source;
+  const std::uint32_t slot = source.add(function, named(1));
+  const Rational roots[] = {Rational(1, 3), Rational(1, 2), Rational(2, 3)};
+  for (std::uint16_t k = 0; k < 3; ++k)
+    for (const double reach : {0.0, 0.1, 0.2})
+      EXPECT_EQ(canonical_bracket(Instant(FailureTime{reach, 1 - reach, k, false}, source, slot)),
+                bracket_of(roots[k], event_places));
+}
+
+// A replayed time has no function. If the grid cuts its bracket, the bracket stays as the log has it.
+TEST(CanonicalBracket, OfAReplayedTimeIsItsOwn) {
+  for (const auto& [lower, upper] : {std::pair(0.25, 0.75), {0.25, 0.25}, {0.25, 0.25 + 0x1p-24}})
+    EXPECT_EQ(canonical_bracket(Instant(FailureTime{lower, upper, 0, false})), (TimeBracket{lower, upper}));
 }
 
 }  // namespace

@@ -1,15 +1,22 @@
-// --threads of kds run, contacts and compare: the results are those of one thread.
+// --threads of kds run, contacts, compare and trade: the results are those of one thread.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
+#include "tests/support/inputs/random.h"
 
 namespace kds::test::threads_test {
 namespace {
@@ -43,20 +50,6 @@ Json results_of(const Json& run) {
   return results;
 }
 
-/// Returns the events of a log without brackets and hashes.
-std::string events_of(const std::string& log) {
-  std::string events;
-  std::istringstream lines(log);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string step, structure, kind, lower, upper, ids;
-    words >> step >> structure >> kind >> lower >> upper;
-    std::getline(words, ids);
-    if (step != "step" && step != "end") events += step + structure + kind + ids + "\n";
-  }
-  return events;
-}
-
 TEST_F(Threads, GiveTheEventsOfOneThread) {
   std::vector<std::string> logs;
   std::vector<Json> results;
@@ -65,7 +58,7 @@ TEST_F(Threads, GiveTheEventsOfOneThread) {
                                  threads, "--log", scratch_ / ("log" + threads), "--events",
                                  scratch_ / ("events" + threads + ".csv"), "--json", "-", "--quiet"});
     ASSERT_EQ(done.code, 0) << done.err;
-    logs.push_back(events_of(content_of(scratch_ / ("log" + threads))));
+    logs.push_back(content_of(scratch_ / ("log" + threads)));
     const Json json = Json::parse(done.out), engine = json.at("engine");
     results.push_back(results_of(json));
     EXPECT_EQ(engine.at("parts") == 1, threads == "1");
@@ -77,17 +70,111 @@ TEST_F(Threads, GiveTheEventsOfOneThread) {
   EXPECT_EQ(run_program({"replay", scratch_ / "log3", "--quiet"}).code, 0);
 }
 
-TEST_F(Threads, GiveTheContactsOfOneThread) {
-  std::vector<std::string> tables;
-  for (const std::string threads : {"1", "2"}) {
-    const ProgramRun done = run({"contacts", "--radius", "1", "--cutoff", "2.2:2.6", "--gap", "0.5",
-                                 "--threads", threads, "--out", scratch_ / ("out" + threads), "--quiet"});
-    ASSERT_EQ(done.code, 0) << done.err;
-    tables.push_back(content_of(scratch_ / ("out" + threads + "/intervals.csv")) +
-                     content_of(scratch_ / ("out" + threads + "/contacts.csv")) +
-                     content_of(scratch_ / ("out" + threads + "/frames.csv")));
+/// Members of JSON and columns of CSV about the machine and the work of a run, which depend on where it is
+/// cut (docs/exactness.md), or on how fast it is.
+bool is_of_machine(const std::string& name) {
+  static const std::set<std::string> names{
+      "command", "parts",  "parts_run_again", "threads",      "warnings",          "memory",     "ratio",
+      "pareto",  "stages", "exact_work",      "certificates", "close_comparisons", "recommended"};
+  return names.contains(name) || name.find("seconds") != std::string::npos ||
+         name.starts_with("responsiveness");
+}
+
+void drop_machine(Json& json) {
+  if (json.is_object())
+    for (auto it = json.begin(); it != json.end();) it = is_of_machine(it.key()) ? json.erase(it) : ++it;
+  if (json.is_structured())
+    for (Json& member : json) drop_machine(member);
+}
+
+/// Returns the files below a folder by name, without what depends on the machine. Leaves out pages, lists of
+/// checksums, and tables with seconds, whose rows are in JSON too.
+std::map<std::string, std::string> files_below(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().lexically_relative(folder).string();
+    if (!entry.is_regular_file() || name.ends_with(".html") || name.ends_with(".files") ||
+        name == "out/compare.csv" || name == "out/trade.csv")
+      continue;
+    std::string& content = files[name] = content_of(entry.path());
+    if (!name.ends_with(".json")) continue;
+    Json json = Json::parse(content);
+    drop_machine(json);
+    content = json.dump(1);
   }
-  EXPECT_EQ(tables[0], tables[1]);
+  return files;
+}
+
+/// Ten beads on a grid, which rest, come home or jump by whole units. Many events are at one time or at a
+/// frame, and many contacts last equally long.
+std::string scene_of_ties() {
+  Random random(49);
+  const auto coordinate = [&] { return pick(random, 0, 5); };
+  std::array<int, 30> home{}, now{};
+  std::generate(home.begin(), home.end(), coordinate);
+  std::string text;
+  for (int frame = 0; frame < 3'100; ++frame) {
+    if (frame % 3 == 0) now = home;
+    text += "10\nties\n";
+    for (std::size_t k = 0; k < now.size(); k += 3)
+      text += "C " + std::to_string(now[k]) + ' ' + std::to_string(now[k + 1]) + ' ' +
+              std::to_string(now[k + 2]) + '\n';
+    for (int& x : now)
+      if (pick(random, 0, 4) == 0) x = coordinate();
+  }
+  return text;
+}
+
+// What is written has the same bytes on any number of threads.
+TEST(ThreadsAndFiles, AreIndependent) {
+  const ScratchDirectory scratch;
+  const std::string ties = scratch.file("ties.xyz", scene_of_ties());
+  const std::string villin = data_file("trajectories/villin_hp36_300K.dcd") + " --topology " +
+                             data_file("trajectories/villin_hp36_300K.pdb") + " --frames 0:280";
+  const std::string all_files =
+      " --events OUT/e.csv --log OUT/log --dump OUT/dump --out OUT/out --json OUT/j.json";
+  const std::string commands[] = {
+      // OUT is the folder of their files
+      "run " + ties + " --radius 0.5 --structures sorted,wrapped,contacts --events OUT/e.csv --log OUT/log",
+      "run " + ties + " --radius 0.7 --structures boxes,contacts --events OUT/e.jsonl --apart 1 --cutoff 1.5",
+      "run " + ties + " --radius 0.7 --structures contacts --tolerance 1e-9 --certify --out OUT/out",
+      "run " + villin + " --radius 2 --structures wrapped,boxes,power,contacts,closest" + all_files,
+      "run " + villin +
+          " --radius 2 --structures contacts --motion hermite --events OUT/e.jsonl --log OUT/log",
+      "contacts " + ties + " --cutoff 1:1.5 --apart 1 --gap 1.5 --strides 1,2 --out OUT/out",
+      "contacts " + ties + " --cutoff 1.5 --apart 1 --out OUT/out",
+      "contacts " + villin + " --cutoff 5:5.5 --gap 1.5 --out OUT/out",
+      "contacts " + villin + " --cutoff 5 --by bead --motion hermite --out OUT/out",
+      "compare " + ties + " --radius 0.5 --structures wrapped,contacts --rounds 1 --out OUT/out",
+      "compare " + villin + " --structures wrapped,power --strides 1,2 --rounds 1 --out OUT/out",
+      "trade " + ties + " --radius 1 --want contacts --rounds 1 --without-exact --out OUT/out",
+  };
+  int number = 0;
+  for (const std::string& line : commands) {
+    SCOPED_TRACE(line);
+    std::map<std::string, std::string> of_one;
+    for (const std::string threads : {"1", "2", "3"}) {
+      const std::filesystem::path out = scratch / (std::to_string(number++) + "-" + threads);
+      std::filesystem::create_directory(out);
+      std::vector<std::string> arguments;
+      std::istringstream words(line + " --quiet --threads " + threads);
+      for (std::string word; words >> word;)
+        arguments.push_back(word.starts_with("OUT/") ? (out / word.substr(4)).string() : word);
+      const ProgramRun done = run_program(arguments);
+      ASSERT_EQ(done.code, 0) << done.err;
+      EXPECT_THAT(done.err, Not(HasSubstr("--threads"))) << "too short to be cut";
+      auto files = files_below(out);
+      std::filesystem::remove_all(out);
+      if (threads == "1") {
+        of_one = std::move(files);
+        EXPECT_FALSE(of_one.empty());
+        continue;
+      }
+      ASSERT_EQ(files.size(), of_one.size());
+      for (const auto& [name, content] : files)
+        EXPECT_TRUE(content == of_one[name]) << name << ' ' << threads;
+    }
+  }
 }
 
 TEST_F(Threads, AreOneForRunsThatCannotBeCut) {

@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "certificates/exact/exact_time.h"
 #include "motions/base/input_error.h"
 #include "motions/base/interruption.h"
 #include "motions/frames/trajectory.h"
@@ -67,11 +66,10 @@ void expect_same(const Shown& cut, const Shown& whole) {
   EXPECT_EQ(cut.fingerprint, whole.fingerprint);
 }
 
-/// Compares each event of a run with the next one of a log. The bracket in the log must enclose the exact
-/// time.
+/// Compares each event of a run with the next one of a log.
 class SameEvents final : public EventListener {
  public:
-  SameEvents(const EventLog& log, const Simulator& simulator) : log_(log), simulator_(simulator) {}
+  explicit SameEvents(const EventLog& log) : log_(log) {}
   void on_event(const Event& event) override {
     if (next_ >= log_.events.size()) return static_cast<void>(++next_);
     const Event& other = log_.events[next_++];
@@ -80,20 +78,13 @@ class SameEvents final : public EventListener {
     EXPECT_EQ(other.change, event.change);
     EXPECT_EQ(other.from.number, event.from.number);
     EXPECT_EQ(other.to.number, event.to.number);
-    ExactTime& now = simulator_.now().exact();
-    ExactTime lower{Dyadic(other.lower)}, upper{Dyadic(other.upper)};
-    if (other.lower == other.upper) {
-      EXPECT_EQ(ExactTime::compare(lower, now), 0);
-    } else {
-      EXPECT_LT(ExactTime::compare(lower, now), 0);
-      EXPECT_LT(ExactTime::compare(now, upper), 0);
-    }
+    EXPECT_EQ(other.lower, event.lower);
+    EXPECT_EQ(other.upper, event.upper);
   }
   [[nodiscard]] std::size_t count() const { return next_; }
 
  private:
   const EventLog& log_;
-  const Simulator& simulator_;
   std::size_t next_ = 0;
 };
 
@@ -113,7 +104,7 @@ PartCounts expect_law(const Scene& scene, const SessionOptions& options, std::si
     of_cut.error = error.what();
   }
   KineticRun whole(scene, options);
-  SameEvents same(log, whole.simulator());
+  SameEvents same(log);
   whole.listen(same);
   Shown of_whole;
   try {
@@ -232,6 +223,34 @@ TEST(ParallelRun, IsTheUncutRunOfShippedTrajectories) {
                    1 + static_cast<std::size_t>(random() % 5));
     EXPECT_EQ(parts.run_again, 0U);
   }
+}
+
+// Searches of another kernel find other brackets of the same roots.
+TEST(ParallelRun, HasTheBracketsOfTheExactKernel) {
+  std::vector<Scene> scenes;
+  for (std::uint64_t seed = 0; seed < test::rounds(3U); ++seed) {
+    scenes.push_back(scene_of(grid(seed, 3, false, 5), {0.5}));
+    for (const FrameMotion motion : {FrameMotion::linear, FrameMotion::hermite})
+      scenes.push_back(scene_of(wandering_chain(seed, 12, 5), {0.5}, motion));
+  }
+  std::size_t on_grid = 0, off_grid = 0;
+  for (const Scene& scene : scenes) {
+    ParallelRun cut(scene, {all_structures}, {2, 2});
+    EventLog log;
+    cut.listen(log);
+    cut.run([](std::size_t) {});
+    KineticRun whole(scene, {all_structures, Kernel::exact});
+    SameEvents same(log);
+    whole.listen(same);
+    whole.run();
+    EXPECT_EQ(log.events.size(), same.count());
+    for (const Event& event : log.events) {
+      EXPECT_TRUE(event.upper == event.lower || event.upper == event.lower + 0x1p-24);
+      ++(event.lower == event.upper ? on_grid : off_grid);
+    }
+  }
+  EXPECT_GT(on_grid, 100U);
+  EXPECT_GT(off_grid, 100U);
 }
 
 TEST(ParallelRun, AuditsAsOften) {
