@@ -1,5 +1,6 @@
 // Measures how long contacts of residues last, in a run of one's own: the run's events make exact intervals,
 // and the intervals make statistics. FILE is PDB, mmCIF or XYZ, and names residues.
+#include <cmath>
 #include <cstdio>
 #include <span>
 #include <vector>
@@ -10,9 +11,16 @@
 #include "structures/contacts/contact_elements.h"
 #include "structures/contacts/contact_lifetimes.h"
 #include "structures/contacts/contacts.h"
+#include "structures/necklace/pairs_in_question.h"
 #include "structures/session/kinetic_run.h"
 
 namespace {
+
+/// Prints an estimate with its 95% interval. A missing end is nan.
+void print(const char* name, const kds::Estimate& estimate) {
+  std::printf("%s: %.3f, 95%%: %.3f to %.3f\n", name, estimate.value.value_or(NAN),
+              estimate.lower.value_or(NAN), estimate.upper.value_or(NAN));
+}
 
 void measure(const char* file) {
   kds::ReadOptions options;
@@ -39,21 +47,18 @@ void measure(const char* file) {
   intervals.finish(last, scene.stamp(last), scene.stamp(last + 1));
 
   const auto length = static_cast<double>(scene.step_count());
-  const kds::LifetimeFigures all = lifetimes.all(length);
-  std::printf("%d contacts of %d pairs, mean life %.3f frames, median %.3f\n", static_cast<int>(all.contacts),
-              static_cast<int>(lifetimes.pair_count()), all.mean(), all.median);
+  const std::uint64_t asked = kds::PairsInQuestion({scene.necklaces(), true, 3, true}).count();
+  const kds::LifetimeFigures all = lifetimes.all(length, asked);
+  const auto pairs = lifetimes.pairs(length);
+  std::printf("%d contacts of %d pairs\n", static_cast<int>(all.contacts), static_cast<int>(pairs.size()));
+  print("residence time in frames", all.residence);
+  print("half of the contacts that begin last longer than", lifetimes.survival().median);
   kds::PairLifetimes busiest;
-  lifetimes.visit_pairs(length, [&](const kds::PairLifetimes& pair) {
+  for (const kds::PairLifetimes& pair : pairs)
     if (pair.contacts > busiest.contacts) busiest = pair;
-  });
-  std::printf("%s and %s: %d contacts, %.1f%% of the time\n", residues.names[busiest.first].c_str(),
-              residues.names[busiest.second].c_str(), static_cast<int>(busiest.contacts),
-              100 * busiest.occupancy());
-  for (const kds::SurvivalPoint& point : lifetimes.survival()) {
-    if (point.survival > 0.5) continue;
-    std::printf("half of the contacts last longer than %.3f frames\n", point.length);
-    break;
-  }
+  std::printf("%s and %s: %d contacts\n", residues.names[busiest.first].c_str(),
+              residues.names[busiest.second].c_str(), static_cast<int>(busiest.contacts));
+  print("share of the time in contact", busiest.occupancy);
 }
 
 }  // namespace

@@ -18,7 +18,6 @@
 #include "experiments/run/radius_hint.h"
 #include "experiments/run/run_view.h"
 #include "motions/base/input_error.h"
-#include "structures/necklace/pairs_in_question.h"
 
 namespace kds {
 
@@ -108,28 +107,9 @@ const OptionList<ContactsTask>& contacts_task_options() {
   return list;
 }
 
-/// Returns the number of pairs of elements that the task asks about.
-std::uint64_t pairs_asked(const Scene& scene, const ContactsReport& report) {
-  const ContactElements& elements = report.elements;
-  const auto size = static_cast<BeadId>(elements.names.size());
-  PairsAsked asked{{}, report.by != ContactElement::chain, report.apart, true, {}};
-  for (BeadId element = 0; element < size; ++element) {
-    if (element == 0 || elements.chains[element] != elements.chains[element - 1])
-      asked.necklaces.push_back({element, element});
-    asked.necklaces.back().last = element;
-  }
-  if (!scene.at_rest().empty()) asked.at_rest.resize(asked.necklaces.size());
-  for (std::size_t n = 0; n < scene.at_rest().size(); ++n)
-    asked.at_rest[asked.necklace_of(elements.of_bead[scene.necklaces()[n].first])] = scene.at_rest()[n];
-  if (!scene.bead_groups().empty()) asked.groups.assign(size, 0);
-  for (BeadId bead = 0; bead < scene.bead_groups().size(); ++bead)
-    asked.groups[elements.of_bead[bead]] |= scene.bead_groups()[bead];
-  return PairsInQuestion(asked).count();
-}
-
 void warn_of_none(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
                   const TableCommand::Warn& warn) {
-  if (pairs_asked(scene, report) == 0)
+  if (report.pairs_asked == 0)
     return warn(fmt::format("there are no contacts, because none of {} {}s are a pair; --apart is {}{}",
                             report.elements.names.size(), name_of(report.by), report.apart,
                             task.reading.groups.empty() ? "" : ", and --groups leaves out pairs"));

@@ -16,7 +16,7 @@ namespace {
 std::string map_of(const ContactsReport& report, const ContactsFigures& figures) {
   std::vector<PairOccupancy> pairs;
   for (const PairLifetimes& pair : figures.pairs)
-    pairs.push_back({pair.first, pair.second, pair.occupancy()});
+    pairs.push_back({pair.first, pair.second, *pair.occupancy.value});
   return contact_map(std::string(name_of(report.by)), report.elements.names, pairs, 1000);
 }
 
@@ -61,10 +61,10 @@ std::string survival_plot(const ContactsReport& report, const ContactsFigures& f
   LinePlot plot{
       "length of time (" + report.unit() + ")", "share of contacts that last", Drawn::staircase, {}};
   Curve survival{"survival", {{0, 1}}}, lower{"95% band", {{0, 1}}}, upper{"95% band", {{0, 1}}};
-  for (const SurvivalPoint& point : figures.survival) {
-    survival.points.emplace_back(point.length, point.survival);
-    if (point.lower) lower.points.emplace_back(point.length, *point.lower);
-    if (point.upper) upper.points.emplace_back(point.length, *point.upper);
+  for (const auto& point : figures.survival.points) {
+    survival.points.emplace_back(point.length, *point.survival.value);
+    if (point.survival.lower) lower.points.emplace_back(point.length, *point.survival.lower);
+    if (point.survival.upper) upper.points.emplace_back(point.length, *point.survival.upper);
   }
   plot.curves = {survival, lower, upper};
   return svg_plot(plot);
@@ -108,37 +108,35 @@ std::string bias_plot(const ContactsReport& report) {
                                                    [](double ratio) { return std::optional(ratio); })};
   };
   return svg_plot(PanelPlot{{panel("Number of contacts", &SamplingRow::Figures::contacts),
-                             panel("Mean life", &SamplingRow::Figures::life),
+                             panel("Mean length", &SamplingRow::Figures::length),
                              panel("Occupancy", &SamplingRow::Figures::occupancy)}});
 }
 
-/// Returns the relative error of the mean life at samples. The axis is logarithmic and has no zero.
+/// Returns the relative error of the mean length at samples. The axis is logarithmic and has no zero.
 std::string error_plot(const ContactsReport& report) {
   return svg_plot(plot_by_spacing(
-      report, "error of the mean life, divided by the exact life", &SamplingRow::Figures::life,
+      report, "error of the mean length, divided by the exact one", &SamplingRow::Figures::length,
       [](double ratio) { return ratio == 1 ? std::nullopt : std::optional(std::abs(ratio - 1)); }));
 }
 
 std::string findings_of(const ContactsReport& report, const ContactsFigures& figures) {
   const LifetimeFigures& all = figures.all;
   if (all.contacts == 0) return "<p>There are no contacts.</p>\n";
-  std::string html = fmt::format(
-      "<p><strong>{}</strong> contacts between <strong>{}</strong> pairs last {} {} on average, {} at the "
-      "median and "
-      "{} at the longest.",
-      with_thousands(all.contacts), with_thousands(figures.pairs.size()), short_decimal(all.mean()),
-      report.unit(), short_decimal(all.median), short_decimal(all.longest));
-  if (const auto residence = all.residence())
-    html += fmt::format(" The residence time is {} {}.", short_decimal(*residence), report.unit());
-  html += fmt::format(" {} contacts are open at the first frame, and {} at the last.</p>\n",
-                      with_thousands(all.open_at_start), with_thousands(all.open_at_end));
+  std::string html = html_terms(overall_lines(report, figures));
+  html += fmt::format(
+      "<p>The longest contact seen lasts {} {}. {} contacts are open at the first frame, {} at the "
+      "last.</p>\n",
+      short_decimal(all.longest), report.unit(), with_thousands(all.open_at_start),
+      with_thousands(all.open_at_end));
   const std::vector<SamplingRow> rows = sampling_rows(report);
   const SamplingRow::Figures &exact = *rows.front().figures[0], &most = *rows.back().figures[0];
   html += fmt::format(
-      "<p>With one cutoff and without a gap, there are {} contacts with a mean life of {} {}. Looking at {} "
-      "shows <strong>{}</strong> contacts with a mean life of {} {}.</p>\n",
-      with_thousands(exact.contacts), short_decimal(exact.life), report.unit(), name_of_sampling(rows.back()),
-      with_thousands(most.contacts), short_decimal(most.life), report.unit());
+      "<p>With one cutoff and without a gap, there are {} contacts with a mean length of {} {}. Looking at "
+      "{} "
+      "shows <strong>{}</strong> contacts with a mean length of {} {}.</p>\n",
+      with_thousands(exact.contacts), short_decimal(exact.length), report.unit(),
+      name_of_sampling(rows.back()), with_thousands(most.contacts), short_decimal(most.length),
+      report.unit());
   return html;
 }
 
@@ -151,13 +149,10 @@ std::string contacts_page(const ContactsReport& report, const ContactsFigures& f
   page.words =
       "<strong>Times are exact for the paths between the frames that are given. The spacing of frames is the "
       "error.</strong> A <em>contact</em> lasts as long as two beads of the pair are within the cutoff. With "
-      "two cutoffs, it begins within the first and ends outside "
-      "the second. "
+      "two cutoffs, it begins within the first and ends when no two beads of the pair are within the second. "
       "<em>Occupancy</em> is the share of the time in contact. A contact is <em>open</em> if it lasts at the "
-      "first "
-      "or the last frame; the survival function takes open contacts as censored. The <em>residence time</em> "
-      "is the "
-      "time in contact divided by the number of ends.";
+      "first or the last frame. The <em>residence time</em> is the time in contact divided by the number of "
+      "ends. The interval of one pair takes its contacts to begin and end at constant rates.";
   if (figures.certificate)
     page.body += html_section("Certificate", html_terms(certified_lines(report, figures)));
   if (figures.all.contacts > 0) {
@@ -171,8 +166,10 @@ std::string contacts_page(const ContactsReport& report, const ContactsFigures& f
     page.body += html_section(
         "Survival",
         html_figure(survival_plot(report, figures),
-                    "Share of contacts that last longer than a length of time (Kaplan and Meier), "
-                    "with its 95% band (Greenwood, log-log). Open contacts are censored."));
+                    "Share of the contacts that begin which last longer than a length of time (Kaplan and "
+                    "Meier). Contacts that are open at the first frame are left out, and those open at the "
+                    "last are censored. The 95% band is for each time alone. It covers dependence between "
+                    "the contacts of a pair, and none between pairs."));
     page.body += html_section("Contacts over time",
                               html_figure(course_plot(report), "Mean number of pairs in contact."));
   }
@@ -182,7 +179,7 @@ std::string contacts_page(const ContactsReport& report, const ContactsFigures& f
         html_figure(bias_plot(report),
                     "Contacts that are counted at samples, divided by the exact ones without a gap. Below 1, "
                     "samples divide the frames; from 1 on, one frame in so many is examined.");
-    sampled += html_figure(error_plot(report), "How far the mean life at samples is from the exact one.");
+    sampled += html_figure(error_plot(report), "How far the mean length at samples is from the exact one.");
   }
   sampled += sampling_columns(report).html(sampling_rows(report));
   page.body += html_section("Contacts counted at frames", sampled);
@@ -191,7 +188,9 @@ std::string contacts_page(const ContactsReport& report, const ContactsFigures& f
       html_section("Pairs", pair_columns(report, figures).html(busiest_of(report, figures, most_rows)));
   page.terms = {{"samples", "times at which frames, or times between them, are looked at"},
                 {"found", "exact contacts in which a sample lies"},
-                {"plain", "a contact is a run of samples in contact; n samples last n spacings"},
+                {"plain",
+                 "a contact is a run of samples in contact; n samples last n spacings. Contacts that are "
+                 "open at an end of the run count as they are, so the mean length is no mean life"},
                 {"bridged", "absences of up to --intermittency samples do not end a contact"}};
   if (report.has_two_cutoffs)
     page.terms.emplace_back("dual", "a contact begins within the first cutoff and ends outside the second");

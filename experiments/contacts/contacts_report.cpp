@@ -17,6 +17,37 @@ namespace {
 
 using Kind = FrameContacts::Kind;
 
+/// Returns "8.333 (95%: 7.9 to 8.8)", "more than 5.2" if there is only a lower end, or nothing.
+std::string estimate_text(const Estimate& estimate, const FieldFormat& format) {
+  const auto text = [&](const std::optional<double>& value) { return format(Field(value)); };
+  if (!estimate.value) return estimate.lower ? "more than " + text(estimate.lower) : "";
+  if (!estimate.lower && !estimate.upper) return text(estimate.value);
+  if (!estimate.upper) return fmt::format("{} (95%: from {})", text(estimate.value), text(estimate.lower));
+  return fmt::format("{} (95%: {} to {})", text(estimate.value), text(estimate.lower), text(estimate.upper));
+}
+
+/// Returns one column for people, and three for files: the estimate and the ends of its interval.
+std::vector<Column<PairRow>> estimate_columns(const std::string& key, const std::string& heading,
+                                              Estimate LifetimeFigures::*member,
+                                              const FieldFormat& format = shortly) {
+  const auto part = [&](const char* end, std::optional<double> Estimate::*value) {
+    return Column<PairRow>{.key = key + end,
+                           .value = [=](const PairRow& r) { return Field((r.pair->*member).*value); }};
+  };
+  return {part("", &Estimate::value),
+          part("_lower", &Estimate::lower),
+          part("_upper", &Estimate::upper),
+          {.heading = heading, .value = [=](const PairRow& r) {
+             return text_or_nothing(estimate_text(r.pair->*member, format));
+           }}};
+}
+
+void add_estimate(Json& json, const std::string& key, const Estimate& estimate) {
+  json[key] = Field(estimate.value).json();
+  json[key + "_lower"] = Field(estimate.lower).json();
+  json[key + "_upper"] = Field(estimate.upper).json();
+}
+
 /// Returns a pair's column. Numbers for people have four figures.
 Column<PairRow> pair_column(const char* key, std::string heading, Field (*value)(const PairLifetimes&),
                             FieldFormat format = shortly) {
@@ -39,11 +70,12 @@ std::vector<PairRow> rows_of(const ContactsReport& report, const ContactsFigures
 
 Table<SurvivalPoint> survival_columns() {
   using S = SurvivalPoint;
-  return Table<SurvivalPoint>({{.key = "length", .value = [](const S& s) { return Field(s.length); }},
-                               {.key = "at_risk", .value = [](const S& s) { return Field(s.at_risk); }},
-                               {.key = "survival", .value = [](const S& s) { return Field(s.survival); }},
-                               {.key = "lower", .value = [](const S& s) { return Field(s.lower); }},
-                               {.key = "upper", .value = [](const S& s) { return Field(s.upper); }}});
+  return Table<SurvivalPoint>(
+      {{.key = "length", .value = [](const S& s) { return Field(s.length); }},
+       {.key = "at_risk", .value = [](const S& s) { return Field(s.at_risk); }},
+       {.key = "survival", .value = [](const S& s) { return Field(s.survival.value); }},
+       {.key = "lower", .value = [](const S& s) { return Field(s.survival.lower); }},
+       {.key = "upper", .value = [](const S& s) { return Field(s.survival.upper); }}});
 }
 
 }  // namespace
@@ -57,15 +89,16 @@ Table<PairRow> pair_columns(const ContactsReport& report, const ContactsFigures&
        {.key = "first", .heading = "first", .value = [](const PairRow& r) { return Field(r.first()); }},
        {.key = "second", .heading = "second", .value = [](const PairRow& r) { return Field(r.second()); }},
        pair_column(
-           "contacts", "contacts", [](const P& p) { return Field(p.contacts); }, plainly),
-       pair_column(
-           "occupancy", "occupancy %", [](const P& p) { return Field(p.occupancy()); }, in_percent),
-       pair_column("total", "", [](const P& p) { return Field(p.total); }),
-       pair_column("mean", "mean" + in_unit, [](const P& p) { return Field(p.mean()); }),
-       pair_column("median", "median" + in_unit, [](const P& p) { return Field(p.median); }),
-       pair_column("longest", "longest" + in_unit, [](const P& p) { return Field(p.longest); })});
+           "contacts", "contacts", [](const P& p) { return Field(p.contacts); }, plainly)});
+  using F = LifetimeFigures;
+  table.add(estimate_columns("occupancy", "occupancy", &F::occupancy, in_percent));
+  table.add(estimate_columns("residence", "residence" + in_unit, &F::residence));
+  table.add(estimate_columns("begin_rate", "", &F::begin_rate));
+  table.add(estimate_columns("end_rate", "", &F::end_rate));
   table.add(
-      {pair_column("first_begin_frame", "first frame",
+      {pair_column("total", "", [](const P& p) { return Field(p.total); }),
+       pair_column("longest", "longest" + in_unit, [](const P& p) { return Field(p.longest); }),
+       pair_column("first_begin_frame", "first frame",
                    [](const P& p) { return Field(p.first_begin.rounded.frame); }),
        pair_column("last_end_frame", "last frame",
                    [](const P& p) { return Field(p.last_end.rounded.frame); }),
@@ -77,9 +110,6 @@ Table<PairRow> pair_columns(const ContactsReport& report, const ContactsFigures&
            "open_at_start", "open at start", [](const P& p) { return Field(p.open_at_start > 0); }, plainly),
        pair_column(
            "open_at_end", "open at end", [](const P& p) { return Field(p.open_at_end > 0); }, plainly),
-       pair_column("begin_rate", "", [](const P& p) { return Field(p.begin_rate()); }),
-       pair_column("end_rate", "", [](const P& p) { return Field(p.end_rate()); }),
-       pair_column("residence", "residence" + in_unit, [](const P& p) { return Field(p.residence()); }),
        {.key = "unit", .heading = "", .value = [unit](const PairRow&) { return Field(unit); }}});
   if (!figures.certificate) return table;
   const auto share = [](double ContactBoundsOfPair::*time) {
@@ -112,10 +142,10 @@ std::vector<PairRow> busiest_of(const ContactsReport& report, const ContactsFigu
 std::vector<SamplingRow> sampling_rows(const ContactsReport& report) {
   const FrameContacts& frames = *report.frames;
   const bool two = report.has_two_cutoffs;
-  const auto pairs = static_cast<double>(frames.pair_count());
+  const std::uint64_t asked = report.pairs_asked;
   const auto exact = [&](Kind kind) {
     const FrameContacts::Sums& sums = frames.exact(kind);
-    const double all = pairs * report.run_length;
+    const double all = static_cast<double>(asked) * report.run_length;
     return SamplingRow::Figures{sums.contacts,
                                 sums.contacts == 0 ? 0 : sums.time / static_cast<double>(sums.contacts),
                                 all > 0 ? sums.time / all : 0};
@@ -128,8 +158,8 @@ std::vector<SamplingRow> sampling_rows(const ContactsReport& report) {
     SamplingRow at_samples{row.sampling.frames_apart(), row.sampling.samples, row.found, {}};
     for (const Kind kind : {FrameContacts::plain, FrameContacts::bridged, FrameContacts::dual}) {
       if (kind == FrameContacts::dual && !two) continue;
-      at_samples.figures[kind] = {row.sums[kind].contacts, row.life(kind) * frame,
-                                  row.occupancy(kind, frames.pair_count())};
+      at_samples.figures[kind] = {row.sums[kind].contacts, row.length(kind) * frame,
+                                  row.occupancy(kind, asked)};
     }
     rows.push_back(at_samples);
   }
@@ -163,9 +193,9 @@ Table<SamplingRow> sampling_columns(const ContactsReport& report) {
     table.add({{.key = key + "_contacts",
                 .heading = start + "contacts",
                 .value = figures(&SamplingRow::Figures::contacts)},
-               {.key = key + "_life",
-                .heading = start + "life (" + report.unit() + ")",
-                .value = figures(&SamplingRow::Figures::life),
+               {.key = key + "_length",
+                .heading = start + "mean length (" + report.unit() + ")",
+                .value = figures(&SamplingRow::Figures::length),
                 .format = shortly},
                {.key = key + "_occupancy",
                 .heading = start + "occupancy %",
@@ -177,11 +207,10 @@ Table<SamplingRow> sampling_columns(const ContactsReport& report) {
 
 ContactsFigures figures_of(const ContactsReport& report) {
   ContactsFigures figures;
-  report.lifetimes->visit_pairs(report.run_length,
-                                [&](const PairLifetimes& pair) { figures.pairs.push_back(pair); });
-  figures.all = report.lifetimes->all(report.run_length);
+  figures.pairs = report.lifetimes.pairs(report.run_length);
+  figures.all = report.lifetimes.all(report.run_length, report.pairs_asked);
   constexpr double least_drop = 1.0 / 300;  // a plot is about this many pixels high
-  figures.survival = report.lifetimes->survival(least_drop);
+  figures.survival = report.lifetimes.survival(least_drop);
   return figures;
 }
 
@@ -210,23 +239,22 @@ void add_contacts(const ContactsReport& report, const ContactsFigures& figures, 
   json["unit"] = report.unit();
   json["elements"] = report.elements.names.size();
   json["run_length"] = report.run_length;
-  Json sums{{"pairs", figures.pairs.size()}, {"contacts", all.contacts}};
+  Json sums{{"pairs", figures.pairs.size()}, {"pairs_asked", report.pairs_asked}, {"contacts", all.contacts}};
   sums["open_at_start"] = all.open_at_start;
   sums["open_at_end"] = all.open_at_end;
   sums["open_at_both"] = all.open_at_both;
-  sums["occupancy"] = all.occupancy();
   sums["total"] = all.total;
-  sums["mean"] = all.mean();
-  sums["median"] = all.median;
   sums["longest"] = all.longest;
-  sums["begin_rate"] = Field(all.begin_rate()).json();
-  sums["end_rate"] = Field(all.end_rate()).json();
-  sums["residence"] = Field(all.residence()).json();
+  add_estimate(sums, "occupancy", all.occupancy);
+  add_estimate(sums, "residence", all.residence);
+  add_estimate(sums, "begin_rate", all.begin_rate);
+  add_estimate(sums, "end_rate", all.end_rate);
+  add_estimate(sums, "median", figures.survival.median);
   json["all"] = std::move(sums);
   if (figures.certificate) json["stride"] = certificate_json(figures);
   json["rows"] = pair_columns(report, figures).json(rows_of(report, figures));
   json["frames"] = sampling_columns(report).json(sampling_rows(report));
-  json["survival"] = survival_columns().json(figures.survival);
+  json["survival"] = survival_columns().json(figures.survival.points);
   Json course = Json::array();
   const std::vector<double> means = report.course.means();
   for (std::size_t bin = 0; bin < means.size(); ++bin)
@@ -304,6 +332,35 @@ std::vector<std::pair<std::string, std::string>> certified_lines(const ContactsR
                        report.unit(), short_decimal(all.least_time), short_decimal(all.most_time))}};
 }
 
+std::vector<std::pair<std::string, std::string>> overall_lines(const ContactsReport& report,
+                                                               const ContactsFigures& figures) {
+  const LifetimeFigures& all = figures.all;
+  const Survival& survival = figures.survival;
+  const std::string unit = report.unit();
+  std::vector<std::pair<std::string, std::string>> lines{
+      {"contacts", fmt::format("{} of {} pairs; {} pairs were asked for", with_thousands(all.contacts),
+                               with_thousands(figures.pairs.size()), with_thousands(report.pairs_asked))}};
+  const auto add = [&](const char* label, const Estimate& estimate, const std::string& words,
+                       const FieldFormat& format = shortly) {
+    const std::string text = estimate_text(estimate, format);
+    if (!text.empty()) lines.emplace_back(label, text + words);
+  };
+  add("occupancy", all.occupancy, " of the time of all pairs that were asked for", in_percent);
+  add("residence", all.residence, " " + unit + ", the mean life of a contact");
+  add("rate of beginning", all.begin_rate,
+      " per " + report.one_unit() + " out of contact, over all pairs that were asked for");
+  add("rate of end", all.end_rate, " per " + report.one_unit() + " in contact");
+  lines.emplace_back("survival",
+                     fmt::format("of the {} contacts whose beginning was seen; {} that are open at the first "
+                                 "frame are left out",
+                                 with_thousands(survival.contacts), with_thousands(survival.left_out)));
+  add("median", survival.median, " " + unit + ", which half of the contacts that begin survive");
+  lines.emplace_back("intervals",
+                     "hold for a run in equilibrium and for pairs that are independent of each other; pairs "
+                     "of one molecule depend on each other, so the true uncertainty is larger");
+  return lines;
+}
+
 std::string contacts_text(const ContactsReport& report, const ContactsFigures& figures) {
   constexpr std::size_t most = 20;
   std::string text =
@@ -317,6 +374,9 @@ std::string contacts_text(const ContactsReport& report, const ContactsFigures& f
   }
   const auto rows = busiest_of(report, figures, most);
   if (rows.empty()) return text;
+  text += '\n';
+  for (const auto& [label, line] : overall_lines(report, figures))
+    text += fmt::format("{}: {}\n", label, line);
   text += "\n" + pair_columns(report, figures).text(rows);
   if (figures.pairs.size() > most)
     text += fmt::format("... {} more pairs; --out DIR writes all of them\n",

@@ -17,7 +17,7 @@ namespace kds {
 struct ContactsFigures {
   std::vector<PairLifetimes> pairs;
   LifetimeFigures all;
-  std::vector<SurvivalPoint> survival;  ///< thinned for plots
+  Survival survival;  ///< thinned for plots
   std::optional<ContactsCertificate> certificate = {};
 };
 [[nodiscard]] ContactsFigures figures_of(const ContactsReport& report);
@@ -30,8 +30,8 @@ void write_intervals_csv(const ContactsReport& report, const ContactsFigures& fi
 /// Writes the possible contacts of a certificate.
 void write_possible_csv(const ContactsReport& report, const ContactsCertificate& certificate,
                         std::ostream& stream);
-/// Returns the text on the terminal: the table of samples, the certificate, and the pairs with the most
-/// contacts.
+/// Returns the text on the terminal: the table of samples, the certificate, the figures of all pairs, and
+/// the pairs with the most contacts.
 [[nodiscard]] std::string contacts_text(const ContactsReport& report, const ContactsFigures& figures);
 /// `input` names the input, and `page` says how the results were made.
 [[nodiscard]] std::string contacts_page(const ContactsReport& report, const ContactsFigures& figures,

@@ -31,10 +31,10 @@ struct PairRow {
 
 /// The figures of exact contacts, or of contacts counted at samples of one spacing (FrameContacts).
 struct SamplingRow {
-  /// Number, mean life in units of the clock, and share of the time in contact.
+  /// Number, mean length in units of the clock, and share of the time in contact.
   struct Figures {
     std::uint64_t contacts = 0;
-    double life = 0, occupancy = 0;
+    double length = 0, occupancy = 0;
   };
 
   std::optional<double> frames_apart;  ///< spacing of the samples; empty: exact
@@ -50,6 +50,9 @@ inline constexpr std::array<const char*, FrameContacts::kinds> sampling_kinds{"p
 [[nodiscard]] std::string name_of_sampling(const SamplingRow& row);
 [[nodiscard]] Table<SamplingRow> sampling_columns(const ContactsReport& report);
 
+/// Returns the figures of all pairs with their intervals, as pairs of a label and a line.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> overall_lines(const ContactsReport& report,
+                                                                             const ContactsFigures& figures);
 /// Returns the statements of the certificate, as pairs of a label and a line.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> certified_lines(
     const ContactsReport& report, const ContactsFigures& figures);

@@ -7,28 +7,36 @@
 #include <cmath>
 #include <utility>
 
-#include "experiments/output/sorted_records.h"
 #include "experiments/run/run_scene.h"
 #include "motions/base/input_error.h"
 #include "motions/readers/bead_name.h"
 #include "structures/contacts/contact_distance.h"
 #include "structures/contacts/contacts.h"
+#include "structures/necklace/pairs_in_question.h"
 #include "structures/session/parallel_run.h"
 
 namespace kds {
 
 namespace {
 
-class LivesOnDisk final : public LifeStore {
- public:
-  void add(const ContactLife& life) override { lives_.add(life); }
-  void visit_sorted(const std::function<void(const ContactLife&)>& visit) override {
-    lives_.visit_sorted(visit);
+/// Returns the number of pairs of elements that the task asks about.
+std::uint64_t pairs_asked(const Scene& scene, const ContactsReport& report) {
+  const ContactElements& elements = report.elements;
+  const auto size = static_cast<BeadId>(elements.names.size());
+  PairsAsked asked{{}, report.by != ContactElement::chain, report.apart, true, {}};
+  for (BeadId element = 0; element < size; ++element) {
+    if (element == 0 || elements.chains[element] != elements.chains[element - 1])
+      asked.necklaces.push_back({element, element});
+    asked.necklaces.back().last = element;
   }
-
- private:
-  SortedRecords<ContactLife> lives_;
-};
+  if (!scene.at_rest().empty()) asked.at_rest.resize(asked.necklaces.size());
+  for (std::size_t n = 0; n < scene.at_rest().size(); ++n)
+    asked.at_rest[asked.necklace_of(elements.of_bead[scene.necklaces()[n].first])] = scene.at_rest()[n];
+  if (!scene.bead_groups().empty()) asked.groups.assign(size, 0);
+  for (BeadId bead = 0; bead < scene.bead_groups().size(); ++bead)
+    asked.groups[elements.of_bead[bead]] |= scene.bead_groups()[bead];
+  return PairsInQuestion(asked).count();
+}
 
 }  // namespace
 
@@ -161,7 +169,7 @@ void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report
   if (task.cutoff->are_two())
     run.follow(outer_rule, [&](const ContactInterval& interval) { frames.add_outer(interval); });
   run.follow(rule_of(task, report), [&](const ContactInterval& interval) {
-    report.lifetimes->add(interval);
+    report.lifetimes.add(interval);
     const IntervalRecord record = record_of(interval);
     report.course.add(record.begin, record.end);
     report.intervals.add(record);
@@ -281,8 +289,7 @@ std::unique_ptr<ContactsReport> follow_contacts(
   report->has_two_cutoffs = task.cutoff->are_two();
   const FrameStamp first = scene.stamp(0);
   report->clock = first.picoseconds ? ContactClock::picoseconds : ContactClock::frames;
-  report->lifetimes =
-      std::make_unique<ContactLifetimes>(std::make_unique<LivesOnDisk>(), std::make_unique<LivesOnDisk>());
+  report->pairs_asked = pairs_asked(scene, *report);
   report->frames =
       std::make_unique<FrameContacts>(spacings_of(strides), task.intermittency, scene.step_count());
   if (scene.dimension() == 2) {

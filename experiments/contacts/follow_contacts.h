@@ -87,13 +87,15 @@ struct ContactsReport {
   std::size_t steps;
   std::vector<std::size_t> frame_numbers;  ///< in the file, of the first frame of each bin of `course`
   std::size_t first_frame = 0, last_frame = 0;
-  std::unique_ptr<ContactLifetimes> lifetimes;
+  std::uint64_t pairs_asked = 0;  ///< pairs of elements that could be in contact
+  ContactLifetimes lifetimes;
   std::unique_ptr<FrameContacts> frames;
   SpooledRecords<IntervalRecord> intervals;  ///< in the order of their ends
   ContactCourse course;
 
   [[nodiscard]] bool has_times() const { return clock == ContactClock::picoseconds; }
   [[nodiscard]] std::string unit() const { return has_times() ? "ps" : "frames"; }
+  [[nodiscard]] std::string one_unit() const { return has_times() ? "ps" : "frame"; }
 };
 
 /// A radius for each bead: two balls meet while their beads are within the inner or the outer cutoff.

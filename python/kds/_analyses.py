@@ -39,17 +39,17 @@ class Contacts(Result):
 
     ``rows``
         one row for each pair that is ever in contact: the elements ``i``, ``j`` with their names, the number of contacts,
-        occupancy (share of time in contact, from 0 to 1), total, mean, median and longest time in contact, ``begin_rate``
-        (beginnings per time without contact), ``end_rate`` (ends per time in contact) and ``residence`` (time in contact
-        divided by the number of ends, NaN without an end).
+        ``occupancy`` (share of time in contact, from 0 to 1), ``residence`` (time in contact divided by the number of ends,
+        NaN without an end), ``begin_rate`` (beginnings per time without contact), ``end_rate`` (ends per time in contact),
+        each with the ends of its 95% interval such as ``residence_lower``, total and longest time in contact.
     ``intervals``
         one row for each contact, with its beginning and end.
     ``survival``
-        the survival function of Kaplan and Meier with its 95% band.
+        the survival function of Kaplan and Meier with its 95% band, of the contacts that begin in the run.
     ``frames``
         the same figures as frames alone show them, by the spacing of frames.
     ``all``
-        the figures of all contacts together, a dictionary.
+        the figures of all pairs that were asked for, a dictionary. It also has the median life of a contact.
     ``unit``
         ``ps`` or ``frames``, the unit of all lengths of time.
     """

@@ -6,7 +6,9 @@
 // what counts as one contact, and both are decided by exact comparison of times:
 //
 // - Dual cutoff: a contact begins when the pair's least distance falls to the inner cutoff, and ends when it
-//   rises above the outer one. The run then has two structures `contacts`, one for each cutoff.
+//   rises above the outer one. The least distance is that of any two beads of the pair, so beads that were
+//   never within the inner cutoff can keep a contact. The run then has two structures `contacts`, one for
+//   each cutoff.
 // - Gap: an absence shorter than the gap does not end a contact.
 //
 // A contact that lasts at the first or the last frame is open there: its true length is unknown and at least

@@ -2,67 +2,67 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace kds {
 
 namespace {
 
-/// Finds the median of `count` lengths that come in ascending order.
-class RunningMedian {
+/// Sums the squares of the residuals r of pairs (contact_lifetimes.h) while contacts end.
+class PairResiduals {
  public:
-  explicit RunningMedian(std::uint64_t count) : count_(count) {}
-  void add(double length) {
-    if (next_ == (count_ - 1) / 2) sum_ += 0.5 * length;
-    if (next_ == count_ / 2) sum_ += 0.5 * length;
-    ++next_;
+  explicit PairResiduals(std::size_t pairs) : pairs_(pairs) {}
+
+  void add_contact(std::uint32_t pair) {
+    change(pair, 0, 1);
+    contacts_ += 1;
+    pair_count_ = contacts_ * contacts_ / risks_;
   }
-  [[nodiscard]] bool is_complete() const { return next_ == count_; }
-  [[nodiscard]] double median() const { return sum_; }
+  /// Moves to the next length, at which G grows.
+  void grow(double by) { growth_ += by; }
+  /// Takes a contact of this length from those at risk. `drop` is 1 / (Y - d), or 0 if it is censored.
+  void leave(std::uint32_t pair, double drop) { change(pair, growth_ - drop, -1); }
+
+  /// Returns n.
+  [[nodiscard]] double count() const { return pair_count_ > 1 ? pair_count_ : contacts_; }
+  [[nodiscard]] double variance() const {
+    const double squares = pair_count_ > 1 ? left_ + growth_ * (2 * products_ + growth_ * risks_) : growth_;
+    return std::max(0.0, squares) * count() / (count() - 1);
+  }
 
  private:
-  std::uint64_t count_, next_ = 0;
-  double sum_ = 0;
+  struct Pair {
+    double left = 0, at_risk = 0;  // the sum of r over contacts that are no longer at risk; number of others
+  };
+  void change(std::uint32_t pair, double left, double at_risk) {
+    Pair& p = pairs_[pair];
+    const Pair old = p;
+    p = {old.left + left, old.at_risk + at_risk};
+    left_ += p.left * p.left - old.left * old.left;
+    products_ += p.left * p.at_risk - old.left * old.at_risk;
+    risks_ += p.at_risk * p.at_risk - old.at_risk * old.at_risk;
+  }
+
+  std::vector<Pair> pairs_;
+  double pair_count_ = 0, contacts_ = 0, growth_ = 0;
+  double left_ = 0, products_ = 0, risks_ = 0;  // sums over pairs of squares and products
 };
 
-void add_band(SurvivalPoint& point, double variance) {
-  constexpr double quantile = 1.959963984540054;  // of the normal distribution, at 0.975
-  if (point.survival <= 0) return;
-  if (point.survival >= 1) {
-    point.lower = point.upper = 1;
-    return;
-  }
-  const double width = quantile * std::sqrt(variance) / std::log(point.survival);  // negative
-  point.lower = std::pow(point.survival, std::exp(-width));
-  point.upper = std::pow(point.survival, std::exp(width));
+Estimate with_band(double survival, double variance, double quantile) {
+  if (!(survival > 0 && survival < 1)) return {survival};
+  const double width = quantile * std::sqrt(variance) / std::log(survival);  // negative
+  return {survival, std::pow(survival, std::exp(-width)), std::pow(survival, std::exp(width))};
 }
 
 }  // namespace
 
-void LivesInMemory::visit_sorted(const std::function<void(const ContactLife&)>& visit) {
-  std::sort(lives_.begin(), lives_.end());
-  for (const ContactLife& life : lives_) visit(life);
-}
-
-std::optional<double> LifetimeFigures::begin_rate() const {
-  if (!(total < run_length)) return std::nullopt;
-  return static_cast<double>(begins()) / (run_length - total);
-}
-
-std::optional<double> LifetimeFigures::end_rate() const {
-  if (!(total > 0)) return std::nullopt;
-  return static_cast<double>(ends()) / total;
-}
-
-std::optional<double> LifetimeFigures::residence() const {
-  if (ends() == 0) return std::nullopt;
-  return total / static_cast<double>(ends());
-}
-
 void ContactLifetimes::add(const ContactInterval& interval) {
   const std::uint64_t key = (std::uint64_t{interval.first} << 32U) | interval.second;
   const double length = interval.length();
-  PairLifetimes& pair = pairs_[key];
-  if (pair.contacts == 0) {
+  const auto [at, is_new] = pairs_.try_emplace(key);
+  PairLifetimes& pair = at->second.figures;
+  if (is_new) {
+    at->second.place = static_cast<std::uint32_t>(pairs_.size() - 1);
     pair.first = interval.first;
     pair.second = interval.second;
     pair.first_begin = interval.begin;
@@ -74,78 +74,94 @@ void ContactLifetimes::add(const ContactInterval& interval) {
   pair.open_at_both += interval.open_at_start && interval.open_at_end ? 1 : 0;
   pair.total += length;
   pair.longest = std::max(pair.longest, length);
-  const bool is_censored = interval.open_at_start || interval.open_at_end;
-  by_pair_->add({key, length, is_censored});
-  of_all_->add({0, length, is_censored});
+  if (!interval.open_at_start) lives_.push_back({length, at->second.place, interval.open_at_end});
+  largest_reading_ =
+      std::max({largest_reading_, std::abs(interval.begin.clock.begin), std::abs(interval.end.clock.end)});
 }
 
-void ContactLifetimes::visit_pairs(double run_length,
-                                   const std::function<void(const PairLifetimes&)>& visit) const {
-  auto at = pairs_.begin();
-  std::optional<RunningMedian> middle;
-  by_pair_->visit_sorted([&](const ContactLife& life) {
-    if (!middle) middle.emplace(at->second.contacts);
-    middle->add(life.length);
-    if (!middle->is_complete()) return;
-    PairLifetimes pair = at->second;
+std::vector<PairLifetimes> ContactLifetimes::pairs(double run_length) const {
+  std::vector<PairLifetimes> pairs;
+  for (const auto& [key, of_pair] : pairs_) {
+    PairLifetimes& pair = pairs.emplace_back(of_pair.figures);
     pair.run_length = run_length;
-    pair.median = middle->median();
-    visit(pair);
-    middle.reset();
-    ++at;
-  });
-}
-
-LifetimeFigures ContactLifetimes::all(double run_length) const {
-  LifetimeFigures sum;
-  for (const auto& [key, pair] : pairs_) {
-    sum.contacts += pair.contacts;
-    sum.open_at_start += pair.open_at_start;
-    sum.open_at_end += pair.open_at_end;
-    sum.open_at_both += pair.open_at_both;
-    sum.total += pair.total;
-    sum.longest = std::max(sum.longest, pair.longest);
-    sum.run_length += run_length;
+    pair.occupancy = share_of(pair.begins(), pair.ends(), pair.total, pair.apart());
+    pair.begin_rate = rate_of(pair.begins(), pair.apart());
+    pair.end_rate = rate_of(pair.ends(), pair.total);
+    pair.residence = inverse_of(pair.end_rate);
   }
-  if (sum.contacts == 0) return sum;
-  RunningMedian middle(sum.contacts);
-  of_all_->visit_sorted([&](const ContactLife& life) { middle.add(life.length); });
-  sum.median = middle.median();
-  return sum;
+  return pairs;
 }
 
-std::vector<SurvivalPoint> ContactLifetimes::survival(double least_drop) const {
-  std::uint64_t at_risk = 0;
-  for (const auto& [key, pair] : pairs_) at_risk += pair.contacts;
-  std::vector<SurvivalPoint> points;
-  std::optional<SurvivalPoint> now;  // the length that is being counted
-  double survival = 1, variance = 0, kept = 1;
-  bool is_kept = true;
-  const auto complete = [&] {
-    const auto n = static_cast<double>(now->at_risk), d = static_cast<double>(now->ended);
-    if (now->ended > 0) {
-      survival = now->ended == now->at_risk ? 0 : survival * (1 - d / n);
-      variance += d / (n * (n - d));
-    }
-    now->survival = survival;
-    add_band(*now, variance);
-    at_risk -= now->ended + now->censored;
-    is_kept = now->ended > 0 && kept - survival >= least_drop;
-    if (!is_kept) return;
-    points.push_back(*now);
-    kept = survival;
+LifetimeFigures ContactLifetimes::all(double run_length, std::uint64_t asked) const {
+  LifetimeFigures all;
+  RatioOverPairs odds, begins, ends;
+  for (const auto& [key, of_pair] : pairs_) {
+    LifetimeFigures pair = of_pair.figures;
+    pair.run_length = run_length;
+    all.contacts += pair.contacts;
+    all.open_at_start += pair.open_at_start;
+    all.open_at_end += pair.open_at_end;
+    all.open_at_both += pair.open_at_both;
+    all.total += pair.total;
+    all.longest = std::max(all.longest, pair.longest);
+    odds.add(pair.total, pair.apart());
+    begins.add(static_cast<double>(pair.begins()), pair.apart());
+    ends.add(static_cast<double>(pair.ends()), pair.total);
+  }
+  const double never = static_cast<double>(asked) - static_cast<double>(pairs_.size());
+  odds.add_apart(run_length, never);
+  begins.add_apart(run_length, never);
+  all.run_length = run_length * static_cast<double>(asked);
+  const auto share = [](const std::optional<double>& x) {
+    return x ? std::optional(*x / (1 + *x)) : std::nullopt;
   };
-  of_all_->visit_sorted([&](const ContactLife& life) {
-    if (now && now->length != life.length) {
-      complete();
-      now.reset();
-    }
-    if (!now) now = SurvivalPoint{life.length, at_risk};
-    ++(life.is_censored ? now->censored : now->ended);
+  all.occupancy = share_of(all.begins(), all.ends(), all.total, all.apart());
+  const Estimate ratio = odds.ratio();
+  all.occupancy = widened(all.occupancy, {{}, share(ratio.lower), share(ratio.upper)});
+  all.begin_rate = widened(rate_of(all.begins(), all.apart()), begins.ratio());
+  all.end_rate = widened(rate_of(all.ends(), all.total), ends.ratio());
+  all.residence = inverse_of(all.end_rate);
+  return all;
+}
+
+Survival ContactLifetimes::survival(double least_drop) const {
+  Survival result;
+  std::vector<Life> lives = lives_;
+  std::sort(lives.begin(), lives.end(), [](const Life& a, const Life& b) {
+    return std::tie(a.length, a.pair, a.is_censored) < std::tie(b.length, b.pair, b.is_censored);
   });
-  if (now) complete();
-  if (now && !is_kept) points.push_back(*now);
-  return points;
+  result.contacts = lives.size();
+  for (const auto& [key, pair] : pairs_) result.left_out += pair.figures.open_at_start;
+  PairResiduals residuals(pairs_.size());
+  for (const Life& life : lives) residuals.add_contact(life.pair);
+  const double quantile = residuals.count() > 1 ? student_quantile(residuals.count() - 1) : 0;
+  double survival = 1, kept = 1;
+  for (auto first = lives.begin(), last = first; first != lives.end(); first = last) {
+    const double end = first->length + 1e-12 * largest_reading_;
+    SurvivalPoint point{first->length, static_cast<std::uint64_t>(lives.end() - first)};
+    for (; last != lives.end() && last->length <= end; ++last)
+      ++(last->is_censored ? point.censored : point.ended);
+    const auto n = static_cast<double>(point.at_risk), d = static_cast<double>(point.ended);
+    survival = point.ended == point.at_risk ? 0 : survival * (1 - d / n);
+    point.survival = {survival};
+    if (survival > 0) {
+      residuals.grow(d / (n * (n - d)));
+      for (auto life = first; life != last; ++life)
+        residuals.leave(life->pair, life->is_censored ? 0 : 1 / (n - d));
+      point.survival = with_band(survival, residuals.variance(), quantile);
+    }
+    const auto meet = [&](std::optional<double>& length, const std::optional<double>& at) {
+      if (!length && at && *at <= 0.5) length = point.length;
+    };
+    meet(result.median.value, point.survival.value);
+    meet(result.median.lower, point.survival.lower);
+    meet(result.median.upper, point.survival.upper);
+    const bool is_last = last == lives.end();
+    if (!is_last && !(point.ended > 0 && kept - survival >= least_drop)) continue;
+    result.points.push_back(point);
+    kept = survival;
+  }
+  return result;
 }
 
 }  // namespace kds

@@ -58,8 +58,6 @@ void FrameContacts::add_inner(const ContactInterval& interval) {
   Pair& pair = pair_of(interval);
   ++exact_[plain].contacts;
   exact_[plain].time += interval.length();
-  if (!pair.has_met) ++met_;
-  pair.has_met = true;
   if (!pair.is_inside) pair.begin = interval.begin;
   pair.is_inside = true;
   for (std::size_t k = 0; k < rows_.size(); ++k) {

@@ -10,7 +10,7 @@
 // - dual: a contact begins at a sample within the inner cutoff and goes on as long as all samples are within
 //   the outer cutoff.
 //
-// Convention: a contact of n samples has a life of n times the spacing of samples, and an occupancy of n
+// Convention: a contact of n samples has a length of n times the spacing of samples, and an occupancy of n
 // divided by the number of samples. Bridged samples count.
 
 #include <array>
@@ -51,12 +51,13 @@ class FrameContacts {
     std::uint64_t found = 0;
     std::array<Sums, kinds> sums;
 
-    /// Returns the mean life in frames, or 0 without contacts.
-    [[nodiscard]] double life(Kind kind) const {
+    /// Returns the mean length in frames, or 0 without contacts. Contacts that the run cuts count as they
+    /// are.
+    [[nodiscard]] double length(Kind kind) const {
       const Sums& sum = sums[kind];
       return sum.contacts == 0 ? 0 : sum.time / static_cast<double>(sum.contacts) * sampling.frames_apart();
     }
-    /// Returns the share of the samples in contact, as the mean of `pairs` pairs.
+    /// Returns the share of the samples in contact, as the mean of this number of pairs.
     [[nodiscard]] double occupancy(Kind kind, std::size_t pairs) const {
       const double all = static_cast<double>(sampling.samples) * static_cast<double>(pairs);
       return all > 0 ? sums[kind].time / all : 0;
@@ -78,8 +79,6 @@ class FrameContacts {
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
   /// Returns the sums of the exact contacts: `plain` within the inner cutoff, `dual` with both.
   [[nodiscard]] const Sums& exact(Kind kind) const { return exact_[kind == dual ? 1 : 0]; }
-  /// Returns the number of pairs that are ever within the inner cutoff.
-  [[nodiscard]] std::size_t pair_count() const { return met_; }
 
  private:
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
@@ -97,7 +96,6 @@ class FrameContacts {
   /// A pair. Its entries of `seen_` begin at `place`.
   struct Pair {
     std::size_t place = 0;
-    bool has_met = false;
     bool is_inside = false;  // an inner interval belongs to the next outer one
     ContactMoment begin;     // of the first such interval
   };
@@ -111,7 +109,6 @@ class FrameContacts {
   std::size_t bridge_;
   std::vector<Row> rows_;
   std::array<Sums, 2> exact_;
-  std::size_t met_ = 0;
   std::unordered_map<std::uint64_t, Pair> pairs_;
   std::vector<Seen> seen_;
 };

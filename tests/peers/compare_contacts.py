@@ -1,7 +1,7 @@
 """Compares the frame-based figures of `kds contacts` with MDAnalysis and mdtraj on the same frames.
 
 Usage: compare_contacts.py KDS DATA. Exit code 77 (skipped) if a package is not installed.
-- mdtraj's compute_contacts tells which residues are in contact at each frame: number, life and occupancy.
+- mdtraj's compute_contacts tells which residues are in contact at each frame: number, length and occupancy.
 - MDAnalysis' correct_intermittency bridges absences, and its autocorrelation is the survival probability.
 """
 import json
@@ -38,13 +38,13 @@ def runs_of(sets):
 
 def compare(name, row, kind, sets, pairs, frame, tolerance):
     runs, frames = runs_of(sets)
-    own = {key: row[f"{kind}_{key}"] for key in ("contacts", "life", "occupancy")}
+    own = {key: row[f"{kind}_{key}"] for key in ("contacts", "length", "occupancy")}
     check(abs(own["contacts"] - runs) <= tolerance, f"{name}: {own['contacts']} contacts, expected {runs}")
     occupancy = frames / len(sets) / pairs
     check(abs(own["occupancy"] - occupancy) <= 1e-9 + tolerance / len(sets) / pairs,
           f"{name}: occupancy {own['occupancy']}, expected {occupancy}")
-    life = frames / runs * row["spacing"] * frame
-    check(tolerance > 0 or abs(own["life"] - life) <= 1e-9 * life, f"{name}: life {own['life']}, expected {life}")
+    length = frames / runs * row["spacing"] * frame
+    check(tolerance > 0 or abs(own["length"] - length) <= 1e-9 * length, f"{name}: length {own['length']}, expected {length}")
     return runs, frames
 
 
@@ -56,7 +56,7 @@ def compare_file(dcd, pdb, frames):
     if run.returncode != 0:
         return check(False, f"{dcd}: {run.stderr}")
     result = json.loads(run.stdout)
-    pairs, frame = len(result["rows"]), result["run_length"] / (result["input"]["frames"] - 1)
+    pairs, frame = result["all"]["pairs_asked"], result["run_length"] / (result["input"]["frames"] - 1)
     trajectory = mdtraj.load(dcd, top=pdb)[:frames]
     distances, numbers = mdtraj.compute_contacts(trajectory, contacts="all", scheme="ca", periodic=False)
     ties = int((abs(distances - CUTOFF / 10) < 2e-7).sum())  # mdtraj computes in single precision

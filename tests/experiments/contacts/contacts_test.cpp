@@ -12,6 +12,7 @@
 #include <random>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "experiments/contacts/certify_contacts.h"
 #include "experiments/contacts/contacts_command.h"
@@ -105,7 +106,6 @@ TEST(ContactsCommand, FiguresOfAPair) {
   EXPECT_EQ(row["contacts"], 2);
   EXPECT_EQ(row["total"], 2.0);
   EXPECT_EQ(row["occupancy"], 2 / 3.0);
-  EXPECT_EQ(row["mean"], 1.0);
   EXPECT_EQ(row["longest"], 1.5);
   EXPECT_EQ(row["first_begin_frame"], 0.25);
   EXPECT_EQ(row["last_end_frame"], 3.0);
@@ -114,17 +114,21 @@ TEST(ContactsCommand, FiguresOfAPair) {
   EXPECT_EQ(row["begin_rate"], 2.0);
   EXPECT_EQ(row["end_rate"], 0.5);
   EXPECT_EQ(row["residence"], 2.0);
+  EXPECT_NEAR(row["residence_lower"], 2 / 5.571643, 1e-6);  // in R: qchisq(0.975, 4) / 2
+  EXPECT_EQ(json["all"]["pairs_asked"], 1);
+  EXPECT_EQ(json["all"]["end_rate_upper"], row["end_rate_upper"]);
   const Json& frames = json["frames"];
   ASSERT_EQ(frames.size(), 7U);  // exact, four parts of a frame, two strides
   EXPECT_EQ(frames[0]["spacing"], nullptr);
   EXPECT_EQ(frames[0]["plain_contacts"], 2);
   EXPECT_EQ(frames[5]["spacing"], 1.0);
   EXPECT_EQ(frames[5]["plain_contacts"], 1);
-  EXPECT_EQ(frames[5]["plain_life"], 2.0);
+  EXPECT_EQ(frames[5]["plain_length"], 2.0);
   EXPECT_EQ(frames[5]["plain_occupancy"], 0.5);
   EXPECT_EQ(frames[6]["samples"], 2);
   EXPECT_EQ(json["survival"][0]["length"], 0.5);
   EXPECT_EQ(json["survival"][0]["survival"], 0.5);
+  EXPECT_EQ(json["all"]["median"], 0.5);
   EXPECT_EQ(json["course"][1]["contacts"], 0.5);
 }
 
@@ -144,6 +148,111 @@ TEST(ContactsCommand, GapsAndTwoCutoffs) {
   EXPECT_EQ(passing.json({"0.5", "--surface", "--radius", "0.75"})["rows"], passing.json({"2"})["rows"]);
 }
 
+// Rates of all pairs divide by the time of all pairs that were asked for: of 4 beads, 0 and 1 meet from 0.5
+// to 1.5, and the others never do. Pairs 3 apart, pairs of groups and pairs of chains are fewer.
+TEST(ContactsCommand, FiguresOfAllPairsCountThosePairsThatNeverMeet) {
+  const ScratchDirectory directory;
+  const auto frame = [](int x) {
+    return "4\n\nC 0 0 0\nC " + std::to_string(x) + " 0 0\nC 0 50 0\nC 0 99 0\n";
+  };
+  const std::string path = directory.file("four.xyz", frame(4) + frame(0) + frame(4));
+  const auto all = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"contacts", path, "--cutoff", "2", "--json", "-"});
+    const ProgramRun run = run_program(options);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return Json::parse(run.out)["all"];
+  };
+  const Json six = all({"--apart", "1"});
+  EXPECT_EQ(six["pairs"], 1);
+  EXPECT_EQ(six["pairs_asked"], 6);
+  EXPECT_EQ(six["occupancy"], 1 / 12.0);
+  EXPECT_EQ(six["begin_rate"], 1 / 11.0);
+  EXPECT_EQ(six["end_rate"], 1.0);
+  EXPECT_EQ(all({"--apart", "2"})["pairs_asked"], 3);
+  EXPECT_EQ(all({})["pairs_asked"], 1);
+  const ProgramRun chains =
+      run_program({"contacts", path, path, path, "--cutoff", "2", "--by", "chain", "--json", "-"});
+  EXPECT_EQ(Json::parse(chains.out)["all"]["pairs_asked"], 3);
+  const ProgramRun text = run_program({"contacts", path, "--cutoff", "2", "--apart", "1"});
+  EXPECT_THAT(text.out, HasSubstr("contacts: 1 of 1 pairs; 6 pairs were asked for"));
+  EXPECT_THAT(text.out, HasSubstr("survival: of the 1 contacts whose beginning was seen; 0 that are open"));
+}
+
+// The example of docs/commands.md: the second bead of residue 1 stays within the outer cutoff, and was never
+// within the inner one.
+TEST(ContactsCommand, TwoCutoffsOfResiduesAreOfTheLeastDistance) {
+  const ScratchDirectory directory;
+  std::string models;
+  for (const char* x : {"8", "0", "8"})
+    models += "MODEL\nATOM      1  CA  ALA A   1       " + std::string(x) +
+              ".000   0.000   0.000  1.00  0.00           C\n"
+              "ATOM      2  CB  ALA A   1       0.000   5.000   0.000  1.00  0.00           C\n"
+              "ATOM      3  CA  GLY A   2       0.000   0.000   0.000  1.00  0.00           C\nENDMDL\n";
+  const std::string path = directory.file("two.pdb", models + "END\n");
+  const auto row = [&](const std::string& by) {
+    const ProgramRun run = run_program({"contacts", path, "--select", "all", "--cutoff", "4:6", "--by", by,
+                                        "--apart", "1", "--strides", "1", "--json", "-"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    const Json json = Json::parse(run.out);
+    const Json& last = json["rows"].back();
+    return std::tuple(last["total"].get<double>(), last["open_at_end"].get<bool>(),
+                      json["frames"].back()["dual_contacts"].get<int>(),
+                      json["frames"].back()["dual_length"].get<double>());
+  };
+  EXPECT_EQ(row("residue"), std::tuple(1.5, true, 1, 2.0));  // samples 1 and 2
+  EXPECT_EQ(row("bead"), std::tuple(1.25, false, 1, 1.0));
+}
+
+// On a lattice many contacts are equally long. They end at one step of the survival function on any number of
+// threads, whatever the last digits of their lengths are.
+TEST(ContactsCommand, EqualLengthsAreOneStepOfSurvival) {
+  const ScratchDirectory directory;
+  std::mt19937 random(7);
+  std::string frames;
+  for (int frame = 0; frame < 150; ++frame) {
+    frames += "7\n\n";
+    for (int bead = 0; bead < 7; ++bead)
+      frames += "C " + std::to_string(random() % 6) + ' ' + std::to_string(random() % 4) + " 0\n";
+  }
+  const std::string path = directory.file("lattice.xyz", frames);
+  std::vector<Json> survivals;
+  for (const char* threads : {"1", "2"}) {
+    const std::string out = (directory / threads).string();
+    const ProgramRun run = run_program({"contacts", path, "--cutoff", "1:1.5", "--apart", "1", "--gap", "1.5",
+                                        "--threads", threads, "--out", out, "--quiet"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    std::map<std::int64_t, std::array<double, 2>> ended;  // and censored, by the length in 1e-10 frames
+    double at_risk = 0, survival = 1;
+    std::istringstream lines(content_of(out + "/intervals.csv"));
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+      std::vector<std::string> cells;
+      std::istringstream words(line);
+      for (std::string word; std::getline(words, word, ',');) cells.push_back(word);
+      if (cells[7] == "true") continue;
+      ended[std::llround(1e10 * std::stod(cells[6]))][cells[8] == "true" ? 1 : 0] += 1;
+      ++at_risk;
+    }
+    survivals.push_back(Json::parse(content_of(out + "/contacts.json"))["survival"]);
+    auto point = survivals.back().begin();
+    ASSERT_GT(survivals.back().size(), 20U);
+    for (const auto& [length, counts] : ended) {
+      survival *= 1 - counts[0] / at_risk;
+      if (std::llround(1e10 * (*point)["length"].get<double>()) == length) {
+        EXPECT_EQ((*point)["at_risk"], at_risk);
+        EXPECT_NEAR((*point)["survival"], survival, 1e-12) << length;
+        ++point;
+      }
+      at_risk -= counts[0] + counts[1];
+    }
+    EXPECT_EQ(point, survivals.back().end());
+  }
+  ASSERT_EQ(survivals[0].size(), survivals[1].size());
+  for (std::size_t k = 0; k < survivals[0].size(); ++k)
+    EXPECT_EQ(survivals[0][k]["survival"], survivals[1][k]["survival"]);
+}
+
 TEST(ContactsCommand, WithoutContactsSaysWhatToTry) {
   const ProgramRun run = Passing().run({"1e-3", "--groups", "all", "all"});
   EXPECT_EQ(run.code, 0) << run.err;
@@ -155,7 +264,8 @@ TEST(ContactsCommand, WithoutContactsSaysWhatToTry) {
   const ProgramRun no_pairs = run_program({"contacts", path, "--cutoff", "9", "--apart", "2", "--json", "-"});
   EXPECT_EQ(no_pairs.code, 0);
   EXPECT_THAT(no_pairs.err, HasSubstr("none of 2 beads are a pair; --apart is 2"));
-  EXPECT_EQ(Json::parse(no_pairs.out)["all"]["occupancy"], 0.0);
+  EXPECT_EQ(Json::parse(no_pairs.out)["all"]["occupancy"], nullptr);
+  EXPECT_EQ(Json::parse(no_pairs.out)["all"]["pairs_asked"], 0);
   const ProgramRun hint = run_program({"contacts", data_file("trajectories/villin_hp36_300K.dcd"),
                                        "--topology", data_file("trajectories/villin_hp36_300K.pdb"),
                                        "--select", "ca", "--cutoff", "0.5", "--frames", ":3"});
@@ -200,8 +310,8 @@ TEST(ContactsCommand, FilesAndPage) {
   EXPECT_THAT(run.out, HasSubstr("one frame in 2"));
   const std::string page = content_of(out + "/report.html");
   expect_sound(page);
-  for (const char* part : {"Contact map", "When pairs are in contact", "Survival", "Contacts over time",
-                           "Contacts counted at frames", "VAL 5 and ILE 13"})
+  for (const char* part : {"Contact map", "When pairs are in contact", "Survival", "were asked for",
+                           "Contacts over time", "Contacts counted at frames", "VAL 5 and ILE 13"})
     EXPECT_THAT(page, HasSubstr(part));
   const Json json = Json::parse(content_of(out + "/contacts.json"));
   std::map<std::string, int> contacts;

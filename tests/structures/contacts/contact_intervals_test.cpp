@@ -156,6 +156,15 @@ TEST(ContactIntervals, TwoCutoffs) {
               ElementsAre("0 1 from 0 (open) to 0.625", "0 1 from 1.5 to 2 (open)"));
 }
 
+// The least distance of any two beads decides: ball 2 stays within the outer cutoff of ball 0, and was never
+// within the inner one.
+TEST(ContactIntervals, TwoCutoffsOfElementsAreOfTheLeastDistance) {
+  const auto at = [](double x) { return Points{{0, 0, 0}, {x, 0, 0}, {0, 2.5, 0}}; };
+  const auto steps = through({at(4), at(0), at(4)});
+  EXPECT_THAT(lines(followed(steps, {{0, 1, 1}, 2, 3})), ElementsAre("0 1 from 0.5 to 2 (open)"));
+  EXPECT_THAT(lines(followed(steps, {{0, 1, 2}, 2, 3})), ElementsAre("0 1 from 0.5 to 1.75"));
+}
+
 // Ball 1 leaves ball 0 when ball 2, which is of the element of ball 1, comes.
 TEST(ContactIntervals, AnAbsenceOfLengthZeroEndsNothing) {
   const auto steps = through({{{0, 0, 0}, {0, 0, 0}, {0, 4, 0}}, {{0, 0, 0}, {4, 0, 0}, {0, 0, 0}}});

@@ -90,8 +90,7 @@ TEST(FrameContacts, AreFoundWhereAFrameLiesInThem) {
 
 std::vector<double> figures(const FrameContacts& frames, FrameContacts::Kind kind) {
   const FrameContacts::Row& row = frames.rows().front();
-  return {static_cast<double>(row.sums[kind].contacts), row.life(kind),
-          row.occupancy(kind, frames.pair_count())};
+  return {static_cast<double>(row.sums[kind].contacts), row.length(kind), row.occupancy(kind, 1)};
 }
 
 TEST(FrameContacts, AbsencesAreBridged) {
@@ -101,8 +100,8 @@ TEST(FrameContacts, AbsencesAreBridged) {
   EXPECT_THAT(figures(frames, FrameContacts::bridged), ElementsAre(2, 2.5, 5 / 8.0));
   // Every second frame sees 0, 0, 9, 0.
   EXPECT_EQ(frames.rows()[1].sums[FrameContacts::plain].contacts, 2U);
-  EXPECT_EQ(frames.rows()[1].life(FrameContacts::plain), 3);
-  EXPECT_EQ(frames.rows()[1].life(FrameContacts::bridged), 8);
+  EXPECT_EQ(frames.rows()[1].length(FrameContacts::plain), 3);
+  EXPECT_EQ(frames.rows()[1].length(FrameContacts::bridged), 8);
 }
 
 TEST(FrameContacts, TwoCutoffs) {
@@ -114,6 +113,14 @@ TEST(FrameContacts, TwoCutoffs) {
   const auto missed = sampled(along({0, 9, 3, 3, 9}), {{0, 1}, 2, 4, 0});
   EXPECT_EQ(missed.rows()[1].sums[FrameContacts::dual].contacts, 1U);
   EXPECT_EQ(missed.rows()[1].sums[FrameContacts::dual].time, 2);
+}
+
+// As in ContactIntervals: bead 2 stays within the outer cutoff.
+TEST(FrameContacts, TwoCutoffsOfElementsAreOfTheLeastDistance) {
+  const auto at = [](double x) { return Points{{0, 0, 0}, {x, 0, 0}, {0, 2.5, 0}}; };
+  const auto steps = through({at(4), at(0), at(4), at(4)});
+  EXPECT_THAT(figures(sampled(steps, {{0, 1, 1}, 2, 3}), FrameContacts::dual), ElementsAre(1, 3, 3 / 4.0));
+  EXPECT_THAT(figures(sampled(steps, {{0, 1, 2}, 2, 3}), FrameContacts::dual), ElementsAre(1, 1, 1 / 4.0));
 }
 
 bool contains(const std::vector<JudgedInterval>& intervals, const Rational& time) {
@@ -214,10 +221,10 @@ TEST(FrameContacts, ConvergeToTheExactOnes) {
       const auto share = [&](double value, double right) { return std::abs(value / right - 1); };
       const double number =
           share(static_cast<double>(row.sums[kind].contacts), static_cast<double>(exact.contacts));
-      const double life = share(row.life(kind), exact.time / static_cast<double>(exact.contacts));
+      const double length = share(row.length(kind), exact.time / static_cast<double>(exact.contacts));
       if (row.sampling.spacing == 1) {
         EXPECT_LT(number, 0.01);
-        EXPECT_LT(life, 0.01);
+        EXPECT_LT(length, 0.01);
       }
       EXPECT_GE(number, last) << row.sampling.spacing;
       last = number;
