@@ -1,26 +1,29 @@
 #include "experiments/sweep/collect_sweep.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <fstream>
 #include <unordered_map>
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/paper.h"
-#include "experiments/output/page/table.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
 #include "experiments/sweep/pooled_figures.h"
+#include "experiments/sweep/refuse.h"
 #include "experiments/sweep/result_rows.h"
-#include "experiments/sweep/sweep_page.h"
-#include "experiments/sweep/sweep_status.h"
-#include "motions/base/input_error.h"
 
 namespace kds {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr std::size_t kMostOnPage = 300, kMostNamed = 3;
+constexpr std::string_view kDone = "\"done\": ";
 
 Field field_from(const Json& json) {
   if (json.text() != nullptr) return Field(*json.text());
@@ -30,163 +33,237 @@ Field field_from(const Json& json) {
   return {};
 }
 
-// Returns JSON on one line, if it is UTF-8. File names need not be.
-std::string one_object(const Json& row) {
-  const auto line = line_of(row);
-  return line ? *line : text_of(row);
-}
-
-// Rows whose columns are found while they are added.
+// A CSV table with fixed columns, and columns for all fields that were announced before the first row.
 class WideTable {
  public:
-  struct Row {
-    std::vector<std::string> fixed;
-    std::vector<std::pair<std::uint32_t, Json>> cells;
-  };
-
   explicit WideTable(std::vector<std::string> fixed) : fixed_(std::move(fixed)) {}
 
-  void add(std::vector<std::string> fixed, const RowFields& fields) {
-    Row row{std::move(fixed), {}};
+  void announce(const RowFields& fields) {
     for (const auto& [name, value] : fields) {
-      const auto [found, is_new] = by_name_.emplace(name, static_cast<std::uint32_t>(columns_.size()));
+      if (!by_name_.emplace(name, columns_.size()).second) continue;
       // An axis may have the name of a field, such as stride.
-      if (is_new)
-        columns_.push_back(std::ranges::find(fixed_, name) == fixed_.end() ? name : "result." + name);
-      row.cells.emplace_back(found->second, value);
+      columns_.push_back(std::ranges::find(fixed_, name) == fixed_.end() ? name : "result." + name);
     }
-    rows_.push_back(std::move(row));
   }
-
-  void write_csv(std::ostream& stream) const {
-    std::string line;
-    const auto append = [&line](const std::string& cell) { line += (line.empty() ? "" : ",") + cell; };
+  [[nodiscard]] std::string header() const {
+    std::vector<std::string> cells;
     for (const auto* names : {&fixed_, &columns_})
-      for (const std::string& name : *names) append(Field(name).csv());
-    stream << line << '\n';
-    std::vector<std::string> cells(columns_.size());
-    for (const Row& row : rows_) {
-      std::ranges::fill(cells, "");
-      for (const auto& [column, value] : row.cells) cells[column] = field_from(value).csv();
-      line = Field(row.fixed.front()).csv();
-      for (std::size_t k = 1; k < row.fixed.size(); ++k) line += ',' + text_or_nothing(row.fixed[k]).csv();
-      for (const std::string& cell : cells) line += ',' + cell;
-      stream << line << '\n';
-    }
+      for (const std::string& name : *names) cells.push_back(Field(name).csv());
+    return fmt::format("{}\n", fmt::join(cells, ","));
   }
-
-  // Writes an array with an object on each line.
-  void write_json(std::ostream& stream) const {
-    stream << '[';
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      Json row = Json::object();
-      for (std::size_t c = 0; c < fixed_.size(); ++c)
-        row[fixed_[c]] = rows_[k].fixed[c].empty() ? Json() : Json(rows_[k].fixed[c]);
-      for (const auto& [column, value] : rows_[k].cells) row[columns_[column]] = value;
-      stream << (k > 0 ? ",\n    " : "\n    ") << one_object(row);
-    }
-    stream << "\n  ]";
+  [[nodiscard]] std::string csv(const std::vector<std::string>& fixed, const RowFields& fields) const {
+    std::vector<std::string> cells;
+    for (const std::string& text : fixed) cells.push_back(text_or_nothing(text).csv());
+    cells.resize(fixed.size() + columns_.size());
+    for (const auto& [name, value] : fields)
+      cells[fixed.size() + by_name_.at(name)] = field_from(value).csv();
+    return fmt::format("{}\n", fmt::join(cells, ","));
   }
-
-  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  // Returns an object on one line, if it is UTF-8. File names need not be.
+  [[nodiscard]] std::string json(const std::vector<std::string>& fixed, const RowFields& fields) const {
+    Json row = Json::object();
+    for (std::size_t c = 0; c < fixed_.size(); ++c)
+      row[fixed_[c]] = fixed[c].empty() ? Json() : Json(fixed[c]);
+    for (const auto& [name, value] : fields) row[columns_[by_name_.at(name)]] = value;
+    const auto line = line_of(row);
+    return line ? *line : text_of(row);
+  }
 
  private:
   std::vector<std::string> fixed_, columns_;
-  std::unordered_map<std::string, std::uint32_t> by_name_;
-  std::vector<Row> rows_;
+  std::unordered_map<std::string, std::size_t> by_name_;
 };
 
-// Returns the rows of a task's result. Adds its times to `seconds` and `processor_seconds`.
-std::vector<ResultRow> read_rows(const TaskStates& states, const SweepTask& task, double& seconds,
-                                 double& processor_seconds) {
-  const Json record = parse_json(states.read(states.of(task.name).done));
-  const Json* const result = record.find("result");
+struct TaskResult {
+  double seconds = 0, processor_seconds = 0;
+  std::vector<std::string> warnings;
+  std::vector<ResultRow> rows;
+};
+
+TaskResult result_of(const TaskStates& states, const SweepTask& task) {
+  const Json record = states.read(states.of(task.name).place);
+  const Json *const result = record.find("result"), *const warnings = record.find("warnings");
   if (result == nullptr || result->members() == nullptr)
     throw OutputError(fmt::format("task {}: its record has no result", hex_digits(task.name)));
   const auto number = [&](std::string_view name) {
     const Json* const found = record.find(name);
     return found != nullptr ? found->number().value_or(0) : 0;
   };
-  seconds += number("seconds");
-  processor_seconds += number("processor_seconds");
-  return rows_of_result(*result);
+  TaskResult found{number("seconds"), number("processor_seconds"), {}, rows_of_result(*result)};
+  if (warnings != nullptr && warnings->items() != nullptr)
+    for (const Json& warning : *warnings->items())
+      if (warning.text() != nullptr) found.warnings.push_back(*warning.text());
+  return found;
+}
+
+// Returns the times of a row, which begin with those of the task in its first row.
+RowFields times_of(const TaskResult& result, std::size_t row) {
+  RowFields times;
+  if (row == 0)
+    times = {{"task_seconds", result.seconds}, {"task_processor_seconds", result.processor_seconds}};
+  times.insert(times.end(), result.rows[row].times.begin(), result.rows[row].times.end());
+  return times;
+}
+
+// Writes a CSV file row by row, and keeps the first rows for the page.
+template <class Row>
+class Listing {
+ public:
+  Listing(Table<Row> table, std::ostream& stream) : table_(std::move(table)), stream_(stream) {
+    stream_ << table_.csv_header();
+  }
+  void add(Row row, bool on_page = true) {
+    stream_ << table_.csv_line(row);
+    ++rows_;
+    if (on_page && first_.size() < kMostOnPage) first_.push_back(std::move(row));
+  }
+  [[nodiscard]] std::string section(const std::string& heading, const std::string& file) const {
+    if (first_.empty()) return "";
+    return html_section(
+        heading, table_.html(first_) + fmt::format("<p>{} of {} rows; {} has all.</p>\n", first_.size(),
+                                                   with_thousands(rows_), file));
+  }
+
+ private:
+  Table<Row> table_;
+  std::ostream& stream_;
+  std::vector<Row> first_;
+  std::size_t rows_ = 0;
+};
+
+// Returns the tasks that are done in the order of their groups, whose first tasks are in the order of the
+// plan, and the number of the group of each.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> tasks_by_group(const SweepPlan& plan,
+                                                                    const TaskStates& states,
+                                                                    const std::vector<std::string>& names) {
+  std::unordered_map<std::uint64_t, std::uint32_t> groups;  // by the hash of their names
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> tasks;
+  for (std::size_t k = 0; k < plan.tasks().size(); ++k) {
+    const SweepTask& task = plan.tasks()[k];
+    if (states.of(task.name).status() != TaskStatus::done) continue;
+    TextHash key;
+    for (const std::string& name : names) key.add(plan.text(task, name));
+    const auto group = groups.emplace(key.value(), static_cast<std::uint32_t>(groups.size())).first;
+    tasks.emplace_back(group->second, static_cast<std::uint32_t>(k));
+  }
+  std::ranges::sort(tasks);
+  return tasks;
+}
+
+// A table of few results must not take the place of one of more, for instance because kds is another version.
+void refuse_to_empty(const fs::path& folder, const SweepCount& all, const TaskStates& states) {
+  std::array<char, 400> head{};
+  std::ifstream(folder / "results.json").read(head.data(), head.size() - 1);
+  const std::string_view text(head.data());
+  const std::size_t at = text.find(kDone);
+  const std::uint64_t before =
+      at == std::string_view::npos ? 0 : std::strtoull(head.data() + at + kDone.size(), nullptr, 10);
+  if (all.done == all.tasks || all.done >= before) return;
+  std::string others = other_versions_text(states);
+  std::ranges::replace(others, '\n', ';');
+  refuse(
+      "{}: results.json has {} tasks and would be replaced by {} of {};{}{} run the sweep first, or remove "
+      "results.json",
+      folder.string(), with_thousands(before), with_thousands(all.done), with_thousands(all.tasks),
+      others.empty() ? "" : " ", others);
+}
+
+void list_failures(const SweepPlan& plan, const TaskStates& states, Listing<TaskMessage>& failed) {
+  for (const SweepTask& task : plan.tasks())
+    if (auto failure = failure_of(plan, task, states)) failed.add(std::move(*failure));
 }
 
 }  // namespace
 
-CollectedSweep collect_sweep(const SweepPlan& plan, const fs::path& folder, const std::string& command_line) {
-  TaskStates states(results_folder(folder));
-  states.refresh();
-  std::vector<std::string> fixed{"task", "command", "input"};
-  const std::vector<std::string> axes = plan.axes();
-  fixed.insert(fixed.end(), axes.begin(), axes.end());
-  WideTable results(fixed), times({"task", "row"});
-  PooledFigures pool(plan);
-  CollectedSweep collected;
-  const std::vector<SweepTask>& tasks = plan.tasks();
-  for (std::size_t first = 0; first < tasks.size(); first += tasks[first].segments) {
-    const SweepTask& task = tasks[first];
-    std::vector<std::vector<ResultRow>> segments;
-    double seconds = 0, processor_seconds = 0;
-    for (std::size_t segment = 0; segment < task.segments; ++segment) {
-      const SweepTask& one = tasks[first + segment];
-      const TaskStatus status = status_of(states.of(one.name));
-      ++collected.tasks;
-      collected.done += status == TaskStatus::done ? 1U : 0U;
-      collected.failed += status == TaskStatus::failed ? 1U : 0U;
-      collected.crashed += status == TaskStatus::crashed ? 1U : 0U;
-      if (status == TaskStatus::open) {
-        ++collected.missing;
-        constexpr std::size_t most_named = 3;
-        if (collected.first_missing.size() < most_named)
-          collected.first_missing.push_back("kds " + shell_words(plan.arguments(one)));
-      }
-      if (status == TaskStatus::done) segments.push_back(read_rows(states, one, seconds, processor_seconds));
-    }
-    if (segments.size() < task.segments) continue;
-    bool uneven = false;
-    const std::vector<ResultRow> rows =
-        task.segments > 1 ? joined_segments(segments, uneven) : segments.front();
-    if (uneven)
-      throw InputError(
-          fmt::format("{}: its segments have different beads or dimensions and cannot be joined; expected "
-                      "no segment_steps for this input",
-                      plan.text(task, "input")));
-    std::vector<std::string> names{hex_digits(task.name), plan.text(task, "command"),
-                                   plan.text(task, "input")};
-    for (const std::string& axis : axes) names.push_back(plan.text(task, axis));
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      results.add(names, rows[row].fields);
-      RowFields of_task;
-      if (row == 0) of_task = {{"task_seconds", seconds}, {"task_processor_seconds", processor_seconds}};
-      of_task.insert(of_task.end(), rows[row].times.begin(), rows[row].times.end());
-      times.add({names.front(), std::to_string(row)}, of_task);
-    }
-    pool.add(task, rows);
-  }
-  collected.rows = results.size();
-  collected.damaged = states.damaged();
+CollectedSweep collect_sweep(const SweepPlan& plan, const TaskStates& states, const fs::path& folder,
+                             const std::string& command_line) {
+  const std::vector<SweepCount> counts = count_tasks(plan, states, false);
+  CollectedSweep collected{counts.back(), 0, {}};
+  refuse_to_empty(folder, collected.all, states);
+  const std::vector<std::string>& pooled = plan.spec().pooled;
+  std::vector<std::string> fixed{"command", "input"}, group_names;
+  for (const std::string& axis : plan.axes()) fixed.push_back(axis);
+  std::ranges::copy_if(fixed, std::back_inserter(group_names), [&](const std::string& axis) {
+    return std::ranges::find(pooled, axis) == pooled.end();
+  });
+  std::vector<std::string> columns{"task"};
+  columns.insert(columns.end(), fixed.begin(), fixed.end());
+  WideTable results(columns), times({"task", "row"});
 
-  const std::vector<FailedTask> failed = failed_tasks(plan, states);
-  const Table<PooledFigure> pooled = pooled_table(pool.names());
-  AtomicFiles files;
-  results.write_csv(files.open(folder / "results.csv"));
-  times.write_csv(files.open(folder / "times.csv"));
-  std::ostream& json = files.open(folder / "results.json");
-  json << fmt::format("{{\n  \"version\": \"{}\",\n  \"tasks\": {},\n  \"done\": {},\n  \"rows\": ",
-                      program_version(), collected.tasks, collected.done);
-  results.write_json(json);
-  json << "\n}\n";
-  std::ostream& means = files.open(folder / "pooled.csv");
-  means << pooled.csv_header();
-  for (const PooledFigure& figure : pool.figures())
-    means << pooled.csv_line(figure);  // one in memory at a time
-  files.write(folder / "failed.csv", failed_table().csv(failed));
-  files.write(folder / "report.html",
-              without_copies(sweep_page(plan, collected, pool, failed, counts_from(plan, states, folder),
-                                        command_line)));
-  commit_together({&files});
+  AtomicFiles out;
+  Listing<PooledRow> means(pooled_table({group_names.begin() + 1, group_names.end()}),
+                           out.open(folder / "pooled.csv"));
+  const auto tasks = tasks_by_group(plan, states, group_names);
+  PooledGroup group;
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    const SweepTask& task = plan.tasks()[tasks[k].second];
+    const TaskResult result = result_of(states, task);
+    group.add(task, result.rows, pooled);
+    for (std::size_t row = 0; row < result.rows.size(); ++row) {
+      results.announce(result.rows[row].fields);
+      times.announce(times_of(result, row));
+    }
+    if (k + 1 < tasks.size() && tasks[k + 1].first == tasks[k].first) continue;
+    std::vector<std::string> texts;
+    for (const std::string& name : group_names) texts.push_back(plan.text(task, name));
+    for (const PooledFigure& figure : group.figures())
+      means.add({texts, figure}, figure.mean != 0 || figure.squares != 0);
+    group = {};
+  }
+
+  std::ostream &csv = out.open(folder / "results.csv"), &json = out.open(folder / "results.json"),
+               &of_times = out.open(folder / "times.csv");
+  Listing<TaskMessage> failed(message_table(true), out.open(folder / "failed.csv"));
+  Listing<TaskMessage> warnings(message_table(false), out.open(folder / "warnings.csv"));
+  csv << results.header();
+  of_times << times.header();
+  json << fmt::format("{{\n  \"version\": \"{}\",\n  \"tasks\": {},\n  {}{},\n  \"rows\": [",
+                      program_version(), collected.all.tasks, kDone, collected.all.done);
+  for (const SweepTask& task : plan.tasks()) {
+    const TaskStatus status = states.of(task.name).status();
+    if (status == TaskStatus::open && collected.first_missing.size() < kMostNamed)
+      collected.first_missing.push_back("kds " + shell_words(plan.arguments(task)));
+    if (status != TaskStatus::done) continue;
+    const TaskResult result = result_of(states, task);
+    std::vector<std::string> texts{hex_digits(task.name)};
+    for (const std::string& name : fixed) texts.push_back(plan.text(task, name));
+    for (std::size_t row = 0; row < result.rows.size(); ++row) {
+      const RowFields& fields = result.rows[row].fields;
+      csv << results.csv(texts, fields);
+      json << (collected.rows++ > 0 ? ",\n    " : "\n    ") << results.json(texts, fields);
+      of_times << times.csv({texts.front(), std::to_string(row)}, times_of(result, row));
+    }
+    for (const std::string& warning : result.warnings) warnings.add(message_of(plan, task, warning));
+  }
+  json << "\n  ]\n}\n";
+  list_failures(plan, states, failed);
+
+  Page page;
+  page.title = "kds sweep";
+  page.command_line = command_line;
+  page.data = {"results.csv", "results.json", "pooled.csv", "times.csv", "failed.csv", "warnings.csv"};
+  page.found =
+      fmt::format("<p>{} of {} tasks have results, in {} rows.</p>\n", with_thousands(collected.all.done),
+                  with_thousands(collected.all.tasks), with_thousands(collected.rows));
+  for (const std::string& copy : plan.copies()) page.found += "<p>" + html_escaped(copy) + ".</p>\n";
+  page.body = html_section("Tasks", counts_html(counts)) +
+              failed.section("Tasks without a result", "failed.csv") +
+              warnings.section("Warnings", "warnings.csv") + means.section("Means", "pooled.csv");
+  page.words = html_escaped(fmt::format(
+      "Means pool the tasks that {}. Their 95% intervals are Student's, for "
+      "independent values; those of counts stay above 0. An interval takes {} values or more.",
+      pooled.empty() ? "differ in nothing" : fmt::format("differ in {} only", fmt::join(pooled, ", ")),
+      least_pooled));
+  out.write(folder / "report.html", without_copies(html_page(page)));
+  commit_together({&out});
   return collected;
+}
+
+void write_failed(const SweepPlan& plan, const TaskStates& states, const fs::path& folder) {
+  AtomicFiles out;
+  Listing<TaskMessage> failed(message_table(true), out.open(folder / "failed.csv"));
+  list_failures(plan, states, failed);
+  commit_together({&out});
 }
 
 }  // namespace kds

@@ -2,10 +2,10 @@
 // Means of a sweep's figures over the tasks that differ in the pooled axes only.
 
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "experiments/output/page/table.h"
@@ -19,20 +19,15 @@ namespace kds {
 /// count can reach a factor of exp(12.7), which is 330,000, to either side. For three it is 4.3.
 inline constexpr std::size_t least_pooled = 3;
 
-/// A row of the tasks that are pooled.
-struct PooledRow {
-  std::string command, row;
-  std::vector<std::string> axes;  ///< texts of the axes that are not pooled
-};
-
-/// A measure with its values in all tasks that are pooled.
+/// A measure over all tasks that are pooled: count, mean and sum of squared differences from the mean, by
+/// Welford's update.
 struct PooledFigure {
-  std::shared_ptr<const PooledRow> of;
-  std::string measure;
-  std::vector<double> values;
+  std::string row, measure;  ///< which rows of the results, and which of their fields
+  std::size_t values = 0;
+  double mean = 0, squares = 0;
   bool counts = true;  ///< whole numbers, none below 0
 
-  [[nodiscard]] double mean() const;
+  void add(double value);
   /// Returns Student's interval, for independent values. The interval of counts stays above 0 (above_zero).
   /// Returns nothing for fewer than `least_pooled` values, and for counts that are all equal.
   [[nodiscard]] std::optional<MeanInterval> interval() const;
@@ -40,32 +35,27 @@ struct PooledFigure {
   [[nodiscard]] std::string no_interval() const;
 };
 
-class PooledFigures {
+/// The figures of one group: of tasks that differ in the pooled axes only.
+class PooledGroup {
  public:
-  /// `plan` must outlive this object.
-  explicit PooledFigures(const SweepPlan& plan);
-
-  /// Adds the numbers of all rows of a task, apart from those that describe its input.
-  void add(const SweepTask& task, const std::vector<ResultRow>& rows);
-
-  /// Returns the names of the axes that are not pooled.
-  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  /// Adds the numbers of all rows of a task, apart from those that describe its input. Tasks whose files have
+  /// the same content count once. Rows are told apart by their texts, apart from those of `pooled` axes.
+  void add(const SweepTask& task, const std::vector<ResultRow>& rows, const std::vector<std::string>& pooled);
   /// Returns the figures, in the order in which they were found.
   [[nodiscard]] const std::vector<PooledFigure>& figures() const { return figures_; }
 
  private:
-  struct Group {
-    std::shared_ptr<const PooledRow> row;
-    std::vector<std::size_t> figures;  ///< their places
-  };
-
-  const SweepPlan& plan_;
-  std::vector<std::string> names_;
-  std::unordered_map<std::string, Group> by_key_;
+  std::unordered_set<TaskName> copied_;
+  std::unordered_map<std::string, std::size_t> places_;  ///< of figures, by row and measure
   std::vector<PooledFigure> figures_;
 };
 
+/// A figure with the names of its group.
+struct PooledRow {
+  std::vector<std::string> group;  ///< the command, and the texts of the axes that are not pooled
+  PooledFigure figure;
+};
 /// Returns the table of figures with these axes.
-[[nodiscard]] Table<PooledFigure> pooled_table(const std::vector<std::string>& axes);
+[[nodiscard]] Table<PooledRow> pooled_table(const std::vector<std::string>& axes);
 
 }  // namespace kds

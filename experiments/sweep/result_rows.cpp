@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "experiments/output/text.h"
 
@@ -48,15 +47,6 @@ ResultRow row_of(const RowFields& of_result, const Json& json, const std::string
   return row;
 }
 
-const Json* field_of(const RowFields& fields, std::string_view name) {
-  const auto found = std::ranges::find(fields, name, &RowFields::value_type::first);
-  return found == fields.end() ? nullptr : &found->second;
-}
-
-bool are_equal(const Json* a, const Json* b) {
-  return (a == nullptr) == (b == nullptr) && (a == nullptr || line_of(*a) == line_of(*b));
-}
-
 }  // namespace
 
 bool is_time(std::string_view name) {
@@ -88,44 +78,6 @@ std::vector<ResultRow> rows_of_result(const Json& result) {
     rows.push_back(row_of(of_result, Json::object()));
   }
   return rows;
-}
-
-std::vector<ResultRow> joined_segments(const std::vector<std::vector<ResultRow>>& segments, bool& uneven) {
-  std::vector<ResultRow> joined;
-  uneven = false;
-  for (std::size_t row = 0; row < segments.front().size(); ++row) {
-    const ResultRow& first = segments.front()[row];
-    for (const auto& segment : segments)
-      for (const char* name : {"structure", "input.beads", "input.dimension"})
-        if (row >= segment.size() || segment.size() != segments.front().size() ||
-            !are_equal(field_of(segment[row].fields, name), field_of(first.fields, name)))
-          uneven = true;
-    if (uneven) return {};
-    ResultRow whole;
-    for (const auto& [name, value] : first.fields) {
-      std::uint64_t sum = 0;
-      for (const auto& segment : segments) {
-        const Json* const own = field_of(segment[row].fields, name);
-        if (own != nullptr && own->whole_number() != nullptr) sum += *own->whole_number();
-      }
-      if (name == "structure" || name == "input.beads" || name == "input.dimension")
-        whole.fields.emplace_back(name, value);
-      else if (name == "input.frames")
-        whole.fields.emplace_back(name, sum - (segments.size() - 1));  // segments share a frame
-      else if (name.starts_with("events.") || name.starts_with("audits."))
-        whole.fields.emplace_back(name, sum);
-    }
-    for (const auto& [name, value] : first.times) {
-      double sum = 0;
-      for (const auto& segment : segments) {
-        const Json* const own = field_of(segment[row].times, name);
-        sum += own != nullptr ? own->number().value_or(0) : 0;
-      }
-      whole.times.emplace_back(name, sum);
-    }
-    joined.push_back(std::move(whole));
-  }
-  return joined;
 }
 
 bool is_identity(const std::string& name, const Json& value) {

@@ -26,12 +26,6 @@ struct ResultRow {
 /// Returns the rows of a command's result.
 [[nodiscard]] std::vector<ResultRow> rows_of_result(const Json& result);
 
-/// Returns the rows of a trajectory that was cut into segments, from those of its segments in order: counts
-/// of events and audits are sums, and fields that are not sums over steps are left out. `uneven` is set if
-/// the segments have different rows, beads or dimensions.
-[[nodiscard]] std::vector<ResultRow> joined_segments(const std::vector<std::vector<ResultRow>>& segments,
-                                                     bool& uneven);
-
 /// Returns the text that tells a row from the others of its task: its texts and keys such as `stride`, but
 /// none of `others`.
 [[nodiscard]] std::string identity_of(const ResultRow& row, const std::vector<std::string>& others = {});

@@ -3,11 +3,9 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "experiments/output/result_json.h"
-#include "experiments/sweep/pattern_files.h"
 #include "experiments/sweep/swept_command.h"
 
 namespace kds {
@@ -19,10 +17,8 @@ struct AxisValue {
   std::string text;                     ///< for tables
   std::vector<std::string> files = {};  ///< absolute paths that the value names: those of --topology,
                                         ///< --obstacle and `--radius file:PATH`
-  std::string setting = {};             ///< equal for values that are the same setting, as 2 and "2.0"
-
-  /// Returns whether the value is a list of files, of which some items may be empty.
-  [[nodiscard]] bool lists_files() const;
+  std::string shape = {};    ///< which items of a list of files are empty: -+ for ",FILE"; empty for no files
+  std::string setting = {};  ///< equal for values that are the same setting, as 2 and "2.0"
 };
 
 /// An option and the values that it takes in turn.
@@ -33,16 +29,13 @@ struct Axis {
 
 /// Returns a text or a number as text. Throws InputError if the value is neither or has a zero byte.
 [[nodiscard]] std::string scalar_text(const Json& value, const std::string& where);
+/// Returns the items of an array, or the value itself as the only item.
+[[nodiscard]] Json::Items items_of(const Json& value);
 
-/// Reads the value of an option that the command has. Relative paths are relative to `folder`. Throws
-/// InputError, which begins with `where`, if the option cannot take the value.
-[[nodiscard]] AxisValue read_value(const SweptCommand& command, const std::string& option, const Json& json,
-                                   const std::filesystem::path& folder, const PatternFiles& files,
-                                   const std::string& where);
-/// Reads a value or an array of values. Throws like read_value and known_option, and if two values are the
-/// same setting.
+/// Reads a value or an array of values of an option of the command, or of `stride`. Relative paths are
+/// relative to `folder`. Throws InputError, which begins with `where`, if there is no such option, if it
+/// cannot take a value, or if two values are the same setting.
 [[nodiscard]] Axis read_axis(const SweptCommand& command, const std::string& key, const Json& json,
-                             const std::filesystem::path& folder, const PatternFiles& files,
-                             const std::string& where);
+                             const std::filesystem::path& folder, const std::string& where);
 
 }  // namespace kds

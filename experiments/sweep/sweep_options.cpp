@@ -1,36 +1,24 @@
 #include "experiments/sweep/sweep_options.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
-#include "motions/base/input_error.h"
+#include "experiments/sweep/refuse.h"
 #include "motions/base/text_input.h"
-#include "structures/session/parallel_run.h"
 
 namespace kds {
 
 namespace {
 
 Shard parse_shard(const std::string& text) {
-  const auto refuse = [&] {
-    throw InputError(fmt::format("--shard: '{}' is not I/N, whole numbers from 1 with I at most N", text));
-  };
-  const std::size_t slash = text.find('/');
-  if (slash == std::string::npos) refuse();
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto number = parse_count(text.substr(0, slash));
+  const auto count = parse_count(text.substr(std::min(slash + 1, text.size())));
   constexpr std::uint64_t most = 1'000'000'000;
-  Shard shard;
-  try {
-    shard.number = parse_whole_number("--shard", std::string_view(text).substr(0, slash), 1, most);
-    shard.count = parse_whole_number("--shard", std::string_view(text).substr(slash + 1), 1, most);
-  } catch (const InputError&) {
-    refuse();
-  }
-  if (shard.number > shard.count) refuse();
-  return shard;
+  if (!number || !count || *number < 1 || *number > *count || *count > most)
+    refuse("--shard: '{}' is not I/N, whole numbers from 1 with I at most N", text);
+  return {*number, *count};
 }
 
 std::uint64_t parse_memory(const std::string& text) {
@@ -46,8 +34,7 @@ std::uint64_t parse_memory(const std::string& text) {
   constexpr std::uint64_t most = std::uint64_t{64} << 40U;
   const auto number = parse_count(digits);
   if (!number || *number > most >> shift || *number << shift < least)
-    throw InputError(
-        fmt::format("--task-memory: '{}' is not a number of bytes with K, M, G or T, from 64M to 64T", text));
+    refuse("--task-memory: '{}' is not a number of bytes with K, M, G or T, from 64M to 64T", text);
   return *number << shift;
 }
 
@@ -57,15 +44,9 @@ const OptionList<SweepOptions>& sweep_options() {
   using O = SweepOptions;
   static const auto list = OptionList<O>(
       {path_option({"-o", "DIR", "folder of the sweep's results; required, except for --dry-run"}, &O::out),
-       flag_option(
-           "--dry-run",
-           "run nothing but one task of each command, and print how many tasks there are and how long "
-           "they may take",
-           &O::dry_run),
+       flag_option("--dry-run", "run nothing, and print how many tasks there are", &O::dry_run),
        value_option(
-           {"--shard", "I/N",
-            "run tasks I, I + N, I + 2 N, ... only; I is from 1 to N (default: an element of a Slurm "
-            "array runs its share, otherwise all)"},
+           {"--shard", "I/N", "run tasks I, I + N, I + 2 N, ... only; I is from 1 to N (default: all tasks)"},
            &O::shard, parse_shard,
            [](const Shard& shard) { return fmt::format("{}/{}", shard.number, shard.count); }),
        whole_option(
@@ -87,49 +68,24 @@ const OptionList<SweepOptions>& sweep_options() {
        choice_option(
            {"--write", "ENGINE",
             "write a script that runs the sweep by slurm, parallel (GNU parallel) or snakemake to DIR, and "
-            "run nothing but one task of each command"},
+            "run nothing; --time-budget is that of each batch of Slurm (default: 3600)"},
            &O::write, sweep_engine_names),
+       whole_option({"--batches", "N", "batches of the script of --write (default: 100, at most one a task)"},
+                    &O::batches, 1, 1'000'000),
        flag_option("--quiet", "print no progress bar and no counts", &O::quiet)});
   return list;
 }
 
 void refuse_conflicts(const ParsedArguments& parsed) {
-  const auto refuse = [&](std::string_view option, std::string_view other) {
+  for (const auto& [option, other] : {std::pair{"--dry-run", "--write"},
+                                      {"--time-budget", "--dry-run"},
+                                      {"--shard", "--dry-run"},
+                                      {"--shard", "--write"},
+                                      {"--retry", "--write"}})
     if (parsed.has(option) && parsed.has(other))
-      throw InputError(fmt::format("{}: has no meaning beside {}; expected one of the two", option, other));
-  };
-  refuse("--dry-run", "--write");
-  for (const std::string_view other : {"--dry-run", "--write"})
-    for (const std::string_view option : {"--shard", "--time-budget"}) refuse(option, other);
-  refuse("--retry", "--write");
-}
-
-Shard shard_of(const SweepOptions& options) {
-  if (options.shard) return *options.shard;
-  if (options.write || options.dry_run) return {};
-  const auto from_slurm = [](const char* name) -> std::optional<std::uint64_t> {
-    const char* const text = std::getenv(name);
-    if (text == nullptr) return std::nullopt;
-    return parse_whole_number(name, text, 0, 1'000'000'000);
-  };
-  const auto id = from_slurm("SLURM_ARRAY_TASK_ID"), count = from_slurm("SLURM_ARRAY_TASK_COUNT");
-  if (!id || !count) return {};
-  const std::uint64_t first = from_slurm("SLURM_ARRAY_TASK_MIN").value_or(1);
-  const std::uint64_t step = std::max<std::uint64_t>(from_slurm("SLURM_ARRAY_TASK_STEP").value_or(1), 1);
-  if (*id < first || (*id - first) % step != 0 || (*id - first) / step >= *count)
-    throw InputError(
-        fmt::format("SLURM_ARRAY_TASK_ID {} is not one of {} numbers from {} on with step {}, so its share "
-                    "is unknown; expected --shard I/N",
-                    *id, *count, first, step));
-  return {(*id - first) / step + 1, *count};
-}
-
-std::size_t jobs_of(const SweepOptions& options) {
-  if (options.jobs) return *options.jobs;
-  if (options.write) return 1;
-  if (const char* const cpus = std::getenv("SLURM_CPUS_PER_TASK"); cpus != nullptr)
-    return parse_whole_number("SLURM_CPUS_PER_TASK", cpus, 1, 100'000);
-  return all_threads();
+      refuse("{}: has no meaning beside {}; expected one of the two", option, other);
+  if (parsed.has("--batches") && !parsed.has("--write"))
+    refuse("--batches: has no meaning without --write; expected both or --shard I/N");
 }
 
 }  // namespace kds

@@ -1,5 +1,5 @@
 #pragma once
-// The tasks of a sweep, in the order of sweep.json: commands, inputs, options, segments.
+// The tasks of a sweep, in the order of sweep.json: commands, inputs, options.
 
 #include <cstdint>
 #include <filesystem>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/program/command_line.h"
-#include "experiments/sweep/input_hashes.h"
+#include "experiments/sweep/input_files.h"
 #include "experiments/sweep/sweep_spec.h"
 #include "experiments/sweep/task_name.h"
 
@@ -16,19 +16,18 @@ namespace kds {
 
 struct SweepTask {
   TaskName name = 0;
+  std::uint64_t setting = 0;  ///< number of the combination of the block's axes
   std::uint32_t block = 0, input = 0;
-  std::uint32_t segment = 0, segments = 1;
-  std::uint64_t setting = 0;                      ///< number of the combination of the block's axes
-  std::uint64_t first_frame = 0, last_frame = 0;  ///< of a segment, both included
-  std::string radius = {};                        ///< of a segment; empty if the option says it
+  bool is_copy = false;     ///< an earlier task has its name, because their files have the same content
+  bool has_copies = false;  ///< another task has its name
 };
 
 class SweepPlan {
  public:
-  /// Lists the tasks. Reads each input once for its hash, unless `hashes` remembers it; cutting a trajectory
-  /// reads it once more. Takes about a microsecond for each task. Throws InputError if no task is left, if a
-  /// task is listed twice, or if an exclusion without `input` matches no task.
-  SweepPlan(SweepSpec spec, InputHashes& hashes, const std::string& subject);
+  /// Lists the tasks. Reads each input once for its hash, unless `files` remembers it. Takes about
+  /// a microsecond for each task. Throws InputError if no task is left, if a task is listed twice, or if an
+  /// exclusion without `input` matches no task.
+  SweepPlan(SweepSpec spec, InputFiles& files, const std::string& subject);
 
   [[nodiscard]] const SweepSpec& spec() const { return spec_; }
   [[nodiscard]] const std::vector<SweepTask>& tasks() const { return tasks_; }
@@ -48,25 +47,25 @@ class SweepPlan {
   [[nodiscard]] Arguments arguments(const SweepTask& task) const;
   /// Returns all files that a task reads: its input and those that its options name.
   [[nodiscard]] std::vector<std::string> files(const SweepTask& task) const;
-  /// Returns a number that grows about as the work of the task: the bytes of its input, divided by its stride
-  /// and the number of segments.
-  [[nodiscard]] double size(const SweepTask& task, const InputHashes& hashes) const;
+  /// Returns a sentence for each two files of tasks that share their name.
+  [[nodiscard]] const std::vector<std::string>& copies() const { return copies_; }
 
  private:
-  void add_tasks(std::uint32_t block, InputHashes& hashes, const std::string& subject);
-  void add_segments(const SweepTask& whole, InputHashes& hashes);
+  void add_tasks(std::uint32_t block, InputFiles& files, const std::string& subject);
   /// Notes which exclusions leave the task out, and returns whether one does.
   [[nodiscard]] bool is_excluded(const SweepTask& task);
   void refuse_idle_exclusions(const std::string& subject) const;
-  [[nodiscard]] TaskName name_of(const SweepTask& task, InputHashes& hashes) const;
-  /// Returns option and value of all options of a task but its stride, sorted by option.
+  [[nodiscard]] TaskName name_of(const SweepTask& task, InputFiles& files) const;
+  /// Returns option and value of all options that a task is given, sorted by option.
   [[nodiscard]] std::vector<std::pair<std::string, const AxisValue*>> options_of(const SweepTask& task) const;
-  void refuse_equal_names(const std::string& subject) const;
+  /// Marks tasks that share a name. Throws InputError unless their files are equal under two names.
+  void mark_copies(const std::string& subject);
 
   SweepSpec spec_;
   std::vector<SweepTask> tasks_;
   std::size_t excluded_ = 0;
   std::vector<bool> exclusion_matched_;
+  std::vector<std::string> copies_;
 };
 
 }  // namespace kds

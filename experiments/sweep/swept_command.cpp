@@ -1,6 +1,5 @@
 #include "experiments/sweep/swept_command.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -10,7 +9,7 @@
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
 #include "experiments/program/option_values.h"
-#include "motions/base/input_error.h"
+#include "experiments/sweep/refuse.h"
 
 namespace kds {
 
@@ -73,7 +72,7 @@ std::string SweptCommand::setting(const std::string& option, const std::vector<s
   try {
     return check("--" + option, values);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", where, error.what()));
+    refuse("{}: {}", where, error.what());
   }
 }
 
@@ -89,8 +88,8 @@ const std::vector<std::string>& swept_commands() {
 const SweptCommand& swept_command(const std::string& name, const std::string& subject) {
   for (const SweptCommand& command : all_swept())
     if (command.name == name) return command;
-  throw InputError(fmt::format("{}: '{}' is no command that can be swept, expected one of {}{}", subject,
-                               name, fmt::join(swept_commands(), ", "), nearest_of(name, swept_commands())));
+  refuse("{}: '{}' is no command that can be swept, expected one of {}{}", subject, name,
+         fmt::join(swept_commands(), ", "), nearest_of(name, swept_commands()));
 }
 
 std::string without_dashes(std::string_view option) {
@@ -100,15 +99,14 @@ std::string without_dashes(std::string_view option) {
 std::string known_option(const SweptCommand& command, const std::string& key, const std::string& where) {
   const std::string name = without_dashes(key);
   if (is_own(name))
-    throw InputError(fmt::format(
-        "{}: the sweep sets --{} of its tasks itself; expected an option that is a setting", where, name));
+    refuse("{}: the sweep sets --{} of its tasks itself; expected an option that is a setting", where, name);
   const bool has_frames = command.find("frames") != nullptr;
   if (command.find(name) != nullptr || (has_frames && name == stride_axis)) return name;
   std::vector<std::string> names;
   for (const SweptCommand::Option& option : command.options) names.push_back(option.name);
   if (has_frames) names.emplace_back(stride_axis);
-  throw InputError(fmt::format("{}: kds {} has no option --{}{} (see kds {} --help)", where, command.name,
-                               name, nearest_of(name, names), command.name));
+  refuse("{}: kds {} has no option --{}{} (see kds {} --help)", where, command.name, name,
+         nearest_of(name, names), command.name);
 }
 
 }  // namespace kds

@@ -14,7 +14,6 @@
 #include <cstdio>
 #include <ctime>
 #include <system_error>
-#include <utility>
 
 namespace kds {
 
@@ -23,26 +22,7 @@ namespace {
 constexpr std::array kStopSignals{SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU};
 constexpr rlim_t kLongestOutput = rlim_t{1} << 30U;
 
-int memory_file() {
-  const int file = ::memfd_create("kds-task", MFD_CLOEXEC);
-  if (file < 0) throw std::system_error(errno, std::generic_category(), "memory for a task's output");
-  return file;
-}
-
-std::string content(int file) {
-  std::string text;
-  const off_t size = ::lseek(file, 0, SEEK_END);
-  if (size <= 0) return text;
-  text.resize(static_cast<std::size_t>(size));
-  std::size_t read = 0;
-  while (read < text.size()) {
-    const ssize_t count = ::pread(file, text.data() + read, text.size() - read, static_cast<off_t>(read));
-    if (count <= 0) break;
-    read += static_cast<std::size_t>(count);
-  }
-  text.resize(read);
-  return text;
-}
+[[noreturn]] void fail_to_start() { throw std::system_error(errno, std::generic_category()); }
 
 void limit(int resource, rlim_t most) {
   rlimit limits{};
@@ -61,14 +41,14 @@ std::optional<oneapi::tbb::global_control>& one_thread() {
 [[noreturn]] void run_child(const std::function<int()>& work, const TaskLimits& limits, pid_t parent, int out,
                             int err) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // the parent ended before the line above
-  ignore_stop_signals();                  // the parent ends its children itself
-  ::signal(SIGCHLD, SIG_DFL);
+  if (::getppid() != parent) ::_exit(1);                            // the parent ended before the line above
+  for (const int signal : kStopSignals) ::signal(signal, SIG_IGN);  // the parent ends its children itself
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  const int in = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  const int in = ::open("/dev/null", O_RDONLY);
   if (in < 0 || ::dup2(in, 0) < 0 || ::dup2(out, 1) < 0 || ::dup2(err, 2) < 0) ::_exit(1);
+  ::close_range(3, ~0U, 0);  // files of the parent and of other tasks
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, kLongestOutput);
   if (limits.memory) limit(RLIMIT_DATA, *limits.memory);
@@ -84,55 +64,32 @@ double seconds_in(const timeval& time) {
 
 }  // namespace
 
-TaskOutput::TaskOutput() : out_(memory_file()) {
-  try {
-    err_ = memory_file();
-  } catch (const std::system_error&) {
-    ::close(out_);
-    throw;
+MemoryFile::MemoryFile() : file_(::memfd_create("kds-task", MFD_CLOEXEC)) {
+  if (file_ < 0) fail_to_start();
+}
+
+MemoryFile::~MemoryFile() { ::close(file_); }
+
+std::string MemoryFile::text() const {
+  std::string text(static_cast<std::size_t>(std::max<off_t>(::lseek(file_, 0, SEEK_END), 0)), '\0');
+  std::size_t read = 0;
+  while (read < text.size()) {
+    const ssize_t count = ::pread(file_, text.data() + read, text.size() - read, static_cast<off_t>(read));
+    if (count <= 0) break;
+    read += static_cast<std::size_t>(count);
   }
+  text.resize(read);
+  return text;
 }
 
-TaskOutput::~TaskOutput() {
-  if (out_ >= 0) ::close(out_);
-  if (err_ >= 0) ::close(err_);
-}
-
-TaskOutput::TaskOutput(TaskOutput&& other) noexcept
-    : out_(std::exchange(other.out_, -1)), err_(std::exchange(other.err_, -1)) {}
-
-TaskOutput& TaskOutput::operator=(TaskOutput&& other) noexcept {
-  std::swap(out_, other.out_);
-  std::swap(err_, other.err_);
-  return *this;
-}
-
-std::string TaskOutput::out() const { return content(out_); }
-std::string TaskOutput::err() const { return content(err_); }
-
-std::size_t most_tasks_at_once() {
-  constexpr rlim_t others = 32;
-  rlimit files{};
-  if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return 1;
-  return std::max<std::size_t>(files.rlim_cur > others ? (files.rlim_cur - others) / 2 : 1, 1);
-}
-
-void ignore_stop_signals() {
-  for (const int signal : kStopSignals) ::signal(signal, SIG_IGN);
-}
-
-TaskProcess::TaskProcess(const std::function<int()>& work, const TaskLimits& limits, TaskOutput output)
-    : output_(std::move(output)) {
+TaskProcess::TaskProcess(const std::function<int()>& work, const TaskLimits& limits) {
   static_cast<void>(one_thread());
   std::fflush(nullptr);
   const pid_t parent = ::getpid();
   child_ = ::fork();
-  if (child_ == 0) run_child(work, limits, parent, output_.out_file(), output_.err_file());
-  if (child_ < 0) throw std::system_error(errno, std::generic_category(), "a process for a task");
+  if (child_ == 0) run_child(work, limits, parent, out_.descriptor(), err_.descriptor());
+  if (child_ < 0) fail_to_start();
 }
-
-TaskProcess::TaskProcess(TaskProcess&& other) noexcept
-    : child_(std::exchange(other.child_, -1)), output_(std::move(other.output_)), start_(other.start_) {}
 
 TaskProcess::~TaskProcess() {
   if (child_ <= 0) return;
@@ -140,28 +97,23 @@ TaskProcess::~TaskProcess() {
   static_cast<void>(wait());
 }
 
+double TaskProcess::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
 void TaskProcess::kill() {
   if (child_ > 0) ::kill(child_, SIGKILL);
 }
 
-std::optional<TaskProcess::End> TaskProcess::collect(int options) {
+std::optional<TaskProcess::End> TaskProcess::collect(bool at_once) {
   int status = 0;
   rusage usage{};
   pid_t found = 0;
-  do found = ::wait4(child_, &status, options, &usage);
+  do found = ::wait4(child_, &status, at_once ? WNOHANG : 0, &usage);
   while (found < 0 && errno == EINTR);
   if (found == 0) return std::nullopt;
-  End end;
-  end.code = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-  end.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  end.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-  end.processor_seconds = seconds_in(usage.ru_utime) + seconds_in(usage.ru_stime);
   child_ = -1;
-  return end;
+  return End{WIFEXITED(status) ? WEXITSTATUS(status) : 1, WIFSIGNALED(status) ? WTERMSIG(status) : 0,
+             seconds(), seconds_in(usage.ru_utime) + seconds_in(usage.ru_stime)};
 }
-
-std::optional<TaskProcess::End> TaskProcess::ended() { return collect(WNOHANG); }
-TaskProcess::End TaskProcess::wait() { return *collect(0); }
 
 StopSignals::StopSignals() {
   ::sigemptyset(&held_);

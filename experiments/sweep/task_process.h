@@ -1,13 +1,12 @@
 #pragma once
 // Runs work in a child process, so that a crash, a time limit or a memory limit ends that work alone. The
-// child is a fork: no program is started. The cost of a fork grows with the memory of the process, from about
-// a third of a millisecond (task_launcher.h).
+// child is a fork: no program is started. A fork takes about a third of a millisecond, and a millisecond more
+// for each 200 MiB of the process that forks.
 
 #include <sys/types.h>
 
 #include <chrono>
 #include <csignal>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -20,32 +19,21 @@ struct TaskLimits {
   bool one_thread = true;                    ///< for work that does not say its number of threads itself
 };
 
-/// The output of a child, which waits in memory.
-class TaskOutput {
+/// A file in memory that collects what a child writes.
+class MemoryFile {
  public:
-  /// Makes two files in memory. Throws std::system_error.
-  TaskOutput();
-  /// Takes two open descriptors.
-  TaskOutput(int out, int err) : out_(out), err_(err) {}
-  ~TaskOutput();
-  TaskOutput(TaskOutput&& other) noexcept;
-  TaskOutput& operator=(TaskOutput&& other) noexcept;
+  /// Throws std::system_error.
+  MemoryFile();
+  ~MemoryFile();
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
 
-  [[nodiscard]] int out_file() const { return out_; }
-  [[nodiscard]] int err_file() const { return err_; }
-  /// Returns what the child wrote on standard output, or on standard error.
-  [[nodiscard]] std::string out() const;
-  [[nodiscard]] std::string err() const;
+  [[nodiscard]] int descriptor() const { return file_; }
+  [[nodiscard]] std::string text() const;
 
  private:
-  int out_ = -1, err_ = -1;
+  int file_;
 };
-
-/// Returns how many tasks can run at a time: each of them takes two descriptors of the sweep (ulimit -n).
-[[nodiscard]] std::size_t most_tasks_at_once();
-
-/// Makes this process ignore the signals that ask a program to end.
-void ignore_stop_signals();
 
 /// A child process.
 class TaskProcess {
@@ -60,27 +48,29 @@ class TaskProcess {
 
   /// Starts `work`, whose result is the exit code. The child ignores signals that ask a program to end, and
   /// dies with this process. No thread of oneTBB may have started before. Throws std::system_error if the
-  /// system has no more processes.
-  TaskProcess(const std::function<int()>& work, const TaskLimits& limits, TaskOutput output = {});
+  /// system has no more processes or files.
+  TaskProcess(const std::function<int()>& work, const TaskLimits& limits);
+  /// Ends the child.
   ~TaskProcess();
-  TaskProcess(TaskProcess&& other) noexcept;
-  TaskProcess& operator=(TaskProcess&&) = delete;
+  TaskProcess(const TaskProcess&) = delete;
+  TaskProcess& operator=(const TaskProcess&) = delete;
 
-  [[nodiscard]] Clock::time_point start() const { return start_; }
+  [[nodiscard]] double seconds() const;  ///< since the start
   void kill();
-  /// Returns how the child ended, or nothing while it runs.
-  [[nodiscard]] std::optional<End> ended();
+  /// Returns how the child ended, or nothing while it runs. Call it no more after it has returned an end.
+  [[nodiscard]] std::optional<End> ended() { return collect(true); }
   /// Waits for the end.
-  [[nodiscard]] End wait();
+  [[nodiscard]] End wait() { return *collect(false); }
 
-  [[nodiscard]] const TaskOutput& output() const { return output_; }
+  [[nodiscard]] std::string out() const { return out_.text(); }
+  [[nodiscard]] std::string err() const { return err_.text(); }
 
  private:
-  [[nodiscard]] std::optional<End> collect(int options);
+  [[nodiscard]] std::optional<End> collect(bool at_once);
 
-  pid_t child_ = -1;  ///< -1 once it has ended
-  TaskOutput output_;
+  MemoryFile out_, err_;
   Clock::time_point start_ = Clock::now();
+  pid_t child_ = -1;  ///< -1 once it has ended
 };
 
 /// Holds back the signals that ask a program to end (SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU), and

@@ -21,7 +21,7 @@ namespace {
 using testing::HasSubstr;
 
 SweepSpec spec_of(const std::string& text, const std::filesystem::path& folder = "/nowhere") {
-  PatternFiles files;
+  InputFiles files;
   return read_sweep(read_json(text, "s.json"), folder, files, "s.json");
 }
 
@@ -35,8 +35,8 @@ std::string refusal(const std::string& text) {
 }
 
 SweepPlan plan_of(const std::string& text, const std::filesystem::path& folder) {
-  InputHashes hashes([] { return false; });
-  return {spec_of(text, folder), hashes, "s.json"};
+  InputFiles files;
+  return {spec_of(text, folder), files, "s.json"};
 }
 
 TEST(SweepSpec, RefusesMistakesWithTheKeyAndTheNearestName) {
@@ -67,13 +67,8 @@ TEST(SweepSpec, RefusesMistakesWithTheKeyAndTheNearestName) {
       {command(R"("options": {"stride": 2, "frames": "0:9:2"})"), {"expected FIRST:LAST beside"}},
       {command(R"("options": {"groups": ["A"]})"), {"--groups takes 2 values"}},
       {command(R"("options": {"motion": "--json"})"), {"--motion cannot take '--json'"}},
-      {command(R"("segment_steps": 5, "options": {"motion": "hermite"})"),
-       {"--motion hermite", "no segment_steps"}},
-      {command(R"("segment_steps": 5, "options": {"relax": 0.1})"), {"--relax 0.1", "no segment_steps"}},
-      {command(R"("segment_steps": 5, "options": {"rounds": 3})"),
-       {"median times of --rounds do not add up"}},
-      {R"({"inputs": ["a.pdb"], "commands": [{"command": "contacts", "segment_steps": 5}]})",
-       {"results of kds contacts are not sums over steps"}},
+      {command(R"("segment_steps": 5)"),
+       {"commands[0]: segment_steps is no longer supported; expected one task", "the option threads"}},
       {R"({"inputs": ["no*.pdb"], "commands": ["run"]})", {"s.json: inputs[0]: no file matches 'no*.pdb'"}},
       {R"({"seeds": 1000000000, "commands": ["scale"]})", {"seeds: '1000000000' is not", "1 to 1000000"}},
       {R"({"inputs": ["**/a.pdb"], "commands": ["run"]})", {"** is not supported"}},
@@ -85,7 +80,7 @@ TEST(SweepSpec, RefusesMistakesWithTheKeyAndTheNearestName) {
       {R"({"inputs": ["a\u0000b"], "commands": ["run"]})", {"inputs[0]: has a zero byte"}},
       {command(R"("options": {"chain": "A\u0000--json"})"), {"chain: has a zero byte"}},
       {command(R"("options": {"dt": 1e999})"), {"s.json: number '1e999' is too large"}},
-      {R"({"inputs": [{"file": ["a.pdb", ""]}], "commands": ["run"]})", {"lists an empty path"}},
+      {R"({"inputs": [{"file": ["a.pdb", ""]}], "commands": ["run"]})", {"inputs[0]: expected a path"}},
       {R"({"inputs": ["a.pdb"], "commands": ["run"], "seeds": 3})",
        {"no command of this sweep has the option --seed"}},
       {R"({"inputs": ["a.pdb"], "commands": ["run"], "exclude": [{"motions": "x"}]})",

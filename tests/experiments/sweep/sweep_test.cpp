@@ -1,5 +1,6 @@
 // Tests `kds sweep` as a program: resuming, changed inputs, parts, collected tables, limits and scripts.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,9 +19,10 @@
 #include "experiments/sweep/pooled_figures.h"
 #include "experiments/sweep/result_rows.h"
 #include "experiments/sweep/run_sweep.h"
-#include "experiments/sweep/sweep_page.h"
+#include "experiments/sweep/sweep_folder.h"
 #include "experiments/sweep/sweep_status.h"
-#include "experiments/sweep/swept_task.h"
+#include "experiments/sweep/task_journal.h"
+#include "motions/base/input_error.h"
 #include "tests/experiments/expect_refused.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
@@ -56,6 +58,13 @@ Json collected(const ScratchDirectory& scratch, int code = 0) {
   EXPECT_EQ(run.code, code) << run.out << run.err;
   return Json::parse(content_of(scratch / "out/results.json"));
 }
+
+struct Planned {
+  InputFiles files;
+  SweepPlan plan;
+  explicit Planned(const std::string& text, const std::string& folder = "/nowhere")
+      : plan(read_sweep(read_json(text, "s.json"), folder, files, "s.json"), files, "s.json") {}
+};
 
 std::string chain(double bend) {
   std::string frames;
@@ -99,23 +108,21 @@ TEST(Sweep, ResumesAndRepeatsOnlyTasksOfAChangedInput) {
 TEST(Sweep, LeavesTasksWhoseInputChangesMeanwhile) {
   const ScratchDirectory scratch;
   const std::string input = scratch.file("a.xyz", chain(0.2));
-  const std::string text = R"({"inputs": ["a.xyz"], "commands": ["info", "run"]})";
-  InputHashes hashes([] { return false; });
-  PatternFiles files;
-  const SweepPlan plan(read_sweep(read_json(text, "s.json"), scratch.path(), files, "s.json"), hashes,
-                       "s.json");
-  EXPECT_FALSE(hashes.has_changed(input));
+  Planned sweep(R"({"inputs": ["a.xyz"], "commands": ["info", "run"]})", scratch.path());
+  EXPECT_FALSE(sweep.files.has_changed(input));
   scratch.file("a.xyz", chain(0.2) + chain(0.3));
-  std::filesystem::create_directories(results_folder(scratch / "out"));
-  TaskLauncher launcher;
+  SweepOptions options;
+  options.out = scratch / "out";
+  options.quiet = true;
+  std::filesystem::create_directories(results_folder(*options.out));
   StopSignals signals;
-  std::vector<std::string> warnings;
-  const SweepOutcome outcome = kds::run_sweep(
-      plan, hashes, scratch / "out", {}, launcher, signals, [](std::size_t, std::size_t) {},
-      [&](const std::string& warning) { warnings.push_back(warning); });
-  EXPECT_EQ(outcome.done + outcome.failed + outcome.crashed, 0U);
-  EXPECT_TRUE(outcome.stopped);
-  EXPECT_THAT(warnings, testing::ElementsAre(HasSubstr("a.xyz: changed while the sweep ran")));
+  testing::internal::CaptureStderr();
+  const SweepOutcome outcome = kds::run_sweep(sweep.plan, sweep.files, options, signals);
+  const std::string warning = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(outcome.count.open, 2U);
+  EXPECT_TRUE(outcome.stopped());
+  EXPECT_THAT(warning, HasSubstr("a.xyz: changed while the sweep ran"));
+  EXPECT_EQ(std::ranges::count(warning, '\n'), 1);
 }
 
 // Results are found by the content that an input had, also after the input is gone.
@@ -126,7 +133,7 @@ TEST(Sweep, CollectsResultsOfInputsThatAreGone) {
   scratch.file("d[1].xyz", chain(0.5));
   scratch.file("radii", "0.5\n0.6\n0.5\n0.6\n0.5\n0.6\n0.5\n0.6\n0.5\n0.6\n0.5\n0.6\n");
   scratch.file("s.json", R"({"inputs": ["[ab].xyz", "./d[1].xyz", {"file": "c.xyz", "radius": "file:radii"}],
-      "commands": [{"command": "run", "segment_steps": 2, "options": {"structures": "power"}}]})");
+      "commands": [{"command": "run", "options": {"structures": "power"}}]})");
   static_cast<void>(run_sweep(scratch));
   static_cast<void>(collected(scratch));
   const std::string before = content_of(scratch / "out/results.csv");
@@ -141,34 +148,21 @@ TEST(Sweep, CollectsResultsOfInputsThatAreGone) {
   EXPECT_THAT(status.err, HasSubstr(c + ": cannot be read any more"));
 
   scratch.file("a.xyz", chain(0.6));  // another content has no result
-  EXPECT_THAT(run_program({"sweep", "collect", scratch / "out"}).out, HasSubstr("2 are missing"));
+  expect_refused({"sweep", "collect", scratch / "out"},
+                 {"results.json has 4 tasks and would be replaced by 3"});
+  EXPECT_EQ(content_of(scratch / "out/results.csv"), before);
   scratch.file("a.xyz", chain(0.2));
   EXPECT_EQ(run_program({"sweep", "collect", scratch / "out"}).code, 0);
   EXPECT_EQ(content_of(scratch / "out/results.csv"), before);
 }
 
-// A topology whose name has a comma is one file, also after it is gone.
-TEST(Sweep, KnowsATopologyWithACommaThatIsGone) {
+// A topology whose name has a comma is one file.
+TEST(Sweep, KnowsATopologyWithAComma) {
   const ScratchDirectory scratch;
-  const std::string topology = scratch / "1,l2y.pdb", away = scratch / "away";
-  std::filesystem::copy_file(data_file("proteins/1l2y.pdb"), topology);
+  std::filesystem::copy_file(data_file("proteins/1l2y.pdb"), scratch / "1,l2y.pdb");
   scratch.file("s.json", R"({"inputs": {"file": ")" + data_file("trajectories/1l2y.dcd") +
-                             R"(", "topology": "1,l2y.pdb"}, "commands": [
-      {"command": "info", "options": {"frames": ["0:2", "900:"]}}]})");
-  static_cast<void>(run_sweep(scratch, {}, 1));
-  static_cast<void>(collected(scratch, 1));
-  const std::string results = content_of(scratch / "out/results.csv"),
-                    failed = content_of(scratch / "out/failed.csv");
-  EXPECT_THAT(failed, HasSubstr("--topology " + shell_words({topology})));
-  std::filesystem::rename(topology, away);
-  const ProgramRun collect = run_program({"sweep", "collect", scratch / "out"});
-  EXPECT_THAT(collect.out, HasSubstr("1 of 2 tasks have results"));
-  EXPECT_THAT(collect.err, HasSubstr(topology + ": cannot be read any more"));
-  EXPECT_EQ(content_of(scratch / "out/results.csv"), results);
-  EXPECT_EQ(content_of(scratch / "out/failed.csv"), failed);
-  EXPECT_THAT(run_sweep(scratch, {"--retry"}, 1), HasSubstr("1 wait for inputs"));
-  std::filesystem::rename(away, topology);
-  EXPECT_THAT(run_sweep(scratch, {}, 1), HasSubstr("1 of 2 tasks have results, 1 failed"));
+                             R"(", "topology": "1,l2y.pdb"}, "commands": ["info"]})");
+  static_cast<void>(run_sweep(scratch));
 }
 
 // Tasks have the name of the content, which does not fail because the file is away for a while.
@@ -194,35 +188,28 @@ TEST(Sweep, NoticesContentOfEqualSizeAndTime) {
   const auto time = std::filesystem::last_write_time(input) - std::chrono::hours(1);
   std::filesystem::last_write_time(input, time);
   std::this_thread::sleep_for(std::chrono::milliseconds(2100));  // then the hash is remembered with its times
-  const auto hashes = [&] {
-    InputHashes found([] { return false; });
-    found.load(scratch.path());
-    return found;
-  };
-  InputHashes first = hashes();
+  InputFiles first;
   const std::uint64_t hash = first.hash(input);
-  first.save(scratch.path());
-  EXPECT_THAT(content_of(scratch / "inputs.json"), HasSubstr("\"changed\""));
-  EXPECT_EQ(hashes().hash(input), hash);
+  const auto again = [&] { return InputFiles(first.json()).hash(input); };
+  EXPECT_THAT(text_of(first.json()), HasSubstr("\"stamp\""));
+  EXPECT_EQ(again(), hash);
   std::filesystem::last_write_time(input, time + std::chrono::hours(2));
   EXPECT_FALSE(first.has_changed(input));  // the content is as it was
-  EXPECT_EQ(hashes().hash(input), hash);
+  EXPECT_EQ(again(), hash);
 
   const std::string other = chain(0.3);
   ASSERT_EQ(other.size(), chain(0.2).size());
   scratch.file("a.xyz", other);
   std::filesystem::last_write_time(input, time);
   EXPECT_TRUE(first.has_changed(input));
-  EXPECT_NE(hashes().hash(input), hash);
+  EXPECT_NE(again(), hash);
 }
 
 // Several tasks run at a time, so a task has one thread unless the sweep says another number.
 TEST(Sweep, TasksHaveOneThreadUnlessTheSweepSaysMore) {
-  const std::string text = R"({"inputs": ["a.xyz"], "commands": ["info",
-      {"command": "run", "options": {"threads": [null, 2]}}]})";
-  PatternFiles files;
-  InputHashes hashes([] { return false; });
-  const SweepPlan plan(read_sweep(read_json(text, "s.json"), "/nowhere", files, "s.json"), hashes, "s.json");
+  const Planned sweep(R"({"inputs": ["a.xyz"], "commands": ["info",
+      {"command": "run", "options": {"threads": [null, 2]}}]})");
+  const SweepPlan& plan = sweep.plan;
   std::vector<Arguments> arguments;
   for (const SweepTask& task : plan.tasks()) arguments.push_back(task_arguments(plan, task));
   const Arguments json{"--quiet", "--json", "-"};
@@ -251,36 +238,29 @@ TEST(Sweep, CollectsFilesOfAnyName) {
   for (const Json& row : rows) EXPECT_EQ(row["input.beads"], 12);
 }
 
-TEST(Sweep, IntervalsOfCountsStayAboveZero) {
+PooledFigure figure_of(const std::vector<double>& values, bool counts) {
   PooledFigure figure;
-  figure.values = {1, 100, 3};
-  ASSERT_TRUE(figure.interval());
-  EXPECT_GT(figure.interval()->lower, 0);
-  EXPECT_LT(figure.interval()->lower, figure.mean());
-  EXPECT_GT(figure.interval()->upper, figure.mean());
-  figure.counts = false;
-  EXPECT_LT(figure.interval()->lower, 0);
-  figure.values = {2, 2, 2};
-  EXPECT_EQ(figure.interval()->lower, 2);
-  figure.counts = true;
-  EXPECT_FALSE(figure.interval());
-  EXPECT_EQ(figure.no_interval(), "all values are equal");
+  for (const double value : values) figure.add(value);
+  figure.counts = counts;
+  return figure;
 }
 
 // Two counts would have an interval that reaches over many powers of ten.
-TEST(Sweep, IntervalsTakeThreeValues) {
-  PooledFigure figure;
-  figure.values = {300, 9000};
-  for (const bool counts : {true, false}) {
-    figure.counts = counts;
-    EXPECT_FALSE(figure.interval());
-    EXPECT_EQ(figure.no_interval(), "fewer than 3 values");
-  }
-  figure.counts = true;
-  figure.values.push_back(0);
-  ASSERT_TRUE(figure.interval());
-  EXPECT_EQ(figure.no_interval(), "");
-  EXPECT_LT(figure.interval()->upper / figure.mean(), 75);
+TEST(Sweep, IntervalsOfCountsStayAboveZeroAndTakeThreeValues) {
+  const PooledFigure counts = figure_of({1, 100, 3}, true);
+  ASSERT_TRUE(counts.interval());
+  EXPECT_GT(counts.interval()->lower, 0);
+  EXPECT_LT(counts.interval()->lower, counts.mean);
+  EXPECT_GT(counts.interval()->upper, counts.mean);
+  EXPECT_LT(figure_of({1, 100, 3}, false).interval()->lower, 0);
+  EXPECT_EQ(figure_of({2, 2, 2}, false).interval()->lower, 2);
+  EXPECT_EQ(figure_of({2, 2, 2}, true).no_interval(), "all values are equal");
+  for (const bool whole : {true, false})
+    EXPECT_EQ(figure_of({300, 9000}, whole).no_interval(), "fewer than 3 values");
+  const PooledFigure three = figure_of({300, 9000, 0}, true);
+  ASSERT_TRUE(three.interval());
+  EXPECT_EQ(three.no_interval(), "");
+  EXPECT_LT(three.interval()->upper / three.mean, 75);
 }
 
 // The twin: each task's own command, read by another JSON library.
@@ -333,30 +313,16 @@ TEST(Sweep, CollectsWhatTheCommandsPrint) {
   EXPECT_GE(intervals, 2U);
 }
 
-// Counts of segments add up to those of the uncut trajectory.
-TEST(Sweep, SegmentsAddUpToTheWhole) {
+// Segments of this trajectory, whose frames are full of ties, had other counts.
+TEST(Sweep, CountsAreThoseOfTheWholeRunOnAnyNumberOfThreads) {
   const ScratchDirectory scratch;
-  const auto rows = [&](const std::string& segment_steps) {
-    const std::string input = data_file("trajectories/1l2y.dcd"), topology = data_file("proteins/1l2y.pdb");
-    scratch.file("s.json", R"({"inputs": {"file": ")" + input + R"(", "topology": ")" + topology +
-                               R"(", "frames": "2:31"}, "commands": [{"command": "run", )" + segment_steps +
-                               R"("options": {"structures": "wrapped,power,contacts", "stride": [1, 3]}}]})");
-    static_cast<void>(run_sweep(scratch));
-    return collected(scratch)["rows"];
-  };
-  const Json segments = rows(R"("segment_steps": 5, )"), whole = rows("");
-  ASSERT_EQ(segments.size(), 6U);
-  for (std::size_t k = 0; k < segments.size(); ++k) {
-    std::size_t compared = 0;
-    for (const auto& [name, value] : segments[k].items()) {
-      if (!name.starts_with("events.") && name != "input.frames") continue;
-      EXPECT_EQ(value, whole[k][name]) << name;
-      ++compared;
-    }
-    EXPECT_GE(compared, 4U);
-    EXPECT_FALSE(segments[k].contains("fingerprint"));
-  }
-  EXPECT_EQ(records(scratch, "done"), 6U + 2U + 2U);
+  scratch.file("s.json", R"({"inputs": [")" + data_file("hostile/lattice24.xyz") + R"("], "commands": [{
+      "command": "run", "options": {"structures": "box,closest,contacts", "radius": 0.5, "threads": [1, 2, 3, 7]}}]})");
+  static_cast<void>(run_sweep(scratch));
+  const Json rows = collected(scratch)["rows"];
+  ASSERT_EQ(rows.size(), 12U);
+  const std::map<std::string, int> totals{{"box", 17}, {"closest", 52}, {"contacts", 299}};
+  for (const Json& row : rows) EXPECT_EQ(row["events.total"], totals.at(row["structure"])) << row;
 }
 
 TEST(Sweep, ShardsDivideTheTasks) {
@@ -369,14 +335,7 @@ TEST(Sweep, ShardsDivideTheTasks) {
   EXPECT_EQ(half["done"], 2);
   EXPECT_THAT(run_program({"sweep", "collect", scratch / "out"}).out, HasSubstr("3 are missing, such as"));
   EXPECT_THAT(run_program({"sweep", "status", scratch / "out"}).out, HasSubstr("info"));
-  const std::string slurm = "SLURM_ARRAY_TASK_MIN=4 SLURM_ARRAY_TASK_COUNT=3 SLURM_ARRAY_TASK_ID=";
-  for (const char* id : {"4", "6"})
-    EXPECT_EQ(
-        run_shell(slurm + id + " $0 sweep $1 -o $2 --quiet", {scratch / "s.json", scratch / "out"}).code, 0);
-  const ProgramRun outside =
-      run_shell(slurm + "9 $0 sweep $1 -o $2 --quiet", {scratch / "s.json", scratch / "out"});
-  EXPECT_EQ(outside.code, 2);
-  EXPECT_THAT(outside.err, HasSubstr("SLURM_ARRAY_TASK_ID 9"));
+  for (const char* shard : {"1/3", "3/3"}) static_cast<void>(run_sweep(scratch, {"--shard", shard}));
   EXPECT_EQ(collected(scratch)["done"], 5);
   EXPECT_EQ(records(scratch, "try"), 5U);
 }
@@ -435,10 +394,8 @@ TEST(Sweep, RefusesWrongUsage) {
   expect_refused({"sweep", "status", scratch.path(), "--retry"}, {"--retry: has no meaning"});
   expect_refused({"sweep", sweep, "-o", scratch.path()}, {"holds other files and no sweep"});
   expect_refused({"sweep", sweep, "-o", sweep}, {"is a file, expected a directory"});
-  const ProgramRun jobs = run_shell("ulimit -n 64; $0 sweep $1 -o $2 --jobs 40", {sweep, scratch / "o"});
-  EXPECT_EQ(jobs.code, 2);
-  EXPECT_THAT(jobs.err, HasSubstr("--jobs: 40 tasks at a time need more open files"));
-  EXPECT_THAT(jobs.err, HasSubstr("expected at most 16"));
+  expect_refused({"sweep", sweep, "-o", scratch / "o", "--batches", "3"},
+                 {"--batches: has no meaning without"});
   for (const char* shard : {"0/3", "4/3", "3", "a/b", "1/0"})
     expect_refused({"sweep", sweep, "-o", scratch / "o", "--shard", shard}, {"--shard", "is not I/N"});
   for (const char* memory : {"0", "1G2", "10", "65T", "99999999999T"})
@@ -458,46 +415,17 @@ TEST(Sweep, RefusesWrongUsage) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "o"));  // a sweep that is refused leaves no plan
 }
 
-// "stride 16" says neither a radius of 1 nor one of 6, so these are two series. A plot says what it leaves
-// out.
-TEST(Sweep, PlotsNameTheirSeriesAndWhatTheyLeaveOut) {
-  std::string apart = "1, 6";
-  for (int k = 7; k < 17; ++k) apart += ", " + std::to_string(k);
-  for (const bool too_many : {false, true}) {
-    const std::string text = R"({"inputs": ["a.xyz"], "commands": [{"command": "run", "options": {
-        "radius": [2, 4], "apart": [)" +
-                             apart + (too_many ? ", 17" : "") + "]}}]}";
-    PatternFiles files;
-    InputHashes hashes([] { return false; });
-    const SweepPlan plan(read_sweep(read_json(text, "s.json"), "/nowhere", files, "s.json"), hashes,
-                         "s.json");
-    PooledFigures pool(plan);
-    for (const SweepTask& task : plan.tasks())
-      pool.add(task, {{{{"stride", std::uint64_t{16}}, {"events", std::uint64_t{too_many ? 5U : 0U}}}, {}},
-                      {{{"stride", std::uint64_t{16}}, {"events", std::uint64_t{5}}}, {}}});
-    SweepCount count;
-    count.command = "run";
-    const std::string page = sweep_page(plan, {}, pool, {}, {count}, "");
-    expect_sound(page);
-    EXPECT_THAT(page, testing::AllOf(HasSubstr("stride 16, 1<"), HasSubstr("stride 16, 6<")));
-    EXPECT_EQ(page.find("values above 0 only") != std::string::npos, !too_many);
-    EXPECT_EQ(page.find("the first 12 series only") != std::string::npos, too_many);
-  }
-}
-
 // Tasks of one command say nothing about the time of another's.
 TEST(Sweep, HoursLeftAreThoseOfEachCommand) {
   const ScratchDirectory scratch;
-  const std::string text = R"({"inputs": ["a.xyz"], "commands": [
-      {"command": "info", "options": {"radius": [1, 2, 3]}}, {"command": "run", "options": {"radius": [1, 2]}}]})";
-  PatternFiles files;
-  InputHashes hashes([] { return false; });
-  const SweepPlan plan(read_sweep(read_json(text, "s.json"), "/nowhere", files, "s.json"), hashes, "s.json");
-  std::filesystem::create_directory(results_folder(scratch.path()));
-  JournalWriter journal(results_folder(scratch.path()));
+  const Planned sweep(R"({"inputs": ["a.xyz"], "commands": [
+      {"command": "info", "options": {"radius": [1, 2, 3]}}, {"command": "run", "options": {"radius": [1, 2]}}]})");
+  const SweepPlan& plan = sweep.plan;
+  JournalWriter journal(scratch.path());
   const auto hours_left = [&] {
     std::vector<std::optional<double>> hours;
-    for (const SweepCount& count : count_tasks(plan, scratch.path())) hours.push_back(count.hours_left);
+    for (const SweepCount& count : count_tasks(plan, TaskStates(scratch.path()), false))
+      hours.push_back(count.hours_left);
     return hours;
   };
   ASSERT_TRUE(journal.add(RecordKind::done, plan.tasks()[0].name, R"({"seconds":3600})"));
@@ -514,99 +442,203 @@ TEST(Sweep, TellsTimesFromFigures) {
     EXPECT_FALSE(is_time(name)) << name;
 }
 
-TEST(Sweep, BatchesAreAtMostAThousand) {
+EngineRequest request_of(SweepEngine engine, std::size_t jobs = 1) {
   EngineRequest request;
-  request.tasks = 1'000'000;
-  for (const double hours : {0.001, 1.0, 30.0, 250.0, 5000.0}) {
-    request.hours = hours;
-    request.longest = 5;
-    const Batches batches = batches_of(request);
-    EXPECT_LE(batches.count, 1000U);
-    EXPECT_GE(batches.limit_minutes * 60.0, 2 * batches.seconds);
-    EXPECT_NEAR(static_cast<double>(batches.count) * batches.seconds, hours * 3600, 1e-6 * hours * 3600);
-    if (hours > 1 && hours < 300) {
-      EXPECT_GE(batches.seconds, 5 * 60);
-      EXPECT_LE(batches.seconds, 30 * 60);
-    }
-  }
-  request.tasks = 3;
-  EXPECT_EQ(batches_of(request).count, 3U);
-  EXPECT_THAT(engine_script(SweepEngine::slurm, request), HasSubstr("as an array of 3 batches of about"));
-  request.tasks = 1;
-  EXPECT_THAT(engine_script(SweepEngine::slurm, request), HasSubstr("as an array of 1 batch of about"));
+  request.engine = engine;
   request.program = "/a folder/kds";
   request.sweep = "/s'.json";
-  request.folder = "/50%a\n";
-  EXPECT_THAT(engine_script(SweepEngine::slurm, request), HasSubstr("--output='/50%%a\n/slurm-%A_%a.out'"));
-  EXPECT_THAT(engine_script(SweepEngine::snakemake, request), HasSubstr("-o '/50%a\\n' --jobs"));
-  for (const SweepEngine engine : {SweepEngine::slurm, SweepEngine::parallel, SweepEngine::snakemake})
-    EXPECT_THAT(engine_script(engine, request), HasSubstr("'/a folder/kds' sweep"));
+  request.folder = "/$HOME #1";
+  request.tasks = 2048;
+  request.batches = 100;
+  request.jobs = jobs;
+  return request;
+}
+
+TEST(Sweep, ScriptsQuoteNamesAndRefuseThoseThatTheyCannotQuote) {
+  for (const SweepEngine engine : {SweepEngine::slurm, SweepEngine::parallel, SweepEngine::snakemake}) {
+    EngineRequest request = request_of(engine);
+    EXPECT_THAT(engine_script(request),
+                HasSubstr("'/a folder/kds' sweep '/s'\\''.json' -o '/$HOME #1' --jobs"));
+    for (const char* folder : {"/a\\", "/a\nBATCH\n", "/50%a", "/a\r", "/\"", "/{x}", "/\x7f"}) {
+      request.folder = folder;
+      EXPECT_THROW(static_cast<void>(engine_script(request)), InputError) << folder;
+    }
+  }
 }
 
 // The default of a cluster may be too little memory for a task.
-TEST(Sweep, ScriptsAskForTheMemoryOfTheirTasks) {
-  EngineRequest request;
-  request.tasks = 5;
-  request.planned = 2048;  // 2 MiB of plan
-  request.jobs = 3;
-  EXPECT_THAT(engine_script(SweepEngine::slurm, request), Not(HasSubstr("--mem=")));
-  EXPECT_THAT(engine_script(SweepEngine::snakemake, request), Not(HasSubstr("mem_mb")));
-  request.task_memory = std::uint64_t{1} << 30U;
-  const std::string slurm = engine_script(SweepEngine::slurm, request);
-  EXPECT_THAT(slurm, HasSubstr("--cpus-per-task=3 --mem=3202M --time="));  // 3 * 1024 + 128 + 2
-  EXPECT_THAT(slurm, HasSubstr("--dependency=\"afterany:${array%%;*}\" --mem=3202M --time="));
-  EXPECT_THAT(engine_script(SweepEngine::snakemake, request), HasSubstr("    resources: mem_mb=3358\n"));
-  EXPECT_THAT(engine_script(SweepEngine::snakemake, request),
-              HasSubstr("+ 1))\n    resources: mem_mb=3358\n"));
-  EXPECT_THAT(engine_script(SweepEngine::parallel, request), Not(HasSubstr("--mem")));
+TEST(Sweep, ScriptsAskForTheTimeAndTheMemoryOfTheirTasks) {
+  EngineRequest slurm = request_of(SweepEngine::slurm, 3), snakemake = request_of(SweepEngine::snakemake, 3);
+  EXPECT_THAT(engine_script(slurm),
+              testing::AllOf(HasSubstr("--array=1-100 "), HasSubstr(" --time=62 "),
+                             HasSubstr(" --time-budget 3600\n"), Not(HasSubstr("--mem="))));
+  EXPECT_THAT(engine_script(snakemake), Not(HasSubstr("mem_mb")));
+  slurm.task_memory = snakemake.task_memory = std::uint64_t{1} << 30U;
+  EXPECT_THAT(engine_script(slurm),
+              HasSubstr("--cpus-per-task=3 --mem=3202M --time="));  // 3 * 1024 + 128 + 2
+  EXPECT_THAT(engine_script(slurm), HasSubstr("--dependency=\"afterany:${array%%;*}\" --mem=3202M --time="));
+  EXPECT_THAT(engine_script(snakemake), HasSubstr("    resources: mem_mb=3358\n    retries"));
+  EXPECT_THAT(engine_script(snakemake), HasSubstr("+ 1))\n    resources: mem_mb=3358\n"));
 }
 
 // Batches of several tasks at a time must not have more tasks than the machine has cores.
 TEST(Sweep, GnuParallelDividesTheCoresByTheJobsOfABatch) {
-  EngineRequest request;
-  request.tasks = 100;
-  EXPECT_THAT(engine_script(SweepEngine::parallel, request), HasSubstr(" --jobs 100% "));
-  request.jobs = 4;
-  EXPECT_THAT(engine_script(SweepEngine::parallel, request), HasSubstr(" --jobs 25% "));
-  request.jobs = 3;  // 33% of 6 cores is one batch, not two
-  EXPECT_THAT(engine_script(SweepEngine::parallel, request), HasSubstr(" --jobs 34% "));
-  request.jobs = 1000;
-  EXPECT_THAT(engine_script(SweepEngine::parallel, request), HasSubstr(" --jobs 1% "));
+  for (const auto& [jobs, percent] : std::map<std::size_t, std::string>{
+           {1, "100%"}, {4, "25%"}, {3, "34%"} /* 33% of 6 cores is one batch, not two */, {1000, "1%"}})
+    EXPECT_THAT(engine_script(request_of(SweepEngine::parallel, jobs)),
+                HasSubstr(" --jobs " + percent + " "));
 }
 
-TEST(Sweep, SaysThatABatchIsShorterThanItsTasksMayBe) {
-  const ScratchDirectory scratch;
-  scratch.file("a.xyz", chain(0.2));
-  scratch.file("s.json", R"({"inputs": ["a.xyz"], "commands": [{"command": "info"}]})");
-  EXPECT_THAT(run_sweep(scratch, {"--write", "slurm", "--task-seconds", "600"}),
-              HasSubstr("--task-seconds 600 is longer than a batch, which stops after 540 s"));
-  EXPECT_THAT(run_sweep(scratch, {"--write", "slurm", "--task-seconds", "500"}),
-              Not(HasSubstr("longer than a batch")));
-}
-
-TEST(Sweep, WritesNoScriptIfNoTaskIsLeft) {
+TEST(Sweep, WritesScriptsUnlessNoTaskIsLeft) {
   const ScratchDirectory scratch;
   scratch.file("a.xyz", chain(0.2));
   scratch.file("s.json",
                R"({"inputs": ["a.xyz"], "commands": [{"command": "info", "options": {"radius": [1, 2]}}]})");
-  EXPECT_THAT(run_sweep(scratch, {"--write", "slurm"}), HasSubstr("the script asks for no memory"));
-  static_cast<void>(run_sweep(scratch, {"--write", "slurm", "--task-memory", "256M", "--jobs", "2"}));
-  EXPECT_THAT(content_of(scratch / "out/slurm.sh"), HasSubstr(" --mem=641M "));
+  EXPECT_THAT(
+      run_sweep(scratch, {"--write", "slurm", "--task-seconds", "600", "--time-budget", "500"}),
+      testing::AllOf(HasSubstr("the script asks for no memory"),
+                     HasSubstr("--task-seconds 600 is longer than a batch, which stops after 500 s")));
+  EXPECT_THAT(content_of(scratch / "out/slurm.sh"), HasSubstr("--array=1-2 "));
+  const std::string asked =
+      run_sweep(scratch, {"--write", "slurm", "--task-memory", "256M", "--jobs", "2", "--batches", "7"});
+  EXPECT_THAT(asked, Not(testing::AnyOf(HasSubstr("longer than a batch"), HasSubstr("no memory"))));
+  EXPECT_THAT(content_of(scratch / "out/slurm.sh"),
+              testing::AllOf(HasSubstr(" --mem=641M "), HasSubstr("=1-7 ")));
+  EXPECT_TRUE(std::filesystem::is_empty(scratch / "out/results"));
   std::filesystem::remove(scratch / "out/slurm.sh");
   static_cast<void>(run_sweep(scratch));
-  const std::string all = run_sweep(scratch, {"--write", "slurm"});
-  EXPECT_THAT(all, testing::StartsWith(
-                       "all 2 tasks have results, so there is no script to write; kds sweep collect"));
-  EXPECT_EQ(std::ranges::count(all, '\n'), 1);
+  EXPECT_THAT(run_sweep(scratch, {"--write", "slurm"}),
+              HasSubstr("no task is left to run, so there is no script"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "out/slurm.sh"));
+}
 
-  scratch.file("s.json", R"({"inputs": ["a.xyz", "none.xyz"], "commands": ["info"]})");
-  static_cast<void>(run_sweep(scratch, {}, 1));
-  EXPECT_THAT(
-      run_sweep(scratch, {"--write", "parallel"}),
-      HasSubstr("no task is left to run, so there is no script to write: 1 of 2 tasks have results, 1 "
-                "failed, 0 crashed; kds sweep"));
-  EXPECT_FALSE(std::filesystem::exists(scratch / "out/parallel.sh"));
+// A task's warnings are kept with its result.
+TEST(Sweep, ListsTheWarningsOfTasks) {
+  const ScratchDirectory scratch;
+  scratch.file("cut.xyz", chain(0.2) + "12\nframe\nC 0 0 0\n");
+  scratch.file("whole.xyz", chain(0.2));
+  scratch.file("s.json", R"({"inputs": ["*.xyz"], "commands": [
+      {"command": "info", "options": {"until-damage": true}},
+      {"command": "contacts", "options": {"until-damage": true, "cutoff": [0.01, 5]}}]})");
+  EXPECT_THAT(run_sweep(scratch), HasSubstr("4 have warnings; kds sweep collect lists them"));
+  static_cast<void>(collected(scratch));
+  std::vector<std::string> lines = split(content_of(scratch / "out/warnings.csv"), '\n');
+  EXPECT_EQ(lines.front(), "task,command,input,warning,repeat");
+  const std::string damage = "cut.xyz: the file ends inside frame 5", none = "there are no contacts within";
+  EXPECT_THAT(lines, testing::ElementsAre(
+                         lines.front(), testing::AllOf(HasSubstr(",info,cut.xyz,"), HasSubstr(damage)),
+                         testing::AllOf(HasSubstr(",contacts,cut.xyz,"), HasSubstr(damage)), HasSubstr(none),
+                         testing::AllOf(HasSubstr(",contacts,cut.xyz,"), HasSubstr(damage)),
+                         testing::AllOf(HasSubstr(",contacts,whole.xyz,"), HasSubstr(none)), ""));
+  EXPECT_THAT(content_of(scratch / "out/report.html"), testing::AllOf(HasSubstr(damage), HasSubstr(none)));
+  EXPECT_THAT(run_program({"sweep", "status", scratch / "out"}).out,
+              testing::ContainsRegex("all +6 +6 +4 +0 +0 +0 "));
+}
+
+TEST(Sweep, CountsInputsOfEqualContentOnceInMeans) {
+  const ScratchDirectory scratch;
+  for (const char* name : {"a.xyz", "copy.xyz", "dup.xyz"}) scratch.file(name, chain(0.2));
+  scratch.file("e.xyz", chain(0.3));
+  const auto tasks_pooled = [&](const std::string& pool) {
+    scratch.file("s.json", R"({"inputs": ["*.xyz"], "pool": [)" + pool + R"(], "commands": [
+        {"command": "run", "options": {"structures": "power"}}]})");
+    EXPECT_THAT(run_sweep(scratch), testing::AllOf(HasSubstr("4 of 4 tasks have results"),
+                                                   HasSubstr("copy.xyz has the same content as"),
+                                                   HasSubstr("dup.xyz has the same content as")));
+    EXPECT_EQ(collected(scratch)["rows"].size(), 4U);
+    std::string tasks;
+    for (const std::string& line : split(content_of(scratch / "out/pooled.csv"), '\n'))
+      if (const std::size_t at = line.find(",events.total,"); at != std::string::npos) tasks += line[at + 14];
+    return tasks;
+  };
+  EXPECT_EQ(tasks_pooled(R"("input")"), "2");
+  EXPECT_EQ(tasks_pooled(""), "1111");  // each input has a mean of its own
+  EXPECT_EQ(records(scratch, "try"), 2U);
+}
+
+TEST(Sweep, NamesResultsOfOtherVersionsAndKeepsTheirTables) {
+  const ScratchDirectory scratch;
+  scratch.file("a.xyz", chain(0.2));
+  scratch.file("s.json", R"({"inputs": ["a.xyz"], "commands": ["info"]})");
+  static_cast<void>(run_sweep(scratch));
+  static_cast<void>(collected(scratch));
+  const std::string before = content_of(scratch / "out/results.csv");
+  for (const auto& file : std::filesystem::directory_iterator(scratch / "out/results"))
+    std::filesystem::remove(file.path());
+  JournalWriter other(scratch / "out/results", {7, "0.0.9+old"});
+  for (TaskName task = 1; task <= 32; ++task)
+    ASSERT_TRUE(other.add(RecordKind::done, task, R"({"result":{}})"));
+  const std::string line = "32 results belong to version 0.0.9+old";
+  expect_refused({"sweep", "collect", scratch / "out"},
+                 {"results.json has 1 tasks and would be replaced by 0 of 1", line});
+  EXPECT_EQ(content_of(scratch / "out/results.csv"), before);
+  EXPECT_THAT(run_program({"sweep", "status", scratch / "out"}).out, HasSubstr(line));
+  std::filesystem::remove(scratch / "out/results.json");
+  EXPECT_THAT(run_program({"sweep", "collect", scratch / "out"}).out, HasSubstr(line));
+  static_cast<void>(run_sweep(scratch));
+  static_cast<void>(collected(scratch));
+  EXPECT_EQ(content_of(scratch / "out/results.csv"), before);
+}
+
+// No process does what another is doing: of one shard, or of shards that have other numbers.
+TEST(Sweep, RefusesASecondProcessOfAShard) {
+  const ScratchDirectory scratch;
+  scratch.file("a.xyz", chain(0.2));
+  scratch.file("s.json",
+               R"({"inputs": ["a.xyz"], "commands": [{"command": "info", "options": {"radius": [1, 2]}}]})");
+  std::filesystem::create_directories(scratch / "out/results");
+  const auto beside = [&](const Shard& runs, const std::string& shard) {
+    const ShardLock lock(scratch / "out", runs);
+    EXPECT_TRUE(lock.holds());
+    const ProgramRun run =
+        run_program({"sweep", scratch / "s.json", "-o", scratch / "out", "--shard", shard});
+    EXPECT_EQ(std::ranges::count(run.err, '\n'), run.code == 75 ? 1 : 0) << run.err;
+    return std::pair(run.code, run.err);
+  };
+  EXPECT_THAT(beside({1, 1}, "1/1"), testing::Pair(75, HasSubstr("a sweep runs in this folder already")));
+  EXPECT_THAT(beside({2, 3}, "2/3"), testing::Pair(75, HasSubstr("shard 2/3 runs in this folder already")));
+  EXPECT_THAT(beside({2, 3}, "1/1"), testing::Pair(75, HasSubstr("another number of shards runs")));
+  EXPECT_THAT(beside({1, 1}, "1/2"), testing::Pair(75, HasSubstr("another number of shards runs")));
+  EXPECT_EQ(std::ranges::distance(std::filesystem::directory_iterator(scratch / "out/results")), 0);
+  EXPECT_EQ(beside({2, 2}, "1/2").first, 0);
+  EXPECT_EQ(records(scratch, "done"), 1U);
+}
+
+// An engine tries again what ends with code 75.
+TEST(Sweep, EndsWithCode75IfNoTaskCanStart) {
+  const ScratchDirectory scratch;
+  scratch.file("a.xyz", chain(0.2));
+  scratch.file("s.json", R"({"inputs": ["a.xyz"], "commands": ["info"]})");
+  const ProgramRun run = run_shell("ulimit -n 6; $0 sweep $1 -o $2", {scratch / "s.json", scratch / "out"});
+  EXPECT_EQ(run.code, 75) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("no task can start"));
+  static_cast<void>(run_sweep(scratch));
+  EXPECT_EQ(records(scratch, "drop"), 1U);
+}
+
+// All results of a sweep need not fit in memory.
+TEST(Sweep, CollectsInMemoryThatResultsDoNotFill) {
+  const auto kilobytes = [](std::size_t count) {
+    const ScratchDirectory scratch;
+    std::string radii = "1";
+    for (std::size_t k = 2; k <= count; ++k) radii += ',' + std::to_string(k);
+    const std::string text =
+        R"({"inputs": ["a.xyz"], "commands": [{"command": "run", "options": {"radius": [)" + radii + "]}}]}";
+    scratch.file("a.xyz", chain(0.2));
+    const Planned sweep(text, scratch.path());
+    keep_plan(scratch / "out", read_json(text, "s.json"), scratch.path(), sweep.files);
+    JournalWriter journal(results_folder(scratch / "out"));
+    std::string fields;
+    for (int k = 0; k < 100; ++k) fields += fmt::format(R"("field{}":{},)", k, k);
+    for (const SweepTask& task : sweep.plan.tasks())
+      EXPECT_TRUE(
+          journal.add(RecordKind::done, task.name, R"({"seconds":1,"result":{)" + fields + R"("x":1}})"));
+    const ProgramRun run = run_program({"sweep", "collect", scratch / "out"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.peak_kilobytes;
+  };
+  const long few = kilobytes(100), many = kilobytes(4100);
+  EXPECT_LT(many - few, 8000) << few;  // 2 kB a result; its rows alone would take 16
 }
 
 }  // namespace

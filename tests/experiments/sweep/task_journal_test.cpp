@@ -11,8 +11,6 @@
 #include <fstream>
 #include <string>
 
-#include "experiments/sweep/run_sweep.h"
-#include "experiments/sweep/task_launcher.h"
 #include "experiments/sweep/task_process.h"
 #include "tests/experiments/scratch_directory.h"
 
@@ -21,11 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TaskStatus status_in(const fs::path& folder, TaskName task) {
-  TaskStates states(folder);
-  states.refresh();
-  return status_of(states.of(task));
-}
+TaskStatus status_in(const fs::path& folder, TaskName task) { return TaskStates(folder).of(task).status(); }
 
 fs::path only_file(const ScratchDirectory& scratch) { return fs::directory_iterator(scratch.path())->path(); }
 
@@ -52,16 +46,12 @@ TEST(TaskJournal, CountsAttemptsAndResults) {
   EXPECT_EQ(status_in(scratch.path(), 3), TaskStatus::failed);
 
   TaskStates states(scratch.path());
-  states.refresh();
   states.forgive();
-  EXPECT_EQ(status_of(states.of(3)), TaskStatus::open);
-  EXPECT_EQ(status_of(states.of(1)), TaskStatus::done);
-  journal.complete();
-  EXPECT_EQ(only_file(scratch).extension(), ".results");
-  states.refresh();  // the renamed journal is not read twice
-  EXPECT_EQ(status_of(states.of(3)), TaskStatus::open);
-  EXPECT_EQ(states.read(states.of(1).done), R"({"result":{"a":1}})");
+  EXPECT_EQ(states.of(3).status(), TaskStatus::open);
+  EXPECT_EQ(states.of(1).status(), TaskStatus::done);
+  EXPECT_EQ(line_of(states.read(states.of(1).place)), R"({"result":{"a":1}})");
   EXPECT_EQ(states.damaged(), 0U);
+  EXPECT_TRUE(states.of_other_versions().empty());
 }
 
 // However many bytes of a journal survive, the records that are whole count and no others.
@@ -78,7 +68,7 @@ TEST(TaskJournal, CutOffAtEachByteKeepsWholeRecords) {
   const std::string whole = content_of(only_file(scratch));
   fs::create_directory(cut);
   for (std::size_t size = 0; size <= whole.size(); ++size) {
-    scratch.file("cut/cut.part", whole.substr(0, size));
+    scratch.file("cut/cut.results", whole.substr(0, size));
     for (TaskName task = 1; task <= 4; ++task)
       EXPECT_EQ(status_in(cut, task) == TaskStatus::done, ends[task - 1] <= size) << size;
   }
@@ -88,12 +78,14 @@ TEST(TaskJournal, ChangedByteMakesARecordVoid) {
   const ScratchDirectory scratch;
   const fs::path changed = scratch / "changed";
   JournalWriter journal(scratch.path());
+  ASSERT_TRUE(journal.add(RecordKind::attempt, 1));
+  const std::size_t begin = fs::file_size(only_file(scratch));
   ASSERT_TRUE(journal.add(RecordKind::done, 1, R"({"result":{"x":1}})"));
   const std::size_t first = fs::file_size(only_file(scratch));
   ASSERT_TRUE(journal.add(RecordKind::done, 2, R"({"result":{"x":2}})"));
   const std::string whole = content_of(only_file(scratch));
   fs::create_directory(changed);
-  for (std::size_t byte = 0; byte + 1 < first; ++byte) {
+  for (std::size_t byte = begin; byte + 1 < first; ++byte) {
     std::string text = whole;
     text[byte] ^= 1;
     scratch.file("changed/changed.results", text);
@@ -102,41 +94,11 @@ TEST(TaskJournal, ChangedByteMakesARecordVoid) {
   }
 }
 
-TEST(TaskJournal, FollowsAJournalThatGrows) {
-  const ScratchDirectory scratch;
-  TaskStates states(scratch.path());
-  JournalWriter journal(scratch.path());
-  for (TaskName task = 0; task < 100; ++task) {
-    ASSERT_TRUE(journal.add(RecordKind::done, task, "{}"));
-    if (task == 50) journal.complete();  // the next record begins another journal
-    states.refresh();
-    EXPECT_TRUE(states.of(task).is_done());
-    EXPECT_FALSE(states.of(task + 1).is_done());
-  }
-  EXPECT_EQ(scratch.entries(), 2U);
-}
-
-// A lock is seen by another process, and is gone once its owner has ended.
-TEST(TaskLocks, HoldBetweenProcesses) {
-  const ScratchDirectory scratch;
-  TaskLocks locks(scratch / "locks");
-  ASSERT_TRUE(locks.take(5));
-  const auto elsewhere = [&](TaskName task) {
-    TaskProcess other([&] { return TaskLocks(scratch / "locks").take(task) ? 0 : 3; }, {});
-    return other.wait().code;
-  };
-  EXPECT_EQ(elsewhere(5), 3);
-  EXPECT_EQ(elsewhere(std::uint64_t{1} << 63U), 0);
-  EXPECT_EQ(elsewhere(std::uint64_t{1} << 63U), 0);
-  locks.release(5);
-  EXPECT_EQ(elsewhere(5), 0);
-}
-
 TEST(TaskProcess, ReportsHowWorkEnds) {
   const auto run = [](const std::function<int()>& work, const TaskLimits& limits = {}) {
     TaskProcess process(work, limits);
     const TaskProcess::End end = process.wait();
-    return std::tuple(end.code, end.signal, process.output().out(), process.output().err());
+    return std::tuple(end.code, end.signal, process.out(), process.err());
   };
   EXPECT_EQ(run([] { return std::fputs("out", stdout), std::fputs("err", stderr), 7; }),
             std::tuple(7, 0, "out", "err"));
@@ -154,26 +116,6 @@ TEST(TaskProcess, ReportsHowWorkEnds) {
   };
   EXPECT_EQ(std::get<0>(run(fill, {.memory = std::uint64_t{200} << 20U})), 4);
 #endif
-}
-
-TEST(TaskLauncher, StartsAndEndsTasks) {
-  StopSignals signals;
-  TaskLauncher launcher;
-  const TaskOutput missing, endless;
-  launcher.start(1, {"info", "missing.pdb"}, {}, missing);
-  launcher.start(2, {"stability", "--cases", "1000000", "--quiet"}, {}, endless);
-  std::vector<TaskLauncher::Ended> ended;
-  for (int waits = 0; waits < 600 && ended.size() < 2; ++waits) {
-    signals.wait(0.1);
-    for (const TaskLauncher::Ended& one : launcher.ended()) {
-      ended.push_back(one);
-      launcher.kill(2);
-    }
-  }
-  ASSERT_EQ(ended.size(), 2U);
-  EXPECT_EQ(std::tuple(ended[0].id, ended[0].end.code, ended[0].end.signal), std::tuple(1U, 2, 0));
-  EXPECT_EQ(missing.err(), "kds: missing.pdb: no such file\n");
-  EXPECT_EQ(std::tuple(ended[1].id, ended[1].end.signal), std::tuple(2U, SIGKILL));
 }
 
 }  // namespace
