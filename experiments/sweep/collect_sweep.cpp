@@ -191,8 +191,8 @@ CollectedSweep collect_sweep(const SweepPlan& plan, const TaskStates& states, co
   WideTable results(columns), times({"task", "row"});
 
   AtomicFiles out;
-  Listing<PooledRow> means(pooled_table({group_names.begin() + 1, group_names.end()}),
-                           out.open(folder / "pooled.csv"));
+  Listing<MeanOfTasks> means(pooled_table({group_names.begin() + 1, group_names.end()}),
+                             out.open(folder / "pooled.csv"));
   const auto tasks = tasks_by_group(plan, states, group_names);
   PooledGroup group;
   for (std::size_t k = 0; k < tasks.size(); ++k) {

@@ -47,8 +47,8 @@ void PooledGroup::add(const SweepTask& task, const std::vector<ResultRow>& rows,
   }
 }
 
-Table<PooledRow> pooled_table(const std::vector<std::string>& axes) {
-  using R = PooledRow;
+Table<MeanOfTasks> pooled_table(const std::vector<std::string>& axes) {
+  using R = MeanOfTasks;
   const auto end_of = [](double MeanInterval::*end) {
     return [end](const R& r) {
       const auto interval = r.figure.interval();

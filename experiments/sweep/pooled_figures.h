@@ -51,11 +51,11 @@ class PooledGroup {
 };
 
 /// A figure with the names of its group.
-struct PooledRow {
+struct MeanOfTasks {
   std::vector<std::string> group;  ///< the command, and the texts of the axes that are not pooled
   PooledFigure figure;
 };
 /// Returns the table of figures with these axes.
-[[nodiscard]] Table<PooledRow> pooled_table(const std::vector<std::string>& axes);
+[[nodiscard]] Table<MeanOfTasks> pooled_table(const std::vector<std::string>& axes);
 
 }  // namespace kds

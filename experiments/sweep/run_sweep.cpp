@@ -113,8 +113,8 @@ class SweepRun {
   JournalWriter journal_;
   double grace_;                           ///< seconds in which running tasks may end once the sweep stops
   std::optional<Clock::time_point> stop_;  ///< when the sweep began to stop
-  std::vector<const SweepTask*> shard_;    ///< all tasks of the shard, without copies if there are other shards
-  std::deque<const SweepTask*> open_;      ///< tasks without a result
+  std::vector<const SweepTask*> shard_;  ///< all tasks of the shard, without copies if there are other shards
+  std::deque<const SweepTask*> open_;    ///< tasks without a result
   std::list<RunningTask> running_;
   bool crowded_ = false;           ///< the system has no more processes until a task ends
   std::set<std::string> changed_;  ///< files, each of which was named in a warning
@@ -137,7 +137,7 @@ void SweepRun::list_open_tasks() {
 // A record without room leaves its task open, and so do the tasks that run, if records of a few bytes have
 // room.
 void SweepRun::record(RecordKind kind, const SweepTask& task, const std::string& json) {
-  if (journal_.add(kind, task.name, json)) return states_.count(kind, task.name);
+  if (journal_.add(kind, task.name, json)) return states_.count(kind, task.name, json);
   for (const RunningTask& running : running_)
     static_cast<void>(journal_.add(RecordKind::drop, running.task.name));
   throw OutputError(fmt::format(
@@ -193,7 +193,7 @@ void SweepRun::settle(const RunningTask& ended, const TaskProcess::End& end) {
   };
   crowded_ = false;
   if (has_changed_files(task)) return record(RecordKind::drop, task);
-  if (ended.killed)
+  if (ended.killed && end.signal != 0)
     return fail(1,
                 fmt::format("takes more than {} s (--task-seconds)", short_decimal(*options_.task_seconds)));
   if (end.signal != 0) {

@@ -68,24 +68,23 @@ void TaskStates::take(std::string_view line, std::uint64_t offset) {
     return;
   }
   const auto journal = static_cast<std::uint32_t>(journals_.size() - 1);
-  count(record, *name, {journal, static_cast<std::uint32_t>(text.size()), offset + json});
-  TaskState& task = tasks_[*name];
-  const bool first = task.place.journal == journal && task.place.offset == offset + json;
-  if (record != RecordKind::done || !first) return;
-  constexpr std::size_t times = 100;  // warnings follow two times
-  task.warned = text.substr(0, times).find(R"("warnings":)") != std::string_view::npos;
-  if (text.starts_with(kSeconds)) task.seconds = std::strtof(text.data() + kSeconds.size(), nullptr);
+  count(record, *name, text, {journal, static_cast<std::uint32_t>(text.size()), offset + json});
 }
 
-void TaskStates::count(RecordKind kind, TaskName name, const RecordPlace& place) {
+void TaskStates::count(RecordKind kind, TaskName name, std::string_view json, const RecordPlace& place) {
   TaskState& task = tasks_[name];
   task.attempts += kind == RecordKind::attempt ? 1U : 0U;
   task.died += kind == RecordKind::died ? 1U : 0U;
   if (kind == RecordKind::drop || kind == RecordKind::fail || kind == RecordKind::done) ++task.closed;
   if (kind < RecordKind::died || task.settled == TaskStatus::done) return;
-  if (kind != RecordKind::died)
-    task.settled = kind == RecordKind::done ? TaskStatus::done : TaskStatus::failed;
   task.place = place;
+  if (kind == RecordKind::fail) task.settled = TaskStatus::failed;
+  if (kind != RecordKind::done) return;
+  task.settled = TaskStatus::done;
+  constexpr std::size_t times = 100;  // warnings follow two times
+  task.warned = json.substr(0, times).find(R"("warnings":)") != std::string_view::npos;
+  if (json.starts_with(kSeconds))
+    task.seconds = std::strtof(std::string(json.substr(kSeconds.size(), times)).c_str(), nullptr);
 }
 
 const TaskState& TaskStates::of(TaskName task) const {

@@ -72,7 +72,7 @@ class TaskStates {
 
   [[nodiscard]] const TaskState& of(TaskName task) const;
   /// Counts a record that this process has written.
-  void count(RecordKind kind, TaskName task, const RecordPlace& place = {});
+  void count(RecordKind kind, TaskName task, std::string_view json, const RecordPlace& place = {});
   /// Forgets failures and lost attempts of all tasks.
   void forgive();
   /// Returns the JSON of a record. Throws OutputError if the journal is gone.
