@@ -48,8 +48,8 @@ TEST(Stopwatch, ChargesEachMomentToOneLane) {
   EXPECT_EQ(watch.seconds(1), 0);
 }
 
-// Work of 3 ns is called until 256 calls take longer than a hundred readings, 700 ns. No figure contains the
-// time of a reading.
+// Work of 3 ns is called until 256 calls take longer than a hundred readings, 700 ns, and again 256 times. No
+// figure contains the time of a reading.
 TEST(Stopwatch, LeavesOutItsReadings) {
   EXPECT_EQ(nanoseconds_of_reading<SlowClock>(), 7);
   std::size_t calls = 0;
@@ -60,7 +60,10 @@ TEST(Stopwatch, LeavesOutItsReadings) {
   EXPECT_DOUBLE_EQ(seconds_of<SlowClock>(work), 3e-9);
   calls = 0;
   EXPECT_DOUBLE_EQ(seconds_per_call<SlowClock>(work), 3e-9);
-  EXPECT_EQ(calls, 1U + 2 + 4 + 8 + 16 + 32 + 64 + 128 + 256);
+  EXPECT_EQ(calls, 1U + 2 + 4 + 8 + 16 + 32 + 64 + 128 + 256 + 256);
+  calls = 0;
+  const auto pauses_once = [&] { SlowClock::now += ++calls == 3 ? 5000 : 3; };
+  EXPECT_DOUBLE_EQ(seconds_per_call<SlowClock>(pauses_once), 3e-9);
   EXPECT_DOUBLE_EQ(seconds_per_call<SlowClock>([] { SlowClock::now += 700; }), 700e-9);
   EXPECT_DOUBLE_EQ(seconds_of<SlowClock>([] {}), 1e-9);  // the least that it returns
   StopwatchOf<SlowClock> watch;
