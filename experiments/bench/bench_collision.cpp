@@ -313,10 +313,14 @@ void bench_far(std::size_t beads, std::size_t rounds, std::vector<BenchRow>& row
     for (const Balls<3>& balls : std::span(frames).first(4))
       if (!detector.pairs(balls).empty() || !knows.pairs(balls).empty())
         throw std::logic_error("kds bench collision: far necklaces meet");
+    // All frames take less than a reading of the clock. Going back and forth keeps within the declared speed.
     const auto seconds = [&](const auto& look) {
-      return processor_seconds_of([&] {
-        for (const Balls<3>& balls : std::span(frames).subspan(4)) look(balls);
-      });
+      const auto later = std::span(frames).subspan(4);
+      return processor_seconds_per_call([&] {
+               for (const Balls<3>& balls : later) look(balls);
+               for (std::size_t k = later.size(); k-- > 0;) look(later[k]);
+             }) /
+             2;
     };
     ours.push_back(seconds([&](const Balls<3>& balls) { (void)detector.pairs(balls); }));
     told.push_back(seconds([&](const Balls<3>& balls) { (void)knows.pairs(balls); }));
