@@ -9,6 +9,7 @@
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
 #include "motions/numbers/exact_number.h"
+#include "motions/scene/length_unit.h"
 
 namespace kds {
 
@@ -82,6 +83,7 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
   const std::vector<NecklaceBeads>& necklaces = frames.necklaces();
   FrameSurvey survey;
   PlaneSearch planes;
+  std::string doubt;  // about the first necklace whose unit is doubtful
   for (FrameRead frame; frames.next(frame); ++survey.frame_count) {
     if (survey.frame_count == 0) {
       survey.first = frame.stamp;
@@ -93,11 +95,16 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
     for (const NecklaceBeads& necklace : necklaces) {
       const auto beads = static_cast<Eigen::Index>(necklace.count);
       if (with_bonds) survey.bonds.add(frame.positions.middleCols(begin, beads), necklace.breaks);
+      if (survey.frame_count == 0 && warn && doubt.empty()) {
+        doubt = nanometres_doubt(frame.positions.middleCols(begin, beads), necklace.breaks);
+        if (!doubt.empty()) doubt = fmt::format("{}: {}", necklace.file, doubt);
+      }
       begin += beads;
     }
   }
   survey.truncated = frames.is_truncated();
   survey.plane = planes.plane();
+  if (!doubt.empty()) warn(doubt);
   if (warn)
     for (const std::string& line : frames.warnings()) warn(line);
   frames.seek(0);
