@@ -3,10 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <span>
+#include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "motions/base/input_error.h"
@@ -30,6 +35,14 @@ struct MemoryNumbers {
       return nanometres ? angstrom_of_nanometres(double{singles[i]}) : double{singles[i]};
     return nanometres ? 10 * doubles[i] : doubles[i];
   }
+  /// Returns a hash of `count` numbers, which is not 0.
+  [[nodiscard]] std::size_t hash(std::size_t first, std::size_t count) const {
+    const void* const bytes =
+        singles != nullptr ? static_cast<const void*>(singles + first) : doubles + first;
+    const std::size_t size = count * (singles != nullptr ? sizeof(float) : sizeof(double));
+    const std::size_t hash = std::hash<std::string_view>()({static_cast<const char*>(bytes), size});
+    return hash == 0 ? 1 : hash;
+  }
 };
 
 struct FramesInMemory::Content {
@@ -38,6 +51,11 @@ struct FramesInMemory::Content {
   MemoryNumbers numbers;  // of all frames; unused if `frame` is set
   py::object owner;       // of `numbers`
   py::object frame;       // or a function that returns one frame
+  /// The hash of each frame when it was read first, 0 before.
+  std::unique_ptr<std::atomic<std::size_t>[]> hashes;
+  /// A frame whose hash has changed, or -1. From then on no frame is read, because a reader that has failed
+  /// does not repeat its frame.
+  mutable std::atomic<std::size_t> changed = std::numeric_limits<std::size_t>::max();
 
   ~Content() {
     const py::gil_scoped_acquire gil;
@@ -48,20 +66,14 @@ struct FramesInMemory::Content {
 
 namespace {
 
-// Returns the array's numbers.
-MemoryNumbers numbers_of(const py::array& array, const std::string& label) {
-  if ((array.flags() & py::array::c_style) == 0)
-    throw InputError(fmt::format(
-        "{}: its numbers are not in C order; expected numpy.ascontiguousarray(positions)", label));
-  if ((array.flags() & py::detail::npy_api::NPY_ARRAY_ALIGNED_) == 0)
-    throw InputError(label + ": its numbers are not aligned in memory; expected positions.copy()");
-  const py::dtype type = array.dtype();
-  if (type.is(py::dtype::of<float>()) || type.equal(py::dtype::of<float>()))
-    return {static_cast<const float*>(array.data()), nullptr};
-  if (type.equal(py::dtype::of<double>())) return {nullptr, static_cast<const double*>(array.data())};
-  throw InputError(
-      fmt::format("{}: has the dtype {}; expected float32 or float64, as positions.astype(float)", label,
-                  std::string(py::str(py::handle(type)))));
+// Returns the array's numbers. The package has copied all arrays that are laid out differently.
+MemoryNumbers numbers_of(const py::array& array) {
+  constexpr int plain = int{py::array::c_style} | int{py::detail::npy_api::NPY_ARRAY_ALIGNED_};
+  const bool singles = array.dtype().equal(py::dtype::of<float>());
+  if ((array.flags() & plain) != plain || (!singles && !array.dtype().equal(py::dtype::of<double>())))
+    throw std::logic_error("positions: expected float32 or float64, aligned and in C order");
+  if (singles) return {static_cast<const float*>(array.data()), nullptr};
+  return {nullptr, static_cast<const double*>(array.data())};
 }
 
 std::string shape_text(const py::array& array) { return py::str(array.attr("shape")); }
@@ -91,7 +103,7 @@ class AtomsInMemory final : public AtomFrames {
     if (!beads.times.empty()) frame.stamp.picoseconds = beads.times[k];
     if (!beads.cells.empty())
       frame.cell = cell_of(std::span(beads.cells).subspan(6 * k, 6), frame.cell_doubt);
-    copy(content_->numbers, 3 * k * content_->bead_count, atoms, frame);
+    copy(content_->numbers, k, 3 * k * content_->bead_count, atoms, frame);
   }
   [[nodiscard]] std::vector<double> element_radii(std::vector<std::string>&) const override {
     if (!content_->beads.radii.empty()) return content_->beads.radii;
@@ -107,8 +119,18 @@ class AtomsInMemory final : public AtomFrames {
   }
 
  private:
-  void copy(const MemoryNumbers& numbers, std::size_t first, std::span<const std::size_t> atoms,
-            FrameRead& frame) const {
+  // Copies frame k, whose numbers begin at `first`. Refuses a frame that has changed since it was read first,
+  // because later results would belong to other positions than earlier ones.
+  void copy(const MemoryNumbers& numbers, std::size_t k, std::size_t first,
+            std::span<const std::size_t> atoms, FrameRead& frame) const {
+    const std::size_t hash = numbers.hash(first, 3 * content_->bead_count);
+    std::size_t before = 0;
+    if (!content_->hashes[k].compare_exchange_strong(before, hash) && before != hash) content_->changed = k;
+    if (const std::size_t changed = content_->changed; changed < content_->frame_count)
+      throw InputError(fmt::format(
+          "{}: frame {}: the input has changed since it was read first; expected the same positions, such as "
+          "those of a copy",
+          content_->beads.label, content_->beads.first_frame + content_->beads.frame_step * changed));
     const bool nanometres = content_->beads.nanometres;
     for (std::size_t i = 0; i < atoms.size(); ++i)
       for (std::size_t axis = 0; axis < 3; ++axis)
@@ -133,7 +155,7 @@ class AtomsInMemory final : public AtomFrames {
                                      label, cell.size()));
       frame.cell = cell_of(cell, frame.cell_doubt);
     }
-    copy(numbers_of(positions, label), 0, atoms, frame);
+    copy(numbers_of(positions), k, 0, atoms, frame);
   }
 
   std::shared_ptr<const FramesInMemory::Content> content_;
@@ -196,13 +218,12 @@ FramesInMemory::FramesInMemory(const py::array& positions, BeadsInMemory beads) 
                                      ? ", where points in a plane have 0 as the third coordinate"
                                      : ""));
   auto content = std::make_shared<Content>();
-  content->numbers = numbers_of(positions, label);
+  content->numbers = numbers_of(positions);
   content->owner = positions;
   content->frame_count = static_cast<std::size_t>(positions.shape(0));
   content->bead_count = static_cast<std::size_t>(positions.shape(1));
   content->beads = std::move(beads);
-  content_ = std::move(content);
-  enter();
+  enter(std::move(content));
 }
 
 FramesInMemory::FramesInMemory(py::function frame, std::size_t frames, std::size_t bead_count,
@@ -212,11 +233,12 @@ FramesInMemory::FramesInMemory(py::function frame, std::size_t frames, std::size
   content->frame_count = frames;
   content->bead_count = bead_count;
   content->beads = std::move(beads);
-  content_ = std::move(content);
-  enter();
+  enter(std::move(content));
 }
 
-void FramesInMemory::enter() {
+void FramesInMemory::enter(std::shared_ptr<Content> content) {
+  content->hashes = std::make_unique<std::atomic<std::size_t>[]>(content->frame_count);
+  content_ = std::move(content);
   const std::string& label = content_->beads.label;
   const auto check = [&](std::size_t length, std::size_t expected, const char* what, const char* of) {
     if (length != 0 && length != expected)

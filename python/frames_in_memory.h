@@ -36,7 +36,8 @@ struct BeadsInMemory {
 /// Registers frames for as long as the object lives. May be destroyed with or without the GIL.
 class FramesInMemory {
  public:
-  /// Reads an array of the shape (frames, beads, 3) without copying it: C-contiguous, float32 or float64.
+  /// Reads an array of the shape (frames, beads, 3) without copying it: C-contiguous, aligned, float32 or
+  /// float64. Reading throws InputError once a frame is read again and its numbers have changed.
   FramesInMemory(const pybind11::array& positions, BeadsInMemory beads);
   /// Reads frame k by calling `frame(k)`. The function returns the positions, an array (beads, 3) of float32
   /// or float64, the time in picoseconds or None, and the cell as six numbers or None.
@@ -52,7 +53,7 @@ class FramesInMemory {
   struct Content;
 
  private:
-  void enter();
+  void enter(std::shared_ptr<Content> content);
 
   std::shared_ptr<const Content> content_;
   std::filesystem::path path_;

@@ -5,20 +5,35 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <exception>
+#include <functional>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
+#include <vector>
 
+#include "experiments/collide/collide_command.h"
+#include "experiments/compare/compare_command.h"
+#include "experiments/contacts/contacts_command.h"
 #include "experiments/output/result_json.h"
 #include "experiments/program/input_options.h"
+#include "experiments/program/option_values.h"
 #include "experiments/run/run_options.h"
+#include "experiments/scenes/generate_command.h"
+#include "experiments/scenes/info_command.h"
+#include "experiments/trade/trade_command.h"
+#include "experiments/update/update_command.h"
 #include "kds/kinetic_structure.h"
 #include "motions/base/input_error.h"
 #include "motions/readers/bead_name.h"
+#include "motions/scene/length_unit.h"
 #include "python/analyses.h"
 #include "python/frames_in_memory.h"
 #include "python/run_handle.h"
@@ -34,6 +49,14 @@ using kds::python::FramesInMemory;
 using kds::python::RunHandle;
 using kds::python::Watch;
 
+/// Phrases of the program that begin a word, and what Python says.
+constexpr std::array<std::array<std::string_view, 2>, 4> phrases{{
+    {"--frames FIRST:LAST:STRIDE with a stride", "step"},
+    {"--frames", "start, stop, step"},
+    {"coordinates in angstrom", "units='nm' for an array, or coordinates in angstrom"},
+    {"kds info", "kds.conditions"},
+}};
+
 /// Returns a sentence of the program in words of Python: an option becomes the argument of the same name, and
 /// a command the function.
 std::string in_python(std::string_view sentence) {
@@ -43,20 +66,19 @@ std::string in_python(std::string_view sentence) {
     const bool starts_word =
         i == 0 || std::string_view(" (,;'").find(sentence[i - 1]) != std::string_view::npos;
     const std::string_view rest = sentence.substr(i);
-    constexpr std::string_view stride = "--frames FIRST:LAST:STRIDE with a stride";
-    if (starts_word && rest.starts_with(stride)) {
-      text += "step";
-      i += stride.size() - 1;
-    } else if (starts_word && rest.starts_with("--frames")) {
-      text += "start, stop, step";
-      i += 7;
+    const auto* const phrase = std::find_if(phrases.begin(), phrases.end(), [&](const auto& known) {
+      return starts_word && rest.starts_with(known[0]);
+    });
+    if (phrase != phrases.end()) {
+      text += (*phrase)[1];
+      i += (*phrase)[0].size() - 1;
     } else if (starts_word && rest.size() > 2 && rest.starts_with("--") && std::isalpha(rest[2]) != 0) {
       for (i += 2; i < sentence.size() && (std::isalnum(sentence[i]) != 0 || sentence[i] == '-'); ++i)
         text += sentence[i] == '-' ? '_' : sentence[i];
       --i;
-    } else if (starts_word && rest.starts_with("kds ") && rest.size() > 4 && std::islower(rest[4]) != 0) {
-      text += rest.starts_with("kds info") ? "kds.conditions" : "kds.";
-      i += rest.starts_with("kds info") ? 7 : 3;
+    } else if (starts_word && rest.size() > 4 && rest.starts_with("kds ") && std::islower(rest[4]) != 0) {
+      text += "kds.";
+      i += 3;
     } else {
       text += sentence[i];
     }
@@ -83,25 +105,29 @@ void translate_exceptions(py::module_& module) {
   });
 }
 
-/// Returns whether the option says how a run is made, rather than where its results go.
-bool is_argument(const kds::Option<kds::RunOptions>& option) {
-  return option.text || option.spec.name == "--work" || option.spec.name == "--threads";
-}
-
-/// Returns the options of `kds run` as pairs of argument and help.
-std::vector<std::pair<std::string, std::string>> run_arguments() {
-  std::vector<std::pair<std::string, std::string>> all;
-  for (const auto& option : kds::run_options().all())
-    if (is_argument(option)) all.emplace_back(in_python(option.spec.name), in_python(option.spec.help));
+/// Returns the options of a command of the program, as its help lists them: name, help, whether it is a flag.
+std::vector<std::tuple<std::string, std::string, bool>> options_of(const std::string& command) {
+  using Parse = void (*)(const kds::Arguments&);
+  static const std::map<std::string, Parse, std::less<>> parsers{
+      {"run", [](const kds::Arguments& given) { static_cast<void>(kds::parse_run_options(given)); }},
+      {"contacts",
+       [](const kds::Arguments& given) { static_cast<void>(kds::parse_contacts_options(given)); }},
+      {"compare", [](const kds::Arguments& given) { static_cast<void>(kds::parse_compare_options(given)); }},
+      {"update", [](const kds::Arguments& given) { static_cast<void>(kds::parse_update_options(given)); }},
+      {"collide", [](const kds::Arguments& given) { static_cast<void>(kds::parse_collide_options(given)); }},
+      {"trade", [](const kds::Arguments& given) { static_cast<void>(kds::measure_trade_of(given, {}, {})); }},
+      {"info", [](const kds::Arguments& given) { static_cast<void>(kds::parse_info_options(given)); }},
+      {"generate",
+       [](const kds::Arguments& given) { static_cast<void>(kds::parse_generate_options(given)); }},
+  };
+  std::vector<std::tuple<std::string, std::string, bool>> all;
+  try {
+    parsers.at(command)({"--help"});
+  } catch (const kds::HelpRequest& help) {
+    for (const kds::OptionSpec& option : help.options)
+      all.emplace_back(in_python(option.name), in_python(option.help), option.value.empty());
+  }
   return all;
-}
-
-/// Returns the arguments of `kds run` that say where results go.
-std::vector<std::string> run_outputs() {
-  std::vector<std::string> names;
-  for (const auto& option : kds::run_options().all())
-    if (!is_argument(option)) names.push_back(in_python(option.spec.name));
-  return names;
 }
 
 std::vector<std::string> structure_names() {
@@ -192,6 +218,7 @@ void bind_run(py::module_& module) {
       .def("stamp", &RunHandle::stamp)
       .def("stamps", &RunHandle::stamps)
       .def("bead_names", &RunHandle::bead_names)
+      .def_property_readonly("apart", &RunHandle::apart)
       .def_property_readonly("radii", [](const RunHandle& run) { return run.scene().radii(); })
       .def_property_readonly("bead_count", [](const RunHandle& run) { return run.scene().bead_count(); })
       .def_property_readonly("frame_count", [](const RunHandle& run) { return run.scene().frame_count(); })
@@ -217,8 +244,14 @@ PYBIND11_MODULE(_kds, module) {
         kds::BeadName{std::move(atom), std::move(residue), std::move(number), std::move(chain)});
   });
   module.def("in_python", [](const std::string& sentence) { return in_python(sentence); });
-  module.def("run_arguments", run_arguments);
-  module.def("run_outputs", run_outputs);
+  module.def("nanometres_doubt", [](const kds::python::Numbers& chain) {  // beads in rows
+    return in_python(
+        kds::nanometres_doubt(Eigen::Map<const Eigen::Matrix3Xd>(chain.data(), 3, chain.size() / 3)));
+  });
+  module.def("options_of", options_of);
+  module.def("suggestion", [](std::string_view word, const std::vector<std::string>& names) {
+    return kds::suggestion(word, std::vector<std::string_view>(names.begin(), names.end()));
+  });
   module.def("structure_names", structure_names);
   module.def("version", kds::program_version);
   module.def("data_folder", [] { return kds::source_data_folder().string(); });

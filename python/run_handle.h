@@ -99,6 +99,8 @@ class RunHandle {
   [[nodiscard]] std::string json();
 
   [[nodiscard]] const Scene& scene() const { return run_->scene(); }
+  /// Returns how far apart along their chain the beads of a contact are at least.
+  [[nodiscard]] BeadId apart() const { return options_.apart.value_or(StructureSettings().apart); }
   /// Returns a frame's number in the trajectory and its time in picoseconds. Fast at and near the present
   /// step.
   using Stamp = std::pair<std::size_t, std::optional<double>>;

@@ -14,7 +14,7 @@ from ._analyses import (Collisions, Comparison, Conditions, Contacts, Trade, Upd
 from ._kds import AuditError, InputError
 from ._kds import version as _version
 from ._options import InputWarning
-from ._run import Run, run, run_options, structure_names
+from ._run import Run, run, structure_names
 from ._static import closest_pair, colliding_pairs, enclosing_sphere, power_diagram, wrapped_hierarchy
 from ._stepping import KineticRun, StreamFrame, stream
 from ._structure import Structure
@@ -25,7 +25,7 @@ __version__ = _version()
 __all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "Contacts", "InputError", "InputWarning",
            "KineticAnalysis", "KineticRun", "Run", "StreamFrame", "Structure", "Trade", "Updates", "View", "closest_pair",
            "collide", "colliding_pairs", "compare", "conditions", "contacts", "enclosing_sphere", "generate",
-           "power_diagram", "run", "run_options", "stream", "structure_names", "trade", "update", "wrapped_hierarchy"]
+           "power_diagram", "run", "stream", "structure_names", "trade", "update", "wrapped_hierarchy"]
 
 
 def __getattr__(name):

@@ -1,8 +1,9 @@
 from os import PathLike
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, TypedDict, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
 
 Path = Union[str, "PathLike[str]"]
 Source = Any  # path, list of paths, array (frames, beads, 3), AtomGroup, mdtraj Trajectory or iterable of frames
@@ -10,7 +11,124 @@ Table = Any  # pandas.DataFrame if pandas is installed, else a structured array
 Events = NDArray[np.void]
 Pairs = NDArray[np.int64]
 
+Names = Union[str, Sequence[str]]
+Strides = Sequence[int]
+Range = Union[slice, str]
+Cutoffs = Union[float, Sequence[float]]
+
 __version__: str
+
+# The options of each function; tests/python/test_documents.py compares them with the program's.
+class _Frames(TypedDict, total=False):
+    start: Optional[int]
+    stop: Optional[int]
+    step: Optional[int]
+
+class _Source(TypedDict, total=False):
+    radius: Union[str, ArrayLike, None]
+    units: Optional[str]
+    necklaces: Optional[Sequence[int]]
+    times: Optional[ArrayLike]
+    topology: Union[Path, Sequence[Path], None]
+    select: Optional[str]
+    chain: Optional[str]
+    dt: Optional[float]
+    until_damage: bool
+
+class _Input(_Frames, _Source): ...
+
+class _Settings(TypedDict, total=False):
+    structures: Optional[Names]
+    motion: Optional[str]
+    kernel: Optional[str]
+    levels: Optional[Range]
+    nodes: Optional[Range]
+    between: Optional[str]
+    tightness: Optional[float]
+    apart: Optional[int]
+    relax: Optional[float]
+    directions: Optional[int]
+    tolerance: Union[float, str, None]
+    certify: bool
+    audit: Optional[str]
+    threads: Optional[int]
+    work: Optional[int]
+
+class _Analysis(_Source, _Settings, total=False):
+    obstacle: Optional[Path]
+    cutoff: Optional[float]
+    surface: bool
+    groups: Optional[Tuple[Any, Any]]
+    only: Optional[Mapping[str, Iterable[int]]]
+
+class _Run(_Frames, _Analysis): ...
+
+class _Lifetimes(TypedDict, total=False):
+    surface: bool
+    gap: Optional[float]
+    apart: Optional[int]
+    strides: Optional[Strides]
+    intermittency: Optional[int]
+    motion: Optional[str]
+    certify: bool
+    threads: Optional[int]
+
+class _Contacts(_Input, _Lifetimes, total=False):
+    obstacle: Optional[Path]
+    by: Optional[str]
+    groups: Optional[Tuple[Any, Any]]
+
+class _Compare(_Input, total=False):
+    structures: Optional[Names]
+    strides: Optional[Strides]
+    motions: Optional[Names]
+    directions: Optional[int]
+    apart: Optional[int]
+    rounds: Optional[int]
+    threads: Optional[int]
+
+class _Update(_Input, total=False):
+    techniques: Optional[Names]
+    strides: Optional[Strides]
+    rounds: Optional[int]
+    audit: Optional[str]
+
+class _Collide(_Input, total=False):
+    obstacle: Optional[Path]
+    method: Optional[Names]
+    pairs: Optional[str]
+    apart: Optional[int]
+    within: Optional[float]
+    rounds: Optional[int]
+    groups: Optional[Tuple[Any, Any]]
+
+class _Trade(_Input, total=False):
+    want: Optional[Names]
+    apart: Optional[int]
+    cutoff: Optional[float]
+    without_exact: bool
+    rounds: Optional[int]
+    seed: Optional[int]
+    threads: Optional[int]
+    groups: Optional[Tuple[Any, Any]]
+
+class _Conditions(_Input, total=False):
+    rho: Optional[float]
+    list: Optional[int]
+
+class _Generate(TypedDict, total=False):
+    seed: Optional[int]
+    motion: Optional[str]
+    step: Optional[float]
+    bond: Optional[float]
+    turns: Optional[float]
+    pitch: Optional[float]
+    gap: Optional[float]
+    dimension: Optional[int]
+    jitter: Optional[float]
+    fill: Optional[float]
+    rolled: Optional[str]
+    distance: Optional[float]
 
 class InputError(ValueError): ...
 class AuditError(RuntimeError): ...
@@ -20,18 +138,23 @@ class Structure:
     name: str
     @property
     def events(self) -> Events: ...
+    def events_frame(self) -> Table: ...
     def elements(self, frame: int) -> NDArray[np.int64]: ...
     def edges(self, frame: Optional[float] = None) -> Pairs: ...
     def pairs(self, frame: Optional[float] = None) -> Pairs: ...
     def spheres(self, frame: Optional[float] = None) -> NDArray[np.float64]: ...
     def nodes(self, frame: Optional[float] = None) -> NDArray[np.int64]: ...
-    def lifetimes(self, by: Optional[str] = None, **options: Any) -> Table: ...
-    def analysis(self, by: Optional[str] = None, **options: Any) -> Contacts: ...
+    def lifetimes(self, by: Optional[str] = None, *, cutoff: Optional[Cutoffs] = None,
+                  **options: Unpack[_Lifetimes]) -> Table: ...
+    def analysis(self, by: Optional[str] = None, *, cutoff: Optional[Cutoffs] = None,
+                 **options: Unpack[_Lifetimes]) -> Contacts: ...
 
 class Run:
     events: Events
     fingerprint: str
-    def __init__(self, source: Source, verbose: bool = False, view: Optional[Path] = None, **options: Any) -> None: ...
+    def __init__(self, source: Source, *, verbose: bool = False, view: Optional[Path] = None,
+                 **options: Unpack[_Run]) -> None: ...
+    def events_frame(self) -> Table: ...
     @property
     def structures(self) -> List[str]: ...
     @property
@@ -63,11 +186,11 @@ class View:
     def __init__(self, page: str, path: Optional[str] = None) -> None: ...
 
 class KineticRun:
-    def __init__(self, source: Source, **options: Any) -> None: ...
+    def __init__(self, source: Source, **options: Unpack[_Run]) -> None: ...
     @classmethod
     def pushed(cls, beads: int, radius: Optional[ArrayLike] = None, *, dimension: int = 3,
                necklaces: Optional[Sequence[int]] = None, cutoff: Optional[float] = None, surface: bool = False,
-               only: Optional[Mapping[str, Iterable[int]]] = None, **options: Any) -> KineticRun: ...
+               only: Optional[Mapping[str, Iterable[int]]] = None, **options: Unpack[_Settings]) -> KineticRun: ...
     def push(self, positions: ArrayLike, time: Optional[float] = None) -> Events: ...
     @property
     def frame(self) -> float: ...
@@ -129,43 +252,22 @@ class Conditions(_Result):
 class KineticAnalysis:
     results: Any
     kds: Optional[Run]
-    def __init__(self, atomgroup: Any, verbose: bool = False, **options: Any) -> None: ...
+    def __init__(self, atomgroup: Any, verbose: bool = False, *, view: Optional[Path] = None,
+                 **options: Unpack[_Analysis]) -> None: ...
     def run(self, start: Optional[int] = None, stop: Optional[int] = None, step: Optional[int] = None,
             verbose: Optional[bool] = None) -> KineticAnalysis: ...
 
-def run(source: Source, *, start: Optional[int] = None, stop: Optional[int] = None, step: Optional[int] = None,
-        structures: Optional[Union[str, Sequence[str]]] = None, radius: Optional[Union[str, ArrayLike]] = None,
-        cutoff: Optional[float] = None, surface: bool = False, units: Optional[str] = None, verbose: bool = False,
-        view: Optional[Path] = None, **options: Any) -> Run: ...
-def stream(source: Source, *, start: Optional[int] = None, stop: Optional[int] = None, step: Optional[int] = None,
-           radius: Optional[Union[str, ArrayLike]] = None, necklaces: Optional[Sequence[int]] = None,
-           units: Optional[str] = None, **options: Any) -> Iterator[StreamFrame]: ...
-def contacts(source: Source, *, cutoff: Union[float, Sequence[float]], by: Optional[str] = None, gap: float = 0,
-             surface: bool = False, start: Optional[int] = None, stop: Optional[int] = None, step: Optional[int] = None,
-             radius: Optional[Union[str, ArrayLike]] = None, units: Optional[str] = None,
-             necklaces: Optional[Sequence[int]] = None, times: Optional[ArrayLike] = None,
-             groups: Optional[Tuple[Any, Any]] = None, verbose: bool = False, **options: Any) -> Contacts: ...
-def compare(source: Source, *, start: Optional[int] = None, stop: Optional[int] = None, step: Optional[int] = None,
-            radius: Optional[Union[str, ArrayLike]] = None, units: Optional[str] = None,
-            necklaces: Optional[Sequence[int]] = None, times: Optional[ArrayLike] = None, verbose: bool = False,
-            **options: Any) -> Comparison: ...
-def update(source: Source, *, start: Optional[int] = None, stop: Optional[int] = None, step: Optional[int] = None,
-           radius: Optional[Union[str, ArrayLike]] = None, units: Optional[str] = None,
-           necklaces: Optional[Sequence[int]] = None, times: Optional[ArrayLike] = None, verbose: bool = False,
-           **options: Any) -> Updates: ...
-def collide(source: Source, *, start: Optional[int] = None, stop: Optional[int] = None, step: Optional[int] = None,
-            radius: Optional[Union[str, ArrayLike]] = None, units: Optional[str] = None,
-            necklaces: Optional[Sequence[int]] = None, times: Optional[ArrayLike] = None,
-            groups: Optional[Tuple[Any, Any]] = None, verbose: bool = False, **options: Any) -> Collisions: ...
-def trade(source: Source, *, start: Optional[int] = None, stop: Optional[int] = None, step: Optional[int] = None,
-          radius: Optional[Union[str, ArrayLike]] = None, units: Optional[str] = None,
-          necklaces: Optional[Sequence[int]] = None, times: Optional[ArrayLike] = None,
-          groups: Optional[Tuple[Any, Any]] = None, verbose: bool = False, **options: Any) -> Trade: ...
-def conditions(source: Source, *, start: Optional[int] = None, stop: Optional[int] = None, step: Optional[int] = None,
-               radius: Optional[Union[str, ArrayLike]] = None, units: Optional[str] = None,
-               necklaces: Optional[Sequence[int]] = None, times: Optional[ArrayLike] = None, verbose: bool = False,
-               **options: Any) -> Conditions: ...
-def generate(model: str, **options: Any) -> Union[NDArray[np.float64], List[NDArray[np.float64]]]: ...
+def run(source: Source, *, verbose: bool = False, view: Optional[Path] = None, **options: Unpack[_Run]) -> Run: ...
+def stream(source: Source, **options: Unpack[_Run]) -> Iterator[StreamFrame]: ...
+def contacts(source: Source, *, cutoff: Cutoffs, verbose: bool = False, **options: Unpack[_Contacts]) -> Contacts: ...
+def compare(source: Source, *, verbose: bool = False, **options: Unpack[_Compare]) -> Comparison: ...
+def update(source: Source, *, verbose: bool = False, **options: Unpack[_Update]) -> Updates: ...
+def collide(source: Source, *, verbose: bool = False, **options: Unpack[_Collide]) -> Collisions: ...
+def trade(source: Source, *, times_examined: Optional[int] = None, verbose: bool = False,
+          **options: Unpack[_Trade]) -> Trade: ...
+def conditions(source: Source, *, verbose: bool = False, **options: Unpack[_Conditions]) -> Conditions: ...
+def generate(model: str, *, beads: Optional[int] = None, frames: Optional[int] = None,
+             **options: Unpack[_Generate]) -> Union[NDArray[np.float64], List[NDArray[np.float64]]]: ...
 def power_diagram(centers: ArrayLike, radius: ArrayLike) -> Tuple[Pairs, NDArray[np.int64]]: ...
 def enclosing_sphere(centers: ArrayLike, radius: ArrayLike) -> Tuple[NDArray[np.float64], float, NDArray[np.int64]]: ...
 def wrapped_hierarchy(centers: ArrayLike, radius: ArrayLike,
@@ -174,5 +276,4 @@ def colliding_pairs(centers: ArrayLike, radius: ArrayLike, *, within: float = 0,
                     necklaces: Sequence[int] = ()) -> Pairs: ...
 def closest_pair(centers: ArrayLike, radius: ArrayLike, *, apart: int = 2,
                  necklaces: Sequence[int] = ()) -> Optional[Tuple[int, int, float]]: ...
-def run_options() -> Dict[str, str]: ...
 def structure_names() -> List[str]: ...

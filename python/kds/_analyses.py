@@ -6,15 +6,18 @@ import numpy as np
 
 from . import _kds, _plots
 from ._inputs import open_input
-from ._options import InputError, arguments, call, flag, number, warn
+from ._options import INPUT, InputError, arguments, call, check_names, flag, number, takes, warn
 from ._tables import Result, table, table_of_rows
 
 
-def _analyse(function, source, verbose, unit, start, stop, step, units, necklaces, times, groups, radius, options):
-    given = arguments(options)
-    opened = open_input(source, start=start, stop=stop, step=step, units=units, necklaces=necklaces, times=times,
-                        groups=groups, radius=radius, options=options)
-    return find(function, opened, given, verbose=verbose, unit=unit)
+def _analyse(command, source, options, verbose, unit="step", more=()):
+    """Runs a command of the program, also with the arguments `more`. `command` is the function of the package, whose
+    signature the options must fit."""
+    check_names(command, options)
+    of_input = {name: value for name, value in options.items() if name in INPUT}
+    given = arguments({name: value for name, value in options.items() if name not in INPUT})
+    opened = open_input(source, **of_input, options=options)
+    return find(getattr(_kds, command.__name__), opened, [*given, *more], verbose=verbose, unit=unit)
 
 
 def find(function, opened, given, known=(), verbose=False, unit="step"):
@@ -94,30 +97,24 @@ def cutoff_text(cutoff):
     return ":".join(repr(number("cutoff", length, "a length in angstrom, or a pair of lengths")) for length in lengths)
 
 
-def contacts(source, *, cutoff, by=None, gap=0, surface=False, start=None, stop=None, step=None, radius=None, units=None,
-             necklaces=None, times=None, groups=None, verbose=False, **options):
+@takes("contacts")
+def contacts(source, *, cutoff, verbose=False, **options):
     """Measures how long contacts last, exactly for the paths between frames, and as frames alone show them.
 
-    ``source``, ``start``, ``stop``, ``step``, ``radius``, ``units``, ``necklaces``, ``times`` and ``groups`` are those of
-    :func:`kds.run`. ``cutoff`` is the distance in angstrom within which centres are in contact (surfaces if
-    ``surface``); a pair of lengths are two cutoffs: a contact begins within the first and ends outside the second.
-    ``by`` is ``residue``, ``bead`` or ``chain`` (default: residue if the input names residues, otherwise bead). Two
-    residues are in contact while any two of their beads are, so a selection of heavy atoms suits a ``cutoff`` of 4.5 and
-    one of C-alpha atoms a ``cutoff`` of 8. Two elements of one chain count only if they are at least ``apart`` apart along it (default: 3).
-    An absence shorter than ``gap`` (picoseconds if the frames have times, otherwise frames) does not end a contact.
-    Further options: ``strides``, ``intermittency``, ``motion``, ``topology``, ``select``, ``chain``, ``obstacle``,
-    ``dt``, ``certify``, ``threads`` (default: all cores). Returns :class:`kds.Contacts`, whose help explains the rows.
+    The input is that of :func:`kds.run`. ``cutoff`` is the distance in angstrom within which centres are in contact
+    (surfaces if ``surface``); a pair of lengths are two cutoffs: a contact begins within the first and ends outside the
+    second. Two residues are in contact while any two of their beads are, so a selection of heavy atoms suits a ``cutoff``
+    of 4.5 and one of C-alpha atoms a ``cutoff`` of 8. Returns :class:`kds.Contacts`, whose help explains the rows.
 
     >>> import kds
     >>> found = kds.contacts(kds.generate("spiral", beads=30, frames=10), cutoff=2.5, by="bead")
     >>> found.unit, len(found.rows) == found.all["contacts"] - sum(found.rows["contacts"] - 1)
     ('frames', True)
     """
-    if gap is not None:
-        gap = number("gap", gap, "a length of time from 0") or None
-    options = dict(options, cutoff=cutoff_text(cutoff), by=by, gap=gap, surface=flag("surface", surface))
-    return Contacts(_analyse(_kds.contacts, source, verbose, "step", start, stop, step, units, necklaces, times, groups,
-                             radius, options))
+    if options.get("gap") is not None:
+        options["gap"] = number("gap", options["gap"], "a length of time from 0")
+    options["surface"] = flag("surface", options.get("surface", False))
+    return Contacts(_analyse(contacts, source, {"cutoff": cutoff_text(cutoff), **options}, verbose))
 
 
 class Comparison(Result):
@@ -128,42 +125,39 @@ class Comparison(Result):
         self.pooled = table_of_rows(self.json["pooled"])
 
 
-def compare(source, *, start=None, stop=None, step=None, radius=None, units=None, necklaces=None, times=None, verbose=False,
-            **options):
+@takes("compare")
+def compare(source, *, verbose=False, **options):
     """Compares how often structures change, by stride and motion.
 
-    The input is that of :func:`kds.run`; each path of a list is a run of its own. Options: ``structures``, ``strides``
-    (such as [1, 2, 4]), ``motions`` (such as ["linear", "hermite"]), ``rounds``, ``apart``, ``directions``, ``threads``
-    (default: all cores). Returns :class:`kds.Comparison`, whose ``rows`` have a row for each structure, stride and motion.
+    The input is that of :func:`kds.run`; each path of a list is a run of its own. ``strides`` are such as [1, 2, 4], and
+    ``motions`` such as ["linear", "hermite"]. Returns :class:`kds.Comparison`, whose ``rows`` have a row for each structure,
+    stride and motion.
 
     >>> import kds
     >>> found = kds.compare(kds.generate("spiral", beads=30, frames=9), radius=1, strides=[1, 2], rounds=1)
     >>> len(found.rows)
     4
     """
-    return Comparison(_analyse(_kds.compare, source, verbose, "step", start, stop, step, units, necklaces, times,
-                                   None, radius, options))
+    return Comparison(_analyse(compare, source, options, verbose))
 
 
 class Updates(Result):
     """The work of each technique. Made by :func:`kds.update`."""
 
 
-def update(source, *, start=None, stop=None, step=None, radius=None, units=None, necklaces=None, times=None, verbose=False,
-           **options):
+@takes("update")
+def update(source, *, verbose=False, **options):
     """Compares techniques that update the power diagram from frame to frame.
 
-    The input is that of :func:`kds.run`. Options: ``techniques`` (of rebuild, reinsert, greedy, kinetic, hermite, lifted,
-    activate, auto), ``strides``, ``rounds``, ``audit``. Returns :class:`kds.Updates`, whose ``rows`` have a row for each
-    technique and stride.
+    The input is that of :func:`kds.run`. Returns :class:`kds.Updates`, whose ``rows`` have a row for each technique and
+    stride.
 
     >>> import kds
     >>> found = kds.update(kds.generate("spiral", beads=30, frames=5), radius=1, techniques=["kinetic"], rounds=1)
     >>> list(found.rows["technique"])
     ['rebuild', 'kinetic']
     """
-    return Updates(_analyse(_kds.update, source, verbose, "round", start, stop, step, units, necklaces, times,
-                                None, radius, options))
+    return Updates(_analyse(update, source, options, verbose, "round"))
 
 
 class Collisions(Result):
@@ -180,13 +174,11 @@ class Collisions(Result):
         self.frames = table_of_rows(self.json["frames"])
 
 
-def collide(source, *, start=None, stop=None, step=None, radius=None, units=None, necklaces=None, times=None, groups=None,
-            verbose=False, **options):
+@takes("collide")
+def collide(source, *, verbose=False, **options):
     """Finds exactly which beads collide in each frame. Balls that just touch collide.
 
-    The input is that of :func:`kds.run`. Options: ``method`` (default: auto; ``all`` compares all detectors), ``pairs``
-    (within, between or all), ``apart``, ``within`` (angstrom between surfaces), ``rounds``. Returns
-    :class:`kds.Collisions`.
+    The input is that of :func:`kds.run`. The default ``method`` is auto. Returns :class:`kds.Collisions`.
 
     >>> import kds
     >>> found = kds.collide(kds.generate("spiral", beads=30, frames=5), radius=1.2)
@@ -194,8 +186,7 @@ def collide(source, *, start=None, stop=None, step=None, radius=None, units=None
     (2, 5)
     """
     options.setdefault("method", "auto")
-    return Collisions(_analyse(_kds.collide, source, verbose, "frame", start, stop, step, units, necklaces, times,
-                                   groups, radius, options))
+    return Collisions(_analyse(collide, source, options, verbose, "frame"))
 
 
 class Trade(Result):
@@ -206,13 +197,12 @@ class Trade(Result):
         self.recommendation = self.json["recommendation"]
 
 
-def trade(source, *, start=None, stop=None, step=None, radius=None, units=None, necklaces=None, times=None, groups=None,
-          verbose=False, **options):
+@takes("trade")
+def trade(source, *, times_examined=None, verbose=False, **options):
     """Measures the speed and the errors of each lever of accuracy on an input: strides, tolerances, relaxed spheres, ...
 
-    The input is that of :func:`kds.run`. Options: ``want`` (a list of contacts, cages, diagram, events, scenes), ``apart``,
-    ``rounds``, ``times_examined`` as ``times`` of the program, ``seed``, ``cutoff``, ``without_exact`` and
-    ``threads``. Returns :class:`kds.Trade`, whose ``rows`` have a row for each setting. Takes several times as long as a run.
+    The input is that of :func:`kds.run`. ``times_examined`` is ``--times`` of the program. Returns :class:`kds.Trade`, whose
+    ``rows`` have a row for each setting. Takes several times as long as a run.
 
     >>> import kds
     >>> spiral = kds.generate("spiral", beads=30, frames=9)
@@ -220,10 +210,7 @@ def trade(source, *, start=None, stop=None, step=None, radius=None, units=None, 
     >>> bool(found.rows["want"][0] == "cages")
     True
     """
-    if "times_examined" in options:
-        options["times"] = options.pop("times_examined")
-    return Trade(_analyse(_kds.trade, source, verbose, "run", start, stop, step, units, necklaces, times, groups, radius,
-                          options))
+    return Trade(_analyse(trade, source, options, verbose, "run", arguments({"times": times_examined})))
 
 
 class Conditions(Result):
@@ -234,35 +221,36 @@ class Conditions(Result):
         self.proper = self.json["proper"]
 
 
-def conditions(source, *, start=None, stop=None, step=None, radius=None, units=None, necklaces=None, times=None,
-               verbose=False, **options):
+@takes("info")
+def conditions(source, *, verbose=False, **options):
     """Checks the conditions of a proper necklace in each frame: consecutive beads touch, all others are disjoint, ...
 
-    The input is that of :func:`kds.run`. Option: ``rho``, the largest ratio of radii and of bonds that counts as uniform.
-    Returns :class:`kds.Conditions`.
+    The input is that of :func:`kds.run`. Returns :class:`kds.Conditions`.
 
     >>> import kds
     >>> kds.conditions(kds.generate("spiral", beads=30, frames=3), radius=1).proper
     True
     """
-    return Conditions(_analyse(_kds.conditions, source, verbose, "frame", start, stop, step, units, necklaces, times, None,
-                               radius, options))
+    return Conditions(_analyse(conditions, source, options, verbose, "frame"))
 
 
-def generate(model, **options):
+@takes("generate")
+def generate(model, *, beads=None, frames=None, **options):
     """Generates a moving model necklace with beads of radius 1.
 
-    Returns an array (frames, beads, 3), or a list of two for ``two-spirals``. ``model`` and the options ``beads``,
-    ``frames``, ``seed``, ``motion``, ``step``, ``turns``, ... are those of ``kds generate``.
+    Returns an array (frames, beads, 3), or a list of two for ``two-spirals``. ``model``, the numbers of ``beads`` and
+    ``frames`` and the options are those of ``kds generate``.
 
     >>> import kds
     >>> kds.generate("spiral", beads=30, frames=10).shape
     (10, 30, 3)
     """
+    check_names(generate, options)
     if str(model).startswith("-"):
         raise InputError(f"model: '{model}' is no model; help(kds.generate) has examples")
     try:
-        necklaces = _kds.generate([str(model), *arguments(options, own=["frames"]), "-o", "necklace.xyz"])
+        given = arguments({"beads": beads, "frames": frames, **options})
+        necklaces = _kds.generate([str(model), *given, "-o", "necklace.xyz"])
     except InputError as error:
         sentence = str(error).replace("start, stop, step:", "frames:", 1).replace("MODEL:", "model:", 1)
         raise InputError(sentence) from None

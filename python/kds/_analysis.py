@@ -3,7 +3,7 @@
 from MDAnalysis.analysis.base import AnalysisBase
 
 from ._inputs import is_atom_group
-from ._options import InputError
+from ._options import InputError, check_names, takes
 from ._run import Run
 
 
@@ -14,12 +14,17 @@ class KineticAnalysis(AnalysisBase):
     ``results`` has ``events``, ``fingerprint``, ``frames`` and ``summary``, and ``kds`` is the :class:`kds.Run`.
     """
 
-    def __init__(self, atomgroup, verbose=False, **options):
+    @takes("run", without=("start", "stop", "step"))
+    def __init__(self, atomgroup, verbose=False, *, view=None, **options):
+        check_names(KineticAnalysis.__init__, options)
+        for name in ("start", "stop", "step"):
+            if name in options:
+                raise TypeError(f"{name}: is no argument of kds.KineticAnalysis; its run takes it")
         if not is_atom_group(atomgroup):
             raise InputError(f"{type(atomgroup).__name__}: is no AtomGroup; expected one, such as u.select_atoms('name CA')")
         super().__init__(atomgroup.universe.trajectory, verbose=verbose)
         self.atomgroup = atomgroup
-        self._options = options
+        self._options = {**options, "view": view}
         self.kds = None
 
     def run(self, start=None, stop=None, step=None, verbose=None):

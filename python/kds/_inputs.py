@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from . import _kds
-from ._options import InputError, number, numbers, warn, whole, wholes
+from ._options import InputError, number, numbers, plain, whole, wholes
 
 _UNITS = ("angstrom", "nm")
 
@@ -91,28 +91,9 @@ def frame_of(item, label):
     return positions, time
 
 
-def _array(source):
-    """Returns the source as an array, without copying an array."""
-    if isinstance(source, np.ma.MaskedArray):
-        raise InputError("array: is masked; expected an array with all positions, such as positions.data if none is missing")
-    return np.asarray(source)
-
-
 def check_unit_name(units):
     if units is not None and units not in _UNITS:
         raise InputError(f"units: is '{units}'; expected angstrom or nm")
-
-
-def check_units(positions, nanometres, label):
-    """Warns if the median bond of a frame is so short that the unit is probably another one."""
-    if len(positions) < 2 or positions.ndim != 2:
-        return
-    with np.errstate(over="ignore", invalid="ignore"):
-        bonds = np.linalg.norm(np.diff(np.asarray(positions, dtype=float), axis=0), axis=1)
-        median = float(np.median(bonds)) * (10 if nanometres else 1)
-    if median < 0.3:
-        cure = "units='angstrom'" if nanometres else "units='nm'"
-        warn([f"{label}: the median bond is {median:.3g} angstrom, shorter than any; expected {cure}?"])
 
 
 def _set_groups(beads, groups, count, members):
@@ -129,8 +110,15 @@ def _set_groups(beads, groups, count, members):
     return ["--groups", "all", "all"]
 
 
-def _indices_of_beads(count):
+def _members_of(count, select=None):
+    """Returns a function that returns the beads of a group: indices, a mask or, with `select`, a selection."""
+
     def members(group):
+        if isinstance(group, str) and select:
+            try:
+                group = select(group)
+            except Exception as error:  # MDAnalysis and mdtraj raise classes of their own, some with several lines
+                raise InputError(f"groups: cannot select '{group}': {str(error).splitlines()[0]}") from None
         index = np.asarray(group)
         if index.dtype == bool:
             if index.shape != (count,):
@@ -156,8 +144,15 @@ def _add_chains(beads, necklaces, keys, names):
         beads.add_chain(names[first], end - first)
 
 
-def _atom_names(atoms, residues, numbers, chains):
-    return [_kds.bead_name(*(str(part) for part in parts)) for parts in zip(atoms, residues, numbers, chains)]
+def _atom_names(atoms, residues, numbers, chains, places):
+    """Returns the name of each bead. Places tell residues apart: a residue that has the name, number and chain of an
+    earlier one gets its place behind a #."""
+    first, names = {}, []
+    for atom, residue, number, chain, place in zip(atoms, residues, numbers, chains, places):
+        if first.setdefault((residue, number, chain), place) != place:
+            number = f"{number}#{place}"
+        names.append(_kds.bead_name(str(atom), str(residue), str(number), chain))
+    return names
 
 
 def _chains_of(group):
@@ -175,7 +170,7 @@ def _beads_of_group(group, label, wants_elements, necklaces, groups):
     if hasattr(group, "names") and hasattr(group, "resnames") and hasattr(group, "resids"):
         icodes = getattr(group, "icodes", [""] * len(group))
         numbers = [f"{number}{str(code).strip()}" for number, code in zip(group.resids, icodes)]
-        beads.names = _atom_names(group.names, group.resnames, numbers, chains)
+        beads.names = _atom_names(group.names, group.resnames, numbers, chains, group.resindices)
     _add_chains(beads, necklaces, chains, chains)
     if wants_elements:
         elements = getattr(group, "elements", None)
@@ -187,12 +182,14 @@ def _beads_of_group(group, label, wants_elements, necklaces, groups):
             elements = [guess_atom_element(name) for name in group.names]
         beads.elements = [str(element) for element in elements]
 
-    def members(chosen):
-        if is_atom_group(chosen):
-            return np.flatnonzero(np.isin(group.ix, chosen.ix))
-        return _indices_of_beads(len(group))(chosen)
+    def beads_of(chosen):
+        if chosen.universe is not group.universe:
+            raise InputError("groups: an AtomGroup is of another Universe than the input; expected one of the same")
+        return np.flatnonzero(np.isin(group.ix, chosen.ix))
 
-    return beads, _set_groups(beads, groups, len(group), members)
+    members = _members_of(len(group), lambda text: beads_of(group.select_atoms(text)))
+    return beads, _set_groups(beads, groups, len(group),
+                              lambda chosen: beads_of(chosen) if is_atom_group(chosen) else members(chosen))
 
 
 def _has_times(trajectory):
@@ -246,7 +243,6 @@ def _collect_group(group, beads, chosen):
                 cells.extend(np.zeros(6) if ts.dimensions is None else np.asarray(ts.dimensions, dtype=float))
     beads.times, beads.cells = times, cells
     beads.first_frame, beads.frame_step = read.start, read.step
-    check_units(positions[0], False, beads.label)
     return positions, chosen.step // read.step
 
 
@@ -257,7 +253,7 @@ def _pull_group(group):
     def read(frame):
         with _Kept(group.universe.trajectory) as trajectory:
             ts = trajectory[frame]
-            positions = np.ascontiguousarray(_positions_of_group(group, atoms, frame))
+            positions = plain(f"frame {frame}", _positions_of_group(group, atoms, frame))
             cell = None if ts.dimensions is None else [float(length) for length in ts.dimensions]
             return positions, float(ts.time) if _has_times(trajectory) else None, cell
 
@@ -285,7 +281,8 @@ def _open_mdtraj(trajectory, chosen_of, wants_elements, necklaces, groups):
     atoms = list(trajectory.topology.atoms)
     chains = [chr(65 + atom.residue.chain.index % 26) for atom in atoms]
     beads.names = _atom_names([atom.name for atom in atoms], [atom.residue.name for atom in atoms],
-                              [atom.residue.resSeq for atom in atoms], chains)
+                              [atom.residue.resSeq for atom in atoms], chains,
+                              [atom.residue.index for atom in atoms])
     _add_chains(beads, necklaces, [atom.residue.chain.index for atom in atoms], chains)
     if wants_elements:
         beads.elements = [atom.element.symbol for atom in atoms]
@@ -294,15 +291,15 @@ def _open_mdtraj(trajectory, chosen_of, wants_elements, necklaces, groups):
         lengths = np.float32(10) * np.asarray(trajectory.unitcell_lengths, dtype=np.float32)
         cells = np.hstack([lengths, np.asarray(trajectory.unitcell_angles, dtype=np.float32)])
         beads.cells = cells.astype(float).ravel().tolist()
-    more = _set_groups(beads, groups, len(atoms), _indices_of_beads(len(atoms)))
-    return _open_positions(np.ascontiguousarray(trajectory.xyz), beads, chosen_of, more)
+    more = _set_groups(beads, groups, len(atoms), _members_of(len(atoms), trajectory.topology.select))
+    return _open_positions(trajectory.xyz, beads, chosen_of, more)
 
 
 def _open_array(source, chosen_of, units, necklaces, times, groups):
     beads = _kds.Beads("array")
     beads.nanometres = units == "nm"
     if hasattr(source, "__array__"):
-        positions = _array(source)
+        positions = numbers(beads.label, source)
     else:
         # A trajectory reuses one buffer for all frames, so each frame is copied.
         frames = []
@@ -323,17 +320,16 @@ def _open_array(source, chosen_of, units, necklaces, times, groups):
     _add_chains(beads, necklaces, None, None)
     more = []
     if groups is not None and positions.ndim == 3:
-        more = _set_groups(beads, groups, positions.shape[1], _indices_of_beads(positions.shape[1]))
+        more = _set_groups(beads, groups, positions.shape[1], _members_of(positions.shape[1]))
     return _open_positions(positions, beads, chosen_of, more)
 
 
 def _open_positions(positions, beads, chosen_of, more):
     if positions.ndim == 3 and len(positions):
-        check_units(positions[0], beads.nanometres, beads.label)
         chosen = chosen_of(len(positions), beads.label)
         if chosen != range(len(positions)):
             more = more + ["--frames", f"{chosen.start}:{chosen[-1] + 1}:{chosen.step}"]
-    return beads, more, (positions,)
+    return beads, more, (plain(beads.label, positions),)
 
 
 def _path_text(path):

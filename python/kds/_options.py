@@ -1,7 +1,9 @@
 """Keyword arguments become the options of the program, which checks them and knows their defaults."""
 
+import inspect
 import operator
 import os
+import textwrap
 
 import numpy as np
 
@@ -9,10 +11,17 @@ from . import _kds
 
 InputError = _kds.InputError
 
-# Options of the program that say where its results go. In Python results are attributes.
-_OUTPUTS = {*_kds.run_outputs(), "data", "o"}
-_RENAMED = {"frames": "start, stop, step", "format": "a path with the ending of its format"}
-
+# Arguments of every input. They are in front of the options of the program in every signature.
+INPUT = ("start", "stop", "step", "radius", "units", "necklaces", "times", "groups")
+# Options of the program that say how files are read.
+OF_FILES = ("topology", "select", "chain", "obstacle", "dt", "until_damage")
+OF_THE_INPUT = (*INPUT, *OF_FILES)
+# Options of the program that are no arguments, and why.
+_NO_ARGUMENTS = {
+    **dict.fromkeys(("out", "paper", "json", "quiet", "view", "dump", "events", "log", "data", "o", "beads"),
+                    "results are attributes of what is returned"),
+    "frames": "expected start, stop, step", "format": "expected a path with the ending of its format",
+    "rounds": "a run is made once; kds.compare takes it", "help": "help(kds.run) explains all arguments"}
 
 _FOLDER = os.path.dirname(__file__)
 
@@ -68,6 +77,18 @@ def numbers(name, values):
     return found
 
 
+def plain(name, values):
+    """Returns an array of float32 or float64 in C order, as the extension module reads it. The array is copied if it is of
+    another kind. Refuses numbers that float64 would round."""
+    found = numbers(name, values)
+    if found.dtype.kind in "iu" and found.size and max(int(found.max()), -int(found.min())) > 2**53:
+        raise InputError(f"{name}: has whole numbers above 2^53, which float64 would round; expected float64")
+    if found.dtype.itemsize > 8:
+        raise InputError(f"{name}: has the dtype {found.dtype}, which float64 would round; expected float32 or float64")
+    dtype = np.float32 if found.dtype.newbyteorder("=") == np.float32 else np.float64
+    return np.require(found, dtype, ["C_CONTIGUOUS", "ALIGNED"])
+
+
 def whole(name, value, least=None):
     """Returns a whole number, at least `least`. Refuses 1.5, which int() would round."""
     expected = "a whole number" if least is None else f"a whole number from {least}"
@@ -105,25 +126,51 @@ def _text(value):
     return str(value)
 
 
-def arguments(options, own=()):
-    """Returns the arguments of the program for a dictionary of options. None and False are left out. `own` are options
-    that only the calling function takes."""
+def takes(command, without=()):
+    """Decorates a function that takes ``**options``: gives it the arguments and the help of a command of the program,
+    which is the only list of its options. The function itself refuses the arguments `without`."""
+
+    def decorate(function):
+        helps, defaults = {}, {}
+        for name, help, is_flag in _kds.options_of(command):
+            helps[name], defaults[name] = help, False if is_flag else None
+        inputs = [name for name in INPUT if name != "groups" or name in helps] if "topology" in helps else []
+        if command == "run":
+            inputs.append("only")
+        own = [one for one in inspect.signature(function).parameters.values() if one.kind is not one.VAR_KEYWORD]
+        hidden = {*without, *(one.name for one in own), *_NO_ARGUMENTS} - ({"rounds"} if command != "run" else set())
+        names = [name for name in dict.fromkeys([*inputs, *helps]) if name not in hidden and name.isidentifier()]
+        function.__signature__ = inspect.Signature(own + [
+            inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=defaults.get(name)) for name in names])
+        lines = [line for name in names if name not in inputs
+                 for line in (name, textwrap.fill(helps[name], 110, initial_indent="    ", subsequent_indent="    "))]
+        function.__doc__ = "\n".join([inspect.cleandoc(function.__doc__ or ""), "", "Options", "-------", *lines])
+        function.without = without
+        return function
+
+    return decorate
+
+
+def check_names(function, options):
+    """Refuses options that are not in the signature of a decorated function, as Python refuses unknown arguments."""
+    known = inspect.signature(function).parameters
+    place = f"kds.{function.__qualname__}".removesuffix(".__init__")
+    for name in options:
+        if name in known or name in function.without:
+            continue
+        why = (f"; {_NO_ARGUMENTS[name]}" if name in _NO_ARGUMENTS
+               else f"{_kds.suggestion(name, list(known))} (see help({place}))")
+        raise TypeError(f"{name}: is no argument of {place}{why}")
+
+
+def arguments(options):
+    """Returns the arguments of the program for a dictionary of options. None and False are left out."""
     found = []
     for name, value in options.items():
-        if isinstance(value, np.bool_):
-            value = bool(value)
-        if name == "help":
-            raise TypeError("help: is no argument here; expected help(kds.run) or kds.run_options()")
-        if name in _OUTPUTS:
-            raise TypeError(f"{name}: is no argument here; results are attributes of what is returned")
-        if name in _RENAMED and name not in own:
-            raise TypeError(f"{name}: is no argument here; expected {_RENAMED[name]}")
-        if not name.isidentifier():
-            raise TypeError(f"{name!r}: is no argument; expected a name without dashes and spaces")
-        if value is None or value is False:
+        if value is None or isinstance(value, (bool, np.bool_)) and not value:
             continue
         option = "--" + name.replace("_", "-")
-        if value is True:
+        if isinstance(value, (bool, np.bool_)):
             found.append(option)
         elif name == "groups":
             found.extend([option, *(_text(group) for group in value)])

@@ -7,9 +7,9 @@ import numpy as np
 
 from . import _kds, _plots
 from ._inputs import open_input
-from ._options import InputError, arguments, call, flag, number, warn, wholes
+from ._options import OF_FILES, OF_THE_INPUT, InputError, arguments, call, check_names, flag, number, takes, warn, wholes
 from ._structure import Clock, Structure
-from ._tables import indented
+from ._tables import events_table, indented
 from ._view import RecordedPage, view_of_new_run
 
 
@@ -36,7 +36,8 @@ def open_run(source, *, start=None, stop=None, step=None, units=None, necklaces=
              radius=None, cutoff=None, surface=False, only=None, view=None, pull=False, **options):
     """Opens an input and the run over it, and issues the warnings about the input. `view` is the path of a page.
 
-    Returns the run, the input, and a function that opens the run over the same input again, with another page."""
+    Returns the run, the input, a function that opens the run over the same input again, with another page, and the
+    warnings."""
     given = run_arguments(cutoff, surface, options)
     opened = open_input(source, start=start, stop=stop, step=step, units=units, necklaces=necklaces, times=times,
                         groups=groups, radius=radius, pull=pull, options=options)
@@ -47,8 +48,9 @@ def open_run(source, *, start=None, stop=None, step=None, units=None, necklaces=
         return _kds.Run(opened.arguments + given + shown, more, opened.memory)
 
     core = open_core(view)
-    warn(core.warnings())
-    return core, opened, open_core
+    warned = core.warnings()
+    warn(warned)
+    return core, opened, open_core, warned
 
 
 class Run:
@@ -69,14 +71,16 @@ class Run:
     frame once.
     """
 
-    def __init__(self, source, verbose=False, view=None, **options):
-        if "rounds" in options:
-            raise TypeError("rounds: is no argument of a run, which is made once; kds.compare takes it")
-        self._core, opened, self._open_again = open_run(source, view=view, **options)
+    @takes("run")
+    def __init__(self, source, *, verbose=False, view=None, **options):
+        check_names(Run.__init__, options)
+        self._core, opened, self._open_again, self._warned = open_run(source, view=view, **options)
         self._options = options
         self._source = opened
         call(self._core.execute, verbose=verbose)
-        warn(self._core.warnings())
+        later = self._core.warnings()
+        warn(later)
+        self._warned += later
         self._stamps = self._core.stamps()
         self._clock = Clock(self._stamps[0][0], self._stamps[1][0], len(self._stamps))
         self.events = self._core.take_events()
@@ -87,6 +91,10 @@ class Run:
         if view is not None:
             self._core.write_view()
             self._page = RecordedPage(view)
+
+    def events_frame(self):
+        """Returns the events as a table with the columns of ``events``, and ``bead_0``, ``bead_1``, ... for its ids."""
+        return events_table(self.events)
 
     @property
     def structures(self):
@@ -170,9 +178,13 @@ class Run:
         from ._analyses import Contacts, cutoff_text, find
 
         options = {name: value for name, value in options.items() if value is not None}
-        for name in ("start", "stop", "step", "radius", "units", "necklaces", "times", "groups"):
+        for name in OF_THE_INPUT:
             if name in options:
                 raise InputError(f"{name}: is that of the run; expected kds.contacts(source, {name}=...)")
+        for name in ("only", "tolerance"):
+            if self._options.get(name) is not None:
+                raise InputError(f"{name}: lifetimes are of all beads on the paths of the input; expected a run without "
+                                 f"{name}")
         if "surface" in options:
             options["surface"] = flag("surface", options["surface"])
         if "cutoff" in options:
@@ -181,10 +193,10 @@ class Run:
             cutoff = self._options.get("cutoff")
             options["cutoff"] = cutoff_text(cutoff or 0)
             options.setdefault("surface", self._options.get("surface", False) or cutoff is None)
-        own = arguments({**{name: self._options.get(name) for name in ("motion", "apart", "topology", "select", "chain",
-                                                                      "obstacle", "dt", "until_damage", "threads")},
-                         **options})
-        return Contacts(find(_kds.contacts, self._source, own, known=self._core.warnings()))
+        if options.get("by") != "chain":
+            options.setdefault("apart", self._core.apart)
+        own = arguments({**{name: self._options.get(name) for name in ("motion", "threads", *OF_FILES)}, **options})
+        return Contacts(find(_kds.contacts, self._source, own, known=self._warned))
 
     def __getattr__(self, name):
         if name.startswith("_") or name not in dict(self._core.structures()):
@@ -211,50 +223,40 @@ class Run:
         return indented(str(self))
 
 
-def run(source, *, start=None, stop=None, step=None, structures=None, radius=None, cutoff=None, surface=False, units=None,
-        verbose=False, view=None, **options):
+@takes("run")
+def run(source, *, verbose=False, view=None, **options):
     """Runs kinetic structures over moving beads and returns every event, exactly and in order.
 
     Parameters
     ----------
     source : path, list of paths, array, AtomGroup, mdtraj Trajectory or iterable
-        Positions of the beads in every frame. An array has the shape (frames, beads, 3), float32 or float64 in C order;
-        it is not copied and must not change while the run is used. A path is any file that ``kds run`` reads. Frames
-        of an AtomGroup are copied, and its trajectory then stands at the frame where it stood. An iterable gives arrays
-        (beads, 3), pairs of an array and a time in picoseconds, or objects with ``positions``.
-    start, stop, step : int
-        Frames of the trajectory, as a slice has them.
-    structures : str or list of str
-        Any of ``kds.structure_names()`` (default: wrapped and power).
-    radius : str, float or array
-        ``auto`` (half the longest bond, the default), a number in angstrom, ``element``, ``element:fit``, or one number
-        for each bead.
-    cutoff : float
-        Distance in angstrom at which beads are in contact, for ``contacts`` (default: balls with their radii meet).
-        Between centres, or between the balls if ``surface``.
-    units : str
-        ``angstrom`` (default) or ``nm``, for arrays and iterables.
+        Positions of the beads in every frame. An array has the shape (frames, beads, 3). It is not copied if it is
+        float32 or float64 in C order, and must then not change while the run is used. A path is any file that
+        ``kds run`` reads. Frames of an AtomGroup are copied, and its trajectory then stands at the frame where it stood.
+        An iterable gives arrays (beads, 3), pairs of an array and a time in picoseconds, or objects with ``positions``.
     verbose : bool
         Shows a progress bar of tqdm.
     view : path
         Writes a page that shows the run in a browser to this file, as ``run.view`` does (default: none). The run then
         takes one thread.
-    threads : int
-        The run is cut at frames, and its parts run on up to this many threads (default: all cores). Events and
-        fingerprint do not depend on the number. If a run cannot be cut, a warning says why.
+    start, stop, step : int
+        Frames of the trajectory, as a slice has them.
+    radius : str, float or array
+        ``auto`` (half the longest bond, the default), a number in angstrom, ``element``, ``element:fit``, or one number
+        for each bead.
+    units : str
+        ``angstrom`` (default) or ``nm``, for arrays and iterables. LAMMPS dumps take those of the program.
     necklaces : list of int
         The number of beads of each necklace, one after the other, for positions in memory (default: one, or the chains).
     times : array
         The time of each frame in picoseconds, for arrays.
     groups : pair of AtomGroups, of arrays of beads, or of selections
-        ``contacts``: one bead of a pair must be in each group.
+        ``contacts``: one bead of a pair must be in each group. A selection is a text of MDAnalysis, of mdtraj or, for
+        paths, of ``--select``.
     only : dict
         For structures that contain only some beads: the beads, by the structure's name.
     **options
-        The options of ``kds run`` with their values, dashes as underscores: ``motion``, ``kernel``, ``apart``, ``audit``,
-        ``work``, ``topology``, ``select``, ``chain``, ``obstacle``, ``dt``, ``until_damage``, and the levers of accuracy:
-        ``tolerance``, ``certify``, ``relax``, ``between``, ``tightness``, ``levels``, ``nodes``, ``directions``.
-        ``kds.run_options()`` explains each one.
+        The options of ``kds run``, dashes as underscores. They are listed below, with the help of the program.
 
     Returns
     -------
@@ -264,6 +266,8 @@ def run(source, *, start=None, stop=None, step=None, structures=None, radius=Non
     ------
     InputError
         One sentence that names the frame, bead or argument at fault and says what was expected.
+    TypeError
+        An argument has no such name.
 
     Examples
     --------
@@ -275,19 +279,8 @@ def run(source, *, start=None, stop=None, step=None, structures=None, radius=Non
     >>> run.power.edges(frame=4).shape[1]
     2
     """
-    return Run(source, start=start, stop=stop, step=step, structures=structures, radius=radius, cutoff=cutoff,
-               surface=surface, units=units, verbose=verbose, view=view, **options)
-
-
-def run_options():
-    """Returns the options of ``kds run`` with their help, a dictionary.
-
-    >>> import kds
-    >>> print(kds.run_options()["kernel"])
-    arithmetic: fast, filtered or exact (default: filtered)
-    """
-    hidden = ("frames", "format", "rounds", "threads")
-    return {name: help for name, help in _kds.run_arguments() if name not in hidden}
+    check_names(run, options)
+    return Run(source, verbose=verbose, view=view, **options)
 
 
 def structure_names():

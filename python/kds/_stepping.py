@@ -3,8 +3,8 @@
 import numpy as np
 
 from . import _kds
-from ._inputs import check_unit_name, check_units, frame_of, is_frames, refuse_others
-from ._options import InputError, number, numbers, warn, whole, wholes
+from ._inputs import check_unit_name, frame_of, is_frames, refuse_others
+from ._options import OF_THE_INPUT, InputError, check_names, number, numbers, plain, takes, warn, whole, wholes
 from ._run import more_options, open_run, run_arguments
 from ._structure import Clock, Structure
 
@@ -12,6 +12,9 @@ from ._structure import Clock, Structure
 def _warn_of_threads(options):
     if (options.get("threads") or 1) != 1:
         warn([f"threads {options['threads']}: the run takes one thread, because it is driven from outside"])
+
+
+_NOT_PUSHED = [name for name in OF_THE_INPUT if name not in ("radius", "necklaces")]
 
 
 class KineticRun:
@@ -31,14 +34,18 @@ class KineticRun:
     4.0
     """
 
+    @takes("run")
     def __init__(self, source, **options):
-        if "view" in options:
-            raise TypeError("view: is no argument of a run that you drive; kds.run takes it")
+        check_names(KineticRun.__init__, options)
+        self._open(source, options)
+
+    def _open(self, source, options):
         _warn_of_threads(options)
-        self._core, self._source, _ = open_run(source, **options)
+        self._core, self._source, _, _ = open_run(source, **options)
         self._clock = Clock(self._core.stamp(0)[0], self._core.stamp(1)[0], self._core.frame_count)
 
     @classmethod
+    @takes("run", without=_NOT_PUSHED)
     def pushed(cls, beads, radius=None, *, dimension=3, necklaces=None, cutoff=None, surface=False, only=None, **options):
         """Returns a run over frames that are pushed one by one. Only the frames of one step are kept.
 
@@ -46,8 +53,9 @@ class KineticRun:
         ``dimension`` 1 to 3, ``necklaces`` the number of beads of each necklace. Name the ``structures``.
         """
         self = cls.__new__(cls)
-        for name in ("topology", "select", "chain", "obstacle", "dt", "until_damage", "groups"):
-            if options.get(name):
+        check_names(KineticRun.pushed, options)
+        for name in _NOT_PUSHED:
+            if options.pop(name, None):
                 raise InputError(f"{name}: is for inputs that have their frames; frames are pushed as they are")
         beads = whole("beads", beads, 1)
         radii = [] if radius is None else np.ravel(numbers("radius", radius)).tolist()
@@ -71,13 +79,15 @@ class KineticRun:
         """
         if self._source is not None:
             raise InputError("push: the run has frames of its own; expected KineticRun.pushed(beads)")
-        positions = numbers(f"frame {self._pushed}", positions)
+        positions = plain(f"frame {self._pushed}", positions)
         if time is not None:
             time = number(f"frame {self._pushed}: time", time, "picoseconds")
         shape = (self._core.bead_count, self._core.dimension)
         if positions.shape != shape:
             raise InputError(f"frame {self._pushed}: has the shape {positions.shape}; expected {shape}")
         self._core.push(positions, time)
+        if self._pushed == 0 and shape[1] == 3 and (doubt := _kds.nanometres_doubt(positions)):
+            warn([f"frame 0: {doubt}"])
         if None not in (time, self._time) and time <= self._time:
             warn([f"frame {self._pushed}: has the time {time:g} ps, which is not later than the {self._time:g} ps of the "
                   "frame before"])
@@ -207,7 +217,8 @@ class StreamFrame:
         return f"<kds frame {self.frame}: {len(self.events)} events>"
 
 
-def stream(source, *, start=None, stop=None, step=None, radius=None, necklaces=None, units=None, **options):
+@takes("run")
+def stream(source, **options):
     """Runs structures over frames that are read one at a time. Stores no frames and no events.
 
     Takes what :func:`kds.run` takes and yields a :class:`kds.StreamFrame` for each frame: ``frame.frame``, ``frame.time``,
@@ -223,14 +234,13 @@ def stream(source, *, start=None, stop=None, step=None, radius=None, necklaces=N
     >>> [frame.frame for frame in kds.stream(spiral, radius=1)]
     [0, 1, 2, 3, 4]
     """
-    if is_frames(source):
-        return _stream_frames(source, start=start, stop=stop, step=step, radius=radius, necklaces=necklaces, units=units,
-                              **options)
-    return _stream_pushed(source, slice(start, stop, step), radius, necklaces, units, options)
+    check_names(stream, options)
+    return _stream_frames(source, options) if is_frames(source) else _stream_pushed(source, **options)
 
 
-def _stream_frames(source, **options):
-    run = KineticRun(source, pull=True, **options)
+def _stream_frames(source, options):
+    run = KineticRun.__new__(KineticRun)
+    run._open(source, {**options, "pull": True})
     run._core.build()
     yield StreamFrame(*run._core.stamp(0), run._core.take_events(), run, 0)
     for k in range(1, run._core.frame_count):
@@ -239,7 +249,7 @@ def _stream_frames(source, **options):
     run.finish()
 
 
-def _stream_pushed(source, chosen, radius, necklaces, units, options):
+def _stream_pushed(source, start=None, stop=None, step=None, radius=None, necklaces=None, units=None, **options):
     import itertools
 
     check_unit_name(units)
@@ -247,21 +257,22 @@ def _stream_pushed(source, chosen, radius, necklaces, units, options):
         raise InputError("radius: frames that come one by one have no longest bond; expected a number, one for each bead, "
                          "or a cutoff")
     refuse_others(source)
-    for name, value in (("start", chosen.start), ("stop", chosen.stop), ("step", chosen.step)):
+    for name, value in (("start", start), ("stop", stop), ("step", step)):
         if value is not None:
             whole(name, value, 1 if name == "step" else 0)
-    places = itertools.count(chosen.start or 0, chosen.step or 1)
+    places = itertools.count(start or 0, step or 1)
     run = None
     waiting = []  # frames that are pushed and not yet reached: Hermite motion needs the frame after a step
     reached = 0
-    for item in itertools.islice(source, chosen.start, chosen.stop, chosen.step):
-        positions, time = frame_of(item, f"frame {0 if run is None else run._pushed}")
+    for item in itertools.islice(source, start, stop, step):
+        label = f"frame {0 if run is None else run._pushed}"
+        positions, time = frame_of(item, label)
+        positions = plain(label, positions)
         if units == "nm":
             positions = 10 * positions if positions.dtype == float else np.float32(10) * positions.astype(np.float32)
         if run is None:
             if positions.ndim != 2 or positions.shape[1] not in (1, 2, 3) or len(positions) == 0:
                 raise InputError(f"frame 0: has the shape {positions.shape}; expected (beads, 3)")
-            check_units(positions, False, "frame 0")
             radius = 1.0 if radius is None else radius
             run = KineticRun.pushed(len(positions), radius, dimension=positions.shape[1], necklaces=necklaces, **options)
         events = run.push(positions, time)

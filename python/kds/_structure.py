@@ -1,6 +1,7 @@
 """A structure of a run, and its clock."""
 
-from ._options import InputError, number
+from ._options import OF_THE_INPUT, InputError, check_names, number, takes
+from ._tables import events_table
 
 
 class Clock:
@@ -47,6 +48,10 @@ class Structure:
         events = self._run.events
         return events[events["structure"] == self.name]
 
+    def events_frame(self):
+        """Returns the events of this structure as a table, as ``Run.events_frame``."""
+        return events_table(self.events)
+
     def elements(self, frame):
         """Returns the structure's state at a frame as a set of elements, an array (elements, 6) of ids.
 
@@ -78,17 +83,22 @@ class Structure:
         """Returns the first and the last bead of each node of ``spheres``, an array (nodes, 2)."""
         return self._spheres(frame)[0]
 
+    @takes("contacts", without=OF_THE_INPUT)
     def lifetimes(self, by=None, **options):
         """Returns a table of how long contacts last, one row for each pair that is ever in contact.
 
-        ``by`` is ``residue``, ``bead`` or ``chain`` (default: residue if the input names residues, otherwise bead). The
-        other options are those of :func:`kds.contacts`. Lengths of time are in picoseconds if the frames have times,
-        otherwise in frames. Runs the contacts again over all frames, at the cutoff of the run.
+        ``by`` is ``residue``, ``bead`` or ``chain`` (default: residue if the input names residues, otherwise bead). Lengths
+        of time are in picoseconds if the frames have times, otherwise in frames. Runs the contacts again over all frames.
+        ``cutoff``, ``surface``, ``motion`` and ``apart`` are by default those of the run. ``apart`` counts what ``by`` says:
+        by bead the pairs are those of ``pairs``, by residue the residues must be as far apart as the beads of the run.
         """
+        check_names(Structure.lifetimes, options)
         return self.analysis(by=by, **options).rows
 
+    @takes("contacts", without=OF_THE_INPUT)
     def analysis(self, by=None, **options):
-        """Returns the result of :func:`kds.contacts` over the frames of the run, at the cutoff of the run."""
+        """Returns the result of :func:`kds.contacts` over the frames of the run, with the defaults of ``lifetimes``."""
+        check_names(Structure.analysis, options)
         self._only("contacts", "analysis")
         return self._run._contacts(by=by, **options)
 

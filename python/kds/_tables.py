@@ -32,6 +32,14 @@ def table(columns):
     return pandas.DataFrame(columns)
 
 
+def events_table(events):
+    """Returns a table of events. Each id has a column, as far as any event has so many."""
+    beads = events["beads"]
+    widest = max(np.flatnonzero((beads != -1).any(axis=0)), default=0) + 1
+    columns = {name: events[name] for name in events.dtype.names if name != "beads"}
+    return table({**columns, **{f"bead_{k}": beads[:, k] for k in range(widest)}})
+
+
 def _flat(row, prefix=""):
     for name, value in row.items():
         if isinstance(value, dict):

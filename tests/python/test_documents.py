@@ -8,6 +8,7 @@ import inspect
 import io
 import os
 import pkgutil
+import pydoc
 import re
 import shutil
 import subprocess
@@ -18,7 +19,7 @@ import warnings
 from pathlib import Path
 
 import kds
-from data import DCD, PDB
+from data import DCD, PDB, PROGRAM
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -52,27 +53,58 @@ class Docstrings(unittest.TestCase):
             self.assertIn(word, text)
 
 
-def parameters(node):
-    arguments = node.args
-    return [argument.arg for argument in arguments.args + arguments.kwonlyargs]
-
-
 class Stubs(unittest.TestCase):
+    stub = ast.parse((Path(kds.__file__).parent / "__init__.pyi").read_text())
+    functions = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
+    classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
+
+    def options(self, name):
+        """Returns the members of a TypedDict, with their annotations."""
+        node, found = self.classes[name], {}
+        for base in node.bases:
+            found.update(self.options(base.id) if base.id != "TypedDict" else {})
+        found.update({member.target.id: ast.unparse(member.annotation) for member in node.body
+                      if isinstance(member, ast.AnnAssign)})
+        return found
+
+    def assert_same(self, node, function, name):
+        """Compares a function of the stub, with its options, with the signature of the module."""
+        found = list(inspect.signature(function).parameters.values())
+        self.assertNotIn(inspect.Parameter.VAR_KEYWORD, [one.kind for one in found], name)
+        declared = [argument.arg for argument in node.args.args + node.args.kwonlyargs]
+        options = self.options(node.args.kwarg.annotation.slice.id) if node.args.kwarg else {}
+        self.assertEqual([one.name for one in found][:len(node.args.args)], declared[:len(node.args.args)], name)
+        self.assertEqual(sorted(one.name for one in found), sorted([*declared, *options]), name)
+        for one in found:
+            if one.name in options:
+                self.assertEqual(one.default, False if options[one.name] == "bool" else None, f"{name}: {one.name}")
+
     def test_they_have_the_signatures(self):
-        stub = ast.parse((Path(kds.__file__).parent / "__init__.pyi").read_text())
-        functions = {node.name: node for node in stub.body if isinstance(node, ast.FunctionDef)}
-        classes = {node.name: node for node in stub.body if isinstance(node, ast.ClassDef)}
-        self.assertEqual(set(kds.__all__) - set(functions) - set(classes), set())
-        for name, node in functions.items():
-            self.assertEqual(parameters(node), [p.name for p in inspect.signature(getattr(kds, name)).parameters.values()
-                                                if p.kind != p.VAR_KEYWORD], name)
-        for name in ("Run", "KineticRun", "Structure", "Contacts"):
-            for node in classes[name].body:
-                if isinstance(node, ast.FunctionDef) and not node.name.startswith("__"):
+        self.assertEqual(set(kds.__all__) - set(self.functions) - set(self.classes), set())
+        for name, node in self.functions.items():
+            self.assert_same(node, getattr(kds, name), name)
+        for name in ("Run", "KineticRun", "Structure", "Contacts", "KineticAnalysis"):
+            for node in self.classes[name].body if hasattr(kds, name) else ():
+                if isinstance(node, ast.FunctionDef) and (node.name == "__init__" or not node.name.startswith("__")):
                     member = inspect.getattr_static(getattr(kds, name), node.name)
                     function = getattr(member, "fget", None) or getattr(member, "__func__", member)
-                    self.assertEqual(parameters(node), [p.name for p in inspect.signature(function).parameters.values()
-                                                        if p.kind != p.VAR_KEYWORD], f"{name}.{node.name}")
+                    self.assert_same(node, function, f"{name}.{node.name}")
+
+    def test_options_are_those_of_the_program(self):
+        """Compares signatures and help with the text of the program's help, not with the lists that made them."""
+        missing = {"frames", "format", "out", "paper", "json", "quiet", "help", "view", "dump", "events", "log", "times"}
+        for name, command, but in (("run", "run", {"rounds"}), ("contacts", "contacts", set()), ("compare", "compare", set()),
+                                   ("update", "update", set()), ("collide", "collide", set()), ("trade", "trade", set()),
+                                   ("conditions", "info", {"beads"}), ("stream", "run", {"rounds"}), ("KineticRun", "run", {"rounds"})):
+            help = subprocess.run([PROGRAM, command, "--help"], capture_output=True, text=True, check=True).stdout
+            expected = {line.split()[0][2:].replace("-", "_") for line in help.splitlines() if line.startswith("  --")}
+            self.assertGreater(len(expected), 15)
+            function = getattr(kds, name)
+            self.assertEqual(expected - missing - but - set(inspect.signature(function).parameters), set(), name)
+            text = inspect.getdoc(getattr(function, "__init__", function) if inspect.isclass(function) else function)
+            for option in expected - missing - but - {"radius", "units", "groups", "cutoff"}:
+                self.assertRegex(text, rf"(?m)^{option}$", name)
+        self.assertIn("kernel=None", pydoc.render_doc(kds.run))
 
 
 class WithoutOtherPackages(unittest.TestCase):

@@ -240,6 +240,80 @@ class PathArrayGroupAndMdtraj(unittest.TestCase):
                         groups=(range(10), range(10, len(group))))
         self.assertEqual(run.fingerprint, array.fingerprint)
 
+    def test_groups_are_selections(self):
+        group = universe(self.xtc).select_atoms("name CA")
+        options = {"structures": ["contacts"], "cutoff": 8, "stop": 10}
+        expected = kds.run(group, groups=(range(10), range(10, 36)), **options).fingerprint
+        mask = np.arange(36) < 10
+        for groups in (("resid 41-50", "not resid 41-50"), (group[:10], "resid 51:80"), ["resid 41-50", ~mask], (mask, group[10:]),
+                       (group.universe.select_atoms("resid 41-50"), range(10, 36))):
+            with self.subTest(groups=str(groups)):
+                self.assertEqual(kds.run(group, groups=groups, **options).fingerprint, expected)
+                events = [frame.events for frame in kds.stream(group, groups=groups, **options)]
+                self.assertGreater(len(np.concatenate(events)), 0)
+        for groups, pattern in ((("resid 41-50", "name CB"), "^groups: group 1 has no bead"),
+                                (("resid 41-50", "nonsense"), "^groups: cannot select 'nonsense': "),
+                                (("resid (", "all"), "^groups: cannot select 'resid \\('"),
+                                ((universe().select_atoms("name CA"), "all"), "^groups: an AtomGroup is of another Universe")):
+            with self.subTest(groups=str(groups)), self.assertRaisesRegex(kds.InputError, pattern):
+                kds.run(group, groups=groups, **options)
+        with self.assertRaisesRegex(kds.InputError, "^groups: expected indices of beads from 0 to 35"):
+            kds.run(group.positions[None].repeat(2, axis=0), groups=("resid 41-50", "all"), structures=["contacts"])
+
+    @needs("mdtraj")
+    def test_groups_are_selections_of_mdtraj(self):
+        import mdtraj
+
+        trajectory = mdtraj.load(self.xtc, top=PDB)
+        calpha = trajectory.atom_slice(trajectory.topology.select("name CA"))
+        options = {"structures": ["contacts"], "cutoff": 8, "stop": 10}
+        self.assertEqual(kds.run(calpha, groups=("resid 0 to 9", "resid 10 to 35"), **options).fingerprint,
+                         kds.run(calpha, groups=(range(10), range(10, 36)), **options).fingerprint)
+        with self.assertRaisesRegex(kds.InputError, "^groups: cannot select 'name \\('"):
+            kds.run(calpha, groups=("name (", "all"), **options)
+
+    def test_residues_are_told_apart(self):
+        import MDAnalysis
+
+        def solvent(resids, segments, atoms=1, names=None):
+            """Returns the atoms of residues SOL, each a step of 4 from the one before."""
+            residues = len(resids)
+            made = MDAnalysis.Universe.empty(residues * atoms, residues, max(segments) + 1, np.repeat(np.arange(residues), atoms),
+                                             segments, trajectory=True)
+            made.add_TopologyAttr("names", names or [f"A{k}" for k in range(atoms)] * residues)
+            made.add_TopologyAttr("resnames", ["SOL"] * residues)
+            made.add_TopologyAttr("resids", resids)
+            places = np.zeros((2, residues * atoms, 3), dtype=np.float32)
+            places[:, :, 0] = 4 * np.repeat(np.arange(residues), atoms) + np.tile(np.arange(atoms), residues)
+            made.load_new(places)
+            return made.atoms
+
+        for name, group, expected in (
+                ("equal numbers", solvent([1, 1, 1], [0, 0, 0]), ["SOL 1", "SOL 1#1", "SOL 1#2"]),
+                ("numbers restart", solvent([1, 2, 1, 2], [0, 0, 0, 0]), ["SOL 1", "SOL 2", "SOL 1#2", "SOL 2#3"]),
+                ("segments without names", solvent([1, 1], [0, 1]), ["SOL 1", "SOL 1#1"]),
+                ("three atoms each", solvent([7, 7], [0, 0], 3), ["SOL 7", "SOL 7#1"]),
+                ("atoms of one name", solvent([7, 7], [0, 0], 2, ["W"] * 4), ["SOL 7", "SOL 7#1"]),
+                ("numbers differ", solvent([1, 2], [0, 0], 2), ["SOL 1", "SOL 2"])):
+            with self.subTest(name):
+                found = kds.contacts(group, cutoff=4.5, apart=1)
+                self.assertEqual(found.names, expected)
+                neighbours = [(k, k + 1) for k in range(len(expected) - 1)]
+                self.assertEqual(list(zip(found.rows["i"], found.rows["j"])), neighbours)
+        part = solvent([1, 1, 1], [0, 0, 0])[1:]
+        self.assertEqual(kds.contacts(part, cutoff=4.5, apart=1).names, ["SOL 1", "SOL 1#2"])
+
+    @needs("mdtraj")
+    def test_residues_of_mdtraj_are_told_apart(self):
+        import mdtraj
+
+        topology = mdtraj.Topology()
+        chain = topology.add_chain()
+        for number in (5, 5, 6):
+            topology.add_atom("O", mdtraj.element.oxygen, topology.add_residue("HOH", chain, resSeq=number))
+        trajectory = mdtraj.Trajectory(0.4 * np.arange(3)[None, :, None].repeat(2, axis=0).repeat(3, axis=2), topology)
+        self.assertEqual(kds.contacts(trajectory, cutoff=8, apart=1).names, ["HOH 5", "HOH 5#1", "HOH 6"])
+
     def test_analysis_of_mdanalysis(self):
         from MDAnalysis.analysis.base import AnalysisBase
 
@@ -248,6 +322,83 @@ class PathArrayGroupAndMdtraj(unittest.TestCase):
         self.assertIsInstance(analysis, AnalysisBase)
         self.assertEqual(analysis.results.fingerprint, kds.run(group, structures=["power"], start=2, stop=12).fingerprint)
         self.assertEqual(list(analysis.results.frames), list(range(2, 12)))
+
+
+class Units(unittest.TestCase):
+    """Nanometres that are taken for angstrom."""
+
+    def warned(self, call):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            call()
+        return [str(warning.message) for warning in caught if "median bond" in str(warning.message)]
+
+    def write_xyz(self, folder, name, frames):
+        path = os.path.join(folder, name)
+        with open(path, "w") as file:
+            for frame in frames:
+                file.write(f"{len(frame)}\n\n" + "".join(f"CA {x} {y} {z}\n" for x, y, z in frame))
+        return path
+
+    @needs("MDAnalysis")
+    def test_a_molecule_in_nanometres_is_noticed_once(self):
+        import MDAnalysis
+
+        backbone = universe().trajectory.timeseries(order="fac")[:4] / 10
+        calpha = np.ascontiguousarray(backbone[:, 1::3])
+        memory = MDAnalysis.Universe.empty(36, trajectory=True)
+        memory.load_new(calpha)
+        contacts = {"structures": ["contacts"], "cutoff": 8}
+
+        def push(frames):
+            run = kds.KineticRun.pushed(36, **contacts)
+            for frame in frames:
+                run.push(frame)
+
+        with tempfile.TemporaryDirectory() as folder:
+            a, b = (self.write_xyz(folder, name, calpha) for name in ("a.xyz", "b.xyz"))
+            for name, call, pattern in (
+                    ("array", lambda: kds.run(calpha, **contacts), "^array: .* 0.38. angstrom, which fits C-alpha atoms"),
+                    ("backbone", lambda: kds.run(backbone, **contacts), "^array: .* 0.1.. angstrom, which fits bonded atoms"),
+                    ("said to be angstrom", lambda: kds.run(calpha, units="angstrom", **contacts), "^array"),
+                    ("Fortran", lambda: kds.run(np.asfortranarray(calpha, dtype=float), **contacts), "^array"),
+                    ("iterable", lambda: kds.run(iter(calpha), **contacts), "^array"),
+                    ("AtomGroup", lambda: kds.run(memory.atoms, **contacts), "^AtomGroup"),
+                    ("stream", lambda: list(kds.stream(calpha, **contacts)), "^array"),
+                    ("stream of an iterable", lambda: list(kds.stream(iter(calpha), **contacts)), "^frame 0"),
+                    ("stream of a group", lambda: list(kds.stream(memory.atoms, **contacts)), "^AtomGroup"),
+                    ("pushed", lambda: push(calpha), "^frame 0"),
+                    ("driven", lambda: kds.KineticRun(calpha, **contacts), "^array"),
+                    ("lifetimes", lambda: kds.run(calpha, **contacts).contacts.lifetimes(), "^array"),
+                    ("contacts", lambda: kds.contacts(calpha, cutoff=8), "^array"),
+                    ("compare", lambda: kds.compare(calpha, rounds=1, strides=[1, 2]), "^array"),
+                    ("collide", lambda: kds.collide(calpha, radius=1), "^array"),
+                    ("update", lambda: kds.update(calpha, rounds=1, techniques=["kinetic"]), "^array"),
+                    ("conditions", lambda: kds.conditions(calpha), "^array"),
+                    ("path", lambda: kds.run(a, **contacts), "a.xyz: the median bond"),
+                    ("paths", lambda: kds.run([a, b], **contacts), "a.xyz: the median bond")):
+                with self.subTest(name):
+                    lines = self.warned(call)
+                    self.assertEqual(len(lines), 1, lines)
+                    self.assertRegex(lines[0], pattern)
+                    self.assertRegex(lines[0], "expected units='nm' for an array, or coordinates in angstrom, 10 times as")
+        self.assertEqual(self.warned(lambda: kds.run(calpha, units="nm", **contacts)), [])
+        np.testing.assert_array_equal(kds.run(calpha, units="nm", **contacts).contacts.pairs(2),
+                                      kds.run(np.float32(10) * calpha, **contacts).contacts.pairs(2))
+
+    def test_other_small_scenes_are_not_doubted(self):
+        random = np.random.default_rng(4)
+        turn = np.linspace(0, 2 * np.pi, 17)[:-1]
+        lattice = np.stack(np.meshgrid(*3 * [np.arange(4.0)]), axis=-1).reshape(-1, 3)
+        for name, frame in {
+                "angstrom": universe().atoms.positions, "coil": coil()[0], "spiral": kds.generate("spiral", beads=30, frames=2)[0] / 10,
+                "unit cube": random.random((60, 3)), "cube of 0.3": 0.3 * random.random((60, 3)),
+                "diffusion": random.normal(scale=0.1, size=(60, 3)).cumsum(axis=0),
+                "slower diffusion": random.normal(scale=0.25, size=(60, 3)).cumsum(axis=0),
+                "circle": np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1), "lattice": lattice / 10, "metres": coil()[0] / 1e10,
+                "three beads": coil(beads=3)[0] / 10}.items():
+            with self.subTest(name):
+                self.assertEqual(self.warned(lambda: kds.run(np.stack([frame, frame]), radius=0.01, structures=["box"])), [])
 
 
 class Arrays(unittest.TestCase):
@@ -262,6 +413,98 @@ class Arrays(unittest.TestCase):
         kds.run(positions, structures=["box"], radius=1)
         grown = 1024 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
         self.assertLess(grown, 0.8 * positions.nbytes)
+
+    def test_all_layouts_and_dtypes_are_read_as_their_values(self):
+        values = np.round(9 * coil())  # whole numbers below 128, which every dtype has
+        frames, beads, _ = values.shape
+        wide = np.zeros((2 * frames, 3 * beads, 4))
+        wide[::2, ::3, 1:] = values
+        read_only = values.copy()
+        read_only.flags.writeable = False
+        bytes_ = b"0" + values.tobytes()
+        layouts = {
+            "Fortran": np.asfortranarray(values),
+            "strided": wide[::2, ::3, 1:],
+            "negative strides": np.ascontiguousarray(values[::-1, ::-1, ::-1])[::-1, ::-1, ::-1],
+            "axes in another order": np.ascontiguousarray(values.transpose(2, 0, 1)).transpose(1, 2, 0),
+            "read-only": read_only,
+            "unaligned": np.frombuffer(bytes_, dtype=np.uint8)[1:].view(float).reshape(values.shape),
+            "a field": np.rec.fromarrays([values], names="positions").positions,
+            "a subclass": values.view(type("Positions", (np.ndarray,), {})),
+            "not masked": np.ma.masked_array(values).data,
+            "lists": values.tolist(),
+            **{dtype: values.astype(dtype) for dtype in (">f8", "<f8", ">f4", "f2", ">f2", "i1", "i8", ">i4", "int64")},
+            "u1": (values + 100).astype("u1"),
+        }
+        run = kds.run(values, cutoff=15, structures=["contacts"])
+        self.assertGreater(len(run.events), 100)
+        for name, given in layouts.items():
+            with self.subTest(name):
+                found = kds.run(given, cutoff=15, structures=["contacts"])
+                self.assertEqual(found.contacts.pairs(3).tolist(), run.contacts.pairs(3).tolist())
+                np.testing.assert_array_equal(found.events["beads"], run.events["beads"])
+                events = [frame.events for frame in kds.stream(iter(given), cutoff=15, structures=["contacts"])]
+                np.testing.assert_array_equal(np.concatenate(events)["beads"], run.events["beads"])
+        still = np.broadcast_to(values[:1], values.shape)  # strides of 0
+        self.assertEqual(kds.run(still, cutoff=15, structures=["contacts"]).contacts.pairs(5).tolist(),
+                         run.contacts.pairs(0).tolist())
+
+    def test_an_array_that_changes_is_noticed(self):
+        structures = ["wrapped", "power", "contacts"]
+        calls = {
+            "pairs": lambda run: run.contacts.pairs(3),
+            "pairs between frames": lambda run: run.contacts.pairs(2.5),
+            "edges": lambda run: run.power.edges(3),
+            "spheres": lambda run: run.wrapped.spheres(3),
+            "nodes": lambda run: run.wrapped.nodes(4),
+            "elements": lambda run: run.power.elements(3),
+            "lifetimes": lambda run: run.contacts.lifetimes(),
+            "analysis": lambda run: run.contacts.analysis(by="bead", gap=1),
+            "view": lambda run: run.view(),
+            "the table": str,
+        }
+        for dtype in (np.float32, np.float64):
+            positions = coil().astype(dtype)
+            run = kds.run(positions, radius=1, structures=structures)
+            run.contacts.pairs(0)
+            positions[3, 7, 2] = np.nextafter(positions[3, 7, 2], dtype(9))
+            for name, call in calls.items():
+                with self.subTest(name), self.assertRaisesRegex(kds.InputError, "^array: frame 3: the input has changed"):
+                    call(run)
+
+    def test_changes_of_other_inputs(self):
+        fresh = coil()
+        expected = kds.run(fresh, radius=1, structures=["contacts"]).contacts.pairs(2).tolist()
+        for name, given in (("a copy", np.asfortranarray(fresh)), ("converted", fresh.astype(">f8")), ("frames", list(fresh))):
+            with self.subTest(name):  # the run has numbers of its own
+                run = kds.run(given, radius=1, structures=["contacts"])
+                for frame in given:
+                    frame[:] = 0
+                self.assertEqual(run.contacts.pairs(2).tolist(), expected)
+                fresh = coil()
+        positions = coil()
+        driven = kds.KineticRun(positions, radius=1, structures=["contacts"])
+        driven.go_to(4)
+        positions[1] += 1
+        with self.assertRaisesRegex(kds.InputError, "^array: frame 1: the input has changed"):
+            driven.go_to(2)
+        positions = coil()
+        part = kds.run(positions, radius=1, start=1, stop=6, step=2, structures=["contacts"])
+        positions[[0, 2]] = np.nan  # frames that are not of the run
+        part.contacts.pairs(1)
+        positions[5] += 1
+        with self.assertRaisesRegex(kds.InputError, "^array: frame 5: the input has changed"):
+            part.contacts.pairs(4.5)
+
+    @needs("mdtraj")
+    def test_a_changed_mdtraj_trajectory_is_noticed(self):
+        import mdtraj
+
+        trajectory = mdtraj.load(DCD, top=PDB)[:6]
+        run = kds.run(trajectory, cutoff=6, structures=["contacts"])
+        trajectory.center_coordinates()
+        with self.assertRaisesRegex(kds.InputError, "^mdtraj trajectory: frame 0: the input has changed"):
+            run.contacts.lifetimes()
 
     def test_radii_of_each_bead(self):
         radii = np.linspace(0.8, 1.2, 30)
@@ -292,7 +535,7 @@ class Arrays(unittest.TestCase):
         self.assertEqual(f"{run.fingerprint():016x}", kds.run(whole, radius=1, structures=["contacts"]).fingerprint)
 
     def test_residues_of_a_path(self):
-        run = kds.run(RESIDUES, structures=["contacts"], cutoff=8, select="ca")
+        run = kds.run(RESIDUES, structures=["contacts"], cutoff=8, select="ca", apart=3)
         expected = program("contacts", RESIDUES, "--cutoff", "8", "--select", "ca", "--by", "residue")
         rows = run.contacts.analysis(by="residue").json["rows"]
         self.assertEqual(rows, expected["rows"])

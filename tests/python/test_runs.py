@@ -16,7 +16,7 @@ import zlib
 import numpy as np
 
 import kds
-from data import DCD, PDB, RESIDUES, coil, program, program_warnings
+from data import DCD, PDB, RESIDUES, coil, program, program_warnings, universe
 
 
 def resident_bytes():
@@ -319,9 +319,63 @@ class Analyses(unittest.TestCase):
         self.assertEqual(len(found.intervals), found.all["contacts"])
         self.assertAlmostEqual(float(np.sum(found.intervals["length"])), found.all["total"])
         self.assertEqual(found.map().shape, (len(found.names),) * 2)
-        run = kds.run(DCD, topology=PDB, stop=60, select="ca", structures=["contacts"], cutoff=8)
+        run = kds.run(DCD, topology=PDB, stop=60, select="ca", structures=["contacts"], cutoff=8, apart=3)
         self.assertEqual(run.contacts.analysis(gap=2).json["rows"], expected["rows"])
         self.assertEqual(len(run.contacts.lifetimes(by="bead", gap=2)), len(expected["rows"]))
+
+    def test_lifetimes_are_of_the_pairs_of_the_run(self):
+        for options in ({}, {"apart": 1}, {"apart": 5}, {"radius": 1.2}, {"groups": (range(10), range(8, 30))}, {"motion": "hermite"}):
+            run = kds.run(coil(), structures=["contacts"], **{"cutoff": None if "radius" in options else 3, **options})
+            intervals = run.contacts.analysis().intervals
+            self.assertGreater(len(intervals), 50)
+            for frame in (0, 2, 3.25, 4.5, 5):
+                open_ = intervals[(intervals["begin_frame"] <= frame) & (intervals["end_frame"] >= frame)]
+                with self.subTest(options=str(options), frame=frame):
+                    self.assertEqual(sorted(zip(open_["i"], open_["j"])), sorted(map(tuple, run.contacts.pairs(frame))))
+        group = universe().select_atoms("name CA")
+        run = kds.run(group, structures=["contacts"], cutoff=8, stop=5)
+        rows = run.contacts.lifetimes()  # by residue, each of one bead
+        pairs = {tuple(pair) for frame in range(5) for pair in run.contacts.pairs(frame)}
+        self.assertLessEqual(pairs, set(zip(rows["i"], rows["j"])))
+        self.assertEqual((rows["j"] - rows["i"]).min(), 2)
+        self.assertEqual((run.contacts.lifetimes(apart=4)["j"] - run.contacts.lifetimes(apart=4)["i"]).min(), 4)
+        two = kds.run(np.stack([coil()[:, :, :], coil() + 3], axis=1).reshape(6, 60, 3), necklaces=[30, 30], cutoff=3,
+                      structures=["contacts"], apart=4)
+        self.assertEqual(len(two.contacts.lifetimes(by="chain")), 1)
+
+    def test_lifetimes_of_other_paths_are_refused(self):
+        for name, value in (("only", {"contacts": range(9)}), ("tolerance", 0.1)):
+            run = kds.run(coil(), cutoff=3, structures=["contacts"], **{name: value})
+            with self.assertRaisesRegex(kds.InputError, f"^{name}: lifetimes are of all beads .* without {name}$"):
+                run.contacts.lifetimes()
+
+    def test_warnings_of_a_run_are_not_repeated_by_its_lifetimes(self):
+        broken = coil()
+        broken[:, 15:] += 50
+        run = kds.run(broken, cutoff=3, structures=["contacts"])
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            kds.run(broken, cutoff=3, structures=["contacts"])
+            self.assertIn("chain break", str(caught[0].message))
+            run.contacts.lifetimes()
+        self.assertEqual(len(caught), 1, [str(warning.message) for warning in caught])
+
+    def test_events_as_a_table(self):
+        run = kds.run(coil(), radius=1, structures=["contacts", "power", "sorted"], times=np.arange(6) * 2.0)
+        pandas = __import__("pandas")
+        for events, frame in ((run.events, run.events_frame()), (run.contacts.events, run.contacts.events_frame()),
+                              (run.events[:0], kds.run(coil()[[0, 0]], radius=1, structures=["contacts"]).events_frame())):
+            self.assertIsInstance(frame, pandas.DataFrame)
+            self.assertEqual(len(frame), len(events))
+            self.assertEqual(list(frame.columns[:7]), ["frame", "time", "lower", "upper", "step", "structure", "kind"])
+            for name in frame.columns[:7]:
+                np.testing.assert_array_equal(frame[name].to_numpy(), events[name])
+            ids = frame[[name for name in frame.columns if name.startswith("bead_")]].to_numpy()
+            np.testing.assert_array_equal(ids, events["beads"][:, :ids.shape[1]])
+            self.assertTrue((events["beads"][:, ids.shape[1]:] == -1).all())
+        self.assertEqual(list(run.contacts.events_frame().columns[7:]), ["bead_0", "bead_1"])
+        counted = run.events_frame().groupby(["structure", "kind"]).size()
+        self.assertEqual(counted["contacts", "begin"], (run.contacts.events["kind"] == "begin").sum())
 
     def test_no_contacts_leave_an_empty_table(self):
         found = kds.contacts(coil(), cutoff=0.001)
