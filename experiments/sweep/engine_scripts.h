@@ -30,8 +30,7 @@ struct EngineRequest {
 };
 
 /// Returns the bytes of memory that a batch asks its engine for, or nothing without --task-memory: the memory
-/// of `jobs` tasks, and for the sweep itself 128 MiB and 1 KiB for each task. A sweep of a million tasks
-/// takes half as much (docs/cluster.md).
+/// of `jobs` tasks, and for the sweep itself 128 MiB and 1 KiB for each task.
 [[nodiscard]] std::optional<std::uint64_t> batch_memory(const EngineRequest& request);
 
 /// Returns the name of the script in the sweep's folder.

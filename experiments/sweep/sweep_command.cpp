@@ -57,7 +57,7 @@ void warn_of(const std::vector<std::string>& warnings) {
   ProgressBar none(false, "task");
   for (std::size_t k = 0; k < std::min(warnings.size(), kMostWarnings); ++k) print_warning(none, warnings[k]);
   if (warnings.size() > kMostWarnings)
-    print_warning(none, fmt::format("{} more warnings of this kind", warnings.size() - kMostWarnings));
+    print_warning(none, fmt::format("more warnings of this kind: {}", warnings.size() - kMostWarnings));
 }
 
 // Results are named by the content of inputs, so those of an input that is gone are found all the same.

@@ -1,7 +1,7 @@
 #pragma once
 // Runs work in a child process, so that a crash, a time limit or a memory limit ends that work alone. The
-// child is a fork: no program is started. A fork takes about a third of a millisecond, and a millisecond more
-// for each 200 MiB of the process that forks.
+// child is a fork: no program is started.
+// The cost of a fork grows with the memory of the process that forks.
 
 #include <sys/types.h>
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -142,14 +144,15 @@ TEST(Sweep, CollectsResultsOfInputsThatAreGone) {
   EXPECT_EQ(collect.code, 0) << collect.err;
   EXPECT_EQ(content_of(scratch / "out/results.csv"), before);
   EXPECT_THAT(collect.err, HasSubstr(a + ": cannot be read any more"));
-  EXPECT_THAT(collect.err, HasSubstr("1 more cannot be read any more"));
+  EXPECT_THAT(collect.err, HasSubstr("more warnings of this kind: 1"));
   const ProgramRun status = run_program({"sweep", "status", scratch / "out"});
   EXPECT_EQ(status.code, 0);
   EXPECT_THAT(status.err, HasSubstr(c + ": cannot be read any more"));
 
   scratch.file("a.xyz", chain(0.6));  // another content has no result
-  expect_refused({"sweep", "collect", scratch / "out"},
-                 {"results.json has 4 tasks and would be replaced by 3"});
+  const ProgramRun emptier = run_program({"sweep", "collect", scratch / "out"});
+  EXPECT_EQ(emptier.code, 2);
+  EXPECT_THAT(emptier.err, HasSubstr("results.json has 4 tasks and would be replaced by 3 of 4"));
   EXPECT_EQ(content_of(scratch / "out/results.csv"), before);
   scratch.file("a.xyz", chain(0.2));
   EXPECT_EQ(run_program({"sweep", "collect", scratch / "out"}).code, 0);
@@ -604,16 +607,32 @@ TEST(Sweep, RefusesASecondProcessOfAShard) {
   EXPECT_EQ(records(scratch, "done"), 1U);
 }
 
-// An engine tries again what ends with code 75.
-TEST(Sweep, EndsWithCode75IfNoTaskCanStart) {
+// An engine tries again what ends with code 75, as TryLater does.
+TEST(Sweep, TriesLaterIfNoTaskCanStart) {
   const ScratchDirectory scratch;
   scratch.file("a.xyz", chain(0.2));
-  scratch.file("s.json", R"({"inputs": ["a.xyz"], "commands": ["info"]})");
-  const ProgramRun run = run_shell("ulimit -n 6; $0 sweep $1 -o $2", {scratch / "s.json", scratch / "out"});
-  EXPECT_EQ(run.code, 75) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("no task can start"));
-  static_cast<void>(run_sweep(scratch));
+  Planned sweep(R"({"inputs": ["a.xyz"], "commands": ["info"]})", scratch.path());
+  SweepOptions options;
+  options.out = scratch / "out";
+  options.quiet = true;
+  std::filesystem::create_directories(results_folder(*options.out));
+  StopSignals signals;
+  rlimit files{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &files), 0);
+  const int next = ::dup(0);
+  ::close(next);
+  const rlimit few{static_cast<rlim_t>(next) + 3, files.rlim_max};  // lock, journal, one file for the output
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+  std::string message;
+  try {
+    static_cast<void>(kds::run_sweep(sweep.plan, sweep.files, options, signals));
+  } catch (const TryLater& later) {
+    message = later.what();
+  }
+  ::setrlimit(RLIMIT_NOFILE, &files);
+  EXPECT_THAT(message, HasSubstr("no task can start (Too many open files)"));
   EXPECT_EQ(records(scratch, "drop"), 1U);
+  EXPECT_EQ(kds::run_sweep(sweep.plan, sweep.files, options, signals).count.done, 1U);
 }
 
 // All results of a sweep need not fit in memory.
