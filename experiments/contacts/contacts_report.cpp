@@ -348,8 +348,8 @@ std::vector<std::pair<std::string, std::string>> overall_lines(const ContactsRep
   add("occupancy", all.occupancy, " of the time of all pairs that were asked for", in_percent);
   add("residence", all.residence, " " + unit + ", the mean life of a contact");
   add("rate of beginning", all.begin_rate,
-      " per " + report.one_unit() + " out of contact, over all pairs that were asked for");
-  add("rate of end", all.end_rate, " per " + report.one_unit() + " in contact");
+      " per " + report.one_unit() + " out of contact, over all pairs that were asked for", with_figures(4));
+  add("rate of end", all.end_rate, " per " + report.one_unit() + " in contact", with_figures(4));
   lines.emplace_back("survival",
                      fmt::format("of the {} contacts whose beginning was seen; {} that are open at the first "
                                  "frame are left out",

@@ -112,12 +112,11 @@ LifetimeFigures ContactLifetimes::all(double run_length, std::uint64_t asked) co
   odds.add_apart(run_length, never);
   begins.add_apart(run_length, never);
   all.run_length = run_length * static_cast<double>(asked);
-  const auto share = [](const std::optional<double>& x) {
-    return x ? std::optional(*x / (1 + *x)) : std::nullopt;
-  };
   all.occupancy = share_of(all.begins(), all.ends(), all.total, all.apart());
-  const Estimate ratio = odds.ratio();
-  all.occupancy = widened(all.occupancy, {{}, share(ratio.lower), share(ratio.upper)});
+  if (const Estimate ratio = odds.ratio(); ratio.lower) {
+    all.occupancy.lower = *ratio.lower / (1 + *ratio.lower);
+    all.occupancy.upper = *ratio.upper / (1 + *ratio.upper);
+  }
   all.begin_rate = widened(rate_of(all.begins(), all.apart()), begins.ratio());
   all.end_rate = widened(rate_of(all.ends(), all.total), ends.ratio());
   all.residence = inverse_of(all.end_rate);
@@ -127,9 +126,7 @@ LifetimeFigures ContactLifetimes::all(double run_length, std::uint64_t asked) co
 Survival ContactLifetimes::survival(double least_drop) const {
   Survival result;
   std::vector<Life> lives = lives_;
-  std::sort(lives.begin(), lives.end(), [](const Life& a, const Life& b) {
-    return std::tie(a.length, a.pair, a.is_censored) < std::tie(b.length, b.pair, b.is_censored);
-  });
+  std::sort(lives.begin(), lives.end(), [](const Life& a, const Life& b) { return a.length < b.length; });
   result.contacts = lives.size();
   for (const auto& [key, pair] : pairs_) result.left_out += pair.figures.open_at_start;
   PairResiduals residuals(pairs_.size());
@@ -141,6 +138,10 @@ Survival ContactLifetimes::survival(double least_drop) const {
     SurvivalPoint point{first->length, static_cast<std::uint64_t>(lives.end() - first)};
     for (; last != lives.end() && last->length <= end; ++last)
       ++(last->is_censored ? point.censored : point.ended);
+    // The order within a step must not depend on last digits, so that sums do not.
+    std::sort(first, last, [](const Life& a, const Life& b) {
+      return std::tie(a.pair, a.is_censored) < std::tie(b.pair, b.is_censored);
+    });
     const auto n = static_cast<double>(point.at_risk), d = static_cast<double>(point.ended);
     survival = point.ended == point.at_risk ? 0 : survival * (1 - d / n);
     point.survival = {survival};
