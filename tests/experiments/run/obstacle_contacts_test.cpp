@@ -133,8 +133,10 @@ TEST(ObstacleContacts, OfTrade) {
   const Json json = w.run({"trade", w.passes, w.wall, "--radius", "0.75", "--want", "contacts", "--rounds",
                            "1", "--without-exact", "--times", "5"});
   ASSERT_FALSE(json["rows"].empty());
-  EXPECT_EQ(json["rows"][0]["contacts_missed"], 0) << json["rows"][0];
-  EXPECT_EQ(json["rows"][0]["contacts_spurious"], 0) << json["rows"][0];
+  const Json& exact = json["rows"][0];
+  EXPECT_EQ(exact["cost"]["events"], 12) << exact;
+  EXPECT_EQ(exact["error"]["contacts_missed"], 0) << exact;
+  EXPECT_EQ(exact["error"]["contacts_spurious"], 0) << exact;
 }
 
 }  // namespace
