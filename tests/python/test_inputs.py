@@ -351,7 +351,7 @@ class Units(unittest.TestCase):
         contacts = {"structures": ["contacts"], "cutoff": 8}
 
         def push(frames):
-            run = kds.KineticRun.pushed(36, **contacts)
+            run = kds.KineticRun.pushed(36, 1, **contacts)
             for frame in frames:
                 run.push(frame)
 
@@ -436,17 +436,17 @@ class Arrays(unittest.TestCase):
             **{dtype: values.astype(dtype) for dtype in (">f8", "<f8", ">f4", "f2", ">f2", "i1", "i8", ">i4", "int64")},
             "u1": (values + 100).astype("u1"),
         }
-        run = kds.run(values, cutoff=15, structures=["contacts"])
-        self.assertGreater(len(run.events), 100)
+        run = kds.run(values, cutoff=27, structures=["contacts"])
+        self.assertGreater(len(run.events), 50)
         for name, given in layouts.items():
             with self.subTest(name):
-                found = kds.run(given, cutoff=15, structures=["contacts"])
+                found = kds.run(given, cutoff=27, structures=["contacts"])
                 self.assertEqual(found.contacts.pairs(3).tolist(), run.contacts.pairs(3).tolist())
                 np.testing.assert_array_equal(found.events["beads"], run.events["beads"])
-                events = [frame.events for frame in kds.stream(iter(given), cutoff=15, structures=["contacts"])]
+                events = [frame.events for frame in kds.stream(iter(given), cutoff=27, structures=["contacts"])]
                 np.testing.assert_array_equal(np.concatenate(events)["beads"], run.events["beads"])
         still = np.broadcast_to(values[:1], values.shape)  # strides of 0
-        self.assertEqual(kds.run(still, cutoff=15, structures=["contacts"]).contacts.pairs(5).tolist(),
+        self.assertEqual(kds.run(still, cutoff=27, structures=["contacts"]).contacts.pairs(5).tolist(),
                          run.contacts.pairs(0).tolist())
 
     def test_an_array_that_changes_is_noticed(self):
