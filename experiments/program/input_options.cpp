@@ -136,7 +136,8 @@ const OptionList<InputOptions>& input_options() {
       {{"--select", "NAME",
         "atoms that become beads. NAME is backbone, ca, bb, p, heavy or all; or an atom selection, as in "
         "'//A/10-40/CA,CB'. backbone: N, CA and C of each residue; bb: backbone of Martini; p: phosphorus of "
-        "nucleic acids; heavy: all but hydrogens (default: backbone, or all if the file names no residues)"},
+        "nucleic acids; heavy: all but hydrogens and massless sites (default: backbone, or all if the file "
+        "names no residues)"},
        [](InputOptions& o, const std::string& text) {
          o.reading.selection = parse_selection("--select", text);
        },

@@ -19,7 +19,7 @@ std::optional<MeanInterval> PooledFigure::interval() const {
   const auto count = static_cast<double>(values);
   const double error = student_95(count - 1) * std::sqrt(squares / (count - 1) / count);
   const MeanInterval student{mean, mean - error, mean + error, values};
-  return counts ? above_zero(student) : student;
+  return never_negative ? above_zero(student) : student;
 }
 
 std::string PooledFigure::no_interval() const {
@@ -42,7 +42,7 @@ void PooledGroup::add(const SweepTask& task, const std::vector<ResultRow>& rows,
       if (is_new) figures_.push_back({identity, name});
       PooledFigure& figure = figures_[found->second];
       figure.add(*number);
-      figure.counts = figure.counts && value.whole_number() != nullptr;
+      figure.never_negative = figure.never_negative && *number >= 0;
     }
   }
 }

@@ -25,11 +25,11 @@ struct PooledFigure {
   std::string row, measure;  ///< which rows of the results, and which of their fields
   std::size_t values = 0;
   double mean = 0, squares = 0;
-  bool counts = true;  ///< whole numbers, none below 0
+  bool never_negative = true;
 
   void add(double value);
-  /// Returns Student's interval, for independent values. The interval of counts stays above 0 (above_zero).
-  /// Returns nothing for fewer than `least_pooled` values, and for counts that are all equal.
+  /// Returns Student's interval, for independent values. The interval stays above 0 if no value is negative
+  /// (above_zero). Returns nothing for fewer than `least_pooled` values, and for such values that are equal.
   [[nodiscard]] std::optional<MeanInterval> interval() const;
   /// Returns why there is no interval, or an empty text if there is one.
   [[nodiscard]] std::string no_interval() const;

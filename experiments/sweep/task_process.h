@@ -1,7 +1,6 @@
 #pragma once
 // Runs work in a child process, so that a crash, a time limit or a memory limit ends that work alone. The
-// child is a fork: no program is started.
-// The cost of a fork grows with the memory of the process that forks.
+// child is a fork: no program is started. The cost of a fork grows with the memory of the process that forks.
 
 #include <sys/types.h>
 

@@ -32,7 +32,7 @@ class Clock {
   [[nodiscard]] double place_in(std::size_t step, std::size_t time) const {
     return static_cast<double>(time - start_of(step)) / static_cast<double>(stride_ * parts_of_frame);
   }
-  /// The event must have a rounded time, because brackets depend on how a run is cut.
+  /// The event must have a rounded time, because its bracket is 2^-24 of a step wide.
   [[nodiscard]] double time_of(const Event& event) const {
     const auto from = static_cast<double>(event.from.number), to = static_cast<double>(event.to.number);
     const double u = (event.rounded.value().frame - from) / (to - from);
