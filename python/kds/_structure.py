@@ -63,17 +63,17 @@ class Structure:
         time = self._run._clock.time(frame)
         if time != int(time):
             raise InputError(f"frame: {frame} is no frame of the run")
-        return self._run._core.elements(self.name, int(time))[0]
+        return self._ask(self._run._core.elements, self.name, int(time))[0]
 
     def edges(self, frame=None):
         """Returns the pairs of beads whose power cells share a facet, an array (m, 2), ascending."""
         self._only("power", "edges")
-        return self._run._core.edges(self._run._clock.time(frame))
+        return self._ask(self._run._core.edges, self._run._clock.time(frame))
 
     def pairs(self, frame=None):
         """Returns the pairs of beads in contact, an array (m, 2), ascending."""
         self._only("contacts", "pairs")
-        return self._run._core.contacts(self._run._clock.time(frame))
+        return self._ask(self._run._core.contacts, self._run._clock.time(frame))
 
     def spheres(self, frame=None):
         """Returns the spheres of a hierarchy's nodes, an array (nodes, 4): x, y, z and radius in angstrom."""
@@ -102,8 +102,19 @@ class Structure:
         self._only("contacts", "analysis")
         return self._run._contacts(by=by, **options)
 
+    def _ask(self, function, *given):
+        """Calls a function of the run. A run whose input has changed stands at no state, so it answers no more."""
+        if getattr(self._run, "_changed", None):
+            raise InputError(self._run._changed)
+        try:
+            return function(*given)
+        except InputError as error:
+            if "the input has changed" in str(error):
+                self._run._changed = str(error)
+            raise
+
     def _spheres(self, frame):
-        nodes, spheres = self._run._core.spheres(self.name, self._run._clock.time(frame))
+        nodes, spheres = self._ask(self._run._core.spheres, self.name, self._run._clock.time(frame))
         if len(nodes) == 0:
             raise AttributeError(f"{self.name} has no spheres; hierarchies such as wrapped have")
         return nodes, spheres
