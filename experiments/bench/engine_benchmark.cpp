@@ -41,7 +41,6 @@ void run_instance(Turns& turns, const std::filesystem::path& file, Kernel kernel
   const Eigen::Matrix3Xd centers = scene.centers(0);
   const std::vector<double> weights = scene.weights(0);
   const StaticBuild build = static_build_of(scene, centers, weights);
-  constexpr int builds = 20;
   std::vector<double> runs, static_builds, ratios;
   std::uint64_t events = 0;
   while (turns.another()) {
@@ -52,10 +51,7 @@ void run_instance(Turns& turns, const std::filesystem::path& file, Kernel kernel
       events = std::accumulate(per_step.begin(), per_step.end(), std::uint64_t{0});
     }));
     turns.took(runs.back());
-    static_builds.push_back(processor_seconds_per_call([&] {
-                              for (int i = 0; i < builds; ++i) build();
-                            }) /
-                            builds);
+    static_builds.push_back(processor_seconds_per_call(build));
     ratios.push_back(runs.back() / static_builds.back());
   }
   const double run = median_of(runs);

@@ -355,8 +355,7 @@ std::string missed_page(std::span<const MissedRow> rows, const MissedTask& task,
       "contact is <em>found</em> if an examined frame lies in it, its ends included, and <em>missed</em> "
       "otherwise. The 95% interval of the share is from batch means over the steps in which contacts begin, "
       "which may depend on each other, and missing for fewer than 50 steps. It is for runs of these beads "
-      "that "
-      "do not drift; the count itself is complete.";
+      "that do not drift; the count itself is complete.";
   if (const std::string plot = plot_of(rows); !plot.empty())
     page.body = html_section(
         "By stride",

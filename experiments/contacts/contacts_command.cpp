@@ -26,10 +26,8 @@ namespace {
 constexpr CommandSpec kContactsCommand{
     "kds contacts",
     "Measures how long contacts last, exactly for the paths between the frames that are given; the spacing "
-    "of "
-    "frames is the error. Gives intervals for each pair of residues, beads or chains, their survival "
-    "function, "
-    "and what frames alone would have shown.",
+    "of frames is the error. Gives intervals for each pair of residues, beads or chains, their survival "
+    "function, and what frames alone would have shown.",
     {},
     {},
     "kds contacts villin.dcd --topology villin.pdb --cutoff 8 --select ca --out report\n"
@@ -55,9 +53,9 @@ Option<ContactsTask> cutoff_option() {
   auto option = value_option(
       {"--cutoff", "LENGTH",
        "two beads are in contact while their centres are at most this far apart (must be given; 8 is usual "
-       "between C-alpha atoms, 4.5 between heavy atoms). A:B are two cutoffs: a contact begins within A and "
-       "ends "
-       "outside B"},
+       "between C-alpha atoms, 4.5 between heavy atoms). A:B are two cutoffs: a contact begins when the "
+       "least "
+       "distance of two beads of the pair falls to A, and ends when it exceeds B"},
       &ContactsTask::cutoff, parse_cutoffs, [](const ContactCutoffs& cutoffs) {
         return cutoffs.are_two() ? fmt::format("{}:{}", cutoffs.inner, cutoffs.outer)
                                  : fmt::format("{}", cutoffs.inner);

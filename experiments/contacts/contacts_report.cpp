@@ -350,10 +350,12 @@ std::vector<std::pair<std::string, std::string>> overall_lines(const ContactsRep
   add("rate of beginning", all.begin_rate,
       " per " + report.one_unit() + " out of contact, over all pairs that were asked for", with_figures(4));
   add("rate of end", all.end_rate, " per " + report.one_unit() + " in contact", with_figures(4));
-  lines.emplace_back("survival",
-                     fmt::format("of the {} contacts whose beginning was seen; {} that are open at the first "
-                                 "frame are left out",
-                                 with_thousands(survival.contacts), with_thousands(survival.left_out)));
+  lines.emplace_back(
+      "survival",
+      fmt::format(
+          "of the contacts whose beginning was seen ({}); those that are open at the first frame ({}) "
+          "are left out",
+          with_thousands(survival.contacts), with_thousands(survival.left_out)));
   add("median", survival.median, " " + unit + ", which half of the contacts that begin survive");
   lines.emplace_back("intervals",
                      "hold for a run in equilibrium and for pairs that are independent of each other; pairs "

@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
 #include "experiments/output/text.h"
+#include "structures/contacts/contact_estimates.h"
 
 namespace kds {
 
-double student_95(double freedom) { return quantile(boost::math::students_t(freedom), 0.975); }
+double student_95(double freedom) { return student_quantile(freedom); }
 
 namespace {
 

@@ -168,8 +168,7 @@ constexpr std::array<std::string_view, 4> kQuestions{"energy", "bounds", "trust"
 constexpr CommandSpec kQuestionsCommand{
     "kds questions",
     "Measures answers to the open questions of Agarwal et al. (2004), and fits exponents. Those of energy "
-    "have "
-    "95% intervals.\n\n"
+    "have 95% intervals.\n\n"
     "  energy       how basis changes and flips grow with the energy of bending and torsion of a step\n"
     "  bounds       how many searches for near pairs a bound on speed or displacement saves\n"
     "  trust        time saved by not checking spheres for some frames, and how far beads then stick out\n"

@@ -32,8 +32,7 @@ constexpr CommandSpec kScaleCommand{
     "  local, last       slope between the two largest sizes\n"
     "  beside ...        exponent of the leading term if lower-order terms are fitted too\n"
     "  law               the form with the least AICc, its largest residual, and the error of its prediction "
-    "of "
-    "the\n"
+    "of the\n"
     "                    largest size from the others",
     "[INPUT]...",
     "necklaces of several sizes: .pdb .cif .gro .dcd .xtc .trr .nc .lammpstrj .xyz (also .gz)",

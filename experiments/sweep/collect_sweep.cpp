@@ -15,6 +15,7 @@
 #include "experiments/sweep/pooled_figures.h"
 #include "experiments/sweep/refuse.h"
 #include "experiments/sweep/result_rows.h"
+#include "motions/base/text_input.h"
 
 namespace kds {
 
@@ -162,9 +163,10 @@ void refuse_to_empty(const fs::path& folder, const SweepCount& all, const TaskSt
   std::string others = other_versions_text(states);
   std::ranges::replace(others, '\n', ';');
   refuse(
-      "{}: results.json has {} tasks and would be replaced by {} of {};{}{} run the sweep first, or remove "
+      "{}: results.json has results of {} and would be replaced by {} of {};{}{} run the sweep first, or "
+      "remove "
       "results.json",
-      folder.string(), with_thousands(before), with_thousands(all.done), with_thousands(all.tasks),
+      folder.string(), counted(before, "task"), with_thousands(all.done), with_thousands(all.tasks),
       others.empty() ? "" : " ", others);
 }
 

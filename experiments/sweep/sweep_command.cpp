@@ -150,7 +150,8 @@ void write_script(const fs::path& sweep, const SweepOptions& options, const Swee
   AtomicFiles out;
   out.write(request.folder / script_name(request.engine), script);
   commit_together({&out});
-  std::string text = fmt::format("{} batches\n", with_thousands(request.batches));
+  std::string text =
+      request.batches == 1 ? "1 batch\n" : fmt::format("{} batches\n", with_thousands(request.batches));
   if (request.engine == SweepEngine::slurm && !options.task_memory)
     text += "the script asks for no memory; with --task-memory SIZE it asks for that of its tasks\n";
   if (request.engine == SweepEngine::slurm && options.task_seconds &&

@@ -49,11 +49,10 @@ const OptionList<SweepOptions>& sweep_options() {
            {"--shard", "I/N", "run tasks I, I + N, I + 2 N, ... only; I is from 1 to N (default: all tasks)"},
            &O::shard, parse_shard,
            [](const Shard& shard) { return fmt::format("{}/{}", shard.number, shard.count); }),
-       whole_option(
-           {"--jobs", "N",
-            "tasks to run at a time (default: SLURM_CPUS_PER_TASK if it is set, otherwise all cores; with "
-            "--write: 1)"},
-           &O::jobs, 1, 100'000),
+       whole_option({"--jobs", "N",
+                     "tasks to run at a time (default: all cores; with "
+                     "--write: 1)"},
+                    &O::jobs, 1, 100'000),
        flag_option("--retry", "run tasks again that failed or crashed", &O::retry),
        real_option({"--task-seconds", "S", "a task that takes longer fails (default: no limit)"},
                    &O::task_seconds, {0.01, 1e9}),

@@ -102,8 +102,8 @@ def contacts(source, *, cutoff, verbose=False, **options):
     """Measures how long contacts last, exactly for the paths between frames, and as frames alone show them.
 
     The input is that of :func:`kds.run`. ``cutoff`` is the distance in angstrom within which centres are in contact
-    (surfaces if ``surface``); a pair of lengths are two cutoffs: a contact begins within the first and ends outside the
-    second. Two residues are in contact while any two of their beads are, so a selection of heavy atoms suits a ``cutoff``
+    (surfaces if ``surface``); a pair of lengths are two cutoffs: a contact begins when the least distance of two beads of the
+    pair falls to the first, and ends when it exceeds the second. Two residues are in contact while any two of their beads are, so a selection of heavy atoms suits a ``cutoff``
     of 4.5 and one of C-alpha atoms a ``cutoff`` of 8. Returns :class:`kds.Contacts`, whose help explains the rows.
 
     >>> import kds

@@ -14,9 +14,10 @@
 // Several pairs: sum of a / sum of b over pairs has on the logarithmic scale the variance
 // n / (n - 1) * sum of (a / A - b / B)^2, where A and B are the sums and n pairs are ever in contact. The
 // variance is that of the linearized ratio, robust to any dependence within a pair. The interval takes
-// Student's quantile with n - 1 degrees of freedom, and is at least as wide as that of one memoryless pair
-// with the sums. Pairs are taken as independent and drawn from one population. For the same pairs in another
-// run the interval is too wide.
+// Student's quantile with n - 1 degrees of freedom. Intervals of rates are at least as wide as that of one
+// memoryless pair with the sums. That of the occupancy is the ratio's alone, because beginnings and ends may
+// differ in a short run. Pairs are taken as independent and drawn from one population. For the same pairs in
+// another run the interval is too wide.
 //
 // docs/findings.md has a table of how often these intervals hold the truth.
 

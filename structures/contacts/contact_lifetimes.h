@@ -14,12 +14,11 @@
 //   are open at the last frame are censored. Contacts that are open at the first frame are left out, because
 //   their age is unknown: with the rest of their life they would enter as too short, and as censored they
 //   would be censored at their death.
-// - Band of S(t), for each t alone: S^exp(+-q sqrt(V) / log S), where V is the variance of log S with
-// contacts
-//   grouped by pair (Ying and Wei, 1994): V = n / (n - 1) * sum over pairs of (sum of r over the pair's
-//   contacts)^2, and q is Student's quantile with n - 1 degrees of freedom. A contact that ends at x has
-//   r = G(min(t, x)) - [x <= t] / (Y(x) - d(x)), and a censored one the first term only. Here Y contacts
-//   reach a length, d of them end there, and G(t) is the sum of d / (Y (Y - d)) up to t. n is Kish's
+// - Band of S(t), for each t alone: S^exp(+-q sqrt(V) / log S), where V is the variance of log S
+//   with contacts grouped by pair (Ying and Wei, 1994): V = n / (n - 1) * sum over pairs of (sum of r over
+//   the pair's contacts)^2, and q is Student's quantile with n - 1 degrees of freedom. A contact that ends at
+//   x has r = G(min(t, x)) - [x <= t] / (Y(x) - d(x)), and a censored one the first term only. Here Y
+//   contacts reach a length, d of them end there, and G(t) is the sum of d / (Y (Y - d)) up to t. n is Kish's
 //   effective number of pairs, (sum of c)^2 / sum of c^2, where a pair has c contacts. With a single pair,
 //   each contact takes the place of a pair, and V is n / (n - 1) times Greenwood's variance G. The band
 //   covers any dependence between the contacts of one pair, and none between pairs.

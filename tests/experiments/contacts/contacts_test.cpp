@@ -175,7 +175,8 @@ TEST(ContactsCommand, FiguresOfAllPairsCountThosePairsThatNeverMeet) {
   EXPECT_EQ(Json::parse(chains.out)["all"]["pairs_asked"], 3);
   const ProgramRun text = run_program({"contacts", path, "--cutoff", "2", "--apart", "1"});
   EXPECT_THAT(text.out, HasSubstr("contacts: 1 of 1 pairs; 6 pairs were asked for"));
-  EXPECT_THAT(text.out, HasSubstr("survival: of the 1 contacts whose beginning was seen; 0 that are open"));
+  EXPECT_THAT(text.out, HasSubstr("survival: of the contacts whose beginning was seen (1); those that are "
+                                  "open at the first frame (0)"));
 }
 
 // The example of docs/commands.md: the second bead of residue 1 stays within the outer cutoff, and was never

@@ -152,7 +152,7 @@ TEST(Sweep, CollectsResultsOfInputsThatAreGone) {
   scratch.file("a.xyz", chain(0.6));  // another content has no result
   const ProgramRun emptier = run_program({"sweep", "collect", scratch / "out"});
   EXPECT_EQ(emptier.code, 2);
-  EXPECT_THAT(emptier.err, HasSubstr("results.json has 4 tasks and would be replaced by 3 of 4"));
+  EXPECT_THAT(emptier.err, HasSubstr("results.json has results of 4 tasks and would be replaced by 3 of 4"));
   EXPECT_EQ(content_of(scratch / "out/results.csv"), before);
   scratch.file("a.xyz", chain(0.2));
   EXPECT_EQ(run_program({"sweep", "collect", scratch / "out"}).code, 0);
@@ -241,26 +241,23 @@ TEST(Sweep, CollectsFilesOfAnyName) {
   for (const Json& row : rows) EXPECT_EQ(row["input.beads"], 12);
 }
 
-PooledFigure figure_of(const std::vector<double>& values, bool counts) {
+PooledFigure figure_of(const std::vector<double>& values) {
   PooledFigure figure;
   for (const double value : values) figure.add(value);
-  figure.counts = counts;
   return figure;
 }
 
-// Two counts would have an interval that reaches over many powers of ten.
-TEST(Sweep, IntervalsOfCountsStayAboveZeroAndTakeThreeValues) {
-  const PooledFigure counts = figure_of({1, 100, 3}, true);
+// Two values would have an interval that reaches over many powers of ten.
+TEST(Sweep, IntervalsStayAboveZeroAndTakeThreeValues) {
+  const PooledFigure counts = figure_of({1, 100, 3});
   ASSERT_TRUE(counts.interval());
   EXPECT_GT(counts.interval()->lower, 0);
   EXPECT_LT(counts.interval()->lower, counts.mean);
   EXPECT_GT(counts.interval()->upper, counts.mean);
-  EXPECT_LT(figure_of({1, 100, 3}, false).interval()->lower, 0);
-  EXPECT_EQ(figure_of({2, 2, 2}, false).interval()->lower, 2);
-  EXPECT_EQ(figure_of({2, 2, 2}, true).no_interval(), "all values are equal");
-  for (const bool whole : {true, false})
-    EXPECT_EQ(figure_of({300, 9000}, whole).no_interval(), "fewer than 3 values");
-  const PooledFigure three = figure_of({300, 9000, 0}, true);
+  EXPECT_GT(figure_of({0.5, 100, 3}).interval()->lower, 0);
+  EXPECT_EQ(figure_of({2, 2, 2}).no_interval(), "all values are equal");
+  EXPECT_EQ(figure_of({300, 9000}).no_interval(), "fewer than 3 values");
+  const PooledFigure three = figure_of({300, 9000, 0});
   ASSERT_TRUE(three.interval());
   EXPECT_EQ(three.no_interval(), "");
   EXPECT_LT(three.interval()->upper / three.mean, 75);
@@ -573,7 +570,7 @@ TEST(Sweep, NamesResultsOfOtherVersionsAndKeepsTheirTables) {
     ASSERT_TRUE(other.add(RecordKind::done, task, R"({"result":{}})"));
   const std::string line = "32 results belong to version 0.0.9+old";
   expect_refused({"sweep", "collect", scratch / "out"},
-                 {"results.json has 1 tasks and would be replaced by 0 of 1", line});
+                 {"results.json has results of 1 task and would be replaced by 0 of 1", line});
   EXPECT_EQ(content_of(scratch / "out/results.csv"), before);
   EXPECT_THAT(run_program({"sweep", "status", scratch / "out"}).out, HasSubstr(line));
   std::filesystem::remove(scratch / "out/results.json");
