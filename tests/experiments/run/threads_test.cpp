@@ -143,6 +143,8 @@ TEST(ThreadsAndFiles, AreIndependent) {
           " --radius 2 --structures contacts --motion hermite --events OUT/e.jsonl --log OUT/log",
       "contacts " + ties + " --cutoff 1:1.5 --apart 1 --gap 1.5 --strides 1,2 --out OUT/out",
       "contacts " + ties + " --cutoff 1.5 --apart 1 --out OUT/out",
+      "contacts " + data_file("hostile/ties.xyz.gz") +
+          " --cutoff 1:1.5 --apart 1 --gap 1.5 --strides 1,2 --out OUT/out",
       "contacts " + villin + " --cutoff 5:5.5 --gap 1.5 --out OUT/out",
       "contacts " + villin + " --cutoff 5 --by bead --motion hermite --out OUT/out",
       "compare " + ties + " --radius 0.5 --structures wrapped,contacts --rounds 1 --out OUT/out",
