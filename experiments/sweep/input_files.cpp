@@ -110,8 +110,8 @@ InputFiles::File InputFiles::seen(const std::string& path) {
   if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return file;
   file.stamp = fmt::format("{} {} {}.{:09} {}.{:09}", status.st_size, status.st_ino, status.st_mtim.tv_sec,
                            status.st_mtim.tv_nsec, status.st_ctim.tv_sec, status.st_ctim.tv_nsec);
-  constexpr std::time_t settled = 2;
-  file.settled = std::time(nullptr) - status.st_ctim.tv_sec > settled;
+  constexpr std::time_t settled = 2;  // whole seconds, so at least one has passed
+  file.settled = std::time(nullptr) - status.st_ctim.tv_sec >= settled;
   return file;
 }
 

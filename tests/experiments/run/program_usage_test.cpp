@@ -68,8 +68,8 @@ TEST(Program, StandardInputIsNotRead) {
            {"run", kTrajectory, "--obstacle", "-"},
            {"run", kTrajectory, "--structures", "contacts", "--radius", "file:-"},
            {"replay", "-"},
-           {"contacts", "-"},
-           {"sweep", "-"}})
+           {"contacts", "-", "--cutoff", "8"},
+           {"sweep", "-", "--dry-run"}})
     expect_refused(arguments, {"standard input is not read"});
 }
 
