@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from . import _kds
-from ._options import InputError, number, numbers, plain, whole, wholes
+from ._options import InputError, number, numbers, plain, warn, whole, wholes
 
 _UNITS = ("angstrom", "nm")
 
@@ -275,7 +275,7 @@ def _open_group(group, chosen_of, pull, wants_elements, necklaces, groups):
     return beads, more + (["--frames", f"::{stride}"] if stride > 1 else []), (positions,)
 
 
-def _open_mdtraj(trajectory, chosen_of, wants_elements, necklaces, groups):
+def _open_mdtraj(trajectory, chosen_of, wants_elements, necklaces, groups, dt):
     beads = _kds.Beads("mdtraj trajectory")
     beads.nanometres = True
     atoms = list(trajectory.topology.atoms)
@@ -286,7 +286,14 @@ def _open_mdtraj(trajectory, chosen_of, wants_elements, necklaces, groups):
     _add_chains(beads, necklaces, [atom.residue.chain.index for atom in atoms], chains)
     if wants_elements:
         beads.elements = [atom.element.symbol for atom in atoms]
-    beads.times = np.asarray(trajectory.time, dtype=float).tolist()
+    times = np.asarray(trajectory.time, dtype=float)
+    # mdtraj numbers the frames of files without times
+    are_numbers = len(times) > 1 and np.array_equal(times, times[0] + np.arange(len(times)))
+    if are_numbers and dt is None:
+        warn(["mdtraj trajectory: its times are 0, 1, 2 ..., as of files without times; they are taken for picoseconds; "
+              "dt gives the true spacing"])
+    if not are_numbers or dt is None:
+        beads.times = times.tolist()
     if trajectory.unitcell_lengths is not None:
         lengths = np.float32(10) * np.asarray(trajectory.unitcell_lengths, dtype=np.float32)
         cells = np.hstack([lengths, np.asarray(trajectory.unitcell_angles, dtype=np.float32)])
@@ -381,7 +388,8 @@ def open_input(source, *, start=None, stop=None, step=None, units=None, necklace
     if is_atom_group(source):
         beads, more, frames = _open_group(source, chosen_of, pull, wants_elements, necklaces, groups)
     elif is_mdtraj(source):
-        beads, more, frames = _open_mdtraj(source, chosen_of, wants_elements, necklaces, groups)
+        beads, more, frames = _open_mdtraj(source, chosen_of, wants_elements, necklaces, groups,
+                                           (options or {}).get("dt"))
     else:
         beads, more, frames = _open_array(source, chosen_of, units, necklaces, times, groups)
     if radius is not None and np.ndim(radius) > 0:
