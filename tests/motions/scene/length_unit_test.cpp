@@ -138,7 +138,7 @@ TEST(LengthUnit, OneWarningNamesTheFile) {
   const auto warnings_at = [&](double scale) {
     std::string frame = fmt::format("{}\n\n", beads.cols());
     for (const auto& bead : beads.colwise())
-      frame += fmt::format("CA {} {} {}\n", scale * bead[0], scale * bead[1], scale * bead[2]);
+      frame += fmt::format("C {} {} {}\n", scale * bead[0], scale * bead[1], scale * bead[2]);
     std::vector<NecklaceStream> files;
     for (const std::string name : {"a.xyz", "b.xyz"})
       files.emplace_back(test::write_file(name, frame + frame), ReadOptions());
