@@ -14,6 +14,7 @@
 #include "experiments/output/text.h"
 #include "experiments/sweep/refuse.h"
 #include "experiments/sweep/task_name.h"
+#include "motions/base/input_file.h"
 
 namespace kds {
 
@@ -92,6 +93,7 @@ InputFiles::InputFiles(const Json& kept, Patterns patterns, std::function<bool()
 
 std::vector<std::string> InputFiles::matching(const std::string& pattern, const fs::path& folder,
                                               const std::string& where) {
+  refuse_standard_input(pattern);
   const fs::path whole = in_folder(folder, pattern);
   if (pattern.find_first_of(kWildcards) == std::string::npos) return {whole.string()};
   std::error_code none;

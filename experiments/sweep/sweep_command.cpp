@@ -19,6 +19,7 @@
 #include "experiments/sweep/sweep_folder.h"
 #include "experiments/sweep/sweep_options.h"
 #include "experiments/sweep/sweep_status.h"
+#include "motions/base/text_input.h"
 #include "structures/session/parallel_run.h"
 
 namespace kds {
@@ -97,7 +98,8 @@ int look_at(const std::string& what, const fs::path& folder) {
   if (all.open > 0)
     text += fmt::format("{} are missing, such as\n  {}\n", with_thousands(all.open),
                         fmt::join(found.first_missing, "\n  "));
-  if (states.damaged() > 0) text += fmt::format("{} damaged records were left out\n", states.damaged());
+  if (states.damaged() > 0)
+    text += fmt::format("{} left out, because damaged\n", counted(states.damaged(), "record"));
   print_to_stdout(text + others);
   print_report_path(folder);
   return all.done == all.tasks ? 0 : 1;

@@ -38,7 +38,7 @@ std::optional<std::uint64_t> hex_number(std::string_view text) {
 TaskStates::TaskStates(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator file(folder, error), end; file != end && !error; file.increment(error)) {
-    journals_.push_back({file->path(), {0, "an earlier version"}});
+    journals_.push_back({file->path(), {0, "unknown"}});
     std::ifstream stream(file->path(), std::ios::binary);
     std::uint64_t offset = 0;
     for (std::string line; std::getline(stream, line) && !stream.eof(); offset += line.size() + 1)

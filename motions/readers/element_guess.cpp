@@ -112,6 +112,8 @@ std::optional<std::string> set_elements_by_mass(std::vector<StructureResidue>& r
       const double mass = masses[atom.place];
       atom.is_massless = any_mass && mass < least_of_nuclei;
       atom.element = any_mass ? element_by_mass(mass) : element_by_name(residue, atom.name);
+      // Hydrogens whose mass is repartitioned weigh up to 4.032. Helium bonds to no atom.
+      if (atom.element == El::He && residue.atoms.size() > 1) atom.element = El::H;
       atom.element_is_given = true;
       if (!any_mass || atom.is_massless ||
           (atom.element != El::X && (suits(atom.name, atom.element.elem) || is_ion(residue))))

@@ -147,8 +147,16 @@ def _add_chains(beads, necklaces, keys, names):
 def _atom_names(atoms, residues, numbers, chains, places):
     """Returns the name of each bead. Places tell residues apart: a residue that has the name, number and chain of an
     earlier one gets its place behind a #."""
-    first, names = {}, []
+    first, names, last, left = {}, [], None, set()
     for atom, residue, number, chain, place in zip(atoms, residues, numbers, chains, places):
+        if place != last:
+            if place in left and None not in left:
+                warn([f"atoms of residue {residue} {number} are not neighbours in the input, so each part of it counts as a "
+                      "residue; atoms.select_atoms('all') has the order of residues"])
+                left.add(None)
+            if last is not None:
+                left.add(last)
+            last = place
         if first.setdefault((residue, number, chain), place) != place:
             number = f"{number}#{place}"
         names.append(_kds.bead_name(str(atom), str(residue), str(number), chain))

@@ -302,6 +302,21 @@ class PathArrayGroupAndMdtraj(unittest.TestCase):
                 self.assertEqual(list(zip(found.rows["i"], found.rows["j"])), neighbours)
         part = solvent([1, 1, 1], [0, 0, 0])[1:]
         self.assertEqual(kds.contacts(part, cutoff=4.5, apart=1).names, ["SOL 1", "SOL 1#2"])
+        mixed = solvent([1, 2], [0, 0], 2)[[0, 2, 1, 3]]
+        with self.assertWarnsRegex(kds.InputWarning, "atoms of residue SOL 1 are not neighbours"):
+            kds.contacts(mixed, cutoff=4.5, apart=1)
+
+    @needs("mdtraj")
+    def test_frame_numbers_of_mdtraj_are_doubted(self):
+        import mdtraj
+
+        trajectory = mdtraj.load(DCD, top=PDB)[:20]
+        with self.assertWarnsRegex(kds.InputWarning, "its times are 0, 1, 2"):
+            numbers = kds.contacts(trajectory, cutoff=5)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            times = kds.contacts(trajectory, cutoff=5, dt=0.02)
+        self.assertAlmostEqual(times.all["residence"], 0.02 * numbers.all["residence"])
 
     @needs("mdtraj")
     def test_residues_of_mdtraj_are_told_apart(self):

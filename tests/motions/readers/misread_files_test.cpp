@@ -69,8 +69,9 @@ TEST(Misread, AtomicNumbersThatAreNone) {
     double radius;  // 0: a massless site
   };
   for (const Case& one : {Case{"0", "1.00800000E+00", 30, 1.2}, Case{"-1", "3.02400000E+00", 30, 1.2},
-                          Case{"0", "0.00000000E+00", 30, 0}, Case{"-1", "4.00000000E-01", 30, 0},
-                          Case{"104", "1.00800000E+00", 30, 1.2}, Case{"6", "1.00800000E+00", 31, 1.7}}) {
+                          Case{"-1", "4.03200000E+00", 30, 1.2}, Case{"0", "0.00000000E+00", 30, 0},
+                          Case{"-1", "4.00000000E-01", 30, 0}, Case{"104", "1.00800000E+00", 30, 1.2},
+                          Case{"6", "1.00800000E+00", 31, 1.7}}) {
     SCOPED_TRACE(one.number + " " + one.mass);
     std::string text = test::read_bytes(prmtop);
     text = replaced(text, "       7      -1", fmt::format("       7{:>8}", one.number));
