@@ -77,7 +77,8 @@ std::uint64_t follow(unsigned seed) {
   EXPECT_EQ(automatic.counts().rebuilds, plain.counts().rebuilds);
   EXPECT_EQ(automatic.counts().from_scratch, plain.counts().from_scratch);
   EXPECT_EQ(automatic.counts().repairs, plain.counts().repairs);
-  if (moves == Moves::rest) {
+  // Pairs of beads at rest are kept from one search on, unless too many are near.
+  if (moves == Moves::rest && automatic.counts().from_scratch < frames) {
     EXPECT_EQ(automatic.counts().rebuilds, 1U) << scene.name;
   }
   return automatic.counts().repairs + told.counts().repairs;
