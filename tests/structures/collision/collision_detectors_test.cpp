@@ -291,7 +291,7 @@ TEST(CollisionDetectors, ListsAndBruteForceTakeGroups) {
     }
     joined += expected.size();
   }
-  EXPECT_GT(joined, rounds(300U));
+  EXPECT_GT(joined, rounds(150U));
 }
 
 // A detector that looks at all pairs would give a wrong answer.
