@@ -37,7 +37,7 @@ std::string joined_lines(std::string_view json) {
   return line;
 }
 
-// What a command wrote to standard error.
+// The lines that a command wrote to standard error.
 struct Messages {
   std::string error;  ///< the last message that is no warning
   Json warnings = Json::array();

@@ -58,7 +58,7 @@ struct TaskState {
   }
 };
 
-/// Who wrote a journal.
+/// The version of kds that wrote a journal.
 struct JournalMaker {
   std::uint64_t sources = results_version();
   std::string version = program_version();

@@ -103,7 +103,7 @@ std::map<std::string, std::string> files_below(const std::filesystem::path& fold
   return files;
 }
 
-// What is written has the same bytes on any number of threads.
+// Written files have the same bytes on any number of threads.
 TEST(ThreadsAndFiles, AreIndependent) {
   const ScratchDirectory scratch;
   const std::string ties = data_file("hostile/ties.xyz.gz");  // many contacts last equally long
