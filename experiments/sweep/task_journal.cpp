@@ -12,6 +12,8 @@
 #include <fstream>
 #include <optional>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/text.h"
@@ -35,11 +37,19 @@ std::optional<std::uint64_t> hex_number(std::string_view text) {
 
 }  // namespace
 
+// A directory lists its files in any order. Journals are read in the order in which they were last written,
+// so that of two results the first counts, and of two failures the last.
 TaskStates::TaskStates(const fs::path& folder) {
   std::error_code error;
+  std::vector<std::pair<fs::file_time_type, fs::path>> files;
   for (fs::directory_iterator file(folder, error), end; file != end && !error; file.increment(error)) {
-    journals_.push_back({file->path(), {0, "unknown"}});
-    std::ifstream stream(file->path(), std::ios::binary);
+    std::error_code gone;
+    files.emplace_back(file->last_write_time(gone), file->path());
+  }
+  std::ranges::sort(files);
+  for (const auto& [written, path] : files) {
+    journals_.push_back({path, {0, "unknown"}});
+    std::ifstream stream(path, std::ios::binary);
     std::uint64_t offset = 0;
     for (std::string line; std::getline(stream, line) && !stream.eof(); offset += line.size() + 1)
       take(line, offset);
@@ -77,6 +87,7 @@ void TaskStates::count(RecordKind kind, TaskName name, std::string_view json, co
   task.died += kind == RecordKind::died ? 1U : 0U;
   if (kind == RecordKind::drop || kind == RecordKind::fail || kind == RecordKind::done) ++task.closed;
   if (kind < RecordKind::died || task.settled == TaskStatus::done) return;
+  if (kind == RecordKind::died && task.settled == TaskStatus::failed) return;
   task.place = place;
   if (kind == RecordKind::fail) task.settled = TaskStatus::failed;
   if (kind != RecordKind::done) return;

@@ -48,7 +48,7 @@ struct TaskState {
   float seconds = 0;                      ///< of the attempt with the result
   TaskStatus settled = TaskStatus::open;  ///< done or failed, otherwise open
   bool warned = false;                    ///< the record of the result has warnings
-  RecordPlace place;                      ///< of the result, otherwise of the last failure or death
+  RecordPlace place;  ///< of the result, otherwise of the last failure, otherwise of the last death
 
   /// Attempts without a result. One of them may be running.
   [[nodiscard]] std::uint32_t lost() const { return attempts > closed ? attempts - closed : 0; }

@@ -221,7 +221,9 @@ def twice():
         expect(other.returncode in (0, 75), f"{other.returncode} {other.stderr}")
         time.sleep(0.05)
     for worker in workers:
-        expect(worker.wait(DEADLINE) in (0, 75), "a shard beside another failed")
+        code = worker.wait(DEADLINE)
+        refused += code == 75  # one of the others was first
+        expect(code in (0, 75), "a shard beside another failed")
     expect(refused > 0, "no process was refused")
     kds("sweep", sweep, "-o", folder)
     done = records(folder)["done"]

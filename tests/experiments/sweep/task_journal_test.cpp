@@ -54,6 +54,27 @@ TEST(TaskJournal, CountsAttemptsAndResults) {
   EXPECT_TRUE(states.of_other_versions().empty());
 }
 
+// A failure counts beside the crashes of other journals, in whichever order the directory lists them. Names
+// of journals are random.
+TEST(TaskJournal, FailureCountsWhateverTheOrderOfJournals) {
+  for (int round = 0; round < 16; ++round) {
+    const ScratchDirectory scratch;
+    JournalWriter crashes(scratch.path()), failures(scratch.path());
+    const auto add_crashes = [&] {
+      for (int k = 0; k < 2; ++k) {
+        ASSERT_TRUE(crashes.add(RecordKind::attempt, 1));
+        ASSERT_TRUE(crashes.add(RecordKind::died, 1, R"({"error":"ended by signal 11"})"));
+      }
+    };
+    if (round % 2 == 0) add_crashes();
+    ASSERT_TRUE(failures.add(RecordKind::fail, 1, R"({"code":2})"));
+    if (round % 2 == 1) add_crashes();
+    const TaskStates states(scratch.path());
+    EXPECT_EQ(states.of(1).status(), TaskStatus::failed);
+    EXPECT_EQ(line_of(states.read(states.of(1).place)), R"({"code":2})");
+  }
+}
+
 // However many bytes of a journal survive, the records that are whole count and no others.
 TEST(TaskJournal, CutOffAtEachByteKeepsWholeRecords) {
   const ScratchDirectory scratch;
