@@ -5,14 +5,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "experiments/bench/bench_chains.h"
 #include "experiments/program/timing.h"
 #include "motions/scene/straightened_frames.h"
-#include "structures/chord_cages/chord_cages.h"
-#include "structures/contacts/moving_family.h"
-#include "structures/contacts/swept_contacts.h"
 
 namespace kds {
 
@@ -23,11 +19,10 @@ namespace {
 struct Factors {
   std::string_view name;
   std::optional<double> chord, tight, layered, relaxed, tolerant, more_tolerant;
-  double swept;  ///< largest cost of a swept query in static queries
 };
-constexpr std::array kFactors{Factors{"villin", 5, 3, 13, 2, 2, 2.8, 1.1},
-                              Factors{"random100", 3.4, 2, 13, 2, 2, 2.8, 1.1},
-                              Factors{"dhodh", 6.5, 1.5, 13, 2, {}, {}, 1.45}};
+constexpr std::array kFactors{Factors{"villin", 5, 3, 13, 2, 2, 2.8},
+                              Factors{"random100", 3.4, 2, 13, 2, 2, 2.8},
+                              Factors{"dhodh", 6.5, 1.5, 13, 2, {}, {}}};
 
 const Factors* factors_of(std::string_view name) {
   const auto* const found = std::ranges::find_if(
@@ -97,63 +92,6 @@ void add_levers(const BenchChain& chain, const std::vector<Lever>& levers, std::
   }
 }
 
-// The balls are a quarter larger than those of `--radius auto`, so that some meet. Pairs within four beads
-// along the chain are excluded.
-void add_swept_contacts(BenchChain chain, std::size_t rounds, std::vector<BenchRow>& rows) {
-  for (double& radius : chain.radii) radius *= 1.25;
-  const Scene scene = scene_of(chain, FrameMotion::linear);
-  std::vector<BezierMotion<3, 1>> steps(scene.step_count(), BezierMotion<3, 1>(scene.bead_count()));
-  std::vector<ChordCages<StaticWrappedHierarchy<3>>> cages;
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    scene.load(k, steps[k]);
-    cages.emplace_back(scene.necklaces(), 1);
-    cages.back().move_to(Curves<3>(steps[k]));
-  }
-  const PairsAsked asked{scene.necklaces(), true, 5, true};
-  SweptContacts<3> query(NecklaceTree(scene.necklaces()), asked);
-  MovingFamily<3> family(asked, 1);
-  FoundPairs found;
-  PairsOfBlocks pairs;
-  std::size_t kept = 0;  // used, so that the compiler keeps the work
-  const auto seconds_over_steps = [&](auto&& of_step) {
-    return processor_seconds_of([&] {
-      for (std::size_t k = 0; k < steps.size(); ++k) {
-        of_step(k, Curves<3>(steps[k]));
-        kept += found.pairs.size() + pairs.unclear.size();
-      }
-    });
-  };
-  std::vector<double> swept, at_rest, boxes;
-  double swept_tests = 0, static_tests = 0;
-  for (std::size_t round = 0; round < rounds; ++round) {
-    swept_tests = static_tests = 0;
-    swept.push_back(seconds_over_steps([&](std::size_t k, const Curves<3>& curves) {
-      query.find(cages[k].cages(0), cages[k].cages(1), curves, found);
-      swept_tests += static_cast<double>(found.tests);
-    }));
-    at_rest.push_back(seconds_over_steps([&](std::size_t k, const Curves<3>& curves) {
-      query.find_static(cages[k].cages(0), curves, 0, found);
-      static_tests += static_cast<double>(found.tests);
-    }));
-    boxes.push_back(seconds_over_steps([&](std::size_t, const Curves<3>& curves) {
-      family.find_pairs(curves, MovingFamily<3>::Resting::left_out, false, pairs);
-    }));
-  }
-  const auto beads = static_cast<double>(scene.bead_count() * steps.size());
-  const Factors* const factors = factors_of(chain.name);
-  const std::optional<double> goal = factors != nullptr ? std::optional(factors->swept) : std::nullopt;
-  const auto row = [&](const char* unit, double value, const char* peer, double of_peer,
-                       std::optional<double> most) {
-    rows.push_back({"swept contacts of a step", chain.name, scene.bead_count(), value / beads, unit,
-                    kept > 0 ? peer : "", of_peer / beads, most});
-  };
-  row("tests/bead", swept_tests, "static query", static_tests, goal);
-  for (const auto& [peer, seconds] : {std::pair("static query", at_rest), std::pair("moving boxes", boxes)}) {
-    row("ns/bead", median_of(swept) * 1e9, peer, median_of(seconds) * 1e9, std::nullopt);
-    rows.back() = with_spread(std::move(rows.back()), swept, 1e9 / beads);
-  }
-}
-
 }  // namespace
 
 std::vector<BenchRow> bench_trade(const TradeBenchOptions& options,
@@ -164,7 +102,6 @@ std::vector<BenchRow> bench_trade(const TradeBenchOptions& options,
     const BenchChain chain = read_bench_chain(path);
     const std::size_t rounds = std::max(options.rounds, 200000 / (chain.radii.size() * chain.frames.size()));
     for (const std::vector<Lever>& levers : levers_by_structure()) add_levers(chain, levers, rounds, rows);
-    if (chain.dimension == 3) add_swept_contacts(chain, rounds, rows);
     progress(++done, options.trajectories.size());
   }
   return rows;
