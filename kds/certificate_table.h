@@ -95,8 +95,7 @@ class CertificateTable final : public FailureSource {
         number_(number),
         table_in_run_(structure, number),
         search_(search_over<Certificate>(motion)),
-        touches_(touches),
-        most_in_step_(most_in_step(motion.bead_count())) {
+        touches_(touches) {
     simulator.add_table(*this, Certificate::type);
   }
 
@@ -110,9 +109,6 @@ class CertificateTable final : public FailureSource {
                              ": constants are set in the midst of a step, expected before its certificates");
     search_->set_constants(constants);
   }
-
-  /// With the `fast` kernel, divides the limit of certificates per step by `times`.
-  void expect_fewer(std::uint64_t times) { most_in_step_ /= times; }
 
   /// Guards the structure by `certificate` from now to the end of the step. `place` is the certificate's
   /// place in the structure. The place is passed back with the failure, and KineticStructure::tie_of turns it
@@ -259,7 +255,6 @@ class CertificateTable final : public FailureSource {
   void clear() override {
     slots_.clear();
     free_.clear();
-    created_in_step_ = 0;
     constants_in_use_ = {};
     owner_.statistics.certificates.alive = 0;
   }
@@ -318,15 +313,6 @@ class CertificateTable final : public FailureSource {
   void find_failures(std::span<const Certificate> certificates, std::span<const KnownAtStart> births,
                      std::span<Failure> failures) {
     if constexpr (HasConstants<Certificate>) constants_in_use_.value = true;
-    if (simulator_.kernel() == Kernel::fast) {
-      // Contradictions between rounded values may create events without end. Beyond the limit of certificates
-      // per step, no further certificate is searched, and each is taken to hold.
-      created_in_step_ += certificates.size();
-      if (created_in_step_ > most_in_step_) {
-        std::fill(failures.begin(), failures.end(), Failure{});
-        return;
-      }
-    }
     search_->first_failures(simulator_.kernel(), certificates, simulator_.now(), births,
                             owner_.statistics.stages, touches_, failures);
   }
@@ -361,12 +347,6 @@ class CertificateTable final : public FailureSource {
     return static_cast<CertificateHandle>(slot);
   }
 
-  /// A limit above the number that real motions create. Searching this many certificates takes about as
-  /// long as the `filtered` kernel takes for the same span of time.
-  [[nodiscard]] static std::uint64_t most_in_step(std::uint64_t beads) {
-    return 20'000 + 4'000 * beads + 4 * beads * beads;
-  }
-
   Simulator& simulator_;
   KineticStructure& owner_;
   std::size_t structure_;
@@ -374,7 +354,6 @@ class CertificateTable final : public FailureSource {
   NumberOfTable table_in_run_;
   std::unique_ptr<CertificateSearch<Certificate>> search_;
   TouchPolicy touches_;
-  std::uint64_t most_in_step_;  // limit of certificates in a step with `fast`
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_;
   // The enqueued certificates with their places, births and failures. These arrays have room for more than
@@ -387,7 +366,6 @@ class CertificateTable final : public FailureSource {
   bool any_known_ = false;
   std::size_t waiting_count_ = 0;
   std::vector<SearchedCertificate> settled_;  // already searched, from enqueue_one_of_many
-  std::uint64_t created_in_step_ = 0;
   [[no_unique_address]] detail::ConstantsInUse<Certificate> constants_in_use_;
 };
 

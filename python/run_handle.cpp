@@ -168,8 +168,8 @@ void RunHandle::execute(const py::object& progress) {
   std::optional<ClosestApproachOfRun> approach;
   if (parts) {
     parts->listen(events_);
-    follow_approach(*parts, options_);
-  } else if (const auto closest = place_of_closest(session); closest && options_.kernel != Kernel::fast) {
+    follow_approach(*parts);
+  } else if (const auto closest = place_of_closest(session); closest) {
     approach.emplace(session, *closest);
   }
   if (options_.view) {

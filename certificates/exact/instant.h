@@ -17,7 +17,6 @@ class ExactTime;
 /// starts or is cut.
 enum class DecidedBy : std::uint8_t {
   unknown,    ///< no stage: the time is not that of a certificate that failed, or comes from a log
-  unproved,   ///< doubles without proof, kernel `fast`
   isolation,  ///< doubles with proved error bounds
   refined,    ///< doubles, with error bounds followed operation by operation
   exact,      ///< integers
@@ -31,7 +30,7 @@ enum class DecidedBy : std::uint8_t {
 /// between them. If `isolating`, there is no other root in the bracket, and the function's signs at lower and
 /// upper are proved to differ. The function is the certificate's own, which turns negative at the time. For a
 /// radical certificate it is a polynomial that has all roots of the certificate's function (the norm,
-/// radical.h) and may change sign in either direction. The `fast` kernel gives lower == upper without proof.
+/// radical.h) and may change sign in either direction.
 struct FailureTime {
   double lower = 0;
   double upper = 0;

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <memory>
 
-#include "certificates/base/kernel.h"
 #include "motions/base/bead.h"
 #include "motions/curves/motion_ref.h"
 #include "motions/views/lanes_view.h"
@@ -44,10 +43,10 @@ class CellFilter {
 
   /// Tests eight cells with the first `beyond` beads beyond each.
   virtual void positive_cells(const CellsInLanes<Dimension>& cells, std::size_t beyond,
-                              const LengthUnit& unit, Rounding rounding, PositiveBits& positive) const = 0;
+                              const LengthUnit& unit, PositiveBits& positive) const = 0;
   /// Tests only the first four cells, with all beads beyond them.
   virtual void four_positive_cells(const CellsInLanes<Dimension>& cells, const LengthUnit& unit,
-                                   Rounding rounding, PositiveBits& positive) const = 0;
+                                   PositiveBits& positive) const = 0;
 };
 
 /// The answers requested. `step`: nothing about parts, and for cells without beads beyond them only their

@@ -34,27 +34,24 @@ class FilterOver final : public CellFilter<C::dimension> {
   }
 
   void positive_cells(const CellsInLanes<dimension>& cells, std::size_t beyond, const LengthUnit& unit,
-                      Rounding rounding, PositiveBits& positive) const override {
+                      PositiveBits& positive) const override {
     const C now = curves();
-    const float charge = charge_of(rounding);
     switch (vectors_) {
       case FloatVectors::many_of_eight:
-        return find_in_eight_avx512(now, cells, beyond, unit, bounds_, charge, positive);
+        return find_in_eight_avx512(now, cells, beyond, unit, bounds_, positive);
       case FloatVectors::eight:
-        return find_in_eight_avx2(now, cells, beyond, unit, bounds_, charge, positive);
+        return find_in_eight_avx2(now, cells, beyond, unit, bounds_, positive);
       case FloatVectors::four:
         for (std::size_t first = 0; first < cells_in_batch; first += 4)
-          in_long_lanes<&find_in_four<C>>(now, cells, first, beyond, unit, bounds_, charge, positive);
+          in_long_lanes<&find_in_four<C>>(now, cells, first, beyond, unit, bounds_, positive);
     }
   }
-  void four_positive_cells(const CellsInLanes<dimension>& cells, const LengthUnit& unit, Rounding rounding,
+  void four_positive_cells(const CellsInLanes<dimension>& cells, const LengthUnit& unit,
                            PositiveBits& positive) const override {
-    in_long_lanes<&find_in_four<C>>(curves(), cells, 0, dimension + 1, unit, bounds_, charge_of(rounding),
-                                    positive);
+    in_long_lanes<&find_in_four<C>>(curves(), cells, 0, dimension + 1, unit, bounds_, positive);
   }
 
  private:
-  static float charge_of(Rounding rounding) { return rounding == Rounding::charged ? 1.0F : 0.0F; }
   [[nodiscard]] C curves() const {
     if constexpr (lifted<C>) {
       return motion_.lifted_curves();
@@ -71,11 +68,11 @@ class FilterOver final : public CellFilter<C::dimension> {
 template <int Dimension>
 class FindsNothing final : public CellFilter<Dimension> {
  public:
-  void positive_cells(const CellsInLanes<Dimension>&, std::size_t, const LengthUnit&, Rounding,
+  void positive_cells(const CellsInLanes<Dimension>&, std::size_t, const LengthUnit&,
                       PositiveBits& positive) const override {
     positive.fill(0);
   }
-  void four_positive_cells(const CellsInLanes<Dimension>&, const LengthUnit&, Rounding,
+  void four_positive_cells(const CellsInLanes<Dimension>&, const LengthUnit&,
                            PositiveBits& positive) const override {
     positive.fill(0);
   }

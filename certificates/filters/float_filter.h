@@ -252,7 +252,7 @@ template <class FloatLanes, Motion M>
 [[gnu::always_inline]] inline void find_positive_orientations(const M& motion,
                                                               const CellsInLanes<M::dimension>& all_cells,
                                                               std::size_t first, const LengthUnit& unit,
-                                                              const FloatPowerBoundOf<M>& bound, float charge,
+                                                              const FloatPowerBoundOf<M>& bound,
                                                               PositiveBits& positive) {
   using View = FloatLanesView<M, FloatLanes>;
   RowSizes<FloatLanes> sizes;
@@ -262,7 +262,7 @@ template <class FloatLanes, Motion M>
     sizes.take(view);
     return row;
   });
-  const FloatLanes scale = FloatLanes(charge) * sizes.error_scale_without_lift();
+  const FloatLanes scale = sizes.error_scale_without_lift();
   auto bits = orientation_bits<M::dimension>(cofactors.lift, bound.orientation, scale);
   if constexpr (has_parts<M>)
     add_parts(cofactors.lift, FloatLanes(bound.orientation_of_part) * scale,
@@ -276,16 +276,15 @@ template <class FloatLanes, Motion M>
 template <class FloatLanes, Motion M>
 [[gnu::always_inline]] inline void find_positive_cells(
     const M& motion, const CellsInLanes<M::dimension>& all_cells, std::size_t first, std::size_t beyond,
-    const LengthUnit& unit, const FloatFilterBounds<M>& bounds, float charge, PositiveBits& positive) {
+    const LengthUnit& unit, const FloatFilterBounds<M>& bounds, PositiveBits& positive) {
   if (beyond == 0) {
     if constexpr (has_parts<M>) {
       if (bounds.tells_parts)
-        return find_positive_orientations<FloatLanes>(motion, all_cells, first, unit, bounds.of_step, charge,
+        return find_positive_orientations<FloatLanes>(motion, all_cells, first, unit, bounds.of_step,
                                                       positive);
     }
     const FixedCurves<M::dimension, 0> end(motion.at_end());
-    return find_positive_orientations<FloatLanes>(end, all_cells, first, unit, bounds.at_end, charge,
-                                                  positive);
+    return find_positive_orientations<FloatLanes>(end, all_cells, first, unit, bounds.at_end, positive);
   }
   using View = FloatLanesView<M, FloatLanes>;
   constexpr std::size_t vertices = M::dimension + 1;
@@ -299,7 +298,7 @@ template <class FloatLanes, Motion M>
     return row;
   };
   const auto cofactors = power_cofactors<View>(row_of);
-  const FloatLanes cell_scale = FloatLanes(charge) * cell_sizes.error_scale_without_lift();
+  const FloatLanes cell_scale = cell_sizes.error_scale_without_lift();
   typename FloatLanes::Mask bits =
       orientation_bits<M::dimension>(cofactors.lift, bound.orientation, cell_scale);
   if constexpr (has_parts<M>) {
@@ -314,7 +313,7 @@ template <class FloatLanes, Motion M>
     const auto function = cofactors.with(row);
     RowSizes<FloatLanes> sizes = cell_sizes;
     sizes.take(view);
-    const FloatLanes scale = FloatLanes(charge) * sizes.error_scale();
+    const FloatLanes scale = sizes.error_scale();
     typename FloatLanes::Mask all = scale >= scale;
     for (std::size_t k = 0; k < function.scaled.size(); ++k)
       all &= function.scaled[k] > FloatLanes(bound.coefficient[k]) * scale;
@@ -333,25 +332,25 @@ template <class FloatLanes, Motion M>
 template <Motion M>
 void find_in_four(const M& motion, const CellsInLanes<M::dimension>& cells, std::size_t first,
                   std::size_t beyond, const LengthUnit& unit, const detail::FloatFilterBounds<M>& bounds,
-                  float charge, PositiveBits& positive) {
-  detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, first, beyond, unit, bounds, charge, positive);
+                  PositiveBits& positive) {
+  detail::find_positive_cells<FloatLanesIn<4>>(motion, cells, first, beyond, unit, bounds, positive);
 }
 
 /// Tests eight cells at once, on processors with long enough vectors.
 template <Motion M>
 [[KDS_EIGHT_FLOATS_AVX2]] void find_in_eight_avx2(const M& motion, const CellsInLanes<M::dimension>& cells,
                                                   std::size_t beyond, const LengthUnit& unit,
-                                                  const detail::FloatFilterBounds<M>& bounds, float charge,
+                                                  const detail::FloatFilterBounds<M>& bounds,
                                                   PositiveBits& positive) {
-  detail::find_positive_cells<FloatLanes>(motion, cells, 0, beyond, unit, bounds, charge, positive);
+  detail::find_positive_cells<FloatLanes>(motion, cells, 0, beyond, unit, bounds, positive);
 }
 template <Motion M>
 [[KDS_EIGHT_FLOATS_AVX512]] void find_in_eight_avx512(const M& motion,
                                                       const CellsInLanes<M::dimension>& cells,
                                                       std::size_t beyond, const LengthUnit& unit,
                                                       const detail::FloatFilterBounds<M>& bounds,
-                                                      float charge, PositiveBits& positive) {
-  detail::find_positive_cells<FloatLanes>(motion, cells, 0, beyond, unit, bounds, charge, positive);
+                                                      PositiveBits& positive) {
+  detail::find_positive_cells<FloatLanes>(motion, cells, 0, beyond, unit, bounds, positive);
 }
 
 }  // namespace kds

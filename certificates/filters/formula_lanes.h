@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "certificates/base/certificate.h"
-#include "certificates/base/kernel.h"
 #include "certificates/filters/bounded_polynomial.h"
 #include "certificates/filters/lanes_descent.h"
 #include "motions/views/lanes_view.h"
@@ -34,7 +33,7 @@ namespace detail {
 template <class Certificate, Motion M, int Degree>
 [[gnu::always_inline]] inline void evaluate_in_line(
     const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
-    const Lanes& sides, const LanesBound<Degree>& bound, double charge, ScaledLanes<Degree>& lanes,
+    const Lanes& sides, const LanesBound<Degree>& bound, ScaledLanes<Degree>& lanes,
     const BeadsOf<Certificate>& like = {}) {
   const BeadsOf<Certificate> places = in_places<Certificate>(like);  // constants for the compiler
   const LanesView<M, bead_places<Certificate>, channels_of<Certificate>> view(motion, tuples);
@@ -45,7 +44,6 @@ template <class Certificate, Motion M, int Degree>
   for (int i = 0; i < bound.power; ++i) scale = scale * length;
   scale =
       Lanes::choose((scale >= Lanes(0x1p-900)) & (scale <= Lanes(0x1p900)), scale, Lanes(__builtin_nan("")));
-  scale = scale * Lanes(charge);
   lanes.error_scale = scale;
   lanes.positive = scale >= Lanes(0.0);
   for (std::size_t k = 0; k <= Degree; ++k) {
@@ -61,9 +59,9 @@ template <class Certificate, Motion M, int Degree>
 template <class Certificate, Motion M, int Degree>
 [[KDS_LANES_TARGETS]] void evaluate_lanes(
     const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
-    const Lanes& sides, const LanesBound<Degree>& bound, Rounding rounding, ScaledLanes<Degree>& lanes,
+    const Lanes& sides, const LanesBound<Degree>& bound, ScaledLanes<Degree>& lanes,
     const BeadsOf<Certificate>& like) {
-  detail::evaluate_in_line<Certificate>(motion, tuples, sides, bound, charge_of(rounding), lanes, like);
+  detail::evaluate_in_line<Certificate>(motion, tuples, sides, bound, lanes, like);
 }
 
 // The signs of four functions of bead centres (such as orientations) at once, at a moment that is known as a

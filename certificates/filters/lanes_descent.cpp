@@ -204,7 +204,7 @@ template <class Row>
 /// Computes the plain Bernstein coefficients and their error bounds.
 template <int Degree>
 [[gnu::always_inline]] inline void bound_lanes(const ScaledLanes<Degree>& given, double uniform_bound,
-                                               double charge, LanesDescent<Degree>& lanes) {
+                                               LanesDescent<Degree>& lanes) {
   Lanes largest(0.0);
   const int degree = static_cast<int>(given.scaled.size()) - 1;
   set_size(lanes.bernstein, given.scaled.size());
@@ -214,10 +214,8 @@ template <int Degree>
   }
   const Lanes uniform = Lanes::choose(largest >= Lanes(0x1p-900), Lanes(uniform_bound) * given.error_scale,
                                       Lanes(__builtin_nan("")));
-  // Adds a tiny value, so that a function known to be positive also appears positive.
-  const Lanes least(charge == 0 ? 0x1p-1000 : 0.0);
-  lanes.value_error = uniform + Lanes(charge * value_rounding(degree)) * largest + least;
-  lanes.local_error = uniform + Lanes(charge * local_rounding(degree)) * largest + least;
+  lanes.value_error = uniform + Lanes(value_rounding(degree)) * largest;
+  lanes.local_error = uniform + Lanes(local_rounding(degree)) * largest;
 }
 
 /// Bounds how much a function's value in the present bracket may differ from its value at the upper end.
@@ -235,10 +233,10 @@ template <int Degree>
 }
 
 template <int Degree>
-[[KDS_LANES_TARGETS]] void classify(const ScaledLanes<Degree>& functions, double uniform, double charge,
-                                    const LanesNow& now, LanesOutcome<Degree>& out) {
+[[KDS_LANES_TARGETS]] void classify(const ScaledLanes<Degree>& functions, double uniform, const LanesNow& now,
+                                    LanesOutcome<Degree>& out) {
   out.positive = functions.positive;
-  bound_lanes(functions, uniform, charge, out.descent);
+  bound_lanes(functions, uniform, out.descent);
   auto right = out.descent.bernstein;  // the part after now
   if (now.upper > 0) casteljau(right, Lanes(now.upper));
   // At its own root, the function has no other root in the bracket and is positive at the upper end.
@@ -266,14 +264,13 @@ template <int Degree>
 }  // namespace
 
 template <int Degree>
-void classify_lanes(const ScaledLanes<Degree>& functions, double uniform, Rounding rounding,
-                    const LanesNow& now, LanesOutcome<Degree>& out) {
-  classify(functions, uniform, charge_of(rounding), now, out);
+void classify_lanes(const ScaledLanes<Degree>& functions, double uniform, const LanesNow& now,
+                    LanesOutcome<Degree>& out) {
+  classify(functions, uniform, now, out);
 }
 
-#define KDS_COMPILE(degree)                                                                   \
-  template void classify_lanes(const ScaledLanes<degree>&, double, Rounding, const LanesNow&, \
-                               LanesOutcome<degree>&);
+#define KDS_COMPILE(degree) \
+  template void classify_lanes(const ScaledLanes<degree>&, double, const LanesNow&, LanesOutcome<degree>&);
 KDS_FOR_EACH_LANES_DEGREE(KDS_COMPILE)
 #undef KDS_COMPILE
 

@@ -8,7 +8,6 @@
 #include <array>
 #include <cstddef>
 
-#include "certificates/base/kernel.h"
 #include "motions/numbers/bernstein.h"
 #include "motions/numbers/lanes.h"
 
@@ -192,15 +191,14 @@ struct LanesOutcome : LanesSigns {
 /// the signs of their Bernstein coefficients. The answers are those of BoundedPolynomial for one function at
 /// a time. Functions that need a subdivision are left to later stages. `uniform` is from their ErrorBound.
 template <int Degree>
-void classify_lanes(const ScaledLanes<Degree>& functions, double uniform, Rounding rounding,
-                    const LanesNow& now, LanesOutcome<Degree>& out);
+void classify_lanes(const ScaledLanes<Degree>& functions, double uniform, const LanesNow& now,
+                    LanesOutcome<Degree>& out);
 
 template <int Degree>
 requires(!is_compiled<Degree>) void classify_lanes(const ScaledLanes<Degree>& functions, double uniform,
-                                                   Rounding rounding, const LanesNow& now,
-                                                   LanesOutcome<Degree>& out) {
+                                                   const LanesNow& now, LanesOutcome<Degree>& out) {
   LanesOutcome<any_degree> same;
-  classify_lanes(ScaledLanes<any_degree>(functions), uniform, rounding, now, same);
+  classify_lanes(ScaledLanes<any_degree>(functions), uniform, now, same);
   static_cast<LanesSigns&>(out) = same;
   same.descent.copy_to(out.descent);
 }

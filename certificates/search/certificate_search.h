@@ -2,7 +2,7 @@
 // The failure-time cascade of one certificate type over one motion, behind virtual calls on batches. The
 // search takes certificates and the present time, and finds the first failures of the certificates in this
 // step. The search is compiled once for each type and dimension (define_certificate_search.h), and users need
-// not include that code. The kernels `filtered` and `exact` answer exactly, `fast` approximately (kernel.h).
+// not include that code. All answers are exact.
 
 #include <cstdint>
 #include <memory>

@@ -40,26 +40,24 @@ class LanesFilter {
   /// Searches up to four certificates, named by their places, that differ only in their beads. Calls
   /// `alone(place)` for each certificate that it leaves undecided.
   template <class Alone>
-  void first_failures(Kernel kernel, const C& curves, std::span<const Certificate> certificates,
+  void first_failures(const C& curves, std::span<const Certificate> certificates,
                       std::span<const std::size_t> places, const Instant& now,
                       std::span<const KnownAtStart> known, StageCounts& stages, std::span<Failure> failures,
                       Alone alone) const {
-    const bool fast = kernel == Kernel::fast;
     const auto [tuples, sides] = in_lanes(certificates, places);
-    LanesNow lanes_now{now.lower(), now.upper(), now.isolating() || fast, 0};
+    LanesNow lanes_now{now.lower(), now.upper(), now.isolating(), 0};
     for (std::size_t lane = 0; lane < places.size(); ++lane) {
       if (known[places[lane]] == KnownAtStart::at_own_root) lanes_now.at_own_root |= 1U << lane;
     }
     ScaledLanes<degree> functions;
-    evaluate_lanes<Certificate>(curves, tuples, sides, bound_, rounding_of(kernel), functions,
-                                certificates[places[0]].beads);
+    evaluate_lanes<Certificate>(curves, tuples, sides, bound_, functions, certificates[places[0]].beads);
     if (Lanes::all(functions.positive)) {
       for (const std::size_t place : places) failures[place] = {};
       stages.coefficients += places.size();
       return;
     }
     LanesOutcome<degree> outcome;
-    classify_lanes(functions, bound_.uniform, rounding_of(kernel), lanes_now, outcome);
+    classify_lanes(functions, bound_.uniform, lanes_now, outcome);
     LanesDescent<degree>& descent = outcome.descent;
     LanesSearch search{outcome.positive | outcome.never, outcome.found, outcome.found};
     if (Lanes::any(outcome.unclear))
@@ -72,12 +70,10 @@ class LanesFilter {
         failures[place] = {};
       } else if (search.found[lane] != 0) {
         ++stages.isolation;
-        const double lower = descent.lower.v[lane], upper = descent.upper.v[lane];
-        const double middle = 0.5 * (lower + upper);
         failures[place] = {Failure::Kind::later,
-                           {fast ? middle : lower, fast ? middle : upper, 0, !fast, false,
-                            search.last[lane] != 0, fast ? DecidedBy::unproved : DecidedBy::isolation}};
-      } else if (outcome.violated[lane] != 0 && !fast) {  // without proofs, a zero may appear negative
+                           {descent.lower.v[lane], descent.upper.v[lane], 0, true, false,
+                            search.last[lane] != 0, DecidedBy::isolation}};
+      } else if (outcome.violated[lane] != 0) {
         ++stages.isolation;
         failures[place] = failed_at_birth(now);
       } else {
@@ -209,8 +205,6 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
                                                                     const C& curves, const Instant& now,
                                                                     KnownAtStart known, StageCounts& stages,
                                                                     TouchPolicy touches) {
-    if (kernel == Kernel::fast)
-      return fast_first_failure(Values::bounded(certificate, curves).polynomial, now, known, stages);
     const ExactWork::About about(certificate);
     if (kernel == Kernel::filtered) {
       const BoundedFunction tracked = Values::tracked(certificate, curves);
@@ -243,10 +237,6 @@ class SearchOneByOne : public CertificateSearch<Certificate> {
                                                const Instant& now, StageCounts& stages,
                                                int (*exact_sign)(const ExactPolynomial&, ExactTime&)) const {
     const C curves = curves_now();
-    if (kernel == Kernel::fast) {
-      const double value = Values::bounded(certificate, curves).polynomial.value_at(now.upper());
-      return value > 0 ? 1 : value < 0 ? -1 : 0;
-    }
     if (kernel == Kernel::filtered) {
       int sign = Values::sign_during(certificate, curves, now.lower(), now.upper());
       if (sign == 0)
@@ -289,7 +279,7 @@ class SearchInLanes final : public SearchOneByOne<Certificate, CurvesOf<C>> {
                                          stages, touches);
     };
     const auto search = [&] {
-      filter_.first_failures(kernel, curves, certificates, std::span(places).first(count), now, known, stages,
+      filter_.first_failures(curves, certificates, std::span(places).first(count), now, known, stages,
                              failures, alone);
       count = 0;
     };

@@ -73,8 +73,6 @@ class RadicalSearch final : public CertificateSearch<Certificate> {
   [[nodiscard]] static Failure first_failure(Kernel kernel, const Certificate& certificate, const C& curves,
                                              const Instant& now, KnownAtStart known, StageCounts& stages,
                                              TouchPolicy touches) {
-    if (kernel == Kernel::fast)
-      return fast_first_failure(InDouble(Errors::none, certificate, curves), now, known, stages);
     const ExactWork::About about(certificate);
     if (kernel == Kernel::filtered) {
       if (const auto failure =
@@ -98,8 +96,6 @@ class RadicalSearch final : public CertificateSearch<Certificate> {
                                 StageCounts& stages,
                                 int (*exact_sign)(const ExactPolynomial&, ExactTime&)) const {
     const C curves = motion_.curves();
-    if (kernel == Kernel::fast)
-      return InDouble(Errors::none, certificate, curves).certain_sign_on(now.upper(), now.upper());
     if (kernel == Kernel::filtered) {
       const int sign =
           InDouble(Errors::tracked, certificate, curves).certain_sign_on(now.lower(), now.upper());

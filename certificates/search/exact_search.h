@@ -29,10 +29,6 @@ namespace kds {
 [[nodiscard]] std::optional<Failure> proved_failure(const BoundedFunction& bounded, const Instant& now,
                                                     KnownAtStart known);
 
-/// Returns the failure as computed in double, without proof. The work is bounded.
-[[nodiscard]] Failure fast_first_failure(BoundedPolynomial function, const Instant& now, KnownAtStart known,
-                                         StageCounts& stages);
-
 /// Returns the exact failure, a root of `function`, as a bracket in doubles.
 [[nodiscard]] Failure to_failure(const ExactPolynomial& function, ExactFailure& root);
 

@@ -1,7 +1,6 @@
 #include "certificates/search/radical_stages.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -85,32 +84,6 @@ std::optional<Failure> proved_failure(const RadicalInDouble& certificate, const 
   // A negative sign may come from beads in one place, which have no sphere. Integers decide that.
   if (sign <= 0) return std::nullopt;
   return walk_candidates(certificate, now.upper());
-}
-
-Failure fast_first_failure(const RadicalInDouble& certificate, const Instant& now, KnownAtStart known,
-                           StageCounts& stages) {
-  for (const double c : certificate.norm().bernstein) {
-    if (!std::isfinite(c)) return {};  // undecidable
-  }
-  const auto sign_at = [&](double u) { return certificate.certain_sign_on(u, u); };
-  double from = now.upper();
-  if (known == KnownAtStart::at_own_root || sign_at(from) == 0) {
-    // Step past the root: take the smallest step that makes the sign certain, or give the certificate up.
-    double step = 0x1p-50;
-    while (from + step < 1 && sign_at(from + step) <= 0 && step < 0x1p-20) step *= 4;
-    from += step;
-    if (!(from < 1)) return {};
-    if (known == KnownAtStart::at_own_root && sign_at(from) <= 0) return {};
-  }
-  if (sign_at(from) < 0) return {Failure::Kind::at_birth, {now.upper(), now.upper(), 0, false}};
-  const auto failure = walk_candidates(certificate, from);
-  if (!failure || failure->kind != Failure::Kind::later) {
-    ++stages.coefficients;
-    return {};
-  }
-  ++stages.isolation;
-  const double time = 0.5 * (failure->time.lower + failure->time.upper);
-  return decided({Failure::Kind::later, {time, time, 0, false}}, DecidedBy::unproved);
 }
 
 int ExactRadical::sign(ExactTime& time, int (*sign_of)(const ExactPolynomial&, ExactTime&)) const {

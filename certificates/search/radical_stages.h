@@ -72,10 +72,6 @@ class RadicalInDouble {
 [[nodiscard]] std::optional<Failure> proved_failure(const RadicalInDouble& certificate, const Instant& now,
                                                     KnownAtStart known);
 
-/// Returns the failure as computed in double, without proof: every sign is taken as computed.
-[[nodiscard]] Failure fast_first_failure(const RadicalInDouble& certificate, const Instant& now,
-                                         KnownAtStart known, StageCounts& stages);
-
 namespace detail {
 
 /// One polynomial of a radical, or its negative.
@@ -101,14 +97,8 @@ template <class Polynomial, class Certificate>
 
 /// How errors are bounded in double. `own_filter`: the norm's polynomial has the error bounds of the
 /// function's own filter. `tracked`: the norm's errors are followed operation by operation. In both cases
-/// only certain signs during a short time are used, computed without polynomials. `none`: nothing is proved,
-/// and every sign is taken as computed.
-enum class Errors : std::uint8_t { own_filter, tracked, none };
-
-[[nodiscard]] inline int sign_of(const TrackedDouble& number, Errors errors) {
-  if (errors != Errors::none) return certain_sign(number);
-  return number.value > 0 ? 1 : number.value < 0 ? -1 : 0;
-}
+/// only certain signs during a short time are used, computed without polynomials.
+enum class Errors : std::uint8_t { own_filter, tracked };
 
 /// The signs of a radical's polynomials during a short time, each computed on demand.
 template <class Radical, MotionView View>
@@ -117,8 +107,8 @@ class RadicalSigns {
 
  public:
   /// Multiplies the radical by `sign`, and its root part also by `root_sign`.
-  RadicalSigns(const View& view, const Beads& beads, Errors errors, int sign, int root_sign)
-      : view_(view), places_(beads), errors_(errors), sign_(sign), root_sign_(root_sign) {
+  RadicalSigns(const View& view, const Beads& beads, int sign, int root_sign)
+      : view_(view), places_(beads), sign_(sign), root_sign_(root_sign) {
     std::iota(places_.begin(), places_.end(), 0U);
   }
 
@@ -139,12 +129,11 @@ class RadicalSigns {
  private:
   template <class Polynomial>
   [[nodiscard, gnu::flatten, gnu::noinline]] int of(int sign) const {
-    return sign * sign_of(Polynomial::formula(view_, places_).scaled[0], errors_);
+    return sign * certain_sign(Polynomial::formula(view_, places_).scaled[0]);
   }
 
   const View& view_;
   Beads places_;
-  Errors errors_;
   int sign_, root_sign_;
 };
 
@@ -176,7 +165,7 @@ class CertificateInDouble final : public RadicalInDouble {
     return a != 0 && wanted(view).root() == -a ? a : 0;
   }
   [[nodiscard]] bool is_usable_on(double lower, double upper) const override {
-    const auto certain = [this](const TrackedDouble& number) { return sign_of(number, errors_); };
+    const auto certain = [](const TrackedDouble& number) { return certain_sign(number); };
     if constexpr (requires(View & view) { Certificate::is_usable(view, certificate_.beads, certain); }) {
       const View view(curves_, certificate_.beads, lower, upper, channels);
       auto places = certificate_.beads;
@@ -205,12 +194,10 @@ class CertificateInDouble final : public RadicalInDouble {
     using Values = FunctionValues<Norm, C>;
     const auto part = part_of<typename Certificate::Radical::Norm>(certificate_);
     if (errors_ == Errors::tracked) return Values::tracked(part, curves_).polynomial;
-    BoundedPolynomial norm = Values::bounded(part, curves_).polynomial;
-    if (errors_ == Errors::none) norm.value_error = norm.local_error = 0;
-    return norm;
+    return Values::bounded(part, curves_).polynomial;
   }
   [[nodiscard]] auto wanted(const View& view) const {
-    return RadicalSigns<typename Certificate::Radical, View>(view, certificate_.beads, errors_, side_,
+    return RadicalSigns<typename Certificate::Radical, View>(view, certificate_.beads, side_,
                                                              certificate_.root_sign());
   }
   /// Returns the certificate's sign, condition included, for a radical with the given sign.
@@ -218,8 +205,7 @@ class CertificateInDouble final : public RadicalInDouble {
     if constexpr (ConditionalFor<Certificate, C>) {
       if (conditional_ && radical >= 0) {
         const int sign =
-            RadicalSigns<typename Certificate::Condition, View>(view, certificate_.beads, errors_, 1, 1)
-                .whole();
+            RadicalSigns<typename Certificate::Condition, View>(view, certificate_.beads, 1, 1).whole();
         return sign < 0 ? -1 : sign > 0 ? radical : 0;
       }
     }

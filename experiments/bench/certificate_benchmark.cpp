@@ -207,8 +207,7 @@ void classify_in_cells(Turns& turns, const M& motion, bool on_any_processor) {
       beads.size(),
       [&] {
         cover.start(cells.size());
-        FacetFilter<3> facets(*filter, LengthUnit(exponent_of_length(Curves<3>(motion), cells)),
-                              Rounding::charged);
+        FacetFilter<3> facets(*filter, LengthUnit(exponent_of_length(Curves<3>(motion), cells)));
         const auto leave = [](CellId, unsigned, unsigned) {};
         for (CellId cell = 0; cell < cells.size(); ++cell) {
           const unsigned finite = finite_facets(cells[cell]);

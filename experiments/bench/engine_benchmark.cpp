@@ -191,7 +191,6 @@ std::vector<Subject> engine_subjects(const std::filesystem::path& instances) {
       all.push_back(std::move(subject));
     };
     add("filtered", Kernel::filtered);
-    add("fast", Kernel::fast);
     constexpr std::size_t few = 50;  // larger instances take too long in integer arithmetic
     if (instance.point_count() <= few) add("exact", Kernel::exact);
   }

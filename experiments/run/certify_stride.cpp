@@ -79,8 +79,7 @@ std::shared_ptr<const MetContacts> contacts_met(const RunOptions& options, const
   const Scene scene(std::move(frames), survey, std::move(radii), options.motion);
   RunOptions contacts;
   contacts.structures = {"contacts"};
-  contacts.kernel =
-      options.kernel == Kernel::exact ? Kernel::exact : Kernel::filtered;  // only these kernels are certain
+  contacts.kernel = options.kernel;
   contacts.apart = options.apart;
   const auto run = open_run(contacts, scene, AuditMode::none);
   auto met = std::make_shared<MetContacts>();

@@ -97,8 +97,8 @@ struct ContactList {
   }
 };
 struct ContactLists {
-  /// The contacts that the run found. If the run uses the kernel `fast`, an exact run finds them instead. The
-  /// flag says whether the contact is sure: its beads truly meet during this contact.
+  /// The contacts that the run found. The flag says whether the contact is sure: its beads truly meet during
+  /// this contact.
   ContactList found;
   /// Contacts such that each true contact lies within one of them. The flag says whether the run certainly
   /// found a contact within this one.

@@ -387,10 +387,6 @@ SessionOptions session_options(const RunOptions& options, const Scene& scene, Au
                       "which has {} beads",
                       tree.node_count(), scene.bead_count()));
   }
-  if (options.kernel == Kernel::fast && scene.degree() > highest_fast_degree)
-    throw InputError(fmt::format(
-        "--kernel fast: motions of degree {} (above {}) have no vector code; expected filtered or exact",
-        scene.degree(), highest_fast_degree));
   return session;
 }
 

@@ -48,8 +48,6 @@ namespace kds {
 /// Relaxed spheres are refused above this degree of the motion, because the degree of their functions would
 /// be too high.
 inline constexpr int highest_relaxed_degree = 7;
-/// The SIMD lanes are compiled only up to this degree of the motion.
-inline constexpr int highest_fast_degree = 3;
 
 /// Returns the options of a session for the options of a run over the scene. If the options name no
 /// structures, the session has the input's default structures. Throws InputError.

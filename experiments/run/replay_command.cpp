@@ -82,7 +82,6 @@ class LogComparison final : public EventListener {
   // Brackets in logs of earlier versions are not canonical, so they need only enclose the time.
   bool is_time(const EventLogReader::Entry& entry, const Event& event) const {
     if (entry.lower == event.lower && entry.upper == event.upper) return true;
-    if (simulator_.kernel() == Kernel::fast) return false;
     ExactTime& now = simulator_.now().exact();
     ExactTime lower{Dyadic(entry.lower)}, upper{Dyadic(entry.upper)};
     const int after_lower = ExactTime::compare(lower, now), before_upper = ExactTime::compare(now, upper);

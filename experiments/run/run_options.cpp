@@ -142,7 +142,7 @@ const OptionList<RunOptions>& motion_and_structure_options() {
           .with({
               structures_option(),
               choice_option({"--motion", "NAME", motion_help}, &O::motion, frame_motion_names),
-              choice_option({"--kernel", "NAME", "arithmetic: fast, filtered or exact (default: filtered)"},
+              choice_option({"--kernel", "NAME", "arithmetic: filtered or exact (default: filtered)"},
                             &O::kernel, kernel_names),
               levels_option(),
               nodes_option(),

@@ -66,7 +66,7 @@ struct RunReport {
   PartCounts parts;
   std::uint64_t fingerprint = 0;            ///< printed as 16 hex digits
   std::optional<StrideCertificate> stride;  ///< from --certify
-  std::optional<ClosestApproach> approach;  ///< only if the run has the closest pair and does not use `fast`
+  std::optional<ClosestApproach> approach;  ///< only if the run has the closest pair
   /// The least distance over all frames. Known with --certify, or with --tolerance if no frame is left out.
   std::optional<DistanceRange> approach_in_all_frames;
   std::string command_line;                  ///< asks for the same run, without outputs

@@ -210,9 +210,9 @@ void run_steps(ParallelRun& run, const RunOptions& options,
           });
 }
 
-void follow_approach(ParallelRun& run, const RunOptions& options) {
+void follow_approach(ParallelRun& run) {
   const auto closest = place_of_closest(run.session());
-  if (closest && options.kernel != Kernel::fast)
+  if (closest)
     run.observe([at = *closest](KineticRun& part) { return std::make_unique<ApproachOfPart>(part, at); });
 }
 
@@ -245,7 +245,7 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   ProgressWithinSteps within(progress, options.rounds * scene.step_count());
   if (options.audit == AuditMode::events) run->listen(within);
   StepCounts counts(run->session(), scene);
-  follow_approach(*run, options);
+  follow_approach(*run);
   results.begin(scene, run->session(), options);
   results.begin_dump_and_log(options, scene, run->session());
 

@@ -84,9 +84,9 @@ void run_steps(KineticRun& run, const RunOptions& options,
 void run_steps(ParallelRun& run, const RunOptions& options,
                const std::function<void(std::size_t frame)>& at_frame);
 
-/// Follows the closest approach while the run goes on, if the run has the closest pair and does not use
-/// `fast`. Must be called before the run.
-void follow_approach(ParallelRun& run, const RunOptions& options);
+/// Follows the closest approach while the run goes on, if the run has the closest pair. Must be called before
+/// the run.
+void follow_approach(ParallelRun& run);
 /// Returns the closest approach after the run, or nothing if it was not followed.
 [[nodiscard]] std::optional<ClosestApproach> followed_approach(const ParallelRun& run);
 

@@ -1,6 +1,6 @@
 #pragma once
 // Tests one certificate type on one extreme of `kds stability`: follows each certificate over a whole step
-// with the kernels `filtered`, `fast` and `exact`, and compares the answers. At each failure the opposite
+// with the kernels `filtered` and `exact`, and compares the answers. At each failure the opposite
 // certificate takes over, as after a flip.
 
 #include <fmt/format.h>
@@ -153,10 +153,9 @@ class CertificateTrial {
     row.refused = refused_;
     row.reason = reason_;
     StageCounts uncounted;
-    const auto fast = follow_all(Kernel::fast, uncounted, row.seconds.fast);
     const auto filtered = follow_all(Kernel::filtered, row.stages, row.seconds.filtered);
     const auto exact = follow_all(Kernel::exact, uncounted, row.seconds.exact);
-    for (std::size_t i = 0; i < cases_.size(); ++i) compare(row, *cases_[i], fast[i], filtered[i], exact[i]);
+    for (std::size_t i = 0; i < cases_.size(); ++i) compare(row, *cases_[i], filtered[i], exact[i]);
     return row;
   }
 
@@ -201,16 +200,14 @@ class CertificateTrial {
     return answers;
   }
 
-  static void compare(StabilityRow& row, const Case& c, const std::vector<Answer>& fast,
-                      const std::vector<Answer>& filtered, const std::vector<Answer>& exact) {
+  static void compare(StabilityRow& row, const Case& c, const std::vector<Answer>& filtered,
+                      const std::vector<Answer>& exact) {
     const BothSides<C> functions(c.certificate, *c.search);
     const FunctionOfSide function = [&](bool opposite) {
       return *functions.exact_function(opposite ? 1 : 0);
     };
     std::optional<std::string> trouble = disagreement(filtered, exact, function);
-    const std::vector<TimedChange> failures = sharp_failures_of(exact, function);
-    row.events += failures.size();
-    add(row.fast, event_difference(failures, failures_of(fast)));
+    row.events += count_of_events(exact);
 
     std::vector<Instant> times;
     times.emplace_back(0.0);
@@ -241,9 +238,7 @@ class CertificateTrial {
     StageCounts uncounted;
     const int exact = c.search->sign_just_after(Kernel::exact, c.certificate, now, uncounted);
     const int filtered = c.search->sign_just_after(Kernel::filtered, c.certificate, now, row.stages);
-    const int fast = c.search->sign_just_after(Kernel::fast, c.certificate, now, uncounted);
     ++row.signs;
-    row.wrong_signs += fast != exact ? 1 : 0;
     if (filtered == exact) return std::nullopt;
     return "sign just after " + std::to_string(now.lower()) + ": filtered " + std::to_string(filtered) +
            ", exact " + std::to_string(exact);

@@ -15,30 +15,27 @@
 namespace kds {
 namespace {
 
-/// Records all events except rebuilds, which it counts separately.
-class Recorder final : public EventListener {
+/// Counts all events except rebuilds.
+class Counter final : public EventListener {
  public:
-  void on_event(const Event& event) override {
-    if (!event.kind.counted_apart) events.push_back({event.change, event.lower, event.upper});
-  }
+  void on_event(const Event& event) override { events += event.kind.counted_apart ? 0 : 1; }
 
-  std::vector<TimedChange> events;
+  std::uint64_t events = 0;
 };
 
 /// The outcome of a run, or the reason why it failed.
 struct Outcome {
   std::string refusal, failure;
   bool failed_audit = false;
-  std::vector<TimedChange> events;
+  std::uint64_t events = 0;
   std::uint64_t fingerprint = 0;
   StructureStatistics statistics;
   double seconds = 0;
 
-  [[nodiscard]] bool ran() const { return refusal.empty() && failure.empty(); }
   [[nodiscard]] std::string in_words() const {
     if (!refusal.empty()) return "refused: " + refusal;
     if (!failure.empty()) return "failed: " + failure;
-    return fmt::format("{} events, {} rebuilds, fingerprint {:016x}", events.size(), statistics.rebuilds,
+    return fmt::format("{} events, {} rebuilds, fingerprint {:016x}", events, statistics.rebuilds,
                        fingerprint);
   }
 };
@@ -61,15 +58,15 @@ Outcome outcome_of(const Case& one, const Settled& what, Kernel kernel, AuditMod
   try {
     const Scene scene(one.instance, one.radii);
     KineticRun run(scene, {{what.structure}, kernel, audits, what.settings});
-    Recorder recorder;
-    run.listen(recorder);
+    Counter counter;
+    run.listen(counter);
     try {
       run.finish();
     } catch (const AuditError& error) {
       outcome.failure = error.what();
       outcome.failed_audit = true;
     }
-    outcome.events = std::move(recorder.events);
+    outcome.events = counter.events;
     outcome.fingerprint = run.simulator().fingerprint();
     outcome.statistics = run.structures().front()->statistics;
     outcome.seconds =
@@ -86,7 +83,7 @@ std::optional<std::string> trouble_of(const Outcome& filtered, const Outcome& au
   for (const Outcome* outcome : {&audited, &filtered, &exact})
     if (!outcome->failure.empty()) return outcome->failure;
   const bool same = filtered.refusal == exact.refusal && filtered.fingerprint == exact.fingerprint &&
-                    filtered.events.size() == exact.events.size();
+                    filtered.events == exact.events;
   if (!same) return fmt::format("filtered {}; exact {}", filtered.in_words(), exact.in_words());
   if (audited.refusal != exact.refusal || audited.fingerprint != exact.fingerprint)
     return fmt::format("with audits {}; without {}", audited.in_words(), exact.in_words());
@@ -95,11 +92,10 @@ std::optional<std::string> trouble_of(const Outcome& filtered, const Outcome& au
 
 /// Times of the runs that succeeded.
 struct KernelTimes {
-  std::vector<double> fast, filtered, exact;
+  std::vector<double> filtered, exact;
 };
 
 void add_case(StabilityRow& row, KernelTimes& times, const Settled& what, const Case& one) {
-  const Outcome fast = outcome_of(one, what, Kernel::fast, AuditMode::none);
   const Outcome filtered = outcome_of(one, what, Kernel::filtered, AuditMode::none);
   const Outcome audited = outcome_of(one, what, Kernel::filtered, AuditMode::events);
   const Outcome exact = outcome_of(one, what, Kernel::exact, AuditMode::none);
@@ -118,17 +114,11 @@ void add_case(StabilityRow& row, KernelTimes& times, const Settled& what, const 
     if (row.refused++ == 0 && row.motion.empty()) row.reason = exact.refusal;
     return;
   }
-  row.events += exact.events.size();
+  row.events += exact.events;
   row.rebuilds += filtered.statistics.rebuilds;
   row.stages += filtered.statistics.stages;
   times.filtered.push_back(filtered.seconds);
   times.exact.push_back(exact.seconds);
-  if (fast.ran()) {
-    times.fast.push_back(fast.seconds);
-    add(row.fast, event_difference(exact.events, fast.events));
-  } else {
-    if (row.fast_gave_up++ == 0) row.fast_reason = fmt::format("case {}: {}", one.number, fast.in_words());
-  }
 }
 
 enum class Of { points, balls };
@@ -158,8 +148,7 @@ StabilitySubject structure_subject(const std::string& structure, Of of, int dime
       }
       add_case(row, times, {structure, settings}, one);
     }
-    row.seconds = {median(std::move(times.fast)), median(std::move(times.filtered)),
-                   median(std::move(times.exact))};
+    row.seconds = {median(std::move(times.filtered)), median(std::move(times.exact))};
     return row;
   };
   return subject;

@@ -20,7 +20,7 @@ namespace {
 
 constexpr CommandSpec kStabilityCommand{
     "kds stability",
-    "Compares the three kernels (--kernel) on inputs that are hard for rounding. filtered and exact must "
+    "Compares the two kernels (--kernel) on inputs that are hard for rounding. filtered and exact must "
     "agree.\n\n"
     "  subjects\n"
     "    certificates  precedes, reaches_further, orientation, power_test, contact, ball_reaches_further,\n"

@@ -35,13 +35,9 @@ Json row_json(const StabilityRow& row) {
   json["failed"] = row.failed;
   json["reason"] = text_or_null(row.reason);
   json["motion"] = text_or_null(row.motion);
-  json["fast"] = {{"wrong_signs", row.wrong_signs}, {"missed", row.fast.missed},
-                  {"extra", row.fast.extra},        {"worst_time_error", row.fast.worst_time_error},
-                  {"gave_up", row.fast_gave_up},    {"reason", text_or_null(row.fast_reason)}};
   json["stages"] = Json::object();
   for (const Stage& stage : stage_table) json["stages"][stage.name] = row.stages.*stage.count;
-  json["seconds"] = {
-      {"fast", row.seconds.fast}, {"filtered", row.seconds.filtered}, {"exact", row.seconds.exact}};
+  json["seconds"] = {{"filtered", row.seconds.filtered}, {"exact", row.seconds.exact}};
   json["rebuilds"] = row.rebuilds;
   json["audits"] = {{"run", row.audits_run}, {"failed", row.audits_failed}};
   json["holds"] = row.holds();
@@ -84,17 +80,11 @@ std::string microseconds(double seconds) {
   const double value = seconds * 1e6;
   return fmt::format("{:.{}f}", value, value < 10 ? 2 : value < 100 ? 1 : 0);
 }
-std::string error(double value) { return value == 0 ? "0" : fmt::format("{:.0e}", value); }
 
 constexpr TextColumn kCases{"cases", 6, [](const StabilityRow& row) { return count(row.cases); }};
 constexpr TextColumn kEvents{"events", 7, [](const StabilityRow& row) { return count(row.events); }};
 constexpr TextColumn kDiffer{"differ", 7,
                              [](const StabilityRow& row) { return count(row.disagreements + row.failed); }};
-constexpr TextColumn kSigns{"signs", 6, [](const StabilityRow& row) { return count(row.wrong_signs); }};
-constexpr TextColumn kMissed{"missed", 7, [](const StabilityRow& row) { return count(row.fast.missed); }};
-constexpr TextColumn kExtra{"extra", 6, [](const StabilityRow& row) { return count(row.fast.extra); }};
-constexpr TextColumn kError{"error", 6,
-                            [](const StabilityRow& row) { return error(row.fast.worst_time_error); }};
 constexpr TextColumn kDouble{"double", 7, [](const StabilityRow& row) {
                                return count(row.stages.coefficients + row.stages.isolation);
                              }};
@@ -104,10 +94,8 @@ constexpr TextColumn kIntegers{"integer", 8, [](const StabilityRow& row) {
                                  return count(row.stages.exact + row.stages.identically_zero);
                                }};
 constexpr TextColumn kBits{"bits", 5, [](const StabilityRow& row) { return count(row.stages.largest_bits); }};
-constexpr TextColumn kFastTime{"fast", 6,
-                               [](const StabilityRow& row) { return microseconds(row.seconds.fast); }};
 constexpr TextColumn kFilteredTime{
-    "filtered", 9, [](const StabilityRow& row) { return microseconds(row.seconds.filtered); }};
+    "filtered", 11, [](const StabilityRow& row) { return microseconds(row.seconds.filtered); }};
 constexpr TextColumn kExactTime{"exact", 8,
                                 [](const StabilityRow& row) { return microseconds(row.seconds.exact); }};
 constexpr TextColumn kAudits{"audits", 7, [](const StabilityRow& row) { return count(row.audits_run); }};
@@ -119,13 +107,11 @@ struct Group {
 
 const std::vector<Group>& groups(bool structure) {
   static const std::vector<Group> certificate{{"", {kCases, kEvents, kDiffer}},
-                                              {"wrong in fast", {kSigns, kMissed, kExtra, kError}},
                                               {"settled by", {kDouble, kTracked, kIntegers, kBits}},
-                                              {"us per search", {kFastTime, kFilteredTime, kExactTime}}};
+                                              {"us per search", {kFilteredTime, kExactTime}}};
   static const std::vector<Group> kinetic{{"", {kCases, kEvents, kDiffer, kAudits}},
-                                          {"wrong in fast", {kMissed, kExtra, kError}},
                                           {"settled by", {kDouble, kTracked, kIntegers, kBits}},
-                                          {"us per run", {kFastTime, kFilteredTime, kExactTime}}};
+                                          {"us per run", {kFilteredTime, kExactTime}}};
   return structure ? kinetic : certificate;
 }
 
@@ -158,8 +144,6 @@ std::string line_of(const StabilityRow& row) {
     for (const TextColumn& column : group.columns)
       text += fmt::format("{:>{}}", column.cell(row), column.width);
   if (row.refused > 0) text += fmt::format("\n{:{}} {} of these refused", "", kNameWidth, row.refused);
-  if (row.fast_gave_up > 0)
-    text += fmt::format("\n{:{}} fast gave up in {}", "", kNameWidth, row.fast_gave_up);
   if (!row.holds()) text += fmt::format("\n  DOES NOT HOLD: {}", one_line(row.reason));
   return text + "\n";
 }
@@ -169,22 +153,19 @@ bool same_block(const StabilityRow& a, const StabilityRow& b) {
 }
 
 std::string findings(std::span<const StabilityRow> rows) {
-  std::uint64_t cases = 0, refused = 0, differing = 0, missed = 0, extra = 0, audits = 0, failed_audits = 0;
+  std::uint64_t cases = 0, refused = 0, differing = 0, audits = 0, failed_audits = 0;
   for (const StabilityRow& row : rows) {
     cases += row.cases;
     refused += row.refused;
     differing += row.disagreements + row.failed;
-    missed += row.fast.missed;
-    extra += row.fast.extra;
     audits += row.audits_run;
     failed_audits += row.audits_failed;
   }
   return fmt::format(
       "<p>In {0} cases of {1} rows, of which both kernels refuse {2}, <strong>filtered differs from exact in "
-      "{3}</strong>.</p>\n<p><strong>{5} of {4} audits failed</strong>. The kernel fast, which promises "
-      "nothing, missed {6} events and invented {7}.</p>\n",
+      "{3}</strong>.</p>\n<p><strong>{5} of {4} audits failed</strong>.</p>\n",
       with_thousands(cases), with_thousands(rows.size()), with_thousands(refused), with_thousands(differing),
-      with_thousands(audits), with_thousands(failed_audits), with_thousands(missed), with_thousands(extra));
+      with_thousands(audits), with_thousands(failed_audits));
 }
 
 // Rows with one name: the sums of their cases, and their times.
@@ -200,7 +181,6 @@ struct RowGroup {
     sum.events += row.events;
     sum.disagreements += row.disagreements + row.failed;
     sum.refused += row.refused;
-    kds::add(sum.fast, row.fast);
     if (row.refused < row.cases) seconds.push_back(row.seconds);
     if (!row.holds()) ++failing;
   }
@@ -244,9 +224,6 @@ std::string table(std::span<const RowGroup> groups) {
       count("events", [](const Row& g) { return g.sum.events; }),
       count("differ", [](const Row& g) { return g.sum.disagreements; }),
       count("refused", [](const Row& g) { return g.sum.refused; }),
-      count("fast missed", [](const Row& g) { return g.sum.fast.missed; }),
-      count("fast extra", [](const Row& g) { return g.sum.fast.extra; }),
-      micros("fast, us", &KernelSeconds::fast),
       micros("filtered, us", &KernelSeconds::filtered),
       micros("exact, us", &KernelSeconds::exact),
       {.heading = "holds", .value = [](const Row& g) { return Field(g.failing == 0 ? "yes" : "NO"); }},
@@ -262,22 +239,20 @@ std::string subjects(std::span<const StabilityRow> rows, bool structures) {
   const auto name = [&](const StabilityRow& row) {
     return row.structure == structures ? subject_of(row) : "";
   };
-  PointPlot plot{"exact, us", "us", {"filtered", "fast"}, {}};
+  PointPlot plot{"exact, us", "us", {"filtered"}, {}};
   const std::vector<RowGroup> groups = grouped(rows, name);
   for (const RowGroup& group : groups) {
     const auto exact = group.microseconds(&KernelSeconds::exact),
-               filtered = group.microseconds(&KernelSeconds::filtered),
-               fast = group.microseconds(&KernelSeconds::fast);
+               filtered = group.microseconds(&KernelSeconds::filtered);
     if (!exact || !(*exact > 0)) continue;
     plot.points.push_back({group.name, *exact, *filtered, 0});
-    plot.points.push_back({group.name, *exact, *fast, 1});
   }
   const std::string figure =
-      plot.points.size() < 4
+      plot.points.size() < 2
           ? ""
           : html_figure(svg_plot(plot),
-                        fmt::format("Microseconds of {} in the kernels filtered and fast, compared with "
-                                    "the kernel exact. Both axes are logarithmic.",
+                        fmt::format("Microseconds of {} in the kernel filtered, compared with the "
+                                    "kernel exact. Both axes are logarithmic.",
                                     structures ? "a run" : "a search"));
   return figure + table(groups);
 }
@@ -355,10 +330,10 @@ std::string stability_page(std::span<const StabilityRow> rows, Page page) {
   page.words =
       "A row of the data is a certificate type or a structure in one extreme of its input. The tables group "
       "the rows by subject and by extreme, and list rows that do not hold one by one. <em>Differ</em>: cases "
-      "in which the kernels filtered and exact disagree, or one fails. <em>Missed</em> and <em>extra</em>: "
-      "events of the kernel fast compared with the exact ones. Microseconds are those of a certificate's "
-      "search or of a structure's run: each row has the median of its cases, and a table has the median of "
-      "its rows without those that are refused.";
+      "in which the kernels filtered and exact disagree, or one fails. Microseconds are those of a "
+      "certificate's search or of a structure's run: each row has the median of its cases, and a table has "
+      "the "
+      "median of its rows without those that are refused.";
   page.body = html_section("Rows that do not hold", failing_rows(rows)) +
               html_section("Certificates, all extremes", subjects(rows, false)) +
               html_section("Structures, all extremes", subjects(rows, true)) +

@@ -13,12 +13,6 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void add(EventDifference& sum, const EventDifference& difference) {
-  sum.missed += difference.missed;
-  sum.extra += difference.extra;
-  sum.worst_time_error = std::max(sum.worst_time_error, difference.worst_time_error);
-}
-
 void note_trouble(StabilityRow& row, std::size_t number, const std::string& reason,
                   const std::string& motion) {
   if (!row.motion.empty()) return;

@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "certificates/base/kernel.h"
-#include "experiments/stability/compare_answers.h"
 
 namespace kds {
 
 struct KernelSeconds {
-  double fast = 0, filtered = 0, exact = 0;
+  double filtered = 0, exact = 0;
 };
 
 struct StabilityRow {
@@ -32,12 +31,8 @@ struct StabilityRow {
   std::string reason;               ///< description of the first refusal, failure or disagreement
   std::string motion;               ///< instance file of the first failure or disagreement
 
-  std::uint64_t wrong_signs = 0;  ///< wrong signs of `fast`
-  EventDifference fast;
-  std::uint64_t fast_gave_up = 0;  ///< cases in which only `fast` reports an error
-  std::string fast_reason;         ///< the first such error
-  StageCounts stages;              ///< of `filtered`
-  std::uint64_t rebuilds = 0;      ///< of `filtered`
+  StageCounts stages;          ///< of `filtered`
+  std::uint64_t rebuilds = 0;  ///< of `filtered`
   std::uint64_t audits_run = 0, audits_failed = 0;
   KernelSeconds seconds;  ///< medians over cases: search of a certificate, run of a structure
 
@@ -48,8 +43,6 @@ struct StabilityRow {
 
 /// Returns the median, or 0 if there are no values.
 [[nodiscard]] double median(std::vector<double> values);
-
-void add(EventDifference& sum, const EventDifference& difference);
 
 /// Keeps the first problem of a row: its description, and the data to reproduce it.
 void note_trouble(StabilityRow& row, std::size_t number, const std::string& reason,

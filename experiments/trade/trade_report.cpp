@@ -248,8 +248,6 @@ std::string losses_of(const TradeRow& row) {
   if (row.want == Want::events || ((row.want == Want::diagram || row.want == Want::cages) && e.events_missed))
     add(fmt::format("{} of the events are missed, {} are invented", percent(e.events_missed.value_or(0)),
                     percent(e.events_invented.value_or(0))));
-  if (row.setting.kernel == Kernel::fast)
-    add("it guarantees nothing: signs that are wrong in doubles stay wrong");
   return fmt::format("{}", fmt::join(losses, "; "));
 }
 

@@ -100,8 +100,7 @@ class Settings {
     change(setting);
     if (input_.frames > setting.stride) all.push_back(std::move(setting));
   }
-  void add_kernels() {
-    add([](TradeSetting& s) { s.kernel = Kernel::fast; });
+  void add_exact_kernel() {
     if (input_.exact_kernel) add([](TradeSetting& s) { s.kernel = Kernel::exact; });
   }
   void add_motion(FrameMotion motion) {
@@ -150,7 +149,7 @@ class Settings {
 
 Settings with_events(const char* structure, const TradeInput& input, BeadId apart) {
   Settings settings(structure, input, apart);
-  settings.add_kernels();
+  settings.add_exact_kernel();
   settings.add_motion(FrameMotion::hermite);
   settings.add_strides();
   settings.add_tolerances();

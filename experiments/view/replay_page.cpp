@@ -27,9 +27,9 @@ constexpr double kMostLength = 1e18, kLeastLength = 1e-15;
 constexpr double kMostQuanta = 1 << 28;
 constexpr int kVersion = 2;
 /// In the order of DecidedBy. No text: the page names no stage.
-const std::vector<std::string> kStages{
-    "", "floating point, without proof", "floating point, with proved error bounds",
-    "floating point, with errors followed through each operation", "integers"};
+const std::vector<std::string> kStages{"", "floating point, with proved error bounds",
+                                       "floating point, with errors followed through each operation",
+                                       "integers"};
 
 /// Returns a JSON text in which no tag begins, so that it can stand in a script element.
 std::string without_tags(const std::string& text) {

@@ -12,7 +12,7 @@
 //
 // If several balls tie for the rest of a step, the least bead is the support. If several supports change at
 // one time, each changes at most once: changes are recorded after all events at that time, ascending by node
-// and side. With any kernel but `fast` the result is exact.
+// and side. The result is exact.
 //
 // With n beads of one necklace and s sides there are (n - 1) s certificates, all of which are made at the
 // start of each step. At most s certificates on each level name a bead. An event costs one certificate at its

@@ -87,7 +87,7 @@ std::optional<Basis> BasisRepair<Dimension>::proved_next_basis(const Basis& old,
 }
 
 template <int Dimension>
-std::optional<Basis> BasisRepair<Dimension>::next_basis(const Basis& old, BeadId bead, bool failed) {
+Basis BasisRepair<Dimension>::next_basis(const Basis& old, BeadId bead, bool failed) {
   std::array<BeadId, Basis::max_size + 1> all{};
   std::copy(old.begin(), old.end(), all.begin());
   std::size_t count = old.size;
@@ -107,8 +107,8 @@ std::optional<Basis> BasisRepair<Dimension>::next_basis(const Basis& old, BeadId
     }
   }
   if (!next) next = basis_just_after(among, old, escaped ? bead : no_bead);
-  if (!next && kernel_ != Kernel::fast) throw std::logic_error("no basis among beads " + bead_names(among));
-  return next;
+  if (!next) throw std::logic_error("no basis among beads " + bead_names(among));
+  return *next;
 }
 
 template class BasisRepair<2>;

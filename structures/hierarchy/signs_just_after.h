@@ -171,15 +171,13 @@ template <int Dimension>
 class BasisRepair {
  public:
   /// If `relaxed`, a bead escapes only when it is out by a share of the radius.
-  BasisRepair(Kernel kernel, Radii radii, bool relaxed, NodeProofs<Dimension>& proofs,
-              SignsJustAfter<Dimension>& signs)
-      : kernel_(kernel), radii_(radii), relaxed_(relaxed), proofs_(proofs), signs_(signs) {}
+  BasisRepair(Radii radii, bool relaxed, NodeProofs<Dimension>& proofs, SignsJustAfter<Dimension>& signs)
+      : radii_(radii), relaxed_(relaxed), proofs_(proofs), signs_(signs) {}
 
   /// Returns the basis, just after now, of the beads of `old`, one of which may be superfluous, and of
   /// `bead`. `bead` has escaped from the sphere of `old`, or is no_bead. `failed` means that `bead` is the
-  /// bead whose certificate fails now. Returns none only if doubles contradict themselves, which the kernel
-  /// `fast` may do.
-  [[nodiscard]] std::optional<Basis> next_basis(const Basis& old, BeadId bead, bool failed);
+  /// bead whose certificate fails now.
+  [[nodiscard]] Basis next_basis(const Basis& old, BeadId bead, bool failed);
 
  private:
   static constexpr std::size_t full = Dimension + 1;
@@ -188,7 +186,6 @@ class BasisRepair {
   [[nodiscard]] std::optional<Basis> basis_just_after(std::span<const BeadId> among, const Basis& old,
                                                       BeadId escaped);
 
-  Kernel kernel_;
   Radii radii_;
   bool relaxed_;
   NodeProofs<Dimension>& proofs_;

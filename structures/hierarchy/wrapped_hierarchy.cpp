@@ -84,8 +84,7 @@ WrappedHierarchy<Dimension>::WrappedHierarchy(Simulator& simulator, const Motion
                                                       relaxation)),
       guards_(std::make_unique<NodeGuards<Dimension>>(simulator, *this, index_, motion, curves_, radii,
                                                       tree_.node_count(), *proofs_, relaxation)),
-      repair_(std::make_unique<BasisRepair<Dimension>>(simulator.kernel(), radii, relaxation.any(), *proofs_,
-                                                       guards_->signs())) {
+      repair_(std::make_unique<BasisRepair<Dimension>>(radii, relaxation.any(), *proofs_, guards_->signs())) {
   sort_kept_nodes();
 }
 
@@ -118,11 +117,6 @@ template <int Dimension>
 const Basis& WrappedHierarchy<Dimension>::basis(NodeId node) const {
   require_index("node", node, bases_.size());
   return bases_[node];
-}
-
-template <int Dimension>
-bool WrappedHierarchy<Dimension>::is_fast() const {
-  return simulator_.kernel() == Kernel::fast;
 }
 
 template <int Dimension>
@@ -181,7 +175,7 @@ void WrappedHierarchy<Dimension>::build() {
     find_touching(balls, tree_.range(id), build_node(id, balls), touching);
     // Settled for the moment just after the start, when beads on the sphere may leave it.
     bool settled = false;
-    for (int i = 0; !settled && (i < most_repairs || !is_fast()); ++i) {
+    while (!settled) {
       settled = true;
       const int orientation = orientation_of(bases_[id], signs);
       for (const BeadId b : touching) {
@@ -328,21 +322,12 @@ std::optional<BeadId> WrappedHierarchy<Dimension>::watch_node(NodeId id, BeadId 
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::guard_node(NodeId id, Basis before, BeadId risen) {
-  for (int repairs = 0;; ++repairs) {
-    const std::optional<BeadId> violated = watch_node(id, risen);
-    if (!violated) break;
-    // `fast` accepts a contradiction until the node's next event or the next step.
-    if (is_fast() && repairs >= most_repairs) break;
+  while (const std::optional<BeadId> violated = watch_node(id, risen)) {
     guards_->drop(id);
     risen = no_bead;
-    if (!repair(id, *violated)) {
-      if (!is_fast()) {
-        throw std::logic_error(name_of(id) + ": a basis is violated and right at once, at bead " +
-                               std::to_string(*violated));
-      }
-      ++statistics.rebuilds;
-      break;
-    }
+    if (!repair(id, *violated))
+      throw std::logic_error(name_of(id) + ": a basis is violated and right at once, at bead " +
+                             std::to_string(*violated));
   }
   if (!(bases_[id] == before)) record(id, before);
 }
@@ -350,24 +335,10 @@ void WrappedHierarchy<Dimension>::guard_node(NodeId id, Basis before, BeadId ris
 template <int Dimension>
 bool WrappedHierarchy<Dimension>::repair(NodeId id, BeadId bead, bool failed) {
   proofs_->forget(id);
-  const std::optional<Basis> next = repair_->next_basis(bases_[id], bead, failed);
-  if (!next || *next == bases_[id]) return false;
-  bases_[id] = *next;
+  const Basis next = repair_->next_basis(bases_[id], bead, failed);
+  if (next == bases_[id]) return false;
+  bases_[id] = next;
   return true;
-}
-
-template <int Dimension>
-void WrappedHierarchy<Dimension>::rebuild_roughly(NodeId id) {
-  ++statistics.rebuilds;
-  const double now = simulator_.now().upper();
-  std::vector<double> radii = approximate_radii(curves_, now);
-  for (double& r : radii) r = std::max(r, 0.0);  // a rounded radius may be negative
-  const BeadRange range = tree_.range(id);
-  const Basis before = bases_[id];
-  proofs_->forget(id);
-  bases_[id] = smallest_sphere(Balls<Dimension>(approximate_positions(curves_, now), radii), range.first,
-                               range.last, beads_of(before))
-                   .basis;
 }
 
 template <int Dimension>
@@ -376,9 +347,8 @@ void WrappedHierarchy<Dimension>::fail(unsigned table, std::uint32_t slot) {
   const Basis before = bases_[id];
   BeadId risen = no_bead;
   if (!touches) {
-    const bool repaired = repair(id, bead, true);
+    static_cast<void>(repair(id, bead, true));
     if (!relaxed) risen = proofs_->risen_bead(before, bases_[id], bead);
-    if (!repaired && is_fast()) rebuild_roughly(id);
   } else if (radii_ == Radii::any) {
     // The simplex of a full basis may turn over without losing a bead: when all beads meet, or when each
     // touches the sphere of the others. The basis then stays, and its certificates, which turn too, are made

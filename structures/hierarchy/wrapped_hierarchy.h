@@ -6,8 +6,8 @@
 // A node's certificates state that each other bead stays inside the sphere of the basis and that each basis
 // bead stays outside the sphere of the other basis beads. Certificates that a bound of the sphere's path
 // proves at once are not created. When a certificate fails, the new basis is found among the basis and the
-// bead, either by such a bound on the next sphere or by signs just after the event. The result is exact with
-// any kernel but `fast`. Spheres may be relaxed: beads may then be out by a share of the radius, which causes
+// bead, either by such a bound on the next sphere or by signs just after the event. The result is exact.
+// Spheres may be relaxed: beads may then be out by a share of the radius, which causes
 // fewer events.
 //
 // Beads can change course while time runs. A change of course costs a pass over all paths and nodes, the
@@ -98,9 +98,7 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
 
  private:
   static constexpr std::size_t full = Dimension + 1;
-  static constexpr int most_repairs = 64;  // maximum per node and time, in `fast`
 
-  [[nodiscard]] bool is_fast() const;
   [[nodiscard]] bool move_together(BeadId a, BeadId b) const;
   /// Returns whether the node consists of two beads of equal radius that are both in the basis. Such beads
   /// need no guard unless they coincide.
@@ -130,8 +128,6 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   /// Replaces the node's basis by that of its beads and `bead`, which has escaped or is superfluous. Returns
   /// false if the basis stays unchanged.
   [[nodiscard]] bool repair(NodeId node, BeadId bead, bool failed = false);
-  /// Rebuilds the basis from scratch after doubles have contradicted themselves.
-  void rebuild_roughly(NodeId node);
   void record(NodeId node, const Basis& before);
 
   void require_release(std::span<const BeadId> beads) const override;

@@ -4,7 +4,6 @@
 #include <array>
 #include <concepts>
 #include <iterator>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -144,11 +143,7 @@ void ConvexHull::fail(unsigned table, std::uint32_t slot) {
 
 // Records the changes from the previous corners to the present corners of both halves.
 void ConvexHull::after_batch() {
-  Circle now = StaticHull{lower_.chain(), upper_.chain()}.circle();
-  if (simulator().kernel() == Kernel::fast) {  // the halves may contradict each other: keep each bead once
-    std::set<BeadId> seen;
-    std::erase_if(now, [&](BeadId b) { return !seen.insert(b).second; });
-  }
+  const Circle now = StaticHull{lower_.chain(), upper_.chain()}.circle();
   Circle staying = common(now, corners_);
   // If all corners meet in a line or a point, the corners that stay may come out in another order. In this
   // case all but one leave and enter again.

@@ -1,6 +1,5 @@
 #include "structures/power_diagram/diagram_checks.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -83,40 +82,6 @@ bool cone_winds_once(DiagramState<3>& state, CellId start, BeadId vertex) {
   });
 }
 
-/// Returns whether a polygon that turns one way makes one full turn, as polygon_turns_once does, in doubles.
-bool seems_to_turn_once(const std::vector<Eigen::Vector2d>& corners) {
-  const auto edge = [&](std::size_t i) -> Eigen::Vector2d {
-    return corners[(i + 1) % corners.size()] - corners[i % corners.size()];
-  };
-  int entries = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    entries += edge(i).dot(edge(0)) <= 0 && edge(i + 1).dot(edge(0)) > 0 ? 1 : 0;
-  return entries <= 1;
-}
-
-/// Returns whether the faces around a vertex seem to wind around it once: their plane section does, across
-/// the sum of their normals. Where beads lie in one plane with the vertex, nothing is seen.
-bool cone_seems_to_wind_once(const std::vector<std::array<BeadId, 3>>& faces, const Snapshot<3>& end) {
-  if (faces.size() < 5) return true;
-  const auto from_vertex = [&](BeadId bead) {
-    Eigen::Vector3d d;
-    for (int axis = 0; axis < 3; ++axis)
-      d[axis] = end.coordinate(bead, 0, axis) - end.coordinate(faces[0][0], 0, axis);
-    return d;
-  };
-  Eigen::Vector3d outward = Eigen::Vector3d::Zero();
-  for (const auto& face : faces) outward += from_vertex(face[1]).cross(from_vertex(face[2]));
-  const Eigen::Vector3d across = outward.unitOrthogonal(), along = outward.cross(across).normalized();
-  std::vector<Eigen::Vector2d> corners;
-  for (const auto& face : faces) {
-    const Eigen::Vector3d d = from_vertex(face[1]);
-    const double inward = -d.dot(outward);
-    if (!(inward > 0)) return true;
-    corners.emplace_back(d.dot(across) / inward, d.dot(along) / inward);
-  }
-  return seems_to_turn_once(corners);
-}
-
 template <int Dimension>
 bool is_wrong_at(DiagramState<Dimension>& state, CellId cell) {
   if (!state.triangulation.is_live(cell)) return false;
@@ -152,34 +117,8 @@ bool hull_winds_once(DiagramState<3>& state, std::span<const CellId> touched) {
   return true;
 }
 
-bool hull_seems_to_wind_once(const DiagramState<2>& state, const Snapshot<2>& end) {
-  for (CellId cell = 0; cell < state.triangulation.cells().size(); ++cell) {
-    if (!state.triangulation.is_live(cell) || !state.is_infinite(cell)) continue;
-    std::vector<Eigen::Vector2d> corners;
-    for (const auto& edge : edges_around(state, cell))
-      corners.emplace_back(end.coordinate(edge[0], 0, 0), end.coordinate(edge[0], 0, 1));
-    return seems_to_turn_once(corners);
-  }
-  return true;
-}
-
-bool hull_seems_to_wind_once(const DiagramState<3>& state, const Snapshot<3>& end) {
-  std::vector<char> seen(end.bead_count(), 0);
-  for (CellId cell = 0; cell < state.triangulation.cells().size(); ++cell) {
-    if (!state.triangulation.is_live(cell) || !state.is_infinite(cell)) continue;
-    const auto face = hull_face<3>(state.beads_of(cell));
-    for (const BeadId vertex : *face) {
-      if (std::exchange(seen[vertex], 1) == 0 &&
-          !cone_seems_to_wind_once(faces_around(state, cell, vertex), end))
-        return false;
-    }
-  }
-  return true;
-}
-
 template <int Dimension>
 bool is_wrong_just_after(DiagramState<Dimension>& state) {
-  if (state.simulator.kernel() == Kernel::fast) return false;
   // A function can turn negative only if it is zero now, which happens only at touched cells. All other cells
   // are as correct as they were before.
   const bool known = !state.touched.empty() && state.touched_moment == state.simulator.moment() &&

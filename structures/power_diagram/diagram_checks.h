@@ -38,8 +38,7 @@ namespace kds {
 // A cell that becomes flat inside the hull needs no check of its own: it has neighbours on both sides of its
 // plane, so the power test of one of its facets is zero or negative at that time.
 //
-// Exact: all signs are those just after the present time. The kernel `fast` is not notified of touches, so it
-// checks the hull once a step, in doubles, when the step ends.
+// All signs are exact, just after the present time.
 
 /// Returns whether the hull winds once, if it did so before the present moment and only `touched` cells
 /// changed or became flat since. All facets must be regular and all finite cells positive just after now.
@@ -48,13 +47,7 @@ namespace kds {
 [[nodiscard]] bool hull_winds_once(DiagramState<2>& state, std::span<const CellId> touched);
 [[nodiscard]] bool hull_winds_once(DiagramState<3>& state, std::span<const CellId> touched);
 
-/// Returns whether the hull seems to wind once at the end of a step, in doubles. All cells must be positive
-/// there. Cost: linear in the number of cells.
-[[nodiscard]] bool hull_seems_to_wind_once(const DiagramState<2>& state, const Snapshot<2>& end);
-[[nodiscard]] bool hull_seems_to_wind_once(const DiagramState<3>& state, const Snapshot<3>& end);
-
-/// Returns whether the diagram is wrong just after the present time, by exact signs. Always returns false
-/// with the kernel `fast`, which cannot decide this.
+/// Returns whether the diagram is wrong just after the present time, by exact signs.
 template <int Dimension>
 [[nodiscard]] bool is_wrong_just_after(DiagramState<Dimension>& state);
 

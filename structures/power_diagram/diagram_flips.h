@@ -40,11 +40,9 @@ class DiagramFlips {
   void begin_event(const Identity& identity);
   void repair(CellId cell, int facet);
   [[nodiscard]] bool can_replace(std::span<const Beads> old, std::span<const Beads> made);
-  /// In exact arithmetic, positive new cells have no face that already exists, unless several events
-  /// coincide.
+  /// Positive new cells have no face that already exists, unless several events coincide.
   [[nodiscard]] bool may_stand_already() const {
-    return state_.simulator.kernel() == Kernel::fast || state_.doubt != Doubt::none ||
-           state_.present.type == Orientation<Dimension>::type.number;
+    return state_.doubt != Doubt::none || state_.present.type == Orientation<Dimension>::type.number;
   }
   [[nodiscard]] bool stands_already(std::span<const BeadId> face, CellId a, CellId b) const;
   void flip_to_edge(CellId cell, int facet);

@@ -50,7 +50,6 @@ BeadId least_bead(std::span<const CellBeads<Dimension>> cells) {
 
 template <int Dimension>
 void DiagramRebuilder<Dimension>::start_step() {
-  rough_rebuilds_ = 0;
   coarsest_that_worked_ = coarsest_grid;
   state_.clear_doubt();
 }
@@ -67,12 +66,7 @@ void DiagramRebuilder<Dimension>::after_batch() {
   std::vector<CellId> cells;  // the cells that may be wrong; empty if they are unknown
   if (state_.known_places) cells.swap(state_.touched);
   state_.clear_doubt();
-  if (!wrong) return;
-  if (state_.simulator.kernel() == Kernel::fast) {
-    rebuild_roughly();
-  } else if (!repair(std::move(cells))) {
-    rebuild_at_first_time_that_works();
-  }
+  if (wrong && !repair(std::move(cells))) rebuild_at_first_time_that_works();
 }
 
 template <int Dimension>
@@ -275,10 +269,6 @@ bool DiagramRebuilder<Dimension>::try_to_rebuild() {
   facets_.forget_known();
   state_.clear_doubt();
   if (!solid) return false;
-  if (state_.simulator.kernel() == Kernel::fast) {  // rounded signs may contradict each other
-    rebuild_roughly();
-    return true;
-  }
   throw InputError("step " + std::to_string(state_.simulator.step()) +
                    " at u = " + std::to_string(state_.simulator.now().upper()) +
                    ": events of the power diagram within 2^-" + std::to_string(finest_grid) +
@@ -296,20 +286,6 @@ void DiagramRebuilder<Dimension>::refuse_flat(std::size_t step) {
       std::string("all beads stay ") + (Dimension == 3 ? "in one plane" : "on one line") + " in step " +
       std::to_string(step) + "; the power diagram " +
       (Dimension == 3 ? "in space needs four that do not" : "in the plane needs three that do not"));
-}
-
-template <int Dimension>
-void DiagramRebuilder<Dimension>::rebuild_roughly() {
-  constexpr int most_in_a_step = 8;
-  if (++rough_rebuilds_ > most_in_a_step) return;
-  drop_all();
-  state_.present = {};
-  const auto cells_before = live_cells(state_);
-  const Dyadic time(state_.simulator.now().upper() + 0x1p-16);
-  if (!(time < Dyadic(1.0)) || !assign_static(time)) return watch_all();  // keep the diagram as it is
-  watch_all();
-  state_.clear_doubt();
-  record(time, cells_before);
 }
 
 template class DiagramRebuilder<2>;

@@ -60,9 +60,6 @@ class DiagramRebuilder {
   void forget_steps(const StaticTriangulation<Dimension>& built);
   /// Assigns the static diagram at `time`. Returns false, and changes nothing, if that diagram is flat.
   [[nodiscard]] bool assign_static(const Dyadic& time);
-  /// For the kernel `fast`: rebuilds near now from doubles, at most a few times in a step. Certificates that
-  /// are violated afterwards stay violated.
-  void rebuild_roughly();
   void drop_all();
   /// Returns the times after now that must follow the rebuild, because certificates of the diagram just built
   /// fail or begin to hold there.
@@ -79,7 +76,6 @@ class DiagramRebuilder {
   FacetGuards<Dimension>& facets_;
   HiddenGuards<Dimension>& hidden_;
   CellExchange<Dimension> exchange_;
-  int rough_rebuilds_ = 0;                         // in this step
   unsigned coarsest_that_worked_ = coarsest_grid;  // in this step; blocked flips come in groups
 };
 

@@ -204,7 +204,6 @@ struct DiagramState {
   /// Returns whether a failure, whose bracket overlaps the present one, is at exactly the present time.
   template <class Table>
   [[nodiscard]] bool vanishes_now(const Table& table, std::uint32_t slot) const {
-    if (simulator.kernel() == Kernel::fast) return true;
     ExactTime failure = exact_time(*table.exact_function(slot), table.time(slot));
     return ExactTime::compare(failure, simulator.now().exact()) == 0;
   }

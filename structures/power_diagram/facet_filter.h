@@ -182,7 +182,7 @@ void put_in_lane(const TriangulationCell<Dimension>& cell,
 inline constexpr std::size_t few_cells = 4;
 template <int Dimension>
 [[nodiscard]] std::array<unsigned, few_cells> filter_few_cells(
-    const CellFilter<Dimension>& filter, const LengthUnit& unit, Rounding rounding,
+    const CellFilter<Dimension>& filter, const LengthUnit& unit,
     std::type_identity_t<std::span<const TriangulationCell<Dimension>>> cells, std::span<const CellId> few) {
   std::array<unsigned, few_cells> found{};
   CellsInLanes<Dimension> beads;
@@ -194,7 +194,7 @@ template <int Dimension>
   if (finite == 0) return found;
   for (std::size_t lane = finite; lane < few_cells; ++lane) beads[lane] = beads[0];
   PositiveBits positive;
-  filter.four_positive_cells(beads, unit, rounding, positive);
+  filter.four_positive_cells(beads, unit, positive);
   constexpr unsigned of_each_part = 0x01010101U;
   for (std::size_t n = 0, lane = 0; n < few.size(); ++n) {
     if (found[n] == 0) continue;
@@ -208,8 +208,7 @@ template <int Dimension>
 class FacetFilter {
  public:
   /// Finds nothing if lengths differ from the unit by a factor above one thousand.
-  FacetFilter(const CellFilter<Dimension>& filter, const LengthUnit& unit, Rounding rounding)
-      : filter_(filter), unit_(unit), rounding_(rounding) {}
+  FacetFilter(const CellFilter<Dimension>& filter, const LengthUnit& unit) : filter_(filter), unit_(unit) {}
 
   /// Adds the wanted facets of a finite cell, one bit each, a possibly empty subset of finite_facets. Reports
   /// results for this cell or earlier ones by calling `found(cell, wanted, positive)`, where `positive` says
@@ -249,7 +248,7 @@ class FacetFilter {
   void flush(unsigned facets, Found& found) {
     Batch& batch = batches_[facets];
     PositiveBits positive;
-    filter_.positive_cells(batch.beads, facets, unit_, rounding_, positive);
+    filter_.positive_cells(batch.beads, facets, unit_, positive);
     const unsigned all = (1U << facets) - 1;
     for (std::size_t lane = 0; lane < batch.waiting; ++lane) {
       count_ += count_of<Dimension>(positive[lane] & all);
@@ -261,7 +260,6 @@ class FacetFilter {
 
   const CellFilter<Dimension>& filter_;
   LengthUnit unit_;
-  Rounding rounding_;
   std::array<Batch, Dimension + 2> batches_;  // by the number of wanted facets in a cell
   std::uint64_t count_ = 0;
 };

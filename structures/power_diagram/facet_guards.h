@@ -122,7 +122,7 @@ class FacetGuards {
   /// From now on, keeps all search results and reuses them, until forget_known. Must be called only while
   /// time stands still and all diagrams that follow have the same curves.
   void remember() {
-    if (all_move() && !known_ && state_.simulator.kernel() != Kernel::fast) known_.emplace();
+    if (all_move() && !known_) known_.emplace();
   }
   void forget_known() { known_.reset(); }
   /// Called before another triangulation: discards all knowledge of its cells and facets and leaves all

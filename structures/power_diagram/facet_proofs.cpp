@@ -94,7 +94,7 @@ std::span<const FacetId> FacetProofs<Dimension>::hull_not_proved_ahead() {
       if (!orientation.side()) std::swap(beads[lane][0], beads[lane][1]);
     }
     PositiveBits positive;
-    filter_ahead_->positive_cells(beads, 0, unit_, rounding_of(state_.simulator.kernel()), positive);
+    filter_ahead_->positive_cells(beads, 0, unit_, positive);
     for (std::size_t lane = 0; lane < count; ++lane) {
       const FacetId facet = on_hull_[first + lane];
       int part = 0;
@@ -114,12 +114,10 @@ std::span<const FacetId> FacetProofs<Dimension>::hull_not_proved_ahead() {
 
 template <int Dimension>
 auto FacetProofs<Dimension>::found_around(std::span<const CellId> cells) -> std::array<unsigned, few_cells> {
-  const Kernel kernel = state_.simulator.kernel();
   std::array<unsigned, few_cells> found{};
   const bool ahead = looks_ahead();
-  if (kernel != Kernel::exact)
-    found = filter_few_cells(ahead ? *filter_ahead_ : *filter_, unit_, rounding_of(kernel),
-                             state_.triangulation.cells(), cells);
+  if (state_.simulator.kernel() != Kernel::exact)
+    found = filter_few_cells(ahead ? *filter_ahead_ : *filter_, unit_, state_.triangulation.cells(), cells);
   grow_little(ends_positive_, state_.triangulation.cells().size());
   const unsigned is_positive = ahead ? positive_throughout<Dimension> : positive_at_end<Dimension>;
   for (std::size_t c = 0; c < cells.size(); ++c)

@@ -172,7 +172,7 @@ class FacetProofs {
   template <bool in_lanes, class Note, class Doubt>
   Proved prove_all(const Note& note, const Doubt& doubt) {
     const auto found = taking_doubts(doubt);
-    FacetFilter<Dimension> positive(*filter_, unit_, rounding_of(state_.simulator.kernel()));
+    FacetFilter<Dimension> positive(*filter_, unit_);
     const auto& triangulation = state_.triangulation;
     const auto cells = triangulation.cells();
     const auto look_at = [&](CellId cell, unsigned facets, unsigned finite) {
@@ -261,7 +261,7 @@ class FacetProofs {
       if (!all_known) return positive.look_at(cells[cell], cell, doubts, found);
       for (; doubts != 0; doubts &= doubts - 1) doubt(cell, std::countr_zero(doubts));
     };
-    FacetFilter<Dimension> ahead(*filter_ahead_, unit_, rounding_of(state_.simulator.kernel()));
+    FacetFilter<Dimension> ahead(*filter_ahead_, unit_);
     on_hull_.clear();
     foresight_.for_the_others(triangulation, note, [&](CellId cell, unsigned facets) {
       const unsigned finite = finite_facets(cells[cell]);

@@ -10,12 +10,7 @@ template <int Dimension>
 HiddenGuards<Dimension>::HiddenGuards(State& state)
     : state_(state),
       appearances_(state.simulator, state.owner, state.index, appearing, state.motion),
-      departures_(state.simulator, state.owner, state.index, departing, state.motion) {
-  // Contradictions between rounded values may make a hidden bead wander back and forth without end. In exact
-  // arithmetic, hidden beads cross far fewer cells than there are flips.
-  appearances_.expect_fewer(10);
-  departures_.expect_fewer(10);
-}
+      departures_(state.simulator, state.owner, state.index, departing, state.motion) {}
 
 template <int Dimension>
 void HiddenGuards<Dimension>::enqueue(BeadId bead) {
@@ -155,13 +150,11 @@ CellId HiddenGuards<Dimension>::walk_to(BeadId bead, CellId cell, int came_from)
 
 /// Returns the host of a bead just after now, or no_cell if none is found. If the bead lies on a face shared
 /// by several cells, the host is the one of these cells with the least beads, wherever the walk started. Flat
-/// cells are passed through, because all beads of their plane seem to lie in them. The kernel `fast` may not
-/// know that a sign is zero, so it takes the cell where the walk ends.
+/// cells are passed through, because all beads of their plane seem to lie in them.
 template <int Dimension>
 CellId HiddenGuards<Dimension>::find_host(BeadId bead, CellId cell, int came_from) {
   const CellId at = walk_to(bead, cell, came_from);
   if (at == no_cell || state_.is_infinite(at)) return no_cell;
-  if (state_.simulator.kernel() == Kernel::fast) return at;
   std::vector<CellId> around{at};
   CellId least = no_cell;
   Beads least_beads{};

@@ -114,18 +114,16 @@ void PowerDiagram<Dimension>::reach_frame() {
   const Simulator::ComputeScope scope(parts_->state.simulator);
   auto& [state, facets, hidden, flips, rebuilder, editor] = *parts_;
   const Curves<Dimension> curves = state.motion.curves();
-  const auto build_anew = [&] {
+  if (!state.has_cells()) {
     rebuilder.build_from_control_points(curves.own_degree());
     ++statistics.rebuilds;
-  };
-  if (!state.has_cells()) return build_anew();
+    return;
+  }
   const Snapshot<Dimension>& end = state.triangulation.set_points(curves, curves.own_degree());
   const int least = least_orientation(state.triangulation, end, facets.known_positive_at_end());
   facets.forget_ends();
-  const bool is_fast = state.simulator.kernel() == Kernel::fast;
-  if (least < 0 && !is_fast) throw std::logic_error("a cell of the power diagram is inverted");
+  if (least < 0) throw std::logic_error("a cell of the power diagram is inverted");
   state.flat = least == 0;
-  if (least < 0 || (is_fast && least > 0 && !hull_seems_to_wind_once(state, end))) build_anew();
 }
 
 template <int Dimension>

@@ -303,8 +303,6 @@ void ParallelRun::decide() {
   if (std::exchange(is_decided_, true)) return;
   if (scene_.frames() == nullptr) {
     uncut_ = "its input is a single step";
-  } else if (options_.kernel == Kernel::fast) {
-    uncut_ = "kernel fast proves no state at a frame";
   } else {
     for (std::size_t s = 0; s < own_->structures().size() && !uncut_; ++s)
       if (!own_->session().running(s).can_be_cut())

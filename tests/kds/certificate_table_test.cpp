@@ -100,24 +100,6 @@ TEST_P(CertificateTableTest, ForgetsWhatNeverFails) {
   expect_sum();
 }
 
-// Contradictory doubles must not loop forever: after a limit of certificates per step, the kernel `fast`
-// takes new certificates to hold until the next step.
-TEST_P(CertificateTableTest, FastLooksAtSoManyInAStep) {
-  constexpr std::uint64_t beads = 20, most = 20'000 + 4'000 * beads + 4 * beads * beads;
-  const auto watch_and_drop = [this] {
-    const CertificateHandle guard = owner.table.watch({{0, 10}}, 7);
-    owner.table.drop(guard);
-    return guard;
-  };
-  run([&] {
-    for (std::uint64_t k = 0; k < most; ++k) ASSERT_TRUE(has_slot(watch_and_drop())) << k;
-    EXPECT_EQ(has_slot(watch_and_drop()), GetParam() != Kernel::fast);
-  });
-  owner.on_start = [&] { EXPECT_TRUE(has_slot(watch_and_drop())); };
-  simulator.run_step();
-  expect_sum();
-}
-
 TEST_P(CertificateTableTest, KeepsNothingOfWhatIsViolatedAtBirth) {
   run([this] {
     EXPECT_EQ(owner.table.watch({{1, 0}}, 7), CertificateHandle::violated);

@@ -143,8 +143,7 @@ class Threads(unittest.TestCase):
     def test_a_run_that_takes_one_says_so(self):
         positions = coil(beads=40)
         asked = {"radius": 1.1, "structures": ["contacts"], "threads": 2}
-        for pattern, call in ((r"^threads 2: .*kernel fast", lambda: kds.run(positions, kernel="fast", **asked)),
-                              (r"^threads 2: .*only", lambda: kds.run(positions, only={"contacts": range(9)}, **asked)),
+        for pattern, call in ((r"^threads 2: .*only", lambda: kds.run(positions, only={"contacts": range(9)}, **asked)),
                               (r"^threads 2: .*limit of exact work", lambda: kds.run(positions, work=10**12, **asked)),
                               (r"^threads 2: .*driven", lambda: kds.KineticRun(positions, **asked))):
             with self.assertWarnsRegex(kds.InputWarning, pattern):

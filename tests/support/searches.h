@@ -20,7 +20,7 @@ namespace kds::test {
   return identity;
 }
 
-inline constexpr std::array all_kernels{Kernel::fast, Kernel::filtered, Kernel::exact};
+inline constexpr std::array all_kernels{Kernel::filtered, Kernel::exact};
 
 template <class Certificate, Motion M>
 [[nodiscard]] Failure first_failure(Kernel kernel, const Certificate& certificate, const M& motion,

@@ -199,15 +199,6 @@ TYPED_TEST(RadicalSearch, GenericMotionIsSettledInDouble) {
     certificate.inside = *inside > 0;
     static_cast<void>(test::first_failure(Kernel::filtered, certificate, motion, Instant(0),
                                           KnownAtStart::unknown, stages));
-    const Failure fast =
-        test::first_failure(Kernel::fast, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
-    const Failure exact =
-        test::first_failure(Kernel::exact, certificate, motion, Instant(0), KnownAtStart::unknown, stages);
-    --stages.exact;
-    EXPECT_EQ(fast.kind, exact.kind);
-    if (fast.kind == Kind::later && exact.kind == Kind::later) {
-      EXPECT_NEAR(fast.time.lower, exact.time.lower, 1e-9);
-    }
   }
   EXPECT_LT(stages.exact * 20, stages.coefficients + stages.isolation);
   EXPECT_EQ(stages.identically_zero, 0U);
@@ -247,29 +238,6 @@ TYPED_TEST(RadicalSearch, ScaleDoesNotMatter) {
     EXPECT_EQ(filtered.kind, plain.kind);
     EXPECT_EQ(exact.time.lower, plain.time.lower);
     EXPECT_EQ(exact.time.upper, plain.time.upper);
-  }
-}
-
-TYPED_TEST(RadicalSearch, FastSurvivesEverything) {
-  Random random(754);
-  // Control points that produce infinities and NaNs in intermediate results; motions refuse these values as
-  // control points.
-  constexpr double most = std::numeric_limits<double>::max();
-  constexpr double specials[] = {most, -most, 0x1p1000, 0x1p-1074, -0.0};
-  for (int i = 0; i < test::rounds(300); ++i) {
-    auto motion = test::motion_of<TypeParam>(random, {.whole = i % 2 == 0});
-    motion.set_coordinate(static_cast<BeadId>(random() % motion.bead_count()), 0, 0, specials[random() % 5]);
-    if (i % 3 == 0) motion.set_radius(0, 1, specials[random() % 5]);
-    typename TypeParam::C certificate;
-    for (std::size_t b = 0; b < certificate.beads.size(); ++b) certificate.beads[b] = static_cast<BeadId>(b);
-    StageCounts stages;
-    for (const KnownAtStart birth : {KnownAtStart::unknown, KnownAtStart::at_own_root}) {
-      const Failure failure =
-          test::first_failure(Kernel::fast, certificate, motion, Instant(0.25), birth, stages);
-      if (failure.kind == Kind::later) {
-        EXPECT_TRUE(failure.time.lower >= 0.25 && failure.time.lower <= 1);
-      }
-    }
   }
 }
 
@@ -390,7 +358,6 @@ void expect_outside(const std::vector<Path>& basis) {
     EXPECT_EQ(agreed<C>(motion, false).kind, Kind::never);
     StageCounts stages;
     const C certificate = test::certificate_at<C>(motion, Dyadic(0.0));
-    EXPECT_EQ((test::sign_now(Kernel::fast, certificate, motion, Instant(0.5), stages)), -1);
     EXPECT_EQ((test::sign_now(Kernel::filtered, certificate, motion, Instant(0.5), stages)), -1);
     EXPECT_EQ((test::sign_now(Kernel::exact, certificate, motion, Instant(0.5), stages)), -1);
     EXPECT_EQ(stages.signs_double, 1U);

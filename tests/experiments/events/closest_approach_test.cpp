@@ -84,10 +84,6 @@ TEST(ClosestApproach, NothingIsSaidOfFramesThatNobodyLookedAt) {
   EXPECT_EQ(found["frame"].get<int>() % 40, 4);
 }
 
-TEST(ClosestApproach, FastPromisesNothing) {
-  EXPECT_FALSE(summary_of("0:5", {"--kernel", "fast"}).contains("closest_approach"));
-}
-
 TEST(ClosestApproach, DeviationsAreAddedOutward) {
   const DistanceRange range = within_deviation({0.3, 0.3}, 0.1);
   EXPECT_LT(range.lower, 0.1);

@@ -62,7 +62,7 @@ TEST(RunOptions, TakesEveryOption) {
 }
 
 TEST(RunOptions, TakesEveryNamedValue) {
-  EXPECT_EQ(parse_run_options({"--kernel", "fast", "a"}).kernel, Kernel::fast);
+  EXPECT_EQ(parse_run_options({"--kernel", "exact", "a"}).kernel, Kernel::exact);
   EXPECT_EQ(parse_run_options({"--kernel=filtered", "a"}).kernel, Kernel::filtered);
   EXPECT_EQ(parse_run_options({"a", "--audit", "none"}).audit, AuditMode::none);
   EXPECT_EQ(parse_run_options({"a", "--audit=frames"}).audit, AuditMode::frames);
@@ -130,7 +130,8 @@ TEST(RunOptions, RefusesMissingInputs) {
 }
 
 TEST(RunOptions, RefusesWhatIsGivenTwice) {
-  EXPECT_THAT(refusal({"a", "--kernel", "fast", "--kernel", "fast"}), HasSubstr("--kernel is given 2 times"));
+  EXPECT_THAT(refusal({"a", "--kernel", "exact", "--kernel", "exact"}),
+              HasSubstr("--kernel is given 2 times"));
   EXPECT_THAT(refusal({"a", "--quiet", "--quiet"}), HasSubstr("--quiet is given 2 times"));
 }
 
@@ -159,7 +160,8 @@ TEST(RunOptions, RefusesUnknownNamesAndListsTheKnown) {
   EXPECT_THAT(refusal({"a", "--structures", "power,"}), HasSubstr("'' is not one of"));
   EXPECT_THAT(refusal({"a", "--structures", "power,power"}), HasSubstr("power is listed twice"));
   EXPECT_THAT(refusal({"a", "--motion", "cubic"}), HasSubstr("'cubic' is not one of linear, hermite"));
-  EXPECT_THAT(refusal({"a", "--kernel", "Exact"}), HasSubstr("'Exact' is not one of fast, filtered, exact"));
+  EXPECT_THAT(refusal({"a", "--kernel", "Exact"}), HasSubstr("'Exact' is not one of filtered, exact"));
+  EXPECT_THAT(refusal({"a", "--kernel", "fast"}), HasSubstr("'fast' is not one of filtered, exact"));
   EXPECT_THAT(refusal({"a", "--audit", "{}"}), HasSubstr("'{}' is not one of none, frames, events"));
   EXPECT_THAT(
       refusal({"a", "--select", "cb"}),

@@ -98,16 +98,6 @@ TEST(Program, ReplaysItsLog) {
   expect_refused({"replay", directory.file("other.log", "not a log\n")}, {"other.log"});
 }
 
-TEST(Program, ReplaysRunsWithoutGuarantees) {
-  const ScratchDirectory directory;
-  const std::string log = (directory / "events.log").string();
-  ASSERT_EQ(run_program({"run", data_file("kinetic/degenerate_d3_n64_swap.txt"), "--structures",
-                         "wrapped,power", "--kernel", "fast", "--log", log, "--quiet"})
-                .code,
-            0);
-  EXPECT_THAT(run_program({"replay", log}).out, HasSubstr("fingerprint same"));
-}
-
 TEST(Program, ANameThatIsNoTextCannotBeLogged) {
   const ScratchDirectory directory;
   const std::string input = directory.file("odd\xff.xyz", xyz({"0 0 0", "1 0 0"}) + xyz({"0 0 0", "2 0 0"}));

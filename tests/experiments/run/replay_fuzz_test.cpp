@@ -234,5 +234,18 @@ TEST(ReplayFuzz, SpoiledHeadersAreRefused) {
   }
 }
 
+TEST(ReplayFuzz, LogsOfValuesThatAreGoneAreRefused) {
+  const ScratchDirectory directory;
+  Lines lines = log_of("d1_n20_linear.txt", "sorted", directory);
+  const std::string input = data_file("kinetic/d1_n20_linear.txt");
+  for (const auto& [arguments, why] :
+       {std::pair(R"("--kernel","fast")", "--kernel: 'fast' is not one of filtered, exact")}) {
+    lines[1] = R"({"arguments":[")" + input + R"(",)" + arguments + R"(],"beads":20,"steps":1})";
+    std::string message;
+    EXPECT_EQ(replay(write_log(lines, directory), &message), Outcome::refused);
+    EXPECT_THAT(message, testing::HasSubstr(std::string("spoiled.log:2: the run's arguments: ") + why));
+  }
+}
+
 }  // namespace
 }  // namespace kds::test::replay_fuzz_test

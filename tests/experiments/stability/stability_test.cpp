@@ -160,50 +160,6 @@ TEST(CompareAnswers, AWrongAnswerIsNoticed) {
   EXPECT_NE(disagreement(wrong, f.exact, function), std::nullopt);
 }
 
-TEST(CompareAnswers, SharpFailuresLieInTheirBrackets) {
-  const auto kept = followed();
-  const Followed& f = *kept;
-  const BothSides<PowerTest<2>> functions(f.certificate, *f.search);
-  const auto rough = failures_of(f.exact);
-  const auto sharp =
-      sharp_failures_of(f.exact, [&](bool opposite) { return *functions.exact_function(opposite ? 1 : 0); });
-  ASSERT_EQ(sharp.size(), rough.size());
-  for (std::size_t i = 0; i < sharp.size(); ++i) {
-    EXPECT_GE(sharp[i].lower, rough[i].lower);
-    EXPECT_LE(sharp[i].upper, rough[i].upper);
-    EXPECT_LE(sharp[i].upper - sharp[i].lower, 0x1p-52);
-  }
-}
-
-TimedChange event(std::uint8_t kind, BeadId bead, double time) {
-  return {Change{kind, 1, {bead}}, time, time};
-}
-
-TEST(EventDifference, CountsWhatIsMissedAndExtra) {
-  const std::vector<TimedChange> exact{event(0, 1, 0.1), event(0, 2, 0.2), event(0, 1, 0.5)};
-  EventDifference same = event_difference(exact, exact);
-  EXPECT_EQ(same.missed + same.extra, 0U);
-  EXPECT_EQ(same.worst_time_error, 0);
-  const std::vector<TimedChange> other{event(0, 1, 0.125), event(1, 2, 0.2), event(0, 1, 0.5),
-                                       event(0, 1, 0.75)};
-  const EventDifference wrong = event_difference(exact, other);
-  EXPECT_EQ(wrong.missed, 1U);
-  EXPECT_EQ(wrong.extra, 2U);
-  EXPECT_EQ(wrong.worst_time_error, 0.125 - 0.1);
-  EXPECT_EQ(event_difference(exact, {}).missed, 3U);
-  EXPECT_EQ(event_difference({}, exact).extra, 3U);
-}
-
-TEST(EventDifference, OnesLeftOutDoNotShiftTheOthers) {
-  const std::vector<TimedChange> exact{event(0, 1, 0.1), event(0, 1, 0.4), event(0, 1, 0.8)};
-  const std::vector<TimedChange> other{event(0, 1, 0.1), event(0, 1, 0.8)};
-  EXPECT_EQ(event_difference(exact, other).worst_time_error, 0);
-  EXPECT_EQ(event_difference(other, exact).worst_time_error, 0);
-  const std::vector<TimedChange> bracket{{Change{0, 1, {1}}, 0.25, 0.5}};
-  EXPECT_EQ(event_difference(bracket, {{event(0, 1, 0.375)}}).worst_time_error, 0);
-  EXPECT_EQ(event_difference(bracket, {{event(0, 1, 0.625)}}).worst_time_error, 0.125);
-}
-
 TEST(StabilityRow, HoldsOnlyWithoutTrouble) {
   StabilityRow row;
   row.cases = 3;
@@ -298,20 +254,9 @@ TEST(Stability, NoScaleIsLeftToIntegersWhereDifferencesAreFinite) {
   EXPECT_GT(sum.refined, sum.exact);
 }
 
-TEST(Stability, FastIsWrongWhereProductsVanish) {
-  const auto rows = rows_of({"--subjects", "power_test", "--extremes", "scale:2^-1000", "--cases", "40"});
-  for (const StabilityRow& row : rows) {
-    EXPECT_EQ(row.fast.missed, row.events) << name_of(row);
-    EXPECT_GT(row.wrong_signs, 0U);
-    EXPECT_EQ(row.stages.coefficients, 0U);
-    // Doubles isolate only certificates that are searched again at a root known to be their last.
-    EXPECT_LE(row.stages.isolation, row.stages.exact / 4);
-  }
-}
-
 TEST(Stability, TheSameSeedGivesTheSameRowsWhateverElseRuns) {
   const auto figures = [](const StabilityRow& row) {
-    return std::tuple(row.events, row.signs, row.wrong_signs, row.fast.missed, row.stages.exact);
+    return std::tuple(row.events, row.signs, row.stages.exact);
   };
   const auto alone = rows_of({"--subjects", "orientation", "--extremes", "ties:end", "--cases", "20"});
   const auto among = rows_of({"--subjects", "precedes,orientation", "--extremes", "ties", "--cases", "20"});
@@ -430,13 +375,11 @@ TEST(StabilityPage, TimesOfKernelsBesideEachOther) {
   rows[1].subject = "power_test";
   for (StabilityRow& row : rows) {
     row.cases = 1;
-    row.seconds.fast = 1e-6;
     row.seconds.filtered = 2e-6;
     row.seconds.exact = 5e-5;
   }
   const std::string page = stability_page(rows, {});
   EXPECT_THAT(page, HasSubstr("exact, us: 50\nus: 2</title>"));
-  EXPECT_THAT(page, HasSubstr("exact, us: 50\nus: 1</title>"));
   EXPECT_THAT(stability_page(std::vector{rows[0]}, {}), Not(HasSubstr("<svg")));
 }
 
@@ -494,11 +437,9 @@ TEST(StabilityProgram, WritesRowsToFiles) {
   for (const Json& row : json["rows"]) {
     for (const char* key :
          {"subject", "kind", "dimension", "degree", "function_degree", "extreme", "cases", "agree",
-          "disagreements", "refused", "failed", "fast", "stages", "seconds", "audits", "rebuilds", "holds"})
+          "disagreements", "refused", "failed", "stages", "seconds", "audits", "rebuilds", "holds"})
       EXPECT_TRUE(row.contains(key)) << key;
-    for (const char* key : {"wrong_signs", "missed", "extra", "worst_time_error"})
-      EXPECT_TRUE(row["fast"][key].is_number()) << key;
-    for (const char* key : {"fast", "filtered", "exact"}) EXPECT_TRUE(row["seconds"][key].is_number());
+    for (const char* key : {"filtered", "exact"}) EXPECT_TRUE(row["seconds"][key].is_number());
     if (row["extreme"] == "refused:nan") {
       EXPECT_THAT(row["reason"].get<std::string>(), HasSubstr("nan"));
     }

@@ -496,18 +496,10 @@ TEST(TradeCommand, NamesFileAndWayOutWhereTheExactRunDoesNotFit) {
     expect_refused({"trade", two, "--want", want, option, "3"}, {option, "--want"});
 }
 
-TEST(Recommendation, SaysWhatTheFastKernelGuaranteesAndHowToGetContacts) {
-  TradeRow exact{Want::contacts, {.structure = "contacts"}, {}, {}, true};
+TEST(Recommendation, SaysHowToGetContacts) {
+  const TradeRow exact{Want::contacts, {.structure = "contacts"}, {}, {}, true};
   EXPECT_THAT(recommendation(std::vector{exact}),
               testing::AllOf(HasSubstr("--radius"), HasSubstr("--apart")));
-  exact.cost.events = 7;
-  TradeRow fast = exact;
-  fast.is_exact = false;
-  fast.setting.kernel = Kernel::fast;
-  fast.cost.ratio = 0.5;
-  fast.errors.contacts_missed = fast.errors.contacts_spurious = 0;
-  EXPECT_THAT(recommendation(std::vector{exact, fast}),
-              testing::AllOf(HasSubstr("`contacts --kernel fast`"), HasSubstr("it guarantees nothing")));
 }
 
 TEST(TradeCommand, RefusesWhatItDoesNotKnow) {

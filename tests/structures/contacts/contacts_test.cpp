@@ -68,8 +68,6 @@ void expect_right(const std::vector<M>& steps, const PairsAsked& asked, bool rep
   exact.run(steps);
   EXPECT_EQ(exact.simulator.fingerprint(), filtered.simulator.fingerprint());
   EXPECT_EQ(exact.structure.pairs(), filtered.structure.pairs());
-  ContactRig<M> fast(steps.front(), AuditMode::none, Kernel::fast, asked);
-  EXPECT_NO_THROW(fast.run(steps));
   if (!replayed) return;
   ContactRig<M> again(steps.front(), AuditMode::frames, Kernel::filtered, asked);
   ASSERT_NO_THROW(again.replay(steps, filtered.history));

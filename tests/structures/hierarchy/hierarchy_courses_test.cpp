@@ -47,7 +47,7 @@ class BentRun {
         of_(of),
         totals_(totals),
         motion_(bead_count),
-        simulator_(of.kernel == Kernel::fast ? AuditMode::none : AuditMode::events, of.kernel),
+        simulator_(AuditMode::events, of.kernel),
         hierarchy_(simulator_, motion_, necklaces, of.radii, {}, relaxation_of(of)) {
     for (BeadId b = 0; b < bead_count; ++b) set_curve(b);
     simulator_.listen(history_);
@@ -118,9 +118,7 @@ class BentRun {
         break;
       case 3:  // the declared change leaves all courses as they are
         simulator_.change_motion(beads, [] {});
-        if (of_.kernel != Kernel::fast) {
-          EXPECT_EQ(history_.events.size(), before + 1);
-        }
+        EXPECT_EQ(history_.events.size(), before + 1);
         return;
       default:
         beads.clear();
@@ -133,7 +131,6 @@ class BentRun {
   }
 
   void check(double u) {
-    if (of_.kernel == Kernel::fast) return;
     EXPECT_EQ(hierarchy_.audit(Dyadic(u)), std::nullopt);
     if (of_.places == Places::grid || of_.relax > 0) return;  // several bases are correct
     Simulator simulator;
@@ -208,17 +205,15 @@ TEST(HierarchyCourses, RelaxedSpheres) {
   run_all<Space>({Radii::equal, Places::grid, 0.05}, rounds(10U));
 }
 
-TEST(HierarchyCourses, KernelsAgreeAndFastEnds) {
+TEST(HierarchyCourses, KernelsAgree) {
   Totals totals;
   for (const Radii radii : {Radii::equal, Radii::any}) {
     for (unsigned seed = 100; seed < 100 + rounds(5U); ++seed) {
       BentRun<Space> filtered(seed, {radii}, totals),
-          exact(seed, {radii, Places::generic, 0, Kernel::exact}, totals),
-          fast(seed, {radii, Places::generic, 0, Kernel::fast}, totals);
+          exact(seed, {radii, Places::generic, 0, Kernel::exact}, totals);
       filtered.run();
       exact.run();
       EXPECT_EQ(filtered.fingerprint(), exact.fingerprint());
-      fast.run();
     }
   }
 }

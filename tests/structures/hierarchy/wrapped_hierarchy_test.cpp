@@ -347,17 +347,6 @@ TEST(WrappedHierarchy, KernelsAgree) {
     WrappedRig<Kernel::filtered> filtered(motion->front(), AuditMode::none, necklaces);
     filtered.run(*motion);
     EXPECT_EQ(fingerprint_of<Kernel::exact>(*motion, necklaces), filtered.simulator.fingerprint());
-    // One function may fail in two nodes at once, and the double kernel may handle these failures in any
-    // order.
-    WrappedRig<Kernel::fast> fast(motion->front(), AuditMode::none, necklaces);
-    fast.run(*motion);
-    const auto changes = [](const History& history) {
-      std::vector<std::pair<std::size_t, std::array<BeadId, 10>>> all;
-      for (const Event& e : history.events) all.emplace_back(e.step, e.change.ids);
-      std::sort(all.begin(), all.end());
-      return all;
-    };
-    EXPECT_EQ(changes(fast.history), changes(filtered.history));
   }
 }
 
@@ -377,29 +366,12 @@ TEST(WrappedHierarchy, ExactAgreesOnMotionsFullOfTies) {
   }
 }
 
-TEST(WrappedHierarchy, FastAlwaysEnds) {
-#ifdef KDS_SANITIZED
-  constexpr int rounds = 10;
-#else
-  constexpr int rounds = 100;
-#endif
-  std::mt19937 random(25);
-  for (int round = 0; round < rounds; ++round) {
-    const Points from = random_grid_points(random, 9, 3);
-    const Points to = random_grid_points(random, 9, 3);
-    SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
-    ASSERT_NO_THROW((void)fingerprint_of<Kernel::fast>(through({from, to, from}), {{0, 8}}));
-  }
-}
-
 TEST(WrappedHierarchy, DegenerateInstances) {
   for (const char* name :
        {"static", "half", "rigid", "gridrigid", "gridscale", "converge", "gridrand", "gridint", "swap"}) {
     SCOPED_TRACE(name);
     const Space motion = instance_motion<Space>(std::string("degenerate_d3_n64_") + name);
     run_audited<Kernel::filtered>({motion}, {{0, 63}}, 20);
-    WrappedRig<Kernel::fast> fast(motion, AuditMode::none, one_necklace(motion));
-    EXPECT_NO_THROW(fast.run());
   }
 }
 

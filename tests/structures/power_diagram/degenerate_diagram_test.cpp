@@ -34,11 +34,6 @@ TEST_P(DegeneratePower, AuditsPassBetweenAllEvents) {
   }
 }
 
-TEST_P(DegeneratePower, FastEndsAndIsRightAtTheFrameItEndsIn) {
-  PowerRig rig(motion, AuditMode::none, Kernel::fast);
-  ASSERT_NO_THROW(rig.run());
-}
-
 INSTANTIATE_TEST_SUITE_P(Data, DegeneratePower,
                          testing::Values("static", "half", "rigid", "gridrigid", "gridscale", "converge",
                                          "gridrand", "gridint", "swap"),
@@ -118,23 +113,6 @@ TEST(PowerDiagram, ExactAgreesOnTwinsThatStayTogether) {
     }
     ASSERT_EQ(exact.simulator.fingerprint(), filtered.simulator.fingerprint())
         << "round " << round << ": " << to_text({from, to});
-  }
-}
-
-TEST(PowerDiagram, FastAlwaysEnds) {
-  std::mt19937 random(14);
-  for (int round = 0; round < test::rounds(200); ++round) {
-    const Points from = random_grid_points(random, 8, 3);
-    const Points to = random_grid_points(random, 8, 3);
-    SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
-    PowerRig rig(moving(from, to), AuditMode::none, Kernel::fast);
-    try {
-      rig.run();
-    } catch (const InputError&) {
-    } catch (const std::exception& error) {
-      ADD_FAILURE() << error.what();
-      return;
-    }
   }
 }
 

@@ -109,7 +109,7 @@ void expect_right_in_parts(const M& motion, std::span<const TriangulationCell<M:
   constexpr int dimension = M::dimension;
   const auto filter = cell_filter_over(MotionRef<dimension>(motion), FilterOf::parts);
   Found<dimension> parts, bare;
-  FacetFilter positive(*filter, unit, Rounding::charged), positive_bare(*filter, unit, Rounding::charged);
+  FacetFilter positive(*filter, unit), positive_bare(*filter, unit);
   for (CellId id = 0; id < cells.size(); ++id) {
     positive.look_at(cells[id], id, all_facets<dimension>, parts);
     positive_bare.look_at(cells[id], id, 0, bare);
@@ -145,7 +145,7 @@ void expect_right(const M& motion, std::span<const TriangulationCell<M::dimensio
   Found<M::dimension> all, some;
   const LengthUnit unit(exponent_of_length(Curves<M::dimension>(motion), cells) + off);
   const auto filter = cell_filter_over(MotionRef<M::dimension>(motion));
-  FacetFilter positive(*filter, unit, Rounding::charged);
+  FacetFilter positive(*filter, unit);
   for (CellId id = 0; id < cells.size(); ++id) positive.look_at(cells[id], id, all_facets<M::dimension>, all);
   positive.finish(all);
   positive.finish(all);  // no facet is left to finish
@@ -160,7 +160,7 @@ void expect_right(const M& motion, std::span<const TriangulationCell<M::dimensio
   }
   found += positive.count();
   // Examining some facets, or none, gives the same result for these facets.
-  FacetFilter positive_of_some(*filter, unit, Rounding::charged);
+  FacetFilter positive_of_some(*filter, unit);
   std::vector<unsigned> wanted;
   for (CellId id = 0; id < cells.size(); ++id) {
     wanted.push_back((5 * id + cells[0].vertex.size() * found + doubts.size()) & all_facets<M::dimension>);
@@ -178,7 +178,7 @@ void expect_right(const M& motion, std::span<const TriangulationCell<M::dimensio
   std::vector<CellId> few;
   for (CellId id = 0; id < cells.size() && id < few_cells; ++id) {
     few.push_back(id);
-    const auto of_few = filter_few_cells(*filter, unit, Rounding::charged, cells, few);
+    const auto of_few = filter_few_cells(*filter, unit, cells, few);
     for (const CellId cell : few) EXPECT_EQ(of_few[cell], all.positive[cell]) << cell;
   }
 }
@@ -399,8 +399,8 @@ TEST(FacetFilter, AreTheSameOnAnyProcessor) {
     }
     PositiveBits best, any;
     for (std::size_t beyond = 0; beyond <= 4; ++beyond) {
-      filter->positive_cells(cells, beyond, LengthUnit(), Rounding::charged, best);
-      filter_for_any->positive_cells(cells, beyond, LengthUnit(), Rounding::charged, any);
+      filter->positive_cells(cells, beyond, LengthUnit(), best);
+      filter_for_any->positive_cells(cells, beyond, LengthUnit(), any);
       EXPECT_EQ(best, any);
     }
   }
@@ -456,7 +456,7 @@ TEST(FacetFilter, OfAFewAreFinite) {
     const std::array<CellId, 4> few{0, 1, 2, 3};
     const LengthUnit unit(exponent_of_length(Curves<3>(motion), cells));
     const auto filter = cell_filter_over(MotionRef<3>(motion));
-    const auto facets = filter_few_cells(*filter, unit, Rounding::charged, cells, few);
+    const auto facets = filter_few_cells(*filter, unit, cells, few);
     EXPECT_EQ(facets[0], 0U);
     EXPECT_EQ(facets[2], 0U);
     EXPECT_EQ(facets[3] & 2U, 0U);
@@ -467,7 +467,7 @@ TEST(FacetFilter, OfAFewAreFinite) {
         EXPECT_TRUE(holds(motion, cells[id], i));
       }
     }
-    EXPECT_EQ(filter_few_cells(*filter, unit, Rounding::charged, cells, std::array<CellId, 1>{0})[0], 0U);
+    EXPECT_EQ(filter_few_cells(*filter, unit, cells, std::array<CellId, 1>{0})[0], 0U);
   }
   EXPECT_GT(found, test::rounds(20U));
 }

@@ -19,11 +19,10 @@ using testing::ElementsAre;
 template <int Dimension, int Degree>
 using Bezier = BezierMotion<Dimension, Degree>;
 
-/// The beads' final cells, after audits between all events, with `fast` at frames only.
+/// The beads' final cells, after audits between all events.
 template <class M>
 std::vector<CellBeads<M::dimension>> cells_at_the_end(const M& motion, Kernel kernel) {
-  const AuditMode audits = kernel == Kernel::fast ? AuditMode::frames : AuditMode::events;
-  Rig<PowerDiagram<M::dimension>, M> rig(motion, audits, kernel);
+  Rig<PowerDiagram<M::dimension>, M> rig(motion, AuditMode::events, kernel);
   rig.run();
   return rig.structure.at_frame(false).cells;
 }
@@ -77,8 +76,7 @@ TEST_P(HullWinding, SurvivesABeadFromFarAway) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernels, HullWinding,
-                         testing::ValuesIn({Kernel::fast, Kernel::filtered, Kernel::exact}),
+INSTANTIATE_TEST_SUITE_P(Kernels, HullWinding, testing::ValuesIn({Kernel::filtered, Kernel::exact}),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
 // The diagram equals a static build after every event of scenes full of ties, because an audit follows each

@@ -354,11 +354,7 @@ std::pair<std::uint64_t, std::uint64_t> run_kernel(Kernel kernel) {
   return {simulator.fingerprint(), diagram.statistics.certificates.created};
 }
 
-TEST(PowerDiagramEdits, KernelsAgree) {
-  const auto filtered = run_kernel(Kernel::filtered);
-  EXPECT_EQ(run_kernel(Kernel::exact), filtered);
-  EXPECT_EQ(run_kernel(Kernel::fast), filtered);
-}
+TEST(PowerDiagramEdits, KernelsAgree) { EXPECT_EQ(run_kernel(Kernel::exact), run_kernel(Kernel::filtered)); }
 
 TEST(PowerDiagramEdits, ReplayRefusesWhatDoesNotFit) {
   Rig<Diagram<Space>, Space> rig(random_space(20, 3, 0));

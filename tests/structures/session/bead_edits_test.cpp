@@ -79,7 +79,7 @@ class EditedRun {
         totals_(totals),
         motion_(dimension + 9),
         groups_(groups_of(seed, motion_.bead_count())),
-        simulator_(kernel == Kernel::fast ? AuditMode::none : AuditMode::events, kernel),
+        simulator_(AuditMode::events, kernel),
         structures_(simulator_, motion_, motion_.bead_count(), groups_) {
     for (BeadId b = 0; b < motion_.bead_count(); ++b) set_curve(motion_, b, random_, places_);
     for (BeadEdits* structure : structures_.all())
@@ -168,7 +168,6 @@ class EditedRun {
   }
 
   void compare(double u) {
-    if (simulator_.kernel() == Kernel::fast) return;
     Simulator simulator;
     Structures<dimension> twins(simulator, motion_, motion_.bead_count(), groups_);
     for (std::size_t s = 0; s < 3; ++s)
@@ -218,16 +217,14 @@ TEST(BeadEdits, InThePlane) { run_all<BezierMotion<2, 1>>(rounds(10U)); }
 TEST(BeadEdits, InSpace) { run_all<Space>(rounds(8U)); }
 TEST(BeadEdits, OnCubicCurves) { run_all<BezierMotion<3, 3>>(rounds(4U)); }
 
-TEST(BeadEdits, KernelsAgreeAndFastEnds) {
+TEST(BeadEdits, KernelsAgree) {
   Totals totals;
   for (unsigned seed = 50; seed < 50 + rounds(4U); ++seed) {
     EditedRun<Space> filtered(seed, Places::generic, totals),
-        exact(seed, Places::generic, totals, Kernel::exact),
-        fast(seed, Places::generic, totals, Kernel::fast);
+        exact(seed, Places::generic, totals, Kernel::exact);
     filtered.run();
     exact.run();
     EXPECT_EQ(filtered.fingerprint(), exact.fingerprint());
-    fast.run();
   }
 }
 

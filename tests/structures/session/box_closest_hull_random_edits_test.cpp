@@ -213,7 +213,7 @@ class EditedRun {
         places_(places),
         totals_(totals),
         motion_(7 + seed % 6),
-        simulator_(kernel == Kernel::fast ? AuditMode::none : AuditMode::events, kernel),
+        simulator_(AuditMode::events, kernel),
         structures_(simulator_, motion_) {
     simulator_.listen(history_);
     for (BeadId b = 0; b < motion_.bead_count(); ++b) {
@@ -324,7 +324,6 @@ class EditedRun {
   }
 
   void compare() {
-    if (simulator_.kernel() == Kernel::fast) return;
     const Dyadic soon = next_on_grid(simulator_.now().exact(), 200);  // before the next event
     const ExactPoints at = points_at(motion_, second::of(soon));
     const second::Integer quarter = quarter_at(motion_, second::of(soon));
@@ -379,17 +378,15 @@ TEST(BoxClosestHullRandomEdits, InSpace) { run_all<Space>(rounds(20U)); }
 TEST(BoxClosestHullRandomEdits, OnQuadraticCurvesInThePlane) { run_all<BezierMotion<2, 2>>(rounds(8U)); }
 TEST(BoxClosestHullRandomEdits, OnCubicCurvesInSpace) { run_all<BezierMotion<3, 3>>(rounds(4U)); }
 
-TEST(BoxClosestHullRandomEdits, KernelsAgreeAndFastEnds) {
+TEST(BoxClosestHullRandomEdits, KernelsAgree) {
   Totals totals;
   for (const Places places : {Places::generic, Places::grid}) {
     for (unsigned seed = 50; seed < 50 + rounds(6U); ++seed) {
       using Run = EditedRun<BezierMotion<2, 1>>;
-      Run filtered(seed, places, totals), exact(seed, places, totals, Kernel::exact),
-          fast(seed, places, totals, Kernel::fast);
+      Run filtered(seed, places, totals), exact(seed, places, totals, Kernel::exact);
       filtered.run();
       exact.run();
       EXPECT_EQ(filtered.fingerprint(), exact.fingerprint());
-      fast.run();
     }
   }
 }
