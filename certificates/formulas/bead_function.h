@@ -89,8 +89,8 @@ template <class F, class C>
 }
 
 /// Records the formula of a function whose beads come with numbers that enter the formula and the
-/// comparison of beads (RelaxedBeads). The last formula is cached, because these numbers are usually the same
-/// for all functions of a run.
+/// comparison of beads (DirectedBeads). The last formula is cached, because these numbers are usually the
+/// same for all functions of a run.
 template <class F, class C>
 [[nodiscard]] const RecordedFormula& own_formula(const F& function) {
   using Places = decltype(places_of(function));

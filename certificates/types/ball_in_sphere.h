@@ -41,19 +41,6 @@
 // since Qy is the sphere's centre projected to the span of the basis. Hence b^2 - ac >= 0 and sqrt(b^2 - ac)
 // - b > 0. The sign of D is therefore never needed.
 //
-// A relaxed certificate uses e_j - tau / 2 instead of e_j. The relaxed certificate holds while |d_j - z|^2 <=
-// (rho - s_j)^2 + tau, since |z| = rho and all of the above is linear in (d_j, s_j, e_j). With eps the
-// relaxation, and d = c_1 - c_0 and p = r_0 + r_1 of the basis' first two balls, which are those farthest
-// apart,
-//   tau = eps / 2 (|d|^2 + p^2 - 2 p r_j).
-// Further requirements at all times: p >= r_j and |d| >= r_j. These inequalities imply tau >= 0, so a ball
-// inside the sphere is inside the relaxed sphere. The sphere's radius R is at least L = (|d| + p) / 2 >= r_j,
-// hence
-//   2 R (R - r_j) >= 2 L (L - r_j) = (|d|^2 + 2 |d| (p - r_j) + p^2 - 2 p r_j) / 2 >= tau / eps,
-// so that (rho - s_j)^2 + tau = (R - r_j)^2 + tau <= (R - r_j + eps R)^2: ball j is inside the sphere of
-// radius (1 + eps) R. The radius condition holds too. A relaxed basis of one uses s_j - eps r_0 instead of
-// s_j. All quantities are in units of 2^-21, for which relaxation.h provides whole numbers.
-//
 // `inside` certificates guard a ball that must stay inside. The others guard a basis ball that must stay
 // outside of the sphere of the other basis balls; if it enters, it leaves the basis. Exact.
 
@@ -64,7 +51,6 @@
 
 #include "certificates/base/determinant.h"
 #include "certificates/base/radical.h"
-#include "certificates/base/relaxation.h"
 
 namespace kds {
 
@@ -80,36 +66,11 @@ struct BallsFromBase {
   std::array<Bernstein<Number, k>, Size> s;
   std::array<Bernstein<Number, 2 * k>, Size> e;  ///< twice e_i; all formulas below use these
 
-  template <class Beads>
-  BallsFromBase(const View& view, const Beads& beads) {
+  BallsFromBase(const View& view, const std::array<BeadId, Size + 1>& beads) {
     for (std::size_t i = 0; i < Size; ++i) {
       d[i] = view.difference(beads[i + 1], beads[0]);
       s[i] = view.radius_difference(beads[i + 1], beads[0]);
       e[i] = dot(d[i], d[i]) - s[i] * s[i];
-    }
-    if constexpr (requires { beads.relaxation; }) relax(view, beads);
-  }
-
- private:
-  /// Scales ball j's d, s and e by 2^21 and subtracts the relaxation from e.
-  template <class Beads>
-  void relax(const View& view, const Beads& beads) {
-    constexpr std::int64_t one = 2 * Relaxation::most;
-    const std::int64_t share = beads.relaxation.units();
-    auto& dj = d[Size - 1];
-    auto& sj = s[Size - 1];
-    auto& ej = e[Size - 1];
-    if constexpr (Size == 1) {
-      for (auto& axis : dj) axis = times(one, axis);
-      sj = times(one, sj) - times(share, view.radius_sum(beads[0], beads[0]));
-      ej = dot(dj, dj) - sj * sj;
-    } else {
-      const auto room =
-          view.radius_difference(beads[0], beads[Size]) + view.radius_difference(beads[1], beads[Size]);
-      const auto slack = dot(d[0], d[0]) + view.radius_sum(beads[0], beads[1]) * room;
-      for (auto& axis : dj) axis = times(one, axis);
-      sj = times(one, sj);
-      ej = times(one, ej) - times(share, slack);
     }
   }
 };
@@ -142,8 +103,7 @@ struct TriangleSphere : BallsFromBase<3, View> {
   P<4 * k> g;
   std::array<P<4 * k>, 2> ae;
 
-  template <class Beads>
-  TriangleSphere(const View& view, const Beads& beads)
+  TriangleSphere(const View& view, const std::array<BeadId, 4>& beads)
       : Base(view, beads),
         g11(dot(this->d[0], this->d[0])),
         g12(dot(this->d[0], this->d[1])),
@@ -175,8 +135,7 @@ struct SimplexSphere : BallsFromBase<Dimension + 1, View> {
   BernsteinVector<typename View::Number, (Dimension + 1) * k, Dimension> eps;
   BernsteinVector<typename View::Number, Dimension * k, Dimension> sig;
 
-  template <class Beads>
-  SimplexSphere(const View& view, const Beads& beads)
+  SimplexSphere(const View& view, const std::array<BeadId, Dimension + 2>& beads)
       : Base(view, beads),
         normals(normals_of(this->d)),
         q(dot(this->d[0], normals[0])),
@@ -203,16 +162,15 @@ struct SimplexSphere : BallsFromBase<Dimension + 1, View> {
 
 }  // namespace detail
 
-template <int Dimension, int Size, bool relaxed = false>
+template <int Dimension, int Size>
 struct BallInSphere {
   static_assert((Dimension == 2 || Dimension == 3) && Size >= 1 && Size <= Dimension + 1);
-  static constexpr CertificateType type =
-      relaxed ? CertificateType{9, "relaxed_ball_in_sphere"} : CertificateType{5, "ball_in_sphere"};
+  static constexpr CertificateType type{5, "ball_in_sphere"};
   static constexpr bool full = Size == Dimension + 1;
 
-  using Beads = std::conditional_t<relaxed, RelaxedBeads<Size + 1>, std::array<BeadId, Size + 1>>;
+  using Beads = std::array<BeadId, Size + 1>;
 
-  Beads beads{};  ///< the basis, ascending (see below for relaxed bases), then the ball
+  Beads beads{};  ///< the basis, ascending, then the ball
   bool inside = true;
   int orientation = 1;  ///< orientation of a full basis (orientation.h): the sign of q
 
@@ -221,9 +179,7 @@ struct BallInSphere {
   [[nodiscard]] Identity identity() const {
     Beads named = beads;
     if (full && orientation < 0) std::swap(named[0], named[1]);
-    Identity identity = identity_of(type, named);
-    if constexpr (relaxed) identity.beads.back() = static_cast<BeadId>(beads.relaxation.units());
-    return identity;
+    return identity_of(type, named);
   }
 
   [[nodiscard]] bool side() const { return inside; }
@@ -232,7 +188,7 @@ struct BallInSphere {
   /// Returns whether the condition rho >= s_j must be checked.
   template <Motion M>
   [[nodiscard]] bool conditional(const M& motion) const {
-    if constexpr (Size == 1 || relaxed) return false;  // A and B imply the condition, or it is known to hold
+    if constexpr (Size == 1) return false;  // A and B imply the condition
     for (std::size_t i = 0; i < Size; ++i) {
       bool smaller = false;
       for (int k = 0; k <= degree_of(motion); ++k)
@@ -419,7 +375,7 @@ struct BallInSphere {
       }
     };
   };
-  using Condition = std::conditional_t<(Size > 1 && !relaxed), RadiusCondition, void>;
+  using Condition = std::conditional_t<(Size > 1), RadiusCondition, void>;
 
  private:
   template <MotionView View>

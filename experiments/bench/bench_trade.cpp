@@ -18,11 +18,10 @@ namespace {
 /// selects the row.
 struct Factors {
   std::string_view name;
-  std::optional<double> chord, tight, layered, relaxed, tolerant, more_tolerant;
+  std::optional<double> chord, tight, layered, tolerant, more_tolerant;
 };
-constexpr std::array kFactors{Factors{"villin", 5, 3, 13, 2, 2, 2.8},
-                              Factors{"random100", 3.4, 2, 13, 2, 2, 2.8},
-                              Factors{"dhodh", 6.5, 1.5, 13, 2, {}, {}}};
+constexpr std::array kFactors{Factors{"villin", 5, 3, 13, 2, 2.8}, Factors{"random100", 3.4, 2, 13, 2, 2.8},
+                              Factors{"dhodh", 6.5, 1.5, 13, {}, {}}};
 
 const Factors* factors_of(std::string_view name) {
   const auto* const found = std::ranges::find_if(
@@ -40,15 +39,13 @@ struct Lever {
 
 /// Returns the levers of each structure. The first entry of each list is the exact run.
 std::vector<std::vector<Lever>> levers_by_structure() {
-  StructureSettings chord, tight, relaxed;
+  StructureSettings chord, tight;
   chord.between = tight.between = Between::chord;
   tight.tightness = 0.01;
-  relaxed.relax = Relaxation::of(0.03);
   return {{{"wrapped, exact events", "wrapped"},
            {"wrapped, chord cages", "wrapped", &Factors::chord, chord},
            {"wrapped, chord cages within 0.01", "wrapped", &Factors::tight, tight},
-           {"layered, chord cages", "layered", &Factors::layered},
-           {"wrapped, relaxed by 0.03", "wrapped", &Factors::relaxed, relaxed}},
+           {"layered, chord cages", "layered", &Factors::layered}},
           {{"power, exact motion", "power"},
            {"power, within 0.2r", "power", &Factors::tolerant, {}, 0.2},
            {"power, within 0.3r", "power", &Factors::more_tolerant, {}, 0.3}}};

@@ -340,7 +340,6 @@ SessionOptions session_options(const RunOptions& options, const Scene& scene, Au
   session.settings.directions = options.directions;
   session.settings.contact_distance = contact_distance_of(options.cutoff, options.surface);
   session.settings.groups = scene.bead_groups();
-  session.settings.relax = Relaxation::of(options.relax.value_or(0));
   if (session.structures.empty()) session.structures = default_structures(scene);
   const auto& names = session.structures;
   if (options.apart && std::find(names.begin(), names.end(), "closest") != names.end())
@@ -358,15 +357,6 @@ SessionOptions session_options(const RunOptions& options, const Scene& scene, Au
   };
   if (options.cutoff && !has("contacts"))
     throw InputError("--cutoff: applies only to contacts, which is not among the structures");
-  if (options.relax && !has("wrapped"))
-    throw InputError("--relax: applies only to wrapped, which is not among the structures");
-  if (options.relax && scene.degree() > highest_relaxed_degree)
-    throw InputError(
-        fmt::format("--relax: functions of relaxed spheres have too high a degree over motions of degree {}; "
-                    "expected {} at most",
-                    scene.degree(), highest_relaxed_degree));
-  if (options.relax && session.settings.between != Between::events)
-    throw InputError("--relax: applies only to spheres with events; expected --between events");
   if (options.directions && !has("boxes"))
     throw InputError("--directions: applies only to boxes, which is not among the structures");
   if (options.nodes.restricts() && !has("wrapped") && !has("boxes") && !has("layered"))

@@ -45,10 +45,6 @@ namespace kds {
 [[nodiscard]] Scene load_scene(const RunOptions& options,
                                const std::function<void(const std::string&)>& warn);
 
-/// Relaxed spheres are refused above this degree of the motion, because the degree of their functions would
-/// be too high.
-inline constexpr int highest_relaxed_degree = 7;
-
 /// Returns the options of a session for the options of a run over the scene. If the options name no
 /// structures, the session has the input's default structures. Throws InputError.
 [[nodiscard]] SessionOptions session_options(const RunOptions& options, const Scene& scene, AuditMode audits);

@@ -5,7 +5,6 @@
 
 #include <string_view>
 
-#include "certificates/base/relaxation.h"
 #include "certificates/exact/exact_work.h"
 #include "experiments/program/contact_options.h"
 #include "experiments/program/input_options.h"
@@ -166,10 +165,6 @@ const OptionList<RunOptions>& motion_and_structure_options() {
           })
           .with(OptionList<InputOptions>({groups_option()}))
           .with({
-              real_option({"--relax", "EPS",
-                           "wrapped: no event until a bead sticks out of its sphere by more than EPS times "
-                           "the radius, from 2^-20 to 1 (default: none)"},
-                          &O::relax, {Relaxation::least_share, 1}),
               directions_option(&O::directions),
               tolerance_option(),
           });

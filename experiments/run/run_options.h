@@ -45,7 +45,6 @@ struct RunOptions : InputOptions, Destinations {
   bool surface = false;                         ///< --surface
   std::optional<Between> between;               ///< --between; empty if not given
   std::optional<double> tightness;              ///< --tightness; empty if not given
-  std::optional<double> relax;                  ///< --relax; empty if not given
   std::optional<int> directions;                ///< --directions; empty if not given
   std::optional<MotionTolerance> tolerance;     ///< --tolerance; empty if not given
   bool certify = false;                         ///< --certify

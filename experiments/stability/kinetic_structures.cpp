@@ -127,9 +127,8 @@ enum class Of { points, balls };
 StabilitySubject structure_subject(const std::string& structure, Of of, int dimension, int degree,
                                    std::size_t beads, const StructureSettings& settings = {}) {
   const std::size_t cases_a_run = degree == 1 ? 50 : 100;  // one run has many certificates
-  const std::string name = structure + (of == Of::balls ? ":balls" : "") +
-                           (settings.between == Between::chord ? ":chord" : "") +
-                           (settings.relax.any() ? ":relax" : "");
+  const std::string name =
+      structure + (of == Of::balls ? ":balls" : "") + (settings.between == Between::chord ? ":chord" : "");
   StabilitySubject subject{name, true, dimension, degree, 0, dimension == 3 || of == Of::balls, {}};
   subject.run = [=](const Extreme& extreme, const StabilityCases& cases) {
     StabilityRow row;
@@ -181,13 +180,8 @@ std::vector<StabilitySubject> kinetic_structures() {
     }
   }
   // Curves take minutes in integer arithmetic, because their functions have degree 36.
-  StructureSettings relaxed;
-  relaxed.relax = Relaxation::of(0.03);
-  for (const int dimension : {2, 3}) {
+  for (const int dimension : {2, 3})
     subjects.push_back(structure_subject("wrapped", Of::balls, dimension, 1, 6));
-    subjects.push_back(structure_subject("wrapped", Of::points, dimension, 1, 8, relaxed));
-    subjects.push_back(structure_subject("wrapped", Of::balls, dimension, 1, 6, relaxed));
-  }
   return subjects;
 }
 

@@ -33,8 +33,6 @@ std::vector<std::pair<std::string, std::string>> options_of(const TradeSetting& 
     options.emplace_back("between", name_of(setting.settings.between));
   if (setting.settings.tightness)
     options.emplace_back("tightness", fmt::format("{}", *setting.settings.tightness));
-  if (setting.settings.relax.any())
-    options.emplace_back("relax", fmt::format("{:.3g}", setting.settings.relax.share()));
   const NodeSelection& nodes = setting.settings.nodes;
   if (nodes.last_level < std::numeric_limits<std::uint32_t>::max())
     options.emplace_back("levels", fmt::format("{}:{}", nodes.first_level, nodes.last_level + 1));
@@ -112,10 +110,6 @@ class Settings {
   void add_tolerances() {
     for (const double tolerance : {0.1, 0.2, 0.3}) add([=](TradeSetting& s) { s.tolerance = tolerance; });
   }
-  void add_relaxed() {
-    for (const double share : {0.01, 0.03, 0.1})
-      add([=](TradeSetting& s) { s.settings.relax = Relaxation::of(share); });
-  }
   /// Adds certified runs where the errors of the frames left out can be bounded.
   void add_certified() {
     for (const std::size_t stride : {2, 4}) {
@@ -158,7 +152,6 @@ Settings with_events(const char* structure, const TradeInput& input, BeadId apar
 
 std::vector<TradeSetting> cages(const TradeInput& input, BeadId apart) {
   Settings settings = with_events("wrapped", input, apart);
-  settings.add_relaxed();
   const auto chord = [](TradeSetting& s) { s.settings.between = Between::chord; };
   settings.add(chord);
   for (const double tightness : {0.01, 0.003}) {
@@ -185,14 +178,6 @@ std::vector<TradeSetting> cages(const TradeInput& input, BeadId apart) {
   });
   settings.add([&](TradeSetting& s) {
     chord(s);
-    s.tolerance = 0.2;
-  });
-  settings.add([](TradeSetting& s) {
-    s.settings.relax = Relaxation::of(0.03);
-    s.stride = 2;
-  });
-  settings.add([](TradeSetting& s) {
-    s.settings.relax = Relaxation::of(0.03);
     s.tolerance = 0.2;
   });
   settings.add_certified();

@@ -249,10 +249,9 @@ Json ReplayPage::write_structure(std::size_t index, const ReplayRecorder::Struct
       add_words(nodes, std::array{node.beads.first, node.beads.last + 1, node.level, node.parent});
     put_block(fmt::format("nodes-{}", index), nodes.bytes());
   }
-  return {{"name", structure.name},   {"kinds", kinds},
-          {"stages", kStages},        {"events", events.count()},
-          {"layers", layers},         {"nodes", structure.nodes.size()},
-          {"relax", structure.relax}, {"note", note_on(structure)}};
+  return {{"name", structure.name},    {"kinds", kinds},   {"stages", kStages},
+          {"events", events.count()},  {"layers", layers}, {"nodes", structure.nodes.size()},
+          {"note", note_on(structure)}};
 }
 
 void ReplayPage::write_record(const ReplayRecorder& recorder) {

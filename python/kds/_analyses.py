@@ -199,7 +199,7 @@ class Trade(Result):
 
 @takes("trade")
 def trade(source, *, times_examined=None, verbose=False, **options):
-    """Measures the speed and the errors of each lever of accuracy on an input: strides, tolerances, relaxed spheres, ...
+    """Measures the speed and the errors of each lever of accuracy on an input: strides, tolerances, chord cages, ...
 
     The input is that of :func:`kds.run`. ``times_examined`` is ``--times`` of the program. Returns :class:`kds.Trade`, whose
     ``rows`` have a row for each setting. Takes several times as long as a run.

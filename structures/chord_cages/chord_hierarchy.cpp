@@ -40,7 +40,7 @@ std::optional<std::string> not_as_built(const ChordCages<StaticWrappedHierarchy<
     const auto name = [&range] {
       return "node " + std::to_string(range.first) + "-" + std::to_string(range.last) + ": ";
     };
-    if (const auto bead = bead_outside(proper_part(basis, whole), basis, range, Relaxation(), whole))
+    if (const auto bead = bead_outside(proper_part(basis, whole), range, whole))
       return name() + "bead " + std::to_string(*bead) + " is outside the sphere of the basis";
   }
   return std::nullopt;

@@ -263,35 +263,6 @@ bool TouchingSphere<Dimension, Number>::holds(const Ball& ball) const {
   return radical_sign<Number>(w * c_ - f * b_, f, discriminant_) >= 0;
 }
 
-// Decides |d - z| <= (1 + eps) R - r, where rho = c / (2 w), w = sqrt(D) - b, and z = (w Q A e + c Q A s) /
-// (2 g w).
-template <int Dimension, class Number>
-bool TouchingSphere<Dimension, Number>::holds_when_larger(const Ball& ball, const Relaxation& by) const
-    requires(std::same_as<Number, Integer>) {
-  const Integer factor = Relaxation::most + by.units(), unit = Relaxation::most;
-  std::array<Integer, Dimension> d;
-  for (std::size_t axis = 0; axis < Dimension; ++axis) d[axis] = ball.center[axis] - base_.center[axis];
-  const bool one_radius = ball.radius == base_.radius &&
-                          std::all_of(as_.begin(), as_.end(), [](const Integer& x) { return sgn(x) == 0; });
-  const Integer first = one_radius ? Integer(0) : base_.radius, own = one_radius ? Integer(0) : ball.radius;
-  if (m_ == 0) {
-    const Integer room = factor * first - unit * own;
-    return sgn(room) >= 0 && unit * unit * dot(d, d) <= room * room;
-  }
-  // Both sides times 2 g w units: t0 + t1 w, and the length of v0 + v1 w.
-  const Integer t0 = g_ * factor * c_, t1 = 2 * g_ * (factor * first - unit * own);
-  std::array<Integer, Dimension> v0, v1;
-  for (std::size_t axis = 0; axis < Dimension; ++axis) {
-    v0[axis] = -unit * c_ * qas_[axis];
-    v1[axis] = unit * (2 * g_ * d[axis] - qae_[axis]);
-  }
-  if (radical_sign<Number>(t0 - t1 * b_, t1, discriminant_) < 0) return false;
-  const Integer constant = t0 * t0 - dot(v0, v0), linear = 2 * (t0 * t1 - dot(v0, v1));
-  const Integer square = t1 * t1 - dot(v1, v1);
-  return radical_sign<Number>(constant - linear * b_ + square * (discriminant_ + b_ * b_),
-                              linear - 2 * square * b_, discriminant_) >= 0;
-}
-
 template <int Dimension, class Number>
 Sphere TouchingSphere<Dimension, Number>::rounded(int unit) const requires(std::same_as<Number, Integer>) {
   Sphere sphere;

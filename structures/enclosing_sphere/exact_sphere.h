@@ -15,7 +15,6 @@
 #include <span>
 #include <vector>
 
-#include "certificates/base/relaxation.h"
 #include "motions/numbers/exact_number.h"
 #include "motions/numbers/rounding_error.h"
 #include "structures/enclosing_sphere/basis.h"
@@ -54,11 +53,6 @@ class TouchingSphere {
   [[nodiscard]] bool is_proper() const;
   /// Returns whether the ball is inside or touches from inside.
   [[nodiscard]] bool holds(const Ball& ball) const;
-  /// Returns whether the ball is inside the sphere after its radius grows by a share of itself. If the ball
-  /// and the basis have the same radius, the radius grows only by that share of the radius of the centres'
-  /// sphere.
-  [[nodiscard]] bool holds_when_larger(const Ball& ball, const Relaxation& by) const
-      requires(std::same_as<Number, Integer>);
   /// Returns the sphere with each coordinate and the radius rounded to within 2^-52 of their size, in the
   /// range of doubles.
   [[nodiscard]] Sphere rounded(int unit) const requires(std::same_as<Number, Integer>);

@@ -37,15 +37,11 @@ bool is_surely_basis_of(const Basis& basis, const BeadRange& range,
 }
 
 template <int Dimension>
-std::optional<BeadId> bead_outside(const Basis& basis, const Basis& members, const BeadRange& range,
-                                   const Relaxation& relaxation, const IntegerBalls<Dimension>& whole) {
+std::optional<BeadId> bead_outside(const Basis& basis, const BeadRange& range,
+                                   const IntegerBalls<Dimension>& whole) {
   const auto sphere = ExactSphere<Dimension>::touching(whole.of(std::span(basis.begin(), basis.end())));
-  for (BeadId b = range.first; b <= range.last; ++b) {
-    if (basis.contains(b)) continue;
-    const bool exactly = !relaxation.any() || members.contains(b);
-    if (!(exactly ? sphere->holds(whole.balls[b]) : sphere->holds_when_larger(whole.balls[b], relaxation)))
-      return b;
-  }
+  for (BeadId b = range.first; b <= range.last; ++b)
+    if (!basis.contains(b) && !sphere->holds(whole.balls[b])) return b;
   return std::nullopt;
 }
 
@@ -99,9 +95,7 @@ template Basis proper_part(const Basis&, const IntegerBalls<2>&);
 template Basis proper_part(const Basis&, const IntegerBalls<3>&);
 template bool is_surely_basis_of(const Basis&, const BeadRange&, const RoundedPositions<2>&);
 template bool is_surely_basis_of(const Basis&, const BeadRange&, const RoundedPositions<3>&);
-template std::optional<BeadId> bead_outside(const Basis&, const Basis&, const BeadRange&, const Relaxation&,
-                                            const IntegerBalls<2>&);
-template std::optional<BeadId> bead_outside(const Basis&, const Basis&, const BeadRange&, const Relaxation&,
-                                            const IntegerBalls<3>&);
+template std::optional<BeadId> bead_outside(const Basis&, const BeadRange&, const IntegerBalls<2>&);
+template std::optional<BeadId> bead_outside(const Basis&, const BeadRange&, const IntegerBalls<3>&);
 
 }  // namespace kds

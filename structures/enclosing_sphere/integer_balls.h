@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "certificates/base/relaxation.h"
 #include "motions/base/bead.h"
 #include "motions/curves/curves.h"
 #include "motions/curves/positions.h"
@@ -39,18 +38,9 @@ template <int Dimension>
 [[nodiscard]] bool is_surely_basis_of(const Basis& basis, const BeadRange& range,
                                       const RoundedPositions<Dimension>& positions);
 
-/// Returns the first bead of a range that is not inside the sphere of a proper basis, or none. Beads outside
-/// `members` are tested against the enlarged sphere (ExactSphere::holds_when_larger).
-template <int Dimension>
-[[nodiscard]] std::optional<BeadId> bead_outside(const Basis& basis, const Basis& members,
-                                                 const BeadRange& range, const Relaxation& relaxation,
-                                                 const IntegerBalls<Dimension>& whole);
-/// Returns the first bead of a range that is not inside the sphere of a proper basis, or none. The sphere is
-/// not enlarged.
+/// Returns the first bead of a range that is not inside the sphere of a proper basis, or none.
 template <int Dimension>
 [[nodiscard]] std::optional<BeadId> bead_outside(const Basis& basis, const BeadRange& range,
-                                                 const IntegerBalls<Dimension>& whole) {
-  return bead_outside(basis, basis, range, {}, whole);
-}
+                                                 const IntegerBalls<Dimension>& whole);
 
 }  // namespace kds

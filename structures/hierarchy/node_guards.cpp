@@ -10,9 +10,8 @@ namespace kds {
 namespace {
 
 template <class Certificate, int Dimension>
-inline constexpr bool radical_of_two_or_more =
-    !is_relaxed<Certificate> && RadicalCertificateFor<Certificate, Curves<Dimension>> &&
-    std::tuple_size_v<decltype(Certificate{}.beads)> >= 3;
+inline constexpr bool radical_of_two_or_more = std::tuple_size_v<decltype(Certificate{}.beads)> >= 3 &&
+                                               RadicalCertificateFor<Certificate, Curves<Dimension>>;
 
 }  // namespace
 
@@ -21,19 +20,15 @@ inline constexpr bool radical_of_two_or_more =
 template <int Dimension>
 NodeGuards<Dimension>::NodeGuards(Simulator& simulator, KineticStructure& owner, std::size_t index,
                                   const MotionRef<Dimension>& motion, const Curves<Dimension>& curves,
-                                  Radii radii, std::size_t nodes, NodeProofs<Dimension>& proofs,
-                                  const Relaxation& relaxation)
+                                  Radii radii, std::size_t nodes, NodeProofs<Dimension>& proofs)
     : simulator_(simulator),
       owner_(owner),
       curves_(curves),
       radii_(radii),
-      relaxation_(relaxation),
       proofs_(proofs),
       tables_(simulator, owner, index, motion,
-              [radii, &relaxation]<class C>(std::type_identity<C>) -> std::optional<TouchPolicy> {
+              [radii]<class C>(std::type_identity<C>) -> std::optional<TouchPolicy> {
                 if (radii == Radii::equal && RadicalCertificateFor<C, Curves<Dimension>>) return std::nullopt;
-                if constexpr (is_relaxed<C>)
-                  return relaxation.any() ? std::optional(TouchPolicy::ignored) : std::nullopt;
                 return C{}.beads.size() == full ? TouchPolicy::reported : TouchPolicy::ignored;
               }),
       signs_(simulator, motion, curves, radii, tables_, owner.statistics.stages),
@@ -110,12 +105,8 @@ void NodeGuards<Dimension>::enqueue(NodeId id, const Basis& basis, BeadId bead, 
       risen_.push_back(b);
     }
   };
-  const std::span beads(basis.begin(), basis.end());
-  if (inside && relaxation_.any()) {
-    visit_relaxed_membership(radii_, curves_, beads, bead, orientation, relaxation_, enqueue_it);
-  } else {
-    visit_membership(radii_, curves_, beads, bead, inside, orientation, enqueue_it);
-  }
+  visit_membership(radii_, curves_, std::span(basis.begin(), basis.end()), bead, inside, orientation,
+                   enqueue_it);
 }
 
 template <int Dimension>
@@ -200,7 +191,6 @@ typename NodeGuards<Dimension>::Failed NodeGuards<Dimension>::take_failed(unsign
     failed.touches = t.touches(slot);
     if (failed.touches) return;
     failed.bead = bead_of(certificate, bases[failed.node]);
-    failed.relaxed = is_relaxed<std::remove_cvref_t<decltype(certificate)>>;
     signs_.present.emplace(certificate);
   });
   for (std::uint32_t place = held_by_[failed.node].first; place != none; place = held_[place].next) {

@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "certificates/base/relaxation.h"
 #include "kds/kinetic_structure.h"
 #include "structures/hierarchy/node_proofs.h"
 #include "structures/hierarchy/signs_just_after.h"
@@ -31,7 +30,7 @@ class NodeGuards {
   /// present step.
   NodeGuards(Simulator& simulator, KineticStructure& owner, std::size_t index,
              const MotionRef<Dimension>& motion, const Curves<Dimension>& curves, Radii radii,
-             std::size_t nodes, NodeProofs<Dimension>& proofs, const Relaxation& relaxation = {});
+             std::size_t nodes, NodeProofs<Dimension>& proofs);
 
   [[nodiscard]] SignsJustAfter<Dimension>& signs() { return signs_; }
 
@@ -59,7 +58,6 @@ class NodeGuards {
     NodeId node = 0;
     BeadId bead = no_bead;  ///< the certificate's subject; none for a touch
     bool touches = false;   ///< the certificate touches zero without failing
-    bool relaxed = false;   ///< the bead is as far outside as allowed, not on the sphere
   };
   /// Takes the certificate that fails now, given by table and slot, and drops all certificates of its node.
   /// Until forget_failure, signs use this failure as the present one, unless it is a touch.
@@ -116,7 +114,6 @@ class NodeGuards {
   KineticStructure& owner_;
   const Curves<Dimension>& curves_;
   Radii radii_;
-  Relaxation relaxation_;
   NodeProofs<Dimension>& proofs_;
   Tables tables_;
   SignsJustAfter<Dimension> signs_;

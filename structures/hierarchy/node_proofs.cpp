@@ -13,23 +13,19 @@ namespace kds {
 
 template <int Dimension>
 NodeProofs<Dimension>::NodeProofs(const Simulator& simulator, const NecklaceTree& tree,
-                                  const Curves<Dimension>& curves, int degree, Radii radii,
-                                  const Relaxation& relaxation)
+                                  const Curves<Dimension>& curves, int degree, Radii radii)
     : simulator_(simulator),
       tree_(tree),
       curves_(curves),
       radii_(radii),
       any_(simulator.kernel() != Kernel::exact && degree >= 1 && degree <= BeadPaths<Dimension>::most_degree),
       proves_crossings_(any_ && simulator.kernel() == Kernel::filtered && degree == 1),
-      enlarged_by_(radii == Radii::equal ? 1 + relaxation.share() : 1),
-      relaxed_allowance_(radii == Radii::any ? relaxation : Relaxation{}),
       slack_(tree) {}
 
 template <int Dimension>
 void NodeProofs<Dimension>::take_curves() {
   if (!any_) return;
   paths_.set(curves_, radii_ == Radii::equal);
-  relaxed_allowance_.start_step(curves_);
   gap_roots_.forget();
   chord_cache_.forget();
 }
@@ -82,15 +78,13 @@ void NodeProofs<Dimension>::find_candidates(std::span<const NodeId> nodes, std::
     std::array<NodeId, Lanes::width> nodes;
     std::array<BeadRange, Lanes::width> ranges;
     std::array<Basis, Lanes::width> bases;
-    std::array<double, Lanes::width> raised_by;
     std::size_t count = 0;
   };
   std::array<Waiting, full + 1> of_size;
   ChordFilterResult<Dimension> look;
   const auto look_at = [&](Waiting& w) {
     filter_nodes<Dimension>(paths_, std::span(w.ranges).first(w.count), std::span(w.bases).first(w.count),
-                            look, beyond_, enlarged_by_,
-                            std::span(w.raised_by).first(relaxed_allowance_.any() ? w.count : 0));
+                            look, beyond_);
     for (std::size_t i = 0; i < w.count; ++i)
       if (!look.steady[i]) candidates_.push_back({w.nodes[i], look.chords[i], look.ends[i]});
     w.count = 0;
@@ -100,7 +94,6 @@ void NodeProofs<Dimension>::find_candidates(std::span<const NodeId> nodes, std::
     w.nodes[w.count] = id;
     w.ranges[w.count] = tree_.range(id);
     w.bases[w.count] = bases[id];
-    if (relaxed_allowance_.any()) w.raised_by[w.count] = relaxed_allowance_.of(curves_, bases[id]);
     if (++w.count == Lanes::width) look_at(w);
   }
   for (Waiting& w : of_size)
@@ -133,8 +126,7 @@ unsigned NodeProofs<Dimension>::find_beads_to_watch(const Basis& basis, const Be
   const Period rest = rest_of_step();
   const SphereChord<Dimension>* chord = nullptr;
   if (any_) {
-    chord = &chord_cache_.of(paths_, basis, rest,
-                             [this](const Basis& of, SphereChord<Dimension>& one) { relax(of, one); });
+    chord = &chord_cache_.of(paths_, basis, rest);
     if (chord->proved) find_beyond(paths_, range, basis, *chord, rest.from, beyond);
   }
   return take_out_staying(basis, range, chord, rest, risen, beyond);
@@ -177,9 +169,8 @@ unsigned NodeProofs<Dimension>::look_closely(const Basis& basis, double until, s
   }
   sphere_chords<Dimension>(paths_, bases, periods, chords);
   unsigned stays = all_of(basis);
-  for (auto& chord : chords) {
+  for (const auto& chord : chords) {
     if (!chord.proved) return 0;
-    relax(basis, chord);
     stays &= chord.stays;
   }
   keep_beyond<Dimension>(paths_, basis, chords, periods, beyond);
@@ -200,89 +191,29 @@ BeadId NodeProofs<Dimension>::risen_bead(const Basis& old, const Basis& next, Be
 }
 
 template <int Dimension>
-typename NodeProofs<Dimension>::ChordsAhead NodeProofs<Dimension>::chords_ahead(
-    std::span<const Basis> bases) const {
+unsigned NodeProofs<Dimension>::proved_bases(std::span<const Basis> bases, BeadId newcomer) {
   const double from = simulator_.now().lower();
-  ChordsAhead ahead;
-  Period& soon = ahead.soon;
-  soon = {from, from + 0x1p-16 * (1 - from)};
+  Period soon{from, from + 0x1p-16 * (1 - from)};
   if (!(soon.to > simulator_.now().upper())) soon.to = 1;
   std::array<Basis, Lanes::width> asked;
   std::array<Period, Lanes::width> periods;
+  std::array<SphereChord<Dimension>, Lanes::width> chords;
   asked.fill(bases.front());
   periods.fill(soon);
   std::copy(bases.begin(), bases.end(), asked.begin());
-  if (2 * bases.size() <= Lanes::width) {
-    for (std::size_t i = 0; i < bases.size(); ++i) {
-      asked[bases.size() + i] = bases[i];
-      periods[bases.size() + i] = rest_of_step();
-    }
-  }
-  sphere_chords<Dimension>(paths_, asked, periods, ahead.chords);
-  return ahead;
-}
-
-/// Caches the chord of the basis in this place, because it will probably be needed.
-template <int Dimension>
-void NodeProofs<Dimension>::keep_rest(std::span<const Basis> bases, std::size_t place, ChordsAhead& ahead) {
-  if (2 * bases.size() > Lanes::width) return;
-  SphereChord<Dimension>& chord = ahead.chords[bases.size() + place];
-  relax(bases[place], chord);
-  chord_cache_.keep(bases[place], rest_of_step(), chord);
-}
-
-template <int Dimension>
-unsigned NodeProofs<Dimension>::proved_bases(std::span<const Basis> bases, BeadId newcomer) {
-  ChordsAhead ahead = chords_ahead(bases);
-  if (bases.size() == 1) keep_rest(bases, 0, ahead);
+  const bool is_alone = bases.size() == 1;
+  if (is_alone) periods[1] = rest_of_step();
+  sphere_chords<Dimension>(paths_, asked, periods, chords);
+  if (is_alone) chord_cache_.keep(bases[0], periods[1], chords[1]);  // it will probably be needed
   unsigned proved = 0;
   for (std::size_t i = 0; i < bases.size(); ++i) {
-    const SphereChord<Dimension>& chord = ahead.chords[i];
+    const SphereChord<Dimension>& chord = chords[i];
     unsigned stay = chord.stays;
     for (std::size_t place = 0; place < bases[i].size; ++place)
       if (bases[i].beads[place] == newcomer) stay |= 1U << place;
     if (chord.proved && stay == all_of(bases[i])) proved |= 1U << i;
   }
   return proved;
-}
-
-template <int Dimension>
-std::optional<Basis> NodeProofs<Dimension>::proved_basis_with(const Basis& old, BeadId bead) {
-  constexpr std::size_t most_of_one_size = 6;
-  // Bases that drop few beads come first, because they are the most frequent.
-  for (std::size_t size = std::min<std::size_t>(old.size, full - 1); size > 0; --size) {
-    std::array<Basis, most_of_one_size> next;
-    std::size_t count = 0;
-    for (unsigned kept = 1; kept < 1U << old.size; ++kept) {
-      if (static_cast<std::size_t>(std::popcount(kept)) != size) continue;
-      Basis& one = next[count++];
-      for (std::size_t place = 0; place < old.size; ++place)
-        if ((kept >> place & 1U) != 0) one.beads[one.size++] = old.beads[place];
-      insert_bead(one, bead);
-    }
-    for (std::size_t first = 0; first < count; first += Lanes::width) {
-      const auto bases = std::span(next).subspan(first, std::min(Lanes::width, count - first));
-      ChordsAhead ahead = chords_ahead(bases);
-      std::array<Period, Lanes::width> periods;
-      periods.fill(ahead.soon);
-      for (std::size_t i = 0; i < bases.size(); ++i) {
-        const SphereChord<Dimension>& chord = ahead.chords[i];
-        if (!chord.proved || chord.stays != all_of(bases[i])) continue;
-        left_out_.clear();
-        for (const BeadId b : old)
-          if (!bases[i].contains(b)) left_out_.push_back(b);
-        if (!left_out_.empty()) {
-          std::array<SphereChord<Dimension>, Lanes::width> chords;
-          chords.fill(chord);
-          keep_beyond<Dimension>(paths_, bases[i], chords, periods, left_out_);
-        }
-        if (!left_out_.empty()) continue;
-        keep_rest(bases, i, ahead);
-        return bases[i];
-      }
-    }
-  }
-  return std::nullopt;
 }
 
 template <int Dimension>

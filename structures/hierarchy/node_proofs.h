@@ -11,8 +11,6 @@
 #include <vector>
 
 #include "certificates/base/radical.h"
-#include "certificates/base/relaxation.h"
-#include "certificates/types/membership.h"
 #include "kds/simulator.h"
 #include "motions/curves/curves.h"
 #include "structures/enclosing_sphere/basis.h"
@@ -23,62 +21,6 @@
 #include "structures/necklace/necklace_tree.h"
 
 namespace kds {
-
-/// Computes how far every ball of a necklace, of any radius, may be out of the sphere of a basis during a
-/// whole step while its relaxed certificate (visit_relaxed_membership in membership.h) holds. Bounds of the
-/// sphere's path can then prove the certificate.
-///
-/// Let |d| >= least and p >= p' for the distance and the sum of radii of the basis' two balls farthest apart,
-/// let r be the largest radius of all balls, and let R' >= R. Suppose least >= r and p' >= r. Then all
-/// certificates of unequal balls are relaxed. In their tau, |d|^2 + p^2 - 2 p r_j >= least^2 + p' (p' - 2 r)
-/// =: q, since p^2 - 2 p r grows for p >= r. Let h = eps q / 2 / ((2 + eps) R'). As q <= 4 R^2, h <= eps R,
-/// and (R - r_j + h)^2 - (R - r_j)^2 <= h (2 R + h) <= tau.
-///
-/// A ball that is out by h is therefore allowed. The certificate of equal radii allows it too: there q <=
-/// |d|^2 <= 4 R_c^2, and h <= eps R_c. The radius is at most that of the centres' sphere, which is at most
-/// sqrt(3/8) times their largest distance (Jung), plus the largest radius: this sum is R'.
-class RelaxedAllowance {
- public:
-  /// Without a relaxation nothing is allowed.
-  explicit RelaxedAllowance(const Relaxation& relaxation) : share_(relaxation.share()) {}
-
-  [[nodiscard]] bool any() const { return share_ > 0; }
-  template <int Dimension>
-  void start_step(const Curves<Dimension>& curves) {
-    if (!any()) return;
-    largest_ = 0;
-    for (BeadId b = 0; b < curves.bead_count(); ++b)
-      for (int k = 0; k <= curves.own_degree(); ++k) largest_ = std::max(largest_, curves.radius(b, k));
-  }
-  /// Returns zero if nothing is known.
-  template <int Dimension>
-  [[nodiscard]] double of(const Curves<Dimension>& curves, const Basis& basis) const {
-    if (basis.size < 2) return 0;
-    std::array<BeadId, Basis::max_size> beads = basis.beads;
-    const auto ordered = std::span(beads).first(basis.size);
-    detail::put_farthest_first(curves, ordered);
-    const double least = detail::least_distance(curves, beads[0], beads[1]);
-    double sum = HUGE_VAL, square = 0;
-    for (int k = 0; k <= curves.own_degree(); ++k) {
-      sum = std::min(sum, (curves.radius(beads[0], k) + curves.radius(beads[1], k)) * (1 - 0x1p-50));
-      for (std::size_t i = 0; i < ordered.size(); ++i) {
-        for (std::size_t j = i + 1; j < ordered.size(); ++j) {
-          const auto d = detail::control_difference(curves, beads[i], beads[j], k);
-          square = std::max(square, detail::product(d, d));
-        }
-      }
-    }
-    if (!(least >= largest_ && sum >= largest_)) return 0;
-    const double room = least * least + sum * (sum - 2 * largest_);
-    const double radius = 0.6124 * std::sqrt(square) + largest_;
-    const double allowed = 0.5 * share_ * room / ((2 + share_) * radius) * (1 - 0x1p-30);
-    return allowed > 0 && allowed < HUGE_VAL ? allowed : 0;
-  }
-
- private:
-  double share_;
-  double largest_ = 0;  ///< largest radius in the step
-};
 
 /// A node that is not proved steady in the step.
 template <int Dimension>
@@ -93,9 +35,9 @@ class NodeProofs {
  public:
   static constexpr std::size_t full = Dimension + 1;
 
-  /// `curves` are those of the present step, with this degree. Spheres are enlarged by `relaxation`.
+  /// `curves` are those of the present step, with this degree.
   NodeProofs(const Simulator& simulator, const NecklaceTree& tree, const Curves<Dimension>& curves,
-             int degree, Radii radii, const Relaxation& relaxation = {});
+             int degree, Radii radii);
 
   /// Takes the curves of the next step, or changed curves of this one.
   void take_curves();
@@ -143,9 +85,6 @@ class NodeProofs {
   /// Returns a bit for each of up to four bases that is proved to be the basis of its beads just after now.
   /// The newcomer need not be proved to stay. With a single basis, its chord is cached as well.
   [[nodiscard]] unsigned proved_bases(std::span<const Basis> bases, BeadId newcomer);
-  /// Returns the basis just after now of the beads of `old` and `bead`, if it is proved to consist of `bead`
-  /// and some of the others, with the rest strictly inside. No other basis is possible then.
-  [[nodiscard]] std::optional<Basis> proved_basis_with(const Basis& old, BeadId bead);
   /// Returns whether `crossing` can prove anything: radii are unequal, the motion is linear and the kernel is
   /// `filtered`.
   [[nodiscard]] bool proves_crossings() const { return proves_crossings_; }
@@ -167,36 +106,17 @@ class NodeProofs {
                                           BeadId risen, std::vector<BeadId>& beyond);
   [[nodiscard]] unsigned look_closely(const Basis& basis, double until, std::vector<BeadId>& beyond);
 
-  /// The chords of up to four bases of one size for a short period from now on. For one or two bases, their
-  /// chords until the end of the step follow, for the cache.
-  struct ChordsAhead {
-    Period soon;
-    std::array<SphereChord<Dimension>, 4> chords;
-  };
-  [[nodiscard]] ChordsAhead chords_ahead(std::span<const Basis> bases) const;
-  void keep_rest(std::span<const Basis> bases, std::size_t place, ChordsAhead& ahead);
-
-  void relax(const Basis& basis, SphereChord<Dimension>& chord) const {
-    chord.enlarge(enlarged_by_);
-    if (!relaxed_allowance_.any()) return;
-    const double raised_by = relaxed_allowance_.of(curves_, basis);
-    for (double& limit : chord.limit) limit += raised_by;
-  }
-
   const Simulator& simulator_;
   const NecklaceTree& tree_;
   const Curves<Dimension>& curves_;
   Radii radii_;
   bool any_, proves_crossings_;
-  double enlarged_by_;                  // factor of chords, for equal radii
-  RelaxedAllowance relaxed_allowance_;  // raises limits, for unequal radii
   BeadPaths<Dimension> paths_;
   NodeSlack<Dimension> slack_;
   ChordCache<Dimension> chord_cache_;
   GapRoots<Dimension> gap_roots_;
   std::vector<ChordCandidate<Dimension>> candidates_;
   std::vector<BeadId> beyond_;
-  std::vector<BeadId> left_out_;
   std::vector<std::uint8_t> apart_from_next_;  // one flag per bead
 };
 

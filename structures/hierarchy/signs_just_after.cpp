@@ -99,13 +99,7 @@ Basis BasisRepair<Dimension>::next_basis(const Basis& old, BeadId bead, bool fai
   }
   const auto among = std::span(all).first(count);
   std::optional<Basis> next;
-  if (proofs_.proves_bases()) {
-    if (relaxed_ && escaped) {
-      next = proofs_.proved_basis_with(old, bead);
-    } else if (failed) {
-      next = proved_next_basis(old, bead);
-    }
-  }
+  if (failed && proofs_.proves_bases()) next = proved_next_basis(old, bead);
   if (!next) next = basis_just_after(among, old, escaped ? bead : no_bead);
   if (!next) throw std::logic_error("no basis among beads " + bead_names(among));
   return *next;

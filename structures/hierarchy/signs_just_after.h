@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "certificates/base/radical.h"
-#include "certificates/search/relaxed_sphere_searches.h"
 #include "certificates/search/sphere_searches.h"
 #include "certificates/types/membership.h"
 #include "certificates/types/orientation.h"
@@ -57,29 +56,19 @@ struct TablesOfMembership;
 template <>
 struct TablesOfMembership<2> {
   using Type = CertificateTables<BeadInSphere<1>, BeadInSphere<2>, PowerTest<2>, BallInSphere<2, 1>,
-                                 BallInSphere<2, 2>, BallInSphere<2, 3>, RelaxedBeadInSphere<2>,
-                                 RelaxedBeadInSphere<3>, BallInSphere<2, 1, true>, BallInSphere<2, 2, true>,
-                                 BallInSphere<2, 3, true>>;
+                                 BallInSphere<2, 2>, BallInSphere<2, 3>>;
 };
 template <>
 struct TablesOfMembership<3> {
   using Type =
       CertificateTables<BeadInSphere<1>, BeadInSphere<2>, BeadInSphere<3>, PowerTest<3>, BallInSphere<3, 1>,
-                        BallInSphere<3, 2>, BallInSphere<3, 3>, BallInSphere<3, 4>, RelaxedBeadInSphere<2>,
-                        RelaxedBeadInSphere<3>, RelaxedBeadInSphere<4>, BallInSphere<3, 1, true>,
-                        BallInSphere<3, 2, true>, BallInSphere<3, 3, true>, BallInSphere<3, 4, true>>;
+                        BallInSphere<3, 2>, BallInSphere<3, 3>, BallInSphere<3, 4>>;
 };
 
 }  // namespace detail
 
-/// Whether a certificate belongs to a relaxed sphere. Only a relaxed hierarchy holds such certificates.
-template <class Certificate>
-inline constexpr bool is_relaxed = requires(const Certificate& c) {
-  c.beads.relaxation;
-};
-
 /// The tables of membership certificates (certificates/types/membership.h), one for each type: equal radii
-/// first, by the size of the basis from 1 on, then unequal radii, then relaxed spheres. The tables of unequal
+/// first, by the size of the basis from 1 on, then unequal radii. The tables of unequal
 /// radii stay empty if radii are promised to be equal.
 template <int Dimension>
 using MembershipTables = typename detail::TablesOfMembership<Dimension>::Type;
@@ -170,9 +159,8 @@ class SignsJustAfter {
 template <int Dimension>
 class BasisRepair {
  public:
-  /// If `relaxed`, a bead escapes only when it is out by a share of the radius.
-  BasisRepair(Radii radii, bool relaxed, NodeProofs<Dimension>& proofs, SignsJustAfter<Dimension>& signs)
-      : radii_(radii), relaxed_(relaxed), proofs_(proofs), signs_(signs) {}
+  BasisRepair(Radii radii, NodeProofs<Dimension>& proofs, SignsJustAfter<Dimension>& signs)
+      : radii_(radii), proofs_(proofs), signs_(signs) {}
 
   /// Returns the basis, just after now, of the beads of `old`, one of which may be superfluous, and of
   /// `bead`. `bead` has escaped from the sphere of `old`, or is no_bead. `failed` means that `bead` is the
@@ -187,7 +175,6 @@ class BasisRepair {
                                                       BeadId escaped);
 
   Radii radii_;
-  bool relaxed_;
   NodeProofs<Dimension>& proofs_;
   SignsJustAfter<Dimension>& signs_;
 };

@@ -71,20 +71,18 @@ void find_touching(const Balls<Dimension>& balls, const BeadRange& range, const 
 template <int Dimension>
 WrappedHierarchy<Dimension>::WrappedHierarchy(Simulator& simulator, const MotionRef<Dimension>& motion,
                                               std::span<const BeadRange> necklaces, Radii radii,
-                                              const NodeSelection& selection, const Relaxation& relaxation)
+                                              const NodeSelection& selection)
     : simulator_(simulator),
       motion_(accepted(motion)),
       radii_(radii),
-      relaxation_(relaxation),
       tree_(necklaces),
       bases_(tree_.node_count()),
       kept_(select_nodes(tree_, selection)),
       index_(simulator.add(*this)),
-      proofs_(std::make_unique<NodeProofs<Dimension>>(simulator, tree_, curves_, motion.degree(), radii,
-                                                      relaxation)),
+      proofs_(std::make_unique<NodeProofs<Dimension>>(simulator, tree_, curves_, motion.degree(), radii)),
       guards_(std::make_unique<NodeGuards<Dimension>>(simulator, *this, index_, motion, curves_, radii,
-                                                      tree_.node_count(), *proofs_, relaxation)),
-      repair_(std::make_unique<BasisRepair<Dimension>>(radii, relaxation.any(), *proofs_, guards_->signs())) {
+                                                      tree_.node_count(), *proofs_)),
+      repair_(std::make_unique<BasisRepair<Dimension>>(radii, *proofs_, guards_->signs())) {
   sort_kept_nodes();
 }
 
@@ -343,12 +341,12 @@ bool WrappedHierarchy<Dimension>::repair(NodeId id, BeadId bead, bool failed) {
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::fail(unsigned table, std::uint32_t slot) {
-  const auto [id, bead, touches, relaxed] = guards_->take_failed(table, slot, bases_);
+  const auto [id, bead, touches] = guards_->take_failed(table, slot, bases_);
   const Basis before = bases_[id];
   BeadId risen = no_bead;
   if (!touches) {
     static_cast<void>(repair(id, bead, true));
-    if (!relaxed) risen = proofs_->risen_bead(before, bases_[id], bead);
+    risen = proofs_->risen_bead(before, bases_[id], bead);
   } else if (radii_ == Radii::any) {
     // The simplex of a full basis may turn over without losing a bead: when all beads meet, or when each
     // touches the sphere of the others. The basis then stays, and its certificates, which turn too, are made
@@ -453,8 +451,7 @@ std::vector<Basis> WrappedHierarchy<Dimension>::bases_at(const Dyadic& time) con
 
 /// If the sphere of a basis encloses all beads and no basis bead is superfluous, it is the unique minimum
 /// enclosing sphere. Checking both conditions is therefore as good as building the sphere. Doubles with error
-/// bounds prove most nodes; integers decide the rest. No certificate is used. A relaxed sphere must enclose
-/// its basis, and all beads once it is enlarged.
+/// bounds prove most nodes; integers decide the rest. No certificate is used.
 template <int Dimension>
 std::optional<std::string> WrappedHierarchy<Dimension>::audit(const Dyadic& time) {
   const FloatingPointGuard to_nearest;
@@ -462,10 +459,9 @@ std::optional<std::string> WrappedHierarchy<Dimension>::audit(const Dyadic& time
   std::optional<IntegerBalls<Dimension>> whole;
   for (NodeId id = 0; id < bases_.size(); ++id) {
     if (!keeps(id)) continue;
-    if (!relaxation_.any() && is_surely_basis_of(bases_[id], tree_.range(id), rounded)) continue;
+    if (is_surely_basis_of(bases_[id], tree_.range(id), rounded)) continue;
     if (!whole) whole = integer_balls_at(motion_.curves(), time);
-    const Basis basis = proper_part(bases_[id], *whole);
-    if (const auto bead = bead_outside(basis, bases_[id], tree_.range(id), relaxation_, *whole)) {
+    if (const auto bead = bead_outside(proper_part(bases_[id], *whole), tree_.range(id), *whole)) {
       return name_of(id) + " with basis " + bead_names(beads_of(bases_[id])) + ": bead " +
              std::to_string(*bead) + " sticks out";
     }

@@ -7,8 +7,6 @@
 // bead stays outside the sphere of the other basis beads. Certificates that a bound of the sphere's path
 // proves at once are not created. When a certificate fails, the new basis is found among the basis and the
 // bead, either by such a bound on the next sphere or by signs just after the event. The result is exact.
-// Spheres may be relaxed: beads may then be out by a share of the radius, which causes
-// fewer events.
 //
 // Beads can change course while time runs. A change of course costs a pass over all paths and nodes, the
 // certificates of the nodes that hold the beads, and a repair for each basis that is no longer right. Beads
@@ -26,7 +24,6 @@
 #include <vector>
 
 #include "certificates/base/radical.h"
-#include "certificates/base/relaxation.h"
 #include "kds/kinetic_structure.h"
 #include "motions/base/bead.h"
 #include "motions/curves/motion_ref.h"
@@ -54,13 +51,9 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   static constexpr int dimension = Dimension;
 
   /// Maintains the selected nodes. `radii` is a promise for all steps; if it promises equal radii, weights
-  /// must be equal too. If `relaxation` is a share of the radius, a bead escapes only when it is out by that
-  /// share. The basis' minimum enclosing sphere, enlarged by the share, then holds all beads of the node, and
-  /// the beads' own minimum enclosing sphere is at least as large as the basis'. Throws std::invalid_argument
-  /// if the motion is lifted.
+  /// must be equal too. Throws std::invalid_argument if the motion is lifted.
   WrappedHierarchy(Simulator& simulator, const MotionRef<Dimension>& motion,
-                   std::span<const BeadRange> necklaces, Radii radii, const NodeSelection& selection = {},
-                   const Relaxation& relaxation = {});
+                   std::span<const BeadRange> necklaces, Radii radii, const NodeSelection& selection = {});
   ~WrappedHierarchy() override;
 
   enum Kind : std::uint8_t { enter, leave, pivot, changes };
@@ -75,7 +68,6 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   [[nodiscard]] bool keeps(NodeId node) const;
   /// Throws std::invalid_argument if there is no such node.
   [[nodiscard]] const Basis& basis(NodeId node) const;
-  [[nodiscard]] const Relaxation& relaxation() const { return relaxation_; }
 
   /// From the next step on, keeps only the nodes that `query` asks for. The choice is not logged, so such a
   /// run cannot be replayed.
@@ -137,7 +129,6 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   Simulator& simulator_;
   MotionRef<Dimension> motion_;
   const Radii radii_;
-  const Relaxation relaxation_;
   Curves<Dimension> curves_;  // in the present step
   NecklaceTree tree_;
   std::vector<Basis> bases_;        // for each node

@@ -257,11 +257,8 @@ namespace {
 
 template <int D, int K, bool equal>
 void look(const BeadPaths<D>& paths, std::span<const BeadRange> nodes, std::span<const Basis> bases,
-          double enlarged_by, std::span<const double> raised_by, ChordLanes<D>& chords,
-          std::array<bool, 4>& all_inside, std::array<std::size_t, 4>& ends, std::vector<BeadId>& beyond) {
-  chords.enlarge(enlarged_by);
-  for (std::size_t lane = 0; lane < raised_by.size(); ++lane)
-    for (Lanes& limit : chords.limit) limit.v[lane] += raised_by[lane];
+          const ChordLanes<D>& chords, std::array<bool, 4>& all_inside, std::array<std::size_t, 4>& ends,
+          std::vector<BeadId>& beyond) {
   for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
     const std::size_t before = beyond.size();
     if (chords.proved[lane] != 0) {
@@ -282,17 +279,14 @@ void look(const BeadPaths<D>& paths, std::span<const BeadRange> nodes, std::span
 
 template <int D, int K>
 void look_in_degree(const BeadPaths<D>& paths, std::span<const BeadRange> nodes, std::span<const Basis> bases,
-                    double enlarged_by, std::span<const double> raised_by, ChordFilterResult<D>& first,
-                    std::vector<BeadId>& beyond) {
+                    ChordFilterResult<D>& first, std::vector<BeadId>& beyond) {
   constexpr Period step;
   ChordLanes<D> chords;
   find_chords(paths, bases, PeriodLanes({&step, 1}), chords);
   if (paths.equal_radii()) {
-    in_long_lanes<&look<D, K, true>>(paths, nodes, bases, enlarged_by, raised_by, chords, first.steady,
-                                     first.ends, beyond);
+    in_long_lanes<&look<D, K, true>>(paths, nodes, bases, chords, first.steady, first.ends, beyond);
   } else {
-    in_long_lanes<&look<D, K, false>>(paths, nodes, bases, enlarged_by, raised_by, chords, first.steady,
-                                      first.ends, beyond);
+    in_long_lanes<&look<D, K, false>>(paths, nodes, bases, chords, first.steady, first.ends, beyond);
   }
   const long all = (1L << bases.front().size) - 1;
   for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
@@ -306,20 +300,20 @@ void look_in_degree(const BeadPaths<D>& paths, std::span<const BeadRange> nodes,
 template <int Dimension>
 void filter_nodes(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
                   std::span<const Basis> bases, ChordFilterResult<Dimension>& look,
-                  std::vector<BeadId>& beyond, double enlarged_by, std::span<const double> raised_by) {
+                  std::vector<BeadId>& beyond) {
   switch (paths.degree()) {
     case 1:
-      return look_in_degree<Dimension, 1>(paths, nodes, bases, enlarged_by, raised_by, look, beyond);
+      return look_in_degree<Dimension, 1>(paths, nodes, bases, look, beyond);
     case 2:
-      return look_in_degree<Dimension, 2>(paths, nodes, bases, enlarged_by, raised_by, look, beyond);
+      return look_in_degree<Dimension, 2>(paths, nodes, bases, look, beyond);
     default:
-      return look_in_degree<Dimension, 3>(paths, nodes, bases, enlarged_by, raised_by, look, beyond);
+      return look_in_degree<Dimension, 3>(paths, nodes, bases, look, beyond);
   }
 }
 
 template void filter_nodes(const BeadPaths<2>&, std::span<const BeadRange>, std::span<const Basis>,
-                           ChordFilterResult<2>&, std::vector<BeadId>&, double, std::span<const double>);
+                           ChordFilterResult<2>&, std::vector<BeadId>&);
 template void filter_nodes(const BeadPaths<3>&, std::span<const BeadRange>, std::span<const Basis>,
-                           ChordFilterResult<3>&, std::vector<BeadId>&, double, std::span<const double>);
+                           ChordFilterResult<3>&, std::vector<BeadId>&);
 
 }  // namespace kds

@@ -43,12 +43,10 @@ struct ChordFilterResult {
   std::array<std::size_t, 4> ends;
 };
 
-/// Appends to `beyond`. Chords are enlarged by `enlarged_by` (SphereChord::enlarge). If lengths are given,
-/// each node's limits are raised by its length.
+/// Filters up to four nodes with bases of one size. Appends to `beyond`.
 template <int Dimension>
 void filter_nodes(const BeadPaths<Dimension>& paths, std::span<const BeadRange> nodes,
                   std::span<const Basis> bases, ChordFilterResult<Dimension>& look,
-                  std::vector<BeadId>& beyond, double enlarged_by = 1,
-                  std::span<const double> raised_by = {});
+                  std::vector<BeadId>& beyond);
 
 }  // namespace kds

@@ -153,15 +153,6 @@ struct ChordLanes {
   Lanes dip = Lanes(0.0);
   Lanes::Mask proved, stays, rises{};
 
-  /// Like SphereChord::enlarge.
-  [[gnu::always_inline]] void enlarge(double factor) {
-    if (!(factor > 1)) return;
-    const Lanes by =
-        Lanes::choose((limit[0] > Lanes(0.0)) & (limit[1] > Lanes(0.0)), Lanes(factor), Lanes(1.0));
-    for (Lanes& l : limit) l = l * by;
-    dip = dip * by;
-  }
-
   /// Writes a lane in place, because copying a chord built elsewhere is slow.
   [[gnu::always_inline]] void give(std::size_t lane, SphereChord<Dimension>& chord) const {
     chord.proved = proved[lane] != 0;

@@ -51,14 +51,6 @@ struct SphereChord {
   std::array<double, 2> limit{};  ///< for a bead's distance plus its radius less the first bead's
   double dip = 0;                 ///< the true limit is higher by this except for 4 u (1-u) of it
   std::uint8_t rises = 0;         ///< one bit for each basis bead whose weight is positive from `sure` on
-
-  /// For balls of equal radii: makes this the chord of the sphere whose radius is enlarged by a factor. A
-  /// limit that is positive all the time is below the radius, so its increase is below that of the radius.
-  void enlarge(double factor) {
-    if (!(factor > 1 && limit[0] > 0 && limit[1] > 0)) return;
-    for (double& l : limit) l *= factor;
-    dip *= factor;
-  }
 };
 
 struct Period {
@@ -94,15 +86,11 @@ class ChordCache {
   }
   void forget() { from_ = none; }
 
-  /// Returns the chord of `basis`. `relax(basis, chord)` is applied to a new chord; chords given to `keep`
-  /// must have undergone it already.
-  template <class Relax>
+  /// Returns the chord of `basis`.
   [[nodiscard]] const SphereChord<Dimension>& of(const BeadPaths<Dimension>& paths, const Basis& basis,
-                                                 const Period& period, Relax relax) {
-    if (!(from_ == period.from && sure_ == period.sure && basis_ == basis)) {
+                                                 const Period& period) {
+    if (!(from_ == period.from && sure_ == period.sure && basis_ == basis))
       keep(basis, period, sphere_chord(paths, basis, period));
-      relax(basis, chord_);
-    }
     return chord_;
   }
 

@@ -82,11 +82,11 @@ template <int Dimension>
 class WrappedInRun final : public RunningStructure {
  public:
   WrappedInRun(Simulator& simulator, const Scene& scene, const MotionRef<Dimension>& motion,
-               const NodeSelection& nodes, const Relaxation& relaxation)
+               const NodeSelection& nodes)
       : scene_(scene),
         motion_(motion),
         hierarchy_(simulator, motion, scene.necklaces(), scene.equal_radii() ? Radii::equal : Radii::any,
-                   nodes, relaxation) {
+                   nodes) {
     for (NodeId id = 0; id < hierarchy_.tree().node_count(); ++id)
       if (hierarchy_.keeps(id)) kept_.push_back(hierarchy_.tree().range(id));
   }
@@ -103,7 +103,6 @@ class WrappedInRun final : public RunningStructure {
     for (NodeId id = 0; id < bases.size(); ++id) {
       if (!hierarchy_.keeps(id)) continue;
       Sphere sphere = exact_sphere_of(bases[id], balls);
-      if (hierarchy_.relaxation().any()) enlarge(sphere);
       sphere.center = scene_.in_input(sphere.center);
       nodes.push_back({hierarchy_.tree().range(id), hierarchy_.basis(id), sphere});
     }
@@ -133,7 +132,7 @@ class WrappedInRun final : public RunningStructure {
     return elements;
   }
   [[nodiscard]] ReplayScheme replay_scheme() const override {
-    return {{{"cages", 5, 1}}, replay_nodes(hierarchy_.tree()), hierarchy_.relaxation().share()};
+    return {{{"cages", 5, 1}}, replay_nodes(hierarchy_.tree())};
   }
   [[nodiscard]] std::vector<std::vector<ReplayElement>> replay_elements(bool) const override {
     std::vector<std::vector<ReplayElement>> elements(1);
@@ -147,8 +146,7 @@ class WrappedInRun final : public RunningStructure {
     edits.push_back({0, true, cage_of(node, {change.ids.data() + 2, change.size - std::size_t{2}})});
     return true;
   }
-  /// The basis of a relaxed sphere depends on the frames before.
-  [[nodiscard]] bool can_be_cut() const override { return !hierarchy_.relaxation().any(); }
+  [[nodiscard]] bool can_be_cut() const override { return true; }
   [[nodiscard]] std::optional<std::vector<BeadId>> state() const override {
     std::vector<BeadId> state;
     for (NodeId id = 0; id < hierarchy_.tree().node_count(); ++id) {
@@ -176,8 +174,7 @@ class WrappedInRun final : public RunningStructure {
   /// 2^-52 of itself.
   void enlarge(Sphere& sphere) const {
     constexpr double rounding = 0x1p-49;
-    sphere.radius = sphere.radius * (1 + hierarchy_.relaxation().share()) * (1 + rounding) +
-                    rounding * sphere.center.lpNorm<1>();
+    sphere.radius = sphere.radius * (1 + rounding) + rounding * sphere.center.lpNorm<1>();
   }
 
   const Scene& scene_;
@@ -333,7 +330,7 @@ StructureSpec wrapped_structure() {
         if (settings.between == Between::chord)
           return std::make_unique<WrappedChordsInRun<D>>(simulator, scene, ref, settings.nodes,
                                                          settings.tightness);
-        return std::make_unique<WrappedInRun<D>>(simulator, scene, ref, settings.nodes, settings.relax);
+        return std::make_unique<WrappedInRun<D>>(simulator, scene, ref, settings.nodes);
       });
   return spec;
 }

@@ -67,7 +67,6 @@ struct ReplayNode {
 struct ReplayScheme {
   std::vector<ReplayLayer> layers;
   std::vector<ReplayNode> nodes;  ///< for `cages`
-  double relax = 0;               ///< for `cages`: spheres are larger by this share of the radius
 };
 
 }  // namespace kds

@@ -35,7 +35,6 @@ ReplayRecorder::ReplayRecorder(Session& session) : session_(session) {
     structure.kinds.assign(kinetic.kinds().begin(), kinetic.kinds().end());
     for (const ReplayLayer& layer : scheme.layers) structure.layers.push_back({layer, {}, {}, 0});
     structure.nodes = std::move(scheme.nodes);
-    structure.relax = scheme.relax;
     now_.emplace_back(scheme.layers.size());
   }
 }

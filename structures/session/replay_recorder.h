@@ -56,7 +56,6 @@ class ReplayRecorder final : public EventListener {
     Events events;
     std::vector<Layer> layers;
     std::vector<ReplayNode> nodes;
-    double relax = 0;  ///< as in ReplayScheme
   };
   static constexpr EventKind rebuilt_at_frame{"rebuild-at-frame", false, true, {}};
 

@@ -12,7 +12,6 @@
 #include <string_view>
 #include <vector>
 
-#include "certificates/base/relaxation.h"
 #include "kds/simulator.h"
 #include "motions/scene/scene.h"
 #include "structures/contacts/contact_distance.h"
@@ -126,7 +125,6 @@ struct StructureSettings {
   std::optional<int> directions{};
   /// For contacts: the distance at which beads are in contact. No value: balls with the scene's radii meet.
   std::optional<ContactDistance> contact_distance{};
-  Relaxation relax{};  ///< for `wrapped`: share of a sphere's radius by which beads may stick out
 };
 
 struct StructureSpec {

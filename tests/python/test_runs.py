@@ -438,7 +438,7 @@ class Analyses(unittest.TestCase):
 
     def test_levers(self):
         exact = kds.run(DCD, topology=PDB, stop=32, structures=["wrapped"])
-        for options in ({"tolerance": 0.2}, {"relax": 0.03}, {"between": "chord"}, {"levels": slice(0, 3)},
+        for options in ({"tolerance": 0.2}, {"between": "chord"}, {"levels": slice(0, 3)},
                         {"nodes": slice(10, 50)}):
             self.assertLess(len(kds.run(DCD, topology=PDB, stop=32, structures=["wrapped"], **options).events),
                             len(exact.events))

@@ -10,6 +10,7 @@
 #include "certificates/types/ball_in_sphere.h"
 #include "certificates/types/bead_in_sphere.h"
 #include "certificates/types/orientation.h"
+#include "certificates/types/reaches_further.h"
 #include "motions/curves/lifted_motion.h"
 #include "tests/support/inputs/any_certificate.h"
 #include "tests/support/inputs/random_motion.h"
@@ -29,7 +30,7 @@ using Subjects =
                    Subject<PowerTest<2>, LiftedMotion<2>>, Subject<PowerTest<3>, LiftedMotion<3>>,
                    Subject<BeadInSphere<3>, BezierMotion<3, 3>>, Subject<Contact, BezierMotion<3, 1>>,
                    Subject<CentroidInside<3>, BezierMotion<3, 1>>,
-                   Subject<RelaxedBeadInSphere<4>, BezierMotion<3, 1>>,
+                   Subject<BallReachesFurther::Radical::Norm, BezierMotion<3, 1>>,
                    Subject<BallInSphere<3, 4>::Radical::Norm, BezierMotion<3, 1>>>;
 TYPED_TEST_SUITE(FormulaInDouble, Subjects);
 
@@ -50,9 +51,9 @@ TYPED_TEST(FormulaInDouble, IsWhatTheFormulaGives) {
       auto motion = test::random_motion<M>(random, TypeParam::beads, kind);
       if (i % 2 == 0) test::scale(motion, test::pick(random, -400, 400));
       F function;
-      if constexpr (requires { function.beads.relaxation; }) {
+      if constexpr (requires { function.beads.direction; }) {
         std::iota(function.beads.begin(), function.beads.end(), BeadId{0});
-        function.beads.relaxation = Relaxation::of(i % 3 == 0 ? 0.5 : 0.125);
+        function.beads.direction.steps = {1, static_cast<std::int8_t>(i % 3 - 1), 0};
       } else {
         function = test::random_certificate<F>(random);
       }

@@ -171,14 +171,15 @@ TYPED_TEST(FormulaInIntegers, OfBeadsAtTheOriginIsZero) {
   EXPECT_TRUE(Values::exact(certificate, CurvesOf<typename TypeParam::M>(motion)).is_zero());
 }
 
-// Functions with constants of their own, including wide functions, whose digits are cached.
-TEST(FormulaInIntegers, OfRelaxedBeadsKnowsTheirRelaxation) {
+// Functions with numbers of their own, including wide functions, whose digits are cached.
+TEST(FormulaInIntegers, OfDirectedBeadsKnowsTheirDirection) {
   Random random(905);
   for (int i = 0; i < test::rounds(100); ++i) {
-    auto motion = test::random_motion<BezierMotion<3, 1>>(random, 4, test::MotionKind::generic);
+    auto motion = test::random_motion<BezierMotion<3, 1>>(random, 2, test::MotionKind::generic);
     if (i % 2 == 0) motion.set_coordinate(0, 0, 0, 0x1p-300);
-    for (const double share : {0.5, 0.25, 0.5})
-      expect_same(RelaxedBeadInSphere<3>({0, 1, 2, 3}, Relaxation::of(share)), motion);
+    for (const SlabDirection& direction :
+         {SlabDirection{{1, 1, 0}}, SlabDirection{{1, 0, -1}}, SlabDirection{{1, 1, 0}}})
+      expect_same(ReachesFurther(1, 0, direction), motion);
   }
 }
 

@@ -32,19 +32,6 @@ void expect_runs(const std::string& file, std::vector<std::string> options) {
   EXPECT_EQ(run.code, 0) << run.err;
 }
 
-// Two beads trade places. The least distance of these beads is unknown, so the certificate of the third bead
-// is not relaxed.
-TEST(LeversRun, RelaxedSpheresOfBeadsThatTradePlaces) {
-  const ScratchDirectory directory;
-  const std::string file = directory.file("swap.xyz", xyz({{{-3, 0, 0}, {3, 0, 0}, {0, 0, 0}},
-                                                           {{3, 0, 0}, {-3, 0, 0}, {0, 0, 0}}})),
-                    radii = directory.file("radii.txt", "1\n1\n1.9\n");
-  for (const char* share : {"0.5", "0.1"})
-    for (const char* kernel : {"filtered", "exact"})
-      expect_runs(file, {"--radius", "file:" + radii, "--structures", "wrapped", "--relax", share, "--kernel",
-                         kernel, "--audit", "events"});
-}
-
 // A ball that almost contains its neighbour.
 TEST(LeversRun, LayeredSpheresOfBallsThatNearlyHoldEachOther) {
   const ScratchDirectory directory;

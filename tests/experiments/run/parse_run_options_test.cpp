@@ -162,6 +162,7 @@ TEST(RunOptions, RefusesUnknownNamesAndListsTheKnown) {
   EXPECT_THAT(refusal({"a", "--motion", "cubic"}), HasSubstr("'cubic' is not one of linear, hermite"));
   EXPECT_THAT(refusal({"a", "--kernel", "Exact"}), HasSubstr("'Exact' is not one of filtered, exact"));
   EXPECT_THAT(refusal({"a", "--kernel", "fast"}), HasSubstr("'fast' is not one of filtered, exact"));
+  EXPECT_THAT(refusal({"a", "--relax", "0.03"}), HasSubstr("unknown option '--relax'"));
   EXPECT_THAT(refusal({"a", "--audit", "{}"}), HasSubstr("'{}' is not one of none, frames, events"));
   EXPECT_THAT(
       refusal({"a", "--select", "cb"}),
@@ -231,7 +232,7 @@ TEST(RunOptions, RepeatingArgumentsAreReadAgain) {
         {"/a.pdb", "--nodes", "3:9"},
         {"/a.pdb", "--levels", "2:"},
         {"/a.pdb", "--levels", ":4", "--tolerance", "0.2r"},
-        {"/a.pdb", "--relax", "0.01", "--certify", "--frames", "::3", "--chain", "A", "--select", "ca"},
+        {"/a.pdb", "--between", "chord", "--certify", "--frames", "::3", "--chain", "A", "--select", "ca"},
         {"/a.pdb", "--select", "//A/-5-40/CA,CB;q>0.5"},
         {"/a.pdb", "--select", "-5--1"},
         {"/a.pdb", "--groups", "ca", "//A/-5-40/CA,CB;q>0.5", "--apart", "4"}}) {

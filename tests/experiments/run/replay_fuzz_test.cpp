@@ -239,7 +239,8 @@ TEST(ReplayFuzz, LogsOfValuesThatAreGoneAreRefused) {
   Lines lines = log_of("d1_n20_linear.txt", "sorted", directory);
   const std::string input = data_file("kinetic/d1_n20_linear.txt");
   for (const auto& [arguments, why] :
-       {std::pair(R"("--kernel","fast")", "--kernel: 'fast' is not one of filtered, exact")}) {
+       {std::pair(R"("--kernel","fast")", "--kernel: 'fast' is not one of filtered, exact"),
+        std::pair(R"("--relax","0.03")", "unknown option '--relax'")}) {
     lines[1] = R"({"arguments":[")" + input + R"(",)" + arguments + R"(],"beads":20,"steps":1})";
     std::string message;
     EXPECT_EQ(replay(write_log(lines, directory), &message), Outcome::refused);

@@ -153,7 +153,7 @@ TEST_F(Threads, AreOneForRunsThatCannotBeCut) {
   const std::vector<std::string> base{"run",     "--radius", "1",   "--structures",
                                       "wrapped", "--frames", "0:5", "--threads"};
   for (const auto& [options, reason] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{"2", "--relax", "0.1"}, "wrapped"}, {{"2", "--work", "1000000"}, "exact work"}}) {
+           {{"2", "--between", "chord"}, "wrapped"}, {{"2", "--work", "1000000"}, "exact work"}}) {
     std::vector<std::string> arguments = base;
     arguments.insert(arguments.end(), options.begin(), options.end());
     const ProgramRun done = run(arguments);
@@ -162,7 +162,7 @@ TEST_F(Threads, AreOneForRunsThatCannotBeCut) {
     EXPECT_THAT(done.err, HasSubstr(reason));
   }
   std::vector<std::string> one = base;
-  one.insert(one.end(), {"1", "--relax", "0.1"});
+  one.insert(one.end(), {"1", "--between", "chord"});
   EXPECT_THAT(run(one).err, Not(HasSubstr("--threads")));
   one[base.size()] = "0";
   EXPECT_EQ(run(one).code, 2);

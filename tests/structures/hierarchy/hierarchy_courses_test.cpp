@@ -27,11 +27,8 @@ constexpr BeadId bead_count = 14;
 struct Case {
   Radii radii = Radii::equal;
   Places places = Places::generic;
-  double relax = 0;
   Kernel kernel = Kernel::filtered;
 };
-
-Relaxation relaxation_of(const Case& of) { return of.relax > 0 ? Relaxation::of(of.relax) : Relaxation{}; }
 
 struct Totals {
   std::uint64_t edits = 0, at_irrational_times = 0, changed_at_once = 0, events = 0;
@@ -48,7 +45,7 @@ class BentRun {
         totals_(totals),
         motion_(bead_count),
         simulator_(AuditMode::events, of.kernel),
-        hierarchy_(simulator_, motion_, necklaces, of.radii, {}, relaxation_of(of)) {
+        hierarchy_(simulator_, motion_, necklaces, of.radii) {
     for (BeadId b = 0; b < bead_count; ++b) set_curve(b);
     simulator_.listen(history_);
   }
@@ -132,7 +129,7 @@ class BentRun {
 
   void check(double u) {
     EXPECT_EQ(hierarchy_.audit(Dyadic(u)), std::nullopt);
-    if (of_.places == Places::grid || of_.relax > 0) return;  // several bases are correct
+    if (of_.places == Places::grid) return;  // several bases are correct
     Simulator simulator;
     Hierarchy twin(simulator, motion_, necklaces, of_.radii);
     simulator.build();
@@ -197,20 +194,12 @@ TEST(HierarchyCourses, OnAGrid) {
   run_all<Plane>({Radii::any, Places::grid}, rounds(10U));
   run_all<Space>({Radii::any, Places::grid}, rounds(10U));
 }
-TEST(HierarchyCourses, RelaxedSpheres) {
-  for (const Radii radii : {Radii::equal, Radii::any}) {
-    run_all<Plane>({radii, Places::generic, 0.05}, rounds(10U));
-    run_all<Space>({radii, Places::generic, 0.05}, rounds(10U));
-  }
-  run_all<Space>({Radii::equal, Places::grid, 0.05}, rounds(10U));
-}
-
 TEST(HierarchyCourses, KernelsAgree) {
   Totals totals;
   for (const Radii radii : {Radii::equal, Radii::any}) {
     for (unsigned seed = 100; seed < 100 + rounds(5U); ++seed) {
       BentRun<Space> filtered(seed, {radii}, totals),
-          exact(seed, {radii, Places::generic, 0, Kernel::exact}, totals);
+          exact(seed, {radii, Places::generic, Kernel::exact}, totals);
       filtered.run();
       exact.run();
       EXPECT_EQ(filtered.fingerprint(), exact.fingerprint());

@@ -283,9 +283,9 @@ TEST(ParallelRun, RunsStructuresAddedByType) {
 
 TEST(ParallelRun, IsNotCutIfStatesDependOnEarlierFrames) {
   const Scene scene = scene_of(wandering_chain(4, 20, 9), {0.7});
-  SessionOptions relaxed{{"wrapped"}};
-  relaxed.settings.relax = Relaxation::of(0.25);
-  for (const SessionOptions& options : {relaxed, SessionOptions{{"layered"}}}) {
+  SessionOptions chords{{"wrapped"}};
+  chords.settings.between = Between::chord;
+  for (const SessionOptions& options : {chords, SessionOptions{{"layered"}}}) {
     ParallelRun run(scene, options, {4, 2});
     EXPECT_NE(run.uncut(), std::nullopt);
     EXPECT_EQ(run.threads(), 1U);

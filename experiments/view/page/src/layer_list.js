@@ -122,16 +122,15 @@ export class LayerList {
     const level = Number(byId("level").value);
     const colours = categories[dark ? "dark" : "light"].map(rgb);
     const cages = [];
-    this.state.layersNamed("cages").forEach(({ layer, s }, k) => {
+    this.state.layersNamed("cages").forEach(({ layer }, k) => {
       const nodes = this.nodes[k];
-      const { relax } = this.state.structures[s];
       const words = layer.set.packed;
       for (let at = 0; at < words.length; at += layer.arity) {
         const own = nodes[4 * words[at] + 2];
         if (!all && own !== level) continue;
         const basis = [];
         for (let j = at + 1; j < at + layer.arity && words[j] !== noBead; ++j) basis.push(words[j]);
-        if (basis.length) cages.push({ basis, relax, colour: all ? colours[own % 8] : rgb(colour), alpha: all ? 0.45 : 0.8 });
+        if (basis.length) cages.push({ basis, colour: all ? colours[own % 8] : rgb(colour), alpha: all ? 0.45 : 0.8 });
       }
     });
     return cages;

@@ -52,7 +52,7 @@ export class Picture {
         } else if (name === "cages" && added.length) {
           const basis = [...added.subarray(1, arity)].filter((bead) => bead !== noBead);
           const strength = state.chosen ? alpha : flashingCage * alpha;
-          cages.push({ basis, relax: state.structures[s].relax, colour: rgb(glow), alpha: strength });
+          cages.push({ basis, colour: rgb(glow), alpha: strength });
         }
       }
       for (const bead of state.structures[s].events.beadsOf(e)) rings.push({ bead, colour: glow, alpha });

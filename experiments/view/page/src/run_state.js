@@ -15,7 +15,7 @@ export async function loadStructures(meta, blocks) {
       layers.push(new Layer(layer, initial, changes));
     }
     const nodes = structure.nodes ? uint32(await blocks.bytes(`nodes-${s}`)) : new Uint32Array(0);
-    structures.push({ name: structure.name, note: structure.note, relax: structure.relax ?? 0, events, layers, nodes });
+    structures.push({ name: structure.name, note: structure.note, events, layers, nodes });
   }
   return structures;
 }

@@ -194,15 +194,14 @@ export class Scene {
     this.halos.visible = true;
   }
 
-  // Shows cages, {basis, relax, colour, alpha}, at the present positions.
+  // Shows cages, {basis, colour, alpha}, at the present positions.
   setCages(cages) {
     this.cages.reserve(cages.length);
     const sphere = this.cages.array("sphere");
     const tint = this.cages.array("tint");
     let count = 0;
-    for (const { basis, relax, colour, alpha } of cages) {
+    for (const { basis, colour, alpha } of cages) {
       if (!sphereOfBasis(basis, this.positions, this.radii, sphere, 4 * count)) continue;
-      sphere[4 * count + 3] *= 1 + relax;
       tint[4 * count] = colour[0];
       tint[4 * count + 1] = colour[1];
       tint[4 * count + 2] = colour[2];
