@@ -54,9 +54,6 @@ class BothSides final : public CertificateSource {
   const CertificateSearch<C>& search_;
 };
 
-/// A bound that exceeds the number of roots of every function here.
-inline constexpr std::size_t most_answers = 64;
-
 /// Returns all answers in order, up to `never` or `zero`.
 template <class C>
 [[nodiscard]] std::vector<Answer> follow(Kernel kernel, const C& certificate,

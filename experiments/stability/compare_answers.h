@@ -1,6 +1,7 @@
 #pragma once
 // Compares the answers of the kernels for one certificate.
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -17,6 +18,9 @@ struct Answer {
   Failure failure;
   bool opposite = false;  ///< whether the opposite certificate gave the answer
 };
+
+/// A bound that exceeds the number of roots of every function here.
+inline constexpr std::size_t most_answers = 64;
 
 /// Returns the exact function of the certificate (false) or of its opposite (true).
 using FunctionOfSide = std::function<ExactPolynomial(bool opposite)>;
