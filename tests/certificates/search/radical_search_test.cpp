@@ -200,7 +200,7 @@ TYPED_TEST(RadicalSearch, GenericMotionIsSettledInDouble) {
     static_cast<void>(test::first_failure(Kernel::filtered, certificate, motion, Instant(0),
                                           KnownAtStart::unknown, stages));
   }
-  EXPECT_LT(stages.exact * 20, stages.coefficients + stages.isolation);
+  EXPECT_LT(stages.exact * 10, stages.coefficients + stages.isolation);
   EXPECT_EQ(stages.identically_zero, 0U);
 }
 
