@@ -35,7 +35,7 @@ template <class Function, int Dimension>
     const typename LanesView<Snapshot<Dimension>, bead_places<Function>>::Tuples& tuples, const Lanes& sides,
     Lanes::Mask& positive) {
   ScaledLanes<0> lanes;
-  detail::evaluate_in_line<Function>(snapshot, tuples, sides, detail::bound_at_rest<Function, Dimension>, 1,
+  detail::evaluate_in_line<Function>(snapshot, tuples, sides, detail::bound_at_rest<Function, Dimension>,
                                      lanes);
   positive = lanes.positive;
 }
