@@ -176,6 +176,11 @@ int sweep(const fs::path& file, SweepOptions options) {
   InputFiles files(kept.inputs, InputFiles::Patterns::now, [&signals] { return signals.stopped(); });
   const SweepPlan plan(read_sweep(text, relative, files, file.string()), files, file.string());
   warn_of_inputs(plan, files);
+  if (!options.dry_run && !kept.sweep.is_null() && line_of(kept.sweep) != line_of(text))
+    warn_of({fmt::format(
+        "{}: {} differs from the sweep that this folder had; results of tasks that are no longer in "
+        "it stay, but are not collected",
+        options.out->string(), file.string())});
   if (!options.dry_run) keep_plan(*options.out, text, relative, files);
   if (runs) return run_shard(plan, files, options, signals);
   TaskStates states(options.out ? results_folder(*options.out) : fs::path());

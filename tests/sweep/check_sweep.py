@@ -190,7 +190,8 @@ def faults():
     with open(folder / "failed.csv") as table:
         rows = {row["command"]: row for row in csv.DictReader(table)}
     expect("takes more than" in rows["compare"]["error"], rows)
-    kds("sweep", write_sweep("plain.json"), "-o", folder)
+    run = kds("sweep", write_sweep("plain.json"), "-o", folder)
+    expect("differs from the sweep that this folder had" in run.stderr, run.stderr)
     expect_equal(folder, expected)
 
     # A full disk: nothing that was recorded is lost, and the same command continues.
