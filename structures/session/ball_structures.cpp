@@ -50,7 +50,7 @@ class PowerInRun final : public RunningStructure {
   [[nodiscard]] bool can_be_cut() const override { return true; }
   [[nodiscard]] std::optional<std::vector<BeadId>> state() const override { return diagram_.state(); }
   [[nodiscard]] ReplayScheme replay_scheme() const override {
-    return {{{"edges", 2, 2}, {"hidden", 1, 1}}, {}, 0};
+    return {{{"edges", 2, 2}, {"hidden", 1, 1}}, {}};
   }
   [[nodiscard]] std::vector<std::vector<ReplayElement>> replay_elements(bool built) const override {
     const DiagramEdges diagram = diagram_.edges_at_frame(built);
@@ -120,7 +120,7 @@ class ContactsInRun final : public RunningStructure {
   [[nodiscard]] bool can_be_cut() const override { return true; }
   [[nodiscard]] std::optional<std::vector<BeadId>> state() const override { return contacts_.state(); }
   [[nodiscard]] std::vector<Change> built() const override { return contacts_.built(); }
-  [[nodiscard]] ReplayScheme replay_scheme() const override { return {{{"contacts", 2, 2}}, {}, 0}; }
+  [[nodiscard]] ReplayScheme replay_scheme() const override { return {{{"contacts", 2, 2}}, {}}; }
   [[nodiscard]] std::vector<std::vector<ReplayElement>> replay_elements(bool) const override {
     std::vector<std::vector<ReplayElement>> elements(1);
     for (const BeadPair& pair : contacts_.pairs())
