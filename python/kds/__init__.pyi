@@ -46,7 +46,6 @@ class _Settings(TypedDict, total=False):
     between: Optional[str]
     tightness: Optional[float]
     apart: Optional[int]
-    relax: Optional[float]
     directions: Optional[int]
     tolerance: Union[float, str, None]
     certify: bool
