@@ -140,7 +140,8 @@ auto RoundedPolynomial::first_descent(double from) const -> Result {
         if (const auto descent = narrowed(part, from)) return {Verdict::found, *descent};
         return {Verdict::undecided, {}};
       }
-      // The root of an ascent is before `from`, otherwise a descent would come before it.
+      // An ascent has its root before `from`: a root after `from` would follow a descent, and that comes
+      // first.
       const bool done = shape == Shape::positive || (shape == Shape::ascent && part.lower < from);
       if (!done) {
         if (part.halvings == most_halvings) return {Verdict::undecided, {}};

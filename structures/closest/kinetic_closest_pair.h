@@ -49,7 +49,7 @@ class KineticClosestPair final : public EditableBase {
 
   void build() override;
   void start_step() override;
-  /// Raises statistics.certificates.per_bead_max to the most certificates that name one bead now.
+  /// Updates statistics.certificates.per_bead_max, the largest number of certificates on one bead.
   void count_certificates();
   void fail(unsigned table, std::uint32_t slot) override;
   void after_batch() override;

@@ -266,7 +266,7 @@ void BeadBlocks<Dimension>::fill(const Balls<Dimension>& balls, double gap) {
   const auto fits = [this](const BlockExtent& e) {
     return e.coordinate <= frame_.bound && e.radius <= largest_float_radius;
   };
-  const auto blunt = [this](const BlockExtent& e) {  // and a new frame of this scene would not be
+  const auto blunt = [this](const BlockExtent& e) {  // and a frame of this scene is finer
     return e.coordinate < 0x1p-6 * frame_.bound && frame_.bound > 0x1p-20;
   };
   BlockExtent extent;

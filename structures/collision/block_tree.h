@@ -80,7 +80,7 @@ class BlockTree {
   std::optional<std::span<const BeadPair>> near_pairs_of(const Balls<Dimension>& balls,
                                                          std::span<const std::uint32_t> blocks,
                                                          std::size_t most);
-  /// Returns a mark per bead, nonzero for the beads of these blocks.
+  /// Returns a mark per bead, nonzero for the beads of the blocks that near_pairs_of was given last.
   [[nodiscard]] std::span<const unsigned char> looked_at_again() const { return marked_beads_; }
 
   [[nodiscard]] const Counts& counts() const { return counts_; }

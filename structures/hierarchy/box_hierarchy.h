@@ -85,7 +85,7 @@ class BoxHierarchy final : public EditableBase {
 
   /// From the next step on, notes the beads whose number of certificates may have grown (count_certificates).
   void follow_certificates() { follows_certificates_ = true; }
-  /// Raises statistics.certificates.per_bead_max to the most certificates that name one bead now. The start
+  /// Updates statistics.certificates.per_bead_max, the largest number of certificates on one bead. The start
   /// of a step needs no call. Costs O(height) per side for each support that has changed since the last call,
   /// and for each bead after an edit.
   void count_certificates();

@@ -22,7 +22,7 @@ namespace kds::detail {
 inline constexpr BeadId most_in_block = 256;
 // A node with more beads, built from scratch, first searches the beads of its children's bases.
 inline constexpr BeadId most_scanned = 100;
-// Bound of how far beads may be out of a cage that doubles have proved, as a factor of its radius.
+// If doubles have proved a cage, its beads lie within its radius times this factor.
 inline constexpr double looseness = 1 + 0x1p-27;
 inline constexpr std::size_t nodes_at_a_time = 64;
 

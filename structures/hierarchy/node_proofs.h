@@ -26,7 +26,7 @@ namespace kds {
 template <int Dimension>
 struct ChordCandidate {
   NodeId node;
-  SphereChord<Dimension> chord;  ///< for its basis at the start of the step
+  SphereChord<Dimension> chord;  ///< of the sphere of the node's basis at the start of the step
   std::size_t end;  ///< end of its beads in NodeProofs::beyond(); without a proved chord it has none there
 };
 

@@ -20,8 +20,8 @@ using detail::margin;
 using detail::up;
 using detail::Vec;
 
-/// Four spheres and their room: slack is at most `most` and (reach - farthest) / pace, where no ball outside
-/// the basis reaches farther than `farthest` from the centre.
+/// Bounds of the slack of four spheres: `most`, and (reach - farthest) / pace. `farthest` is the farthest
+/// point, from the centre, of the balls outside the basis.
 template <int D>
 struct Room {
   Vec<D> center;

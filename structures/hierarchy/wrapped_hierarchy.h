@@ -77,7 +77,7 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   void start_step() override;
   /// From the next step on, follows how many certificates name each bead, at any time.
   void follow_certificates();
-  /// Raises statistics.certificates.per_bead_max to the most certificates that name one bead now. Counts at
+  /// Updates statistics.certificates.per_bead_max, the largest number of certificates on one bead. Counts at
   /// the starts of steps only, unless certificates are followed. The certificates that slack spares are not
   /// counted.
   void count_certificates();

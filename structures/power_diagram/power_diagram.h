@@ -132,7 +132,7 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   /// Sets a hidden bead's host, if `host` is a cell.
   void house(BeadId hidden, CellId host);
   [[nodiscard]] CellId some_finite_cell() const;
-  /// Raises statistics.certificates.per_bead_max to the most certificates that name one of `beads` now. Looks
+  /// Updates statistics.certificates.per_bead_max by the number of certificates on each of `beads`. Looks
   /// at all beads if none are given or some bead is hidden.
   void count_certificates(std::span<const BeadId> beads = {});
 

@@ -44,7 +44,7 @@ class KineticRun {
   KineticRun(PushedFrames frames, const SessionOptions& options);
   /// A run over a scene, which must outlive the run.
   KineticRun(const Scene& scene, const SessionOptions& options);
-  /// A run over a motion that the user sets to each step before the step is run. The motion must outlive the
+  /// Runs over a motion that the caller sets to each step before the step is run. The motion must outlive the
   /// run.
   KineticRun(const SceneMotion::Ref& motion, const BeadsOfMotion& beads, const SessionOptions& options);
   KineticRun(const KineticRun&) = delete;

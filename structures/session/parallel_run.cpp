@@ -390,7 +390,7 @@ void ParallelRun::run_uncut(const std::function<void(std::size_t)>& at_frame) {
   around_(*own_, scene_.step_count() - 1, [&] { own_->finish(); });
 }
 
-/// Parts in flight are read ahead: some for each thread to run, and as many that wait to be joined.
+/// Reads parts ahead: some for each thread to run, and as many again that wait to be joined.
 void ParallelRun::run_in_parts(const std::function<void(std::size_t)>& at_frame) {
   const std::size_t steps = scene_.step_count();
   counts_ = {0, 0};

@@ -92,8 +92,8 @@ class RunningStructure {
   /// Follows, from the next step on, how many certificates name each bead. A structure that always knows this
   /// number does nothing.
   virtual void follow_certificates() {}
-  /// Raises statistics.certificates.per_bead_max to the most certificates that name one bead now, between two
-  /// events. `changed` are the beads of the events since the last call; only their certificates may have
+  /// Updates statistics.certificates.per_bead_max, the largest number of certificates on one bead, between
+  /// two events. `changed` are the beads of the events since the last call; only their certificates may have
   /// become more. A structure whose numbers do not change within a step, or that does not know them, does
   /// nothing.
   virtual void count_certificates(std::span<const BeadId> changed) { static_cast<void>(changed); }
