@@ -129,22 +129,6 @@ void check_range_of_one_frame(const std::vector<NecklaceStream>& files, const Fr
                                range.first > 0 ? range.first : last, files.front().heads().front().file));
 }
 
-// Throws InputError if one frame of a longer file is selected while other necklaces move.
-void check_frames_beside(const std::vector<Trajectory>& necklaces, const std::vector<InputAtoms>& inputs) {
-  const Trajectory& longest = *std::ranges::max_element(
-      necklaces, {}, [](const Trajectory& necklace) { return necklace.frames.size(); });
-  for (const Trajectory& necklace : necklaces) {
-    const bool at_rest = std::any_of(inputs.begin(), inputs.end(), [&](const InputAtoms& input) {
-      return input.one_frame && input.file.string() == necklace.file;
-    });
-    if (at_rest || necklace.frames.size() > 1 || longest.frames.size() == 1) continue;
-    throw InputError(
-        fmt::format("{}: 1 frame, but {} has {}; necklaces of a run need equal frame counts (or files of one "
-                    "frame: at rest)",
-                    necklace.file, longest.file, longest.frames.size()));
-  }
-}
-
 // Describes the beads by the names of their atoms, the first and the last bead.
 std::string described(const std::vector<std::string>& names) {
   constexpr std::size_t most = 6;
@@ -218,59 +202,6 @@ std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
   auto frames = std::make_unique<FileFrames>(std::move(files), options.obstacle.has_value());
   check_groups_have_beads(options.reading.groups, frames->necklaces());
   return frames;
-}
-
-namespace {
-
-// Lets all necklaces end with the shortest one whose file is truncated. Necklaces at rest stay as they are.
-void end_with_truncated(std::vector<Trajectory>& necklaces,
-                        const std::function<void(const std::string&)>& warn) {
-  const auto frames_of = [](const Trajectory& necklace) {
-    return necklace.truncated ? necklace.frames.size() : std::numeric_limits<std::size_t>::max();
-  };
-  const auto shortest = std::ranges::min_element(necklaces, {}, frames_of);
-  if (shortest == necklaces.end() || !shortest->truncated) return;
-  const std::size_t frames = shortest->frames.size();
-  const std::string file = shortest->file;
-  const std::size_t last = shortest->frame_number(frames - 1);
-  bool told = false;
-  for (Trajectory& necklace : necklaces) {
-    const bool at_rest = necklace.frames.size() == 1 && !necklace.truncated;
-    if (at_rest || necklace.frames.size() <= frames) continue;
-    necklace.frames.resize(frames);
-    necklace.frame_numbers.resize(std::min(frames, necklace.frame_numbers.size()));
-    necklace.times.resize(std::min(frames, necklace.times.size()));
-    if (!told)
-      warn(fmt::format("{}: frames are missing after frame {}, so later frames of {} are left out", file,
-                       last, necklace.file));
-    told = true;
-  }
-}
-
-}  // namespace
-
-std::vector<Trajectory> read_necklaces(const InputOptions& options,
-                                       const std::function<void(const std::string&)>& warn) {
-  std::vector<Trajectory> necklaces;
-  std::vector<InputAtoms> atoms;
-  for (std::size_t i = 0; i < options.inputs.size(); ++i) {
-    std::vector<Trajectory> of_input = read_trajectories(options.inputs[i], reading_of(options, i));
-    atoms.push_back(
-        atoms_of(options.inputs[i], of_input,
-                 of_input.front().frames.size() == 1 &&
-                     NecklaceStream(options.inputs[i], reading_of(options, i)).holds_one_frame()));
-    for (Trajectory& necklace : of_input) {
-      for (const std::string& warning : necklace.warnings) warn(warning);
-      necklaces.push_back(std::move(necklace));
-    }
-  }
-  check_inputs_of_one_frame(atoms, options, warn);
-  end_with_truncated(necklaces, warn);
-  check_frames_beside(necklaces, atoms);
-  std::vector<NecklaceBeads> beads;
-  for (const Trajectory& necklace : necklaces) beads.push_back(beads_of(necklace));
-  check_groups_have_beads(options.reading.groups, beads);
-  return necklaces;
 }
 
 Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,

@@ -31,11 +31,6 @@ namespace kds {
                                                       const std::function<void(const std::string&)>& warn,
                                                       std::size_t stride = 1);
 
-/// Reads all inputs, none of which is an instance file. Each warning goes to `warn` as one line. Throws
-/// InputError for inputs with one frame, as open_frames does.
-[[nodiscard]] std::vector<Trajectory> read_necklaces(const InputOptions& options,
-                                                     const std::function<void(const std::string&)>& warn);
-
 /// Reads all inputs once, then opens them for the run, which reads frames as it proceeds. Each warning goes
 /// to `warn` as one line. Throws InputError for any fault of an input.
 [[nodiscard]] Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,

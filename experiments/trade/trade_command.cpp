@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/text.h"
@@ -214,6 +215,37 @@ void foretell(double seconds) {
   std::fputs(seconds < 120 ? fmt::format("kds: about {:.0f} seconds\n", seconds).c_str()
                            : fmt::format("kds: about {:.0f} minutes\n", seconds / 60).c_str(),
              stderr);
+}
+
+// Reads all frames of all inputs.
+std::vector<Trajectory> read_necklaces(const TradeOptions& options,
+                                       const std::function<void(const std::string&)>& warn) {
+  const std::unique_ptr<FileFrames> files = open_frames(options, warn);
+  std::vector<std::vector<Eigen::Matrix3Xd>> frames(files->necklaces().size());
+  std::vector<std::size_t> numbers;
+  std::vector<double> times;
+  for (FrameRead frame; files->next(frame);) {
+    numbers.push_back(frame.stamp.number);
+    if (frame.stamp.picoseconds) times.push_back(*frame.stamp.picoseconds);
+    Eigen::Index begin = 0;
+    for (std::size_t n = 0; n < frames.size(); ++n) {
+      const auto beads = static_cast<Eigen::Index>(files->necklaces()[n].count);
+      if (frames[n].empty() || !files->necklaces()[n].at_rest)
+        frames[n].emplace_back(frame.positions.middleCols(begin, beads));
+      begin += beads;
+    }
+  }
+  for (const std::string& warning : files->warnings()) warn(warning);
+  if (times.size() < numbers.size()) times.clear();
+  std::vector<Trajectory> necklaces = files->heads();  // complete now that all frames have been read
+  for (std::size_t n = 0; n < necklaces.size(); ++n) {
+    necklaces[n].frames = std::move(frames[n]);
+    necklaces[n].truncated = files->is_truncated();
+    if (files->necklaces()[n].at_rest) continue;
+    necklaces[n].frame_numbers = numbers;
+    necklaces[n].times = times;
+  }
+  return necklaces;
 }
 
 void refuse_lone_frame(const TradeOptions& options, const std::vector<Trajectory>& necklaces) {
