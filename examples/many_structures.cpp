@@ -53,7 +53,7 @@ class Observer final : public kds::EventListener {
 int main() {
   Motion motion(beads);
   load(motion, 0);
-  const kds::SessionOptions options{.structures = {"sorted", "wrapped", "power", "contacts"}};
+  const kds::KineticRunOptions options{.structures = {"sorted", "wrapped", "power", "contacts"}};
   kds::KineticRun run(motion, {.radii = {0.9}}, options);
   Observer observer;
   kds::EventLog log;
@@ -67,9 +67,9 @@ int main() {
 
   // Replays the log on the same four structures and compares them with static builds after each step.
   load(motion, 0);
-  kds::SessionOptions audited = options;
+  kds::KineticRunOptions audited = options;
   audited.audits = kds::AuditMode::frames;
-  kds::Session again(run.scene(), motion, audited);
+  kds::KineticRun again(motion, {.radii = {0.9}}, audited);
   kds::Simulator& replay = again.simulator();
   replay.build_for_replay();
   for (int step = 0; step < steps; ++step) {

@@ -113,9 +113,9 @@ RunHandle::RunHandle(const Arguments& arguments, const PythonOptions& more, Push
     : options_(pushed_options(arguments)) {
   frames.motion = options_.motion;
   const Scene pattern(frames);  // the options are checked against its beads
-  SessionOptions session = session_options(options_, pattern, options_.audit);
-  session.only = more.only;
-  run_ = std::make_unique<KineticRun>(std::move(frames), session);
+  KineticRunOptions kinetic = kinetic_run_options(options_, pattern, options_.audit);
+  kinetic.only = more.only;
+  run_ = std::make_unique<KineticRun>(std::move(frames), kinetic);
   listen();
 }
 
@@ -123,9 +123,9 @@ void RunHandle::open() {
   if (only_.empty()) {
     run_ = open_run(options_, *scene_, options_.audit);
   } else {
-    SessionOptions session = session_options(options_, *scene_, options_.audit);
-    session.only = only_;
-    run_ = std::make_unique<KineticRun>(*scene_, session);
+    KineticRunOptions kinetic = kinetic_run_options(options_, *scene_, options_.audit);
+    kinetic.only = only_;
+    run_ = std::make_unique<KineticRun>(*scene_, kinetic);
   }
   listen();
 }
@@ -163,19 +163,19 @@ void RunHandle::execute(const py::object& progress) {
   Watch& watch = use.watch();
   const std::size_t steps = scene().step_count();
   const std::unique_ptr<ParallelRun> parts = open_parts();
-  Session& session = parts ? parts->session() : run_->session();
-  StepCounts counts(session, scene());
+  KineticRun& run = parts ? parts->whole() : *run_;
+  StepCounts counts(run, scene());
   std::optional<ClosestApproachOfRun> approach;
   if (parts) {
     parts->listen(events_);
     follow_approach(*parts);
-  } else if (const auto closest = place_of_closest(session); closest) {
-    approach.emplace(session, *closest);
+  } else if (const auto closest = place_of_closest(run); closest) {
+    approach.emplace(run, *closest);
   }
   if (options_.view) {
     ViewRequest request;
     request.page = options_.view;
-    view_.emplace(request, labels(), scene(), session);
+    view_.emplace(request, labels(), scene(), run);
   }
   const auto warn = [this](const std::string& warning) { warnings_.push_back(warning); };
   parts ? watch_exact_work(*parts, warn) : watch_exact_work(run_->simulator(), scene(), warn);
@@ -200,7 +200,7 @@ void RunHandle::execute(const py::object& progress) {
   is_behind_ = parts != nullptr;
   watch.end(steps);
   if (view_) view_->finish();
-  report_ = report_of(session, scene(), options_, counts);
+  report_ = report_of(run, scene(), options_, counts);
   const auto hint = [&](const std::string& warning) {
     if (only_.empty()) warn(warning);  // hints are about all beads
   };
@@ -307,7 +307,7 @@ py::array_t<double> RunHandle::control_points() {
         return array_of(std::move(numbers),
                         {static_cast<py::ssize_t>(curves.bead_count()), curves.own_degree() + 1, D});
       },
-      run_->session().motion()->ref());
+      run_->motion()->ref());
 }
 
 double RunHandle::time() {
@@ -393,7 +393,7 @@ py::tuple RunHandle::spheres(const std::string& structure, std::optional<double>
   {
     const Use use(*this);
     const Dyadic u = stand_at(time);
-    nodes = run_->session().spheres_at(place, u);
+    nodes = run_->spheres_at(place, u);
   }
   std::vector<std::int64_t> beads;
   std::vector<double> spheres;
@@ -413,7 +413,7 @@ py::tuple RunHandle::elements(const std::string& structure, std::size_t frame) {
   {
     const Use use(*this);
     static_cast<void>(stand_at(static_cast<double>(frame)));
-    found = run_->session().elements(place, frame);
+    found = run_->elements(place, frame);
   }
   if (!found) throw InputError(fmt::format("{}: its state at a frame is no set of elements", structure));
   std::sort(found->all.begin(), found->all.end());
@@ -441,7 +441,7 @@ std::string RunHandle::table(const py::object& progress) {
     Use use(*this, progress);
     std::vector<double> seconds;
     for (std::size_t frame = 0; frame < scene().frame_count(); ++frame) {
-      run_->session().time_static_builds(frame, seconds);
+      run_->time_static_builds(frame, seconds);
       use.watch().look(frame, 0, scene().frame_count());
     }
     for (std::size_t s = 0; s < report_->structures.size(); ++s)

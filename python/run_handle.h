@@ -132,7 +132,7 @@ class RunHandle {
   std::unique_ptr<Scene> scene_;  // empty if frames are pushed
   std::unique_ptr<KineticRun> run_;
   bool is_behind_ = false;           // all steps were run on several threads, and `run_` stands at its start
-  std::optional<ViewResults> view_;  // listens to the session of `run_`
+  std::optional<ViewResults> view_;  // listens to `run_`
   EventRows events_;
   std::optional<RunReport> report_;
   bool has_static_times_ = false;

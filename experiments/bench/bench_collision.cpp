@@ -36,8 +36,8 @@ Scene scene_of(const BenchChain& chain) {
   return {{&necklace, 1}, chain.radii, FrameMotion::linear};
 }
 
-SessionOptions options_of_run() {
-  SessionOptions options{.structures = {"contacts"}};
+KineticRunOptions options_of_run() {
+  KineticRunOptions options{.structures = {"contacts"}};
   options.settings.apart = along_chain;
   return options;
 }

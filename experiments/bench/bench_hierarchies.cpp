@@ -32,7 +32,7 @@ StepsRun run_all_steps(const Scene& scene, const std::string& structure, const S
   run.build();
   steps.seconds += processor_seconds_of([&] { run.finish(); });
   steps.own = steps.seconds - processor_seconds_of([&] {
-                for (std::size_t step = 0; step < scene.step_count(); ++step) run.session().load(step);
+                for (std::size_t step = 0; step < scene.step_count(); ++step) run.motion()->load(step);
               });
   const auto& per_step = run.structures().front()->statistics.events_per_step;
   steps.events = std::accumulate(per_step.begin(), per_step.end(), std::uint64_t{0});

@@ -121,7 +121,7 @@ std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, const
   run_steps(*run, options, [&](std::size_t frame) {
     if (frame == 0) {
       std::vector<BeadPair> at_start;
-      for (const Event& event : run->session().built(0)) at_start.push_back({event.ids()[0], event.ids()[1]});
+      for (const Event& event : run->built(0)) at_start.push_back({event.ids()[0], event.ids()[1]});
       intervals.add_built(at_start, at_start, scene.stamp(0), scene.stamp(1));
     }
     at_frame(frame);

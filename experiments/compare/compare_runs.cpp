@@ -191,19 +191,19 @@ std::vector<CompareRow> run_once(const Scene& scene, const RunOptions& options,
   ParallelOptions parallel;
   parallel.elements = true;
   const auto run = open_parallel_run(options, scene, AuditMode::none, parallel, [](const std::string&) {});
-  Session& session = run->session();
-  StepCounts counts(session, scene);
-  EventPlaces places(session, scene);
+  KineticRun& whole = run->whole();
+  StepCounts counts(whole, scene);
+  EventPlaces places(whole, scene);
   run->listen(places);
-  std::vector<NetChanges> net(session.structures().size());
+  std::vector<NetChanges> net(whole.structures().size());
   std::vector<CompareRow> rows(net.size());
   run_steps(*run, options, [&](std::size_t frame) {
     for (std::size_t s = 0; s < net.size(); ++s) {
       const std::uint64_t before = net[s].count().value_or(0);
-      net[s].add(session.elements(s, frame));
+      net[s].add(whole.elements(s, frame));
       if (frame == 0) continue;
       rows[s].events_of_steps.push_back(
-          static_cast<double>(session.structures()[s]->statistics.events_per_step.back()));
+          static_cast<double>(whole.structures()[s]->statistics.events_per_step.back()));
       if (const auto count = net[s].count())
         rows[s].net_changes_of_steps.push_back(static_cast<double>(*count - before));
     }
@@ -211,7 +211,7 @@ std::vector<CompareRow> run_once(const Scene& scene, const RunOptions& options,
     counts.end_step(frame - 1, nullptr);
     step_done();
   });
-  const RunReport report = report_of(session, scene, options, counts);
+  const RunReport report = report_of(whole, scene, options, counts);
   for (std::size_t s = 0; s < net.size(); ++s) {
     CompareRow& row = rows[s];
     const bool has_own_motion = !options.inputs.empty() && is_instance_file(options.inputs.front());
@@ -246,13 +246,13 @@ std::vector<EventCosts> costs_of_events(KineticRun& run, const std::function<voi
   std::vector<EventCosts> costs(structures);
   ChangedBeads changed(structures);
   run.listen(changed);
-  run.session().follow_certificates();
+  run.follow_certificates();
   std::vector<Done> before(structures);
   const auto now = [&](std::size_t s) { return done_by(run, run.simulator().seconds_of(s), s); };
   while (run.enter_step()) {
     for (std::size_t s = 0; s < structures; ++s) {
       changed.of(s).clear();
-      run.session().count_certificates(s, {});
+      run.count_certificates(s, {});
       before[s] = now(s);
     }
     while (run.simulator().run_next()) {
@@ -260,7 +260,7 @@ std::vector<EventCosts> costs_of_events(KineticRun& run, const std::function<voi
         const Done after = now(s);
         if (after.events == before[s].events && after.created == before[s].created) continue;
         add_difference(before[s], after, costs[s]);
-        run.session().count_certificates(s, changed.of(s));
+        run.count_certificates(s, changed.of(s));
         changed.of(s).clear();
         before[s] = now(s);
       }

@@ -132,9 +132,9 @@ class ContactsRun {
 
   void add_built() {
     const StepStamps first(scene_, 0);
-    std::vector<std::vector<BeadPair>> pairs(run_.session().structures().size());
+    std::vector<std::vector<BeadPair>> pairs(run_.whole().structures().size());
     for (std::size_t s = 0; s < pairs.size(); ++s)
-      for (const Event& event : run_.session().built(s)) pairs[s].push_back({event.ids()[0], event.ids()[1]});
+      for (const Event& event : run_.whole().built(s)) pairs[s].push_back({event.ids()[0], event.ids()[1]});
     for (const Followed& one : followed_)
       one.intervals->add_built(pairs[one.inner], pairs[one.outer], first.from, first.to);
   }

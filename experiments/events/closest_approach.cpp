@@ -23,9 +23,9 @@ std::optional<ClosestApproach> closer(const std::optional<ClosestApproach>& earl
   return least;
 }
 
-ClosestApproachOfRun::ClosestApproachOfRun(Session& session, std::size_t structure)
-    : session_(session), structure_(structure) {
-  session_.simulator().listen(*this);
+ClosestApproachOfRun::ClosestApproachOfRun(KineticRun& run, std::size_t structure)
+    : run_(run), structure_(structure) {
+  run_.simulator().listen(*this);
 }
 
 void ClosestApproachOfRun::on_event(const Event& event) {
@@ -34,7 +34,7 @@ void ClosestApproachOfRun::on_event(const Event& event) {
 }
 
 void ClosestApproachOfRun::begin() {
-  const auto built = session_.elements(structure_, 0);
+  const auto built = run_.elements(structure_, 0);
   for (const CombinatorialElement& pair : built->all) pairs_.push_back({pair[1], pair[2]});
 }
 
@@ -51,7 +51,7 @@ void ClosestApproachOfRun::end_step(std::size_t frame) {
           }
         }
       },
-      session_.motion()->ref());
+      run_.motion()->ref());
   if (!pairs_.empty()) pairs_ = {pairs_.back()};
 }
 
@@ -59,8 +59,8 @@ std::optional<ClosestApproach> ClosestApproachOfRun::least() const {
   return least_ && least_->distance.upper < HUGE_VAL ? least_ : std::nullopt;
 }
 
-std::optional<std::size_t> place_of_closest(const Session& session) {
-  const auto& structures = session.structures();
+std::optional<std::size_t> place_of_closest(const KineticRun& run) {
+  const auto& structures = run.structures();
   const auto closest = std::find_if(structures.begin(), structures.end(),
                                     [](const KineticStructure* s) { return s->name() == "closest"; });
   if (closest == structures.end()) return std::nullopt;

@@ -10,7 +10,7 @@
 
 #include "kds/event_log.h"
 #include "motions/scene/scene.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 
@@ -35,9 +35,9 @@ struct ClosestApproach {
 
 class ClosestApproachOfRun final : public EventListener {
  public:
-  /// Follows the structure with this index in the session. The session must outlive this object. Listens from
+  /// Follows the structure with this index in the run. The run must outlive this object. Listens from
   /// now on.
-  ClosestApproachOfRun(Session& session, std::size_t structure);
+  ClosestApproachOfRun(KineticRun& run, std::size_t structure);
 
   void on_event(const Event& event) override;
   /// Call it when the structures have been built.
@@ -50,13 +50,13 @@ class ClosestApproachOfRun final : public EventListener {
   [[nodiscard]] std::optional<ClosestApproach> least() const;
 
  private:
-  Session& session_;
+  KineticRun& run_;
   std::size_t structure_;
   std::vector<std::array<BeadId, 2>> pairs_;  // in the step; the last one is the current pair
   std::optional<ClosestApproach> least_;
 };
 
-/// Returns the index of the structure `closest` in the session, if the session has it.
-[[nodiscard]] std::optional<std::size_t> place_of_closest(const Session& session);
+/// Returns the index of the structure `closest` in the run, if the run has it.
+[[nodiscard]] std::optional<std::size_t> place_of_closest(const KineticRun& run);
 
 }  // namespace kds

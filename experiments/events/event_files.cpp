@@ -17,22 +17,22 @@ constexpr std::string_view structure_name = "contacts";
 
 }  // namespace
 
-bool has_contacts(const Session& session) {
-  return std::any_of(session.structures().begin(), session.structures().end(),
+bool has_contacts(const KineticRun& run) {
+  return std::any_of(run.structures().begin(), run.structures().end(),
                      [](const KineticStructure* structure) { return structure->name() == structure_name; });
 }
 
-std::optional<std::uint64_t> contacts_at(const Session& session, std::size_t frame) {
-  for (std::size_t s = 0; s < session.structures().size(); ++s)
-    if (session.structures()[s]->name() == structure_name)
-      if (const auto pairs = session.elements(s, frame)) return pairs->all.size();
+std::optional<std::uint64_t> contacts_at(const KineticRun& run, std::size_t frame) {
+  for (std::size_t s = 0; s < run.structures().size(); ++s)
+    if (run.structures()[s]->name() == structure_name)
+      if (const auto pairs = run.elements(s, frame)) return pairs->all.size();
   return std::nullopt;
 }
 
-void ContactsCsv::add_built(const Session& session) {
-  for (std::size_t s = 0; s < session.structures().size(); ++s) {
-    if (session.structures()[s]->name() != structure_name) continue;
-    for (const Event& event : session.built(s)) on_event(event);
+void ContactsCsv::add_built(const KineticRun& run) {
+  for (std::size_t s = 0; s < run.structures().size(); ++s) {
+    if (run.structures()[s]->name() != structure_name) continue;
+    for (const Event& event : run.built(s)) on_event(event);
   }
 }
 

@@ -17,7 +17,7 @@
 #include "kds/event_log.h"
 #include "motions/frames/frame_reader.h"
 #include "motions/scene/scene.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 #include "structures/session/structure_spec.h"
 
 namespace kds {
@@ -27,18 +27,18 @@ inline constexpr std::string_view contacts_file = "contacts.csv";
 /// The name of the file in --out that lists the possible contacts of a certified run.
 inline constexpr std::string_view possible_contacts_file = "possible_contacts.csv";
 
-/// Returns whether the session has the structure `contacts`.
-[[nodiscard]] bool has_contacts(const Session& session);
+/// Returns whether the run has the structure `contacts`.
+[[nodiscard]] bool has_contacts(const KineticRun& run);
 
-/// Returns the number of pairs in contact at the frame just reached, or nothing if the session has no
+/// Returns the number of pairs in contact at the frame just reached, or nothing if the run has no
 /// contacts.
-[[nodiscard]] std::optional<std::uint64_t> contacts_at(const Session& session, std::size_t frame);
+[[nodiscard]] std::optional<std::uint64_t> contacts_at(const KineticRun& run, std::size_t frame);
 
 /// Listens to all events and passes each event of a contact on.
 class ContactsCsv : public EventListener {
  public:
   /// Adds the contacts that begin with the first frame. Call it once, when the structures have been built.
-  void add_built(const Session& session);
+  void add_built(const KineticRun& run);
   void on_event(const Event& event) override;
 
  protected:

@@ -49,7 +49,7 @@ EventGrid::EventGrid(const Scene& scene, std::size_t grids) {
   edges.push_back(scene.stamp(scene.step_count()));
 }
 
-EventPlaces::EventPlaces(const Session& session, const Scene& scene)
+EventPlaces::EventPlaces(const KineticRun& run, const Scene& scene)
     : tree_(scene.necklaces()), levels_(tree_.node_count(), 0) {
   std::size_t level_count = 0;
   for (NodeId node = 0; node < tree_.node_count(); ++node) {
@@ -57,10 +57,10 @@ EventPlaces::EventPlaces(const Session& session, const Scene& scene)
       if (child != NecklaceTree::leaf) levels_[child] = levels_[node] + 1;
     level_count = std::max(level_count, levels_[node] + 1);
   }
-  for (const KineticStructure* structure : session.structures()) {
+  for (const KineticStructure* structure : run.structures()) {
     PlacesOfEvents& places = places_.emplace_back();
     places.by_bead.resize(scene.bead_count(), 0);
-    places.grid = EventGrid(scene, session.structures().size());
+    places.grid = EventGrid(scene, run.structures().size());
     for (const EventKind& kind : structure->kinds())
       for (const IdRole& role : kind.roles)
         if (role.of == IdRole::Of::node) places.by_level.resize(level_count, 0);

@@ -12,7 +12,7 @@
 #include "motions/frames/frame_stamp.h"
 #include "motions/scene/scene.h"
 #include "structures/necklace/necklace_tree.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 
@@ -101,12 +101,12 @@ struct PlacesOfEvents {
   EventGrid grid;
 };
 
-/// Listens to all events of a session.
+/// Listens to all events of a run.
 class EventPlaces final : public EventListener {
  public:
-  EventPlaces(const Session& session, const Scene& scene);
+  EventPlaces(const KineticRun& run, const Scene& scene);
   void on_event(const Event& event) override;
-  /// In the order of the session's structures.
+  /// In the order of the run's structures.
   [[nodiscard]] const std::vector<PlacesOfEvents>& places() const { return places_; }
 
  private:

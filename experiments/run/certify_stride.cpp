@@ -86,7 +86,7 @@ std::shared_ptr<const MetContacts> contacts_met(const RunOptions& options, const
   run->listen(*met);
   run_steps(*run, contacts, [&](std::size_t frame) {
     if (frame != 0) return;
-    for (const Event& event : run->session().built(0)) met->on_event(event);
+    for (const Event& event : run->built(0)) met->on_event(event);
   });
   return met;
 }

@@ -235,15 +235,15 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
 namespace {
 
 // Throws InputError if --log, --events or --audit events is given for chord cages, which have no events.
-void refuse_events_of_chords(const RunOptions& options, const SessionOptions& session) {
+void refuse_events_of_chords(const RunOptions& options, const KineticRunOptions& kinetic) {
   const char* const asked = options.log                           ? "--log"
                             : options.events                      ? "--events"
-                            : session.audits == AuditMode::events ? "--audit events"
+                            : kinetic.audits == AuditMode::events ? "--audit events"
                                                                   : nullptr;
   if (asked == nullptr) return;
-  for (const std::string& name : session.structures) {
+  for (const std::string& name : kinetic.structures) {
     const StructureSpec* const spec = structure_registry().find(name);
-    if (spec == nullptr || spec->has_events(session.settings)) continue;
+    if (spec == nullptr || spec->has_events(kinetic.settings)) continue;
     throw InputError(fmt::format("{}: {} has chord cages, which have no events; expected {}", asked, name,
                                  name == "wrapped" ? "--between events" : "--structures without it"));
   }
@@ -263,16 +263,16 @@ void refuse_nodes_behind_the_beads(const RunOptions& options, const Scene& scene
 
 }  // namespace
 
-SessionOptions session_options(const RunOptions& options, const Scene& scene, AuditMode audits) {
-  SessionOptions session{options.structures, options.kernel, audits, {.nodes = options.nodes}};
-  session.settings.apart = options.apart.value_or(session.settings.apart);
-  session.settings.between = options.between.value_or(session.settings.between);
-  session.settings.tightness = options.tightness;
-  session.settings.directions = options.directions;
-  session.settings.contact_distance = contact_distance_of(options.cutoff, options.surface);
-  session.settings.groups = scene.bead_groups();
-  if (session.structures.empty()) session.structures = default_structures(scene);
-  const auto& names = session.structures;
+KineticRunOptions kinetic_run_options(const RunOptions& options, const Scene& scene, AuditMode audits) {
+  KineticRunOptions kinetic{options.structures, options.kernel, audits, {.nodes = options.nodes}};
+  kinetic.settings.apart = options.apart.value_or(kinetic.settings.apart);
+  kinetic.settings.between = options.between.value_or(kinetic.settings.between);
+  kinetic.settings.tightness = options.tightness;
+  kinetic.settings.directions = options.directions;
+  kinetic.settings.contact_distance = contact_distance_of(options.cutoff, options.surface);
+  kinetic.settings.groups = scene.bead_groups();
+  if (kinetic.structures.empty()) kinetic.structures = default_structures(scene);
+  const auto& names = kinetic.structures;
   if (options.apart && std::find(names.begin(), names.end(), "closest") != names.end())
     throw InputError(
         "--apart: closest looks at all pairs of beads; run it without --apart, or let kds collide --apart "
@@ -295,9 +295,9 @@ SessionOptions session_options(const RunOptions& options, const Scene& scene, Au
         "--levels, --nodes: apply only to wrapped, boxes and layered, none of which is among the structures");
   if (options.between && !has("wrapped"))
     throw InputError("--between: applies only to wrapped, which is not among the structures");
-  if (options.tightness && session.settings.between != Between::chord)
+  if (options.tightness && kinetic.settings.between != Between::chord)
     throw InputError("--tightness: applies only to chord cages of wrapped; expected --between chord");
-  refuse_events_of_chords(options, session);
+  refuse_events_of_chords(options, kinetic);
   refuse_nodes_behind_the_beads(options, scene);
   if (options.nodes.restricts()) {
     const NecklaceTree tree(scene.necklaces());
@@ -308,7 +308,7 @@ SessionOptions session_options(const RunOptions& options, const Scene& scene, Au
                       "which has {} beads",
                       tree.node_count(), scene.bead_count()));
   }
-  return session;
+  return kinetic;
 }
 
 namespace {
@@ -328,7 +328,7 @@ std::unique_ptr<Run> open(const Scene& scene, const Arguments&... arguments) {
 }  // namespace
 
 std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene, AuditMode audits) {
-  return open<KineticRun>(scene, session_options(options, scene, audits));
+  return open<KineticRun>(scene, kinetic_run_options(options, scene, audits));
 }
 
 std::unique_ptr<ParallelRun> open_parallel_run(const RunOptions& options, const Scene& scene,
@@ -336,7 +336,7 @@ std::unique_ptr<ParallelRun> open_parallel_run(const RunOptions& options, const 
                                                const std::function<void(const std::string&)>& warn) {
   const bool is_recorded = options.view.has_value();  // a replay reads the structures while the run goes on
   parallel.threads = is_recorded ? 1 : options.threads.value_or(all_threads());
-  auto run = open<ParallelRun>(scene, session_options(options, scene, audits), parallel);
+  auto run = open<ParallelRun>(scene, kinetic_run_options(options, scene, audits), parallel);
   if (options.work) run->limit_work(*options.work);
   const std::optional<std::string> reason =
       is_recorded ? std::optional<std::string>("--view records the structures as it goes on") : run->uncut();

@@ -40,10 +40,11 @@ namespace kds {
 [[nodiscard]] Scene load_scene(const RunOptions& options,
                                const std::function<void(const std::string&)>& warn);
 
-/// Returns the options of a session for the options of a run over the scene. If the options name no
-/// structures, the session has the input's default structures. Throws InputError.
-[[nodiscard]] SessionOptions session_options(const RunOptions& options, const Scene& scene, AuditMode audits);
-/// Opens the run with `session_options`. Throws InputError, also for a structure that refuses the scene.
+/// Returns the library's options for a run over the scene with these options of the command line. If the
+/// options name no structures, the run has the input's default structures. Throws InputError.
+[[nodiscard]] KineticRunOptions kinetic_run_options(const RunOptions& options, const Scene& scene,
+                                                    AuditMode audits);
+/// Opens the run with `kinetic_run_options`. Throws InputError, also for a structure that refuses the scene.
 [[nodiscard]] std::unique_ptr<KineticRun> open_run(const RunOptions& options, const Scene& scene,
                                                    AuditMode audits);
 /// Opens the run on as many threads as --threads asks for, otherwise like `open_run`. If --threads asks for

@@ -125,10 +125,10 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
   run->listen(comparison);
   ProgressWithinSteps within(progress, scene.step_count());
   if (options.audit == AuditMode::events) run->listen(within);
-  StepCounts counts(run->session(), scene);
-  if (results != nullptr) results->begin(scene, run->session(), options);
+  StepCounts counts(*run, scene);
+  if (results != nullptr) results->begin(scene, *run, options);
   run_steps(*run, options, [&](std::size_t frame) {
-    if (results != nullptr) results->add_frame(frame, run->session());
+    if (results != nullptr) results->add_frame(frame, *run);
     if (frame == 0) {
       counts.begin();
       return warnings.release(warn);
@@ -141,7 +141,7 @@ ReplayReport replay_log(const std::filesystem::path& path, const Progress& progr
 
   ReplayReport replay;
   replay.difference = comparison.finish();
-  replay.run = report_of(run->session(), scene, options, counts);
+  replay.run = report_of(*run, scene, options, counts);
   if (options.certify) {
     replay.run.stride = certify_stride(options, scene);
     if (results != nullptr) results->add_certificate(*replay.run.stride, scene);

@@ -55,7 +55,7 @@ StructureReport report_of(const KineticStructure& structure, double seconds, con
 
 }  // namespace
 
-RunReport report_of(Session& session, const Scene& scene, const RunOptions& options,
+RunReport report_of(KineticRun& run, const Scene& scene, const RunOptions& options,
                     const StepCounts& counts) {
   RunReport report;
   for (const auto& input : options.inputs) report.files.push_back(input.string());
@@ -75,20 +75,20 @@ RunReport report_of(Session& session, const Scene& scene, const RunOptions& opti
     for (auto& [name, value] : report.settings)
       if (name == "motion") value = "own";
   report.command_line = "kds run " + shell_words(repeating_arguments(options));
-  for (std::size_t s = 0; s < session.structures().size(); ++s) {
+  for (std::size_t s = 0; s < run.structures().size(); ++s) {
     report.structures.push_back(
-        report_of(*session.structures()[s], session.simulator().seconds_of(s), counts.courses()[s]));
+        report_of(*run.structures()[s], run.simulator().seconds_of(s), counts.courses()[s]));
     if (report.structures.back().name != "contacts") continue;
     report.structures.back().contacts_at_start = counts.contacts_at_start();
-    report.structures.back().contacts_at_end = contacts_at(session, scene.frame_count() - 1);
+    report.structures.back().contacts_at_end = contacts_at(run, scene.frame_count() - 1);
   }
-  report.engine_seconds = session.simulator().seconds();
-  report.listeners_seconds = session.simulator().seconds_of_listeners();
-  const ComparisonCounts& comparisons = session.simulator().comparisons();
+  report.engine_seconds = run.simulator().seconds();
+  report.listeners_seconds = run.simulator().seconds_of_listeners();
+  const ComparisonCounts& comparisons = run.simulator().comparisons();
   report.comparisons = {
       {"same_function", comparisons.by_identity}, {"exact", comparisons.exact}, {"ties", comparisons.ties}};
-  report.exact_work = session.simulator().exact_work().done();
-  report.fingerprint = session.simulator().fingerprint();
+  report.exact_work = run.simulator().exact_work().done();
+  report.fingerprint = run.simulator().fingerprint();
   return report;
 }
 

@@ -15,8 +15,8 @@
 #include "experiments/run/certify_stride.h"
 #include "experiments/run/run_options.h"
 #include "motions/frames/frame_reader.h"
+#include "structures/session/kinetic_run.h"
 #include "structures/session/parallel_run.h"
-#include "structures/session/session.h"
 
 namespace kds {
 
@@ -88,8 +88,8 @@ struct ReplayReport {
 };
 
 class StepCounts;  // run_scene.h
-/// Collects the counts of the structures of a session.
-[[nodiscard]] RunReport report_of(Session& session, const Scene& scene, const RunOptions& options,
+/// Collects the counts of the structures of a run.
+[[nodiscard]] RunReport report_of(KineticRun& run, const Scene& scene, const RunOptions& options,
                                   const StepCounts& counts);
 
 /// Returns the members `skipped` and `deviation` of a certificate.

@@ -31,30 +31,30 @@ void check_destinations(const Destinations& destinations, std::string_view comma
   check_page(destinations, command);
 }
 
-void RunResults::begin(const Scene& scene, Session& session, const RunOptions& options) {
+void RunResults::begin(const Scene& scene, KineticRun& run, const RunOptions& options) {
   const bool certified = options.certify;
   if (view_path_) {
     ViewRequest request;
     request.page = view_path_;
-    view_.emplace(request, replay_labels(options, "run"), scene, session);
+    view_.emplace(request, replay_labels(options, "run"), scene, run);
   }
   if (events_path_) {
     every_event_ = make_event_writer(*events_path_, every_event_file_.emplace().open(*events_path_), scene);
-    session.simulator().listen(*every_event_);
+    run.simulator().listen(*every_event_);
   }
   if (!destinations_.out) return;
   files_.emplace(*destinations_.out, command_, "--out");
   events_.emplace(files_->open("events.csv"), scene.stamp(0).picoseconds.has_value());
   scene_ = &scene;
   displacement_ = Displacements(bin_width(scene.step_count(), EventCourse::most_bins));
-  places_.emplace(session, scene);
-  session.simulator().listen(*places_);
-  if (has_contacts(session)) session.simulator().listen(occupancy_.emplace());
-  if (has_contacts(session)) contacts_files_.emplace_back(contacts_file);
-  if (has_contacts(session) && certified) contacts_files_.emplace_back(possible_contacts_file);
-  if (!has_contacts(session) || certified) return;
+  places_.emplace(run, scene);
+  run.simulator().listen(*places_);
+  if (has_contacts(run)) run.simulator().listen(occupancy_.emplace());
+  if (has_contacts(run)) contacts_files_.emplace_back(contacts_file);
+  if (has_contacts(run) && certified) contacts_files_.emplace_back(possible_contacts_file);
+  if (!has_contacts(run) || certified) return;
   contacts_.emplace(files_->open(std::string(contacts_file)), scene);
-  session.simulator().listen(*contacts_);
+  run.simulator().listen(*contacts_);
 }
 
 void RunResults::add_certificate(const StrideCertificate& certificate, const Scene& scene) {
@@ -69,26 +69,26 @@ void RunResults::add_certificate(const StrideCertificate& certificate, const Sce
   files_->check();
 }
 
-void RunResults::begin_dump_and_log(const RunOptions& options, const Scene& scene, Session& session) {
+void RunResults::begin_dump_and_log(const RunOptions& options, const Scene& scene, KineticRun& run) {
   if (options.log) {
     log_.emplace(*options.log, options, scene);
-    session.simulator().listen(*log_);
+    run.simulator().listen(*log_);
   }
   if (!options.dump) return;
   dumps_.emplace(*options.dump);
-  if (!has_contacts(session)) return;
+  if (!has_contacts(run)) return;
   dumped_contacts_.emplace(dumps_->open_contacts());
-  session.simulator().listen(*dumped_contacts_);
+  run.simulator().listen(*dumped_contacts_);
 }
 
-void RunResults::add_frame(std::size_t frame, const Session& session) {
+void RunResults::add_frame(std::size_t frame, const KineticRun& run) {
   if (frame == 0) {
     for (ContactsCsv* const listener :
          std::array<ContactsCsv*, 3>{occupancy_ ? &*occupancy_ : nullptr, contacts_ ? &*contacts_ : nullptr,
                                      dumped_contacts_ ? &*dumped_contacts_ : nullptr})
-      if (listener != nullptr) listener->add_built(session);
+      if (listener != nullptr) listener->add_built(run);
   }
-  if (dumps_) dumps_->write(frame, session.dump(frame));
+  if (dumps_) dumps_->write(frame, run.dump(frame));
   if (view_) view_->add_frame(frame);
   if (scene_ != nullptr) displacement_.add_frame(scene_->centers(frame), scene_->stamp(frame));
 }

@@ -18,7 +18,7 @@
 #include "experiments/view/view_results.h"
 #include "kds/event_log.h"
 #include "motions/scene/scene.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 
@@ -40,14 +40,14 @@ class RunResults {
         view_path_(std::move(view)) {}
 
   /// Starts the output files of a run with these options once the input is accepted. The files listen to the
-  /// session, which must not run after this object is destroyed. The scene must remain until `end_run`. In a
+  /// run, which must not run after this object is destroyed. The scene must remain until `end_run`. In a
   /// certified run, contacts are reported with `add_certificate`.
-  void begin(const Scene& scene, Session& session, const RunOptions& options);
+  void begin(const Scene& scene, KineticRun& run, const RunOptions& options);
   /// Starts the files of --dump and --log for a run with these options. The lifetime rule of `begin` holds.
-  void begin_dump_and_log(const RunOptions& options, const Scene& scene, Session& session);
+  void begin_dump_and_log(const RunOptions& options, const Scene& scene, KineticRun& run);
   /// Adds a frame that the run has just reached. The first frame is added when the structures have been
   /// built.
-  void add_frame(std::size_t frame, const Session& session);
+  void add_frame(std::size_t frame, const KineticRun& run);
   /// Adds the number of events of a structure in the step that starts at this frame.
   void add_step(const FrameStamp& frame, std::string_view structure, std::uint64_t events);
   /// Completes the page that shows the run. Must be called when all steps have been run.

@@ -126,7 +126,7 @@ void add_round(ParallelRun& run, Times& times) {
 // Follows the closest approach in a part of a run.
 class ApproachOfPart final : public FrameObserver {
  public:
-  ApproachOfPart(KineticRun& part, std::size_t closest) : part_(part), approach_(part.session(), closest) {}
+  ApproachOfPart(KineticRun& part, std::size_t closest) : part_(part), approach_(part, closest) {}
   void at_frame(std::size_t frame) override {
     began_ ? approach_.end_step(part_.scene().frame_number(frame - 1)) : approach_.begin();
     began_ = true;
@@ -169,18 +169,17 @@ void watch_exact_work(ParallelRun& run, const std::function<void(const std::stri
   });
 }
 
-StepCounts::StepCounts(Session& session, const Scene& scene)
-    : session_(session),
+StepCounts::StepCounts(KineticRun& run, const Scene& scene)
+    : run_(run),
       scene_(scene),
-      courses_(session.structures().size(),
-               EventCourse(bin_width(scene.step_count(), EventCourse::most_bins))) {}
+      courses_(run.structures().size(), EventCourse(bin_width(scene.step_count(), EventCourse::most_bins))) {}
 
-void StepCounts::begin() { contacts_at_start_ = contacts_at(session_, 0); }
+void StepCounts::begin() { contacts_at_start_ = contacts_at(run_, 0); }
 
 void StepCounts::end_step(std::size_t step, RunResults* results) {
   const FrameStamp stamp = scene_.stamp(step);
   for (std::size_t s = 0; s < courses_.size(); ++s) {
-    KineticStructure& structure = *session_.structures()[s];
+    KineticStructure& structure = *run_.structures()[s];
     std::vector<std::uint64_t>& events_per_step = structure.statistics.events_per_step;
     const std::uint64_t events = events_per_step.empty() ? 0 : events_per_step.back();
     events_per_step.clear();
@@ -211,7 +210,7 @@ void run_steps(ParallelRun& run, const RunOptions& options,
 }
 
 void follow_approach(ParallelRun& run) {
-  const auto closest = place_of_closest(run.session());
+  const auto closest = place_of_closest(run.whole());
   if (closest)
     run.observe([at = *closest](KineticRun& part) { return std::make_unique<ApproachOfPart>(part, at); });
 }
@@ -244,22 +243,22 @@ RunReport run_scene(const RunOptions& options, const Progress& progress,
   if (!options.quiet) watch_exact_work(*run, warn);
   ProgressWithinSteps within(progress, options.rounds * scene.step_count());
   if (options.audit == AuditMode::events) run->listen(within);
-  StepCounts counts(run->session(), scene);
+  StepCounts counts(run->whole(), scene);
   follow_approach(*run);
-  results.begin(scene, run->session(), options);
-  results.begin_dump_and_log(options, scene, run->session());
+  results.begin(scene, run->whole(), options);
+  results.begin_dump_and_log(options, scene, run->whole());
 
   run_steps(*run, options, [&](std::size_t frame) {
     if (frame == 0) warnings.release(warn);
     if (frame == 0) counts.begin();
-    results.add_frame(frame, run->session());
+    results.add_frame(frame, run->whole());
     if (frame == 0) return;
     counts.end_step(frame - 1, &results);
     progress(frame, 0, options.rounds * scene.step_count());
   });
 
   results.end_run();
-  RunReport report = report_of(run->session(), scene, options, counts);
+  RunReport report = report_of(run->whole(), scene, options, counts);
   report.threads = run->threads();
   report.parts = run->parts();
   complete_report(options, scene, followed_approach(*run), warn, report);

@@ -19,7 +19,6 @@
 #include "motions/scene/scene.h"
 #include "structures/session/kinetic_run.h"
 #include "structures/session/parallel_run.h"
-#include "structures/session/session.h"
 
 namespace kds {
 
@@ -40,20 +39,20 @@ void watch_exact_work(ParallelRun& run, const std::function<void(const std::stri
 /// steps.
 class StepCounts {
  public:
-  /// `session` and `scene` must outlive this object.
-  StepCounts(Session& session, const Scene& scene);
+  /// `run` and `scene` must outlive this object.
+  StepCounts(KineticRun& run, const Scene& scene);
 
   /// Counts the contacts at the first frame. Call it once the structures have been built.
   void begin();
   /// Folds the events of a finished step, and writes them to `results` if a file takes them.
   void end_step(std::size_t step, RunResults* results);
-  /// In the order of the session's structures.
+  /// In the order of the run's structures.
   [[nodiscard]] const std::vector<EventCourse>& courses() const { return courses_; }
-  /// Returns the number of pairs in contact at the first frame, or nothing if the session has no contacts.
+  /// Returns the number of pairs in contact at the first frame, or nothing if the run has no contacts.
   [[nodiscard]] std::optional<std::uint64_t> contacts_at_start() const { return contacts_at_start_; }
 
  private:
-  Session& session_;
+  KineticRun& run_;
   const Scene& scene_;
   std::vector<EventCourse> courses_;
   std::optional<std::uint64_t> contacts_at_start_;

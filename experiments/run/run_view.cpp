@@ -12,7 +12,7 @@ namespace kds {
 void write_run_view(const RunOptions& options, const Scene& scene, const std::filesystem::path& page,
                     AtomicFiles& files, const std::function<void(std::size_t, std::size_t)>& progress) {
   const auto run = open_run(options, scene, AuditMode::none);
-  ReplayRecorder recorder(run->session());
+  ReplayRecorder recorder(*run);
   run->listen(recorder);
   run_steps(*run, options, [&](std::size_t frame) {
     frame == 0 ? recorder.begin() : recorder.reach_frame();

@@ -141,7 +141,7 @@ std::string write_view(const ViewOptions& options, std::size_t stride, std::size
   labels.stride = stride;
   ViewRequest request{options.page, options.quantum, {}, options.vtk, options.script, options.at};
   request.most_bytes = static_cast<std::uint64_t>(options.most_megabytes * kMegabyte);
-  ViewResults view(request, labels, scene, run->session());
+  ViewResults view(request, labels, scene, *run);
   run_steps(*run, run_options, [&](std::size_t frame) {
     view.add_frame(frame);
     bar.update(frame, 0, scene.step_count());

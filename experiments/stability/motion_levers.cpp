@@ -178,7 +178,7 @@ Pairs pairs_met(const Scene& scene) {
   EventLog log;
   run.listen(log);
   run.build();
-  for (const Event& event : run.session().built(0)) log.on_event(event);
+  for (const Event& event : run.built(0)) log.on_event(event);
   run.finish();
   Pairs pairs;
   for (const Event& event : log.events)

@@ -138,8 +138,8 @@ class Sampler final : public FrameObserver {
 
  private:
   void take(std::size_t time, std::size_t step, double u) {
-    Sample& sample = samples.emplace_back(Sample{time, step, u, run_.session().spheres_at(0, Dyadic(u)), {}});
-    if (has_cells_ && time % parts_of_frame != 0) sample.cells = run_.session().elements(0, step + 1);
+    Sample& sample = samples.emplace_back(Sample{time, step, u, run_.spheres_at(0, Dyadic(u)), {}});
+    if (has_cells_ && time % parts_of_frame != 0) sample.cells = run_.elements(0, step + 1);
   }
 
   KineticRun& run_;
@@ -350,7 +350,7 @@ std::vector<ContactTime> contacts_with(const FinestData& finest, const TradeSett
   run.listen(recorder);
   std::vector<BeadPair> built;
   run.run([&](std::size_t frame) {
-    if (frame == 0) built = pairs_of(run.session().built(0));
+    if (frame == 0) built = pairs_of(run.whole().built(0));
   });
   return contact_times(built, recorder.events, 0, static_cast<double>(clock.frame(clock.steps())));
 }
@@ -385,7 +385,7 @@ FollowedRun follow_run(const FinestData& finest, const TradeSetting& setting, Tr
   std::vector<BeadPair> built;
   run.run([&](std::size_t frame) {
     if (frame == 0) {
-      built = pairs_of(run.session().built(0));
+      built = pairs_of(run.whole().built(0));
       return;
     }
     auto& samples = dynamic_cast<Sampler&>(*run.observer()).samples;

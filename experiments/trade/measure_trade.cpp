@@ -35,7 +35,7 @@ double seconds_of_one(const Scene& scene, const TradeSetting& setting, TradeCost
   });
   run.finish();
   const double loading = processor_seconds_of([&] {
-    for (std::size_t step = 1; step < scene.step_count(); ++step) run.session().load(step);
+    for (std::size_t step = 1; step < scene.step_count(); ++step) run.motion()->load(step);
   });
   const std::uint64_t after = bytes_in_use();
   cost.memory = std::max(cost.memory, after > before ? after - before : 0);

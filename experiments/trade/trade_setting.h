@@ -12,7 +12,7 @@
 
 #include "motions/frames/frame_selection.h"
 #include "motions/scene/scene.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds {
 

@@ -197,7 +197,7 @@ std::string bild_scene(const ShownFrame& frame) {
 
 }  // namespace
 
-ShownFrame shown_frame(std::size_t frame, const Scene& scene, const Session& session,
+ShownFrame shown_frame(std::size_t frame, const Scene& scene, const KineticRun& run,
                        const ReplayRecorder& recorder) {
   ShownFrame shown;
   shown.stamp = scene.stamp(frame);
@@ -218,7 +218,7 @@ ShownFrame shown_frame(std::size_t frame, const Scene& scene, const Session& ses
       const std::string_view name = structure.layers[l].layer.name;
       const std::vector<ReplayElement> elements = recorder.elements(s, l);
       if (name == "cages") {
-        const std::vector<NodeSphere> spheres = session.spheres_at(s, Dyadic(frame == 0 ? 0.0 : 1.0));
+        const std::vector<NodeSphere> spheres = run.spheres_at(s, Dyadic(frame == 0 ? 0.0 : 1.0));
         for (std::size_t k = 0; k < spheres.size(); ++k)
           shown.cages.push_back({spheres[k].range, structure.nodes[elements[k][0]].level,
                                  scene.in_input(spheres[k].sphere.center), spheres[k].sphere.radius});

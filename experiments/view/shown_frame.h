@@ -13,8 +13,8 @@
 #include "experiments/output/output_files.h"
 #include "motions/frames/frame_stamp.h"
 #include "motions/scene/scene.h"
+#include "structures/session/kinetic_run.h"
 #include "structures/session/replay_recorder.h"
-#include "structures/session/session.h"
 
 namespace kds {
 
@@ -38,7 +38,7 @@ struct ShownFrame {
 
 /// Returns the state of the run at the frame that it has just reached. At frame 0 the structures have just
 /// been built.
-[[nodiscard]] ShownFrame shown_frame(std::size_t frame, const Scene& scene, const Session& session,
+[[nodiscard]] ShownFrame shown_frame(std::size_t frame, const Scene& scene, const KineticRun& run,
                                      const ReplayRecorder& recorder);
 
 /// VTK files of all frames, and replay.pvd, which lists these files with their times (docs/formats.md). A

@@ -9,8 +9,8 @@
 namespace kds {
 
 ViewResults::ViewResults(const ViewRequest& request, const ReplayLabels& labels, const Scene& scene,
-                         Session& session)
-    : request_(request), scene_(scene), session_(session), recorder_(session) {
+                         KineticRun& run)
+    : request_(request), scene_(scene), run_(run), recorder_(run) {
   if (request_.script) find_script_frame(labels.stride);
   if (request_.page) {
     page_.emplace(files_.open(*request_.page), scene,
@@ -19,7 +19,7 @@ ViewResults::ViewResults(const ViewRequest& request, const ReplayLabels& labels,
     files_.check();
   }
   if (request_.vtk) vtk_.emplace(*request_.vtk);
-  session.simulator().listen(recorder_);
+  run.simulator().listen(recorder_);
 }
 
 void ViewResults::find_script_frame(std::size_t stride) {
@@ -45,7 +45,7 @@ void ViewResults::add_frame(std::size_t frame) {
   frame == 0 ? recorder_.begin() : recorder_.reach_frame();
   const bool in_script = request_.script && frame == script_frame_;
   if (!vtk_ && !in_script) return;
-  const ShownFrame shown = shown_frame(frame, scene_, session_, recorder_);
+  const ShownFrame shown = shown_frame(frame, scene_, run_, recorder_);
   if (vtk_) vtk_->add(shown);
   if (in_script) files_.write(*request_.script, scene_script(*request_.script, shown));
 }

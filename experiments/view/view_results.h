@@ -12,8 +12,8 @@
 #include "experiments/view/replay_page.h"
 #include "experiments/view/shown_frame.h"
 #include "motions/scene/scene.h"
+#include "structures/session/kinetic_run.h"
 #include "structures/session/replay_recorder.h"
-#include "structures/session/session.h"
 
 namespace kds {
 
@@ -28,10 +28,10 @@ struct ViewRequest {
 
 class ViewResults {
  public:
-  /// Starts the files and listens to the session, whose structures must not have been built. The scene and
-  /// the session must outlive this object. Throws InputError if the request does not suit the scene, and
+  /// Starts the files and listens to the run, whose structures must not have been built. The scene and
+  /// the run must outlive this object. Throws InputError if the request does not suit the scene, and
   /// ReplayTooLarge.
-  ViewResults(const ViewRequest& request, const ReplayLabels& labels, const Scene& scene, Session& session);
+  ViewResults(const ViewRequest& request, const ReplayLabels& labels, const Scene& scene, KineticRun& run);
 
   /// Adds a frame that the run has just reached. The first frame is added when the structures are built.
   void add_frame(std::size_t frame);
@@ -50,7 +50,7 @@ class ViewResults {
 
   ViewRequest request_;
   const Scene& scene_;
-  Session& session_;
+  KineticRun& run_;
   ReplayRecorder recorder_;
   AtomicFiles files_;
   std::optional<ReplayPage> page_;

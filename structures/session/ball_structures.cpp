@@ -12,7 +12,7 @@
 #include "structures/necklace/pairs_in_question.h"
 #include "structures/power_diagram/power_diagram.h"
 #include "structures/session/own_structures.h"
-#include "structures/session/session.h"
+#include "structures/session/structure_spec.h"
 #include "structures/triangulation/diagram_edges.h"
 #include "structures/triangulation/static_build.h"
 

@@ -16,7 +16,7 @@
 #include "structures/hierarchy/box_hierarchy.h"
 #include "structures/hierarchy/wrapped_hierarchy.h"
 #include "structures/session/own_structures.h"
-#include "structures/session/session.h"
+#include "structures/session/structure_spec.h"
 #include "structures/triangulation/static_build.h"
 
 namespace kds {

@@ -1,13 +1,15 @@
 #include "structures/session/kinetic_run.h"
 
 #include <fmt/format.h>
-#include <string>
 
+#include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 
 #include "certificates/exact/exact_time.h"
 #include "kds/kinetic_structure.h"
+#include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
 #include "structures/session/scene_motion.h"
 
@@ -57,42 +59,107 @@ std::array<double, 3> control_point(const SceneMotion::Ref& motion, BeadId bead,
   return point;
 }
 
-}  // namespace
-
-KineticRun::KineticRun(PushedFrames frames, const SessionOptions& options)
-    : own_scene_(std::make_unique<Scene>(std::move(frames))), scene_(*own_scene_), options_(options) {
-  make_session();
+std::string names_of_all() {
+  std::string names;
+  for (const StructureSpec& spec : structure_registry().all())
+    names += (names.empty() ? "" : ", ") + spec.name;
+  return names;
 }
 
-KineticRun::KineticRun(const Scene& scene, const SessionOptions& options) : scene_(scene), options_(options) {
-  make_session();
+}  // namespace
+
+KineticRun::KineticRun(PushedFrames frames, const KineticRunOptions& options)
+    : own_scene_(std::make_unique<Scene>(std::move(frames))), scene_(*own_scene_), options_(options) {
+  make();
+}
+
+KineticRun::KineticRun(const Scene& scene, const KineticRunOptions& options)
+    : scene_(scene), options_(options) {
+  make();
 }
 
 KineticRun::KineticRun(const SceneMotion::Ref& motion, const BeadsOfMotion& beads,
-                       const SessionOptions& options)
+                       const KineticRunOptions& options)
     : own_scene_(std::make_unique<Scene>(without_frames(motion, beads))),
       scene_(*own_scene_),
       motion_(motion),
       options_(options) {
-  make_session();
+  make();
 }
 
 KineticRun::~KineticRun() = default;
 
-void KineticRun::make_session() {
-  session_ = motion_ ? std::make_unique<Session>(scene_, *motion_, options_)
-                     : std::make_unique<Session>(scene_, options_);
-  for (const auto& addition : additions_) addition(*session_);
+KineticRun::KineticRun(const Scene& scene, const SceneMotion::Ref& motion, const KineticRunOptions& options)
+    : scene_(scene), motion_(motion), options_(options) {
+  make();
+}
+
+void KineticRun::make() {
+  kinetic_.clear();
+  running_.clear();
+  simulator_ = std::make_unique<Simulator>(options_.audits, options_.kernel);
+  if (!motion_) scene_motion_ = make_scene_motion(scene_);
+  ref_ = motion_ ? *motion_ : scene_motion_->ref();
+  make_by_name();
+  for (const auto& addition : additions_) addition();
   simulator().exact_work().set_limit(most_work_);
   if (work_watcher_) simulator().exact_work().set_watcher(work_watcher_, watch_every_);
   built_ = loaded_ = within_ = finished_ = false;
   bends_.clear();
 }
 
-void KineticRun::plan(std::function<void(Session&)> addition) {
+void KineticRun::plan(std::function<void()> addition) {
   if (built_) throw std::logic_error("structures are chosen before the first step is run");
-  addition(*session_);
+  addition();
   additions_.push_back(std::move(addition));
+}
+
+void KineticRun::make_by_name() {
+  const FloatingPointGuard to_nearest;
+  const std::vector<std::string> names =
+      options_.structures.empty() && options_.by_default ? default_structures(scene_) : options_.structures;
+  for (const std::string& name : names) {
+    const StructureSpec* spec = structure_registry().find(name);
+    if (spec == nullptr)
+      throw StructureRefusal(name, "there is no such structure; expected " + names_of_all());
+    if (const auto reason = spec->refusal(scene_)) throw StructureRefusal(name, *reason);
+  }
+  const auto is_named = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const auto& [name, beads] : options_.only)
+    if (!is_named(name)) throw StructureRefusal(name, "is to be of some beads only, and is not in the run");
+  for (const StructureSpec& spec : structure_registry().all()) {  // in the registry's order
+    if (!is_named(spec.name)) continue;
+    add_made(spec.make(simulator(), scene_, *ref_, options_.settings));
+    if (const auto only = options_.only.find(spec.name); only != options_.only.end())
+      leave_out_others(running_.size() - 1, only->second);
+  }
+}
+
+void KineticRun::add_made(std::unique_ptr<RunningStructure> structure) {
+  if (structure == nullptr)
+    throw StructureRefusal("a structure", "its type is not made for motions in " +
+                                              std::to_string(scene_.dimension()) + " dimensions");
+  running_.push_back(std::move(structure));
+  kinetic_.push_back(&running_.back()->kinetic());
+}
+
+void KineticRun::leave_out_others(std::size_t structure, std::span<const BeadId> beads) {
+  require_index("structure", structure, kinetic_.size());
+  KineticStructure& kept = *kinetic_[structure];
+  const std::string name(kept.name());
+  BeadEdits* const edits = edits_of(kept);
+  if (edits == nullptr) throw StructureRefusal(name, "is of all beads; it cannot be of some only");
+  std::vector<char> among(scene_.bead_count(), 0);
+  for (const BeadId bead : beads) {
+    if (bead >= among.size()) throw StructureRefusal(name, no_such_index("bead", bead, among.size()));
+    if (edits->is_absent(bead))
+      throw StructureRefusal(name, "bead " + std::to_string(bead) + " is left out already");
+    among[bead] = 1;
+  }
+  for (BeadId bead = 0; bead < among.size(); ++bead)
+    if (among[bead] == 0 && !edits->is_absent(bead)) edits->leave_out(bead);
 }
 
 void KineticRun::listen(EventListener& listener) {
@@ -112,15 +179,18 @@ void KineticRun::watch_work(std::function<void()> watcher, std::uint64_t every) 
 }
 
 bool KineticRun::can_enter() const {
-  return !finished_ && (motion_ || session_->simulator().step() < scene_.known_steps());
+  return !finished_ && (motion_ || simulator_->step() < scene_.known_steps());
 }
 
 /// Sets the motion to the next step. A motion that the user sets is checked each time, because the user may
 /// have changed it.
 void KineticRun::load() {
   if (motion_) return check_radii();
-  if (!loaded_) session_->load(simulator().step());
-  loaded_ = true;
+  if (std::exchange(loaded_, true)) return;
+  const FloatingPointGuard to_nearest;
+  const std::size_t step = simulator().step();
+  scene_motion_->load(step);
+  simulator().set_frames(scene_.stamp(step), scene_.stamp(step + 1));
 }
 
 void KineticRun::build() {
@@ -174,10 +244,10 @@ void KineticRun::check_radii() const {
 /// continue from there.
 void KineticRun::check_bends() const {
   for (const Bend& bend : bends_) {
-    if (control_point(session_->motion()->ref(), bend.bead, false) != bend.end)
+    if (control_point(scene_motion_->ref(), bend.bead, false) != bend.end)
       throw InputError(
           fmt::format("bead {}: its course was changed in step {}, and does not end where frame {} has it",
-                      bend.bead, session_->simulator().step() - 1, session_->simulator().step()));
+                      bend.bead, simulator_->step() - 1, simulator_->step()));
   }
 }
 
@@ -258,10 +328,10 @@ void KineticRun::go_to(double time) {
   const bool is_past = step < present || (step == present && within_ &&
                                           ExactTime::compare(there, simulator().now().exact()) < 0);
   if (!is_past) return go_on_to(step, u);
-  if (own_scene_)
+  if (own_scene_ || !built_)
     throw std::invalid_argument(
         fmt::format("time {}: the run is past it, and its steps are not kept; expected a later one", time));
-  make_session();
+  make();
   struct TellAgain {  // listeners are not notified of events before that time
     KineticRun& run;
     ~TellAgain() {
@@ -328,15 +398,64 @@ void KineticRun::change_motion(std::vector<BeadId> beads,
     throw std::logic_error("over a motion that its user sets, Simulator::change_motion changes courses");
   edit([this, kept = std::move(beads), set_curves] {
     simulator().require_standing_still();
-    NewCourses courses(*session_->motion(), kept);
+    NewCourses courses(*scene_motion_, kept);
     set_curves(courses);  // if this throws, nothing has changed yet
     courses.hold_back();
     simulator().change_motion(kept, [&] { courses.set_for_good(); });
     for (const BeadId bead : kept) {
       std::erase_if(bends_, [bead](const Bend& bend) { return bend.bead == bead; });
-      bends_.push_back({bead, control_point(session_->motion()->ref(), bead, true)});
+      bends_.push_back({bead, control_point(scene_motion_->ref(), bead, true)});
     }
   });
+}
+
+std::vector<Event> KineticRun::built(std::size_t structure) const {
+  require_index("structure", structure, kinetic_.size());
+  std::vector<Event> events;
+  const KineticStructure& of = *kinetic_[structure];
+  const FrameStamp first = scene_.stamp(0);
+  for (const Change& change : running_[structure]->built())
+    events.push_back({0, 0, 0, structure, change, of.name(), of.kinds()[change.kind], first, first, {}});
+  return events;
+}
+
+std::vector<DumpFile> KineticRun::dump(std::size_t frame) const {
+  const FloatingPointGuard to_nearest;
+  require_index("frame", frame, scene_.frame_count());
+  std::vector<DumpFile> files;
+  for (const auto& structure : running_) {
+    for (DumpFile& file : structure->dump(frame)) files.push_back(std::move(file));
+  }
+  return files;
+}
+
+std::vector<NodeSphere> KineticRun::spheres_at(std::size_t structure, const Dyadic& u) const {
+  const FloatingPointGuard to_nearest;
+  require_index("structure", structure, running_.size());
+  return running_[structure]->spheres_at(u);
+}
+
+std::optional<CombinatorialElements> KineticRun::elements(std::size_t structure, std::size_t frame) const {
+  const FloatingPointGuard to_nearest;
+  require_index("structure", structure, running_.size());
+  require_index("frame", frame, scene_.frame_count());
+  return running_[structure]->elements(frame);
+}
+
+void KineticRun::follow_certificates() {
+  for (const auto& structure : running_) structure->follow_certificates();
+}
+
+void KineticRun::count_certificates(std::size_t structure, std::span<const BeadId> changed) {
+  require_index("structure", structure, running_.size());
+  running_[structure]->count_certificates(changed);
+}
+
+void KineticRun::time_static_builds(std::size_t frame, std::vector<double>& seconds) const {
+  const FloatingPointGuard to_nearest;
+  require_index("frame", frame, scene_.frame_count());
+  seconds.resize(running_.size(), 0);
+  for (std::size_t s = 0; s < running_.size(); ++s) seconds[s] += running_[s]->static_seconds(frame);
 }
 
 }  // namespace kds

@@ -16,19 +16,34 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "certificates/exact/exact_work.h"
 #include "motions/base/require_index.h"
-#include "structures/session/session.h"
+#include "structures/session/structure_spec.h"
 
 namespace kds {
 
 class BeadEdits;
+
+struct KineticRunOptions {
+  std::vector<std::string> structures = {};  ///< by name; if empty, see `by_default`
+  Kernel kernel = Kernel::filtered;
+  AuditMode audits = AuditMode::none;
+  StructureSettings settings = {};
+  bool by_default = true;  ///< if no name is given: whether the scene's default structures are used
+  /// The beads of each structure that contains only some beads, by the structure's name.
+  std::map<std::string, std::vector<BeadId>, std::less<>> only = {};
+};
 
 /// The beads of a motion that the user sets.
 struct BeadsOfMotion {
@@ -38,33 +53,60 @@ struct BeadsOfMotion {
   std::vector<double> radii = {};
 };
 
+/// A structure for which a run needs nothing beyond the interface to the simulator.
+template <class Structure>
+class StructureByType final : public RunningStructure {
+ public:
+  template <class... Arguments>
+  explicit StructureByType(Arguments&&... arguments) : structure_(std::forward<Arguments>(arguments)...) {}
+  [[nodiscard]] KineticStructure& kinetic() override { return structure_; }
+  [[nodiscard]] std::vector<DumpFile> dump(std::size_t) const override { return {}; }
+  [[nodiscard]] bool can_be_cut() const override {
+    return requires { structure_.state(); };
+  }
+  [[nodiscard]] std::optional<std::vector<BeadId>> state() const override {
+    if constexpr (requires { structure_.state(); }) return structure_.state();
+    return std::nullopt;
+  }
+  [[nodiscard]] std::vector<Change> built() const override {
+    if constexpr (requires { structure_.built(); }) return structure_.built();
+    return {};
+  }
+  [[nodiscard]] double static_seconds(std::size_t) const override { return 0; }
+
+ private:
+  Structure structure_;
+};
+
+/// Throws std::invalid_argument for any index of a structure, frame or step that is too large; the message
+/// says how many there are.
 class KineticRun {
  public:
-  /// A run over frames that are pushed. Throws InputError or StructureRefusal (session.h).
-  KineticRun(PushedFrames frames, const SessionOptions& options);
+  /// A run over frames that are pushed. Throws StructureRefusal, or InputError if the
+  /// motion is refused.
+  KineticRun(PushedFrames frames, const KineticRunOptions& options);
   /// A run over a scene, which must outlive the run.
-  KineticRun(const Scene& scene, const SessionOptions& options);
+  KineticRun(const Scene& scene, const KineticRunOptions& options);
   /// Runs over a motion that the caller sets to each step before the step is run. The motion must outlive the
   /// run.
-  KineticRun(const SceneMotion::Ref& motion, const BeadsOfMotion& beads, const SessionOptions& options);
+  KineticRun(const SceneMotion::Ref& motion, const BeadsOfMotion& beads, const KineticRunOptions& options);
   KineticRun(const KineticRun&) = delete;
   KineticRun& operator=(const KineticRun&) = delete;
   ~KineticRun();
 
   /// Adds a structure by its type, constructed from the simulator, the motion and these arguments, which are
-  /// kept. Must be called before the first step. References to structures remain valid until the run goes
-  /// back in time.
+  /// kept. Must be called before the first step. Throws StructureRefusal if the structure has no constructor
+  /// for motions of this dimension. References to structures remain valid until the run goes back in time.
   template <std::derived_from<KineticStructure> Structure, class... Arguments>
-  Structure& add(const Arguments&... arguments) {
-    plan([=](Session& session) { session.add<Structure>(arguments...); });
-    return structure<Structure>(structures().size() - 1);
-  }
-  /// Restricts a structure, given by its index, to these beads. Must be called before the first step.
+  Structure& add(const Arguments&... arguments);
+  /// Restricts a structure, given by its index, to these beads. Must be called before the first step. Throws
+  /// StructureRefusal, and changes nothing, if beads of this structure cannot be left out, if a bead does not
+  /// exist, or if a bead is left out already.
   void keep_only(std::size_t structure, std::vector<BeadId> beads) {
-    plan([structure, kept = std::move(beads)](Session& session) { session.keep_only(structure, kept); });
+    plan([this, structure, kept = std::move(beads)] { leave_out_others(structure, kept); });
   }
   /// Returns the structures in the order in which they were added; structures chosen by name come first.
-  [[nodiscard]] const std::vector<KineticStructure*>& structures() const { return session_->structures(); }
+  [[nodiscard]] const std::vector<KineticStructure*>& structures() const { return kinetic_; }
   /// Returns a structure by index and type. Throws std::invalid_argument if there is no structure with this
   /// index or if it has another type.
   template <class Structure>
@@ -75,8 +117,10 @@ class KineticRun {
     return *found;
   }
   [[nodiscard]] const Scene& scene() const { return scene_; }
-  [[nodiscard]] Simulator& simulator() { return session_->simulator(); }
-  [[nodiscard]] Session& session() { return *session_; }
+  /// Returns the simulator. Going back in time replaces it, so references to it are then no longer valid.
+  [[nodiscard]] Simulator& simulator() { return *simulator_; }
+  /// Returns the motion of the present step, or null if the user sets the motion.
+  [[nodiscard]] SceneMotion* motion() { return scene_motion_.get(); }
 
   /// Adds a listener, which is notified of all events from now on. The listener must outlive the run.
   void listen(EventListener& listener);
@@ -113,7 +157,7 @@ class KineticRun {
   /// Runs forward to a time. A run over a scene can also go back: it is then repeated from the start,
   /// including edits, without notifying listeners until that time; listeners are notified again of all later
   /// events. Edits after that time are forgotten. Only edits made by the functions below are repeated, not
-  /// changes made directly on structures, session or simulator. Throws std::invalid_argument if the time is
+  /// changes made directly on structures or simulator. Throws std::invalid_argument if the time is
   /// outside the known steps.
   void go_to(double time);
   /// Ends the frames: no step follows.
@@ -142,12 +186,44 @@ class KineticRun {
   /// Over a motion that the user sets, use Simulator::change_motion instead.
   void change_motion(std::vector<BeadId> beads, const std::function<void(SceneMotion&)>& set_curves);
 
+  // Results where the run stands. Structures are given by their indices.
+
+  /// Returns a structure with what runs, dumps and replays know about it.
+  [[nodiscard]] const RunningStructure& running(std::size_t structure) const {
+    require_index("structure", structure, running_.size());
+    return *running_[structure];
+  }
+  /// Returns the dumps of all structures at a frame just reached (frame 0: just built).
+  [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const;
+  /// Returns the changes that build a structure from nothing (RunningStructure::built), as events at the
+  /// first frame.
+  [[nodiscard]] std::vector<Event> built(std::size_t structure) const;
+  /// Returns the spheres of a structure's nodes now, at time u of the step (RunningStructure::spheres_at).
+  [[nodiscard]] std::vector<NodeSphere> spheres_at(std::size_t structure, const Dyadic& u) const;
+  /// Returns the combinatorial elements of a structure, which can be compared from frame to frame
+  /// (RunningStructure::elements).
+  [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t structure, std::size_t frame) const;
+  /// Follows, from the next step on, how many certificates name each bead (RunningStructure).
+  void follow_certificates();
+  /// Updates the per_bead_max of a structure after events that named the beads `changed`.
+  void count_certificates(std::size_t structure, std::span<const BeadId> changed);
+  /// Builds all structures statically at a frame, and adds the time of each to its entry in `seconds`.
+  void time_static_builds(std::size_t frame, std::vector<double>& seconds) const;
+
  private:
+  friend class ParallelRun;  // its whole run shows structures that other runs have
   struct Edit;
   struct Bend;
 
-  void plan(std::function<void(Session&)> addition);
-  void make_session();
+  /// A run over a scene, whose motion is set by another run.
+  KineticRun(const Scene& scene, const SceneMotion::Ref& motion, const KineticRunOptions& options);
+
+  void plan(std::function<void()> addition);
+  /// Makes the motion, the simulator and the structures, as they are before the first step.
+  void make();
+  void make_by_name();
+  void add_made(std::unique_ptr<RunningStructure> structure);
+  void leave_out_others(std::size_t structure, std::span<const BeadId> beads);
   [[nodiscard]] bool can_enter() const;
   void load();
   void enter();
@@ -164,15 +240,44 @@ class KineticRun {
   std::unique_ptr<Scene> own_scene_;
   const Scene& scene_;
   std::optional<SceneMotion::Ref> motion_;  // set by the user
-  SessionOptions options_;
-  std::vector<std::function<void(Session&)>> additions_;
+  KineticRunOptions options_;
+  std::vector<std::function<void()>> additions_;
   std::vector<EventListener*> listeners_;
   std::uint64_t most_work_ = ExactWork::no_limit, watch_every_ = 0;
   std::function<void()> work_watcher_;
-  std::unique_ptr<Session> session_;
+  std::unique_ptr<SceneMotion> scene_motion_;  // null if the user sets the motion
+  std::optional<SceneMotion::Ref> ref_;        // to either
+  std::unique_ptr<Simulator> simulator_;
+  std::vector<std::unique_ptr<RunningStructure>> running_;
+  std::vector<KineticStructure*> kinetic_;
   bool built_ = false, loaded_ = false, within_ = false, finished_ = false;
   std::vector<Edit> edits_;
   std::vector<Bend> bends_;  // in this step or the previous one
 };
+
+template <std::derived_from<KineticStructure> Structure, class... Arguments>
+Structure& KineticRun::add(const Arguments&... arguments) {
+  static_assert(
+      !std::is_abstract_v<Structure>,
+      "the structure lacks a function of kds::KineticStructure that has to be its own: it is abstract");
+  static_assert(
+      std::is_abstract_v<Structure> ||
+          std::constructible_from<Structure, Simulator&, const MotionRef<1>&, const Arguments&...> ||
+          std::constructible_from<Structure, Simulator&, const MotionRef<2>&, const Arguments&...> ||
+          std::constructible_from<Structure, Simulator&, const MotionRef<3>&, const Arguments&...>,
+      "the structure needs a constructor from (kds::Simulator&, const kds::MotionRef<D>&, and the "
+      "arguments of `add`)");
+  plan([=, this] {
+    add_made(std::visit(
+        [&]<int Dimension>(const MotionRef<Dimension>& motion) -> std::unique_ptr<RunningStructure> {
+          if constexpr (std::constructible_from<Structure, Simulator&, const MotionRef<Dimension>&,
+                                                const Arguments&...>)
+            return std::make_unique<StructureByType<Structure>>(simulator(), motion, arguments...);
+          return nullptr;
+        },
+        *ref_));
+  });
+  return static_cast<Structure&>(*kinetic_.back());
+}
 
 }  // namespace kds

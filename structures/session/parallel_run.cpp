@@ -149,7 +149,7 @@ class ParallelRun::Recorder final : public EventListener {
 
 /// A run of one or more parts, one after the other.
 struct ParallelRun::Worker {
-  Worker(const Scene& whole, const SessionOptions& options,
+  Worker(const Scene& whole, const KineticRunOptions& options,
          const std::vector<std::function<void(KineticRun&)>>& additions,
          const std::vector<EventListener*>& listeners)
       : Worker(whole, std::make_unique<FrameRanges>(whole.frames()->necklaces()), options, listeners) {
@@ -163,7 +163,7 @@ struct ParallelRun::Worker {
   std::unique_ptr<FrameObserver> observer = nullptr;
 
  private:
-  Worker(const Scene& whole, std::unique_ptr<FrameRanges> ranges, const SessionOptions& options,
+  Worker(const Scene& whole, std::unique_ptr<FrameRanges> ranges, const KineticRunOptions& options,
          const std::vector<EventListener*>& listeners)
       : frames(*ranges),
         scene(whole.over(std::move(ranges))),
@@ -175,7 +175,7 @@ struct ParallelRun::Worker {
   }
 };
 
-/// A structure of the joined session. It shows what the frame just reached has.
+/// A structure of the joined run. It shows what the frame just reached has.
 class ParallelRun::Joined final : public RunningStructure {
  public:
   Joined(Simulator& simulator, const KineticStructure& like) : structure_(like) { simulator.add(structure_); }
@@ -285,7 +285,8 @@ class ParallelRun::Workers {
   std::vector<std::thread> threads_;
 };
 
-ParallelRun::ParallelRun(const Scene& scene, const SessionOptions& options, const ParallelOptions& parallel)
+ParallelRun::ParallelRun(const Scene& scene, const KineticRunOptions& options,
+                         const ParallelOptions& parallel)
     : scene_(scene),
       options_(options),
       parallel_(parallel),
@@ -305,7 +306,7 @@ void ParallelRun::decide() {
     uncut_ = "its input is a single step";
   } else {
     for (std::size_t s = 0; s < own_->structures().size() && !uncut_; ++s)
-      if (!own_->session().running(s).can_be_cut())
+      if (!own_->running(s).can_be_cut())
         uncut_ = fmt::format("{} has no state at a frame from which a part could start",
                              own_->structures()[s]->name());
   }
@@ -316,22 +317,22 @@ void ParallelRun::decide() {
     threads_ = 1;
     return;
   }
-  SessionOptions none;
+  KineticRunOptions none;
   none.by_default = false;
   none.kernel = options_.kernel;
-  joined_ = std::make_unique<Session>(scene_, own_->session().motion()->ref(), none);
+  joined_.reset(new KineticRun(scene_, own_->motion()->ref(), none));
   for (const KineticStructure* const structure : own_->structures()) {
     auto joined = std::make_unique<Joined>(joined_->simulator(), *structure);
     structures_.push_back(joined.get());
-    joined_->add_running(std::move(joined));
+    joined_->add_made(std::move(joined));
   }
 }
 
 ParallelRun::~ParallelRun() = default;
 
-Session& ParallelRun::session() {
+KineticRun& ParallelRun::whole() {
   decide();
-  return joined_ ? *joined_ : own_->session();
+  return joined_ ? *joined_ : *own_;
 }
 
 const std::optional<std::string>& ParallelRun::uncut() {
@@ -454,7 +455,7 @@ void ParallelRun::run_part(Part& part, std::unique_ptr<Worker> worker) const {
       if (prepare_) prepare_(run);
       if (observe_) worker->observer = observe_(run);
       around_(run, std::nullopt, [&] { run.build(); });
-      part.start = states_of(run.session());
+      part.start = states_of(run);
       if (worker->observer) worker->observer->at_frame(part.first);
       if (part.first == 0) note_frame(part, *worker, 0);
     } else {
@@ -479,14 +480,14 @@ void ParallelRun::run_part(Part& part, std::unique_ptr<Worker> worker) const {
 
 void ParallelRun::note_frame(Part& part, Worker& worker, std::size_t number) const {
   const FloatingPointGuard to_nearest;
-  Session& session = worker.run.session();
+  KineticRun& run = worker.run;
   Frame frame;
   frame.events = std::exchange(worker.recorder.events, {});
   worker.recorder.events.reserve(frame.events.size() + frame.events.size() / 8);  // steps resemble each other
   const bool is_end = number == 0 || number == scene_.step_count();
-  for (std::size_t s = 0; s < session.structures().size(); ++s) {
-    const RunningStructure& running = session.running(s);
-    StructureStatistics& statistics = session.structures()[s]->statistics;
+  for (std::size_t s = 0; s < run.structures().size(); ++s) {
+    const RunningStructure& running = run.running(s);
+    StructureStatistics& statistics = run.structures()[s]->statistics;
     if (number == 0) {
       frame.built.push_back(running.built());
       frame.build_seconds.push_back(statistics.build_seconds);
@@ -497,17 +498,17 @@ void ParallelRun::note_frame(Part& part, Worker& worker, std::size_t number) con
     if (parallel_.dumps) frame.dumps.push_back(running.dump(number));
     if (parallel_.elements || is_end) frame.elements.push_back(running.elements(number));
   }
-  if (parallel_.static_builds) session.time_static_builds(number, frame.static_seconds);
+  if (parallel_.static_builds) run.time_static_builds(number, frame.static_seconds);
   part.reached.push_back(std::move(frame));
 }
 
-/// Returns the states of all structures at the frame where the session stands. Returns nothing if one of them
+/// Returns the states of all structures at the frame where the run stands. Returns nothing if one of them
 /// depends on more than positions.
-std::optional<ParallelRun::States> ParallelRun::states_of(const Session& session) {
+std::optional<ParallelRun::States> ParallelRun::states_of(const KineticRun& run) {
   const FloatingPointGuard to_nearest;
   States states;
-  for (std::size_t s = 0; s < session.structures().size(); ++s) {
-    std::optional<std::vector<BeadId>> state = session.running(s).state();
+  for (std::size_t s = 0; s < run.structures().size(); ++s) {
+    std::optional<std::vector<BeadId>> state = run.running(s).state();
     if (!state) return std::nullopt;
     states.push_back(std::move(*state));
   }
@@ -517,7 +518,7 @@ std::optional<ParallelRun::States> ParallelRun::states_of(const Session& session
 /// Returns whether the part starts with the structures as the parts before left them.
 bool ParallelRun::continues(const Part& part) const {
   if (part.first == 0) return true;
-  return part.start && states_of(truth_->run.session()) == part.start;
+  return part.start && states_of(truth_->run) == part.start;
 }
 
 /// Tells the listeners and the caller what happened in the part.
@@ -562,8 +563,7 @@ void ParallelRun::retire(std::unique_ptr<Worker> worker) {
 std::vector<double> ParallelRun::static_seconds() {
   if (joined_) return static_seconds_;
   std::vector<double> seconds(own_->structures().size(), 0);
-  for (std::size_t frame = 0; frame < scene_.frame_count(); ++frame)
-    own_->session().time_static_builds(frame, seconds);
+  for (std::size_t frame = 0; frame < scene_.frame_count(); ++frame) own_->time_static_builds(frame, seconds);
   return seconds;
 }
 

@@ -41,8 +41,8 @@ struct ParallelOptions {
   std::size_t threads = 1;
   /// Number of steps in a part; 0: chosen by the steps that are left and the number of beads.
   std::size_t steps_per_part = 0;
-  bool dumps = false;          ///< whether Session::dump is called at frames
-  bool elements = false;       ///< whether Session::elements is called at all frames, not only at both ends
+  bool dumps = false;     ///< whether KineticRun::dump is called at frames
+  bool elements = false;  ///< whether KineticRun::elements is called at all frames, not only at both ends
   bool static_builds = false;  ///< whether `static_seconds` is called
 };
 
@@ -75,8 +75,8 @@ class ParallelRun {
   using Around = std::function<void(KineticRun& part, std::optional<std::size_t> step,
                                     const std::function<void()>& work)>;
 
-  /// The scene must outlive the run. Throws InputError or StructureRefusal (session.h).
-  ParallelRun(const Scene& scene, const SessionOptions& options, const ParallelOptions& parallel);
+  /// The scene must outlive the run. Throws InputError or StructureRefusal.
+  ParallelRun(const Scene& scene, const KineticRunOptions& options, const ParallelOptions& parallel);
   ParallelRun(const ParallelRun&) = delete;
   ParallelRun& operator=(const ParallelRun&) = delete;
   ~ParallelRun();
@@ -88,11 +88,11 @@ class ParallelRun {
     plan([=](KineticRun& run) { static_cast<void>(run.add<Structure>(arguments...)); });
   }
 
-  /// Returns the session of the whole run: its structures have the names, kinds and, after the run, the
-  /// statistics of all parts together. `dump`, `elements` and `built` are those of the frame just reached, if
-  /// the options asked for them. With one thread, this is the session that runs.
-  [[nodiscard]] Session& session();
-  [[nodiscard]] Simulator& simulator() { return session().simulator(); }
+  /// Returns the run as a whole: its structures have the names, kinds and, after the run, the statistics of
+  /// all parts together. `dump`, `elements` and `built` are those of the frame just reached, if the options
+  /// asked for them. If the run is not cut, this is the run itself. Only `run` may run it.
+  [[nodiscard]] KineticRun& whole();
+  [[nodiscard]] Simulator& simulator() { return whole().simulator(); }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   /// Returns why the run cannot be cut, as the end of a sentence, or nothing if it can.
   [[nodiscard]] const std::optional<std::string>& uncut();
@@ -146,14 +146,14 @@ class ParallelRun {
   void show(Frame& frame, std::size_t number, const std::function<void(std::size_t)>& at_frame);
   void tell(std::size_t step, const std::vector<RelayedEvent>& events);
   void retire(std::unique_ptr<Worker> worker);
-  [[nodiscard]] static std::optional<States> states_of(const Session& session);
+  [[nodiscard]] static std::optional<States> states_of(const KineticRun& run);
 
   const Scene& scene_;
-  SessionOptions options_;
+  KineticRunOptions options_;
   ParallelOptions parallel_;
-  std::unique_ptr<KineticRun> own_;  // the run itself if uncut, otherwise the model of its structures
-  std::unique_ptr<Session> joined_;  // null if uncut
-  std::vector<Joined*> structures_;  // of `joined_`
+  std::unique_ptr<KineticRun> own_;     // the run itself if uncut, otherwise the model of its structures
+  std::unique_ptr<KineticRun> joined_;  // null if uncut
+  std::vector<Joined*> structures_;     // of `joined_`
   std::vector<std::function<void(KineticRun&)>> additions_;
   bool is_decided_ = false;  // whether the run is cut
   std::optional<std::string> uncut_;

@@ -26,10 +26,10 @@ void append_ids(const ReplayLayer& layer, std::vector<ReplayElement> elements, s
 
 }  // namespace
 
-ReplayRecorder::ReplayRecorder(Session& session) : session_(session) {
-  for (std::size_t s = 0; s < session.structures().size(); ++s) {
-    const KineticStructure& kinetic = *session.structures()[s];
-    ReplayScheme scheme = session.running(s).replay_scheme();
+ReplayRecorder::ReplayRecorder(KineticRun& run) : run_(run) {
+  for (std::size_t s = 0; s < run.structures().size(); ++s) {
+    const KineticStructure& kinetic = *run.structures()[s];
+    ReplayScheme scheme = run.running(s).replay_scheme();
     Structure& structure = structures_.emplace_back();
     structure.name = kinetic.name();
     structure.kinds.assign(kinetic.kinds().begin(), kinetic.kinds().end());
@@ -43,8 +43,8 @@ void ReplayRecorder::begin() {
   const FloatingPointGuard to_nearest;
   begun_ = true;
   for (std::size_t s = 0; s < structures_.size(); ++s) {
-    rebuilds_.push_back(session_.structures()[s]->statistics.rebuilds);
-    const auto elements = session_.running(s).replay_elements(true);
+    rebuilds_.push_back(run_.structures()[s]->statistics.rebuilds);
+    const auto elements = run_.running(s).replay_elements(true);
     for (std::size_t l = 0; l < elements.size(); ++l) {
       Layer& layer = structures_[s].layers[l];
       for (const ReplayElement& element : elements[l])
@@ -60,7 +60,7 @@ void ReplayRecorder::on_event(const Event& event) {
   add_event(s, static_cast<std::uint32_t>(event.step), event.lower, event.upper, event.change.kind,
             event.decided_by, event.ids());
   edits_.clear();
-  if (session_.running(s).replay_edits(event.change, edits_)) {
+  if (run_.running(s).replay_edits(event.change, edits_)) {
     if (!edits_.empty()) add_changes(s, changes_by(s, edits_));
   } else {
     add_changes(s, changes_to_now(s));
@@ -71,7 +71,7 @@ void ReplayRecorder::reach_frame() {
   const FloatingPointGuard to_nearest;
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     Structure& structure = structures_[s];
-    const KineticStructure& kinetic = *session_.structures()[s];
+    const KineticStructure& kinetic = *run_.structures()[s];
     if (kinetic.statistics.rebuilds == rebuilds_[s]) continue;
     rebuilds_[s] = kinetic.statistics.rebuilds;
     const std::vector<LayerChange> changes = changes_to_now(s);
@@ -80,7 +80,7 @@ void ReplayRecorder::reach_frame() {
       continue;
     const std::size_t own_kinds = kinetic.kinds().size();
     if (structure.kinds.size() == own_kinds) structure.kinds.push_back(rebuilt_at_frame);
-    const std::size_t step = session_.simulator().step() - 1;
+    const std::size_t step = run_.simulator().step() - 1;
     add_event(s, static_cast<std::uint32_t>(step), 1, 1, static_cast<std::uint8_t>(own_kinds),
               DecidedBy::unknown, {});
     add_changes(s, changes);
@@ -111,7 +111,7 @@ void ReplayRecorder::add_event(std::size_t structure, std::uint32_t step, double
 
 auto ReplayRecorder::changes_to_now(std::size_t structure) -> std::vector<LayerChange> {
   std::vector<LayerChange> changes(now_[structure].size());
-  const auto elements = session_.running(structure).replay_elements(false);
+  const auto elements = run_.running(structure).replay_elements(false);
   for (std::size_t l = 0; l < elements.size(); ++l) {
     const ReplayLayer& layer = structures_[structure].layers[l].layer;
     Elements& before = now_[structure][l];

@@ -4,7 +4,7 @@
 // forward and backward. Frames are not kept: they are the scene's.
 //
 //   KineticRun run(scene, options);
-//   ReplayRecorder recorder(run.session());
+//   ReplayRecorder recorder(run);
 //   run.listen(recorder);
 //   run.build();
 //   recorder.begin();
@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "kds/event_log.h"
+#include "structures/session/kinetic_run.h"
 #include "structures/session/replay_layers.h"
-#include "structures/session/session.h"
 
 namespace kds {
 
@@ -59,9 +59,9 @@ class ReplayRecorder final : public EventListener {
   };
   static constexpr EventKind rebuilt_at_frame{"rebuild-at-frame", false, true, {}};
 
-  /// Records the structures that the session has now. The session must outlive the recorder. A run that goes
-  /// back in time makes a new session, which needs a new recorder.
-  explicit ReplayRecorder(Session& session);
+  /// Records the structures that the run has now. The run must outlive the recorder. A run that goes back in
+  /// time makes its structures anew, and needs a new recorder.
+  explicit ReplayRecorder(KineticRun& run);
 
   /// Reads the state at the first frame. Must be called when the structures are built, before any event.
   void begin();
@@ -89,7 +89,7 @@ class ReplayRecorder final : public EventListener {
                                                     const std::vector<ReplayEdit>& edits);
   void add_changes(std::size_t structure, const std::vector<LayerChange>& changes);
 
-  Session& session_;
+  KineticRun& run_;
   std::vector<Structure> structures_;
   std::vector<std::vector<Elements>> now_;  // for each structure and layer
   std::vector<std::uint64_t> rebuilds_;     // of each structure, at the last look

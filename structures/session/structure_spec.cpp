@@ -53,4 +53,11 @@ StructureRegistry& structure_registry() {
   return registry;
 }
 
+std::vector<std::string> default_structures(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const StructureSpec& spec : structure_registry().all())
+    if (spec.by_default(scene)) names.push_back(spec.name);
+  return names;
+}
+
 }  // namespace kds

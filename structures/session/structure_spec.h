@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kds/simulator.h"
+#include "motions/base/input_error.h"
 #include "motions/scene/scene.h"
 #include "structures/contacts/contact_distance.h"
 #include "structures/necklace/balls.h"
@@ -159,8 +160,17 @@ class StructureRegistry {
   std::vector<StructureSpec> specs_;
 };
 
+/// Thrown if a structure is not known or does not fit the scene.
+class StructureRefusal : public InputError {
+ public:
+  StructureRefusal(const std::string& structure, const std::string& reason)
+      : InputError(structure + ": " + reason) {}
+};
+
 /// Returns the registry of the process: the framework's own structures and all structures added before the
 /// first run.
 [[nodiscard]] StructureRegistry& structure_registry();
+/// Returns the names of the structures that the scene has by default.
+[[nodiscard]] std::vector<std::string> default_structures(const Scene& scene);
 
 }  // namespace kds

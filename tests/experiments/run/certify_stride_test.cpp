@@ -47,7 +47,7 @@ PairsMet pairs_in_truth(const RunOptions& options) {
   run->listen(pairs);
   run_steps(*run, options, [&](std::size_t frame) {
     if (frame != 0) return;
-    for (const Event& event : run->session().built(0)) pairs.on_event(event);
+    for (const Event& event : run->built(0)) pairs.on_event(event);
   });
   return pairs.met;
 }

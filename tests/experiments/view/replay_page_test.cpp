@@ -54,10 +54,10 @@ struct Recorded {
   EventLog log;
 };
 
-Recorded record(const Scene& scene, const SessionOptions& options, const ReplayPageOptions& page) {
+Recorded record(const Scene& scene, const KineticRunOptions& options, const ReplayPageOptions& page) {
   Recorded recorded;
   KineticRun run(scene, options);
-  ReplayRecorder recorder(run.session());
+  ReplayRecorder recorder(run);
   run.listen(recorder);
   run.listen(recorded.log);
   run.build();

@@ -67,7 +67,7 @@ TEST(ContactDistance, IsThatOfBallsInARun) {
       read_trajectory(data("trajectories/random100_400K_first200.dcd"), {.frames = {0, 20}});
   const auto fingerprint = [&](double radius, std::optional<ContactDistance> distance) {
     const Scene scene(std::span(&trajectory, 1), std::vector<double>(trajectory.bead_count(), radius));
-    SessionOptions options{{"contacts"}, Kernel::filtered, AuditMode::frames};
+    KineticRunOptions options{{"contacts"}, Kernel::filtered, AuditMode::frames};
     options.settings.contact_distance = distance;
     KineticRun run(scene, options);
     run.finish();

@@ -81,7 +81,7 @@ void expect_counts_at_all_times() {
       const std::uint64_t at_start = most;
       changed.beads.clear();
       while (run.simulator().run_next()) {
-        run.session().count_certificates(0, changed.beads);
+        run.count_certificates(0, changed.beads);
         changed.beads.clear();
         most = std::max(most, most_by_facets(diagram));
         EXPECT_EQ(counted, most);
@@ -102,17 +102,17 @@ TEST(CertificatesPerBead, OfDiagramsAreThoseOfTheirFacetsAtAllTimes) {
 TEST(CertificatesPerBead, CountingIsTheSameRun) {
   for (const int dimension : {2, 3}) {
     const Scene scene = wandering_scene(dimension, 7);
-    const SessionOptions all{
+    const KineticRunOptions all{
         {dimension == 2 ? "hull" : "sorted", "box", "closest", "wrapped", "power", "contacts"}};
     KineticRun plain(scene, all), counted(scene, all);
     plain.finish();
     ChangedBeads changed;
     counted.listen(changed);
-    counted.session().follow_certificates();
+    counted.follow_certificates();
     while (counted.enter_step()) {
       while (counted.simulator().run_next()) {
         for (std::size_t s = 0; s < counted.structures().size(); ++s)
-          counted.session().count_certificates(s, changed.beads);
+          counted.count_certificates(s, changed.beads);
         changed.beads.clear();
       }
       counted.run_step();

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "motions/base/input_error.h"
-#include "structures/session/session.h"
+#include "structures/session/kinetic_run.h"
 
 namespace kds::hard_scenes_test {
 namespace {
@@ -35,20 +35,14 @@ std::ostream& operator<<(std::ostream& out, const Outcome& outcome) {
 }
 
 Outcome run(const Scene& scene, const std::vector<std::string>& structures, Kernel kernel) {
-  SessionOptions options;
+  KineticRunOptions options;
   options.structures = structures;
   options.kernel = kernel;
   try {
-    Session session(scene, options);
-    session.simulator().exact_work().set_limit(100'000'000);
-    session.load(0);
-    session.simulator().build();
-    for (std::size_t step = 0; step < scene.step_count(); ++step) {
-      session.load(step);
-      session.simulator().run_step();
-    }
-    session.simulator().finish();
-    return {"done", session.simulator().fingerprint()};
+    KineticRun run(scene, options);
+    run.limit_work(100'000'000);
+    run.finish();
+    return {"done", run.simulator().fingerprint()};
   } catch (const InputError& refusal) {  // input beyond a stated limit
     return {refusal.what()};
   } catch (const WorkLimitReached&) {

@@ -61,7 +61,7 @@ Scene scene_of(int dimension, const std::vector<Frame>& frames, FrameMotion moti
   return {necklaces, std::vector<double>(14, 0.4), motion};
 }
 
-const SessionOptions four{{"sorted", "wrapped", "power", "contacts"}};
+const KineticRunOptions four{{"sorted", "wrapped", "power", "contacts"}};
 
 std::vector<std::string> lines_of(const EventLog& log) {
   std::vector<std::string> lines;
@@ -177,7 +177,7 @@ TEST(KineticRun, IsBuiltOnceItsFirstStepIsKnown) {
 
 TEST(KineticRun, GoesBackByReplayWithItsEdits) {
   const Scene scene = scene_of(3, frames_of(3, 5));
-  const SessionOptions options{{"sorted", "power", "contacts"}, Kernel::filtered, AuditMode::frames};
+  const KineticRunOptions options{{"sorted", "power", "contacts"}, Kernel::filtered, AuditMode::frames};
   const auto edit = [](KineticRun& run) {
     run.erase(0, 3);
     run.erase(2, 3);
@@ -347,7 +347,7 @@ TEST(KineticRun, StructuresOfSomeBeadsOnly) {
 }
 
 TEST(KineticRun, RefusesSubsetsThatCannotBe) {
-  const auto refusal = [](const SessionOptions& options) {
+  const auto refusal = [](const KineticRunOptions& options) {
     return refusal_of([&] { KineticRun(beads_in(3), options); });
   };
   EXPECT_EQ(refusal({.structures = {"wrapped"}, .only = {{"wrapped", {1, 2}}}}),
@@ -430,7 +430,7 @@ TEST(KineticRun, ACourseThatEndsElsewhereIsRefused) {
 
 TEST(KineticRun, ACourseThatCannotBeSetChangesNothing) {
   const Scene scene = scene_of(3, frames_of(3, 4));
-  const SessionOptions options{.structures = {"sorted", "power", "contacts"}, .audits = AuditMode::frames};
+  const KineticRunOptions options{.structures = {"sorted", "power", "contacts"}, .audits = AuditMode::frames};
   KineticRun plain(scene, options), run(scene, options);
   plain.finish();
   run.go_to(0.5);
@@ -454,9 +454,8 @@ TEST(KineticRun, ACourseThatCannotBeSetChangesNothing) {
         set_and_throw([&](SceneMotion& motion) { motion.set_coordinate(n.bead, n.k, n.axis, n.value); }),
         std::invalid_argument)
         << n.bead << ' ' << n.k << ' ' << n.axis;
-    EXPECT_THROW(
-        run.session().motion()->set_coordinate(n.bead, n.k, n.axis, n.bead == 6 ? std::nan("") : n.value),
-        std::invalid_argument);
+    EXPECT_THROW(run.motion()->set_coordinate(n.bead, n.k, n.axis, n.bead == 6 ? std::nan("") : n.value),
+                 std::invalid_argument);
   }
   EXPECT_THROW(run.change_motion({14}, [](SceneMotion&) {}), std::invalid_argument);
   run.finish();
@@ -540,17 +539,17 @@ TEST(KineticRun, IndicesSayWhatThereIs) {
   const std::string no_structure = "there is no structure 2: there are 2, numbered 0 to 1";
   EXPECT_EQ(wrong_index([&] { return &run.structure<SortedList<2>>(2); }), no_structure);
   EXPECT_EQ(wrong_index([&] { return run.keep_only(2, {}), 0; }), no_structure);
-  EXPECT_EQ(wrong_index([&] { return run.session().built(2); }), no_structure);
-  EXPECT_EQ(wrong_index([&] { return run.session().spheres_at(2, Dyadic(0.5)); }), no_structure);
-  EXPECT_EQ(wrong_index([&] { return run.session().elements(2, 0); }), no_structure);
+  EXPECT_EQ(wrong_index([&] { return run.built(2); }), no_structure);
+  EXPECT_EQ(wrong_index([&] { return run.spheres_at(2, Dyadic(0.5)); }), no_structure);
+  EXPECT_EQ(wrong_index([&] { return run.elements(2, 0); }), no_structure);
   EXPECT_EQ(wrong_index([&] { return run.simulator().seconds_of(2); }), no_structure);
   const std::string no_frame = "there is no frame 3: there are 3, numbered 0 to 2";
-  EXPECT_EQ(wrong_index([&] { return run.session().elements(1, 3); }), no_frame);
-  EXPECT_EQ(wrong_index([&] { return run.session().dump(3); }), no_frame);
+  EXPECT_EQ(wrong_index([&] { return run.elements(1, 3); }), no_frame);
+  EXPECT_EQ(wrong_index([&] { return run.dump(3); }), no_frame);
   EXPECT_EQ(wrong_index([&] { return scene.stamp(3); }), no_frame);
   EXPECT_EQ(wrong_index([&] { return scene.centers(3); }), no_frame);
   EXPECT_EQ(wrong_index([&] { return scene.weights(3); }), no_frame);
-  EXPECT_EQ(wrong_index([&] { return run.session().load(2), 0; }),
+  EXPECT_EQ(wrong_index([&] { return run.motion()->load(2), 0; }),
             "there is no step 2: there are 2, numbered 0 to 1");
   const std::string no_bead = "there is no bead 14: there are 14, numbered 0 to 13";
   EXPECT_EQ(wrong_index([&] { return scene.bead_name(14); }), no_bead);

@@ -34,23 +34,23 @@ struct Shown {
   std::uint64_t fingerprint = 0;
   std::string error;
 
-  void add(const Session& session, std::size_t frame) {
-    for (const DumpFile& file : session.dump(frame)) dumps.push_back(file.ending + "\n" + file.text);
-    for (std::size_t s = 0; s < session.structures().size(); ++s) {
-      std::optional<CombinatorialElements> of_frame = session.elements(s, frame);
+  void add(const KineticRun& run, std::size_t frame) {
+    for (const DumpFile& file : run.dump(frame)) dumps.push_back(file.ending + "\n" + file.text);
+    for (std::size_t s = 0; s < run.structures().size(); ++s) {
+      std::optional<CombinatorialElements> of_frame = run.elements(s, frame);
       if (!of_frame) continue;
       std::sort(of_frame->all.begin(), of_frame->all.end());
       elements.push_back(std::move(of_frame->all));
     }
   }
-  void add_end(Session& session) {
-    for (const KineticStructure* const structure : session.structures()) {
+  void add_end(KineticRun& run) {
+    for (const KineticStructure* const structure : run.structures()) {
       events_by_kind.push_back(structure->statistics.events_by_kind);
       events_per_step.push_back(structure->statistics.events_per_step);
       rebuilds.push_back(structure->statistics.rebuilds);
       audits.push_back(structure->statistics.audits_run);
     }
-    fingerprint = session.simulator().fingerprint();
+    fingerprint = run.simulator().fingerprint();
   }
 };
 
@@ -89,7 +89,7 @@ class SameEvents final : public EventListener {
 };
 
 /// Runs the scene uncut and cut into parts. Returns how it was cut.
-PartCounts expect_law(const Scene& scene, const SessionOptions& options, std::size_t steps_per_part,
+PartCounts expect_law(const Scene& scene, const KineticRunOptions& options, std::size_t steps_per_part,
                       std::size_t threads) {
   ParallelOptions parallel{threads, steps_per_part, true, true};
   ParallelRun cut(scene, options, parallel);
@@ -98,8 +98,8 @@ PartCounts expect_law(const Scene& scene, const SessionOptions& options, std::si
   cut.listen(log);
   Shown of_cut;
   try {
-    cut.run([&](std::size_t frame) { of_cut.add(cut.session(), frame); });
-    of_cut.add_end(cut.session());
+    cut.run([&](std::size_t frame) { of_cut.add(cut.whole(), frame); });
+    of_cut.add_end(cut.whole());
   } catch (const InputError& error) {
     of_cut.error = error.what();
   }
@@ -109,10 +109,10 @@ PartCounts expect_law(const Scene& scene, const SessionOptions& options, std::si
   Shown of_whole;
   try {
     whole.build();
-    of_whole.add(whole.session(), 0);
-    for (std::size_t frame = 1; whole.run_step(); ++frame) of_whole.add(whole.session(), frame);
+    of_whole.add(whole, 0);
+    for (std::size_t frame = 1; whole.run_step(); ++frame) of_whole.add(whole, frame);
     whole.finish();
-    of_whole.add_end(whole.session());
+    of_whole.add_end(whole);
   } catch (const InputError& error) {
     of_whole.error = error.what();
   }
@@ -267,7 +267,7 @@ TEST(ParallelRun, RunsStructuresAddedByType) {
   std::size_t built = 0;
   EventLog log;
   cut.simulator().listen(log);  // as good as ParallelRun::listen
-  cut.run([&](std::size_t frame) { built += frame == 0 ? cut.session().built(0).size() : 0; });
+  cut.run([&](std::size_t frame) { built += frame == 0 ? cut.whole().built(0).size() : 0; });
   KineticRun whole(scene, {.by_default = false});
   const auto& contacts = whole.add<Contacts<3>>(asked, std::vector<double>());
   whole.build();
@@ -283,9 +283,9 @@ TEST(ParallelRun, RunsStructuresAddedByType) {
 
 TEST(ParallelRun, IsNotCutIfStatesDependOnEarlierFrames) {
   const Scene scene = scene_of(wandering_chain(4, 20, 9), {0.7});
-  SessionOptions chords{{"wrapped"}};
+  KineticRunOptions chords{{"wrapped"}};
   chords.settings.between = Between::chord;
-  for (const SessionOptions& options : {chords, SessionOptions{{"layered"}}}) {
+  for (const KineticRunOptions& options : {chords, KineticRunOptions{{"layered"}}}) {
     ParallelRun run(scene, options, {4, 2});
     EXPECT_NE(run.uncut(), std::nullopt);
     EXPECT_EQ(run.threads(), 1U);

@@ -93,7 +93,7 @@ void add_static_diagram(const Scene& scene, std::size_t frame, std::map<std::str
 }
 
 /// Returns the state of each layer at a frame, from static structures and from the dump.
-std::map<std::string, State> states_at(const Scene& scene, const Session& session, std::size_t frame) {
+std::map<std::string, State> states_at(const Scene& scene, KineticRun& run, std::size_t frame) {
   std::map<std::string, State> states;
   if (scene.dimension() == 3) {
     add_static_diagram<3>(scene, frame, states);
@@ -105,7 +105,7 @@ std::map<std::string, State> states_at(const Scene& scene, const Session& sessio
        contacts_of(scene.centers(frame), scene.radii(), PairsAsked{scene.necklaces(), true, 2, true, {}}))
     contacts.insert({pair.first, pair.second});
   State& cages = states["cages"];
-  for (const DumpFile& file : session.dump(frame)) {
+  for (const DumpFile& file : run.dump(frame)) {
     if (file.ending != "wrapped.csv") continue;
     std::istringstream lines(file.text);
     std::string line;
@@ -133,7 +133,7 @@ State state_of(std::vector<ReplayElement> elements, std::size_t arity) {
 /// Compares the elements that the recorder has now with those that the structures hold.
 void expect_elements_of_run(const ReplayRecorder& recorder, KineticRun& run) {
   for (std::size_t s = 0; s < recorder.structures().size(); ++s) {
-    const auto elements = run.session().running(s).replay_elements(false);
+    const auto elements = run.running(s).replay_elements(false);
     for (std::size_t l = 0; l < elements.size(); ++l) {
       std::vector<ReplayElement> own = elements[l];
       std::sort(own.begin(), own.end());
@@ -144,10 +144,10 @@ void expect_elements_of_run(const ReplayRecorder& recorder, KineticRun& run) {
 
 /// Runs event by event. At each event compares the recorder with the structures, and at each frame with
 /// static ones if the scene is in general position there. Then replays all frames forward and backward.
-void expect_replay(const Scene& scene, const SessionOptions& options, bool general_position,
+void expect_replay(const Scene& scene, const KineticRunOptions& options, bool general_position,
                    std::size_t least_events) {
   KineticRun run(scene, options);
-  ReplayRecorder recorder(run.session());
+  ReplayRecorder recorder(run);
   run.listen(recorder);
   EventLog log;
   run.listen(log);
@@ -163,12 +163,12 @@ void expect_replay(const Scene& scene, const SessionOptions& options, bool gener
       const ReplayRecorder::Structure& structure = recorder.structures()[s];
       counts.push_back(structure.events.count());
       std::map<std::string, State>& states = at_frames.back().emplace_back();
-      const auto elements = run.session().running(s).replay_elements(frame == 0);
+      const auto elements = run.running(s).replay_elements(frame == 0);
       for (std::size_t l = 0; l < structure.layers.size(); ++l)
         states[std::string(structure.layers[l].layer.name)] =
             state_of(elements[l], structure.layers[l].layer.arity);
       if (!general_position) continue;
-      const auto expected = states_at(scene, run.session(), frame);
+      const auto expected = states_at(scene, run, frame);
       for (const auto& [name, state] : states) EXPECT_EQ(state, expected.at(name)) << name << ' ' << frame;
     }
   };
@@ -206,7 +206,7 @@ void expect_replay(const Scene& scene, const SessionOptions& options, bool gener
   EXPECT_GE(events, least_events);
 }
 
-const SessionOptions three{{"wrapped", "power", "contacts"}};
+const KineticRunOptions three{{"wrapped", "power", "contacts"}};
 
 Scene wandering_scene(int dimension, std::uint64_t seed, FrameMotion motion) {
   Random random(seed);
@@ -276,11 +276,11 @@ TEST(ReplayRecorder, KeepsAProtein) {
 TEST(ReplayRecorder, SaysWhatItKnowsOfStructuresWithoutLayers) {
   const Scene scene = wandering_scene(2, 1, FrameMotion::linear);
   KineticRun run(scene, {{"hull", "boxes"}});
-  ReplayRecorder recorder(run.session());
+  ReplayRecorder recorder(run);
   run.listen(recorder);
   EXPECT_THROW(run.finish(), std::logic_error);  // begin() was not called
   KineticRun again(scene, {{"hull", "boxes"}});
-  ReplayRecorder second(again.session());
+  ReplayRecorder second(again);
   again.listen(second);
   again.build();
   second.begin();
@@ -295,7 +295,7 @@ TEST(ReplayRecorder, SaysWhatItKnowsOfStructuresWithoutLayers) {
 TEST(ReplayRecorder, RecordsEditsOfBeads) {
   const Scene scene = wandering_scene(3, 4, FrameMotion::linear);
   KineticRun run(scene, {{"power", "contacts"}});
-  ReplayRecorder recorder(run.session());
+  ReplayRecorder recorder(run);
   run.listen(recorder);
   run.build();
   recorder.begin();
