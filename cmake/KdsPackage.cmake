@@ -54,7 +54,7 @@ kds_install_component(motions TARGETS kds_requirements kds_options kds_motions R
                       LIBRARIES ${gemmi})
 kds_install_component(certificates TARGETS kds_certificates REQUIRES kds-motions LIBRARIES ${KDS_ARB_LIBRARY} "${KDS_FLINT_LIBRARY}")
 kds_install_component(engine TARGETS kds_engine REQUIRES kds-certificates)
-kds_install_component(structures TARGETS kds_structures REQUIRES kds-engine tbb mpfr)
+kds_install_component(structures TARGETS kds_structures REQUIRES kds-engine mpfr)
 kds_install_component(kds TARGETS kds_all REQUIRES kds-structures)
 install(TARGETS kds_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT motions)

@@ -172,8 +172,7 @@ void SweepRun::start_next() {
   record(RecordKind::attempt, task);
   try {
     running_.emplace_back(
-        task, [&] { return run_arguments(task_arguments(plan_, task)); },
-        TaskLimits{options_.task_memory, !sets_threads(plan_, task)});
+        task, [&] { return run_arguments(task_arguments(plan_, task)); }, TaskLimits{options_.task_memory});
   } catch (const std::system_error& error) {  // the task starts once another has ended
     record(RecordKind::drop, task);
     if (running_.empty())

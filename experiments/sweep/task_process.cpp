@@ -1,7 +1,6 @@
 #include "experiments/sweep/task_process.h"
 
 #include <fcntl.h>
-#include <oneapi/tbb/global_control.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -31,13 +30,6 @@ void limit(int resource, rlim_t most) {
   static_cast<void>(::setrlimit(static_cast<__rlimit_resource_t>(resource), &limits));
 }
 
-// Limits oneTBB to one thread. The limit is made before the fork, because it loads libraries.
-std::optional<oneapi::tbb::global_control>& one_thread() {
-  static std::optional<oneapi::tbb::global_control> limit(
-      std::in_place, oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  return limit;
-}
-
 [[noreturn]] void run_child(const std::function<int()>& work, const TaskLimits& limits, pid_t parent, int out,
                             int err) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -52,7 +44,6 @@ std::optional<oneapi::tbb::global_control>& one_thread() {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, kLongestOutput);
   if (limits.memory) limit(RLIMIT_DATA, *limits.memory);
-  if (!limits.one_thread) one_thread().reset();
   const int code = work();
   std::fflush(nullptr);
   ::_exit(code);  // no destructors of the parent's objects
@@ -83,7 +74,6 @@ std::string MemoryFile::text() const {
 }
 
 TaskProcess::TaskProcess(const std::function<int()>& work, const TaskLimits& limits) {
-  static_cast<void>(one_thread());
   std::fflush(nullptr);
   const pid_t parent = ::getpid();
   child_ = ::fork();

@@ -15,7 +15,6 @@ namespace kds {
 
 struct TaskLimits {
   std::optional<std::uint64_t> memory = {};  ///< bytes of data
-  bool one_thread = true;                    ///< for work that does not say its number of threads itself
 };
 
 /// A file in memory that collects what a child writes.
@@ -46,8 +45,7 @@ class TaskProcess {
   };
 
   /// Starts `work`, whose result is the exit code. The child ignores signals that ask a program to end, and
-  /// dies with this process. No thread of oneTBB may have started before. Throws std::system_error if the
-  /// system has no more processes or files.
+  /// dies with this process. Throws std::system_error if the system has no more processes or files.
   TaskProcess(const std::function<int()>& work, const TaskLimits& limits);
   /// Ends the child.
   ~TaskProcess();

@@ -206,8 +206,8 @@ class ParallelRun::Joined final : public RunningStructure {
 };
 
 /// The threads besides the caller's, and the parts that wait for one. The caller helps while it waits.
-/// The threads end with the run: threads of a pool, like oneTBB's, would go on, and a process that forks then
-/// may copy a lock that such a thread holds (docs/measurements.md).
+/// The threads end with the run. Threads of a pool would go on, and a process that forks then may copy a lock
+/// that such a thread holds (docs/measurements.md).
 class ParallelRun::Workers {
  public:
   Workers(const ParallelRun& run, std::size_t threads) : run_(run) {

@@ -17,7 +17,7 @@ function(setup)
 endfunction()
 
 setup()
-foreach(text "dnf install gcc-c.*gemmi-devel" "pacman -S .*onetbb" "brew install .*cgal" "conda-forge .*cgal-cpp")
+foreach(text "dnf install gcc-c.*gemmi-devel" "pacman -S .*pegtl" "brew install .*cgal" "conda-forge .*cgal-cpp")
   if(NOT errors MATCHES "${text}")
     message(SEND_ERROR "scripts/setup does not say '${text}':\n${errors}")
   endif()
