@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kds/known_events.h"
 #include "motions/curves/bezier_motion.h"
 #include "structures/session/kinetic_run.h"
 
@@ -70,16 +71,16 @@ int main() {
   kds::KineticRunOptions audited = options;
   audited.audits = kds::AuditMode::frames;
   kds::KineticRun again(motion, {.radii = {0.9}}, audited);
-  kds::Simulator& replay = again.simulator();
+  kds::KnownEvents replay(again.simulator());
   replay.build_for_replay();
   for (int step = 0; step < steps; ++step) {
     load(motion, step);
-    std::vector<kds::Simulator::Replayed> events;
+    std::vector<kds::ReplayedEvent> events;
     for (const kds::Event& event : log.events)
       if (event.step == static_cast<std::size_t>(step))
         events.push_back({event.structure_index, event.lower, event.upper, event.change, "the log"});
     replay.replay_step(events);
   }
   std::printf("%d events, replayed: %s\n", static_cast<int>(log.events.size()),
-              replay.fingerprint() == run.simulator().fingerprint() ? "the same" : "others");
+              again.simulator().fingerprint() == run.simulator().fingerprint() ? "the same" : "others");
 }

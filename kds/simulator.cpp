@@ -37,13 +37,6 @@ class Simulator::MutationScope {
       : running_(simulator.running_), before_(std::exchange(running_, true)) {}
   void end() { running_ = before_; }
 
-  /// Notifies the listeners of a change. Kept out of line, because most runs have none.
-  [[gnu::noinline]] static void tell(Simulator& simulator, std::size_t structure, const Change& change);
-  /// Notifies the listeners of a change, which comes from another simulator if `relayed` is not null. Charges
-  /// only the computing of certain digits to the listeners.
-  static void notify(Simulator& simulator, std::size_t structure, const Change& change,
-                     const RelayedEvent* relayed);
-
  private:
   bool& running_;
   bool before_;
@@ -263,32 +256,6 @@ void Simulator::end_step() {
   set_frames({step_, {}}, {step_ + 1, {}});
 }
 
-void Simulator::build_for_replay() {
-  const ComputeScope scope(*this);
-  recording_ = false;
-  build();
-  recording_ = true;
-}
-
-void Simulator::replay_step(std::span<const Replayed> events) {
-  const ComputeScope scope(*this);
-  require(Phase::between_steps, "a step");
-  begin_step();
-  for (const Replayed& event : events) {
-    InterruptionCheck::ask();
-    now_ = Instant(FailureTime{event.lower, event.upper, 0, false});
-    watch_.charge(lane_of(event.structure));
-    try {
-      structures_[event.structure]->apply(event.change);
-    } catch (const std::invalid_argument& reason) {
-      throw std::invalid_argument(event.where + ": " + reason.what());
-    }
-    record(event.structure, event.change);
-    watch_.charge(engine_lane);
-  }
-  finish_step();
-}
-
 template <bool one_moment>
 bool Simulator::run_events(const Dyadic* until, std::uint64_t most) {
   MutationScope mutation(*this);
@@ -419,65 +386,7 @@ void Simulator::record(std::size_t structure, const Change& change) {
   if (s.kinds()[change.kind].external) ++s.statistics.events_per_step.back();
   fingerprint_.add(static_cast<std::uint32_t>(step_), static_cast<std::uint32_t>(structure), change);
   if (!listeners_.empty()) [[unlikely]]
-    MutationScope::tell(*this, structure, change);
-}
-
-void Simulator::start_at(std::size_t step) {
-  require(Phase::new_run, "start_at()");
-  step_ = step;
-}
-
-auto Simulator::event_to_relay(const Event& event, bool first_at_its_time, bool exact) const -> RelayedEvent {
-  RelayedEvent relayed{static_cast<std::uint32_t>(event.structure_index),
-                       first_at_its_time,
-                       event.decided_by,
-                       event.change,
-                       {event.lower, event.upper},
-                       nullptr};
-  const bool has_function = exact && event.lower < event.upper && present_.source != nullptr;
-  if (has_function || event.rounded) {
-    ExactFunction function = has_function ? present_.source->exact_function(present_.slot) : nullptr;
-    relayed.certain = std::make_unique<RelayedEvent::Certain>(
-        RelayedEvent::Certain{std::move(function), present_.time, event.rounded});
-  }
-  return relayed;
-}
-
-void Simulator::relay(std::size_t step, const FrameStamp& from, const FrameStamp& to,
-                      std::span<const RelayedEvent> events) {
-  const ComputeScope scope(*this);
-  require(Phase::new_run, "relay()");
-  step_ = step;
-  set_frames(from, to);
-  const std::size_t before = watch_.charge(listener_lane);
-  for (const RelayedEvent& event : events) {
-    InterruptionCheck::ask();
-    require_index("structure", event.structure, structures_.size());
-    if (event.first_at_its_time) ++moment_;
-    held_.function = event.certain ? event.certain->function : nullptr;
-    now_ = held_.function ? Instant(event.certain->time, held_, 0)
-                          : Instant(FailureTime{event.bracket.lower, event.bracket.upper, 0, false});
-    MutationScope::notify(*this, event.structure, event.change, &event);
-  }
-  watch_.charge(before);
-}
-
-void Simulator::join(const Simulator& part) {
-  const ComputeScope scope(*this);
-  if (part.structures_.size() != structures_.size())
-    throw std::logic_error("a simulator joins another one with other structures");
-  fingerprint_.join(part.fingerprint_);
-  order_.add(part.order_.counts());
-  ExactWork::spend(part.work_.done());
-  watch_.add(engine_lane, part.watch_.seconds(engine_lane));
-  for (std::size_t s = 0; s < structures_.size(); ++s) watch_.add(lane_of(s), part.seconds_of(s));
-}
-
-void Simulator::MutationScope::tell(Simulator& simulator, std::size_t structure, const Change& change) {
-  if (!simulator.listeners_have_lane_) return notify(simulator, structure, change, nullptr);
-  const std::size_t before = simulator.watch_.charge(listener_lane);
-  notify(simulator, structure, change, nullptr);
-  simulator.watch_.charge(before);
+    tell(structure, change);
 }
 
 template <class Work>
@@ -489,26 +398,24 @@ auto Simulator::for_listeners(const Work& work) {
   return result;
 }
 
-void Simulator::MutationScope::notify(Simulator& simulator, std::size_t structure, const Change& change,
-                                      const RelayedEvent* relayed) {
-  const KineticStructure& s = *simulator.structures_[structure];
-  const TimeBracket bracket =
-      relayed != nullptr ? relayed->bracket
-                         : simulator.for_listeners([&] { return canonical_bracket(simulator.now_); });
-  Event event{simulator.step_, bracket.lower,          bracket.upper,   structure,     change,
-              s.name(),        s.kinds()[change.kind], simulator.from_, simulator.to_, {}};
-  event.decided_by = relayed != nullptr ? relayed->decided_by : simulator.present_.time.decided_by;
-  MutationScope mutation(simulator);  // also if the change is an edit
-  for (EventListener* listener : simulator.listeners_) {
-    if (!event.rounded && listener->prints_time_of(event)) {
-      if (relayed != nullptr) {
-        if (relayed->certain) event.rounded = relayed->certain->rounded;
-        listener->on_event(event);
-        continue;
-      }
-      event.rounded = simulator.for_listeners(
-          [&] { return rounded_time(simulator.now_, simulator.from_, simulator.to_); });
-    }
+void Simulator::tell(std::size_t structure, const Change& change) {
+  const std::size_t before = listeners_have_lane_ ? watch_.charge(listener_lane) : 0;
+  // Certain digits are charged to the listeners in any case.
+  const TimeBracket bracket = for_listeners([&] { return canonical_bracket(now_); });
+  notify(structure, change, bracket, present_.time.decided_by,
+         [&] { return for_listeners([&] { return std::optional(rounded_time(now_, from_, to_)); }); });
+  if (listeners_have_lane_) watch_.charge(before);
+}
+
+void Simulator::notify(std::size_t structure, const Change& change, const TimeBracket& bracket,
+                       DecidedBy decided_by, const std::function<std::optional<RoundedTime>()>& rounded) {
+  const KineticStructure& s = *structures_[structure];
+  Event event{step_,    bracket.lower,          bracket.upper, structure, change,
+              s.name(), s.kinds()[change.kind], from_,         to_,       {}};
+  event.decided_by = decided_by;
+  MutationScope mutation(*this);  // also if the change is an edit
+  for (EventListener* listener : listeners_) {
+    if (!event.rounded && listener->prints_time_of(event)) event.rounded = rounded();
     listener->on_event(event);
   }
   mutation.end();

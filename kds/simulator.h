@@ -1,10 +1,10 @@
 #pragma once
-// The event loop: one clock and one queue for all structures of a run. Knows no geometry.
+// The event loop: one clock and one queue for all structures of a run. Knows no geometry. The main loop is
+// run_events in simulator.cpp. known_events.h replays events of a log and joins runs in parts.
 
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -99,47 +99,6 @@ class Simulator {
   /// finish, and must be built anew at its end.
   [[nodiscard]] bool try_step(std::uint64_t most);
 
-  /// A logged event to be replayed. `where` names it in messages.
-  struct Replayed {
-    std::size_t structure;
-    double lower, upper;
-    Change change;
-    std::string where;
-  };
-  /// Like build and run_step, but the changes come from a log, without certificates and without a queue.
-  /// Throws std::invalid_argument, with the event's `where`, if a change cannot be made.
-  void build_for_replay();
-  void replay_step(std::span<const Replayed> events);
-
-  // A run in parts (structures/session/parallel_run.h): several simulators run some steps each. Another
-  // simulator, whose structures only have names, joins them.
-
-  /// Sets the number of the first step. Throws std::logic_error once the structures are built.
-  void start_at(std::size_t step);
-  /// An event that another simulator tells its listeners of. There may be millions, so it is small.
-  struct RelayedEvent {
-    std::uint32_t structure;
-    bool first_at_its_time;  ///< whether no event was relayed at this very time before
-    DecidedBy decided_by;
-    Change change;
-    TimeBracket bracket;
-    struct Certain {
-      ExactFunction function;  ///< `time` is its root
-      FailureTime time;
-      std::optional<RoundedTime> rounded;
-    };
-    /// Null if no listener asks for what it holds. The function is null if the time is a double.
-    std::unique_ptr<const Certain> certain;
-  };
-  /// Returns `event`, which happens now, for another simulator.
-  [[nodiscard]] RelayedEvent event_to_relay(const Event& event, bool first_at_its_time, bool exact) const;
-  /// Tells the listeners of the events of a step that another simulator ran. The events are not counted.
-  void relay(std::size_t step, const FrameStamp& from, const FrameStamp& to,
-             std::span<const RelayedEvent> events);
-  /// Adds the fingerprint, comparisons, exact work and seconds of another simulator, which has run other
-  /// steps with the same structures.
-  void join(const Simulator& part);
-
   [[nodiscard]] Kernel kernel() const { return kernel_; }
   [[nodiscard]] std::size_t step() const { return step_; }
   [[nodiscard]] const Instant& now() const { return now_; }
@@ -185,9 +144,16 @@ class Simulator {
   static constexpr std::size_t engine_lane = 0, listener_lane = 1;
   [[nodiscard]] static constexpr std::size_t lane_of(std::size_t structure) { return structure + 2; }
 
+  friend class KnownEvents;
   class MutationScope;
 
   void require(Phase phase, const char* what) const;
+  /// Notifies the listeners of a change now. Kept out of line, because most runs have none.
+  [[gnu::noinline]] void tell(std::size_t structure, const Change& change);
+  /// Notifies the listeners of a change. `rounded` is asked for the time in certain digits if one of them
+  /// prints it.
+  void notify(std::size_t structure, const Change& change, const TimeBracket& bracket, DecidedBy decided_by,
+              const std::function<std::optional<RoundedTime>()>& rounded);
   /// Does work for the listeners, which is not counted as the run's own.
   template <class Work>
   auto for_listeners(const Work& work);

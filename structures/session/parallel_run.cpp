@@ -132,7 +132,7 @@ class ParallelRun::Recorder final : public EventListener {
                                    [&](const auto* l) { return l->reads_exact_time_of(event); });
     const bool is_new = !last_moment_ || *last_moment_ != simulator_.moment();
     last_moment_ = simulator_.moment();
-    events.push_back(simulator_.event_to_relay(event, is_new, exact));
+    events.push_back(KnownEvents(simulator_).event_to_relay(event, is_new, exact));
   }
   [[nodiscard]] bool prints_time_of(const Event& event) const override {
     return std::any_of(listeners_.begin(), listeners_.end(),
@@ -451,7 +451,7 @@ void ParallelRun::run_part(Part& part, std::unique_ptr<Worker> worker) const {
     worker->frames.add(part.frames);
     KineticRun& run = worker->run;
     if (is_fresh) {
-      run.simulator().start_at(part.first);
+      KnownEvents(run.simulator()).start_at(part.first);
       if (prepare_) prepare_(run);
       if (observe_) worker->observer = observe_(run);
       around_(run, std::nullopt, [&] { run.build(); });
@@ -549,12 +549,12 @@ void ParallelRun::show(Frame& frame, std::size_t number, const std::function<voi
 /// Tells the listeners of the events of a step.
 void ParallelRun::tell(std::size_t step, const std::vector<RelayedEvent>& events) {
   if (listeners_.empty() || events.empty()) return;
-  joined_->simulator().relay(step, scene_.stamp(step), scene_.stamp(step + 1), events);
+  KnownEvents(joined_->simulator()).relay(step, scene_.stamp(step), scene_.stamp(step + 1), events);
 }
 
 /// Adds the counts of a worker whose parts have all been joined.
 void ParallelRun::retire(std::unique_ptr<Worker> worker) {
-  joined_->simulator().join(worker->run.simulator());
+  KnownEvents(joined_->simulator()).join(worker->run.simulator());
   for (std::size_t s = 0; s < structures_.size(); ++s)
     add_counts(worker->run.structures()[s]->statistics, structures_[s]->kinetic().statistics);
   if (worker->observer) observers_.push_back(std::move(worker->observer));

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "kds/known_events.h"
 #include "structures/session/kinetic_run.h"
 
 namespace kds {
@@ -131,7 +132,6 @@ class ParallelRun {
   struct Part;
   struct Worker;
   class Workers;
-  using RelayedEvent = Simulator::RelayedEvent;
   using States = std::vector<std::vector<BeadId>>;
 
   void plan(std::function<void(KineticRun&)> addition);

@@ -1,3 +1,4 @@
+#include "kds/known_events.h"
 #include "kds/simulator.h"
 
 #include <gmock/gmock.h>
@@ -78,15 +79,15 @@ TEST(SimulatorReplay, EqualsTheRun) {
   replayed_a.on_build = [&] { replayed_a.change(2, 99); };
   Listener replay_listener;
   replay.listen(replay_listener);
-  replay.build_for_replay();
+  KnownEvents(replay).build_for_replay();
   for (std::size_t step = 0; step < 2; ++step) {
-    std::vector<Simulator::Replayed> events;
+    std::vector<ReplayedEvent> events;
     for (const auto& heard : listener.heard) {
       if (heard.event.step == step)
         events.push_back(
             {heard.event.structure_index, heard.event.lower, heard.event.upper, heard.event.change, ""});
     }
-    replay.replay_step(events);
+    KnownEvents(replay).replay_step(events);
   }
   replay.finish();
   EXPECT_EQ(replay.fingerprint(), run.fingerprint());
@@ -108,12 +109,12 @@ TEST(SimulatorReplay, SaysWhereAChangeCannotBeMade) {
   Simulator simulator;
   Log log;
   Script a{simulator, log, "a"};
-  simulator.build_for_replay();
-  const std::vector<Simulator::Replayed> events{{0, 0.25, 0.25, {0, 1, {1}}, "log:7"},
-                                                {0, 0.5, 0.5, {0, 1, {13}}, "log:8"}};
+  KnownEvents(simulator).build_for_replay();
+  const std::vector<ReplayedEvent> events{{0, 0.25, 0.25, {0, 1, {1}}, "log:7"},
+                                          {0, 0.5, 0.5, {0, 1, {13}}, "log:8"}};
   std::string message;
   try {
-    simulator.replay_step(events);
+    KnownEvents(simulator).replay_step(events);
     FAIL() << "no exception";
   } catch (const std::invalid_argument& error) {
     message = error.what();

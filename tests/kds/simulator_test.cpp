@@ -1,4 +1,5 @@
 #include "kds/simulator.h"
+#include "kds/known_events.h"
 
 #include <gmock/gmock.h>
 
@@ -371,7 +372,7 @@ TEST_F(SimulatorTest, NoStepWithoutBuilding) {
   expect_build_first(refusal_of<std::logic_error>([&] { simulator.enter_step(); }));
   expect_build_first(refusal_of<std::logic_error>([&] { static_cast<void>(simulator.try_step(1)); }));
   expect_build_first(refusal_of<std::logic_error>([&] { simulator.leave_step(); }));
-  expect_build_first(refusal_of<std::logic_error>([&] { simulator.replay_step({}); }));
+  expect_build_first(refusal_of<std::logic_error>([&] { KnownEvents(simulator).replay_step({}); }));
   expect_build_first(refusal_of<std::logic_error>([&] { simulator.finish(); }));
   EXPECT_THAT(log, IsEmpty());
   run();  // the refused calls had no effect

@@ -265,17 +265,17 @@ TEST(HierarchyCourses, AreReplayed) {
 
   Simulator replay;
   WrappedHierarchy<3> replayed(replay, at_first, necklaces, Radii::equal);
-  replay.build_for_replay();
-  std::vector<Simulator::Replayed> events;
+  KnownEvents(replay).build_for_replay();
+  std::vector<ReplayedEvent> events;
   for (const Event& e : history.events)
     events.push_back({e.structure_index, e.lower, e.upper, e.change, "the log"});
-  replay.replay_step(events);
+  KnownEvents(replay).replay_step(events);
   EXPECT_EQ(replay.fingerprint(), simulator.fingerprint());
   for (NodeId node = 0; node < hierarchy.tree().node_count(); ++node)
     EXPECT_EQ(replayed.basis(node), hierarchy.basis(node));
 
   events.back().change = Change{WrappedHierarchy<3>::changes, 1, {bead_count}};
-  EXPECT_THROW(replay.replay_step(std::span(events).last(1)), std::invalid_argument);
+  EXPECT_THROW(KnownEvents(replay).replay_step(std::span(events).last(1)), std::invalid_argument);
 }
 
 TEST(HierarchyCourses, ChangesThatChangeNothingAddNoCertificates) {

@@ -310,11 +310,11 @@ TEST(BeadEdits, AreReplayed) {
   Simulator replay;
   Structures<3> replayed(replay, motion, 12);
   for (BeadEdits* structure : replayed.all()) structure->leave_out(5);
-  replay.build_for_replay();
-  std::vector<Simulator::Replayed> events;
+  KnownEvents(replay).build_for_replay();
+  std::vector<ReplayedEvent> events;
   for (const Event& e : history.events)
     events.push_back({e.structure_index, e.lower, e.upper, e.change, "the log"});
-  replay.replay_step(events);
+  KnownEvents(replay).replay_step(events);
   EXPECT_EQ(replay.fingerprint(), simulator.fingerprint());
   EXPECT_EQ(replayed.sorted.order(), structures.sorted.order());
   EXPECT_EQ(replayed.contacts.pairs(), structures.contacts.pairs());

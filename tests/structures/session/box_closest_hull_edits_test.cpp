@@ -230,7 +230,7 @@ TEST(BoxClosestHullEdits, ChangesOfALogThatCannotBeAreRefused) {
   Simulator simulator;
   Structures structures(simulator, motion);
   for (const auto& [structure, edits] : structures.all()) edits->leave_out(3);
-  simulator.build_for_replay();
+  KnownEvents(simulator).build_for_replay();
   const auto refused = [&](KineticStructure& structure, const Change& change) {
     EXPECT_THROW(structure.apply(change), std::invalid_argument) << static_cast<int>(change.kind);
   };
@@ -263,7 +263,7 @@ TEST(BoxClosestHullEdits, AuditsLookAtThePresentAlone) {
   const Plane motion = at_rest({{0, 0}, {4, 0}, {0, 4}, {1, 1}});
   Simulator simulator;
   Structures structures(simulator, motion);
-  simulator.build_for_replay();
+  KnownEvents(simulator).build_for_replay();
   structures.box.apply({EnclosingBox<2>::erases, 1, {1}});
   structures.closest.apply({KineticClosestPair<2>::erases, 1, {3}});
   structures.hull.apply({ConvexHull::erases, 1, {1}});

@@ -256,12 +256,12 @@ class EditedRun {
     Simulator simulator;
     Structures<dimension> again(simulator, first_);
     leave_some_out(again);
-    simulator.build_for_replay();
+    KnownEvents(simulator).build_for_replay();
     for (std::size_t step = 0; step < 2; ++step) {
-      std::vector<Simulator::Replayed> events;
+      std::vector<ReplayedEvent> events;
       for (const Event& e : history_.of_step(step))
         events.push_back({e.structure_index, e.lower, e.upper, e.change, "the log"});
-      simulator.replay_step(events);
+      KnownEvents(simulator).replay_step(events);
     }
     EXPECT_EQ(simulator.fingerprint(), simulator_.fingerprint());
     for (std::size_t s = 0; s < again.all.size(); ++s) {

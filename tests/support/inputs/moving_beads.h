@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "kds/known_events.h"
 #include "kds/simulator.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/scene.h"
@@ -136,13 +137,13 @@ class Rig {
   /// Replays the changes of another run's history without certificates.
   void replay(const std::vector<M>& steps, const History& log) {
     motion = steps.front();
-    simulator.build_for_replay();
+    KnownEvents(simulator).build_for_replay();
     for (std::size_t k = 0; k < steps.size(); ++k) {
       motion = steps[k];
-      std::vector<Simulator::Replayed> events;
+      std::vector<ReplayedEvent> events;
       for (const Event& e : log.of_step(k))
         events.push_back({e.structure_index, e.lower, e.upper, e.change, ""});
-      simulator.replay_step(events);
+      KnownEvents(simulator).replay_step(events);
     }
     simulator.finish();
   }

@@ -1,0 +1,68 @@
+#pragma once
+// Steps whose events are known: from a log, or from simulators that run other steps of the same run. Such
+// steps have no certificates and no queue. The main loop is in simulator.h.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "kds/simulator.h"
+
+namespace kds {
+
+/// A logged event to be replayed. `where` names it in messages.
+struct ReplayedEvent {
+  std::size_t structure;
+  double lower, upper;
+  Change change;
+  std::string where;
+};
+
+/// An event that another simulator tells its listeners of. There may be millions, so it is small.
+struct RelayedEvent {
+  std::uint32_t structure;
+  bool first_at_its_time;  ///< whether no event was relayed at this very time before
+  DecidedBy decided_by;
+  Change change;
+  TimeBracket bracket;
+  struct Certain {
+    ExactFunction function;  ///< `time` is its root
+    FailureTime time;
+    std::optional<RoundedTime> rounded;
+  };
+  /// Null if no listener asks for what it holds. The function is null if the time is a double.
+  std::unique_ptr<const Certain> certain;
+};
+
+/// What a simulator does with events that are known. The simulator must outlive this object.
+class KnownEvents {
+ public:
+  explicit KnownEvents(Simulator& simulator) : simulator_(simulator) {}
+
+  /// Like Simulator::build and run_step, but the changes come from a log. Throws std::invalid_argument, with
+  /// the event's `where`, if a change cannot be made.
+  void build_for_replay();
+  void replay_step(std::span<const ReplayedEvent> events);
+
+  // A run in parts (structures/session/parallel_run.h): several simulators run some steps each. Another
+  // simulator, whose structures only have names, joins them.
+
+  /// Sets the number of the first step. Throws std::logic_error once the structures are built.
+  void start_at(std::size_t step);
+  /// Returns `event`, which happens now, for another simulator.
+  [[nodiscard]] RelayedEvent event_to_relay(const Event& event, bool first_at_its_time, bool exact) const;
+  /// Tells the listeners of the events of a step that another simulator ran. The events are not counted.
+  void relay(std::size_t step, const FrameStamp& from, const FrameStamp& to,
+             std::span<const RelayedEvent> events);
+  /// Adds the fingerprint, comparisons, exact work and seconds of another simulator, which has run other
+  /// steps with the same structures.
+  void join(const Simulator& part);
+
+ private:
+  Simulator& simulator_;
+};
+
+}  // namespace kds
