@@ -157,9 +157,9 @@ py::dict collide(const Arguments& arguments, const py::object& progress) {
     std::vector<FrameFound> in_frames;
     const CollideReport report = compare_detectors(
         frames, task,
-        [&](const FrameRead&, const FrameFound& in_frame, std::optional<std::span<const BeadPair>> pairs) {
+        [&](const FrameRead&, const FrameFound& in_frame, std::span<const BeadPair> pairs) {
           in_frames.push_back(in_frame);
-          for (const BeadPair& pair : pairs.value_or(std::span<const BeadPair>())) {
+          for (const BeadPair& pair : pairs) {
             frame_of_pairs.push_back(static_cast<std::int64_t>(in_frame.stamp.number));
             beads.push_back(pair.first);
             beads.push_back(pair.second);

@@ -135,7 +135,7 @@ int collide_command(const Arguments& arguments) {
   results.begin(frames);
   const CollideReport report = compare_detectors(
       frames, task,
-      [&](const FrameRead& frame, const FrameFound& found, std::optional<std::span<const BeadPair>> pairs) {
+      [&](const FrameRead& frame, const FrameFound& found, std::span<const BeadPair> pairs) {
         results.add_frame(frame, found, pairs);
       },
       warn, command.progress());

@@ -37,11 +37,7 @@ std::string findings(const CollideReport& report) {
   std::string html =
       fmt::format("<p>Beads collide in <strong>{}</strong> of {} {}", with_thousands(report.colliding_frames),
                   with_thousands(report.frames), report.frames == 1 ? "frame" : "frames");
-  const auto telling =
-      std::ranges::find_if(report.rows, [](const auto& row) { return row.pairs.has_value(); });
-  if (telling != report.rows.end())
-    html += fmt::format(": {} pairs, summed over all frames", with_thousands(*telling->pairs));
-  html += ".";
+  html += fmt::format(": {} pairs, summed over all frames.", with_thousands(report.rows.front().pairs));
   const auto closest =
       std::ranges::find_if(report.rows, [](const auto& row) { return row.closest.has_value(); });
   if (closest != report.rows.end()) {
@@ -112,7 +108,7 @@ Table<CollideRow> collide_columns(bool timed) {
 Table<FrameFound> collide_frame_columns(bool timed) {
   using Row = FrameFound;
   Table<Row> table{{{.key = "frame", .value = [](const Row& r) { return Field(r.stamp.number); }},
-                    {.key = "collide", .value = [](const Row& r) { return Field(r.collide); }},
+                    {.key = "collide", .value = [](const Row& r) { return Field(r.pairs > 0); }},
                     {.key = "pairs", .value = [](const Row& r) { return Field(r.pairs); }}}};
   table.add(pair_columns<Row>([](const Row& r) { return r.closest; }));
   Column<Row> time{
@@ -169,8 +165,8 @@ std::string collide_page(const CollideReport& report, const std::string& input, 
   page.words =
       "All methods decide exactly and agree. <em>Pairs</em>: pairs of beads that have a point in common, or "
       "whose surfaces are at most <code>--within</code> apart, summed over all frames; <em>family</em>: "
-      "pairs of spheres of a hierarchy that prove all other pairs disjoint, or the edges of the power "
-      "diagram; <em>seconds</em>: the time to find the pairs in all frames, as the median of the rounds with "
+      "pairs of spheres of a hierarchy that prove all other pairs disjoint; <em>seconds</em>: the time to "
+      "find the pairs in all frames, as the median of the rounds with "
       "the least and the most in brackets; <em>and for closest</em>: the time to find the closest pairs as "
       "well. The distance of two beads is the distance of their surfaces, below zero if they overlap.";
   std::string plots;
@@ -242,13 +238,13 @@ void CollideResults::begin(const CollideFrames& scene) {
 }
 
 void CollideResults::add_frame(const FrameRead& frame, const FrameFound& found,
-                               std::optional<std::span<const BeadPair>> pairs) {
+                               std::span<const BeadPair> pairs) {
   if (frames_) frames_->add(frame_columns_.json(found));
   if (!files_) return;
   *frames_csv_ << frame_columns_.csv_line(found);
   course_->add(found);
-  if (pairs) pairs_->add(frame, *pairs);
-  if (pairs) contacts_->add_frame(*pairs);
+  pairs_->add(frame, pairs);
+  contacts_->add_frame(pairs);
   files_->check();
 }
 

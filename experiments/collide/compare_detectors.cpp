@@ -15,9 +15,7 @@
 #include "structures/collision/auto_detector.h"
 #include "structures/collision/brute_force.h"
 #include "structures/collision/cell_list.h"
-#include "structures/collision/diagram_collision.h"
 #include "structures/collision/hierarchy_search.h"
-#include "structures/hierarchy/box_hierarchy.h"
 #include "structures/necklace/pairs_in_question.h"
 
 namespace kds {
@@ -58,7 +56,6 @@ class BruteForce final : public Detector<Dimension> {
   }
   void detect(const Balls<Dimension>& balls, Detection& found) override {
     found.pairs = pairs_by_force(balls, query_.asked, query_.distance);
-    found.collide = !found.pairs->empty();
   }
   void find_closest(const Balls<Dimension>& balls, Detection& found) override {
     found.closest = closest_pair_by_force(balls, query_.asked);
@@ -75,7 +72,6 @@ class BySpheres : public Detector<Dimension> {
   void detect(const Balls<Dimension>& balls, Detection& found) override {
     tree_.build(balls);
     PairsFound result = find_pairs(tree_, query_.asked, query_.distance);
-    found.collide = !result.pairs.empty();
     found.pairs = std::move(result.pairs);
     found.family = result.family;
   }
@@ -92,55 +88,12 @@ using Wrapped = BySpheres<Dimension, Hierarchy::wrapped>;
 template <int Dimension>
 using Layered = BySpheres<Dimension, Hierarchy::layered>;
 
-/// Axis-aligned boxes, or k-DOPs with all directions.
-template <int Dimension, bool all_directions>
-class ByBoxes : public Detector<Dimension> {
- public:
-  explicit ByBoxes(const CollisionQuery& query)
-      : query_(query), tree_(query.asked.necklaces, all_directions ? most_directions() : Dimension) {}
-  void detect(const Balls<Dimension>& balls, Detection& found) override {
-    tree_.build(balls);
-    PairsFound result = find_pairs(tree_, balls, query_.asked, query_.distance);
-    found.collide = !result.pairs.empty();
-    found.pairs = std::move(result.pairs);
-    found.family = result.family;
-  }
-
- private:
-  static int most_directions() { return box_direction_counts<Dimension>().back(); }
-
-  CollisionQuery query_;
-  BoxTree<Dimension> tree_;
-};
-template <int Dimension>
-using Boxes = ByBoxes<Dimension, false>;
-template <int Dimension>
-using Polytopes = ByBoxes<Dimension, true>;
-
-template <int Dimension>
-class ByDiagram final : public Detector<Dimension> {
- public:
-  explicit ByDiagram(const CollisionQuery& query) : query_(query) {}
-  std::optional<std::string> refusal(const Balls<Dimension>& balls) const override {
-    if (query_.distance > 0) return "the power diagram finds only beads that meet; expected --within 0";
-    return diagram_refusal(balls, query_.asked);
-  }
-  void detect(const Balls<Dimension>& balls, Detection& found) override {
-    DiagramCollision result = collide_by_diagram(balls, query_.asked);
-    found = {result.collide, std::move(result.pairs), result.closest, result.edges};
-  }
-
- private:
-  CollisionQuery query_;
-};
-
 template <int Dimension>
 class Cells final : public Detector<Dimension> {
  public:
   explicit Cells(const CollisionQuery& query) : distance_(query.distance), cells_(query.asked) {}
   void detect(const Balls<Dimension>& balls, Detection& found) override {
     found.pairs = cells_.pairs_within(balls, distance_);
-    found.collide = !found.pairs->empty();
   }
 
  private:
@@ -154,7 +107,6 @@ class Auto final : public Detector<Dimension> {
   explicit Auto(const CollisionQuery& query) : distance_(query.distance), detector_(query.asked) {}
   void detect(const Balls<Dimension>& balls, Detection& found) override {
     found.pairs = distance_ > 0 ? detector_.pairs_within(balls, distance_) : detector_.pairs(balls);
-    found.collide = !found.pairs->empty();
   }
   void find_closest(const Balls<Dimension>& balls, Detection& found) override {
     found.closest = detector_.closest_pair(balls);
@@ -178,9 +130,6 @@ constexpr std::array kMethods{
     method<BruteForce>("brute", "all pairs of beads", true),
     method<Wrapped>("wrapped", "hierarchy of minimum enclosing spheres"),
     method<Layered>("layered", "hierarchy of spheres around spheres"),
-    method<Boxes>("boxes", "hierarchy of axis-aligned boxes"),
-    method<Polytopes>("k-dops", "hierarchy of polytopes with 13 directions, 4 in the plane"),
-    method<ByDiagram>("power", "power diagram"),
     method<Cells>("cells", "cell list", true),
     method<Auto>("auto", "blocks, and near pairs kept from frame to frame"),
 };
@@ -193,9 +142,8 @@ namespace {
 
 /// Describes the first difference between the results of two methods, or returns nothing.
 std::optional<std::string> difference(const Detection& a, const Detection& b) {
-  if (a.collide != b.collide) return "whether beads collide";
-  if (a.pairs && b.pairs && *a.pairs != *b.pairs)
-    return fmt::format("which beads collide ({} and {} pairs)", a.pairs->size(), b.pairs->size());
+  if (a.pairs != b.pairs)
+    return fmt::format("which beads collide ({} and {} pairs)", a.pairs.size(), b.pairs.size());
   if (a.closest && b.closest &&
       (a.closest->first != b.closest->first || a.closest->second != b.closest->second))
     return fmt::format("the closest pair ({}, {} and {}, {})", a.closest->first, a.closest->second,
@@ -231,12 +179,8 @@ class Comparison {
       const std::vector<Detection> found = detect(balls, frame.stamp);
       const FrameFound all = common(frame.stamp, found);
       ++report_.frames;
-      if (all.collide) ++report_.colliding_frames;
-      const auto telling =
-          std::find_if(found.begin(), found.end(), [](const Detection& d) { return d.pairs.has_value(); });
-      on_frame(
-          frame, all,
-          telling != found.end() ? std::optional<std::span<const BeadPair>>(*telling->pairs) : std::nullopt);
+      if (all.pairs > 0) ++report_.colliding_frames;
+      on_frame(frame, all, found.front().pairs);
       progress(k + 1, frames_.frame_count());
     }
     for (std::size_t m = 0; m < methods_.size(); ++m) {
@@ -305,8 +249,8 @@ class Comparison {
 
   void add(const Detection& found, const FrameStamp& stamp, CollideRow& row) const {
     const bool first = report_.frames == 0;
-    row.colliding_frames += found.collide ? 1 : 0;
-    row.pairs = row.pairs && found.pairs ? std::optional(*row.pairs + found.pairs->size()) : std::nullopt;
+    row.colliding_frames += found.pairs.empty() ? 0 : 1;
+    row.pairs += found.pairs.size();
     if (found.family) row.family = row.family.value_or(0) + *found.family;
     const bool told_before = first || row.closest.has_value();
     if (!found.closest || !told_before) {
@@ -317,12 +261,9 @@ class Comparison {
   }
 
   static FrameFound common(const FrameStamp& stamp, const std::vector<Detection>& found) {
-    FrameFound frame{stamp, false, std::nullopt, std::nullopt};
-    for (const Detection& one : found) {
-      frame.collide = one.collide;
-      if (one.pairs) frame.pairs = one.pairs->size();
+    FrameFound frame{stamp, found.front().pairs.size(), std::nullopt};
+    for (const Detection& one : found)
       if (one.closest) frame.closest = one.closest;
-    }
     return frame;
   }
 

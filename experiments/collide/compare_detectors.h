@@ -30,9 +30,8 @@ struct CollisionQuery {
 /// The results of a method for one frame. All methods that report a result report the same one, except for
 /// `family`.
 struct Detection {
-  bool collide = false;
-  std::optional<std::vector<BeadPair>> pairs;  ///< all colliding pairs, ascending
-  std::optional<ClosestPair> closest;          ///< among all pairs asked for
+  std::vector<BeadPair> pairs;          ///< all colliding pairs, ascending
+  std::optional<ClosestPair> closest;   ///< among all pairs asked for
   std::optional<std::uint64_t> family;  ///< number of pairs of bead groups that prove the other pairs apart
 };
 
@@ -125,8 +124,8 @@ struct ClosestInFrame {
 struct CollideRow {
   std::string_view method;
   std::size_t colliding_frames = 0;
-  std::optional<std::uint64_t> pairs = 0;  ///< empty if the method does not count pairs
-  std::optional<ClosestInFrame> closest;   ///< empty if the method does not report it for some frame
+  std::uint64_t pairs = 0;
+  std::optional<ClosestInFrame> closest;  ///< empty if the method does not report it for some frame
   std::optional<std::uint64_t> family;
   Spread seconds;  ///< time over all rounds to find the collisions in all frames
   /// Additional time for the closest pairs. The time is nearly zero if no separate search is necessary, and
@@ -137,8 +136,7 @@ struct CollideRow {
 /// The findings in one frame, combined from all methods.
 struct FrameFound {
   FrameStamp stamp;
-  bool collide = false;
-  std::optional<std::uint64_t> pairs;
+  std::uint64_t pairs = 0;
   std::optional<ClosestPair> closest;
 };
 
@@ -148,9 +146,8 @@ struct CollideReport {
   std::size_t frames = 0, colliding_frames = 0;
 };
 
-/// Called for each frame with its findings, and with all pairs if some method lists them.
-using OnFrame =
-    std::function<void(const FrameRead&, const FrameFound&, std::optional<std::span<const BeadPair>>)>;
+/// Called for each frame with its findings and all pairs.
+using OnFrame = std::function<void(const FrameRead&, const FrameFound&, std::span<const BeadPair>)>;
 
 struct CollideTask {
   std::vector<const Method*> methods;

@@ -32,22 +32,18 @@ typename BoxTree<Dimension>::Slab slab_of(const Balls<Dimension>& balls, BeadId 
 template <int Dimension>
 BoxTree<Dimension>::BoxTree(std::span<const BeadRange> necklaces, int directions)
     : directions_(box_directions<Dimension>(directions)) {
-  for (const SlabDirection& direction : directions_)
-    lengths_.push_back(std::sqrt(static_cast<double>(direction.square())) * (1 + 0x1p-49));
   const NecklaceTree tree(necklaces);
-  internal_ = static_cast<std::uint32_t>(tree.node_count());
-  const auto child = [this](NodeId node, BeadId leaf) {
-    return node == NecklaceTree::leaf ? internal_ + leaf : node;
+  const auto internal = static_cast<std::uint32_t>(tree.node_count());
+  const auto child = [internal](NodeId node, BeadId leaf) {
+    return node == NecklaceTree::leaf ? internal + leaf : node;
   };
-  for (NodeId node = 0; node < internal_; ++node) {
+  for (NodeId node = 0; node < internal; ++node) {
     const auto [first, last] = tree.range(node);
     nodes_.push_back({child(tree.left(node), first), child(tree.right(node), last), first, last});
   }
   const std::uint32_t beads = necklaces.empty() ? 0 : necklaces.back().last + 1;
   for (BeadId bead = 0; bead < beads; ++bead)
-    nodes_.push_back({internal_ + bead, internal_ + bead, bead, bead});
-  for (const BeadRange& necklace : necklaces)
-    roots_.push_back(necklace.first == necklace.last ? internal_ + necklace.first : *tree.find(necklace));
+    nodes_.push_back({internal + bead, internal + bead, bead, bead});
   slabs_.resize(nodes_.size() * directions_.size());
 }
 

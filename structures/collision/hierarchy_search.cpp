@@ -311,25 +311,6 @@ PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked
 }
 
 template <int Dimension>
-PairsFound find_pairs(const BoxTree<Dimension>& tree, const Balls<Dimension>& balls, const PairsAsked& asked,
-                      double distance, std::vector<SeparatingFamily::Pair>* family) {
-  if (family != nullptr) family->clear();
-  const auto center = [&](BeadId bead) { return in_space<Dimension>(balls.rows()[bead].center); };
-  const std::span<const TreeBox> nodes = tree.nodes();
-  const auto judge = [&](const NodePair& pair) {
-    if (tree.are_apart(pair.first, pair.second, distance)) return Separation::apart;
-    const TreeBox &a = nodes[pair.first], &b = nodes[pair.second];
-    if (!a.is_bead() || !b.is_bead()) return Separation::undecided;
-    const int sign = compare_separation(center(a.first), center(b.first), balls.radius(a.first),
-                                        balls.radius(b.first), distance);
-    return sign <= 0 ? Separation::near : Separation::apart;
-  };
-  return search(nodes, tree.roots(), asked, judge, [&](const NodePair& pair) {
-    if (family != nullptr) family->push_back({pair.first, pair.second});
-  });
-}
-
-template <int Dimension>
 PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked, const SearchRule& rule,
                       SeparatingFamily* family) {
   if (rule.leaf == 0) throw std::invalid_argument("a leaf has at least one bead");
@@ -384,10 +365,6 @@ template PairsFound find_pairs(const SphereTree<2>&, const PairsAsked&, double);
 template PairsFound find_pairs(const SphereTree<3>&, const PairsAsked&, double);
 template PairsFound find_pairs(const SphereTree<2>&, const PairsAsked&, SeparatingFamily&);
 template PairsFound find_pairs(const SphereTree<3>&, const PairsAsked&, SeparatingFamily&);
-template PairsFound find_pairs(const BoxTree<2>&, const Balls<2>&, const PairsAsked&, double,
-                               std::vector<SeparatingFamily::Pair>*);
-template PairsFound find_pairs(const BoxTree<3>&, const Balls<3>&, const PairsAsked&, double,
-                               std::vector<SeparatingFamily::Pair>*);
 template PairsFound find_pairs(const SphereTree<2>&, const PairsAsked&, const SearchRule&, SeparatingFamily*);
 template PairsFound find_pairs(const SphereTree<3>&, const PairsAsked&, const SearchRule&, SeparatingFamily*);
 template std::optional<ClosestPair> find_closest_pair(const SphereTree<2>&, const Balls<2>&,

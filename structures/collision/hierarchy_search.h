@@ -1,5 +1,5 @@
 #pragma once
-// Collision by a hierarchy of spheres or boxes (Agarwal et al., figure 6), within necklaces and between them.
+// Collision by a hierarchy of spheres (Agarwal et al., figure 6), within necklaces and between them.
 // The search starts at the roots. If the spheres of two nodes are not disjoint, the node with more beads is
 // split. Pairs of single beads are decided exactly. The pairs of disjoint spheres form the separating family.
 // For the wrapped hierarchy of a proper necklace, it has O(n log n) pairs in the plane and O(n^(4/3)) in
@@ -16,7 +16,6 @@
 #include <string>
 #include <vector>
 
-#include "structures/collision/box_tree.h"
 #include "structures/collision/closest_pair.h"
 #include "structures/collision/sphere_tree.h"
 #include "structures/necklace/balls.h"
@@ -88,15 +87,6 @@ template <int Dimension>
 template <int Dimension>
 [[nodiscard]] PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked,
                                     SeparatingFamily& family);
-
-/// Returns all pairs asked for whose closed balls are at most `distance` apart, by the same search over
-/// boxes. The separating family has pairs of nodes with a direction along which the nodes are farther apart,
-/// and pairs of beads that are farther apart. The boxes must be built over `balls`. Writes the family, as
-/// indices of nodes of the tree, unless `family` is null.
-template <int Dimension>
-[[nodiscard]] PairsFound find_pairs(const BoxTree<Dimension>& tree, const Balls<Dimension>& balls,
-                                    const PairsAsked& asked, double distance = 0,
-                                    std::vector<SeparatingFamily::Pair>* family = nullptr);
 
 /// Searches by another rule. Finds the same collisions. Writes the family unless `family` is null. Only
 /// Split::more_beads has the bound of Theorem 3.1. Throws std::invalid_argument if `rule.leaf` is 0.

@@ -20,7 +20,7 @@ struct NodePair {
 /// sequence of two beads asked about.
 template <class Search>
 void for_each_root(std::span<const std::uint32_t> roots, const PairsAsked& asked, const Search& search) {
-  refuse_groups(asked, "a hierarchy of spheres or boxes");
+  refuse_groups(asked, "a hierarchy of spheres");
   for (std::size_t n = 0; n < roots.size(); ++n) {
     if (asked.asks_of(n, n)) search(NodePair{roots[n], roots[n]}, asked.apart);
     for (std::size_t m = n + 1; asked.between && m < roots.size(); ++m)

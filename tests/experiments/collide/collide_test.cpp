@@ -41,11 +41,11 @@ TEST(CollideOptions, DefaultsAndAll) {
   EXPECT_EQ(plain.methods.size(), collision_methods().size());
   EXPECT_EQ(plain.apart, 2U);
   EXPECT_EQ(plain.pairs, WhichPairs::all);
-  const CollideOptions all = parse_collide_options({"a.xyz", "--method", "power,brute", "--apart", "5",
+  const CollideOptions all = parse_collide_options({"a.xyz", "--method", "cells,brute", "--apart", "5",
                                                     "--pairs", "between", "--out", "there", "--json", "-",
                                                     "--quiet", "b.xyz", "--radius", "2", "--frames", ":9"});
   EXPECT_THAT(all.inputs, ElementsAre("a.xyz", "b.xyz"));
-  EXPECT_THAT(all.methods, ElementsAre("brute", "power"));
+  EXPECT_THAT(all.methods, ElementsAre("brute", "cells"));
   EXPECT_FALSE(all.all_methods);
   EXPECT_EQ(all.apart, 5U);
   EXPECT_EQ(all.pairs, WhichPairs::between);
@@ -106,7 +106,7 @@ TEST(Collide, RowsOfAllMethodsAgree) {
   }
   EXPECT_EQ(methods.size(), collision_methods().size());
   EXPECT_THAT(methods, IsSupersetOf({"cells", "auto"}));
-  EXPECT_THAT(telling, ElementsAre("brute", "wrapped", "layered", "power", "auto"));
+  EXPECT_THAT(telling, ElementsAre("brute", "wrapped", "layered", "auto"));
   ASSERT_EQ(json["frames"].size(), 3U);
   EXPECT_EQ(json["frames"][0]["pairs"], 1);
   EXPECT_EQ(json["frames"][0]["closest"]["distance"], 0);
@@ -142,11 +142,10 @@ TEST(Collide, InThePlaneAndBetweenTwo) {
   const std::string b = directory.file("b.xyz", "3\n\nC 0 2 7\nC 2 3 7\nC 4 2 7\n");
   ProgramRun run = run_program({"collide", a, b, "--radius", "1", "--json", "-", "--pairs", "between"});
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("--method power is left out: the power diagram is of all beads"));
+  EXPECT_EQ(run.err, "");
   Json json = Json::parse(run.out);
   EXPECT_EQ(json["input"]["dimension"], 2);
-  EXPECT_EQ(json["warnings"].size(), 1U);
-  ASSERT_EQ(json["rows"].size(), collision_methods().size() - 1);
+  ASSERT_EQ(json["rows"].size(), collision_methods().size());
   for (const Json& row : json["rows"]) EXPECT_EQ(row["pairs"], 2) << row;
   run = run_program({"collide", a, b, "--radius", "1", "--json", "-", "--apart", "1"});
   ASSERT_EQ(run.code, 0) << run.err;
@@ -162,31 +161,11 @@ TEST(Collide, PairsWithinADistance) {
     const ProgramRun run =
         run_program({"collide", square, "--radius", "1", "--json", "-", "--within", within});
     ASSERT_EQ(run.code, 0) << run.err;
-    EXPECT_THAT(run.err,
-                HasSubstr("--method power is left out: the power diagram finds only beads that meet"));
     const Json json = Json::parse(run.out);
     EXPECT_EQ(json["settings"]["within"], std::stod(within));
-    ASSERT_EQ(json["rows"].size(), collision_methods().size() - 1);
+    ASSERT_EQ(json["rows"].size(), collision_methods().size());
     for (const Json& row : json["rows"]) EXPECT_EQ(row["pairs"], pairs) << within << ": " << row;
   }
-}
-
-Json row_of(const Json& json, const std::string& method) {
-  for (const Json& row : json["rows"])
-    if (row["method"] == method) return row;
-  return nullptr;
-}
-
-TEST(Collide, OfUnequalRadiiTheDiagramTellsLess) {
-  const ProgramRun run = run_program({"collide", data_file("proteins/1ejg.pdb"), "--select", "all",
-                                      "--radius", "element", "--apart", "6", "--json", "-"});
-  ASSERT_EQ(run.code, 0) << run.err;
-  const Json json = Json::parse(run.out);
-  const Json brute = row_of(json, "brute"), power = row_of(json, "power");
-  EXPECT_GT(brute["pairs"], 100);
-  EXPECT_EQ(power["pairs"], nullptr);
-  EXPECT_EQ(power["closest"], nullptr);
-  EXPECT_EQ(power["colliding_frames"], 1);
 }
 
 TEST(Collide, OfATrajectoryWithPlots) {
@@ -233,10 +212,9 @@ TEST(Collide, BadInputIsOneLine) {
       {{"collide", a, "--apart", "two"}, "--apart"},
       {{"collide", a, "--within", "-1"}, "--within"},
       {{"collide", a, "--within", "inf"}, "--within"},
-      {{"collide", a, "--within", "1", "--method", "power", "--radius", "1"}, "--method power"},
       {{"collide", a, "--method", "cubes"}, "--method"},
       {{"collide", a, "--pairs", "between", "--radius", "1"}, "--pairs between"},
-      {{"collide", a, a, "--pairs", "within", "--method", "power", "--radius", "1"}, "--method power"},
+      {{"collide", a, "--method", "power"}, "--method: 'power' is not one of brute"},
       {{"collide", a, "--frames", "9:"}, "frame"},
       {{"collide", data_file("kinetic/d3_n20_linear.txt")}, "expected a trajectory"},
       {{"collide", a, "--json", a, "--radius", "1"}, "square.xyz"},
@@ -338,8 +316,8 @@ TEST(Collide, GroupsLeaveTheirPairs) {
   EXPECT_EQ(json["rows"][0]["pairs"], expected.size() - 1);
   EXPECT_FALSE(json["rows"][0]["closest"].is_null());
   EXPECT_THAT(some.err,
-              HasSubstr("--groups: the methods wrapped, layered, boxes, k-dops, power, auto look at all "
-                        "pairs and are left out; brute and cells are compared\n"));
+              HasSubstr("--groups: the methods wrapped, layered, auto look at all pairs and are left out; "
+                        "brute and cells are compared\n"));
   const ProgramRun refused = run_program({"collide", kVillin, "--topology", kVillinPdb, "--frames", ":3",
                                           "--method", "auto", "--groups", "ca", "all"});
   EXPECT_EQ(refused.code, 2);

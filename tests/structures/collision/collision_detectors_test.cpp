@@ -9,7 +9,6 @@
 #include "structures/collision/block_tree.h"
 #include "structures/collision/brute_force.h"
 #include "structures/collision/cell_list.h"
-#include "structures/collision/diagram_collision.h"
 #include "structures/collision/distance_queries.h"
 #include "structures/collision/hierarchy_search.h"
 #include "tests/structures/collision/collision_scenes.h"
@@ -306,8 +305,6 @@ TEST(CollisionDetectors, OthersRefuseGroups) {
   tree.build(balls);
   EXPECT_THROW((void)find_pairs(tree, asked), std::invalid_argument);
   EXPECT_THROW((void)find_closest_pair(tree, balls, asked), std::invalid_argument);
-  EXPECT_TRUE(diagram_refusal(balls, asked));
-  EXPECT_THROW((void)collide_by_diagram(balls, asked), std::invalid_argument);
   asked.groups = {1, 2};
   EXPECT_THROW(CellList<3>{asked}, std::invalid_argument);
   EXPECT_THROW((void)pairs_by_force(balls, asked), std::invalid_argument);

@@ -9,7 +9,6 @@
 
 #include "structures/collision/balls_meet.h"
 #include "structures/collision/brute_force.h"
-#include "structures/collision/diagram_collision.h"
 #include "structures/collision/hierarchy_search.h"
 
 namespace kds {
@@ -24,7 +23,7 @@ namespace kds::test {
 
 /// Counts how often hard cases occurred in a test, so that the test can require them.
 struct DetectorsSeen {
-  unsigned cases = 0, colliding = 0, touching = 0, by_walk = 0;
+  unsigned cases = 0, colliding = 0, touching = 0;
 };
 
 inline PairsAsked all_pairs(std::vector<BeadRange> necklaces, BeadId apart = 2) {
@@ -62,37 +61,6 @@ void expect_hierarchies_agree(const Balls<Dimension>& balls, const PairsAsked& a
   }
 }
 
-template <int Dimension>
-void expect_diagram_agrees(const Balls<Dimension>& balls, const PairsAsked& asked,
-                           const std::vector<BeadPair>& expected, double distance, const std::string& what,
-                           DetectorsSeen& seen) {
-  if (diagram_refusal(balls, asked)) {
-    EXPECT_THROW((void)collide_by_diagram(balls, asked), std::invalid_argument) << what;
-    return;
-  }
-  const DiagramCollision found = collide_by_diagram(balls, asked);
-  EXPECT_EQ(found.collide, !expected.empty()) << what;
-  EXPECT_EQ(found.pairs.has_value(), balls.equal_radii()) << what;
-  if (found.pairs) {
-    ASSERT_EQ(*found.pairs, expected) << what;
-    ++seen.by_walk;
-  }
-  if (found.closest) {
-    expect_closest(found.closest, closest_pair_by_force(balls, asked), what + ", power");
-  } else {
-    EXPECT_TRUE(found.collide ? !balls.equal_radii() : !closest_pair_by_force(balls, asked).has_value())
-        << what;
-  }
-  if (!balls.equal_radii()) return;
-  Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(balls.size()));
-  for (BeadId b = 0; b < balls.size(); ++b)
-    for (std::size_t axis = 0; axis < Dimension; ++axis)
-      centers(static_cast<Eigen::Index>(axis), Eigen::Index{b}) = balls.coordinate(b, axis);
-  const DiagramEdges diagram = static_edges<Dimension>(centers, std::vector<double>(balls.size(), 0));
-  EXPECT_EQ(pairs_by_walk(balls, diagram, asked, distance), pairs_by_force(balls, asked, distance))
-      << what << ", walk";
-}
-
 /// Compares all methods with brute force. `distance` belongs to a second question.
 template <int Dimension>
 void expect_detectors_agree(const Balls<Dimension>& balls, const PairsAsked& asked, double distance,
@@ -109,7 +77,6 @@ void expect_detectors_agree(const Balls<Dimension>& balls, const PairsAsked& ask
   seen.colliding += expected.empty() ? 0 : 1;
   seen.touching += std::any_of(expected.begin(), expected.end(), touch) ? 1 : 0;
   expect_hierarchies_agree(balls, asked, expected, distance, what);
-  expect_diagram_agrees(balls, asked, expected, distance, what, seen);
 }
 
 }  // namespace kds::test

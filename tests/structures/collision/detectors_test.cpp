@@ -63,7 +63,6 @@ void ask_all_about_hard_sets(unsigned cases, BeadId most_beads, bool over_ration
   }
   EXPECT_GT(seen.colliding, seen.cases / 4);
   EXPECT_GT(seen.touching, seen.cases / 40);
-  EXPECT_GT(seen.by_walk, seen.cases / 8);
 }
 
 TEST(Detectors, OfHardSetsInSpace) { ask_all_about_hard_sets<3>(2400, 24, true); }
@@ -196,24 +195,6 @@ TEST(Detectors, OfCoordinatesWhoseSquaresOverflow) {
       expect_hierarchies_agree(balls, asked, expected, scale, "scale " + std::to_string(std::log2(scale)));
     }
   }
-}
-
-TEST(Detectors, TheDiagramRefusesWhatItDoesNotAnswer) {
-  const Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Random(3, 8);
-  const Balls<3> equal(centers, std::vector<double>(8, 0.1));
-  const std::vector<BeadRange> two{{0, 3}, {4, 7}};
-  EXPECT_TRUE(diagram_refusal(equal, {two, true, 2, false}));
-  EXPECT_TRUE(diagram_refusal(equal, {two, false, 2, true}));
-  EXPECT_FALSE(diagram_refusal(equal, {two, true, 2, true}));
-  EXPECT_TRUE(diagram_refusal(equal, {two, true, 2, true, {}, {false, true}}));
-  EXPECT_FALSE(diagram_refusal(equal, {{{0, 7}}, true, 2, false}));
-  std::vector<double> radii(8, 0.1);
-  radii[3] = 0x1p600;
-  EXPECT_THAT(*diagram_refusal(Balls<3>(centers, radii), all_pairs(two)), testing::HasSubstr("bead 3"));
-  radii[3] = 0.2;
-  const Balls<3> unequal(centers, radii);
-  const DiagramEdges none{BeadPairs(8, std::vector<BeadPairs::Pair>()), {}};
-  EXPECT_THROW((void)pairs_by_walk(unequal, none, all_pairs(two)), std::invalid_argument);
 }
 
 }  // namespace
