@@ -1,0 +1,78 @@
+"""What the scripts of this folder share: options, figures of the paper in CSV files, printed tables, verdicts on claims."""
+
+import argparse
+import csv
+import json
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+
+
+def read_csv(name):
+    """Returns the rows of a CSV file of this folder. Numbers become numbers; an empty field is None."""
+
+    def value(text):
+        try:
+            return int(text) if text.isdigit() else float(text)
+        except ValueError:
+            return text or None
+
+    with open(HERE / name, newline="", encoding="utf-8") as file:
+        return [{name: value(text) for name, text in row.items()} for row in csv.DictReader(file)]
+
+
+def shown(value):
+    """Returns large numbers in full and others with three figures."""
+    if value is None or isinstance(value, str):
+        return value or ""
+    return f"{value:,.0f}" if value >= 1000 or (value == int(value) and value >= 2) else f"{value:.3g}"
+
+
+def span(values, form="{:.3g}"):
+    """Returns the least and the largest value in words."""
+    return f"{form.format(min(values))} to {form.format(max(values))}"
+
+
+class Report:
+    """The options of a script and its results, which finish() prints and --json writes. `text` says what it measures."""
+
+    def __init__(self, text):
+        self.title = text.strip().splitlines()[0].rstrip(".")
+        parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
+        parser.add_argument("--short", action="store_true", help="leave out large inputs and measure each time once")
+        parser.add_argument("--json", metavar="FILE", help="write rows and verdicts to FILE; - is standard output")
+        parser.add_argument("--data", metavar="DIR", type=Path, default=HERE.parents[1] / "data",
+                            help="the project's data folder (default: that beside this script)")
+        given = parser.parse_args()
+        if not given.data.is_dir():
+            parser.error(f"--data: {given.data} is no folder; expected the project's data folder")
+        self.short, self.data, self.json = given.short, given.data, given.json
+        self.rounds = 1 if self.short else 5
+        self.out = sys.stderr if self.json == "-" else sys.stdout
+        self.results = {"title": self.title, "rows": [], "claims": []}
+        print(self.title, file=self.out)
+
+    def say(self, text=""):
+        print(text, file=self.out)
+
+    def show(self, heads, rows):
+        """Prints a table. `rows` are lists of numbers or texts; the first column is ruled left, the others right."""
+        cells = [heads, *([shown(value) for value in row] for row in rows)]
+        widths = [max(len(row[k]) for row in cells) for k in range(len(heads))]
+        for row in cells:
+            self.say("  " + "  ".join(f"{cell:{'>' if k else '<'}{widths[k]}}" for k, cell in enumerate(row)).rstrip())
+        self.say()
+
+    def claim(self, name, words, holds, figures):
+        """Adds the verdict on a claim: its name, a sentence without its full stop, whether it holds, and the figures."""
+        self.results["claims"].append({"claim": name, "words": words, "holds": bool(holds), "figures": figures})
+        self.say(f"  {words}: {'yes' if holds else 'no'} ({figures}).")
+
+    def finish(self):
+        """Writes the JSON if it is asked for."""
+        text = json.dumps(self.results, indent=1, default=lambda number: number.item()) + "\n"
+        if self.json == "-":
+            sys.stdout.write(text)
+        elif self.json:
+            Path(self.json).write_text(text, encoding="utf-8")
