@@ -38,6 +38,7 @@
 #include "python/frames_in_memory.h"
 #include "python/run_handle.h"
 #include "python/static_structures.h"
+#include "python/timing.h"
 #include "python/watch.h"
 #include "structures/session/structure_spec.h"
 
@@ -267,4 +268,5 @@ PYBIND11_MODULE(_kds, module) {
   module.def("wrapped_hierarchy", kds::python::wrapped_hierarchy);
   module.def("colliding_pairs", kds::python::colliding_pairs);
   module.def("closest_pair", kds::python::closest_pair_of);
+  kds::python::bind_timing(module);
 }

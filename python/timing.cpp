@@ -1,0 +1,380 @@
+#include "python/timing.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "experiments/program/timing.h"
+#include "motions/base/input_error.h"
+#include "python/arrays.h"
+#include "python/static_structures.h"
+#include "python/watch.h"
+#include "structures/collision/hierarchy_search.h"
+#include "structures/hierarchy/layered_hierarchy.h"
+#include "structures/hierarchy/static_wrapped_hierarchy.h"
+#include "structures/necklace/balls.h"
+#include "structures/triangulation/static_build.h"
+
+namespace kds::python {
+
+namespace py = pybind11;
+
+namespace {
+
+Eigen::Matrix3Xd matrix_of(const Numbers& points) {
+  if (points.ndim() != 2 || points.shape(1) < 2 || points.shape(1) > 3 || points.shape(0) < 2)
+    throw InputError(fmt::format("centers: has the shape {}; expected (beads, 3) or (beads, 2)",
+                                 std::string(py::str(points.attr("shape")))));
+  Eigen::Matrix3Xd matrix = Eigen::Matrix3Xd::Zero(3, points.shape(0));
+  for (py::ssize_t bead = 0; bead < points.shape(0); ++bead)
+    for (py::ssize_t axis = 0; axis < points.shape(1); ++axis) matrix(axis, bead) = points.at(bead, axis);
+  return matrix;
+}
+
+template <int Dimension>
+Balls<Dimension> balls_of(const Numbers& points, double radius) {
+  const Eigen::Matrix3Xd centers = matrix_of(points);
+  return Balls<Dimension>(centers, std::vector<double>(static_cast<std::size_t>(centers.cols()), radius));
+}
+
+std::vector<BeadRange> one_necklace(const Numbers& points) {
+  return {{0, static_cast<BeadId>(points.shape(0) - 1)}};
+}
+
+// Calls `measure` with the dimension as a constant.
+template <class Measure>
+py::dict in_dimension(const Numbers& points, Measure measure) {
+  if (points.ndim() == 2 && points.shape(1) == 2) return measure(std::integral_constant<int, 2>());
+  return measure(std::integral_constant<int, 3>());
+}
+
+// Computes with the GIL released.
+template <class Compute>
+auto released(Compute compute) {
+  const Watch watch;
+  return compute();
+}
+
+struct Work {
+  const char* name;
+  std::function<double()> seconds;
+};
+template <class Repeated>
+Work work(const char* name, Repeated repeated) {
+  return {name, [repeated] { return processor_seconds_per_call(repeated); }};
+}
+
+// Runs the works in turn. Work that takes more than a second is run once.
+py::dict timed_in_turn(std::size_t rounds, const std::vector<Work>& works) {
+  std::vector<std::function<double()>> functions;
+  for (const Work& one : works) functions.push_back(one.seconds);
+  std::vector<std::vector<double>> seconds(works.size());
+  if (rounds > 0) seconds = released([&] { return seconds_in_turn(rounds, functions); });
+  py::dict times;
+  for (std::size_t i = 0; i < works.size(); ++i) times[works[i].name] = array_of(std::move(seconds[i]));
+  return times;
+}
+
+template <int Dimension>
+py::dict builds(const Numbers& points, std::size_t rounds) {
+  const Eigen::Matrix3Xd centers = matrix_of(points);
+  const std::vector<double> zeros(static_cast<std::size_t>(centers.cols()), 0.0);
+  const Balls<Dimension> balls(centers, zeros);
+  StaticWrappedHierarchy<Dimension> wrapped(one_necklace(points));
+  LayeredHierarchy<Dimension> layered(one_necklace(points));
+  const Tightness rho = released([&] {
+    wrapped.build(balls);
+    layered.build(balls);
+    return tightness_of(wrapped, layered);
+  });
+  py::dict found = timed_in_turn(
+      rounds, {work("wrapped", [&] { wrapped.build(balls); }), work("layered", [&] { layered.build(balls); }),
+               work("wrapped_by_cgal", spheres_by_cgal<Dimension>(wrapped.tree().ranges(), centers, zeros)),
+               work("power", triangulation_by_cgal<Dimension>(centers, zeros))});
+  found["rho_avg"] = rho.average;
+  found["rho_min"] = rho.least;
+  return found;
+}
+
+// The paper's quadratic method. The early return also keeps the compiler from testing several pairs at once.
+template <int Dimension>
+bool collides(const Balls<Dimension>& balls) {
+  for (std::size_t i = 0; i < balls.size(); ++i) {
+    const BallRow<Dimension>& a = balls.rows()[i];
+    for (std::size_t j = i + 2; j < balls.size(); ++j) {
+      const BallRow<Dimension>& b = balls.rows()[j];
+      const double reach = a.radius + b.radius;
+      double squared = 0;
+      for (std::size_t axis = 0; axis < Dimension; ++axis)
+        squared += (a.center[axis] - b.center[axis]) * (a.center[axis] - b.center[axis]);
+      if (squared <= reach * reach) return true;
+    }
+  }
+  return false;
+}
+
+template <int Dimension>
+py::dict searches(const Numbers& points, double radius, std::size_t apart, std::size_t rounds) {
+  const Balls<Dimension> balls = balls_of<Dimension>(points, radius);
+  const std::vector<BeadRange> necklaces = one_necklace(points);
+  const PairsAsked asked{necklaces, true, static_cast<BeadId>(apart), true};
+  SphereTree<Dimension> wrapped(Hierarchy::wrapped, necklaces), layered(Hierarchy::layered, necklaces);
+  const auto [by_wrapped, by_layered] = released([&] {
+    wrapped.build(balls);
+    layered.build(balls);
+    return std::pair(find_pairs(wrapped, asked), find_pairs(layered, asked));
+  });
+  std::size_t colliding = 0;  // used, so that the compiler keeps the work
+  py::dict found =
+      timed_in_turn(rounds, {work("quadratic", [&] { colliding += collides(balls) ? 1 : 0; }),
+                             work("wrapped", [&] { colliding += find_pairs(wrapped, asked).pairs.size(); }),
+                             work("layered", [&] { colliding += find_pairs(layered, asked).pairs.size(); })});
+  found["wrapped_pairs"] = by_wrapped.family;
+  found["layered_pairs"] = by_layered.family;
+  found["collisions"] = by_wrapped.pairs.size();
+  return found;
+}
+
+// Times an update from one frame to another. An update that trusts its bases leaves them as they are, so it
+// can be repeated. A cascade repairs bases, so it goes back by a cascade each time, which takes about as
+// long.
+template <int Dimension>
+class TimedUpdate {
+ public:
+  using Hierarchy = StaticWrappedHierarchy<Dimension>;
+
+  TimedUpdate(const Numbers& before, const Numbers& after, const std::vector<BeadRange>& necklaces,
+              Update how)
+      : before_(balls_of<Dimension>(before, 0)),
+        after_(balls_of<Dimension>(after, 0)),
+        hierarchy_(necklaces),
+        how_(how) {
+    hierarchy_.build(before_);
+    hierarchy_.update(before_, how_ == Update::cascade ? how_ : Update::naive);
+  }
+
+  [[nodiscard]] const Balls<Dimension>& after() const { return after_; }
+
+  /// Returns the seconds of an update with `arrived`, which is called with the hierarchy, its counts and the
+  /// balls. For a cascade they are the mean of the way there and back.
+  template <class Arrived>
+  double seconds(const Arrived& arrived) {
+    const auto go = [&](const Balls<Dimension>& balls) {
+      const WrapCounts counts = hierarchy_.update(balls, how_);
+      arrived(hierarchy_, counts, balls);
+    };
+    if (how_ != Update::cascade) return processor_seconds_per_call([&] { go(after_); });
+    return processor_seconds_per_call([&] {
+             go(after_);
+             go(before_);
+           }) /
+           2;
+  }
+
+ private:
+  Balls<Dimension> before_, after_;
+  Hierarchy hierarchy_;
+  Update how_;
+};
+
+// The paper's naive verification: returns the number of nodes from whose spheres a bead has escaped. It tests
+// bead by bead; the early end also keeps the compiler from testing several beads at once.
+template <int Dimension>
+std::size_t escaped_nodes(const StaticWrappedHierarchy<Dimension>& hierarchy, const Balls<Dimension>& balls) {
+  constexpr double slack = 1e-9;  // for rounding: spheres pass through the centres of their bases
+  std::size_t escaped = 0;
+  for (NodeId node = 0; node < hierarchy.tree().node_count(); ++node) {
+    const Sphere sphere = hierarchy.sphere(node);
+    const double most = sphere.radius * sphere.radius * (1 + slack);
+    const BeadRange& range = hierarchy.tree().range(node);
+    for (BeadId bead = range.first; bead <= range.last; ++bead) {
+      double squared = 0;
+      for (std::size_t axis = 0; axis < Dimension; ++axis) {
+        const double along = balls.rows()[bead].center[axis] - sphere.center[static_cast<Eigen::Index>(axis)];
+        squared += along * along;
+      }
+      if (squared <= most) continue;
+      ++escaped;
+      break;
+    }
+  }
+  return escaped;
+}
+
+// Averages over all nodes of the tree, beads included, as the paper does. A bead has no frontier.
+template <int Dimension>
+double mean_frontier(const StaticWrappedHierarchy<Dimension>& hierarchy, const WrapCounts& counts,
+                     const Balls<Dimension>& balls) {
+  return static_cast<double>(counts.frontier) /
+         static_cast<double>(hierarchy.tree().node_count() + balls.size());
+}
+
+void check_frames(const Numbers& before, const Numbers& after) {
+  if (matrix_of(before).cols() != matrix_of(after).cols() || before.shape(1) != after.shape(1))
+    throw InputError(fmt::format("after: has the shape {}; expected that of before, {}",
+                                 std::string(py::str(after.attr("shape"))),
+                                 std::string(py::str(before.attr("shape")))));
+}
+
+template <int Dimension>
+py::dict updates(const Numbers& before, const Numbers& after, std::size_t rounds) {
+  const std::vector<BeadRange> necklaces = one_necklace(before);
+  TimedUpdate<Dimension> lazy(before, after, necklaces, Update::trust),
+      cascade(after, after, necklaces, Update::cascade), naive(after, after, necklaces, Update::trust);
+  std::size_t escaped = 0;  // used, so that the compiler keeps the work
+  py::dict found = timed_in_turn(
+      rounds,
+      {{"lazy", [&] { return lazy.seconds([](const auto&, const WrapCounts&, const auto&) {}); }},
+       {"cascade", [&] { return cascade.seconds([](const auto&, const WrapCounts&, const auto&) {}); }},
+       {"naive", [&] {
+          return naive.seconds([&](const auto& hierarchy, const WrapCounts&, const auto& balls) {
+            escaped += escaped_nodes(hierarchy, balls);
+          });
+        }}});
+  StaticWrappedHierarchy<Dimension> moved(necklaces);
+  const Balls<Dimension> start = balls_of<Dimension>(before, 0);
+  const auto tests = [](const WrapCounts& counts) { return counts.bead_tests + counts.cage_tests; };
+  const auto [by_naive, by_cascade] = released([&] {
+    moved.build(start);
+    const WrapCounts counts = moved.update(naive.after(), Update::naive);
+    moved.build(start);
+    moved.update(start, Update::cascade);
+    return std::pair(counts, moved.update(naive.after(), Update::cascade));
+  });
+  found["naive_tests"] = tests(by_naive);
+  found["cascade_tests"] = tests(by_cascade);
+  found["bases_changed"] = by_cascade.changed;
+  found["frontier"] = mean_frontier(moved, by_cascade, start);
+  return found;
+}
+
+// The search of the paper's Figure 6 for two necklaces. If the spheres of two nodes meet, it splits the node
+// with more beads. Beads that meet would form a pair of their own.
+template <class H, int Dimension>
+class SearchBetween {
+ public:
+  SearchBetween(const H& hierarchy, const std::vector<BeadRange>& necklaces, const Balls<Dimension>& balls)
+      : hierarchy_(hierarchy), necklaces_(necklaces), balls_(balls) {}
+
+  [[nodiscard]] std::uint64_t pairs() {
+    pairs_ = 0;
+    visit(root(0), root(1));
+    return pairs_;
+  }
+
+ private:
+  struct Part {
+    NodeId node;  ///< NecklaceTree::leaf for a bead
+    BeadRange beads;
+    Sphere sphere;
+  };
+
+  [[nodiscard]] Part part(NodeId node, const BeadRange& beads) const {
+    if (node != NecklaceTree::leaf) return {node, beads, hierarchy_.sphere(node)};
+    Sphere bead;
+    for (std::size_t axis = 0; axis < Dimension; ++axis)
+      bead.center[static_cast<Eigen::Index>(axis)] = balls_.rows()[beads.first].center[axis];
+    return {node, beads, bead};
+  }
+  [[nodiscard]] Part root(std::size_t necklace) const {
+    const BeadRange& beads = necklaces_[necklace];
+    return part(*hierarchy_.tree().find(beads), beads);
+  }
+  void visit(const Part& a, const Part& b) {
+    const double reach = a.sphere.radius + b.sphere.radius;
+    const bool both_beads = a.node == NecklaceTree::leaf && b.node == NecklaceTree::leaf;
+    if (both_beads || (a.sphere.center - b.sphere.center).squaredNorm() > reach * reach) {
+      ++pairs_;
+      return;
+    }
+    if (a.beads.last - a.beads.first >= b.beads.last - b.beads.first) {
+      for (const Part& half : halves(a)) visit(half, b);
+    } else {
+      for (const Part& half : halves(b)) visit(a, half);
+    }
+  }
+  [[nodiscard]] std::array<Part, 2> halves(const Part& whole) const {
+    const BeadId middle = whole.beads.first + (whole.beads.last - whole.beads.first) / 2;
+    return {part(hierarchy_.tree().left(whole.node), {whole.beads.first, middle}),
+            part(hierarchy_.tree().right(whole.node), {middle + 1, whole.beads.last})};
+  }
+
+  const H& hierarchy_;
+  const std::vector<BeadRange>& necklaces_;
+  const Balls<Dimension>& balls_;
+  std::uint64_t pairs_ = 0;
+};
+
+template <int Dimension>
+py::dict updates_between(const Numbers& before, const Numbers& after, std::size_t first, std::size_t rounds) {
+  const auto beads = static_cast<std::size_t>(before.shape(0));
+  if (first < 2 || first + 2 > beads)
+    throw InputError(fmt::format("first: is {}; expected the number of beads of the first necklace, 2 to {}",
+                                 first, beads - 2));
+  const std::vector<BeadRange> necklaces{{0, static_cast<BeadId>(first - 1)},
+                                         {static_cast<BeadId>(first), static_cast<BeadId>(beads - 1)}};
+  const Balls<Dimension> end = balls_of<Dimension>(after, 0);
+  LayeredHierarchy<Dimension> layered(necklaces);
+  TimedUpdate<Dimension> lazy(before, after, necklaces, Update::lazy),
+      full(before, after, necklaces, Update::cascade);
+  std::uint64_t pairs_seen = 0;  // used, so that the compiler keeps the search
+  const auto search = [&](const auto& hierarchy, const Balls<Dimension>& balls) {
+    const std::uint64_t pairs = SearchBetween(hierarchy, necklaces, balls).pairs();
+    pairs_seen += pairs;
+    return pairs;
+  };
+  const auto arrived = [&](const auto& hierarchy, const WrapCounts&, const Balls<Dimension>& balls) {
+    search(hierarchy, balls);
+  };
+  py::dict found = timed_in_turn(rounds, {work("layered",
+                                               [&] {
+                                                 layered.build(end);
+                                                 search(layered, end);
+                                               }),
+                                          {"lazy", [&] { return lazy.seconds(arrived); }},
+                                          {"full", [&] { return full.seconds(arrived); }}});
+  StaticWrappedHierarchy<Dimension> wrapped(necklaces);
+  const Balls<Dimension> start = balls_of<Dimension>(before, 0);
+  const WrapCounts counts = released([&] {
+    layered.build(end);
+    wrapped.build(start);
+    wrapped.update(start, Update::cascade);
+    return wrapped.update(end, Update::cascade);
+  });
+  found["layered_pairs"] = search(layered, end);
+  found["wrapped_pairs"] = search(wrapped, end);
+  found["frontier"] = mean_frontier(wrapped, counts, end);
+  return found;
+}
+
+}  // namespace
+
+void bind_timing(py::module_& module) {
+  module.def("time_builds", [](const Numbers& centers, std::size_t rounds) {
+    return in_dimension(centers, [&](auto dimension) { return builds<dimension>(centers, rounds); });
+  });
+  module.def(
+      "time_searches", [](const Numbers& centers, double radius, std::size_t apart, std::size_t rounds) {
+        return in_dimension(
+            centers, [&](auto dimension) { return searches<dimension>(centers, radius, apart, rounds); });
+      });
+  module.def("time_updates", [](const Numbers& before, const Numbers& after, std::size_t rounds) {
+    check_frames(before, after);
+    return in_dimension(before, [&](auto dimension) { return updates<dimension>(before, after, rounds); });
+  });
+  module.def("time_updates_between",
+             [](const Numbers& before, const Numbers& after, std::size_t first, std::size_t rounds) {
+               check_frames(before, after);
+               return in_dimension(before, [&](auto dimension) {
+                 return updates_between<dimension>(before, after, first, rounds);
+               });
+             });
+}
+
+}  // namespace kds::python
