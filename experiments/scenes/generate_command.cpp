@@ -110,7 +110,7 @@ const OptionList<GenerateOptions>& generate_options() {
                               &S::gap, {0, 0.9})),
               of_models(Setting::dimension,
                         whole_option({"--dimension", "D",
-                                      "dimension of a grid and its motion: 2 or 3 (grid only; default: 3)"},
+                                      "dimension of a grid or spline and of its motion: 2 or 3 (default: 3)"},
                                      &S::dimension, 2, 3)),
               of_models(Setting::jitter,
                         real_option({"--jitter", "X",

@@ -16,6 +16,7 @@ namespace kds::models {
 namespace {
 
 constexpr std::array kShape{Setting::motion, Setting::step, Setting::bond};
+constexpr std::array kSpline{Setting::motion, Setting::step, Setting::bond, Setting::dimension};
 constexpr std::array kHelix{Setting::motion, Setting::step, Setting::bond, Setting::turns};
 constexpr std::array kScalingHelix{Setting::motion, Setting::step, Setting::bond, Setting::pitch};
 constexpr std::array kGrid{Setting::motion, Setting::step,      Setting::bond,
@@ -72,7 +73,7 @@ std::vector<Shape> rolling(const Settings& s) {
 }
 
 std::vector<Trajectory> make_spline(const Settings& s) {
-  return moved("spline", spline(s.beads, *s.bond), s);
+  return moved("spline", spline(s.beads, *s.bond, *s.dimension), s);
 }
 
 std::vector<Trajectory> make_helix(const Settings& s) {
@@ -127,7 +128,8 @@ Settings shape_defaults(ShapeMotion motion) {
 
 std::vector<Model> make_models() {
   Settings shape = shape_defaults(ShapeMotion::rotate), chain = shape_defaults(ShapeMotion::wander);
-  Settings helix = shape, scaling = shape, grid = shape;
+  Settings spline = shape, helix = shape, scaling = shape, grid = shape;
+  spline.dimension = 3;
   helix.turns = 10;
   scaling.pitch = 2;
   grid.gap = 0.05;
@@ -140,7 +142,7 @@ std::vector<Model> make_models() {
   spiral.rolled = Span{0, 1};
   Settings two = spiral;
   two.distance = Span{1.5, 1.5};
-  return {{"spline", "a quadratic spline with five control points", kShape, make_spline, shape},
+  return {{"spline", "a quadratic spline with five control points", kSpline, make_spline, spline},
           {"helix", "a helix in a cube, with a constant number of turns", kHelix, make_helix, helix,
            turns_of_helix},
           {"scaling-helix", "a helix in a cube whose turns grow with the root of the beads", kScalingHelix,

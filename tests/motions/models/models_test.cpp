@@ -205,16 +205,17 @@ TEST(ModelRotating, IsRigidAndTakesItsSteps) {
   EXPECT_EQ(rotating(shape, 2, 0)[1], shape);
 }
 
-TEST(PlanarGrid, StaysInItsPlaneWhateverTheMotion) {
+TEST(PlanarModels, StayInTheirPlaneWhateverTheMotion) {
   Settings settings{.beads = 60, .frames = 20, .motion = {}, .step = 0.3, .dimension = 2, .jitter = 0.2};
-  for (const ShapeMotion motion : {ShapeMotion::rest, ShapeMotion::rotate, ShapeMotion::wander}) {
-    settings.motion = motion;
-    const Trajectory grid = generate(*find_model("grid"), settings).front();
-    ASSERT_EQ(grid.frames.size(), 20U);
-    for (const Shape& frame : grid.frames) EXPECT_EQ(frame.row(2).cwiseAbs().maxCoeff(), 0);
-    const double moved = (grid.frames[19] - grid.frames[0]).colwise().norm().maxCoeff();
-    EXPECT_EQ(moved > 0.5, motion != ShapeMotion::rest);
-  }
+  for (const char* const model : {"grid", "spline"})
+    for (const ShapeMotion motion : {ShapeMotion::rest, ShapeMotion::rotate, ShapeMotion::wander}) {
+      settings.motion = motion;
+      const Trajectory moving = generate(*find_model(model), settings).front();
+      ASSERT_EQ(moving.frames.size(), 20U);
+      for (const Shape& frame : moving.frames) EXPECT_EQ(frame.row(2).cwiseAbs().maxCoeff(), 0);
+      const double moved = (moving.frames[19] - moving.frames[0]).colwise().norm().maxCoeff();
+      EXPECT_EQ(moved > 0.5, motion != ShapeMotion::rest);
+    }
 }
 
 TEST(ModelWandering, DoesNotMakeWorseWhatIsWrongAlready) {
