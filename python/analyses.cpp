@@ -27,6 +27,7 @@
 #include "experiments/update/compare_updates.h"
 #include "experiments/update/update_command.h"
 #include "motions/base/input_error.h"
+#include "motions/readers/read_trajectory.h"
 #include "motions/scene/radii.h"
 #include "python/arrays.h"
 #include "python/watch.h"
@@ -208,24 +209,41 @@ py::dict conditions(const Arguments& arguments, const py::object& progress) {
   });
 }
 
+namespace {
+
+py::list arrays_of(const std::vector<Trajectory>& necklaces) {
+  py::list arrays;
+  for (const Trajectory& necklace : necklaces) {
+    std::vector<double> all;
+    for (const Eigen::Matrix3Xd& frame : necklace.frames)
+      all.insert(all.end(), frame.data(), frame.data() + frame.size());
+    arrays.append(array_of(std::move(all), {static_cast<py::ssize_t>(necklace.frames.size()),
+                                            static_cast<py::ssize_t>(necklace.bead_count()), 3}));
+  }
+  return arrays;
+}
+
+}  // namespace
+
 py::list generate(const Arguments& arguments) {
   const GenerateOptions options = parse_generate_options(arguments);
-  std::vector<std::vector<double>> numbers;
-  std::vector<std::vector<py::ssize_t>> shapes;
+  std::vector<Trajectory> necklaces;
   {
     const Watch watch;
-    for (const Trajectory& necklace : models::generate(*options.model, options.settings)) {
-      std::vector<double>& all = numbers.emplace_back();
-      for (const Eigen::Matrix3Xd& frame : necklace.frames)
-        all.insert(all.end(), frame.data(), frame.data() + frame.size());
-      shapes.push_back({static_cast<py::ssize_t>(necklace.frames.size()),
-                        static_cast<py::ssize_t>(necklace.bead_count()), 3});
-    }
+    necklaces = models::generate(*options.model, options.settings);
   }
-  py::list arrays;
-  for (std::size_t k = 0; k < numbers.size(); ++k)
-    arrays.append(array_of(std::move(numbers[k]), std::move(shapes[k])));
-  return arrays;
+  return arrays_of(necklaces);
+}
+
+py::object read_positions(const std::string& path, const std::string& topology) {
+  std::vector<Trajectory> necklaces;
+  {
+    const Watch watch;
+    ReadOptions options;
+    if (!topology.empty()) options.topology = topology;
+    necklaces.push_back(read_trajectory(path, options));
+  }
+  return arrays_of(necklaces)[0];
 }
 
 }  // namespace kds::python

@@ -5,6 +5,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 #include "experiments/program/command_line.h"
 
 namespace kds::python {
@@ -26,5 +28,7 @@ namespace kds::python {
 [[nodiscard]] pybind11::dict conditions(const Arguments& arguments, const pybind11::object& progress);
 /// `kds generate`. Returns an array (frames, beads, 3) for each necklace.
 [[nodiscard]] pybind11::list generate(const Arguments& arguments);
+/// Returns the backbone of the first chain of a file, an array (frames, beads, 3). `topology` may be empty.
+[[nodiscard]] pybind11::object read_positions(const std::string& path, const std::string& topology);
 
 }  // namespace kds::python

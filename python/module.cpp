@@ -263,6 +263,7 @@ PYBIND11_MODULE(_kds, module) {
   module.def("trade", kds::python::trade);
   module.def("conditions", kds::python::conditions);
   module.def("generate", kds::python::generate);
+  module.def("read_positions", kds::python::read_positions);
   module.def("power_diagram", kds::python::power_diagram);
   module.def("enclosing_sphere", kds::python::enclosing_sphere);
   module.def("wrapped_hierarchy", kds::python::wrapped_hierarchy);
