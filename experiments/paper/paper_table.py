@@ -8,29 +8,30 @@ LARGEST_SHORT = 2000  # beads of a row with --short
 
 
 class PaperTable(Report):
-    """A table of the paper, measured again. Its rows and the paper's figures are in NAME.csv.
+    """A table of the paper, measured again. Its rows and the paper's figures are in table1.csv, table2.csv, ...
 
     `times` are columns in milliseconds or microseconds, as their names end; `ratios` are {name: (time, time)}; `counts` are
-    counts and ratios of lengths or counts. reasons.csv says why figures deviate.
+    counts and ratios of lengths or counts. reasons.csv says how inputs differ from the paper's, and why figures deviate.
     """
 
-    def __init__(self, name, text, times, ratios, counts):
+    def __init__(self, number, text, times, ratios, counts):
         super().__init__(text)
         self.times, self.ratios, self.counts = times, ratios, counts
-        self.rows = [row for row in read_csv(f"{name}.csv") if not self.short or row["beads"] <= LARGEST_SHORT]
-        self.reasons = [reason for reason in read_csv("reasons.csv") if reason["table"] == name]
+        self.rows = [row for row in read_csv(f"table{number}.csv") if not self.short or row["beads"] <= LARGEST_SHORT]
+        self.reasons = [reason for reason in read_csv("reasons.csv") if str(number) in str(reason["tables"] or number)]
         for row in self.rows:
             row["row"] = ", ".join(str(part) for part in (row["model"], f"{row['beads']:,} beads", row["at"]) if part)
             for ratio, (a, b) in ratios.items():
                 row[ratio] = row[a] / row[b] if row.get(a) and row.get(b) else None
 
     def measured(self, row, note=None, **values):
-        """Adds the figures of a row: seconds by round for times, and numbers."""
+        """Adds the figures of a row: seconds by round for times, and numbers. `note` is about this measurement."""
         found = {name: np.asarray(values[name]) * (1e3 if name.endswith("_ms") else 1e6) for name in self.times}
         found.update({name: found[a] / found[b] for name, (a, b) in self.ratios.items()})
         row["kds"] = {name: np.median(rounds) for name, rounds in found.items()}
         row["kds"].update({name: values[name] for name in self.counts})
-        row["note"] = "; ".join(part for part in (row["note"], note) if part)
+        of_row = [reason["reason"] for reason in self.reasons if not reason["column"] and row["row"].startswith(reason["rows"])]
+        row["note"] = "; ".join(part for part in (*of_row, note) if part)
         result = {name: row[name] for name in ("model", "beads", "at", "row", "note")}
         for name, value in row["kds"].items():
             result[name] = value
@@ -56,13 +57,15 @@ class PaperTable(Report):
     def is_large(self, row, name):
         """Whether the deviation needs a reason. Any number deviates from 0."""
         off = self.deviation(row, name)
-        return abs(off) > EXPLAINED_FROM if off is not None else row.get(name) == 0 and row["kds"][name] != 0
+        if name in self.times or off is not None:
+            return name not in self.times and abs(off) > EXPLAINED_FROM
+        return row.get(name) == 0 and row["kds"][name] != 0
 
     def reason(self, row, name):
-        """Returns why a figure deviates: the reason of the row, else that of the column."""
-        fits = [reason for reason in self.reasons if reason["column"] == name and
-                (reason["rows"] is None or any(row["row"].startswith(part) for part in reason["rows"].split("; ")))]
-        return min(fits, key=lambda reason: reason["rows"] is None)["reason"] if fits else "no reason is known"
+        """Returns why a figure deviates: the reason that names the row most closely, else that of the column."""
+        fits = [(part, reason["reason"]) for reason in self.reasons if reason["column"] == name
+                for part in (reason["rows"] or "").split("; ") if row["row"].startswith(part)]
+        return max(fits, key=lambda fit: len(fit[0]))[1] if fits else "no reason is known"
 
     def print_rows(self):
         """Prints times, ratios and counts beside the paper's, then notes on inputs and reasons of deviations."""
@@ -90,3 +93,12 @@ class PaperTable(Report):
         for reason in dict.fromkeys(text for text, _ in large):
             remark(reason, [row for text, row in large if text == reason])
         self.say()
+
+
+def is_in_dynamics(row):
+    """Whether the row is a chain of a simulation."""
+    return row["model"].startswith(("villin", "random"))
+
+
+def is_protein(row):
+    return is_in_dynamics(row) or row["model"].startswith(("1a4y", "1cem"))
