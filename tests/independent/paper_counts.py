@@ -1,4 +1,4 @@
-"""Recomputes counts of `kds reproduce` and `kds collide` with numpy. No code is shared with kds.
+"""Recomputes counts of `kds collide` and of tests/paper with numpy. No code is shared with kds.
 
 Usage: paper_counts.py KDS DATA FOLDER. Exit code 77 (skipped) if numpy is not installed. Without scipy, which
 computes Delaunay triangulations, the counts of cells and edges are left out.
@@ -11,6 +11,7 @@ import json
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 try:
     import numpy
@@ -234,16 +235,17 @@ def spiral(beads, turns, rolled, bond=1.998):
 
 
 def compare_tables():
-    """Sets, edges, changed bases and changed cells, as `kds reproduce` counts them."""
-    rows = json.loads(kds("reproduce", "table4", "table6", "--rounds", "1", "--data", DATA, "--json", "-"))["rows"]
+    """Sets, edges, changed bases and changed cells, which the scripts of the paper must find."""
+    counts = Path(__file__).resolve().parents[1] / "paper"
+    table4, table6 = (json.loads((counts / f"table{table}.json").read_text()) for table in (4, 6))
     villin = read_dcd(os.path.join(DATA, "trajectories/villin_hp36_300K.dcd"))
     random = read_dcd(os.path.join(DATA, "trajectories/random100_400K_first200.dcd"))
     extended = read_backbone(os.path.join(DATA, "paper/villin_hp36_collapse.pdb"))[None]
     conformations = [(spiral(1000, 16, 0.001 + 0.999 * frame / 49), None) for frame in (0, 25, 49)]
     for frames, at in ((extended, 0), (villin, 0), (villin, 999), (random, 0), (random, 100), (random, 199)):
         conformations.append((frames[at], half_longest_bond(frames)))
-    for row, (points, radius) in zip((row for row in rows if row["table"] == 4), conformations):
-        name = f"table 4, {row['name']}, {row['at']}"
+    for (name, row), (points, radius) in zip(table4.items(), conformations):
+        name = f"table 4, {name}"
         for kind in ("wrapped", "layered"):
             pairs = separating_pairs(tree_over(points, 0.0, kind == "layered"), 1)
             check(f"{name}, {kind} set", row[f"{kind}_pairs"], len(pairs))
@@ -255,15 +257,15 @@ def compare_tables():
 
     later = read_dcd(os.path.join(DATA, "paper/random100_400K_900to932.dcd"))
     trees = {}
-    for row in (row for row in rows if row["table"] == 6):
-        frame = int(row["at"].split()[0])
+    for name, row in table6.items():
+        name, frame = f"table 6, {name}", int(name.split(", ")[-1].split()[0])
         for at in (0, frame):
             trees[at] = trees.get(at) or [node.basis for node in tree_over(later[at], 0.0).nodes()]
         changed = sum(one != other for one, other in zip(trees[0], trees[frame]))
-        check(f"table 6, {row['at']}, bases changed", row["bases_changed"], changed)
+        check(f"{name}, bases changed", row["bases_changed"], changed)
         if Delaunay:
             cells = [set(map(frozenset, delaunay_cells(later[at]).simplices.tolist())) for at in (0, frame)]
-            check(f"table 6, {row['at']}, cells changed", row["cells_changed"], len(cells[1] - cells[0]))
+            check(f"{name}, cells changed", row["cells_changed"], len(cells[1] - cells[0]))
 
 
 compare_families()
