@@ -29,9 +29,9 @@ def shown(value):
     return f"{value:,.0f}" if value >= 1000 or (value == int(value) and value >= 2) else f"{value:.3g}"
 
 
-def span(values, form="{:.3g}"):
+def span(values):
     """Returns the least and the largest value in words."""
-    return f"{form.format(min(values))} to {form.format(max(values))}"
+    return f"{shown(min(values))} to {shown(max(values))}"
 
 
 class Report:

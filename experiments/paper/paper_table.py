@@ -72,7 +72,7 @@ class PaperTable(Report):
 
         def off(row, name):
             deviation = self.deviation(row, name)
-            return "" if deviation is None else f"{100 * deviation:+,.0f}%"
+            return "" if deviation is None else f"{round(100 * deviation):+,}%".replace("+0%", "0%")
 
         def remark(text, rows):
             self.say(f"  - {text}. Rows: {'; '.join(rows)}.")

@@ -36,7 +36,7 @@ table.claim("more-stable", "The wrapped hierarchy is more stable than the diagra
             ((bases < cells) | (cells == 0)).all() and bases.sum() < cells.sum(),
             f"{bases.sum():,.0f} bases and {cells.sum():,.0f} cells change in all rows together")
 table.claim("hundred-cells", "In molecular dynamics more than 100 cells change at each step", cells[dynamics].min() > 100,
-            span(cells[dynamics], "{:.0f}"))
+            span(cells[dynamics]))
 table.claim("cascade-tests", "The cascade does fewer tests than naive verification", tests.max() < 1,
             f"{span(tests)} times as many")
 table.claim("cascade-no-slower", "The cascade is no slower than naive verification", cascade.max() <= 1, f"{span(cascade)} times")
