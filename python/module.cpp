@@ -36,6 +36,7 @@
 #include "motions/scene/length_unit.h"
 #include "python/analyses.h"
 #include "python/frames_in_memory.h"
+#include "python/paper_measures.h"
 #include "python/run_handle.h"
 #include "python/static_structures.h"
 #include "python/timing.h"
@@ -267,6 +268,10 @@ PYBIND11_MODULE(_kds, module) {
   module.def("power_diagram", kds::python::power_diagram);
   module.def("enclosing_sphere", kds::python::enclosing_sphere);
   module.def("wrapped_hierarchy", kds::python::wrapped_hierarchy);
+  module.def("layered_hierarchy", kds::python::layered_hierarchy);
+  module.def("separating_family", kds::python::separating_family);
+  module.def("closest_by_diagram", kds::python::closest_by_diagram);
+  module.def("trusted_hierarchy", kds::python::trusted_hierarchy);
   module.def("colliding_pairs", kds::python::colliding_pairs);
   module.def("closest_pair", kds::python::closest_pair_of);
   kds::python::bind_timing(module);

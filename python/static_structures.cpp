@@ -10,88 +10,17 @@
 
 #include "motions/base/input_error.h"
 #include "python/arrays.h"
+#include "python/balls_given.h"
 #include "python/watch.h"
 #include "structures/collision/auto_detector.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
+#include "structures/hierarchy/layered_hierarchy.h"
 #include "structures/hierarchy/static_wrapped_hierarchy.h"
-#include "structures/necklace/balls.h"
-#include "structures/necklace/bead_pairs.h"
 #include "structures/triangulation/diagram_edges.h"
 
 namespace kds::python {
 
 namespace py = pybind11;
-
-namespace {
-
-/// Balls of the caller, checked.
-struct BallsGiven {
-  Eigen::Matrix3Xd centers;
-  std::vector<double> radii;
-  int dimension = 3;
-
-  BallsGiven(const Numbers& points, const Numbers& lengths) {
-    if (points.ndim() != 2 || (points.shape(1) != 3 && points.shape(1) != 2) || points.shape(0) == 0)
-      throw InputError(fmt::format("centers: has the shape {}; expected (beads, 3) or (beads, 2)",
-                                   std::string(py::str(points.attr("shape")))));
-    const auto beads = static_cast<std::size_t>(points.shape(0));
-    if (lengths.size() != 1 && static_cast<std::size_t>(lengths.size()) != beads)
-      throw InputError(fmt::format("radii: has {} numbers; expected {}, one for each bead, or one for all",
-                                   lengths.size(), beads));
-    dimension = static_cast<int>(points.shape(1));
-    centers.setZero(3, static_cast<Eigen::Index>(beads));
-    for (std::size_t bead = 0; bead < beads; ++bead) {
-      for (int axis = 0; axis < dimension; ++axis) {
-        const double x =
-            points.data()[bead * static_cast<std::size_t>(dimension) + static_cast<std::size_t>(axis)];
-        if (!std::isfinite(x))
-          throw InputError(fmt::format("centers: bead {} has {} = {}, expected a finite coordinate", bead,
-                                       "xyz"[axis], x));
-        centers(axis, static_cast<Eigen::Index>(bead)) = x;
-      }
-      const double radius = lengths.data()[lengths.size() == 1 ? 0 : bead];
-      if (!(radius >= 0) || !std::isfinite(radius))
-        throw InputError(
-            fmt::format("radii: bead {} has the radius {}, expected a finite number from 0", bead, radius));
-      radii.push_back(radius);
-    }
-  }
-
-  /// Calls `visit` with the dimension as a constant.
-  template <class Visit>
-  auto in_dimension(Visit visit) const {
-    if (dimension == 2) return visit(std::integral_constant<int, 2>());
-    return visit(std::integral_constant<int, 3>());
-  }
-
-  [[nodiscard]] std::vector<BeadRange> ranges(const std::vector<std::size_t>& necklaces) const {
-    std::vector<BeadRange> ranges;
-    std::size_t first = 0;
-    for (const std::size_t beads : necklaces) {
-      if (beads == 0 || first + beads > radii.size()) break;
-      ranges.push_back({static_cast<BeadId>(first), static_cast<BeadId>(first + beads - 1)});
-      first += beads;
-    }
-    if (necklaces.empty()) return {{0, static_cast<BeadId>(radii.size() - 1)}};
-    if (ranges.size() != necklaces.size() || first != radii.size())
-      throw InputError(fmt::format("necklaces: expected numbers of beads above 0 with the sum {}, all beads",
-                                   radii.size()));
-    return ranges;
-  }
-
-  [[nodiscard]] PairsAsked pairs(const std::vector<std::size_t>& necklaces, std::size_t apart) const {
-    if (apart < 1 || apart > 1'000'000'000)
-      throw InputError(fmt::format("apart: {} is no distance along a chain; expected 1 or more", apart));
-    return {ranges(necklaces), true, static_cast<BeadId>(apart), true};
-  }
-};
-
-py::array_t<std::int64_t> array_of_ids(std::vector<std::int64_t> ids) {
-  const auto pairs = static_cast<py::ssize_t>(ids.size() / 2);
-  return array_of(std::move(ids), {pairs, 2});
-}
-
-}  // namespace
 
 py::tuple power_diagram(const Numbers& centers, const Numbers& radii) {
   const BallsGiven balls(centers, radii);
@@ -125,8 +54,10 @@ py::tuple enclosing_sphere(const Numbers& centers, const Numbers& radii) {
                         smallest.sphere.radius, array_of(std::move(basis)));
 }
 
-py::tuple wrapped_hierarchy(const Numbers& centers, const Numbers& radii,
-                            const std::vector<std::size_t>& necklaces) {
+namespace {
+
+template <template <int> class Hierarchy>
+py::tuple nodes_of(const Numbers& centers, const Numbers& radii, const std::vector<std::size_t>& necklaces) {
   const BallsGiven balls(centers, radii);
   const std::vector<BeadRange> ranges = balls.ranges(necklaces);
   std::vector<std::int64_t> beads;
@@ -134,19 +65,28 @@ py::tuple wrapped_hierarchy(const Numbers& centers, const Numbers& radii,
   {
     const Watch watch;
     balls.in_dimension([&](auto dimension) {
-      StaticWrappedHierarchy<dimension> hierarchy(ranges);
+      Hierarchy<dimension> hierarchy(ranges);
       hierarchy.build(Balls<dimension>(balls.centers, balls.radii));
       for (NodeId node = 0; node < hierarchy.tree().node_count(); ++node) {
         const BeadRange range = hierarchy.tree().range(node);
-        const Sphere sphere = hierarchy.sphere(node);
         beads.insert(beads.end(), {range.first, range.last});
-        spheres.insert(spheres.end(),
-                       {sphere.center.x(), sphere.center.y(), sphere.center.z(), sphere.radius});
       }
+      spheres = spheres_of(hierarchy);
     });
   }
-  const auto nodes = static_cast<py::ssize_t>(spheres.size() / 4);
-  return py::make_tuple(array_of_ids(std::move(beads)), array_of(std::move(spheres), {nodes, 4}));
+  return py::make_tuple(array_of_ids(std::move(beads)), array_of_spheres(std::move(spheres)));
+}
+
+}  // namespace
+
+py::tuple wrapped_hierarchy(const Numbers& centers, const Numbers& radii,
+                            const std::vector<std::size_t>& necklaces) {
+  return nodes_of<StaticWrappedHierarchy>(centers, radii, necklaces);
+}
+
+py::tuple layered_hierarchy(const Numbers& centers, const Numbers& radii,
+                            const std::vector<std::size_t>& necklaces) {
+  return nodes_of<LayeredHierarchy>(centers, radii, necklaces);
 }
 
 py::array_t<std::int64_t> colliding_pairs(const Numbers& centers, const Numbers& radii,

@@ -20,6 +20,9 @@ using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::a
 /// (nodes, 4). `necklaces` are the numbers of beads of each necklace; empty: one necklace.
 [[nodiscard]] pybind11::tuple wrapped_hierarchy(const Numbers& centers, const Numbers& radii,
                                                 const std::vector<std::size_t>& necklaces);
+/// Returns nodes and spheres of the layered hierarchy in the same form.
+[[nodiscard]] pybind11::tuple layered_hierarchy(const Numbers& centers, const Numbers& radii,
+                                                const std::vector<std::size_t>& necklaces);
 /// Returns the pairs of balls whose distance is at most `within`, an array (m, 2). Beads of one necklace are
 /// at least `apart` apart along it.
 [[nodiscard]] pybind11::array_t<std::int64_t> colliding_pairs(const Numbers& centers, const Numbers& radii,

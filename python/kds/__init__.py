@@ -14,8 +14,9 @@ from ._analyses import (Collisions, Comparison, Conditions, Contacts, Trade, Upd
 from ._kds import AuditError, InputError
 from ._kds import version as _version
 from ._options import InputWarning
+from ._paper import closest_by_diagram, separating_family, trusted_hierarchy
 from ._run import Run, run, structure_names
-from ._static import closest_pair, colliding_pairs, enclosing_sphere, power_diagram, wrapped_hierarchy
+from ._static import closest_pair, colliding_pairs, enclosing_sphere, layered_hierarchy, power_diagram, wrapped_hierarchy
 from ._stepping import KineticRun, StreamFrame, stream
 from ._structure import Structure
 from ._view import View
@@ -23,9 +24,10 @@ from ._view import View
 AuditError.__module__ = InputError.__module__ = "kds"
 __version__ = _version()
 __all__ = ["AuditError", "Collisions", "Comparison", "Conditions", "Contacts", "InputError", "InputWarning",
-           "KineticAnalysis", "KineticRun", "Run", "StreamFrame", "Structure", "Trade", "Updates", "View", "closest_pair",
-           "collide", "colliding_pairs", "compare", "conditions", "contacts", "enclosing_sphere", "generate",
-           "power_diagram", "run", "stream", "structure_names", "trade", "update", "wrapped_hierarchy"]
+           "KineticAnalysis", "KineticRun", "Run", "StreamFrame", "Structure", "Trade", "Updates", "View", "closest_by_diagram",
+           "closest_pair", "collide", "colliding_pairs", "compare", "conditions", "contacts", "enclosing_sphere", "generate",
+           "layered_hierarchy", "power_diagram", "run", "separating_family", "stream", "structure_names", "trade",
+           "trusted_hierarchy", "update", "wrapped_hierarchy"]
 
 
 def __getattr__(name):

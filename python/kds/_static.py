@@ -47,6 +47,19 @@ def wrapped_hierarchy(centers, radius, necklaces=()):
     return _kds.wrapped_hierarchy(*_balls(centers, radius), wholes("necklaces", necklaces, 1))
 
 
+def layered_hierarchy(centers, radius, necklaces=()):
+    """Returns the nodes of the layered hierarchy in the form of :func:`kds.wrapped_hierarchy`.
+
+    The sphere of a node is the smallest one around the spheres of its two children.
+
+    >>> import kds
+    >>> nodes, spheres = kds.layered_hierarchy([[0, 0, 0], [2, 0, 0], [4, 0, 0]], 1)
+    >>> spheres[0].round(9).tolist()
+    [2.0, 0.0, 0.0, 3.0]
+    """
+    return _kds.layered_hierarchy(*_balls(centers, radius), wholes("necklaces", necklaces, 1))
+
+
 def colliding_pairs(centers, radius, *, within=0, apart=2, necklaces=()):
     """Returns the pairs of balls whose surfaces are at most ``within`` apart, an array (m, 2), ascending.
 
