@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -40,12 +41,6 @@ constexpr std::array kCommands{
     Command{"missed", "measure which contacts are missed if only frames are examined", missed_command},
     Command{"reproduce", "measure the paper's tables again and compare them with the paper's",
             reproduce_command},
-    Command{"theorems", "measure the quantities that the paper's theorems bound, for growing sizes",
-            theorems_command},
-    Command{"figures", "draw figures of the paper from data of kds", figures_command},
-    Command{"questions", "measure answers to the paper's open questions", questions_command},
-    Command{"scale", "measure how events, certificates and families grow with the number of beads",
-            scale_command},
     Command{"trade", "measure how much time each accuracy option saves and how large its errors are",
             trade_command},
     Command{"bench", "compare the speed of kds with that of other libraries", bench_command},
@@ -53,6 +48,9 @@ constexpr std::array kCommands{
             sweep_command},
     Command{"stability", "test the three arithmetics on hard inputs", stability_command},
 };
+
+/// Former commands that are scripts now.
+constexpr std::array<std::string_view, 4> kScripts{"figures", "questions", "scale", "theorems"};
 
 std::string program_help() {
   std::string text =
@@ -81,6 +79,10 @@ std::string suggested_run(const std::string& name) {
 const Command& command_of(const std::string& name) {
   for (const Command& command : kCommands)
     if (command.name == name) return command;
+  if (std::ranges::find(kScripts, name) != kScripts.end())
+    throw InputError(fmt::format(
+        "{0}: is a script now, experiments/paper/{0}.py; scripts/reproduce {0} builds what it needs and runs it",
+        name));
   const bool is_option = name.starts_with('-');
   std::vector<std::string_view> names{"help"};
   if (is_option) names = {"--help", "--version"};

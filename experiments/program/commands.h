@@ -28,32 +28,24 @@ int collide_command(const Arguments& arguments);
 int compare_command(const Arguments& arguments);
 /// `kds contacts`: reports the exact lifetimes of contacts, and what frames alone would show.
 int contacts_command(const Arguments& arguments);
-/// `kds figures`: draws figures of the paper.
-int figures_command(const Arguments& arguments);
 /// `kds generate`: writes a model necklace.
 int generate_command(const Arguments& arguments);
 /// `kds info`: describes trajectories. A violated condition is not an error.
 int info_command(const Arguments& arguments);
 /// `kds missed`: reports the share of the contacts that is missed if only the frames are examined.
 int missed_command(const Arguments& arguments);
-/// `kds questions`: measures quantities that the paper leaves open.
-int questions_command(const Arguments& arguments);
 /// `kds replay`: runs a logged run again. Returns 0 if the run reproduces the log's fingerprint, else 1.
 int replay_command(const Arguments& arguments);
 /// `kds reproduce`: measures the paper's tables again.
 int reproduce_command(const Arguments& arguments);
 /// `kds run`: runs kinetic structures and reports their events.
 int run_command(const Arguments& arguments);
-/// `kds scale`: measures how everything that kds compare and theorems measure grows with the number of beads.
-int scale_command(const Arguments& arguments);
 /// `kds stability`: compares the kernels on inputs for which the arithmetic is hardest. Throws
 /// std::runtime_error if a row does not hold.
 int stability_command(const Arguments& arguments);
 /// `kds sweep`: runs commands over many inputs and settings. Returns 75 if a signal or --time-budget ended
 /// it.
 int sweep_command(const Arguments& arguments);
-/// `kds theorems`: measures the quantities that the paper's theorems bound, over a range of sizes.
-int theorems_command(const Arguments& arguments);
 /// `kds trade`: measures the speed and the errors of each lever on the user's own trajectory.
 int trade_command(const Arguments& arguments);
 /// `kds update`: compares techniques that update the power diagram from frame to frame.

@@ -177,25 +177,6 @@ class Labels {
   std::vector<Box> boxes_;
 };
 
-// Returns the values whose labels have room on a logarithmic axis of this length: the largest, the least, and
-// those between them, from the largest on.
-std::vector<double> labelled(std::vector<double> values, const Range& range, double pixels) {
-  constexpr double letter = 7, apart = 10;
-  const auto end_of = [&](double value, int side) {
-    const double place = std::log(value / range.least) / std::log(range.most / range.least) * pixels;
-    return place + side * (letter * static_cast<double>(tick_label(value).size()) + apart) / 2;
-  };
-  std::ranges::sort(values);
-  std::vector<double> kept;
-  for (std::size_t k = values.size(); k-- > 0;) {
-    const bool is_least = k == 0;
-    const bool fits = kept.empty() || end_of(values[k], 1) <= end_of(kept.back(), -1);
-    const bool leaves_room = is_least || kept.empty() || end_of(values[k], -1) >= end_of(values.front(), 1);
-    if (fits && leaves_room) kept.push_back(values[k]);
-  }
-  return kept;
-}
-
 Drawing draw(const PointPlot& plot, const DrawingSize& size) {
   Range xs, ys;
   for (const PointPlot::Point& point : plot.points) {
@@ -208,8 +189,6 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
     if (point.least > 0) ys.add(point.least);
     if (point.most > 0) ys.add(point.most);
   }
-  for (const PointPlot::Line& line : plot.lines)
-    for (const auto& [x, y] : line.points) ys.add(y);
   if (xs.empty()) xs.add(1);
   if (ys.empty()) ys.add(1);
   const double floor = std::max(ys.least, 1e-6 * ys.most);
@@ -221,11 +200,6 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
   Drawing drawing{size, axes(size, plot.x_label, plot.y_label), TextsOf::marks, {}};
   std::string& script = drawing.script;
   script += logarithmic('x', x, x_ticks(size)) + logarithmic('y', y, y_ticks);
-  if (plot.x_is_chosen && !plot.points.empty()) {
-    std::vector<double> chosen;
-    for (const PointPlot::Point& point : plot.points) chosen.push_back(point.x);
-    script += set_ticks('x', labelled(chosen, x, size.width - size.left - size.right));
-  }
   Labels labels(size.left, size.width - size.right);
   const auto share = [](const Range& range, double value) {
     return std::log(value / range.least) / std::log(range.most / range.least);
@@ -260,14 +234,6 @@ Drawing draw(const PointPlot& plot, const DrawingSize& size) {
                                         tick_label(point.y)));
   }
   std::string curves;
-  for (std::size_t k = 0; k < plot.lines.size(); ++k) {
-    const PointPlot::Line& line = plot.lines[k];
-    script += fmt::format("$line{} << EOD\n", k);
-    for (const auto& [at, value] : line.points) script += fmt::format("{:.17g} {:.17g}\n", at, value);
-    script += "EOD\n";
-    curves += fmt::format("$line{} using 1:2 with lines linewidth 1.2 dashtype {} linecolor {}, ", k,
-                          line.is_dotted ? "(2,4)" : "(8,5)", colour(line.series));
-  }
   for (const auto& [series, ends] : bars) {
     script += bars_script(fmt::format("bars{}", series), ends);
     curves += fmt::format("$bars{} using 1:2 with lines linewidth 1 linecolor {}, ", series, colour(series));

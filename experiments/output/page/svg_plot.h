@@ -47,8 +47,7 @@ struct PanelPlot {
   std::vector<Panel> panels;
 };
 
-/// Points, each with its name next to it. Both axes are logarithmic. The points and lines of a series share
-/// its colour.
+/// Points, each with its name next to it. Both axes are logarithmic. The points of a series share its colour.
 struct PointPlot {
   struct Point {
     std::string name;  ///< empty for a point without a shown name
@@ -57,19 +56,9 @@ struct PointPlot {
     double least = 0, most = 0;  ///< the ends of a vertical error bar; no bar if equal
     double from = 0, to = 0;     ///< the ends of a horizontal error bar, above 0; no bar if equal
   };
-  /// A line between positions above 0, such as a fitted power or a bound.
-  struct Line {
-    std::vector<std::pair<double, double>> points;
-    std::size_t series = 0;
-    bool is_dotted = false;  ///< else dashed
-  };
   std::string x_label, y_label;
   std::vector<std::string> series;
   std::vector<Point> points;
-  std::vector<Line> lines = {};
-  /// Whether x is a setting that somebody chose, not a measurement. Its ticks are at the values of the
-  /// points, the least and the largest among them, as far as their labels have room.
-  bool x_is_chosen = false;
 };
 
 /// Horizontal bars, one below the other, each with its value. The bars of a series share its colour.

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "experiments/program/mean_interval.h"
-#include "experiments/program/power_fit.h"
 #include "tests/support/coverage.h"
 
 namespace kds::test::coverage_test {
@@ -196,93 +195,6 @@ TEST(Coverage, OfMeansOfReplicas) {
           },
           kind.claim);
     }
-}
-
-// Exponents of kds questions energy. A measurement is the energy of a step and its number of changes.
-struct Measured {
-  double energy, changes;
-  std::size_t share;
-};
-using Points = std::vector<std::pair<double, double>>;
-
-std::pair<double, double> mean_point(const std::vector<Measured>& all, std::size_t without) {
-  double energy = 0, changes = 0, count = 0;
-  for (const Measured& one : all)
-    if (one.share != without) {
-      energy += one.energy;
-      changes += one.changes;
-      ++count;
-    }
-  return count > 0 ? std::pair(energy / count, changes / count) : mean_point(all, ~std::size_t{0});
-}
-
-Ends exponent_interval(const std::vector<std::vector<Measured>>& sizes, std::size_t shares) {
-  Points points;
-  std::vector<Points> without(shares);
-  for (const auto& of_size : sizes) {
-    points.push_back(mean_point(of_size, shares));
-    for (std::size_t share = 0; share < shares; ++share) without[share].push_back(mean_point(of_size, share));
-  }
-  const auto fit = fit_power(points, without);
-  return fit ? Ends({fit->exponent - *fit->error, fit->exponent + *fit->error}) : std::nullopt;
-}
-
-// Random chains: conformations are drawn anew for each amplitude, in 16 shares. The law is no power.
-TEST(Coverage, OfExponentsOfConformations) {
-  const auto law = [](double energy) { return 40 * std::pow(energy, 0.6) / (1 + 0.05 * energy); };
-  for (const auto& [first, end] : {std::pair(0, 4), {5, 9}, {8, 11}})
-    for (const double spread : {0.0, 0.7}) {
-      const auto energy_at = [](int a) { return std::ldexp(125, 2 * (a - 10)); };
-      Points truth;
-      for (int a = first; a < end; ++a) truth.emplace_back(energy_at(a), law(energy_at(a)));
-      expect_coverage(
-          "exponent, conformations",
-          fmt::format("energies {:.2g} to {:.2g}, spread {}", energy_at(first), energy_at(end - 1), spread),
-          fit_power(truth)->exponent, [&, first = first, end = end](Random& random) {
-            std::vector<std::vector<Measured>> sizes;
-            for (int a = first; a < end; ++a) {
-              auto& steps = sizes.emplace_back();
-              for (std::size_t c = 0; c < std::min<std::size_t>(128, 16U << (10 - a)); ++c) {
-                const double energy = energy_at(a) * std::chi_squared_distribution<double>(250)(random) / 250;
-                const double rate = law(energy) * std::exp(spread * normal(random) - spread * spread / 2);
-                steps.push_back({energy, poisson(rate, random), c % 16});
-              }
-            }
-            return exponent_interval(sizes, 16);
-          });
-    }
-}
-
-// Trajectories of 200 frames over strides 1 to 32, in eight blocks: twenty coordinates move as a process.
-TEST(Coverage, OfExponentsOverStrides) {
-  constexpr std::size_t frames = 200, blocks = 8;
-  for (const double memory : {0.5, 0.9, 0.99}) {
-    Points truth;
-    for (const std::size_t stride : {1, 2, 4, 8, 16, 32}) {
-      const double energy = 20 * (1 - std::pow(memory, stride));
-      // The mean root of a chi-squared value of 20 degrees of freedom, over the root of 20.
-      const double root = std::sqrt(2.0 / 20) * std::exp(std::lgamma(10.5) - std::lgamma(10.0));
-      truth.emplace_back(energy, 2 * std::sqrt(energy) * root);
-    }
-    expect_coverage(
-        "exponent, strides",
-        fmt::format("200 frames, correlation time {}", std::lround((1 + memory) / (1 - memory))),
-        fit_power(truth)->exponent, [&](Random& random) {
-          std::vector<Series> coordinates;
-          for (int c = 0; c < 20; ++c) coordinates.push_back(process(memory, frames, random));
-          std::vector<std::vector<Measured>> sizes;
-          for (const std::size_t stride : {1, 2, 4, 8, 16, 32}) {
-            auto& steps = sizes.emplace_back();
-            for (std::size_t k = 0; k + stride < frames; k += stride) {
-              double energy = 0;
-              for (const Series& x : coordinates)
-                energy += (x[k + stride] - x[k]) * (x[k + stride] - x[k]) / 2;
-              steps.push_back({energy, poisson(2 * std::sqrt(energy), random), k * blocks / frames});
-            }
-          }
-          return exponent_interval(sizes, blocks);
-        });
-  }
 }
 
 }  // namespace

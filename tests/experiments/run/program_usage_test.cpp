@@ -95,7 +95,8 @@ TEST(Program, SuggestsTheNearestName) {
   expect_refused({"update", kTrajectory, "--techniques", "reinserts"}, {"did you mean reinsert?"});
   expect_refused({"generate", "chain", "--beads", "9"}, {"did you mean random-chain?"});
   expect_refused({"reproduce", "tabel3"}, {"did you mean table3?"});
-  expect_refused({"questions", "enrgy"}, {"did you mean energy?"});
+  for (const char* script : {"figures", "questions", "scale", "theorems"})
+    expect_refused({script}, {"is a script now", "scripts/reproduce"});
   expect_refused({"bench", "pwer"}, {"did you mean power?"});
   expect_refused({"stability", "--subjects", "powertest"}, {"did you mean power_test?"});
 }

@@ -70,7 +70,7 @@ TEST(SweepSpec, RefusesMistakesWithTheKeyAndTheNearestName) {
       {command(R"("segment_steps": 5)"),
        {"commands[0]: segment_steps is no longer supported; expected one task", "the option threads"}},
       {R"({"inputs": ["no*.pdb"], "commands": ["run"]})", {"s.json: inputs[0]: no file matches 'no*.pdb'"}},
-      {R"({"seeds": 1000000000, "commands": ["scale"]})", {"seeds: '1000000000' is not", "1 to 1000000"}},
+      {R"({"seeds": 1000000000, "commands": ["stability"]})", {"seeds: '1000000000' is not", "1 to 1000000"}},
       {R"({"inputs": ["**/a.pdb"], "commands": ["run"]})", {"** is not supported"}},
       {R"({"inputs": [{"topology": "t.pdb"}], "commands": ["run"]})", {"needs the key 'file'"}},
       {R"({"inputs": [{"file": "a.pdb", "radius": 1}], "commands": [{"command": "run", "options": {"radius": 2}}]})",
@@ -111,9 +111,7 @@ TEST(SweepSpec, RefusesValuesThatNoTaskCanTake) {
            {"compare", R"("strides": "1,x")", "strides: --strides: 'x'"},
            {"collide", R"("method": "al")", "method: --method: 'al'"},
            {"contacts", R"("cutoff": "6,x")", "cutoff: --cutoff: '6,x'"},
-           {"scale", R"("model": "randm-chain")", "did you mean random-chain?"},
            {"stability", R"("cases": 1.5)", "cases: --cases: '1.5'"},
-           {"theorems", R"("beads": 5)", "beads: --beads: '5'"},
        }) {
     const std::string text = std::string(R"({"inputs": ["a.pdb"], "commands": ["info", {"command": ")") +
                              mistake.command + R"(", "options": {)" + mistake.options + "}}]}";
@@ -127,7 +125,7 @@ TEST(SweepSpec, RefusesValuesThatNoTaskCanTake) {
       {"command": "run", "options": {"structures": ["power", "wrapped,contacts"], "motion": ["linear", "hermite"],
        "radius": [1, "1.5", "auto", "element", "file:r"], "tolerance": [null, "0.2r", 3], "certify": [true, false],
        "frames": ["::2", ":9"], "levels": "2:", "select": "ca", "threads": 2}},
-      {"command": "theorems", "options": {"beads": 5000}}], "seeds": [0, 7]})"),
+      {"command": "stability", "options": {"cases": 5}}], "seeds": [0, 7]})"),
             "accepted");
 }
 
@@ -168,7 +166,7 @@ TEST(SweepSpec, KnowsEachOptionThatNamesAFile) {
         EXPECT_THAT(option.name, testing::AnyOf("topology", "obstacle")) << name;
       }
   EXPECT_THAT(swept_commands(), testing::IsSupersetOf({"run", "info", "compare", "contacts", "collide",
-                                                       "missed", "update", "trade", "scale"}));
+                                                       "missed", "update", "trade"}));
 }
 
 TEST(SweepSpec, CombinesAxesAndExcludes) {
