@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 #include "motions/base/floating_point_guard.h"
@@ -164,48 +163,19 @@ class Stack {
   std::size_t size_ = 0;
 };
 
+// The paper's rule.
 template <class Node>
 bool splits_first(const Node& a, const Node& b) {
   return a.bead_count() >= b.bead_count();
 }
 
-// The paper's rule.
-struct MoreBeadsFirst {
-  template <class Node>
-  static bool first(const Node& a, const Node& b) {
-    return splits_first(a, b);
-  }
-  template <class Node>
-  static bool is_leaf(const Node& node) {
-    return node.is_bead();
-  }
-};
-
-// Any rule.
-struct BySearchRule {
-  SearchRule rule;
-
-  template <class Node>
-  [[nodiscard]] bool first(const Node& a, const Node& b) const {
-    if (is_leaf(a) || is_leaf(b)) return is_leaf(b);
-    if (rule.split == Split::larger_sphere) return a.radius >= b.radius;
-    return rule.split == Split::first_node || splits_first(a, b);
-  }
-  template <class Node>
-  [[nodiscard]] bool is_leaf(const Node& node) const {
-    return node.bead_count() <= rule.leaf;
-  }
-};
-
 // Finds the pairs of beads that are near, and calls apart(pair) for the pairs of nodes that are apart.
 // `judge` takes two nodes and returns how they lie.
-template <class Node, class Judge, class Apart, class Rule = MoreBeadsFirst>
+template <class Node, class Judge, class Apart>
 PairsFound search(std::span<const Node> nodes, std::span<const std::uint32_t> roots, const PairsAsked& asked,
-                  const Judge& judge, const Apart& apart, const Rule& rule = {}) {
+                  const Judge& judge, const Apart& apart) {
   const FloatingPointGuard to_nearest;
   PairsFound found;
-  const auto first_bead =
-      static_cast<std::uint32_t>(nodes.empty() ? 0 : nodes.size() - 1 - nodes.back().last);
   // Returns whether the two nodes have to be split.
   const auto look_at = [&](const NodePair& pair) {
     if (++found.tests % 1024 == 0) InterruptionCheck::ask();
@@ -218,12 +188,6 @@ PairsFound search(std::span<const Node> nodes, std::span<const std::uint32_t> ro
     }
     return verdict == Separation::undecided;
   };
-  // Looks at all pairs of beads of two leaves, or of one.
-  const auto look_at_beads = [&](const Node& a, const Node& b, BeadId least_apart) {
-    for (BeadId i = a.first; i <= a.last; ++i)
-      for (BeadId j = std::max(i + 1, b.first); j <= b.last; ++j)
-        if (j - i >= least_apart) look_at({first_bead + i, first_bead + j});
-  };
   detail::for_each_root(roots, asked, [&](const NodePair& of_roots, BeadId least_apart) {
     Stack<NodePair> stack;
     stack.push(of_roots);
@@ -232,18 +196,12 @@ PairsFound search(std::span<const Node> nodes, std::span<const std::uint32_t> ro
       const Node &a = nodes[pair.first], &b = nodes[pair.second];
       if (b.last - a.first < least_apart) continue;
       if (pair.first == pair.second) {
-        if (rule.is_leaf(a)) {
-          look_at_beads(a, a, least_apart);
-          continue;
-        }
         stack.push({a.left, a.right});
         stack.push({a.right, a.right});
         stack.push({a.left, a.left});
       } else if (!look_at(pair)) {
         continue;
-      } else if (rule.is_leaf(a) && rule.is_leaf(b)) {
-        look_at_beads(a, b, least_apart);
-      } else if (rule.first(a, b)) {
+      } else if (splits_first(a, b)) {
         stack.push({a.right, pair.second});
         stack.push({a.left, pair.second});
       } else {
@@ -257,14 +215,14 @@ PairsFound search(std::span<const Node> nodes, std::span<const std::uint32_t> ro
 }
 
 // Finds the pairs of beads that are at most `distance` apart.
-template <int Dimension, class Apart, class Rule = MoreBeadsFirst>
+template <int Dimension, class Apart>
 PairsFound search(const SphereTree<Dimension>& tree, const PairsAsked& asked, double distance,
-                  const Apart& apart, const Rule& rule = {}) {
+                  const Apart& apart) {
   const std::span<const TreeSphere<Dimension>> spheres = tree.spheres();
   const auto judge = [&](const NodePair& pair) {
     return detail::separation(spheres[pair.first], spheres[pair.second], distance);
   };
-  return search(spheres, tree.roots(), asked, judge, apart, rule);
+  return search(spheres, tree.roots(), asked, judge, apart);
 }
 
 // A pair of nodes and a lower bound of the distance of their beads.
@@ -311,19 +269,6 @@ PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked
 }
 
 template <int Dimension>
-PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked, const SearchRule& rule,
-                      SeparatingFamily* family) {
-  if (rule.leaf == 0) throw std::invalid_argument("a leaf has at least one bead");
-  if (family != nullptr) *family = detail::family_over(tree);
-  return search(
-      tree, asked, 0,
-      [&](const NodePair& pair) {
-        if (family != nullptr) family->pairs.push_back({pair.first, pair.second});
-      },
-      BySearchRule{rule});
-}
-
-template <int Dimension>
 std::optional<ClosestPair> find_closest_pair(const SphereTree<Dimension>& tree, const Balls<Dimension>& balls,
                                              const PairsAsked& asked) {
   const FloatingPointGuard to_nearest;
@@ -365,8 +310,6 @@ template PairsFound find_pairs(const SphereTree<2>&, const PairsAsked&, double);
 template PairsFound find_pairs(const SphereTree<3>&, const PairsAsked&, double);
 template PairsFound find_pairs(const SphereTree<2>&, const PairsAsked&, SeparatingFamily&);
 template PairsFound find_pairs(const SphereTree<3>&, const PairsAsked&, SeparatingFamily&);
-template PairsFound find_pairs(const SphereTree<2>&, const PairsAsked&, const SearchRule&, SeparatingFamily*);
-template PairsFound find_pairs(const SphereTree<3>&, const PairsAsked&, const SearchRule&, SeparatingFamily*);
 template std::optional<ClosestPair> find_closest_pair(const SphereTree<2>&, const Balls<2>&,
                                                       const PairsAsked&);
 template std::optional<ClosestPair> find_closest_pair(const SphereTree<3>&, const Balls<3>&,

@@ -30,8 +30,7 @@ namespace kds {
 ///   (S2) each pair of beads asked for that does not collide is covered: its beads lie one in each node of
 ///   some pair of the family.
 ///
-/// The paper requires at least one covering pair. Families that a search finds have exactly one; the explicit
-/// family (separating_families.h) has several.
+/// The paper requires at least one covering pair. Families that a search finds have exactly one.
 struct FamilySphere {
   BeadRange beads;
   Eigen::Vector3d center;  ///< its third coordinate is 0 in the plane
@@ -62,20 +61,6 @@ struct PairsFound {
   std::uint64_t tests = 0;      ///< pairs of nodes, beads included, that were compared
 };
 
-/// SPLIT of the paper's figure 6: which of two nodes is split if their spheres are not disjoint.
-enum class Split : std::uint8_t {
-  more_beads,     ///< the node with more beads, the paper's rule
-  larger_sphere,  ///< the node with the larger sphere
-  first_node      ///< the node that comes first along the chain, down to its beads
-};
-
-/// A variant of the search. Nodes with at most `leaf` beads are not split into nodes: if two of them are not
-/// disjoint, all pairs of their beads are compared, and each disjoint pair is a pair of the family.
-struct SearchRule {
-  Split split = Split::more_beads;
-  BeadId leaf = 1;  ///< at least 1
-};
-
 /// Returns all pairs asked for whose closed balls are at most `distance` apart. At distance 0 these are the
 /// collisions.
 template <int Dimension>
@@ -87,12 +72,6 @@ template <int Dimension>
 template <int Dimension>
 [[nodiscard]] PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked,
                                     SeparatingFamily& family);
-
-/// Searches by another rule. Finds the same collisions. Writes the family unless `family` is null. Only
-/// Split::more_beads has the bound of Theorem 3.1. Throws std::invalid_argument if `rule.leaf` is 0.
-template <int Dimension>
-[[nodiscard]] PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked,
-                                    const SearchRule& rule, SeparatingFamily* family = nullptr);
 
 /// Returns the closest of the pairs asked for, or none if no pairs are asked for. If several are equally
 /// close, returns the first. Searches by branch and bound.

@@ -1,6 +1,6 @@
 #pragma once
 // Pairs of nodes of a tree: where searches over them start, and whether two spheres are disjoint.
-// Private to the searches of this folder.
+// For searches, which are in this folder and in python/separating_families.cpp.
 
 #include <cstdint>
 #include <span>
