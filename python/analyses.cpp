@@ -79,7 +79,7 @@ struct Intervals {
   std::vector<std::uint8_t> open_at_start, open_at_end;
 
   explicit Intervals(const ContactsReport& report) {
-    report.intervals.for_each([this](const IntervalRecord& interval) {
+    for (const IntervalRecord& interval : report.intervals) {
       first.push_back(interval.first);
       second.push_back(interval.second);
       begin_frame.push_back(interval.begin_frame);
@@ -89,7 +89,7 @@ struct Intervals {
       length.push_back(interval.length);
       open_at_start.push_back(interval.open_at_start ? 1 : 0);
       open_at_end.push_back(interval.open_at_end ? 1 : 0);
-    });
+    }
   }
   void move_to(py::dict& found) {
     found["first"] = array_of(std::move(first));

@@ -229,7 +229,7 @@ void CollideResults::begin(const CollideFrames& scene) {
   frame_columns_ = collide_frame_columns(scene.has_times());
   if (destinations_.out || destinations_.json) frames_.emplace();
   if (!destinations_.out) return;
-  files_.emplace(*destinations_.out, kCommand, "--out");
+  files_.emplace(*destinations_.out, "--out", destinations_.replace);
   pairs_.emplace(files_->open("pairs.csv"), scene);
   frames_csv_ = &files_->open("frames.csv");
   *frames_csv_ << frame_columns_.csv_header();

@@ -91,7 +91,7 @@ class CollideResults {
   /// Starts the output files once the input is accepted. `scene` must outlive this object.
   void begin(const CollideFrames& scene);
   void add_frame(const FrameRead& frame, const FrameFound& found, std::span<const BeadPair> pairs);
-  /// Delivers all results. The files in --out appear together and replace the files of an earlier result.
+  /// Delivers all results. The files in --out appear together.
   /// `json` does not contain the frames.
   void deliver(const CollideReport& report, const Json& json, const std::string& input, Page page);
 

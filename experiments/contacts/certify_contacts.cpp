@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 
-#include "experiments/output/sorted_records.h"
 #include "experiments/run/certify_stride.h"
 #include "experiments/run/load_scene.h"
 #include "motions/base/input_error.h"
@@ -98,11 +97,12 @@ class ContactBounder {
     certificate_.is_found.assign(places_[static_cast<std::size_t>(Source::enlarged)], 0);
     is_certain_.assign(certificate_.is_found.size(), 0);
     std::optional<std::uint64_t> pair;
-    sorted_.visit_sorted([&](const PlacedInterval& interval) {
+    std::sort(all_.begin(), all_.end());
+    for (const PlacedInterval& interval : all_) {
       if (pair && *pair != interval.pair) finish_pair(*pair);
       pair = interval.pair;
       of_pair_[static_cast<std::size_t>(interval.source)].push_back(interval);
-    });
+    }
     if (pair) finish_pair(*pair);
   }
 
@@ -110,7 +110,7 @@ class ContactBounder {
   void add(Source source, const ContactInterval& interval, const StepMoment& earliest,
            const StepMoment& latest, double length) {
     const std::size_t place = places_[static_cast<std::size_t>(source)]++;
-    sorted_.add(
+    all_.push_back(
         {(std::uint64_t{interval.first} << 32U) | interval.second, source, place, earliest, latest, length});
   }
 
@@ -138,7 +138,7 @@ class ContactBounder {
   }
 
   ContactsCertificate& certificate_;
-  SortedRecords<PlacedInterval> sorted_;
+  std::vector<PlacedInterval> all_;
   std::array<std::size_t, 4> places_{};                 // by Source: intervals so far
   std::array<std::vector<PlacedInterval>, 4> of_pair_;  // by Source
   std::vector<std::uint8_t> is_certain_;  // by interval of enlarged balls: whether a true contact lies in it
@@ -191,7 +191,7 @@ ContactsCertificate certify_contacts(const ContactsTask& task, const Scene& scen
                                 const ContactIntervals::Sink& inner_sink) {
     const auto sink = [&](const ContactInterval& interval) {
       bounder.add(source, interval);
-      if (source == Source::enlarged) certificate.possible.add(record_of(interval));
+      if (source == Source::enlarged) certificate.possible.push_back(record_of(interval));
     };
     const std::size_t done = static_cast<std::size_t>(source) * steps;
     follow_again(task, scene, report, radii, groups, sink, inner_sink,

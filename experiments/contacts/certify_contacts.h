@@ -29,7 +29,6 @@
 #include <vector>
 
 #include "experiments/contacts/follow_contacts.h"
-#include "experiments/output/spool.h"
 #include "motions/scene/stride_deviation.h"
 
 namespace kds {
@@ -47,10 +46,10 @@ struct ContactsCertificate {
   std::string bead_name;  ///< of the bead that deviates most; empty without a name
   std::map<std::pair<std::uint32_t, std::uint32_t>, ContactBoundsOfPair> pairs;  ///< all possible pairs
   ContactBoundsOfPair all;                                                       ///< the sums
-  std::size_t sure_pairs = 0;               ///< pairs with a sure contact
-  std::vector<std::uint8_t> is_sure;        ///< of the intervals of the report, in their order
-  SpooledRecords<IntervalRecord> possible;  ///< in the order of their ends
-  std::vector<std::uint8_t> is_found;       ///< whether a contact of the run lies in the possible one
+  std::size_t sure_pairs = 0;            ///< pairs with a sure contact
+  std::vector<std::uint8_t> is_sure;     ///< of the intervals of the report, in their order
+  std::vector<IntervalRecord> possible;  ///< in the order of their ends
+  std::vector<std::uint8_t> is_found;    ///< whether a contact of the run lies in the possible one
 };
 
 /// Throws InputError if the task asks for --certify and leaves out no frame.

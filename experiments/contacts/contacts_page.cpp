@@ -42,16 +42,16 @@ std::string timeline_of(const ContactsReport& report, const ContactsFigures& fig
     plots.back().rows.push_back({row.first() + ", " + row.second(), {}});
   }
   const double pixel = (empty.to - empty.from) / pixels;
-  report.intervals.for_each([&](const IntervalRecord& r) {
+  for (const IntervalRecord& r : report.intervals) {
     const auto place = places.find({r.first, r.second});
-    if (place == places.end()) return;
+    if (place == places.end()) continue;
     auto& spans = plots[place->second.first].rows[place->second.second].spans;
     if (!spans.empty() && r.begin_frame - spans.back().second < pixel) {
       spans.back().second = r.end_frame;
     } else {
       spans.emplace_back(r.begin_frame, r.end_frame);
     }
-  });
+  }
   std::string html = "<div class=\"rows\">\n";
   for (const TimelinePlot& plot : plots) html += svg_plot(plot);
   return html + "</div>\n";

@@ -277,7 +277,7 @@ struct IntervalsCsv {
   const ContactsReport& report;
   std::string_view last_column, if_set, if_not;
 
-  void write(const SpooledRecords<IntervalRecord>& intervals, const std::vector<std::uint8_t>& flags,
+  void write(const std::vector<IntervalRecord>& intervals, const std::vector<std::uint8_t>& flags,
              std::ostream& stream) const {
     const bool timed = report.has_times(), flagged = !last_column.empty();
     std::vector<std::string> names;
@@ -285,14 +285,14 @@ struct IntervalsCsv {
     stream << "i,j,first,second,begin_frame,end_frame" << (timed ? ",begin_picoseconds,end_picoseconds" : "")
            << ",length,open_at_start,open_at_end" << (flagged ? "," : "") << last_column << '\n';
     std::size_t place = 0;
-    intervals.for_each([&](const IntervalRecord& r) {
+    for (const IntervalRecord& r : intervals) {
       stream << fmt::format("{},{},{},{},{:.12g},{:.12g}", r.first, r.second, names[r.first], names[r.second],
                             r.begin_frame, r.end_frame);
       if (timed) stream << fmt::format(",{:.12g},{:.12g}", r.begin_picoseconds, r.end_picoseconds);
       stream << fmt::format(",{},{},{}", r.length, r.open_at_start, r.open_at_end);
       if (flagged) stream << ',' << (flags[place++] != 0 ? if_set : if_not);
       stream << '\n';
-    });
+    }
   }
 };
 

@@ -172,7 +172,7 @@ void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report
     report.lifetimes.add(interval);
     const IntervalRecord record = record_of(interval);
     report.course.add(record.begin, record.end);
-    report.intervals.add(record);
+    report.intervals.push_back(record);
   });
   run.run([&](std::size_t frame) {
     if (frame < scene.step_count() && frame % report.course.width() == 0)

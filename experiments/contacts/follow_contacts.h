@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/output/spool.h"
 #include "experiments/program/input_options.h"
 #include "motions/base/bead_groups.h"
 #include "motions/scene/scene.h"
@@ -46,7 +45,7 @@ inline constexpr BeadId default_contacts_apart = 3;
 [[nodiscard]] std::vector<std::size_t> strides_that_fit(const std::vector<std::size_t>& given,
                                                         std::size_t frames, const InputOptions& input);
 
-/// An interval as it is stored on disk.
+/// An interval as it is stored for the files of results.
 struct IntervalRecord {
   std::uint32_t first = 0, second = 0;                ///< elements
   double begin_frame = 0, end_frame = 0;              ///< in frames of the file, with a fraction
@@ -90,7 +89,7 @@ struct ContactsReport {
   std::uint64_t pairs_asked = 0;  ///< pairs of elements that could be in contact
   ContactLifetimes lifetimes;
   std::unique_ptr<FrameContacts> frames;
-  SpooledRecords<IntervalRecord> intervals;  ///< in the order of their ends
+  std::vector<IntervalRecord> intervals;  ///< in the order of their ends
   ContactCourse course;
 
   [[nodiscard]] bool has_times() const { return clock == ContactClock::picoseconds; }

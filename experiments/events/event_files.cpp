@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "experiments/output/text.h"
@@ -90,28 +89,8 @@ void EventsCsv::add(const FrameStamp& frame, std::string_view structure, std::ui
   stream_ << '\n';
 }
 
-namespace {
-
-// Returns whether the name has the form frame-NUMBER.WORD.csv.
-bool is_frame(std::string_view name) {
-  constexpr std::string_view start = "frame-", end = ".csv";
-  if (!name.starts_with(start) || !name.ends_with(end)) return false;
-  name.remove_prefix(start.size());
-  std::size_t frame = 0;
-  const auto [after, error] = std::from_chars(name.data(), name.data() + name.size(), frame);
-  const auto digits = static_cast<std::size_t>(after - name.data());
-  if (error != std::errc() || name.substr(0, digits) != std::to_string(frame)) return false;
-  if (digits == name.size() || name[digits] != '.') return false;
-  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz_";
-  name.remove_prefix(digits + 1);
-  return name.find_first_not_of(letters) == name.size() - end.size();
-}
-
-}  // namespace
-
-DumpedFrames::DumpedFrames(std::filesystem::path directory) : files_(std::move(directory), "run", "--dump") {
-  files_.refuse_others(is_frame);  // frames of two dumps would look like one dump
-}
+DumpedFrames::DumpedFrames(const std::filesystem::path& directory, bool replace)
+    : files_(directory, "--dump", replace) {}
 
 std::ostream& DumpedFrames::open_contacts() { return files_.open(std::string(contacts_file)); }
 

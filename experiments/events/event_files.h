@@ -103,13 +103,11 @@ class EventsCsv {
   std::map<std::string, std::uint64_t, std::less<>> cumulative_;  ///< per structure
 };
 
-/// The files of --dump. Either the files of all frames of a run appear, or none. Files of an earlier dump are
-/// removed.
+/// The files of --dump. Either the files of all frames of a run appear, or none.
 class DumpedFrames {
  public:
-  /// Throws an InputError or OutputError that names the option and the path. Throws also if the directory has
-  /// frames that no earlier dump wrote.
-  explicit DumpedFrames(std::filesystem::path directory);
+  /// Throws an InputError or OutputError that names the option and the path.
+  DumpedFrames(const std::filesystem::path& directory, bool replace);
   DumpedFrames(const DumpedFrames&) = delete;
   DumpedFrames& operator=(const DumpedFrames&) = delete;
 
@@ -117,7 +115,6 @@ class DumpedFrames {
   [[nodiscard]] std::ostream& open_contacts();
   /// Writes the files of a frame. Call it in the order of the frames, from 0.
   void write(std::size_t frame, const std::vector<DumpFile>& files);
-  /// Returns the files. When they take their places, the other files of an earlier dump are removed.
   [[nodiscard]] AtomicFiles& files() { return files_; }
 
  private:

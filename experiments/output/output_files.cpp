@@ -8,16 +8,17 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <charconv>
-#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <locale>
 #include <set>
+#include <string>
 #include <system_error>
+#include <utility>
 
+#include "experiments/output/text.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -30,20 +31,6 @@ constexpr int kMostLinks = 40;  // symbolic links that lead to a file
 
 fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
-}
-
-std::string cannot_write(const fs::path& path) { return path.string() + ": cannot write"; }
-
-// Returns where a symbolic link leads, which need not exist. Returns any other path unchanged.
-fs::path link_target(const fs::path& path) {
-  std::error_code error;
-  fs::path place = path;
-  for (int links = 0; fs::is_symlink(place, error) && links < kMostLinks; ++links) {
-    const fs::path target = fs::read_symlink(place, error);
-    if (error) return path;
-    place = directory_of(place) / target;
-  }
-  return place;
 }
 
 // Returns the descriptor of this program to which the path leads, if a link on the way lies in /proc/self/fd.
@@ -85,156 +72,209 @@ bool is_written_directly(const fs::path& path, const std::string& subject) {
   return fs::is_character_file(status) || fs::is_block_file(status);
 }
 
-// Returns whether the file is immutable or append-only. Even users with write permission cannot replace such
-// a file.
-bool is_kept(const fs::path& file) {
-  struct statx status {};
-  return ::statx(AT_FDCWD, file.c_str(), 0, 0, &status) == 0 &&
-         (status.stx_attributes & (STATX_ATTR_IMMUTABLE | STATX_ATTR_APPEND)) != 0;
+// Returns the place of a file, or nothing if the path is written directly. Throws an InputError that begins
+// with `subject` if no file can be written there.
+std::optional<fs::path> place_of_file(const fs::path& path, const std::string& subject) {
+  std::error_code error;
+  if (fs::is_directory(path, error) || !path.has_filename())
+    throw InputError(subject + ": is a directory, expected a file");
+  if (is_written_directly(path, subject)) return std::nullopt;
+  fs::path place = place_of(path);
+  if (fs::is_symlink(place, error)) fail_to_write(subject + ": cannot write", ELOOP);
+  if (!fs::is_directory(place.parent_path(), error))
+    throw InputError(fmt::format("{}: there is no directory {}", subject, place.parent_path().string()));
+  return place;
 }
 
-// Throws InputError or OutputError if replace_file would fail for a reason that is known beforehand.
-void check_replaceable(const fs::path& place) {
-  const fs::path target = link_target(place);
-  const std::string subject = cannot_write(place);
-  std::error_code ignored;
-  if (fs::is_symlink(target, ignored)) fail_to_write(subject, ELOOP);
-  if (::access(directory_of(target).c_str(), W_OK | X_OK) != 0) fail_to_write(subject, errno);
-  struct stat old {};
-  if (::stat(target.c_str(), &old) != 0) return;
-  if (S_ISDIR(old.st_mode)) throw InputError(place.string() + ": is a directory, expected a file");
-  if (!S_ISREG(old.st_mode)) throw InputError(place.string() + ": is no regular file");
-  if (is_kept(target)) fail_to_write(subject, EPERM);
-  if (old.st_nlink > 1 && ::access(place.c_str(), W_OK) != 0)
-    fail_to_write(place.string() + ": has other hard links and cannot be written", errno);
-}
-
-// Returns an open descriptor. Throws as fail_to_write does.
-int open_file(const fs::path& path, int flags, const std::string& subject) {
-  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+// Returns the open descriptor of a new file. Throws as fail_to_write does.
+int make_file(const fs::path& path, const std::string& subject) {
+  const int descriptor = ::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor < 0) fail_to_write(subject, errno);
   return descriptor;
 }
 
-int make_file(const fs::path& path, const std::string& subject) {
-  return open_file(path, O_CREAT | O_EXCL | O_WRONLY, subject);
-}
+// A hidden file in each folder of results. It is locked while the folder is written, and then holds the names
+// of the folder's files, one on a line.
+constexpr std::string_view kList = ".kds-results";
 
-// Copies the finished file into `place`. Reserves the room first, so that the old content is not half
-// overwritten when the disk is full.
-void write_into(const fs::path& finished, const fs::path& place, const std::string& subject) {
-  std::ifstream from(finished, std::ios::binary);
-  const auto size = static_cast<off_t>(fs::file_size(finished));
-  OutputStream to(open_file(place, O_WRONLY | O_CREAT, subject), subject);
-  if (size > 0) {
-    if (const int error = ::posix_fallocate(to.descriptor(), 0, size);
-        error != 0 && error != EINVAL && error != EOPNOTSUPP)
-      fail_to_write(subject, error);
-    to << from.rdbuf();
-    to.check();
-    if (from.tellg() != size) fail_to_write(subject, 0);
+// Throws InputError if the place holds anything but an empty directory or, if `replace`, files that kds
+// wrote.
+void require_replaceable(const fs::path& place, const std::string& subject, bool replace) {
+  std::error_code error;
+  if (!fs::exists(place, error)) return;
+  if (!fs::is_directory(place, error)) throw InputError(subject + ": is a file, expected a directory");
+  if (leads_to(place, fs::current_path(error)))
+    throw InputError(subject + ": is the working directory, expected a directory in it");
+  struct stat own {
+  }, above{};
+  if (::stat(place.c_str(), &own) == 0 && ::stat(place.parent_path().c_str(), &above) == 0 &&
+      own.st_dev != above.st_dev)
+    throw InputError(subject + ": is a mount point, expected a directory in it");
+  std::error_code lost;
+  if (fs::is_empty(place, lost)) return;
+  if (lost) fail_to_write(subject, lost.value());
+  if (!replace)
+    throw InputError(subject +
+                     ": holds files; --replace replaces an earlier result there, or give another directory");
+  std::set<std::string> names{std::string(kList)};
+  std::ifstream list(place / kList);
+  for (std::string name; std::getline(list, name);) names.insert(name);
+  const fs::file_time_type written = fs::last_write_time(place / kList, error);  // none without a list
+  for (fs::directory_iterator entry(place, lost), end; !lost && entry != end; entry.increment(lost)) {
+    const std::string name = entry->path().filename().string();
+    const char* fault = nullptr;
+    if (!names.contains(name) || !entry->is_regular_file(error) || entry->is_symlink(error))
+      fault = "is not of an earlier result";
+    else if (entry->last_write_time(error) > written)
+      fault = "has changed since kds wrote it";
+    if (fault != nullptr)
+      throw InputError(
+          fmt::format("{}: {} there {}; move it or give another directory", subject, name, fault));
   }
-  if (::ftruncate(to.descriptor(), size) != 0) fail_to_write(subject, errno);
-  to.close();
+  if (lost) fail_to_write(subject, lost.value());
+  if (const fs::path old = place.string() + ".old"; fs::exists(old, error))
+    throw InputError(
+        fmt::format("{}: move {} away, which may be an earlier result of an interrupted --replace", subject,
+                    old.string()));
 }
 
-// Gives the finished file the owner and permissions in `old`. Returns false if that is not permitted:
-// changing the owner takes privileges.
-bool take_over(const fs::path& finished, const struct stat& old) {
-  struct stat own {};
-  if (::stat(finished.c_str(), &own) != 0) return false;
-  if ((own.st_uid != old.st_uid || own.st_gid != old.st_gid) &&
-      ::chown(finished.c_str(), old.st_uid, old.st_gid) != 0)
-    return false;
-  return ::chmod(finished.c_str(), old.st_mode & 07777U) == 0;
-}
-
-// Moves the finished file to `place`. A symbolic link there stays, and its target is replaced. The new file
-// gets the permissions and owner of the old file. The old file is overwritten instead if it has other hard
-// links, if its owner cannot be passed on, or if it lies on another disk.
-void replace_file(const fs::path& finished, const fs::path& place) {
-  const fs::path target = link_target(place);
-  const std::string subject = cannot_write(place);
-  struct stat old {};
-  const bool there = ::stat(target.c_str(), &old) == 0 && S_ISREG(old.st_mode);
-  if (there && (old.st_nlink > 1 || !take_over(finished, old))) return write_into(finished, target, subject);
-  if (::rename(finished.c_str(), target.c_str()) == 0) return;
-  if (errno != EXDEV) fail_to_write(subject, errno);
-  write_into(finished, target, subject);
-}
-
-// Returns whether the name has the form .kds-PROCESS-NUMBER.part
-bool is_part(std::string_view name) {
-  for (const std::string_view piece : {".kds-", "-"}) {
-    if (!name.starts_with(piece)) return false;
-    name.remove_prefix(piece.size());
-    const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
-    if (digits == 0) return false;
-    name.remove_prefix(digits);
+// The directories above a place, made if they do not exist. Empty ones are removed at the end.
+struct ParentsOf {
+  ParentsOf(const fs::path& place, const std::string& subject) : last(place.parent_path()), first(last) {
+    std::error_code error;
+    while (!fs::exists(first, error) && first.has_relative_path()) first = first.parent_path();
+    if (!fs::is_directory(first, error))
+      throw InputError(fmt::format("{}: {} is a file, expected a directory", subject, first.string()));
+    fs::create_directories(last, error);
+    if (error) fail_to_write(subject + ": cannot make the directory", error.value());
   }
-  return name == ".part";
-}
-
-// Removes the hidden folders that killed programs left in the directory: those that no process has locked.
-void clear_stale_parts(const fs::path& directory) {
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory, ignored)) {
-    if (!is_part(entry.path().filename().string())) continue;
-    const int descriptor = ::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (descriptor < 0) continue;
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) fs::remove_all(entry.path(), ignored);
-    ::close(descriptor);
+  ~ParentsOf() {
+    std::error_code ignored;
+    for (; last != first; last = last.parent_path()) fs::remove(last, ignored);
   }
-}
+  ParentsOf(const ParentsOf&) = delete;
+  ParentsOf& operator=(const ParentsOf&) = delete;
 
-std::string name_of(const std::string& path) { return fs::path(path).filename().string(); }
-
-// Blocks the catchable signals of this thread during its life, so that no signal stops a replacement halfway.
-struct SignalsWait {
-  SignalsWait() {
-    sigset_t all;
-    ::sigfillset(&all);
-    ::pthread_sigmask(SIG_BLOCK, &all, &before);
-  }
-  ~SignalsWait() { ::pthread_sigmask(SIG_SETMASK, &before, nullptr); }
-  SignalsWait(const SignalsWait&) = delete;
-  SignalsWait& operator=(const SignalsWait&) = delete;
-
-  sigset_t before;
+  fs::path last, first;  // `first` existed
 };
 
 }  // namespace
 
-// The hidden folder in which results are written before they are moved to their places. The folder is locked,
-// so that other programs see that it is in use.
-struct StagingFolder {
-  StagingFolder(const fs::path& directory, const std::string& subject) : beside(directory) {
-    static std::atomic<unsigned> counter{0};
-    constexpr int most_attempts = 1000;
-    for (int attempts = 1;; ++attempts) {
-      try {
-        waiting.emplace((directory / fmt::format(".kds-{}-{}.part", ::getpid(), counter++)).string(), 0700);
-      } catch (const std::system_error& error) {
-        if (error.code().value() != EEXIST || attempts == most_attempts)
-          fail_to_write(subject, error.code().value());
-        continue;
-      }
-      lock = ::open(waiting->path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-      if (lock < 0 && errno != ENOENT) fail_to_write(subject, errno);
-      ::flock(lock, LOCK_EX);  // without locks in the file system, stale folders are never removed
-      struct stat status {};
-      if (::fstat(lock, &status) == 0 && status.st_nlink > 0) return;
-      ::close(lock);  // another program removed the folder as stale before it was locked
+struct PartFolder {
+  // `its_subject` begins messages.
+  PartFolder(fs::path its_place, const std::string& its_subject)
+      : place(std::move(its_place)),
+        path(place.string() + ".part"),
+        subject(its_subject + ": cannot write"),
+        parents(place, its_subject) {
+    const bool is_new = ::mkdir(path.c_str(), 0777) == 0;
+    if (!is_new && errno != EEXIST) fail_to_write(subject, errno);
+    std::error_code error;
+    if (!is_new && !fs::exists(path / kList, error) &&
+        !(fs::is_directory(path, error) && fs::is_empty(path, error)))
+      throw InputError(
+          fmt::format("{}: {} is in the way and was not written by kds; move it", subject, path.string()));
+    const int descriptor = ::open((path / kList).c_str(), O_CREAT | O_RDWR | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (descriptor < 0) {
+      const int reason = errno;
+      if (is_new) ::rmdir(path.c_str());
+      fail_to_write(subject, reason);
     }
+    list.emplace(descriptor, subject);
+    // Without locks in the file system, two programs may write to one place.
+    const bool is_locked = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    struct stat own {
+    }, there{};
+    if (is_locked || ::fstat(descriptor, &own) != 0 || ::stat((path / kList).c_str(), &there) != 0 ||
+        own.st_ino != there.st_ino)
+      throw InputError(fmt::format("{}: another run writes to {} now; wait, or give another place", subject,
+                                   path.string()));
+    if (!is_new) clear();
   }
-  ~StagingFolder() { ::close(lock); }
-  StagingFolder(const StagingFolder&) = delete;
-  StagingFolder& operator=(const StagingFolder&) = delete;
+  ~PartFolder() {
+    std::error_code ignored;
+    if (!is_kept) fs::remove_all(path, ignored);
+  }
+  PartFolder(const PartFolder&) = delete;
+  PartFolder& operator=(const PartFolder&) = delete;
 
-  fs::path beside;  ///< the directory that contains the folder
-  std::optional<UnfinishedFolder> waiting;
-  int lock = -1;
+  // Removes what a killed program has left.
+  void clear() const {
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path, error))
+      if (entry.path().filename() != kList) fs::remove_all(entry.path(), error);
+    if (::ftruncate(list->descriptor(), 0) != 0) fail_to_write(subject, errno);
+    std::fputs(fmt::format("kds: warning: {} was left by a run that was stopped, and is replaced\n",
+                           one_line(path.string()))
+                   .c_str(),
+               stderr);
+  }
+
+  [[nodiscard]] fs::path file() const { return path / place.filename(); }
+
+  void list_names(const std::string& names) {
+    *list << names << std::flush;
+    list->check();
+  }
+
+  // Moves the file to its place. The new file gets the permissions and, if permitted, the owner of the old
+  // one.
+  void become_file() {
+    struct stat old {};
+    if (::stat(place.c_str(), &old) == 0) {
+      if (::chown(file().c_str(), old.st_uid, old.st_gid) != 0) errno = 0;
+      ::chmod(file().c_str(), old.st_mode & 07777U);
+    }
+    move(file(), place);
+  }
+
+  // Makes the folder the directory of results. An earlier one is moved aside first and then removed.
+  void become_directory() {
+    const fs::path old = place.string() + ".old";
+    std::error_code ignored;
+    const bool is_there = fs::exists(place, ignored), is_full = is_there && !fs::is_empty(place, ignored);
+    if (is_there) fs::permissions(path, fs::status(place, ignored).permissions(), ignored);
+    if (is_full) move(place, old);
+    try {
+      move(path, place);
+    } catch (...) {
+      if (is_full) fs::rename(old, place, ignored);
+      throw;
+    }
+    is_kept = true;
+    if (is_full) fs::remove_all(old, ignored);
+  }
+
+  void move(const fs::path& from, const fs::path& to) {
+    if (::rename(from.c_str(), to.c_str()) == 0) return;
+    is_kept = true;
+    fail_to_write(kept_result(), errno);
+  }
+  [[nodiscard]] std::string kept_result() const {
+    return fmt::format("{}, so the result stays in {}", subject, path.string());
+  }
+
+  fs::path place, path;
+  std::string subject;
+  ParentsOf parents;
+  std::optional<OutputStream> list;
+  bool is_kept = false;  ///< whether the folder stays
 };
+
+fs::path place_of(const fs::path& path) {
+  std::error_code lost;
+  fs::path whole = fs::absolute(path, lost);
+  for (int links = 0; links < kMostLinks && fs::is_symlink(whole, lost); ++links)  // missing targets too
+    whole = whole.parent_path() / fs::read_symlink(whole, lost);
+  const fs::path found = fs::weakly_canonical(whole, lost);
+  const fs::path place = (lost ? whole : found).lexically_normal();
+  return place.has_filename() ? place : place.parent_path();  // a/ becomes a
+}
+
+bool leads_to(const fs::path& path, const fs::path& other) {
+  const fs::path start = place_of(path), whole = place_of(other);
+  return std::mismatch(start.begin(), start.end(), whole.begin(), whole.end()).first == start.end();
+}
 
 void fail_to_write(const std::string& subject, int error) {
   const std::string message =
@@ -294,68 +334,42 @@ void OutputStream::close() {
   if (::close(std::exchange(buffer_.descriptor, -1)) != 0) fail_to_write(subject_, errno);
 }
 
-AtomicFiles::AtomicFiles(fs::path directory, std::string_view command, std::string_view option)
-    : directory_(std::move(directory)),
-      subject_(fmt::format("{} {}: cannot write", option, directory_.string())) {
-  fs::path current;
-  std::error_code ignored;
-  for (const fs::path& name : directory_) {
-    current /= name;
-    if (name.empty() || fs::is_directory(current, ignored)) continue;
-    try {
-      made_.emplace_front(current.string(), 0777);
-    } catch (const std::system_error& error) {
-      if (fs::is_directory(current, ignored)) continue;  // another program made it first
-      fail_to_write(fmt::format("{} {}: cannot make the directory", option, directory_.string()),
-                    error.code().value());
-    }
-  }
-  folder_in(directory_, subject_);
-  earlier_.emplace(directory_, command, option);
-}
-
 AtomicFiles::AtomicFiles() = default;
 AtomicFiles::~AtomicFiles() = default;
 
-StagingFolder& AtomicFiles::folder_in(const fs::path& directory, const std::string& subject) {
-  for (StagingFolder& folder : folders_)
-    if (folder.beside == directory) return folder;
-  clear_stale_parts(directory);
-  return folders_.emplace_back(directory, subject);
+AtomicFiles::AtomicFiles(const fs::path& directory, std::string_view option, bool replace)
+    : is_directory_(true), replace_(replace) {
+  const std::string subject = fmt::format("{} {}", option, directory.string());
+  require_replaceable(place_of(directory), subject, replace);
+  parts_.emplace_back(place_of(directory), subject);
 }
 
 std::ostream& AtomicFiles::open(const fs::path& place) {
-  fs::path directory = directory_, target = directory_ / place;
-  std::string subject = subject_;
-  if (earlier_) {
+  if (is_directory_) {
     const std::string name = place.string();
-    if (name.empty() || name.find_first_of("/\n") != std::string::npos)
+    if (name.empty() || name.find_first_of("/\n") != std::string::npos || name == kList)
       throw std::logic_error("'" + name + "' is no name for a file of a result");
-    earlier_->require_own(name);
-  } else {
-    std::error_code ignored;
-    if (fs::is_directory(place, ignored))
-      throw InputError(place.string() + ": is a directory, expected a file");
-    if (is_written_directly(place, place.string())) {
-      const auto own = descriptor_behind(place);
-      const int descriptor =
-          own ? ::fcntl(*own, F_DUPFD_CLOEXEC, 0) : ::open(place.c_str(), O_WRONLY | O_CLOEXEC);
-      if (descriptor < 0) fail_to_write(cannot_write(place), errno);
-      return open_.emplace_back(descriptor, cannot_write(place));
-    }
-    target = link_target(place);
-    directory = directory_of(target);
-    subject = cannot_write(target);
+    names_ += name + '\n';
+    const PartFolder& part = parts_.front();
+    return open_.emplace_back(make_file(part.path / name, part.subject), part.subject);
   }
-  const fs::path waiting = folder_in(directory, subject).waiting->add_file();
-  files_.push_back({waiting.string(), target.string()});
-  return open_.emplace_back(make_file(waiting, subject), subject);
+  if (const auto file = place_of_file(place, place.string())) {
+    const PartFolder& part = parts_.emplace_back(*file, place.string());
+    return open_.emplace_back(make_file(part.file(), part.subject), part.subject);
+  }
+  const auto own = descriptor_behind(place);
+  const std::string subject = place.string() + ": cannot write";
+  const int descriptor =
+      own ? ::fcntl(*own, F_DUPFD_CLOEXEC, 0) : ::open(place.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor < 0) fail_to_write(subject, errno);
+  return open_.emplace_back(descriptor, subject);
 }
 
 void AtomicFiles::write(const fs::path& place, std::string_view text) {
-  const std::size_t staged = files_.size();
+  const std::size_t parts = parts_.size();
   open(place) << text;
-  if (files_.size() == staged) return;  // an output that is written directly gets its text at the end
+  if (!is_directory_ && parts_.size() == parts)
+    return;  // an output that is written directly gets its text at the end
   open_.back().close();
   open_.pop_back();
 }
@@ -364,101 +378,42 @@ void AtomicFiles::check() const {
   for (const OutputStream& file : open_) file.check();
 }
 
-void AtomicFiles::refuse_others(const std::function<bool(std::string_view name)>& belongs) const {
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory_, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (belongs(name)) earlier_->require_own(name);
-  }
-}
-
 void AtomicFiles::finish() {
   for (OutputStream& file : open_) file.close();
-  for (const File& file : files_) {
-    check_replaceable(file.place);
-    if (earlier_) earlier_->require_own(name_of(file.place));
-  }
-  if (!earlier_) return;
-  check_replaceable(earlier_->path());
-  const auto write_manifest = [&](const std::string& text) -> fs::path {
-    const fs::path path = folders_.front().waiting->add_file();
-    OutputStream file(make_file(path, subject_), subject_);
-    file << earlier_->heading() << '\n' << text;
-    file.close();
-    return path;
-  };
-  std::string lines;
-  for (const File& file : files_) lines += ResultManifest::line(file.waiting, name_of(file.place));
-  both_ = write_manifest(earlier_->lines() + lines);
-  manifest_ = write_manifest(lines);
+  if (!is_directory_) return;
+  PartFolder& part = parts_.front();
+  part.list_names(names_);
+  part.is_kept = true;
+  require_replaceable(part.place, part.kept_result(), replace_);
+  part.is_kept = false;
 }
 
-// At each moment a manifest must list every present file of a result, because the program may be killed.
 void AtomicFiles::take_places() {
-  if (earlier_) replace_file(both_, earlier_->path());
-  for (const File& file : files_) replace_file(file.waiting, file.place);
-  if (!earlier_) return;
-  std::set<std::string> now;
-  if (!earlier_->empty())
-    for (const File& file : files_) now.insert(name_of(file.place));
-  std::error_code ignored;
-  for (const auto& [name, content] : earlier_->files())
-    if (!now.contains(name) && earlier_->is_own(name)) fs::remove(directory_ / name, ignored);
-  replace_file(manifest_, earlier_->path());
+  for (PartFolder& part : parts_) is_directory_ ? part.become_directory() : part.become_file();
 }
 
 void commit_together(std::initializer_list<AtomicFiles*> results) {
   for (AtomicFiles* const result : results)
     if (result != nullptr) result->finish();
-  const SignalsWait wait;
   for (AtomicFiles* const result : results)
     if (result != nullptr) result->take_places();
 }
 
-namespace {
-
-// Returns the deepest ancestor of the path that exists.
-fs::path existing_part(const fs::path& path, const std::string& subject) {
-  for (fs::path part = path;; part = part.parent_path()) {
-    std::error_code error;
-    const fs::file_status status = fs::status(part.empty() ? "." : part, error);
-    if (fs::exists(status)) return part.empty() ? "." : part;
-    if (status.type() != fs::file_type::not_found) fail_to_write(subject, error.value());
-  }
-}
-
-}  // namespace
-
-void check_directory(const fs::path& path, std::string_view command, std::string_view option,
-                     std::initializer_list<std::string_view> names) {
-  const std::string place = fmt::format("{} {}", option, path.string());
-  const fs::path there = existing_part(path, place + ": cannot make the directory");
-  std::error_code error;
-  if (!fs::is_directory(there, error))
-    throw InputError(fmt::format("{}: {}is a file, expected a directory", place,
-                                 there == path ? "" : there.string() + " "));
-  const StagingFolder trial(
-      there, fmt::format("{}: cannot write {}", place, there == path ? "there" : "in " + there.string()));
-  const ResultManifest earlier(path, command, option);
-  for (const std::string_view name : names) {
-    if (fs::is_directory(path / name, error))
-      throw InputError(fmt::format("{} {}: is a directory, expected a file", option, (path / name).string()));
-    if (fs::exists(path / name, error)) check_replaceable(path / name);
-    earlier.require_own(std::string(name));
-  }
+void check_directory(const fs::path& path, std::string_view option, bool replace) {
+  const std::string subject = fmt::format("{} {}", option, path.string());
+  require_replaceable(place_of(path), subject, replace);
+  const PartFolder trial(place_of(path), subject);
 }
 
 void ensure_writable_file(const fs::path& path, std::string_view option) {
-  const std::string place = fmt::format("{} {}", option, path.string());
-  std::error_code error;
-  if (fs::is_directory(path, error) || !path.has_filename())
-    throw InputError(place + ": is a directory, expected a file");
-  if (is_written_directly(path, place)) return;
-  const fs::path directory = directory_of(link_target(path));
-  if (!fs::is_directory(directory, error))
-    throw InputError(place + ": there is no directory " + directory.string());
-  check_replaceable(path);
-  const StagingFolder trial(directory, place + ": cannot write");
+  const std::string subject = fmt::format("{} {}", option, path.string());
+  if (const auto place = place_of_file(path, subject)) const PartFolder trial(*place, subject);
+}
+
+void check_writable(const Destinations& destinations) {
+  const auto& json = destinations.json;
+  if (json && *json != "-") ensure_writable_file(*json, "--json");
+  if (destinations.out) check_directory(*destinations.out, "--out", destinations.replace);
 }
 
 }  // namespace kds

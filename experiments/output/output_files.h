@@ -1,25 +1,19 @@
 #pragma once
-// Output files that appear whole or not at all (atomic rename): each waits in a hidden folder next to its
-// place until every result of the command is complete, then it is renamed. The hidden folder,
-// .kds-PROCESS-NUMBER.part, is removed at the end and if a signal ends the program. If the program is killed,
-// the next run that writes there removes the folder.
+// Results that appear whole or not at all (atomic rename). A result waits in PLACE.part, a folder beside its
+// place, until every result of the command is complete. PLACE.part is locked while it is in use, and is
+// removed if the command fails. A killed program leaves it. The next result for that place says so and
+// replaces it.
 
 #include <filesystem>
-#include <functional>
 #include <initializer_list>
 #include <list>
 #include <optional>
 #include <ostream>
-#include <span>
 #include <stdexcept>
 #include <streambuf>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
-
-#include "experiments/output/result_manifest.h"
-#include "experiments/output/unfinished_folder.h"
 
 namespace kds {
 
@@ -39,20 +33,27 @@ struct Destinations {
   std::optional<std::filesystem::path> out;  ///< directory for the result files
   std::optional<std::string> json;           ///< a file, or - for standard output
   bool quiet = false;
-  bool paper = false;  ///< whether `out` also gets files for a paper (page/paper.h)
+  bool paper = false;    ///< whether `out` also gets files for a paper (page/paper.h)
+  bool replace = false;  ///< whether `out` may hold an earlier result, which is replaced
 };
 
 /// Throws OutputError if standard output is closed or full.
 void print_to_stdout(const std::string& text);
 
-/// Checks before a run that the results can be written after it: that the directory exists or can be made,
-/// and that the command can write files with these names in it. Leaves no trace. Throws an InputError that
-/// names the option and the path.
-void check_directory(const std::filesystem::path& path, std::string_view command, std::string_view option,
-                     std::initializer_list<std::string_view> names = {});
+/// Returns the absolute path with symbolic links followed, even if the path does not exist.
+[[nodiscard]] std::filesystem::path place_of(const std::filesystem::path& path);
+/// Returns whether `path` is `other` or a directory above it.
+[[nodiscard]] bool leads_to(const std::filesystem::path& path, const std::filesystem::path& other);
+
+/// Checks before a run that a directory of results can be written after it. Leaves no trace. Throws an
+/// InputError that names the option and the path, as AtomicFiles does.
+void check_directory(const std::filesystem::path& path, std::string_view option, bool replace);
 
 /// Checks that `path` can be written later. Leaves no trace. Throws as check_directory does.
 void ensure_writable_file(const std::filesystem::path& path, std::string_view option);
+
+/// Checks --out and --json as check_directory and ensure_writable_file do.
+void check_writable(const Destinations& destinations);
 
 /// A stream into an open file descriptor. Unlike std::ofstream, it remembers why a write failed.
 class OutputStream final : public std::ostream {
@@ -80,20 +81,19 @@ class OutputStream final : public std::ostream {
   Buffer buffer_;
 };
 
-struct StagingFolder;  // the hidden folder next to some results
+struct PartFolder;  // PLACE.part
 
-/// Files that appear together or not at all. Without commit_together nothing remains, even if a signal ends
-/// the program. Every function throws an InputError or OutputError that names the path.
+/// Files that are kept only if commit_together is called. Every function throws an InputError or OutputError
+/// that names the path.
 class AtomicFiles {
  public:
-  /// For files in existing directories. A device, or a path that leads to a descriptor of this program
-  /// (/dev/stdout, /dev/fd/3), is written directly.
+  /// For files in existing directories, each of which replaces the file at its place. A device, or a path
+  /// that leads to a descriptor of this program (/dev/stdout, /dev/fd/3), is written directly.
   AtomicFiles();
-  /// For the files of a directory, which is made with its parents if it does not exist. `command` and
-  /// `option` identify the owner of these results (result_manifest.h). The files of an earlier result of this
-  /// owner are replaced or removed, unless they have changed since. All other files stay, and a result with
-  /// the name of such a file is refused.
-  AtomicFiles(std::filesystem::path directory, std::string_view command, std::string_view option);
+  /// For the files of a directory, which is made with its parents. A directory that holds files is refused.
+  /// If `replace`, it is replaced if kds wrote all its files and none has changed since. `option` is named in
+  /// messages.
+  AtomicFiles(const std::filesystem::path& directory, std::string_view option, bool replace);
   ~AtomicFiles();
   AtomicFiles(const AtomicFiles&) = delete;
   AtomicFiles& operator=(const AtomicFiles&) = delete;
@@ -104,32 +104,19 @@ class AtomicFiles {
   [[nodiscard]] std::ostream& open(const std::filesystem::path& place);
   /// Throws if a write to an open file failed, so that a long run can stop early.
   void check() const;
-  /// Throws InputError if the directory has a file for which `belongs` is true but which no earlier result of
-  /// this owner wrote.
-  void refuse_others(const std::function<bool(std::string_view name)>& belongs) const;
 
  private:
   friend void commit_together(std::initializer_list<AtomicFiles*> results);
-  struct File {
-    std::string waiting, place;  ///< paths, as texts because there may be a file for each frame
-  };
-
   void finish();
   void take_places();
-  StagingFolder& folder_in(const std::filesystem::path& directory, const std::string& subject);
 
-  std::filesystem::path directory_;
-  std::string subject_;
-  std::list<UnfinishedFolder> made_;  ///< the directory and its parents, in the order of removal
-  std::list<StagingFolder> folders_;
-  std::optional<ResultManifest> earlier_;
-  std::vector<File> files_;
+  bool is_directory_ = false, replace_ = false;
+  std::string names_;            ///< of the files in the directory, one on a line
+  std::list<PartFolder> parts_;  ///< of the directory, or of each file
   std::list<OutputStream> open_;
-  std::filesystem::path both_, manifest_;  ///< new manifests, with and without the earlier files
 };
 
-/// Completes all files and checks every condition for their moves that can be known beforehand. Moves all
-/// files to their places, with signals blocked. Skips null pointers.
+/// Completes all files, and then moves the results to their places, one after the other. Skips null pointers.
 void commit_together(std::initializer_list<AtomicFiles*> results);
 
 }  // namespace kds

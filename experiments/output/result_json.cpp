@@ -3,11 +3,14 @@
 #include <sys/utsname.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
 
+#include "experiments/output/output_files.h"
 #include "motions/base/input_error.h"
 #include "version.h"
 
@@ -198,32 +201,48 @@ Json read_json(std::string_view text, const std::string& subject) {
   }
 }
 
+namespace {
+
+[[noreturn]] void fail_with_temporary_file() { fail_to_write("a temporary file: cannot write", errno); }
+
+}  // namespace
+
+JsonItems::JsonItems() : file_(std::tmpfile()) {
+  if (!file_) fail_with_temporary_file();
+}
+
 void JsonItems::add(const Json& item) {
   const std::string text = text_of(item);
   std::string_view left(text);
   left.remove_suffix(1);  // removes the newline
-  std::string lines = items_.empty() ? "" : ",\n";
+  std::string lines = empty_ ? "" : ",\n";
   while (!left.empty()) {
     const std::size_t end = std::min(left.find('\n'), left.size());
     lines.append("    ").append(left.substr(0, end));
     left.remove_prefix(std::min(end + 1, left.size()));
     if (!left.empty()) lines += '\n';
   }
-  items_.add(lines);
+  empty_ = false;
+  if (std::fwrite(lines.data(), 1, lines.size(), file_.get()) != lines.size()) fail_with_temporary_file();
 }
 
 void JsonItems::write_within(const Json& object, std::string_view name, const TextSink& sink) const {
   Json whole = object;
   whole[name] = Json::array();
   const std::string text = text_of(whole);
-  if (items_.empty()) return sink(text);
+  if (empty_) return sink(text);
   // No JSON string contains a newline, and nested members are indented further, so the first match is the
   // member itself.
   const std::string empty = "\n  \"" + std::string(name) + "\": []";
   const std::size_t at = text.find(empty) + empty.size() - 1;
   sink(std::string_view(text).substr(0, at));
   sink("\n");
-  items_.read(sink);
+  if (std::fflush(file_.get()) != 0) fail_with_temporary_file();
+  std::rewind(file_.get());
+  std::array<char, 1 << 16> bytes;
+  for (std::size_t count = 0; (count = std::fread(bytes.data(), 1, bytes.size(), file_.get())) > 0;)
+    sink({bytes.data(), count});
+  if (std::ferror(file_.get()) != 0) throw OutputError("a temporary file: cannot read");
   sink("\n  ");
   sink(std::string_view(text).substr(at));
 }

@@ -4,15 +4,16 @@
 
 #include <concepts>
 #include <cstdint>
+#include <cstdio>
+#include <functional>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
-
-#include "experiments/output/spool.h"
 
 namespace kds {
 
@@ -102,15 +103,26 @@ void add_provenance(Json& json, std::string command);
 /// bytes are replaced.
 [[nodiscard]] std::string text_of(const Json& json);
 
-/// A long array inside an object. The items of the array wait on disk as text.
+/// Receives a text piece by piece.
+using TextSink = std::function<void(std::string_view)>;
+
+/// A long array inside an object. The items of the array wait in an unnamed temporary file, so that memory
+/// does not grow with them.
 class JsonItems {
  public:
+  /// Throws OutputError if the system provides no temporary file.
+  JsonItems();
+  /// Throws OutputError if the disk is full.
   void add(const Json& item);
   /// Writes the text of `object`, as text_of does, with this array as its member `name`.
   void write_within(const Json& object, std::string_view name, const TextSink& sink) const;
 
  private:
-  Spool items_;
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Close> file_;
+  bool empty_ = true;
 };
 
 /// Returns one line without blanks, or nothing if a string is not UTF-8.

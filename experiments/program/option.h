@@ -364,17 +364,26 @@ template <class Options>
 
 // The options that several commands share.
 
-/// Returns the options --out, --json and --quiet with their help, for a command that writes no page.
+/// Returns the flag --replace of the options that take a directory for results.
+template <class Options>
+[[nodiscard]] Option<Options> replace_option(bool Options::*replace) {
+  return of_output(flag_option(
+      "--replace", "replace an earlier result in DIR (default: a DIR that holds files is refused)", replace));
+}
+/// Returns the options --out, --replace, --json and --quiet with their help, for a command that writes no
+/// page.
 [[nodiscard]] inline OptionList<Destinations> data_options(
     std::string_view out,
     std::string_view json = "write the rows to FILE; - is standard output (default: none)",
     std::string_view quiet = "print no table and no progress bar") {
   return {{of_output(path_option({"--out", "DIR", out}, &Destinations::out)),
+           replace_option(&Destinations::replace),
            of_output(text_option({"--json", "FILE", json}, &Destinations::json)),
            of_output(flag_option("--quiet", quiet, &Destinations::quiet))}};
 }
 
-/// Returns the options --out, --paper, --json and --quiet with their help, for a command that writes a page.
+/// Returns the options --out, --paper, --replace, --json and --quiet with their help, for a command that
+/// writes a page.
 [[nodiscard]] inline OptionList<Destinations> destination_options(
     std::string_view out,
     std::string_view json = "write the rows to FILE; - is standard output (default: none)",

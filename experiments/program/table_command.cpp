@@ -17,28 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Returns the absolute path with symbolic links followed, even if the path does not exist yet. If a path
-// cannot be resolved, the later attempt to open it reports the error.
-fs::path place_of(const fs::path& path) {
-  std::error_code lost;
-  fs::path whole = fs::absolute(path, lost);
-  constexpr int most_links = 40;
-  for (int links = 0; links < most_links && fs::is_symlink(whole, lost); ++links)  // missing targets too
-    whole = whole.parent_path() / fs::read_symlink(whole, lost);
-  const fs::path found = fs::weakly_canonical(whole, lost);
-  const fs::path place = (lost ? whole : found).lexically_normal();
-  return place.has_filename() ? place : place.parent_path();  // a/ becomes a
-}
-
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   return fs::equivalent(a, b, error) || place_of(a) == place_of(b);
-}
-
-// Returns whether `path` is `directory` or a directory above it.
-bool leads_to(const fs::path& path, const fs::path& directory) {
-  const fs::path start = place_of(path), whole = place_of(directory);
-  return std::mismatch(start.begin(), start.end(), whole.begin(), whole.end()).first == start.end();
 }
 
 }  // namespace
@@ -71,28 +52,39 @@ void TakenPaths::write(const std::string& option, const fs::path& path) {
   for (const auto& [owner, other] : taken_)
     if (same_file(path, other))
       throw InputError(fmt::format("{} {}: is the file of {}", option, path.string(), owner));
-  for (const auto& [owner, directory] : directories_)
+  for (const auto& [owner, directory] : directories_) {
     if (leads_to(path, directory))
       throw InputError(
           fmt::format("{} {}: is to be a directory, for {} {}, expected another place for the file", option,
                       path.string(), owner, directory.string()));
+    if (leads_to(directory, path))
+      throw InputError(
+          fmt::format("{} {}: lies in the directory of {}, which appears as a whole, expected "
+                      "another place for the file",
+                      option, path.string(), owner));
+  }
   add(option, path);
 }
 
-void TakenPaths::write_into(const std::string& option, const fs::path& directory,
-                            std::initializer_list<std::string_view> names) {
+void TakenPaths::write_into(const std::string& option, const fs::path& directory) {
   for (const auto& [owner, file] : taken_)
     if (leads_to(file, directory))
       throw InputError(fmt::format("{} {}: {} is the file of {}, expected a directory", option,
                                    directory.string(), file.string(), owner));
+  for (const auto& [owner, path] : taken_)
+    if (leads_to(directory, path))
+      throw InputError(
+          fmt::format("{} {}: {} lies there, which is the file of {}; expected another directory", option,
+                      directory.string(), path.string(), owner));
+  for (const auto& [owner, other] : directories_)
+    if (leads_to(directory, other) || leads_to(other, directory))
+      throw InputError(fmt::format("{} {}: is in the way of {} {}, expected another directory", option,
+                                   directory.string(), owner, other.string()));
   directories_.emplace_back(option, directory);
-  for (const std::string_view name : names) write(option, directory / name);
 }
 
 void TakenPaths::write(const Destinations& destinations) {
-  if (destinations.out)
-    write_into("--out", *destinations.out,
-               {"summary.json", "events.csv", "contacts.csv", "possible_contacts.csv", "report.html"});
+  if (destinations.out) write_into("--out", *destinations.out);
   if (destinations.json) write_json(*destinations.json);
 }
 
@@ -114,17 +106,9 @@ void TableCommand::check_destinations(TakenPaths taken) const {
 }
 
 void TableCommand::check_destinations(TakenPaths taken, const std::vector<std::string>& files) const {
-  const auto& [out, json, quiet, paper] = destinations_;
-  if (out) {
-    taken.write_into("--out", *out);
-    for (const std::string& file : files) taken.write("--out", *out / file);
-  }
-  if (json) taken.write_json(*json);
-
-  if (json && *json != "-") ensure_writable_file(*json, "--json");
-  for (const std::string& file : files)
-    if (out && file != kReport) check_directory(*out, name_, "--out", {file});
-  if (std::ranges::find(files, kReport) != files.end()) check_page(destinations_, name_);
+  taken.write(destinations_);
+  check_writable(destinations_);
+  if (std::ranges::find(files, kReport) != files.end()) check_page(destinations_);
 }
 
 void TableCommand::check_inputs_and_destinations(const InputOptions& inputs) const {
@@ -172,12 +156,12 @@ void TableCommand::deliver(Json json, const Csvs& csvs, const std::string& table
 
 void TableCommand::deliver_text(const std::string& json, const Json& settings, const Csvs& csvs,
                                 const std::string& table, const PageOf& page_of) const {
-  const auto& [out, json_path, quiet, paper] = destinations_;
+  const auto& [out, json_path, quiet, paper, replace] = destinations_;
   const bool json_on_stdout = json_path == "-";
   std::optional<AtomicFiles> files;
   if (out) {
     std::vector<std::string> data{name_ + ".json"};
-    files.emplace(*out, name_, "--out");
+    files.emplace(*out, "--out", replace);
     files->write(data.front(), json);
     for (const auto& [name, csv] : csvs) {
       csv.write(files->open(name));

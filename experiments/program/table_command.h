@@ -11,7 +11,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -43,14 +42,13 @@ class TakenPaths {
   /// Registers the destination of --json: a file, as `write` does, or - for standard output, which may itself
   /// be redirected to a file.
   void write_json(const std::string& destination);
-  /// Registers a file that will be written. Throws InputError if the file is already registered or must be a
-  /// directory for another result. Devices may be shared.
+  /// Registers a file that will be written. Throws InputError if the file is already registered, or is or
+  /// lies in a directory of another result. Devices may be shared.
   void write(const std::string& option, const std::filesystem::path& path);
-  /// Registers a directory and files with these names that will be written in it. Throws InputError as
-  /// `write` does, and also if the directory or one of its parents is registered as a file.
-  void write_into(const std::string& option, const std::filesystem::path& directory,
-                  std::initializer_list<std::string_view> names = {});
-  /// Registers the files that `deliver` writes.
+  /// Registers a directory that will be written as a whole. Throws InputError if the directory or one of its
+  /// parents is registered as a file, or if a registered file or directory lies in it.
+  void write_into(const std::string& option, const std::filesystem::path& directory);
+  /// Registers the destinations --out and --json.
   void write(const Destinations& destinations);
 
  private:

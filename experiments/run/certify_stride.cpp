@@ -33,7 +33,7 @@ void MetContacts::on_event(const Event& event) {
   if (event.kind.counted_apart) return;
   const Pair pair{event.ids()[0], event.ids()[1]};
   if (event.kind.name != "end") {
-    events_.add({event, contacts_.size()});
+    events_.push_back({event, contacts_.size()});
     contacts_.push_back({pair, moment_of(event, event.lower)});
     if (event.kind.name == "begin") open_[pair] = contacts_.size() - 1;
     if (event.kind.name == "touch") contacts_.back().latest = moment_of(event, event.upper);
@@ -41,7 +41,7 @@ void MetContacts::on_event(const Event& event) {
   }
   const auto begun = open_.find(pair);
   if (begun == open_.end()) throw std::logic_error("a contact ends that has not begun");
-  events_.add({event, begun->second});
+  events_.push_back({event, begun->second});
   contacts_[begun->second].latest = moment_of(event, event.upper);
   open_.erase(begun);
 }

@@ -22,7 +22,6 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/output/spool.h"
 #include "experiments/run/run_options.h"
 #include "kds/event_log.h"
 #include "motions/base/bead.h"
@@ -53,19 +52,15 @@ class MetContacts final : public EventListener {
   /// Returns true because the events are printed after the run.
   [[nodiscard]] bool prints_time_of(const Event&) const override { return true; }
 
-  /// Calls `visit(event, contact)` for the events in order. `contact` is the index of the event's contact.
-  template <class Visit>
-  void for_each_event(const Visit& visit) const {
-    events_.for_each([&](const OfContact& record) { visit(record.event, record.contact); });
-  }
+  struct OfContact {
+    Event event;
+    std::size_t contact;  ///< index of the event's contact
+  };
+  [[nodiscard]] std::span<const OfContact> events() const { return events_; }
   [[nodiscard]] std::span<const Contact> contacts() const { return contacts_; }
 
  private:
-  struct OfContact {
-    Event event;
-    std::size_t contact;
-  };
-  SpooledRecords<OfContact> events_;  // on disk, since there are many events
+  std::vector<OfContact> events_;
   std::vector<Contact> contacts_;     // ordered by their begins
   std::map<Pair, std::size_t> open_;  // contacts that have not ended
 };
@@ -91,9 +86,8 @@ struct ContactList {
   /// Calls `visit(event, flag)` for the begin, end and touch events of the contacts, in order.
   template <class Visit>
   void for_each_event(const Visit& visit) const {
-    if (met)
-      met->for_each_event(
-          [&](const Event& event, std::size_t contact) { visit(event, flags[contact] != 0); });
+    if (!met) return;
+    for (const auto& [event, contact] : met->events()) visit(event, flags[contact] != 0);
   }
 };
 struct ContactLists {

@@ -9,6 +9,7 @@
 
 #include "certificates/exact/exact_time.h"
 #include "experiments/output/output_files.h"
+#include "experiments/output/page/paper.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
@@ -202,11 +203,12 @@ int replay_command(const Arguments& arguments) {
   const auto& events = options.events;
   if (events) paths.write("--events", *events);
   if (options.view) paths.write("--view", *options.view);
-  check_destinations(destinations, "replay", run);
+  check_writable(destinations);
+  check_page(destinations);
   if (events) ensure_writable_file(*events, "--events");
   if (options.view) ensure_writable_file(*options.view, "--view");
 
-  RunResults results("replay", destinations, events, options.view);
+  RunResults results(destinations, events, options.view);
   ProgressBar bar(!destinations.quiet, "step");
   const ReplayReport replay = replay_log(
       log, [&bar](std::size_t done, double within, std::size_t total) { bar.update(done, within, total); },

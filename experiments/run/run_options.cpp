@@ -191,9 +191,7 @@ const OptionList<RunOptions>& run_options() {
                    "stop after LIMIT units (limb operations) of exact arithmetic (default: no limit)"},
                   &O::work, 0, ExactWork::no_limit - 1)),
               of_output(path_option(
-                  {"--dump", "DIR",
-                   "write the structures at every frame to DIR, in place of an earlier dump (default: none)"},
-                  &O::dump)),
+                  {"--dump", "DIR", "write the structures at every frame to DIR (default: none)"}, &O::dump)),
               events_option(&O::events),
               of_output(path_option(
                   {"--log", "FILE", "write the event log to FILE, for kds replay (default: none)"}, &O::log)),

@@ -13,24 +13,6 @@
 
 namespace kds {
 
-namespace {
-
-constexpr std::array<std::string_view, 3> kFiles{"summary.json", "events.csv", "report.html"};
-
-}  // namespace
-
-void check_destinations(const Destinations& destinations, std::string_view command,
-                        const RunOptions& options) {
-  if (destinations.json && *destinations.json != "-") ensure_writable_file(*destinations.json, "--json");
-  if (!destinations.out) return check_page(destinations, command);
-  check_directory(*destinations.out, command, "--out", {kFiles[0], kFiles[1], kFiles[2]});
-  if (std::ranges::count(options.structures, "contacts") > 0) {
-    check_directory(*destinations.out, command, "--out", {contacts_file});
-    if (options.certify) check_directory(*destinations.out, command, "--out", {possible_contacts_file});
-  }
-  check_page(destinations, command);
-}
-
 void RunResults::begin(const Scene& scene, KineticRun& run, const RunOptions& options) {
   const bool certified = options.certify;
   if (view_path_) {
@@ -43,7 +25,7 @@ void RunResults::begin(const Scene& scene, KineticRun& run, const RunOptions& op
     run.simulator().listen(*every_event_);
   }
   if (!destinations_.out) return;
-  files_.emplace(*destinations_.out, command_, "--out");
+  files_.emplace(*destinations_.out, "--out", destinations_.replace);
   events_.emplace(files_->open("events.csv"), scene.stamp(0).picoseconds.has_value());
   scene_ = &scene;
   displacement_ = Displacements(bin_width(scene.step_count(), EventCourse::most_bins));
@@ -75,7 +57,7 @@ void RunResults::begin_dump_and_log(const RunOptions& options, const Scene& scen
     run.simulator().listen(*log_);
   }
   if (!options.dump) return;
-  dumps_.emplace(*options.dump);
+  dumps_.emplace(*options.dump, destinations_.replace);
   if (!has_contacts(run)) return;
   dumped_contacts_.emplace(dumps_->open_contacts());
   run.simulator().listen(*dumped_contacts_);
@@ -115,7 +97,7 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
     if (occupancy_ && report.first_frame && report.last_frame)
       report.contact_pairs = occupancy_->pairs(static_cast<double>(report.first_frame->number),
                                                static_cast<double>(report.last_frame->number));
-    std::vector<std::string> data{std::string(kFiles[0]), std::string(kFiles[1])};
+    std::vector<std::string> data{"summary.json", "events.csv"};
     data.insert(data.end(), contacts_files_.begin(), contacts_files_.end());
     write_page(*files_, html_report(report, data, replay_beside(*destinations_.out, view_path_)),
                destinations_.paper);

@@ -22,20 +22,13 @@
 
 namespace kds {
 
-/// Throws InputError if a result could not be written later. Call it before the run, so that no finished run
-/// is lost. `command` is run or replay.
-void check_destinations(const Destinations& destinations, std::string_view command,
-                        const RunOptions& options);
-
 class RunResults {
  public:
-  /// `command` is run or replay. `events` is the file that gets every event, if any, and `view` the page that
+  /// `events` is the file that gets every event, if any, and `view` the page that
   /// shows the run.
-  explicit RunResults(std::string command, Destinations destinations,
-                      std::optional<std::filesystem::path> events = std::nullopt,
+  explicit RunResults(Destinations destinations, std::optional<std::filesystem::path> events = std::nullopt,
                       std::optional<std::filesystem::path> view = std::nullopt)
-      : command_(std::move(command)),
-        destinations_(std::move(destinations)),
+      : destinations_(std::move(destinations)),
         events_path_(std::move(events)),
         view_path_(std::move(view)) {}
 
@@ -55,11 +48,10 @@ class RunResults {
   /// Writes contacts.csv and possible_contacts.csv if the run has contacts.
   void add_certificate(const StrideCertificate& certificate, const Scene& scene);
   /// Delivers all results. `json` is the summary. `table` is printed unless --quiet is given or standard
-  /// output carries the JSON. All files appear together and replace the files of an earlier run.
+  /// output carries the JSON. The files appear when all are complete.
   void deliver(RunReport report, const std::string& json, const std::string& table);
 
  private:
-  std::string command_;
   Destinations destinations_;
   std::optional<std::filesystem::path> events_path_, view_path_;
   std::optional<AtomicFiles> files_;

@@ -45,7 +45,7 @@ struct ViewOptions {
   std::optional<double> quantum;
   double most_megabytes = 64;
   std::optional<std::size_t> at;
-  bool quiet = false;
+  bool quiet = false, replace = false;
 };
 
 const OptionList<ViewOptions>& view_options() {
@@ -69,6 +69,7 @@ const OptionList<ViewOptions>& view_options() {
                   {"--vtk", "DIR",
                    "write replay.pvd and VTK files of all frames to DIR, for ParaView (default: none)"},
                   &O::vtk),
+              replace_option(&O::replace),
               path_option({"--script", "FILE",
                            "write beads, spheres and edges at a frame to FILE: for PyMOL if its name ends in "
                            ".pml, for ChimeraX if in .bild (default: none)"},
@@ -101,8 +102,8 @@ void check_before_view(const ViewOptions& options) {
   if (options.page) paths.write("-o", *options.page);
   if (options.script) paths.write("--script", *options.script);
   if (options.vtk) {
-    paths.write_into("--vtk", *options.vtk, {"replay.pvd"});
-    check_directory(*options.vtk, "view", "--vtk", {"replay.pvd"});
+    paths.write_into("--vtk", *options.vtk);
+    check_directory(*options.vtk, "--vtk", options.replace);
   }
   if (options.page) ensure_writable_file(*options.page, "-o");
   if (options.script) ensure_writable_file(*options.script, "--script");
@@ -139,7 +140,8 @@ std::string write_view(const ViewOptions& options, std::size_t stride, std::size
   if (!options.quiet) watch_exact_work(run->simulator(), scene, warn);
   ReplayLabels labels = replay_labels(options.run, "view");
   labels.stride = stride;
-  ViewRequest request{options.page, options.quantum, {}, options.vtk, options.script, options.at};
+  ViewRequest request{options.page, options.quantum, {}, options.vtk, options.script,
+                      options.at,   options.replace};
   request.most_bytes = static_cast<std::uint64_t>(options.most_megabytes * kMegabyte);
   ViewResults view(request, labels, scene, *run);
   run_steps(*run, run_options, [&](std::size_t frame) {

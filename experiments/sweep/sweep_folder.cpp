@@ -100,7 +100,7 @@ void check_sweep_folder(const fs::path& folder) {
   for (fs::directory_iterator file(folder, error), end; file != end && !error; file.increment(error)) {
     // A sweep makes these before plan.json, and another shard may be starting.
     const std::string name = file->path().filename().string();
-    if (name == results_folder("").string() || name == kLock || name.starts_with(".kds-")) continue;
+    if (name == results_folder("").string() || name == kLock || name.starts_with(kPlan)) continue;
     if (!fs::exists(folder / kPlan))
       refuse("-o {}: holds other files and no sweep, expected a new folder or that of a sweep",
              folder.string());
@@ -118,9 +118,13 @@ void keep_plan(const fs::path& folder, const Json& sweep, const fs::path& relati
   fs::create_directories(results_folder(folder), error);
   if (error) refuse("-o {}: {}", folder.string(), error.message());
   if (fs::exists(folder / kPlan, error) && text_of_sweep(folder / kPlan) == plan) return;
-  AtomicFiles written;
-  written.write(folder / kPlan, plan);
-  commit_together({&written});
+  // Shards that start together write the plan at the same time, so AtomicFiles would refuse one of them.
+  const fs::path part = folder / fmt::format("{}.{}.part", kPlan, ::getpid());
+  std::ofstream file(part, std::ios::binary);
+  file << plan << std::flush;
+  if (!file) fail_to_write(part.string(), errno);
+  fs::rename(part, folder / kPlan, error);
+  if (error) fail_to_write((folder / kPlan).string(), error.value());
 }
 
 KeptPlan kept_plan(const fs::path& folder) {

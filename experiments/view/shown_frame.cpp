@@ -234,7 +234,8 @@ ShownFrame shown_frame(std::size_t frame, const Scene& scene, const KineticRun& 
   return shown;
 }
 
-VtkFrames::VtkFrames(std::filesystem::path directory) : files_(std::move(directory), "view", "--vtk") {}
+VtkFrames::VtkFrames(const std::filesystem::path& directory, bool replace)
+    : files_(directory, "--vtk", replace) {}
 
 void VtkFrames::add(const ShownFrame& frame) {
   const double time = frame.stamp.picoseconds.value_or(static_cast<double>(frame.stamp.number));

@@ -46,7 +46,7 @@ struct ShownFrame {
 class VtkFrames {
  public:
   /// Throws an InputError or OutputError that names the option and the path.
-  explicit VtkFrames(std::filesystem::path directory);
+  VtkFrames(const std::filesystem::path& directory, bool replace);
 
   void add(const ShownFrame& frame);
   /// Writes replay.pvd. Call it after the last frame.

@@ -18,7 +18,7 @@ ViewResults::ViewResults(const ViewRequest& request, const ReplayLabels& labels,
     page_->write_frames();
     files_.check();
   }
-  if (request_.vtk) vtk_.emplace(*request_.vtk);
+  if (request_.vtk) vtk_.emplace(*request_.vtk, request_.replace);
   run.simulator().listen(recorder_);
 }
 

@@ -24,6 +24,7 @@ struct ViewRequest {
   std::optional<std::filesystem::path> vtk;
   std::optional<std::filesystem::path> script;
   std::optional<std::size_t> at;  ///< number of the script's frame in the file; no value: the first frame
+  bool replace = false;           ///< whether `vtk` may hold an earlier result, which is replaced
 };
 
 class ViewResults {

@@ -273,12 +273,7 @@ std::string html_page(const Page& page) {
 
 std::filesystem::path replay_beside(const std::filesystem::path& directory,
                                     const std::optional<std::filesystem::path>& replay) {
-  std::error_code error;
-  if (replay)
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(*replay), error)
-        .lexically_relative(std::filesystem::weakly_canonical(std::filesystem::absolute(directory), error));
-  return std::filesystem::exists(directory / replay_file, error) ? std::filesystem::path(replay_file)
-                                                                 : std::filesystem::path();
+  return replay ? place_of(*replay).lexically_relative(place_of(directory)) : std::filesystem::path();
 }
 
 void print_report_path(const std::filesystem::path& directory) {

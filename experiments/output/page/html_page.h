@@ -54,12 +54,10 @@ struct HtmlRow {
 /// Returns a list of terms with their values, given as pairs of label and value.
 [[nodiscard]] std::string html_terms(const std::vector<std::pair<std::string, std::string>>& terms);
 
-/// The name of a replay page that reports in the same folder link to.
-inline constexpr std::string_view replay_file = "replay.html";
-/// Returns the path of `replay`, a page that this command writes, from `directory`. Without such a page,
-/// returns replay_file if the directory has it, otherwise an empty path.
+/// Returns the path of `replay`, a page that this command writes, from `directory`. Returns an empty path
+/// without such a page.
 [[nodiscard]] std::filesystem::path replay_beside(const std::filesystem::path& directory,
-                                                  const std::optional<std::filesystem::path>& replay = {});
+                                                  const std::optional<std::filesystem::path>& replay);
 
 /// Prints the line "report PATH", with the path of the page in this directory.
 void print_report_path(const std::filesystem::path& directory);

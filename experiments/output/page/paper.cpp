@@ -227,22 +227,12 @@ void write_page(AtomicFiles& files, const std::string& page, bool paper) {
   copies.finish(latex_of_html(between(html, "<title>", "</title>")));
 }
 
-void check_page(const Destinations& destinations, std::string_view command) {
-  if (!destinations.out) {
-    if (destinations.paper)
-      throw InputError("--paper writes its files beside report.html, expected --out DIR as well");
-    return;
-  }
-  const std::filesystem::path& directory = *destinations.out;
-  check_directory(directory, command, "--out", {"report.html"});
-  require_gnuplot("--out");
+void check_page(const Destinations& destinations) {
+  if (destinations.out) require_gnuplot("--out");
   if (!destinations.paper) return;
+  if (!destinations.out)
+    throw InputError("--paper writes its files beside report.html, expected --out DIR as well");
   require_gnuplot_pdf("--paper");
-  std::error_code error;
-  for (std::filesystem::directory_iterator file(directory, error), end; !error && file != end;
-       file.increment(error))
-    if (const std::string name = file->path().filename().string(); name.starts_with(kFilesOfPapers))
-      check_directory(directory, command, "--out", {name});
 }
 
 }  // namespace kds

@@ -38,8 +38,7 @@ namespace kds {
 void write_page(AtomicFiles& files, const std::string& page, bool paper);
 
 /// Checks before work begins that write_page can write. Throws InputError if gnuplot is missing or cannot
-/// make what is needed, or if the directory has a report.html, or with --paper any file whose name starts
-/// with paper-, that this command did not write. Throws InputError also if --paper comes without --out.
-void check_page(const Destinations& destinations, std::string_view command);
+/// make what is needed, or if --paper comes without --out.
+void check_page(const Destinations& destinations);
 
 }  // namespace kds

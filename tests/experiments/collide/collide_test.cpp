@@ -195,7 +195,7 @@ TEST(Collide, OfATrajectoryWithPlots) {
   const ProgramRun other = run_program({"update", data_file("trajectories/villin_hp36_300K.dcd"), "--frames",
                                         ":3", "--out", (directory / "out").string()});
   EXPECT_EQ(other.code, 2);
-  EXPECT_THAT(other.err, HasSubstr("written by kds collide --out"));
+  EXPECT_THAT(other.err, HasSubstr("holds files; --replace"));
 }
 
 TEST(Collide, BadInputIsOneLine) {

@@ -185,10 +185,10 @@ TEST(Missed, WritesFilesAndAPage) {
   const std::string page = content_of(passing.directory / "report/report.html");
   expect_sound(page);
   EXPECT_THAT(page, HasSubstr("<svg"));
-  // Another command must not overwrite the page.
+  // Another command must not overwrite the page unasked.
   run = run_program({"collide", passing.rests, "--radius", "1", "--out", out});
   EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("report.html there was written by kds missed --out"));
+  EXPECT_THAT(run.err, HasSubstr("holds files; --replace"));
 }
 
 }  // namespace

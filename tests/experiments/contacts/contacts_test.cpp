@@ -10,14 +10,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <set>
 #include <sstream>
 #include <tuple>
 
 #include "experiments/contacts/certify_contacts.h"
 #include "experiments/contacts/contacts_command.h"
 #include "experiments/contacts/follow_contacts.h"
-#include "experiments/output/sorted_records.h"
 #include "experiments/run/load_scene.h"
 #include "motions/base/input_error.h"
 #include "motions/readers/read_trajectory.h"
@@ -438,15 +436,14 @@ struct Span {
 };
 using SpansOfPairs = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Span>>;
 
-SpansOfPairs spans_of(const SpooledRecords<IntervalRecord>& intervals,
-                      const std::vector<std::uint8_t>& flags) {
+SpansOfPairs spans_of(const std::vector<IntervalRecord>& intervals, const std::vector<std::uint8_t>& flags) {
   SpansOfPairs spans;
   std::size_t place = 0;
-  intervals.for_each([&](const IntervalRecord& r) {
+  for (const IntervalRecord& r : intervals) {
     spans[{r.first, r.second}].push_back(
         {r.begin_frame, r.end_frame, !flags.empty() && flags.at(place) != 0});
     ++place;
-  });
+  }
   return spans;
 }
 
@@ -590,23 +587,6 @@ TEST(ContactsCommand, AContactBetweenFramesMayNotExist) {
 TEST(ContactsCommand, CertifyNeedsAStride) {
   EXPECT_THAT(refusal({"a.pdb", "--cutoff", "8", "--certify"}),
               HasSubstr("--certify: the command leaves out no frame; expected --frames FIRST:LAST:STRIDE"));
-}
-
-TEST(SortedRecords, AreSortedAcrossRuns) {
-  std::mt19937 random(1);
-  for (const std::size_t most : {1U, 7U, 1000U}) {
-    SortedRecords<std::uint32_t> records(most);
-    std::multiset<std::uint32_t> expected;
-    for (int k = 0; k < 500; ++k) {
-      const auto value = static_cast<std::uint32_t>(random() % 300);
-      records.add(value);
-      expected.insert(value);
-      if (k % 250 != 249) continue;
-      std::vector<std::uint32_t> visited;
-      records.visit_sorted([&](std::uint32_t value_now) { visited.push_back(value_now); });
-      EXPECT_THAT(visited, testing::ElementsAreArray(expected));
-    }
-  }
 }
 
 }  // namespace

@@ -56,8 +56,9 @@ std::string kind_of_change(const std::string& before, const std::string& after) 
 
 void expect_replay(const ScratchDirectory& scratch, std::vector<std::string> arguments, std::size_t frames,
                    const std::string& what) {
-  const std::vector<std::string> outputs{"--structures", "wrapped",        "--events", scratch / "events.csv",
-                                         "--dump",       scratch / "dump", "--quiet"};
+  const std::vector<std::string> outputs{
+      "--structures", "wrapped",        "--events",  scratch / "events.csv",
+      "--dump",       scratch / "dump", "--replace", "--quiet"};
   arguments.insert(arguments.begin(), "run");
   arguments.insert(arguments.end(), outputs.begin(), outputs.end());
   const ProgramRun run = run_program(arguments);

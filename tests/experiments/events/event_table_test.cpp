@@ -234,7 +234,7 @@ TEST(EventTable, IsRefusedWhereItWouldReplaceSomethingElse) {
   EXPECT_THAT(refused({"--events", moving}), HasSubstr("is the file of an input"));
   EXPECT_THAT(refused({"--events", scratch / "a", "--json", scratch / "a"}), HasSubstr("is the file of"));
   EXPECT_THAT(refused({"--events", scratch / "out/events.csv", "--out", scratch / "out"}),
-              HasSubstr("is the file of"));
+              HasSubstr("lies in the directory of --out"));
   EXPECT_THAT(refused({"--events", scratch / "nowhere/a"}), HasSubstr("--events"));
   EXPECT_THAT(refused({"--events", "-"}), HasSubstr("--events"));
   const ProgramRun chords =

@@ -60,8 +60,8 @@ TEST(PrintedTimes, AreCertainWhereBallsNearlyMiss) {
     const Pass pass(scratch, 2 - std::ldexp(1.0, -bits));
     for (const char* kernel : {"filtered", "exact"}) {
       const Json silent = pass.run({"--kernel", kernel});
-      const Json told =
-          pass.run({"--kernel", kernel, "--events", scratch / "events.jsonl", "--out", scratch / "out"});
+      const Json told = pass.run(
+          {"--kernel", kernel, "--events", scratch / "events.jsonl", "--out", scratch / "out", "--replace"});
       EXPECT_EQ(told["engine"]["exact_work"], silent["engine"]["exact_work"]);
       EXPECT_EQ(told["fingerprint"], silent["fingerprint"]);
       const auto contacts = lines_of(scratch / "out/contacts.csv");

@@ -1,10 +1,17 @@
 #include "experiments/output/output_files.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 
+#include "experiments/output/result_json.h"
 #include "motions/base/input_error.h"
 #include "tests/experiments/scratch_directory.h"
 
@@ -14,11 +21,39 @@ namespace {
 namespace fs = std::filesystem;
 using test::content_of;
 using test::ScratchDirectory;
+using testing::AllOf;
+using testing::HasSubstr;
 
 void write(const fs::path& path, std::string_view content) {
   AtomicFiles files;
   files.write(path, content);
   commit_together({&files});
+}
+
+void write_folder(const fs::path& path, std::initializer_list<const char*> names, const std::string& content,
+                  bool replace = false) {
+  AtomicFiles files(path, "--out", replace);
+  for (const char* name : names) files.write(name, content);
+  commit_together({&files});
+}
+
+std::set<std::string> names_in(const fs::path& path) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(path)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+template <class Function>
+std::string refusal(const Function& function) {
+  try {
+    function();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+std::string refused_folder(const fs::path& path, bool replace) {
+  return refusal([&] { check_directory(path, "--out", replace); });
 }
 
 TEST(OutputFiles, WritesAndReplacesWholeFiles) {
@@ -33,11 +68,13 @@ TEST(OutputFiles, WritesAndReplacesWholeFiles) {
 
 TEST(OutputFiles, WithoutCommitNothingChanges) {
   const ScratchDirectory directory;
-  const fs::path path = directory / "events.csv";
+  const fs::path path = directory / "events.csv", folder = directory / "made/dump";
   write(path, "old");
   try {
-    AtomicFiles files;
+    AtomicFiles files, more(folder, "--dump", false);
     files.open(path) << "half of the new";
+    more.write("frame-0", "zero");
+    EXPECT_EQ(content_of(directory / "made/dump.part/frame-0"), "zero");
     throw std::runtime_error("the run failed");
   } catch (const std::runtime_error&) {
   }
@@ -47,14 +84,8 @@ TEST(OutputFiles, WithoutCommitNothingChanges) {
 
 TEST(OutputFiles, NamesThePathItCannotWrite) {
   const ScratchDirectory directory;
-  for (const fs::path& path : {directory / "missing/file", directory.path()}) {
-    try {
-      write(path, "x");
-      FAIL() << path;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos);
-    }
-  }
+  for (const fs::path& path : {directory / "missing/file", directory.path()})
+    EXPECT_THAT(refusal([&] { write(path, "x"); }), HasSubstr(path.string()));
   EXPECT_EQ(directory.entries(), 0U);
 }
 
@@ -69,113 +100,211 @@ TEST(OutputFiles, AFullDiskIsNoSuccess) {
     }
   }
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
-}
-
-TEST(OutputFiles, TellsOfAFullDiskBeforeTheEnd) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   AtomicFiles files;
   files.open("/dev/full") << std::string(1 << 20, 'x');
   EXPECT_THROW(files.check(), OutputError);
 }
 
-TEST(AtomicFiles, MakeTheirDirectoryWithItsParentsAndRemoveItIfEmpty) {
+TEST(OutputFiles, AFolderAppearsWithAllItsFiles) {
   const ScratchDirectory directory;
-  fs::create_directory(directory / "there");
+  const fs::path folder = directory / "made/dump/";
   {
-    const AtomicFiles made(directory / "there/a/b/", "run", "--out");
-    const AtomicFiles again(directory / "there/a/b", "run", "--out");
-    EXPECT_TRUE(fs::is_directory(directory / "there/a/b"));
-  }
-  EXPECT_TRUE(fs::is_empty(directory / "there"));
-  {
-    const AtomicFiles made(directory / "there/a/b/c", "run", "--out");
-    directory.file("there/a/kept", "x");
-  }
-  EXPECT_FALSE(fs::exists(directory / "there/a/b"));
-  EXPECT_TRUE(fs::exists(directory / "there/a/kept"));
-  EXPECT_THROW(AtomicFiles(directory / "there/a/kept/below", "run", "--out"), InputError);
-}
-
-TEST(OutputFiles, ChecksDirectoriesBeforeTheyAreMade) {
-  const ScratchDirectory directory;
-  check_directory(directory / "a/b/c", "run", "--out", {"x"});
-  check_directory(directory.path(), "run", "--out", {"x"});
-  EXPECT_EQ(directory.entries(), 0U);
-  fs::create_directories(directory / "a/x");
-  EXPECT_THROW(check_directory(directory / "a", "run", "--out", {"x"}), InputError);
-  EXPECT_THROW(check_directory(directory / std::string(300, 'x'), "run", "--out"), InputError);
-}
-
-TEST(AtomicFiles, AppearTogetherOrNotAtAll) {
-  const ScratchDirectory directory;
-  const auto entries_of = [&](const char* name) {
-    return std::distance(fs::directory_iterator(directory / name), {});
-  };
-  {
-    AtomicFiles files(directory / "made/dump", "run", "--dump");
-    files.write("frame-0", "zero");
-    EXPECT_EQ(entries_of("made/dump"), 1);  // a hidden entry
-    EXPECT_FALSE(fs::exists(directory / "made/dump/frame-0"));
-  }
-  EXPECT_EQ(directory.entries(), 0U);
-  {
-    AtomicFiles files(directory / "dump", "run", "--dump");
-    files.write("frame-0", "zero");
+    AtomicFiles files(folder, "--dump", false);
+    std::ostream& growing = files.open("growing");
+    for (int k = 0; k < 10000; ++k) growing << k << '\n';
     files.write("frame-1", "one");
-    commit_together({&files});
+    files.check();
+    EXPECT_FALSE(fs::exists(folder));
+    commit_together({nullptr, &files});
   }
-  EXPECT_EQ(entries_of("dump"), 3);  // including the manifest
-  EXPECT_EQ(content_of(directory / "dump/frame-1"), "one");
+  EXPECT_EQ(content_of(folder / "growing").size(), 48890U);
+  EXPECT_EQ(content_of(folder / "frame-1"), "one");
+  EXPECT_EQ(names_in(folder), (std::set<std::string>{".kds-results", "growing", "frame-1"}));
+  EXPECT_EQ(names_in(directory / "made"), std::set<std::string>{"dump"});
 }
 
-TEST(AtomicFiles, ClearTheFoldersOfKilledPrograms) {
+TEST(OutputFiles, AnEarlierResultIsReplacedOnRequestOnly) {
   const ScratchDirectory directory;
-  directory.file(".kds-1-0.part", "left behind");
-  fs::create_directory(directory / ".kds-1-1.part");
-  directory.file(".kds-1-1.part/frame-0", "left behind");
-  directory.file(".kds-notes", "not ours");
-  directory.file(".kds-a-b.part", "not ours");
-  AtomicFiles single, second;
-  single.write(directory / "single", "x");
-  second.write(directory / "second", "x");
-  EXPECT_EQ(directory.entries(), 4U);
-  EXPECT_FALSE(fs::exists(directory / ".kds-1-0.part") || fs::exists(directory / ".kds-1-1.part"));
-  EXPECT_TRUE(fs::exists(directory / ".kds-notes"));
-  commit_together({&single, &second});  // fails if either folder was cleared
-  EXPECT_EQ(content_of(directory / "single"), "x");
-  EXPECT_TRUE(fs::exists(directory / ".kds-a-b.part"));
+  const fs::path folder = directory / "out";
+  fs::create_directory(folder);
+  write_folder(folder, {"a.csv", "b.csv"}, "old");  // the folder was empty
+  EXPECT_THAT(refused_folder(folder, false), AllOf(HasSubstr("holds files"), HasSubstr("--replace")));
+  EXPECT_THAT(refusal([&] { write_folder(folder, {"a.csv"}, "new"); }), HasSubstr("--replace"));
+  EXPECT_EQ(content_of(folder / "a.csv"), "old");
+  fs::permissions(folder, fs::perms::owner_all);
+  write_folder(folder, {"b.csv", "c.csv"}, "new", true);
+  EXPECT_EQ(names_in(folder), (std::set<std::string>{".kds-results", "b.csv", "c.csv"}));
+  EXPECT_EQ(content_of(folder / "b.csv"), "new");
+  EXPECT_EQ(fs::status(folder).permissions(), fs::perms::owner_all);
+  EXPECT_EQ(directory.entries(), 1U);
 }
 
-TEST(OutputFiles, RefusesAFileWhereADirectoryIsExpected) {
+TEST(OutputFiles, NothingOfTheUsersIsReplaced) {
   const ScratchDirectory directory;
-  directory.file("taken", "x");
-  try {
-    check_directory(directory / "taken", "run", "--out");
-    FAIL();
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find("--out"), std::string::npos);
-    EXPECT_NE(message.find("taken"), std::string::npos);
-    EXPECT_NE(message.find("expected a directory"), std::string::npos);
+  const fs::path folder = directory / "out";
+  const auto expect_kept = [&](const char* name, const char* reason) {
+    EXPECT_THAT(refused_folder(folder, true), AllOf(HasSubstr(name), HasSubstr(reason)));
+    EXPECT_NE(refusal([&] { write_folder(folder, {"b.csv"}, "new", true); }), "");
+    EXPECT_TRUE(fs::exists(fs::symlink_status(folder / name))) << name;
+  };
+  fs::create_directory(folder);
+  directory.file("out/notes", "mine");
+  expect_kept("notes", "is not of an earlier result");  // kds has written nothing there
+  fs::remove(folder / "notes");
+  write_folder(folder, {"a.csv", "b.csv"}, "old");
+  directory.file("out/notes", "mine");
+  fs::last_write_time(folder / "notes", fs::file_time_type());  // moved there, older than the result
+  expect_kept("notes", "is not of an earlier result");
+  fs::remove(folder / "notes");
+  fs::create_directory(folder / "more");
+  expect_kept("more", "is not of an earlier result");
+  fs::remove(folder / "more");
+  fs::rename(folder / "a.csv", directory / "moved");
+  fs::create_symlink(directory / "moved", folder / "a.csv");
+  expect_kept("a.csv", "is not of an earlier result");
+  fs::rename(directory / "moved", folder / "a.csv");
+  directory.file("out/a.csv", "edited");
+  fs::last_write_time(folder / "a.csv", fs::file_time_type::clock::now() + std::chrono::seconds(2));
+  expect_kept("a.csv", "has changed since kds wrote it");
+  EXPECT_EQ(content_of(folder / "a.csv"), "edited");
+  fs::remove(folder / "a.csv");
+  fs::create_directory(directory / "out.old");
+  expect_kept("b.csv", "move");
+  EXPECT_EQ(content_of(folder / "b.csv"), "old");
+}
+
+// Files that appear in the directory during the run stay, and so does the result.
+TEST(OutputFiles, AResultThatCannotTakeItsPlaceIsNotLost) {
+  const ScratchDirectory directory;
+  AtomicFiles files(directory / "out", "--out", true);
+  files.write("a.csv", "new");
+  fs::create_directory(directory / "out");
+  directory.file("out/notes", "mine");
+  EXPECT_THAT(refusal([&] { commit_together({&files}); }), HasSubstr("so the result stays in"));
+  EXPECT_EQ(content_of(directory / "out/notes"), "mine");
+  EXPECT_EQ(content_of(directory / "out.part/a.csv"), "new");
+}
+
+TEST(OutputFiles, WhatAKilledProgramLeftIsReplaced) {
+  const ScratchDirectory directory;
+  const fs::path folder = directory / "out", file = directory / "single";
+  EXPECT_EXIT(
+      {
+        AtomicFiles files(folder, "--out", false);
+        AtomicFiles single;
+        files.write("a.csv", "half");
+        single.open(file) << "half";
+        ::raise(SIGKILL);
+      },
+      testing::KilledBySignal(SIGKILL), "");
+  EXPECT_EQ(names_in(directory.path()), (std::set<std::string>{"out.part", "single.part"}));
+  testing::internal::CaptureStderr();
+  write_folder(folder, {"b.csv"}, "whole");
+  write(file, "whole");
+  const std::string note = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(note,
+              AllOf(HasSubstr("out.part was left by a run that was stopped"), HasSubstr("single.part")));
+  EXPECT_EQ(names_in(directory.path()), (std::set<std::string>{"out", "single"}));
+  EXPECT_EQ(names_in(folder), (std::set<std::string>{".kds-results", "b.csv"}));
+  EXPECT_EQ(content_of(file), "whole");
+}
+
+TEST(OutputFiles, APlaceInUseIsRefused) {
+  const ScratchDirectory directory;
+  AtomicFiles files(directory / "out", "--out", false), single;
+  files.write("a.csv", "first");
+  single.write(directory / "single", "first");
+  EXPECT_THAT(refused_folder(directory / "out", false), HasSubstr("another run writes to"));
+  EXPECT_THAT(refusal([&] { write(directory / "single", "x"); }), HasSubstr("another run writes to"));
+  commit_together({&files, &single});
+  EXPECT_EQ(content_of(directory / "out/a.csv"), "first");
+  EXPECT_EQ(content_of(directory / "single"), "first");
+}
+
+TEST(OutputFiles, APartThatKdsDidNotWriteStays) {
+  const ScratchDirectory directory;
+  fs::create_directory(directory / "out.part");
+  directory.file("out.part/notes", "mine");
+  directory.file("single.part", "mine");
+  EXPECT_THAT(refused_folder(directory / "out", true), HasSubstr("was not written by kds"));
+  EXPECT_NE(refusal([&] { write(directory / "single", "x"); }), "");
+  EXPECT_EQ(content_of(directory / "out.part/notes"), "mine");
+  EXPECT_EQ(content_of(directory / "single.part"), "mine");
+}
+
+TEST(OutputFiles, PermissionsAndSymbolicLinksStay) {
+  const ScratchDirectory directory;
+  fs::create_directory(directory / "elsewhere");
+  const fs::path target = directory.file("elsewhere/kept", "old"), link = directory / "result",
+                 dangling = directory / "dangling", circle = directory / "circle";
+  fs::create_symlink("elsewhere/kept", link);
+  for (const unsigned mode : {0640U, 0444U, 0755U}) {
+    ::chmod(target.c_str(), mode);
+    write(link, std::to_string(mode));
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_EQ(content_of(target), std::to_string(mode));
+    struct stat status {};
+    EXPECT_EQ(::stat(target.c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 07777U, mode);
   }
-  EXPECT_THROW(check_directory(directory / "taken/below", "run", "--out"), InputError);
+  fs::create_symlink(directory / "elsewhere/made", dangling);
+  write(dangling, "new");
+  EXPECT_TRUE(fs::is_symlink(dangling));
+  EXPECT_EQ(content_of(directory / "elsewhere/made"), "new");
+  fs::create_symlink("circle", circle);
+  EXPECT_THAT(refusal([&] { write(circle, "x"); }), HasSubstr("circle: cannot write"));
+  fs::create_directory_symlink("elsewhere/folder", directory / "there");
+  write_folder(directory / "there", {"a.csv"}, "new");
+  EXPECT_EQ(content_of(directory / "elsewhere/folder/a.csv"), "new");
+  EXPECT_EQ(names_in(directory / "elsewhere"), (std::set<std::string>{"kept", "made", "folder"}));
 }
 
-TEST(OutputFiles, ChecksFilesBeforeTheyAreWritten) {
+TEST(OutputFiles, ChecksLeaveNoTrace) {
   const ScratchDirectory directory;
+  EXPECT_EQ(refused_folder(directory / "a/b/c", false), "");
+  EXPECT_EQ(refused_folder(directory / "a", false), "");
+  EXPECT_NE(refused_folder(directory / std::string(300, 'x'), false), "");
+  EXPECT_THAT(refused_folder(fs::current_path(), true), HasSubstr("is the working directory"));
+  EXPECT_THAT(refused_folder("/proc", true), HasSubstr("is a mount point"));
   ensure_writable_file(directory / "new.json", "--json");
   EXPECT_EQ(directory.entries(), 0U);
   EXPECT_THROW(ensure_writable_file(directory.path(), "--json"), InputError);
   EXPECT_THROW(ensure_writable_file(directory / "missing/new.json", "--json"), InputError);
+  directory.file("taken", "x");
+  EXPECT_THAT(refused_folder(directory / "taken", true),
+              AllOf(HasSubstr("--out"), HasSubstr("taken: is a file")));
+  EXPECT_THAT(refused_folder(directory / "taken/below", true), HasSubstr("expected a directory"));
 }
 
 TEST(OutputFiles, RefusesADirectoryWithoutPermission) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   const ScratchDirectory directory;
   fs::permissions(directory.path(), fs::perms::owner_read | fs::perms::owner_exec);
-  EXPECT_THROW(check_directory(directory.path(), "run", "--out"), InputError);
+  EXPECT_NE(refused_folder(directory / "out", false), "");
   EXPECT_THROW(ensure_writable_file(directory / "file", "--json"), InputError);
   fs::permissions(directory.path(), fs::perms::owner_all);
+}
+
+TEST(JsonItems, AreWrittenAsTheArrayInMemoryIs) {
+  for (const int count : {0, 1, 5}) {
+    Json object{
+        {"rows", {{"frames", Json::array()}}}, {"text", "a\n  \"frames\": []"}, {"frames", Json::array()}};
+    const Json without = object;
+    object["last"] = 1;
+    Json last = without;
+    last["last"] = 1;
+    JsonItems items;
+    for (int k = 0; k < count; ++k) {
+      const Json item{{"k", k}, {"of", std::vector<int>{k, k}}, {"none", Json::array()}};
+      object["frames"].push_back(item);
+      items.add(item);
+    }
+    for (int time = 0; time < 2; ++time) {
+      std::string text;
+      items.write_within(last, "frames", [&](std::string_view part) { text += part; });
+      EXPECT_EQ(text, text_of(object));
+    }
+  }
 }
 
 }  // namespace

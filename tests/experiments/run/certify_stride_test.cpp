@@ -233,7 +233,7 @@ TEST(CertifyStride, ListsWhichContactsAreSureAndWhichThereMayBe) {
   const auto listed = [&](const std::string& name, const std::string& frames, std::vector<std::string> more) {
     Arguments arguments = arguments_with(frames, std::move(more));
     arguments.insert(arguments.begin(), "run");
-    arguments.insert(arguments.end(), {"--quiet", "--out", scratch / name});
+    arguments.insert(arguments.end(), {"--quiet", "--out", scratch / name, "--replace"});
     const ProgramRun run = run_program(arguments);
     EXPECT_EQ(run.code, 0) << run.err;
     return listed_in(scratch / (name + "/contacts.csv"));

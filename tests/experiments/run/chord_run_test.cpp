@@ -37,8 +37,9 @@ TEST(ChordRun, BasesDumpedAtFramesAreThoseOfTheRunWithEvents) {
   const ScratchDirectory scratch;
   for (const char* motion : {"linear", "hermite"}) {
     for (const char* between : {"events", "chord"}) {
-      const ProgramRun run = run_program(villin({"--structures", "wrapped", "--between", between, "--motion",
-                                                 motion, "--audit", "frames", "--dump", scratch / between}));
+      const ProgramRun run =
+          run_program(villin({"--structures", "wrapped", "--between", between, "--motion", motion, "--audit",
+                              "frames", "--dump", scratch / between, "--replace"}));
       ASSERT_EQ(run.code, 0) << run.err;
     }
     for (const char* frame : {"frame-0", "frame-3", "frame-5"}) {
@@ -88,9 +89,9 @@ TEST(ChordRun, DumpedSpheresHoldTheirBeadsExactly) {
     const std::string file = scratch.file("walk.xyz", text);
     for (const std::string structure : {"wrapped", "layered"}) {
       for (const double radius : {0.3, 1e-3}) {
-        std::vector<std::string> arguments{"run",     file,       "--structures",
-                                           structure, "--radius", fmt::format("{}", radius),
-                                           "--quiet", "--dump",   scratch / "dump"};
+        std::vector<std::string> arguments{
+            "run",     file,     "--structures",   structure,  "--radius", fmt::format("{}", radius),
+            "--quiet", "--dump", scratch / "dump", "--replace"};
         if (structure == "wrapped") arguments.insert(arguments.end(), {"--between", "chord"});
         const ProgramRun run = run_program(arguments);
         ASSERT_EQ(run.code, 0) << run.err;

@@ -91,7 +91,7 @@ TEST(ContactsRun, NamesFramesAndTimes) {
   // A run of other structures replaces the result.
   const ProgramRun other =
       run_program({"run", kDcd, "--topology", kPdb, "--frames", "0:3", "--structures", "sorted", "--out",
-                   scratch / "out", "--dump", scratch / "dump", "--quiet"});
+                   scratch / "out", "--dump", scratch / "dump", "--replace", "--quiet"});
   ASSERT_EQ(other.code, 0) << other.err;
   EXPECT_FALSE(std::filesystem::exists(scratch / "out/contacts.csv"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "dump/contacts.csv"));

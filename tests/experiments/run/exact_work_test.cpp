@@ -67,7 +67,7 @@ TEST(ExactWorkOfRuns, ThatEndAtTheirLimitLeaveEarlierResults) {
   ASSERT_EQ(run_program(arguments).code, 0);
   const std::string events = content_of(log), summary = content_of(out + "/summary.json");
   auto with_limit = arguments;
-  with_limit.insert(with_limit.end(), {"--work", "1000"});
+  with_limit.insert(with_limit.end(), {"--work", "1000", "--replace"});
   EXPECT_EQ(run_program(with_limit).code, 2);
   EXPECT_EQ(content_of(log), events);
   EXPECT_EQ(content_of(out + "/summary.json"), summary);

@@ -111,7 +111,7 @@ TEST(LeversRun, NoResultReplacesWhatARunIsReadFrom) {
   const ProgramRun inside =
       run_program({"run", file, "--dump", dump, "--events", dump + "/frame-0.power.csv"});
   EXPECT_EQ(inside.code, 2);
-  EXPECT_THAT(inside.err, HasSubstr("is a file of --dump"));
+  EXPECT_THAT(inside.err, HasSubstr("lies in the directory of --dump"));
   std::ifstream stream(file);
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), content);
 }

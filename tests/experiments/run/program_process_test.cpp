@@ -155,34 +155,29 @@ TEST(Program, AFileThatMayNotGrowIsAFailureWithoutATrace) {
   EXPECT_EQ(directory.entries(), 0U);
 }
 
-TEST(Program, AnInterruptedRunLeavesNothingBehind) {
-  for (const char* signal : {"TERM", "HUP", "USR1", "XCPU"}) {
-    const ScratchDirectory directory;
-    // Waits until the unfinished log exists, then ends the program.
-    const ProgramRun run = run_shell(
-        "\"$0\" run \"$1\" --log \"$2/events.log\" --dump \"$2/made/dump\" --audit events & "
-        "i=0; while [ -z \"$seen\" ] && [ $i -lt 200 ]; do sleep 0.05; seen=$(ls -A \"$2\" | grep part); "
-        "i=$((i+1)); done; echo \"$seen\"; kill -$3 $!; wait $!",
-        {data_file("trajectories/villin_hp36_300K.dcd"), directory.path().string(), signal});
-    EXPECT_GT(run.code, 128) << run.err;
-    EXPECT_THAT(run.out, HasSubstr(".part"));
-    EXPECT_EQ(directory.entries(), 0U);
-  }
-}
-
 // On one thread, the dump of the first frame is written at once.
-TEST(Program, WhatAKilledRunLeftIsClearedByTheNext) {
-  const ScratchDirectory directory;
-  const std::string there = directory.path().string();
-  const ProgramRun killed = run_shell(
-      "\"$0\" run \"$1\" --dump \"$2\" --audit events --threads 1 & "
-      "i=0; while [ -z \"$seen\" ] && [ $i -lt 200 ]; do sleep 0.05; seen=$(ls -A \"$2\"/.kds-*); "
-      "i=$((i+1)); done; kill -KILL $!; wait $!",
-      {data_file("trajectories/villin_hp36_300K.dcd"), there});
-  EXPECT_EQ(killed.code, 128 + 9) << killed.err;
-  ASSERT_EQ(directory.entries(), 1U);
-  EXPECT_EQ(run_program({"run", data_file("kinetic/d3_n20_linear.txt"), "--quiet", "--dump", there}).code, 0);
-  EXPECT_EQ(directory.entries(), 5U);  // cells and hidden beads of two frames, and the manifest
+TEST(Program, WhatAStoppedRunLeftIsReplacedByTheNext) {
+  for (const char* signal : {"TERM", "KILL"}) {
+    const ScratchDirectory directory;
+    const std::string dump = (directory / "made/dump").string(), log = (directory / "events.log").string();
+    const ProgramRun stopped = run_shell(
+        "\"$0\" run \"$1\" --log \"$3\" --dump \"$2\" --audit events --threads 1 & "
+        "i=0; while [ ! -e \"$2.part/frame-0.power.csv\" ] && [ $i -lt 200 ]; do sleep 0.05; i=$((i+1)); "
+        "done; "
+        "\"$0\" run \"$1\" --frames :2 --dump \"$2\"; kill -$4 $!; wait $!",
+        {data_file("trajectories/villin_hp36_300K.dcd"), dump, log, signal});
+    EXPECT_GT(stopped.code, 128) << stopped.err;
+    EXPECT_THAT(stopped.err, HasSubstr("another run writes to " + dump + ".part now"));
+    ASSERT_FALSE(std::filesystem::exists(dump) || std::filesystem::exists(log));
+    const ProgramRun next =
+        run_program({"run", data_file("kinetic/d3_n20_linear.txt"), "--quiet", "--dump", dump, "--log", log});
+    EXPECT_EQ(next.code, 0);
+    for (const std::string& left : {dump, log})
+      EXPECT_THAT(next.err, HasSubstr(left + ".part was left by a run that was stopped, and is replaced"));
+    EXPECT_EQ(directory.entries(), 2U);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dump), {}),
+              5);  // cells and hidden beads of two frames, and the list
+  }
 }
 
 }  // namespace

@@ -131,7 +131,7 @@ TEST(Program, ARefusalMakesNoDirectory) {
   }
   std::filesystem::create_directory(directory / "old");
   directory.file("old/contacts.csv", "precious");
-  expect_refused({"run", flat, "--dump", (directory / "old").string()}, {"plane"});
+  expect_refused({"run", flat, "--dump", (directory / "old").string()}, {"--dump", "holds files"});
   EXPECT_EQ(content_of(directory / "old/contacts.csv"), "precious");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory / "old"), {}), 1);
 }
@@ -148,70 +148,36 @@ TEST(Program, WarningsWaitUntilTheInputIsAccepted) {
   expect_refused({"run", cut, "--frames", ":2", "--structures", "wrapped", "--nodes", "70:80"}, {"--nodes"});
 }
 
-TEST(Program, ADumpReplacesAnEarlierOneAsAWhole) {
+TEST(Program, ResultsAreReplacedOnRequestOnly) {
   const ScratchDirectory directory;
-  const std::string dump = (directory / "dump").string();
-  ASSERT_EQ(run_program({"run", kTrajectory, "--frames", "0:12", "--quiet", "--dump", dump}).code, 0);
-  for (const char* name : {"frame-1.notes.txt", "frame-01.power.csv", "notes.csv"})
-    directory.file(std::string("dump/") + name, "the user's");
-  ASSERT_EQ(std::distance(std::filesystem::directory_iterator(dump), {}), 36 + 3 + 1);
-  ASSERT_EQ(run_program(
-                {"run", kTrajectory, "--frames", "0:5", "--structures", "wrapped", "--quiet", "--dump", dump})
-                .code,
-            0);
+  const std::string out = (directory / "out").string(), dump = (directory / "dump").string();
+  const std::vector<std::string> first{"run",    kTrajectory, "--frames", "0:12", "--quiet",
+                                       "--dump", dump,        "--out",    out};
+  ASSERT_EQ(run_program(first).code, 0);
+  ASSERT_EQ(std::distance(std::filesystem::directory_iterator(dump), {}), 36 + 1);
+  expect_refused(first, {"holds files; --replace replaces an earlier result"});
+  std::vector<std::string> second{"run",          kTrajectory, "--frames", "0:2",
+                                  "--structures", "wrapped",   "--quiet",  "--dump",
+                                  dump,           "--out",     out,        "--replace"};
+  ASSERT_EQ(run_program(second).code, 0);
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(dump))
     names.push_back(entry.path().filename().string());
-  EXPECT_THAT(names, testing::UnorderedElementsAre("frame-0.wrapped.csv", "frame-1.wrapped.csv",
-                                                   "frame-2.wrapped.csv", "frame-3.wrapped.csv",
-                                                   "frame-4.wrapped.csv", "frame-1.notes.txt",
-                                                   "frame-01.power.csv", "notes.csv", ".kds-run-dump.files"));
+  EXPECT_THAT(names,
+              testing::UnorderedElementsAre("frame-0.wrapped.csv", "frame-1.wrapped.csv", ".kds-results"));
+  EXPECT_EQ(Json::parse(content_of(out + "/summary.json"))["input"]["frames"], 2);
+  directory.file("dump/notes.txt", "the user's");
+  const std::string summary = content_of(out + "/summary.json");
+  expect_refused(second, {"--dump", "notes.txt there is not of an earlier result"});
+  EXPECT_EQ(content_of(dump + "/notes.txt"), "the user's");
+  EXPECT_EQ(content_of(out + "/summary.json"), summary);
+  expect_refused({"info", kTrajectory, "--out", dump, "--replace"}, {"notes.txt there is not of"});
+  EXPECT_EQ(run_program({"info", kTrajectory, "--quiet", "--out", out, "--replace"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(out + "/summary.json"));
 }
 
-// A dump keeps files that no dump wrote, and refuses a directory that contains frames of another program.
-TEST(Program, ADumpTouchesOnlyWhatADumpWrote) {
+TEST(Program, GeneratedFilesReplaceOnlyGeneratedFiles) {
   const ScratchDirectory directory;
-  const std::string dump = (directory / "dump").string();
-  const auto run = [&](const std::string& structures) {
-    return run_program({"run", kTrajectory, "--frames", "0:3", "--radius", "1.9", "--structures", structures,
-                        "--quiet", "--dump", dump});
-  };
-  std::filesystem::create_directory(dump);
-  directory.file("dump/contacts.csv", "the user's");
-  EXPECT_EQ(run("wrapped").code, 0);
-  EXPECT_EQ(content_of(dump + "/contacts.csv"), "the user's");
-  EXPECT_THAT(run("contacts").err, HasSubstr("contacts.csv there was not written by kds run --dump"));
-  EXPECT_EQ(content_of(dump + "/contacts.csv"), "the user's");
-  directory.file("dump/frame-7.wrapped.csv", "the user's");
-  EXPECT_THAT(run("wrapped").err, HasSubstr("frame-7.wrapped.csv there was not written by kds run --dump"));
-  EXPECT_EQ(content_of(dump + "/frame-7.wrapped.csv"), "the user's");
-  std::filesystem::remove(dump + "/frame-7.wrapped.csv");
-  directory.file("dump/frame-1.wrapped.csv", "edited");
-  const ProgramRun edited = run("wrapped");
-  EXPECT_EQ(edited.code, 2);
-  EXPECT_THAT(edited.err, HasSubstr("frame-1.wrapped.csv there has changed since kds run --dump wrote it"));
-  EXPECT_EQ(content_of(dump + "/frame-1.wrapped.csv"), "edited");
-}
-
-TEST(Program, ResultsReplaceOnlyWhatTheSameCommandWrote) {
-  const ScratchDirectory directory;
-  const std::string out = (directory / "out").string(), log = (directory / "log").string();
-  std::filesystem::create_directory(out);
-  directory.file("out/events.csv", "the user's");
-  expect_refused({"run", kSmall, "--out", out},
-                 {"--out", "events.csv there was not written by kds run --out"});
-  EXPECT_EQ(content_of(out + "/events.csv"), "the user's");
-  std::filesystem::remove(out + "/events.csv");
-  directory.file("out/contacts.csv", "the user's");
-  for (int k = 0; k < 2; ++k)
-    ASSERT_EQ(run_program({"run", kSmall, "--quiet", "--out", out, "--log", log}).code, 0);
-  EXPECT_EQ(content_of(out + "/contacts.csv"), "the user's");
-  expect_refused({"replay", log, "--out", out}, {"summary.json there was written by kds run --out"});
-  directory.file("out/summary.json", "edited");
-  expect_refused({"run", kSmall, "--out", out},
-                 {"summary.json there has changed since kds run --out wrote it"});
-  directory.file("out/info.csv", "the user's");
-  expect_refused({"info", kTrajectory, "--out", out}, {"info.csv there was not written by kds info --out"});
   // The user has not named these two files on the command line.
   directory.file("pair-2.xyz", "the user's");
   expect_refused({"generate", "two-spirals", "--beads", "8", "-o", (directory / "pair.xyz").string()},
@@ -224,32 +190,12 @@ TEST(Program, ResultsReplaceOnlyWhatTheSameCommandWrote) {
               0);
 }
 
-// The file of one frame is a dangling link, so no other frame, log or summary is replaced.
-TEST(Program, AllResultsOfARunAreReplacedOrNone) {
-  const ScratchDirectory directory;
-  const std::string dump = (directory / "dump").string(), log = directory.file("log", "old"),
-                    json = directory.file("json", "old"), out = (directory / "out").string();
-  ASSERT_EQ(run_program(
-                {"run", kTrajectory, "--frames", "1:3", "--quiet", "--structures", "wrapped", "--dump", dump})
-                .code,
-            0);
-  const std::string old = content_of(dump + "/frame-0.wrapped.csv");
-  std::filesystem::create_symlink("missing/file", dump + "/frame-1.power.csv");
-  expect_refused({"run", kTrajectory, "--frames", "0:3", "--quiet", "--dump", dump, "--log", log, "--json",
-                  json, "--out", out},
-                 {"frame-1.power.csv: cannot write: No such file or directory"});
-  for (const std::string& file : {log, json}) EXPECT_EQ(content_of(file), "old");
-  EXPECT_EQ(content_of(dump + "/frame-0.wrapped.csv"), old);
-  EXPECT_FALSE(std::filesystem::exists(out));
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dump), {}), 4);
-}
-
 TEST(Program, AReportReplacesAnEarlierOneAsAWhole) {
   const ScratchDirectory directory;
   const std::string out = (directory / "out").string();
   ASSERT_EQ(run_program({"run", kSmall, "--quiet", "--out", out}).code, 0);
   const ProgramRun run =
-      run_program({"run", data_file("kinetic/d3_n20_linear.txt"), "--quiet", "--out", out});
+      run_program({"run", data_file("kinetic/d3_n20_linear.txt"), "--quiet", "--out", out, "--replace"});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(Json::parse(content_of(out + "/summary.json"))["input"]["dimension"], 3);
   EXPECT_THAT(content_of(out + "/events.csv"), HasSubstr("0,power,"));
@@ -267,7 +213,7 @@ TEST(Program, APlotThatFailsLeavesTheEarlierResult) {
                            "#!/bin/sh\ncase $(cat) in *ready*) echo ready;; *) echo no >&2; exit 1;; esac\n"),
             (directory / "gnuplot").string());
   std::filesystem::permissions(directory / "gnuplot", std::filesystem::perms::owner_all);
-  const ProgramRun run = run_shell("PATH=\"$2:$PATH\" \"$0\" run \"$1\" --quiet --out \"$2/out\"",
+  const ProgramRun run = run_shell("PATH=\"$2:$PATH\" \"$0\" run \"$1\" --quiet --replace --out \"$2/out\"",
                                    {data_file("kinetic/d3_n20_linear.txt"), directory.path().string()});
   EXPECT_EQ(run.code, 1);
   EXPECT_THAT(run.err, HasSubstr("gnuplot failed"));
@@ -305,27 +251,23 @@ TEST(Program, AnOutputIsAFileOrADirectory) {
   EXPECT_EQ(directory.entries(), 0U);
 }
 
-// Each of the two results has its own contacts.csv there.
-TEST(Program, DumpAndResultsOfContactsLieInTwoDirectories) {
+// Each result is a whole directory.
+TEST(Program, DumpAndResultsLieInTwoDirectories) {
   const ScratchDirectory directory;
   const std::string both = (directory / "both").string(), link = (directory / "link").string();
-  const std::string helix = (directory / "helix.xyz").string();
-  ASSERT_EQ(run_program({"generate", "helix", "--beads", "8", "--frames", "2", "--quiet", "-o", helix}).code,
-            0);
   std::filesystem::create_directory(both);
   std::filesystem::create_directory_symlink(both, link);
-  for (const std::string& other : {both, both + "/", link, link + "/../both"})
-    expect_refused({"run", helix, "--structures", "contacts", "--dump", other, "--out", both},
-                   {"--dump", "contacts.csv: is the file of --out"});
-  EXPECT_TRUE(std::filesystem::is_empty(both));
-  for (const auto& [dump, out] :
-       {std::pair(both, both + "/out"), std::pair(both + "/dump/more", both + "/dump")})
-    EXPECT_EQ(
-        run_program({"run", helix, "--structures", "contacts", "--quiet", "--dump", dump, "--out", out}).code,
-        0);
-  EXPECT_EQ(
-      run_program({"run", kSmall, "--quiet", "--dump", both, "--out", both, "--log", both + ".log"}).code, 0);
-  EXPECT_TRUE(std::filesystem::is_regular_file(directory / "both/summary.json"));
+  for (const std::string& other : {both, both + "/", link, link + "/../both", both + "/below"}) {
+    expect_refused({"run", kSmall, "--dump", other, "--out", both}, {"--dump", "is in the way of --out"});
+    expect_refused({"run", kSmall, "--dump", both, "--out", other}, {"--dump", "is in the way of --out"});
+  }
+  for (const char* option : {"--log", "--events", "--view", "--json"})
+    for (const char* of : {"--out", "--dump"})
+      expect_refused({"run", kSmall, option, both + "/file", of, both}, {option, of, "both"});
+  const std::string input = (directory / "both/helix.xyz").string();
+  ASSERT_EQ(run_program({"generate", "helix", "--beads", "8", "--frames", "2", "--quiet", "-o", input}).code,
+            0);
+  expect_refused({"run", input, "--out", both, "--replace"}, {"helix.xyz", "an input"});
 }
 
 TEST(Program, StandardOutputIsAnOutputByItsPath) {
@@ -354,13 +296,10 @@ TEST(Program, StandardOutputIsAnOutputByItsPath) {
 // A named pipe would wait for a reader, at the end of a run at the latest.
 TEST(Program, NamedPipesAreNoOutputs) {
   const ScratchDirectory directory;
-  const std::string pipe = (directory / "pipe").string(), out = (directory / "out").string();
+  const std::string pipe = (directory / "pipe").string();
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   for (const char* option : {"--events", "--log", "--json"})
     expect_refused({"run", kSmall, option, pipe}, {option, "pipe: is a named pipe, expected a file"});
-  std::filesystem::create_directory(out);
-  ASSERT_EQ(::mkfifo((out + "/summary.json").c_str(), 0600), 0);
-  expect_refused({"run", kSmall, "--out", out}, {"out/summary.json: is no regular file"});
 }
 
 }  // namespace

@@ -90,16 +90,16 @@ TEST(Program, BeadsThatKeepToAPlaneOfTwoAxesRunInTwoDimensions) {
     const std::string structures = motion == std::string("lifted") ? "power" : "wrapped,power";
     for (const std::string& rule : {std::string("auto"), radii}) {
       SCOPED_TRACE(motion + (" " + rule));
-      const ProgramRun run =
-          run_program({"run", flat, "--structures", structures, "--motion", motion, "--radius", rule,
-                       "--audit", "events", "--dump", directory.path().string(), "--quiet", "--json", "-"});
+      const ProgramRun run = run_program({"run", flat, "--structures", structures, "--motion", motion,
+                                          "--radius", rule, "--audit", "events", "--dump", directory / "dump",
+                                          "--replace", "--quiet", "--json", "-"});
       ASSERT_EQ(run.code, 0) << run.err;
       const Json result = Json::parse(run.out);
       EXPECT_EQ(result["input"]["dimension"], 2);
       EXPECT_GT(result["structures"]["power"]["events"]["total"], 0);
-      EXPECT_EQ(content_of(directory.path() / "frame-1.power.csv").substr(0, 6), "a,b,c\n");
+      EXPECT_EQ(content_of(directory / "dump/frame-1.power.csv").substr(0, 6), "a,b,c\n");
       if (motion != std::string("lifted")) {
-        EXPECT_THAT(content_of(directory.path() / "frame-1.wrapped.csv"), HasSubstr(",7,"));
+        EXPECT_THAT(content_of(directory / "dump/frame-1.wrapped.csv"), HasSubstr(",7,"));
       }
     }
   }
@@ -225,7 +225,7 @@ TEST(Program, KeepsOnlyTheNodesAskedFor) {
   std::vector<std::string> arguments{
       "run", data_file("kinetic/d3_n50_linear.txt"), "--structures", "wrapped", "--json", "-", "--quiet"};
   const ProgramRun all = run_program(arguments);
-  arguments.insert(arguments.end(), {"--levels", "0:2", "--log", log, "--dump", directory.path().string()});
+  arguments.insert(arguments.end(), {"--levels", "0:2", "--log", log, "--dump", directory / "dump"});
   const ProgramRun some = run_program(arguments);
   ASSERT_EQ(some.code, 0) << some.err;
   const auto created = [](const ProgramRun& run) {
@@ -233,7 +233,7 @@ TEST(Program, KeepsOnlyTheNodesAskedFor) {
   };
   EXPECT_LT(created(some), created(all));
   EXPECT_EQ(Json::parse(some.out)["settings"]["levels"], "0:2");
-  const std::string dump = content_of(directory.path() / "frame-1.wrapped.csv");
+  const std::string dump = content_of(directory / "dump/frame-1.wrapped.csv");
   EXPECT_EQ(std::count(dump.begin(), dump.end(), '\n'), 4);  // a header and three nodes
   EXPECT_EQ(run_program({"replay", log, "--quiet"}).code, 0);
   expect_refused({"run", kSmall, "--structures", "power", "--levels", "0:2"}, {"--levels", "wrapped"});

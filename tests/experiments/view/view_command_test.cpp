@@ -254,22 +254,6 @@ TEST(View, IsLinkedFromReports) {
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("\nreplay " + page + "\n"));
   EXPECT_THAT(content_of(report + "/report.html"), HasSubstr("<a href=\"../a%20run%20%231.html\">"));
-  ASSERT_EQ(
-      run_program({"run", kVillin, "--frames", "0:4", "--out", report, "--view", report + "/replay.html"})
-          .code,
-      0);
-  EXPECT_THAT(content_of(report + "/report.html"), HasSubstr("<a href=\"replay.html\">"));
-  for (const std::vector<std::string>& command :
-       {std::vector<std::string>{"contacts", kVillin, "--cutoff", "8"},
-        {"compare", kVillin, "--rounds", "1"}}) {
-    const std::string out = scratch / command[0];
-    const std::vector<std::string> arguments = with(command, {"--frames", "0:4", "--out", out, "--quiet"});
-    ASSERT_EQ(run_program(arguments).code, 0);
-    EXPECT_THAT(content_of(out + "/report.html"), testing::Not(HasSubstr("replay.html")));
-    std::filesystem::copy_file(report + "/replay.html", out + "/replay.html");
-    ASSERT_EQ(run_program(arguments).code, 0);
-    EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("<a href=\"replay.html\">"));
-  }
 }
 
 TEST(View, RefusesBadOptions) {

@@ -34,7 +34,7 @@ std::set<std::string> names_in(const std::filesystem::path& directory) {
 }
 
 void write(const std::filesystem::path& directory, const std::string& page, bool paper) {
-  AtomicFiles files(directory, "run", "--out");
+  AtomicFiles files(directory, "--out", true);
   write_page(files, page, paper);
   commit_together({&files});
 }
@@ -138,22 +138,6 @@ TEST(Paper, TheOptionNeedsADirectory) {
     EXPECT_EQ(run.err, "kds: --paper writes its files beside report.html, expected --out DIR as well\n")
         << command;
   }
-}
-
-TEST(Paper, FilesOfOthersAreRefusedBeforeTheRun) {
-  const ScratchDirectory directory;
-  const std::string out = (directory / "out").string();
-  const std::string small = test::data_file("kinetic/d1_n20_linear.txt");
-  ASSERT_EQ(test::run_program({"run", small, "--out", out, "--paper", "--quiet"}).code, 0);
-  EXPECT_EQ(names_in(out).count("paper-all.tex"), 1U);
-  ASSERT_EQ(test::run_program({"run", small, "--out", out, "--paper", "--quiet"}).code, 0);
-  std::ofstream(out + "/paper-notes.tex") << "mine";
-  const test::ProgramRun refused = test::run_program({"run", small, "--out", out, "--paper", "--quiet"});
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_THAT(refused.err, HasSubstr("paper-notes.tex"));
-  EXPECT_EQ(test::run_program({"run", small, "--out", out, "--quiet"}).code, 0);
-  EXPECT_EQ(content_of(out + "/paper-notes.tex"), "mine");
-  EXPECT_EQ(names_in(out).count("paper-all.tex"), 0U);
 }
 
 }  // namespace
