@@ -18,7 +18,7 @@ OF_FILES = ("topology", "select", "chain", "obstacle", "dt", "until_damage")
 OF_THE_INPUT = (*INPUT, *OF_FILES)
 # Options of the program that are no arguments, and why.
 _NO_ARGUMENTS = {
-    **dict.fromkeys(("out", "paper", "json", "quiet", "view", "dump", "events", "log", "data", "o", "beads"),
+    **dict.fromkeys(("out", "replace", "paper", "json", "quiet", "view", "dump", "events", "log", "data", "o", "beads"),
                     "results are attributes of what is returned"),
     "frames": "expected start, stop, step", "format": "expected a path with the ending of its format",
     "rounds": "a run is made once; kds.compare takes it", "help": "help(kds.run) explains all arguments"}

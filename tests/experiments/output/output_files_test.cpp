@@ -169,7 +169,7 @@ TEST(OutputFiles, NothingOfTheUsersIsReplaced) {
   EXPECT_EQ(content_of(folder / "a.csv"), "edited");
   fs::remove(folder / "a.csv");
   fs::create_directory(directory / "out.old");
-  expect_kept("b.csv", "move");
+  EXPECT_THAT(refused_folder(folder, true), HasSubstr("out.old away"));
   EXPECT_EQ(content_of(folder / "b.csv"), "old");
 }
 
