@@ -131,7 +131,7 @@ int collide_command(const Arguments& arguments) {
   const auto warn = command.warn();
   CollideFrames frames(options, warn);
   const CollideTask task = collide_task(options, frames);
-  CollideResults results(options.destinations);
+  CollideResults results(options.destinations, command.take_files());
   results.begin(frames);
   const CollideReport report = compare_detectors(
       frames, task,

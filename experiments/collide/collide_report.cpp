@@ -228,8 +228,7 @@ void PairsCsv::add(const FrameRead& frame, std::span<const BeadPair> pairs) {
 void CollideResults::begin(const CollideFrames& scene) {
   frame_columns_ = collide_frame_columns(scene.has_times());
   if (destinations_.out || destinations_.json) frames_.emplace();
-  if (!destinations_.out) return;
-  files_.emplace(*destinations_.out, "--out", destinations_.replace);
+  if (!files_) return;
   pairs_.emplace(files_->open("pairs.csv"), scene);
   frames_csv_ = &files_->open("frames.csv");
   *frames_csv_ << frame_columns_.csv_header();
@@ -265,7 +264,7 @@ void CollideResults::deliver(const CollideReport& report, const Json& json, cons
   }
   AtomicFiles json_file;
   if (destinations_.json && !json_on_stdout) write_to(json_file.open(*destinations_.json));
-  commit_together({files_ ? &*files_ : nullptr, &json_file});
+  commit_together({files_.get(), &json_file});
   if (json_on_stdout)
     frames_->write_within(json, "frames", [](std::string_view text) { print_to_stdout(std::string(text)); });
   if (table_on_stdout) print_to_stdout(collide_table(report));

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <span>
@@ -86,7 +87,8 @@ class PairsCsv {
 
 class CollideResults {
  public:
-  explicit CollideResults(Destinations destinations) : destinations_(std::move(destinations)) {}
+  CollideResults(Destinations destinations, std::unique_ptr<AtomicFiles> files)
+      : destinations_(std::move(destinations)), files_(std::move(files)) {}
 
   /// Starts the output files once the input is accepted. `scene` must outlive this object.
   void begin(const CollideFrames& scene);
@@ -97,7 +99,7 @@ class CollideResults {
 
  private:
   Destinations destinations_;
-  std::optional<AtomicFiles> files_;
+  std::unique_ptr<AtomicFiles> files_;
   std::optional<PairsCsv> pairs_;
   std::ostream* frames_csv_ = nullptr;
   Table<FrameFound> frame_columns_{{}};

@@ -105,8 +105,8 @@ void require_replaceable(const fs::path& place, const std::string& subject, bool
   if (!fs::is_directory(place, error)) throw InputError(subject + ": is a file, expected a directory");
   if (leads_to(place, fs::current_path(error)))
     throw InputError(subject + ": is the working directory, expected a directory in it");
-  struct stat own {
-  }, above{};
+  struct stat own {};
+  struct stat above {};
   if (::stat(place.c_str(), &own) == 0 && ::stat(place.parent_path().c_str(), &above) == 0 &&
       own.st_dev != above.st_dev)
     throw InputError(subject + ": is a mount point, expected a directory in it");
@@ -183,8 +183,8 @@ struct PartFolder {
     list.emplace(descriptor, subject);
     // Without locks in the file system, two programs may write to one place.
     const bool is_locked = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    struct stat own {
-    }, there{};
+    struct stat own {};
+    struct stat there {};
     if (is_locked || ::fstat(descriptor, &own) != 0 || ::stat((path / kList).c_str(), &there) != 0 ||
         own.st_ino != there.st_ino)
       throw InputError(fmt::format("{}: another run writes to {} now; wait, or give another place", subject,

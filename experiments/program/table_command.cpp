@@ -101,17 +101,19 @@ TableCommand::TableCommand(std::string name, const Arguments& arguments, Destina
       destinations_(std::move(destinations)),
       bar_(!destinations_.quiet, counted) {}
 
-void TableCommand::check_destinations(TakenPaths taken) const {
+void TableCommand::check_destinations(TakenPaths taken) {
   check_destinations(std::move(taken), {name_ + ".json", name_ + ".csv", std::string(kReport)});
 }
 
-void TableCommand::check_destinations(TakenPaths taken, const std::vector<std::string>& files) const {
+void TableCommand::check_destinations(TakenPaths taken, const std::vector<std::string>& files) {
   taken.write(destinations_);
-  check_writable(destinations_);
+  const auto& [out, json, quiet, paper, replace] = destinations_;
+  if (json && *json != "-") ensure_writable_file(*json, "--json");
   if (std::ranges::find(files, kReport) != files.end()) check_page(destinations_);
+  if (out) files_ = std::make_unique<AtomicFiles>(*out, "--out", replace);
 }
 
-void TableCommand::check_inputs_and_destinations(const InputOptions& inputs) const {
+void TableCommand::check_inputs_and_destinations(const InputOptions& inputs) {
   check_inputs_exist(inputs);
   TakenPaths taken;
   taken.read(inputs);
@@ -158,21 +160,19 @@ void TableCommand::deliver_text(const std::string& json, const Json& settings, c
                                 const std::string& table, const PageOf& page_of) const {
   const auto& [out, json_path, quiet, paper, replace] = destinations_;
   const bool json_on_stdout = json_path == "-";
-  std::optional<AtomicFiles> files;
-  if (out) {
+  if (files_) {
     std::vector<std::string> data{name_ + ".json"};
-    files.emplace(*out, "--out", replace);
-    files->write(data.front(), json);
+    files_->write(data.front(), json);
     for (const auto& [name, csv] : csvs) {
-      csv.write(files->open(name));
+      csv.write(files_->open(name));
       data.push_back(name);
     }
-    files->check();
-    if (page_of) write_page(*files, page_of(page(settings, std::move(data))), paper);
+    files_->check();
+    if (page_of) write_page(*files_, page_of(page(settings, std::move(data))), paper);
   }
   AtomicFiles json_file;
   if (json_path && !json_on_stdout) json_file.write(*json_path, json);
-  commit_together({files ? &*files : nullptr, replay_files_.get(), &json_file});
+  commit_together({files_.get(), replay_files_.get(), &json_file});
   if (json_on_stdout) print_to_stdout(json);
   if (quiet || json_on_stdout) return;
   print_to_stdout(table);

@@ -80,13 +80,15 @@ class TableCommand {
 
   /// Throws InputError if a result could not be written later, or would replace another result or a file in
   /// `taken`. The files in --out are NAME.json, NAME.csv and report.html.
-  void check_destinations(TakenPaths taken = {}) const;
+  void check_destinations(TakenPaths taken = {});
   /// Checks the destinations of a command that reads these inputs. Throws InputError also if an input does
   /// not exist.
-  void check_inputs_and_destinations(const InputOptions& inputs) const;
+  void check_inputs_and_destinations(const InputOptions& inputs);
   /// Checks the destinations of a command that writes `files` into --out. If report.html is among the files,
   /// also checks that the page can be made.
-  void check_destinations(TakenPaths taken, const std::vector<std::string>& files) const;
+  void check_destinations(TakenPaths taken, const std::vector<std::string>& files);
+  /// Returns the files of --out, which `deliver` otherwise writes. They hold their place since the check.
+  [[nodiscard]] std::unique_ptr<AtomicFiles> take_files() { return std::move(files_); }
 
   [[nodiscard]] ProgressBar& bar() { return bar_; }
   [[nodiscard]] Progress progress() {
@@ -123,7 +125,7 @@ class TableCommand {
   ProgressBar bar_;
   HeldWarnings held_;
   std::optional<std::filesystem::path> replay_;
-  std::unique_ptr<AtomicFiles> replay_files_;
+  std::unique_ptr<AtomicFiles> files_, replay_files_;
 };
 
 }  // namespace kds

@@ -42,7 +42,7 @@ Outcome replay(const std::string& path, std::string* message = nullptr) {
 Lines log_of(const std::string& instance, const std::string& structures, const ScratchDirectory& directory) {
   const std::string path = (directory / "right.log").string();
   const auto silent = [](auto&&...) {};
-  RunResults results("replay", {std::nullopt, std::nullopt, true});
+  RunResults results({std::nullopt, std::nullopt, true});
   const RunReport report = run_scene(
       parse_run_options({data_file("kinetic/" + instance), "--structures", structures, "--log", path}),
       silent, silent, results);
