@@ -42,6 +42,8 @@ endfunction()
 
 output_of(help --help)
 check_block("--help" "${help}")
+output_of(inputs help inputs)
+check_block("help inputs" "${inputs}")
 string(REGEX MATCHALL "\n  [a-z]+   *[a-z]" commands "${help}")
 list(TRANSFORM commands REPLACE "\n  ([a-z]+) .*" "\\1")
 list(REMOVE_ITEM commands help)

@@ -19,6 +19,7 @@
 #include "experiments/output/text.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/commands.h"
+#include "experiments/program/input_options.h"
 #include "experiments/program/option_values.h"
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/input_error.h"
@@ -60,7 +61,7 @@ std::string program_help() {
     text += fmt::format("  {:<10} {}\n", command.name, command.summary);
   return text +
          "\n"
-         "  help       print this text, or the options of a command: kds help run\n"
+         "  help       print this text, or the options of a command: kds help run; kds help inputs\n"
          "  --help     print the same: kds --help, kds run --help\n"
          "  --version  print the version\n\n"
          "exit codes: 0 success, 1 internal failure, failed audit or results that differ\n"
@@ -94,12 +95,13 @@ const Command& command_of(const std::string& name) {
       fmt::format("unknown {} '{}'{} (see kds --help)", is_option ? "option" : "command", name, advice));
 }
 
-// Handles `kds help` and `kds help COMMAND`.
+// Handles `kds help`, `kds help COMMAND` and `kds help inputs`.
 int help(const Arguments& of) {
   if (of.size() > 1)
     throw InputError(fmt::format("kds help takes one command, not {} (see kds --help)", of.size()));
   const std::string name = of.empty() ? "help" : of.front();
   if (name == "help" || name == "--help" || name == "-h") throw HelpRequest{program_help()};
+  if (name == "inputs") throw HelpRequest{inputs_help()};
   if (name.starts_with('-'))
     throw InputError(fmt::format("kds help takes a command, not the option '{}' (see kds --help)", name));
   return command_of(name).run({"--help"});

@@ -1,9 +1,13 @@
 #include "experiments/program/command_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 
 #include "experiments/output/text.h"
 #include "experiments/program/option_values.h"
@@ -108,18 +112,70 @@ ParsedArguments parse_arguments(const CommandSpec& command, const std::vector<Op
   return parsed;
 }
 
-std::string help_text(const CommandSpec& command, const std::vector<OptionSpec>& options) {
-  std::vector<OptionSpec> lines = options;
-  lines.push_back(kHelp);
-  std::size_t width = command.operand.size();
-  for (const OptionSpec& line : lines) width = std::max(width, left_column(line).size());
+std::size_t help_width() {
+  constexpr std::size_t least = 60, without_terminal = 100;
+  if (::isatty(STDOUT_FILENO) == 0) return without_terminal;
+  winsize size{};
+  if (const char* const columns = std::getenv("COLUMNS"))
+    size.ws_col = static_cast<unsigned short>(std::strtoul(columns, nullptr, 10));
+  if (size.ws_col == 0 && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return without_terminal;
+  return size.ws_col == 0 ? without_terminal : std::max<std::size_t>(size.ws_col, least);
+}
 
-  std::string text = fmt::format("{}\n\nusage: {}{}{} [OPTION]...\n\n", command.summary, command.name,
-                                 command.operand.empty() ? "" : " ", command.operand);
-  if (!command.operand.empty())
-    text += fmt::format("  {:<{}}  {}\n\n", command.operand, width, command.operand_help);
-  for (const OptionSpec& line : lines)
-    text += fmt::format("  {:<{}}  {}\n", left_column(line), width, line.help);
+namespace {
+
+// Breaks a text between words. `indent` blanks begin each line but the first, which others have indented.
+std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
+  std::string result;
+  std::size_t column = indent;
+  for (const std::string& word : split(text, ' ')) {
+    const bool is_first = column == indent;
+    const bool breaks = !is_first && column + 1 + word.size() > width;
+    if (breaks) result += '\n' + std::string(indent, ' ');
+    if (!is_first && !breaks) result += ' ';
+    column = (breaks ? indent : column + (is_first ? 0 : 1)) + word.size();
+    result += word;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string help_text(const CommandSpec& command, const std::vector<OptionSpec>& options, std::size_t width) {
+  std::vector<OptionSpec> lines;
+  std::vector<std::string_view> of_inputs;
+  for (const OptionSpec& option : options)
+    option.of_inputs ? of_inputs.push_back(option.name) : lines.push_back(option);
+  lines.push_back(kHelp);
+  std::size_t left = command.operand.size();
+  for (const OptionSpec& line : lines) left = std::max(left, left_column(line).size());
+  const auto row = [&](std::string_view name, std::string_view help) {
+    return fmt::format("  {:<{}}  {}\n", name, left, wrapped(help, width, left + 4));
+  };
+
+  std::string text, paragraph;
+  const auto end_paragraph = [&] {
+    if (!paragraph.empty()) text += wrapped(paragraph, width, 0) + '\n';
+    paragraph.clear();
+  };
+  for (const std::string& line : split(command.summary, '\n')) {
+    if (line.empty() || line.starts_with(' ')) {  // rows of a table are indented
+      end_paragraph();
+      text += line + '\n';
+    } else {
+      paragraph += (paragraph.empty() ? "" : " ") + line;
+    }
+  }
+  end_paragraph();
+  text += fmt::format("\nusage: {}{}{} [OPTION]...\n\n", command.name, command.operand.empty() ? "" : " ",
+                      command.operand);
+  if (!command.operand.empty()) text += row(command.operand, command.operand_help) + "\n";
+  if (!of_inputs.empty())
+    text +=
+        wrapped(fmt::format("kds help inputs explains the options of inputs: {}", fmt::join(of_inputs, ", ")),
+                width, 0) +
+        "\n\n";
+  for (const OptionSpec& line : lines) text += row(left_column(line), line.help);
   if (!command.examples.empty()) {
     text += "\nexamples:\n";
     for (const std::string& example : split(command.examples, '\n')) text += fmt::format("  {}\n", example);

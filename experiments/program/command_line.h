@@ -19,6 +19,7 @@ struct OptionSpec {
   std::string_view value;  ///< placeholder of the value in the help text; empty for a flag
   std::string_view help;   ///< one line, with the default value
   std::size_t count = 1;   ///< number of values, unless the option is a flag
+  bool of_inputs = false;  ///< whether `kds help inputs` explains it, in place of the command's own help
 };
 
 struct CommandSpec {
@@ -66,6 +67,11 @@ class ParsedArguments {
                                               const std::vector<OptionSpec>& options,
                                               const Arguments& arguments);
 
-[[nodiscard]] std::string help_text(const CommandSpec& command, const std::vector<OptionSpec>& options);
+/// Returns the width of the terminal (COLUMNS, or as the system tells it), or 100 if standard output is no
+/// terminal.
+[[nodiscard]] std::size_t help_width();
+/// Returns the help of a command, with lines of at most `width` characters where words allow it.
+[[nodiscard]] std::string help_text(const CommandSpec& command, const std::vector<OptionSpec>& options,
+                                    std::size_t width = help_width());
 
 }  // namespace kds

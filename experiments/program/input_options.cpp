@@ -120,7 +120,9 @@ CommandSpec with_inputs(CommandSpec command, bool or_instance) {
   return command;
 }
 
-const OptionList<InputOptions>& input_options() {
+namespace {
+
+OptionList<InputOptions> make_input_options() {
   static const std::string topology_help = fmt::format(
       "file that names the atoms of the inputs if their format does not: {}. With several INPUTs, a comma "
       "list has one for each: A.pdb,B.pdb (default: none, and every atom is a bead)",
@@ -128,7 +130,7 @@ const OptionList<InputOptions>& input_options() {
   static const std::string format_help =
       fmt::format("format of the inputs: {} (default: by content, otherwise by ending)",
                   fmt::join(reader_registry().names_with_frames(), ", "));
-  static const OptionList<InputOptions> list{{
+  std::vector<Option<InputOptions>> options{
       {{"--topology", "FILE", topology_help},
        read_topologies,
        [](const InputOptions& o) { return topologies_text(o, false); },
@@ -193,8 +195,29 @@ const OptionList<InputOptions>& input_options() {
          if (!o.radius.starts_with("file:")) return o.radius;
          return "file:" + std::filesystem::absolute(o.radius.substr(5)).string();
        }},
-  }};
+  };
+  for (Option<InputOptions>& option : options) option.spec.of_inputs = true;
+  return {std::move(options)};
+}
+
+}  // namespace
+
+const OptionList<InputOptions>& input_options() {
+  static const OptionList<InputOptions> list = make_input_options();
   return list;
+}
+
+std::string inputs_help() {
+  constexpr CommandSpec command{
+      "kds COMMAND",
+      "Options that all commands with INPUTs take. The help of a command has its other options.",
+      {},
+      {},
+      "kds run villin.dcd --topology villin.pdb --frames 0:200\n"
+      "kds info complex.cif --chain A,B --select '//*/CA'"};
+  std::vector<OptionSpec> specs = input_options().specs();
+  for (OptionSpec& spec : specs) spec.of_inputs = false;
+  return help_text(with_inputs(command, true), specs);
 }
 
 const Option<InputOptions>& obstacle_option() {

@@ -47,6 +47,8 @@ struct InputOptions {
 
 /// Returns the options --topology, --select, --chain, --frames and --radius.
 [[nodiscard]] const OptionList<InputOptions>& input_options();
+/// Returns the text of `kds help inputs`.
+[[nodiscard]] std::string inputs_help();
 /// Returns the option --obstacle, for commands that put all inputs on one clock.
 [[nodiscard]] const Option<InputOptions>& obstacle_option();
 /// Returns the option --groups, for commands that look at pairs of beads. `help` must outlive the option.

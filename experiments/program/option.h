@@ -60,6 +60,8 @@ struct Option {
   ShowValues values;
   /// The name of the setting. By default, the option's name without its dashes.
   std::string setting;
+  /// The words that the option applies to, such as names of structures. Empty if it always applies.
+  std::vector<std::string_view> applies_to;
 
   // g++ 12 fails on default member initializers here, hence this constructor.
   Option(OptionSpec its_spec = {}, Read its_read = {}, Show its_text = {}, Show its_text_anywhere = {},
@@ -142,6 +144,16 @@ class OptionList {
     return settings;
   }
 
+  /// Throws InputError for an option that is given (`is_given(option)`) and applies to none of `words`.
+  /// `place` says where the words stand, such as "among the structures".
+  template <class IsGiven>
+  void refuse_needless(const std::vector<std::string>& words, std::string_view place,
+                       const IsGiven& is_given) const {
+    for (const auto& option : options_)
+      if (!option.applies_to.empty() && is_given(option))
+        require_use_of(option.spec.name, option.applies_to, words, place);
+  }
+
   /// Returns the arguments that ask for the same settings from any directory.
   [[nodiscard]] Arguments arguments(const Options& options) const {
     Arguments arguments;
@@ -177,6 +189,7 @@ class OptionList {
       Option<Options>& option = options.emplace_back();
       option.spec = o.spec;
       option.setting = o.setting;
+      option.applies_to = o.applies_to;
       option.read = [read = o.read, part_of](Options& all, const std::string& text) {
         read(part_of(all), text);
       };
@@ -222,6 +235,13 @@ ParsedArguments read_arguments(const CommandSpec& command, const OptionList<Opti
   ParsedArguments parsed = parse_for(command, list, arguments, options);
   list.read(parsed, options);
   return parsed;
+}
+
+/// Says what an option applies to.
+template <class Options>
+[[nodiscard]] Option<Options> only_for(std::vector<std::string_view> words, Option<Options> option) {
+  option.applies_to = std::move(words);
+  return option;
 }
 
 /// Marks an option as an output option: reports do not show it, and the command line that repeats a run omits

@@ -34,6 +34,11 @@ namespace kds {
 [[noreturn]] void refuse_unknown(std::string_view option, std::string_view word,
                                  std::span<const std::string_view> names, std::string_view expected = "");
 
+/// Throws InputError if an option that applies only to `uses` is given with other `words`. `place` says where
+/// the words stand.
+void require_use_of(std::string_view option, const std::vector<std::string_view>& uses,
+                    const std::vector<std::string>& words, std::string_view place);
+
 /// Returns the index of `word` in `names`. Throws InputError if `word` is not a name.
 [[nodiscard]] std::size_t place_among(std::string_view option, std::string_view word,
                                       std::span<const std::string_view> names);

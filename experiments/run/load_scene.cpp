@@ -272,29 +272,17 @@ KineticRunOptions kinetic_run_options(const RunOptions& options, const Scene& sc
   kinetic.settings.contact_distance = contact_distance_of(options.cutoff, options.surface);
   kinetic.settings.groups = scene.bead_groups();
   if (kinetic.structures.empty()) kinetic.structures = default_structures(scene);
-  const auto& names = kinetic.structures;
-  if (options.apart && std::find(names.begin(), names.end(), "closest") != names.end())
-    throw InputError(
-        "--apart: closest looks at all pairs of beads; run it without --apart, or let kds collide --apart "
-        "find the closest pair of each frame");
-  if (options.apart && std::find(names.begin(), names.end(), "contacts") == names.end())
-    throw InputError("--apart: applies only to contacts, which is not among the structures");
-  if (!options.reading.groups.empty() && std::find(names.begin(), names.end(), "closest") != names.end())
-    throw InputError("--groups: closest looks at all pairs of beads; run it without --groups");
-  if (!options.reading.groups.empty() && std::find(names.begin(), names.end(), "contacts") == names.end())
-    throw InputError("--groups: applies only to contacts, which is not among the structures");
-  const auto has = [&names](const char* name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  if (options.cutoff && !has("contacts"))
-    throw InputError("--cutoff: applies only to contacts, which is not among the structures");
-  if (options.directions && !has("boxes"))
-    throw InputError("--directions: applies only to boxes, which is not among the structures");
-  if (options.nodes.restricts() && !has("wrapped") && !has("boxes") && !has("layered"))
-    throw InputError(
-        "--levels, --nodes: apply only to wrapped, boxes and layered, none of which is among the structures");
-  if (options.between && !has("wrapped"))
-    throw InputError("--between: applies only to wrapped, which is not among the structures");
+  if (std::ranges::count(kinetic.structures, "closest") > 0) {
+    if (options.apart)
+      throw InputError(
+          "--apart: closest looks at all pairs of beads; run it without --apart, or let kds collide --apart "
+          "find the closest pair of each frame");
+    if (!options.reading.groups.empty())
+      throw InputError("--groups: closest looks at all pairs of beads; run it without --groups");
+  }
+  motion_and_structure_options().refuse_needless(
+      kinetic.structures, "among the structures",
+      [&](const Option<RunOptions>& option) { return !option.text(options).empty(); });
   if (options.tightness && kinetic.settings.between != Between::chord)
     throw InputError("--tightness: applies only to chord cages of wrapped; expected --between chord");
   refuse_events_of_chords(options, kinetic);

@@ -143,29 +143,35 @@ const OptionList<RunOptions>& motion_and_structure_options() {
               choice_option({"--motion", "NAME", motion_help}, &O::motion, frame_motion_names),
               choice_option({"--kernel", "NAME", "arithmetic: filtered or exact (default: filtered)"},
                             &O::kernel, kernel_names),
-              levels_option(),
-              nodes_option(),
-              choice_option(
-                  {"--between", "NAME",
-                   "spheres of wrapped between frames. events: the smallest sphere at every moment; chord: "
-                   "interpolated between the frames, faster, without events (default: events)"},
-                  &O::between, between_names),
+              only_for({"wrapped", "boxes", "layered"}, levels_option()),
+              only_for({"wrapped", "boxes", "layered"}, nodes_option()),
+              only_for(
+                  {"wrapped"},
+                  choice_option({"--between", "NAME",
+                                 "spheres of wrapped between frames. events: the smallest sphere at every "
+                                 "moment; chord: "
+                                 "interpolated between the frames, faster, without events (default: events)"},
+                                &O::between, between_names)),
               real_option({"--tightness", "EPS",
                            "with --between chord: keep radii within 1 + EPS times the smallest, splitting a "
                            "node's step where needed (default: none)"},
                           &O::tightness, {1e-6, 1}),
-              apart_option(
-                  "contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",
-                  &O::apart),
-              real_option({"--cutoff", "LENGTH",
-                           "contacts: two beads are in contact while their centres are at most this far "
-                           "apart (default: while their balls meet)"},
-                          &O::cutoff, {0, largest_cutoff}),
+              only_for(
+                  {"contacts"},
+                  apart_option(
+                      "contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",
+                      &O::apart)),
+              only_for(
+                  {"contacts"},
+                  real_option({"--cutoff", "LENGTH",
+                               "contacts: two beads are in contact while their centres are at most this far "
+                               "apart (default: while their balls meet)"},
+                              &O::cutoff, {0, largest_cutoff})),
               surface_option(&O::surface),
           })
-          .with(OptionList<InputOptions>({groups_option()}))
+          .with(OptionList<InputOptions>({only_for({"contacts"}, groups_option())}))
           .with({
-              directions_option(&O::directions),
+              only_for({"boxes"}, directions_option(&O::directions)),
               tolerance_option(),
           });
   return list;

@@ -87,23 +87,28 @@ const OptionList<TradeTask>& task_options() {
   using O = TradeTask;
   static const auto list =
       OptionList<O>()
-          .with({list_option(
-                     {"--want", "LIST",
-                      "comma list of what you need: contacts, cages (bounding spheres), diagram, events; "
-                      "scenes measures only what each structure costs (default: contacts,cages,diagram)"},
-                     &O::wants, parse_wants),
-                 apart_option(
-                     "contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",
-                     &O::apart),
-                 of_output(real_option({"--cutoff", "LENGTH",
-                                        "diagram: count missed edges that are shorter than LENGTH (default: "
-                                        "4 times the largest radius)"},
-                                       &O::cutoff, {0, 1e300, true})),
-                 without_exact_option(),
-                 whole_option(
-                     {"--rounds", "N",
-                      "run each setting N times, alternating, and report the median time (default: 5)"},
-                     &O::rounds, 1, 1000)})
+          .with(
+              {list_option(
+                   {"--want", "LIST",
+                    "comma list of what you need: contacts, cages (bounding spheres), diagram, events; "
+                    "scenes measures only what each structure costs (default: contacts,cages,diagram)"},
+                   &O::wants, parse_wants),
+               only_for(
+                   {"contacts", "events", "scenes"},
+                   apart_option(
+                       "contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",
+                       &O::apart)),
+               only_for({"diagram", "events"},
+                        of_output(
+                            real_option({"--cutoff", "LENGTH",
+                                         "diagram: count missed edges that are shorter than LENGTH (default: "
+                                         "4 times the largest radius)"},
+                                        &O::cutoff, {0, 1e300, true}))),
+               only_for({"contacts", "cages", "diagram", "events"}, without_exact_option()),
+               whole_option(
+                   {"--rounds", "N",
+                    "run each setting N times, alternating, and report the median time (default: 5)"},
+                   &O::rounds, 1, 1000)})
           .with(&O::sampling,
                 {{whole_option(
                       {"--times", "N",
@@ -115,32 +120,19 @@ const OptionList<TradeTask>& task_options() {
   return list;
 }
 
-/// Throws InputError if --apart or --cutoff is given but no requested result uses it.
-void refuse_needless_options(const ParsedArguments& parsed, const std::vector<Want>& wants) {
-  const auto wanted = [&](std::initializer_list<Want> some) {
-    return std::find_first_of(wants.begin(), wants.end(), some.begin(), some.end()) != wants.end();
-  };
-  if (parsed.value("--apart") && !wanted({Want::contacts, Want::events, Want::scenes}))
-    throw InputError("--apart: applies only to contacts; expected contacts, events or scenes in --want");
-  if (parsed.has("--groups") && !wanted({Want::contacts, Want::events, Want::scenes}))
-    throw InputError("--groups: applies only to contacts; expected contacts, events or scenes in --want");
-  if (parsed.has("--without-exact") && wants == std::vector{Want::scenes})
-    throw InputError("--without-exact: scenes are run with one kernel; expected another word in --want");
-  if (parsed.value("--cutoff") && !wanted({Want::diagram, Want::events}))
-    throw InputError(
-        "--cutoff: applies only to edges of the power diagram; expected diagram or events in --want");
-}
-
 const OptionList<TradeOptions>& trade_options() {
   using O = TradeOptions;
   static const auto list =
       OptionList<O>()
           .with(input_options())
           .with(&O::task, task_options())
-          .with(OptionList<InputOptions>({groups_option(
-              "contacts: one bead of a pair must be in SEL1 and the other in SEL2, each as --select takes "
-              "it, "
-              "among the beads that are read; leaves out settings with --select ca (default: all pairs)")}))
+          .with(OptionList<InputOptions>(
+              {only_for({"contacts", "events", "scenes"},
+                        groups_option("contacts: one bead of a pair must be in SEL1 and the other in SEL2, "
+                                      "each as --select takes "
+                                      "it, "
+                                      "among the beads that are read; leaves out settings with --select ca "
+                                      "(default: all pairs)"))}))
           .with(destination_options("write trade.json, trade.csv and report.html to DIR (default: none)",
                                     "write the rows to FILE; - is standard output (default: none)",
                                     "print no table and no progress bar; the bar counts runs: one of each "
@@ -155,7 +147,10 @@ TradeOptions parse_trade_options(const Arguments& arguments) {
   const ParsedArguments parsed =
       read_arguments(with_inputs(kTradeCommand), trade_options(), arguments, options);
   take_inputs(parsed, kTradeCommand.name, options);
-  refuse_needless_options(parsed, options.task.wants);
+  std::vector<std::string> wants;
+  for (const Want want : options.task.wants) wants.emplace_back(name_of(want));
+  trade_options().refuse_needless(wants, "in --want",
+                                  [&](const auto& option) { return parsed.has(option.spec.name); });
   return options;
 }
 

@@ -96,7 +96,8 @@ class Stubs(unittest.TestCase):
         for name, command, but in (("run", "run", {"rounds"}), ("contacts", "contacts", set()), ("compare", "compare", set()),
                                    ("update", "update", set()), ("collide", "collide", set()), ("trade", "trade", set()),
                                    ("conditions", "info", {"beads"}), ("stream", "run", {"rounds"}), ("KineticRun", "run", {"rounds"})):
-            help = subprocess.run([PROGRAM, command, "--help"], capture_output=True, text=True, check=True).stdout
+            help = "".join(subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=True).stdout
+                           for words in ([command, "--help"], ["help", "inputs"]))
             expected = {line.split()[0][2:].replace("-", "_") for line in help.splitlines() if line.startswith("  --")}
             self.assertGreater(len(expected), 15)
             function = getattr(kds, name)

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/output/text.h"
+#include "experiments/program/command_line.h"
 #include "tests/experiments/expect_refused.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
@@ -40,6 +42,26 @@ TEST(Program, HelpAndVersionSucceed) {
   expect_refused({"help", "fly"}, {"unknown command 'fly'"});
   expect_refused({"help", "run", "info"}, {"one command"});
   expect_refused({"help", "--version"}, {"takes a command, not the option '--version'"});
+}
+
+TEST(Program, OptionsOfInputsAreExplainedOnce) {
+  const std::string run = run_program({"run", "--help"}).out, inputs = run_program({"help", "inputs"}).out;
+  EXPECT_THAT(run, HasSubstr("kds help inputs explains the options of inputs: --topology, --select, "));
+  EXPECT_THAT(inputs, HasSubstr("\n  --topology FILE "));
+  EXPECT_THAT(run, testing::Not(HasSubstr("\n  --topology FILE ")));
+  for (const std::string& help : {run, inputs})
+    for (const std::string& line : split(help, '\n'))
+      EXPECT_TRUE(line.size() <= 100 || line.starts_with("  kds ")) << line;
+}
+
+TEST(Program, HelpHasTheWidthAskedFor) {
+  constexpr CommandSpec command{"kds try", "Tries one two three.", "FILE", "a file", "kds try a"};
+  EXPECT_EQ(
+      help_text(command, {{"--input", "", "not explained here", 1, true}, {"--far", "N", "one two three"}},
+                24),
+      "Tries one two three.\n\nusage: kds try FILE [OPTION]...\n\n  FILE     a file\n\n"
+      "kds help inputs explains\nthe options of inputs:\n--input\n\n"
+      "  --far N  one two three\n  --help   print this\n           and exit\n\nexamples:\n  kds try a\n");
 }
 
 TEST(Program, RefusesWrongUsage) {
