@@ -81,9 +81,10 @@ const Command& command_of(const std::string& name) {
   for (const Command& command : kCommands)
     if (command.name == name) return command;
   if (std::ranges::find(kScripts, name) != kScripts.end())
-    throw InputError(fmt::format(
-        "{0}: is a script now, experiments/paper/{0}.py; scripts/reproduce {0} builds what it needs and runs it",
-        name));
+    throw InputError(
+        fmt::format("{0}: is a script now, experiments/paper/{0}.py; scripts/reproduce {0} builds what it "
+                    "needs and runs it",
+                    name));
   const bool is_option = name.starts_with('-');
   std::vector<std::string_view> names{"help"};
   if (is_option) names = {"--help", "--version"};

@@ -97,8 +97,7 @@ std::vector<double> spheres_of(const Hierarchy& hierarchy) {
   std::vector<double> spheres;
   for (NodeId node = 0; node < hierarchy.tree().node_count(); ++node) {
     const Sphere sphere = hierarchy.sphere(node);
-    spheres.insert(spheres.end(),
-                   {sphere.center.x(), sphere.center.y(), sphere.center.z(), sphere.radius});
+    spheres.insert(spheres.end(), {sphere.center.x(), sphere.center.y(), sphere.center.z(), sphere.radius});
   }
   return spheres;
 }

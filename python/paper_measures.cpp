@@ -98,8 +98,8 @@ py::tuple closest_by_diagram(const Numbers& centers, const Numbers& radii,
   {
     const Watch watch;
     balls.in_dimension([&](auto dimension) {
-      seconds = times_of(
-          rounds, [&] { report = closest_pair<dimension>(balls.centers, balls.radii, neighbors); });
+      seconds =
+          times_of(rounds, [&] { report = closest_pair<dimension>(balls.centers, balls.radii, neighbors); });
     });
   }
   py::object pair = py::none();
@@ -128,8 +128,7 @@ py::tuple trusted_hierarchy(const Numbers& before, const Numbers& after, const N
       StaticWrappedHierarchy<dimension> hierarchy(first.ranges({}));
       for (std::size_t round = 0; round < rounds; ++round) {
         hierarchy.build(from);
-        seconds.push_back(
-            seconds_per_call<ProcessorClock>([&] { hierarchy.update(to, Update::trust); }));
+        seconds.push_back(seconds_per_call<ProcessorClock>([&] { hierarchy.update(to, Update::trust); }));
         hierarchy.build(from);
         seconds.push_back(seconds_per_call<ProcessorClock>([&] {
                             hierarchy.update(to);

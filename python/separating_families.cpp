@@ -194,12 +194,12 @@ void require_connected_chain(const SphereTree<Dimension>& tree, const PairsAsked
 }  // namespace
 
 template <int Dimension>
-FamilySize ruled_family(const SphereTree<Dimension>& tree, const PairsAsked& asked, Split split, BeadId leaf) {
+FamilySize ruled_family(const SphereTree<Dimension>& tree, const PairsAsked& asked, Split split,
+                        BeadId leaf) {
   const FloatingPointGuard to_nearest;
   RuledSearch<Dimension> search(tree, split, leaf);
-  detail::for_each_root(tree.roots(), asked, [&](const NodePair& roots, BeadId least_apart) {
-    search.visit(roots, least_apart);
-  });
+  detail::for_each_root(tree.roots(), asked,
+                        [&](const NodePair& roots, BeadId least_apart) { search.visit(roots, least_apart); });
   return search.found();
 }
 
