@@ -111,7 +111,10 @@ def law(points, forms=USUAL_FORMS, size="n"):
     for coefficient, (power, logarithm) in zip(coefficients, form):
         sign = "" if not words else " - " if coefficient < 0 else " + "
         words += f"{sign}{abs(coefficient) if words else coefficient:.4g}"
-        words += "" if power == 0 else f" {size}" if power == 1 else f" {size}^({round(3 * power)}/3)" if power % 1 else f" {size}^{power}"
+        if power not in (0, 1):
+            is_third = power % 1 and abs(3 * power - round(3 * power)) < 1e-9
+            words += f" {size}^({round(3 * power)}/3)" if is_third else f" {size}^{power:g}"
+        words += f" {size}" if power == 1 else ""
         words += f" log2 {size}" if logarithm else ""
     return words, residual, prediction
 
@@ -119,7 +122,7 @@ def law(points, forms=USUAL_FORMS, size="n"):
 def growth(points, lower, forms=USUAL_FORMS, logarithm=0, size="n"):
     """Returns all fits to one quantity as a row: the straight line, the last local exponent, the exponent beside lower-order
     terms, and the law."""
-    through = line([(x, y / np.log2(x) if logarithm else y) for x, y in points])
+    through = line([(x, y / np.log2(x) if logarithm else y) for x, y in zip(*sizes(points))])
     local, found = local_exponents(points), law(points, forms, size)
     return {"line": through and through[0], "last": float(local[-1]) if len(local) else None,
             "exponent": exponent(points, lower, logarithm),
