@@ -2,12 +2,9 @@
 #
 # cmake -DROOT=<source tree> [-DWRITE=ON] -P MeasurementTables.cmake
 #   Checks each table against the CSV file that it names. With WRITE it replaces the tables.
-# cmake -DROOT=<source tree> -DADD=<DIR> -DMACHINE=<name> -DLOAD=<text> -P MeasurementTables.cmake
-#   Replaces the rows of one subject in docs/measurements/MACHINE.csv by those that `kds bench SUBJECT --out DIR` wrote, then
-#   replaces the tables. LOAD says what else the machine was doing, as in "quiet", without commas.
 #
-# A line of the CSV file is a line of bench.csv after five columns: subject, sizes (of --sizes, separated by spaces), version (the
-# release and the commit), date, load.
+# experiments/bench/compare.py writes the CSV files. A line has five columns before those of a measure: subject, command, version
+# (the release and the commit), date, load.
 #
 # A table stands between a line that says what is in it and a line `<!-- end of table -->`. Regular expressions are CMake's.
 #   <!-- rows of MACHINE, SUBJECT: REGEX -->
@@ -19,7 +16,7 @@
 #     whose text "NAME beside PEER" matches.
 cmake_minimum_required(VERSION 3.25)
 set(page "${ROOT}/docs/measurements.md")
-set(columns subject sizes version date load name input n value unit peer peer_value ratio goal holds value_least value_most)
+set(columns subject command version date load name input n value unit peer peer_value ratio goal holds value_least value_most)
 
 # Reads a CSV line into <prefix>_<column> for each of the columns that are named. Fields may be in quotes.
 function(read_line prefix line)
@@ -115,12 +112,7 @@ endmacro()
 # Says in one line where and when the rows of a subject were measured.
 function(origin variable k)
   string(REGEX REPLACE "^[0-9.]+[+]" "" commit "${row_${k}_version}")
-  set(command "kds bench ${row_${k}_subject}")
-  if(NOT row_${k}_sizes STREQUAL "")
-    string(REPLACE " " "," sizes "${row_${k}_sizes}")
-    string(APPEND command " --sizes ${sizes}")
-  endif()
-  set(${variable} "`${command}`, commit ${commit}, ${row_${k}_date}, ${row_${k}_load}:\n\n" PARENT_SCOPE)
+  set(${variable} "`${row_${k}_command}`, commit ${commit}, ${row_${k}_date}, ${row_${k}_load}:\n\n" PARENT_SCOPE)
 endfunction()
 
 # The table of all rows of a subject that match.
@@ -216,52 +208,6 @@ function(ratios_table variable subject on specification)
   endforeach()
   set(${variable} "${origin}${text}" PARENT_SCOPE)
 endfunction()
-
-# Replaces the rows of the subject that DIR/bench.json names in docs/measurements/MACHINE.csv.
-function(add_rows)
-  if(NOT MACHINE OR NOT LOAD OR LOAD MATCHES "[,;\"]")
-    message(FATAL_ERROR "-DADD needs -DMACHINE=NAME and -DLOAD=TEXT without commas")
-  endif()
-  file(READ "${ADD}/bench.json" json)
-  string(JSON subject GET "${json}" settings subject)
-  string(JSON version GET "${json}" version)
-  set(sizes "")
-  string(JSON type TYPE "${json}" settings sizes)
-  if(type STREQUAL "ARRAY")
-    string(JSON sizes GET "${json}" settings sizes)
-    string(REGEX MATCHALL "[0-9]+" sizes "${sizes}")
-    list(JOIN sizes " " sizes)
-  endif()
-  file(TIMESTAMP "${ADD}/bench.json" date "%Y-%m-%d")
-  set(file "${ROOT}/docs/measurements/${MACHINE}.csv")
-  list(JOIN columns "," text)
-  string(APPEND text "\n")
-  if(EXISTS "${file}")
-    file(STRINGS "${file}" lines)
-    list(POP_FRONT lines)
-    foreach(line IN LISTS lines)
-      if(NOT line MATCHES "^${subject},")
-        string(APPEND text "${line}\n")
-      endif()
-    endforeach()
-  endif()
-  file(STRINGS "${ADD}/bench.csv" lines)
-  list(POP_FRONT lines header)
-  list(SUBLIST columns 5 -1 expected)
-  list(JOIN expected "," expected)
-  if(NOT header STREQUAL expected)
-    message(FATAL_ERROR "${ADD}/bench.csv: expected the header ${expected}")
-  endif()
-  foreach(line IN LISTS lines)
-    string(APPEND text "${subject},${sizes},${version},${date},${LOAD},${line}\n")
-  endforeach()
-  file(WRITE "${file}" "${text}")
-endfunction()
-
-if(ADD)
-  add_rows()
-  set(WRITE ON)
-endif()
 
 file(READ "${page}" rest)
 set(text "")

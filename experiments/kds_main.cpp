@@ -44,7 +44,6 @@ constexpr std::array kCommands{
             reproduce_command},
     Command{"trade", "measure how much time each accuracy option saves and how large its errors are",
             trade_command},
-    Command{"bench", "compare the speed of kds with that of other libraries", bench_command},
     Command{"sweep", "run commands over many inputs and settings, on this machine or a cluster",
             sweep_command},
     Command{"stability", "test the three arithmetics on hard inputs", stability_command},
@@ -85,6 +84,9 @@ const Command& command_of(const std::string& name) {
         fmt::format("{0}: is a script now, experiments/paper/{0}.py; scripts/reproduce {0} builds what it "
                     "needs and runs it",
                     name));
+  if (name == "bench")
+    throw InputError(
+        "kds bench is a program of its own: kds_bench, built with -DKDS_BENCHMARKS=ON (docs/measurements.md)");
   const bool is_option = name.starts_with('-');
   std::vector<std::string_view> names{"help"};
   if (is_option) names = {"--help", "--version"};

@@ -6,10 +6,10 @@
 #include <CGAL/Gmpz.h>
 #endif
 
+#include <benchmark/benchmark.h>
+
 #include <algorithm>
 #include <iterator>
-
-#include "experiments/bench/subject.h"
 
 namespace kds::bench {
 
@@ -33,33 +33,30 @@ StaticPredicates::~StaticPredicates() = default;
 namespace {
 
 template <class Tuples, class Predicate>
-double seconds_for_all(const Tuples& tuples, const Predicate& predicate) {
-  return processor_seconds_per_call([&] {
-    int sum = 0;
-    for (const auto& t : tuples) sum += static_cast<int>(predicate(t));
-    keep(sum);
-  });
+void for_all(const Tuples& tuples, const Predicate& predicate) {
+  int sum = 0;
+  for (const auto& t : tuples) sum += static_cast<int>(predicate(t));
+  benchmark::DoNotOptimize(sum);
 }
 
 }  // namespace
 
-double StaticPredicates::seconds_for(std::span<const std::array<BeadId, 5>> beads) const {
+void StaticPredicates::test(std::span<const std::array<BeadId, 5>> beads) const {
   const auto& p = points_->weighted;
   const auto test = Kernel().power_side_of_oriented_power_sphere_3_object();
-  return seconds_for_all(beads,
-                         [&](const auto& t) { return test(p[t[0]], p[t[1]], p[t[2]], p[t[3]], p[t[4]]); });
+  for_all(beads, [&](const auto& t) { return test(p[t[0]], p[t[1]], p[t[2]], p[t[3]], p[t[4]]); });
 }
 
-double StaticPredicates::seconds_for(std::span<const std::array<BeadId, 4>> beads) const {
+void StaticPredicates::test(std::span<const std::array<BeadId, 4>> beads) const {
   const auto& p = points_->centers;
   const auto test = Kernel().side_of_bounded_sphere_3_object();
-  return seconds_for_all(beads, [&](const auto& t) { return test(p[t[0]], p[t[1]], p[t[2]], p[t[3]]); });
+  for_all(beads, [&](const auto& t) { return test(p[t[0]], p[t[1]], p[t[2]], p[t[3]]); });
 }
 
-double StaticPredicates::seconds_for(std::span<const std::array<BeadId, 3>> beads) const {
+void StaticPredicates::test(std::span<const std::array<BeadId, 3>> beads) const {
   const auto& p = points_->centers;
   const auto test = Kernel().side_of_bounded_sphere_3_object();
-  return seconds_for_all(beads, [&](const auto& t) { return test(p[t[0]], p[t[1]], p[t[2]]); });
+  for_all(beads, [&](const auto& t) { return test(p[t[0]], p[t[1]], p[t[2]]); });
 }
 
 #ifdef CGAL_USE_MPFI
@@ -96,19 +93,19 @@ AlgebraicKernel::AlgebraicKernel(std::span<const ExactPolynomial> polynomials)
   for (const ExactPolynomial& p : polynomials) polynomials_->all.push_back(power_form(p));
 }
 
-double AlgebraicKernel::seconds_to_isolate() const {
+const bool AlgebraicKernel::available = true;
+
+void AlgebraicKernel::isolate() const {
   const auto solve = polynomials_->kernel.solve_1_object();
   std::vector<Algebraic::Algebraic_real_1> roots;
-  return processor_seconds_per_call([&] {
-    for (const auto& p : polynomials_->all) {
-      roots.clear();
-      solve(p, true, std::back_inserter(roots));
-      keep(roots.data());
-    }
-  });
+  for (const auto& p : polynomials_->all) {
+    roots.clear();
+    solve(p, true, std::back_inserter(roots));
+    benchmark::DoNotOptimize(roots.data());
+  }
 }
 
-double AlgebraicKernel::seconds_to_compare(std::span<const std::pair<std::size_t, std::size_t>> pairs) {
+void AlgebraicKernel::compare(std::span<const std::pair<std::size_t, std::size_t>> pairs) {
   auto& first = polynomials_->first_roots;
   const auto compare = polynomials_->kernel.compare_1_object();
   if (first.empty()) {
@@ -120,20 +117,19 @@ double AlgebraicKernel::seconds_to_compare(std::span<const std::pair<std::size_t
       first.push_back(*std::find_if(roots.begin(), roots.end(), is_positive));
     }
   }
-  return seconds_for_all(pairs,
-                         [&](const auto& pair) { return compare(first[pair.first], first[pair.second]); });
+  for_all(pairs, [&](const auto& pair) { return compare(first[pair.first], first[pair.second]); });
 }
 
 #else
 
 struct AlgebraicKernel::Polynomials {};
 
+const bool AlgebraicKernel::available = false;
+
 AlgebraicKernel::AlgebraicKernel(std::span<const ExactPolynomial>) {}
 
-double AlgebraicKernel::seconds_to_isolate() const { return no_peer; }
-double AlgebraicKernel::seconds_to_compare(std::span<const std::pair<std::size_t, std::size_t>>) {
-  return no_peer;
-}
+void AlgebraicKernel::isolate() const {}
+void AlgebraicKernel::compare(std::span<const std::pair<std::size_t, std::size_t>>) {}
 
 #endif
 

@@ -20,27 +20,29 @@ class StaticPredicates {
   StaticPredicates(const Eigen::Matrix3Xd& centers, std::span<const double> weights);
   ~StaticPredicates();
 
-  /// Each returns the seconds for all tests: power tests of five beads, or whether the last of three or four
-  /// beads is in the smallest sphere through the others.
-  [[nodiscard]] double seconds_for(std::span<const std::array<BeadId, 5>> beads) const;
-  [[nodiscard]] double seconds_for(std::span<const std::array<BeadId, 4>> beads) const;
-  [[nodiscard]] double seconds_for(std::span<const std::array<BeadId, 3>> beads) const;
+  /// Each makes all tests: power tests of five beads, or whether the last of three or four beads is in the
+  /// smallest sphere through the others.
+  void test(std::span<const std::array<BeadId, 5>> beads) const;
+  void test(std::span<const std::array<BeadId, 4>> beads) const;
+  void test(std::span<const std::array<BeadId, 3>> beads) const;
 
  private:
   struct Points;
   std::unique_ptr<Points> points_;
 };
 
-/// Algebraic_kernel_d_1<Gmpz>. If kds was built without MPFI, all times are NaN.
+/// Algebraic_kernel_d_1<Gmpz>. Does nothing if kds was built without MPFI.
 class AlgebraicKernel {
  public:
+  static const bool available;
+
   explicit AlgebraicKernel(std::span<const ExactPolynomial> polynomials);
   ~AlgebraicKernel();
 
-  /// Returns the seconds to isolate all real roots of every polynomial. The polynomials must be square-free.
-  [[nodiscard]] double seconds_to_isolate() const;
-  /// Returns the seconds to compare the first positive roots of pairs of polynomials.
-  [[nodiscard]] double seconds_to_compare(std::span<const std::pair<std::size_t, std::size_t>> pairs);
+  /// Isolates all real roots of every polynomial. The polynomials must be square-free.
+  void isolate() const;
+  /// Compares the first positive roots of pairs of polynomials. The first call isolates them.
+  void compare(std::span<const std::pair<std::size_t, std::size_t>> pairs);
 
  private:
   struct Polynomials;

@@ -12,7 +12,7 @@
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 #endif
 
-namespace kds {
+namespace kds::bench {
 
 namespace {
 
@@ -114,17 +114,4 @@ std::span<const CollisionPeer> collision_peers() {
   return peers;
 }
 
-std::string_view missing_collision_peers() {
-#if defined(KDS_FCL) && defined(KDS_BULLET)
-  return "";
-#elif defined(KDS_FCL)
-  return "no rows that compare with Bullet: this program was built without libbullet-dev";
-#elif defined(KDS_BULLET)
-  return "no rows that compare with FCL: this program was built without libfcl-dev";
-#else
-  return "no rows that compare with FCL and Bullet: this program was built without libfcl-dev and "
-         "libbullet-dev";
-#endif
-}
-
-}  // namespace kds
+}  // namespace kds::bench

@@ -1,6 +1,6 @@
 #pragma once
-// Collision detection libraries with which `kds bench collision` compares kds, if this program was built with
-// them: FCL (libfcl-dev) and Bullet (libbullet-dev).
+// Collision detection libraries with which kds_bench compares kds, if it was built with them: FCL (libfcl-dev)
+// and Bullet (libbullet-dev).
 
 #include <cstddef>
 #include <memory>
@@ -9,7 +9,7 @@
 
 #include "structures/necklace/balls.h"
 
-namespace kds {
+namespace kds::bench {
 
 /// A tree over one scene.
 class PeerTree {
@@ -27,7 +27,4 @@ struct CollisionPeer {
 
 [[nodiscard]] std::span<const CollisionPeer> collision_peers();
 
-/// Returns a line that names the missing libraries, or an empty text if none is missing.
-[[nodiscard]] std::string_view missing_collision_peers();
-
-}  // namespace kds
+}  // namespace kds::bench

@@ -20,8 +20,6 @@ struct Command {
 /// Runs the program with these arguments. Turns each error into a one-line message and an exit code.
 [[nodiscard]] int run_arguments(const Arguments& arguments);
 
-/// `kds bench`: runs the benchmarks. A missed goal is not an error.
-int bench_command(const Arguments& arguments);
 /// `kds collide`: reports which beads collide in every frame of a trajectory, by each method.
 int collide_command(const Arguments& arguments);
 /// `kds compare`: reports how often structures change, by stride, motion and input.

@@ -29,7 +29,7 @@ TEST(Program, HelpAndVersionSucceed) {
                                                     {"run", "--help"},
                                                     {"replay", "--help"},
                                                     {"help"},
-                                                    {"help", "bench"}}) {
+                                                    {"help", "stability"}}) {
     const ProgramRun run = run_program(arguments);
     EXPECT_EQ(run.code, 0);
     EXPECT_EQ(run.err, "");
@@ -119,7 +119,7 @@ TEST(Program, SuggestsTheNearestName) {
   expect_refused({"reproduce", "tabel3"}, {"did you mean table3?"});
   for (const char* script : {"figures", "questions", "scale", "theorems"})
     expect_refused({script}, {"is a script now", "scripts/reproduce"});
-  expect_refused({"bench", "pwer"}, {"did you mean power?"});
+  expect_refused({"bench", "power"}, {"kds_bench"});
   expect_refused({"stability", "--subjects", "powertest"}, {"did you mean power_test?"});
 }
 

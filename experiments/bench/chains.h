@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
-namespace kds {
+#include "motions/scene/scene.h"
+
+namespace kds::bench {
 
 /// One necklace in consecutive frames.
 struct BenchChain {
@@ -16,7 +18,13 @@ struct BenchChain {
   std::vector<Eigen::Matrix3Xd> frames;
   std::vector<double> radii;  ///< one per bead
   int dimension = 3;          ///< 2 if all beads lie in the plane z = 0
+
+  [[nodiscard]] std::size_t size() const { return radii.size(); }
+  [[nodiscard]] Scene scene() const;  ///< moves linearly from frame to frame
 };
+
+/// Returns the trajectories of data/trajectories with the extension .dcd, in order.
+[[nodiscard]] std::vector<std::filesystem::path> trajectories();
 
 /// Reads the first 100 of every `stride`-th frame, with the radii of `--radius auto`. NAME.pdb names the
 /// atoms of NAME.dcd and of NAME_first20.dcd. Throws InputError, also if the file has only one frame.
@@ -42,4 +50,4 @@ struct BenchChain {
 [[nodiscard]] std::vector<Eigen::Matrix3Xd> jostled_frames(const Eigen::Matrix3Xd& start, double distance,
                                                            std::size_t frames, int dimension = 3);
 
-}  // namespace kds
+}  // namespace kds::bench

@@ -1,9 +1,11 @@
-#include "experiments/bench/bench_chains.h"
+#include "experiments/bench/chains.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "experiments/program/input_options.h"
 #include "motions/base/input_error.h"
 #include "motions/models/elementary.h"
 #include "motions/models/model.h"
@@ -11,7 +13,22 @@
 #include "motions/readers/read_trajectory.h"
 #include "motions/scene/radii.h"
 
-namespace kds {
+namespace kds::bench {
+
+Scene BenchChain::scene() const {
+  Trajectory necklace;
+  necklace.file = name;
+  necklace.frames = frames;
+  return {{&necklace, 1}, radii, FrameMotion::linear};
+}
+
+std::vector<std::filesystem::path> trajectories() {
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::directory_iterator(source_data_folder() / "trajectories"))
+    if (entry.path().extension() == ".dcd") found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
 
 BenchChain read_bench_chain(const std::filesystem::path& path, std::size_t stride) {
   constexpr std::size_t most_frames = 100;
@@ -65,4 +82,4 @@ std::vector<Eigen::Matrix3Xd> jostled_frames(const Eigen::Matrix3Xd& start, doub
   return all;
 }
 
-}  // namespace kds
+}  // namespace kds::bench
