@@ -28,10 +28,12 @@ def run(program, group, options):
     """Returns the results of all rounds of a group of benchmarks, and what Google Benchmark says about the run."""
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "results.json")
-        subprocess.run([program, "--benchmark_filter=^" + re.sub(r"([.()+])", r"\\\1", group) + "/",
-                        "--benchmark_enable_random_interleaving=true", f"--benchmark_repetitions={options.rounds}",
-                        f"--benchmark_min_time={options.min_time}", f"--benchmark_out={out}"],
-                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        done = subprocess.run([program, "--benchmark_filter=^" + re.sub(r"([.()+])", r"\\\1", group) + "/",
+                               "--benchmark_enable_random_interleaving=true", f"--benchmark_repetitions={options.rounds}",
+                               f"--benchmark_min_time={options.min_time}", f"--benchmark_out={out}"],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        if done.returncode != 0:
+            sys.exit(f"compare.py: {group}: {done.stderr.strip()}")
         with open(out, encoding="utf-8") as file:
             result = json.load(file)
     return [b for b in result["benchmarks"] if b["run_type"] == "iteration"], result["context"]
@@ -103,9 +105,11 @@ def main():
     options = parser.parse_args()
     if options.machine and (options.only or not options.load or not options.subjects):
         parser.error("--machine takes subjects and --load, and not --only")
+    if not os.access(options.program, os.X_OK):
+        parser.error(f"{options.program}: expected the program kds_bench, which -DKDS_BENCHMARKS=ON builds")
     with open(os.path.join(HERE, "goals.csv"), encoding="utf-8") as file:
         goals = list(csv.DictReader(file))
-    names = subprocess.run([options.program, "--benchmark_list_tests"], check=True, capture_output=True, text=True).stdout
+    names = subprocess.run([os.path.abspath(options.program), "--benchmark_list_tests"], check=True, capture_output=True, text=True).stdout
     groups = dict.fromkeys("/".join(name.split("/")[:3]) for name in names.splitlines())
     groups = [g for g in groups if g.split("/")[0] in (options.subjects or g) and re.search(options.only, g)]
     if not groups:
@@ -127,8 +131,10 @@ def main():
                           "date": context["date"][:10], "load": options.load, **one})
     if options.machine:
         path = os.path.join(HERE, "../../docs/measurements", options.machine + ".csv")
-        with open(path, encoding="utf-8", newline="") as file:
-            kept = [line for line in csv.DictReader(file) if line["subject"] not in options.subjects]
+        kept = []
+        if os.path.exists(path):
+            with open(path, encoding="utf-8", newline="") as file:
+                kept = [line for line in csv.DictReader(file) if line["subject"] not in options.subjects]
         with open(path, "w", encoding="utf-8", newline="") as file:
             writer = csv.DictWriter(file, ORIGIN + COLUMNS, restval="", lineterminator="\n")
             writer.writeheader()
