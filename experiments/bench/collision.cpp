@@ -160,7 +160,7 @@ Scene contact_scene(BenchChain chain, double radius_factor) {
 }
 
 KineticRun contact_run(const Scene& scene) {
-  SessionOptions options{.structures = {"contacts"}};
+  KineticRunOptions options{.structures = {"contacts"}};
   options.settings.apart = along_chain;
   return KineticRun(scene, options);
 }
