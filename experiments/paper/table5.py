@@ -11,7 +11,7 @@ import numpy as np
 from common import span
 from paper_table import PaperTable, is_in_dynamics
 from subjects import trajectory
-from updates import RATIOS, TIMES, most_cheaper, updated
+from updates import RATIOS, TIMES, cells_changed, most_cheaper, updated
 
 table = PaperTable(5, __doc__, times=TIMES, ratios=RATIOS,
                    counts=["reinsert_per_rebuild", "greedy_per_rebuild", "cells_changed", "bases_changed",
@@ -23,7 +23,7 @@ for row in table.rows:
     techniques = kds.update(step, radius=1, techniques=["reinsert", "greedy"], rounds=table.rounds).json["rows"]
     _, reinsert, greedy = techniques  # the first is rebuild
     note = "removal gives up and rebuilds, since it would take out more than a tenth of the beads"
-    table.measured(row, **updated(step[0], step[1], table.rounds), cells_changed=reinsert["cells_changed"],
+    table.measured(row, **updated(step[0], step[1], table.rounds), cells_changed=cells_changed(step),
                    reinsert_per_rebuild=reinsert["ratio"], greedy_per_rebuild=greedy["ratio"],
                    note=note if reinsert["rebuilds"] + greedy["rebuilds"] else None)
 table.print_rows()

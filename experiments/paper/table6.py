@@ -3,12 +3,11 @@
 The random protein from frame 900 on, counted as in table 5, over so many frames.
 """
 
-import kds
 import kds.reading
 import numpy as np
 from common import span
 from paper_table import PaperTable
-from updates import RATIOS, TIMES, updated
+from updates import RATIOS, TIMES, cells_changed, updated
 
 table = PaperTable(6, __doc__, times=TIMES, ratios=RATIOS, counts=["bases_changed", "cells_changed", "cascade_tests_per_naive"])
 protein = kds.reading.positions(table.data / "paper" / "random100_400K_900to932.dcd",
@@ -16,8 +15,7 @@ protein = kds.reading.positions(table.data / "paper" / "random100_400K_900to932.
 apart = np.array([int(row["at"].split()[0]) for row in table.rows])
 for row, frames in zip(table.rows, apart):
     step = protein[[0, frames]]
-    cells = kds.update(step, radius=1, techniques=["rebuild"], rounds=1).json["rows"][0]["cells_changed"]
-    table.measured(row, **updated(step[0], step[1], table.rounds), cells_changed=cells)
+    table.measured(row, **updated(step[0], step[1], table.rounds), cells_changed=cells_changed(step))
 table.print_rows()
 
 cells, bases = table["cells_changed"], table["bases_changed"][apart >= 2]

@@ -14,6 +14,13 @@ def updated(before, after, rounds):
             "bases_changed": found["bases_changed"], "cascade_tests_per_naive": found["cascade_tests"] / found["naive_tests"]}
 
 
+def cells_changed(step):
+    """Returns how many cells of the later of two diagrams are not in the earlier one."""
+    power = kds.run(step, radius=1, structures=["power"]).power
+    earlier, later = ({tuple(cell) for cell in power.elements(frame)} for frame in (0, 1))
+    return len(later - earlier)
+
+
 def most_cheaper(table):
     """Returns the largest ratio of verifying time, naive or by the cascade, to lazy time."""
     return max(max(naive, cascade) / lazy for lazy, cascade, naive in zip(*(table[name] for name in TIMES)))
