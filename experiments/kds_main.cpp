@@ -40,8 +40,6 @@ constexpr std::array kCommands{
     Command{"collide", "find the beads that collide in each frame, by several methods", collide_command},
     Command{"contacts", "measure how long contacts last, exactly and as frames show it", contacts_command},
     Command{"missed", "measure which contacts are missed if only frames are examined", missed_command},
-    Command{"reproduce", "measure the paper's tables again and compare them with the paper's",
-            reproduce_command},
     Command{"trade", "measure how much time each accuracy option saves and how large its errors are",
             trade_command},
     Command{"sweep", "run commands over many inputs and settings, on this machine or a cluster",
@@ -84,6 +82,9 @@ const Command& command_of(const std::string& name) {
         fmt::format("{0}: is a script now, experiments/paper/{0}.py; scripts/reproduce {0} builds what it "
                     "needs and runs it",
                     name));
+  if (name == "reproduce")
+    throw InputError(
+        "reproduce: is a script now; scripts/reproduce builds what it needs and measures the paper's tables");
   if (name == "bench")
     throw InputError(
         "kds bench is a program of its own: kds_bench, built with -DKDS_BENCHMARKS=ON (docs/measurements.md)");

@@ -34,8 +34,6 @@ int info_command(const Arguments& arguments);
 int missed_command(const Arguments& arguments);
 /// `kds replay`: runs a logged run again. Returns 0 if the run reproduces the log's fingerprint, else 1.
 int replay_command(const Arguments& arguments);
-/// `kds reproduce`: measures the paper's tables again.
-int reproduce_command(const Arguments& arguments);
 /// `kds run`: runs kinetic structures and reports their events.
 int run_command(const Arguments& arguments);
 /// `kds stability`: compares the kernels on inputs for which the arithmetic is hardest. Throws

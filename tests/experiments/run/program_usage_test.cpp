@@ -116,9 +116,10 @@ TEST(Program, SuggestsTheNearestName) {
   expect_refused({"collide", kTrajectory, "--method", "cell"}, {"did you mean cells?"});
   expect_refused({"update", kTrajectory, "--techniques", "reinserts"}, {"did you mean reinsert?"});
   expect_refused({"generate", "chain", "--beads", "9"}, {"did you mean random-chain?"});
-  expect_refused({"reproduce", "tabel3"}, {"did you mean table3?"});
-  for (const char* script : {"figures", "questions", "scale", "theorems"})
+  for (const char* script : {"figures", "questions", "reproduce", "scale", "theorems"}) {
     expect_refused({script}, {"is a script now", "scripts/reproduce"});
+    expect_refused({"help", script}, {"scripts/reproduce"});
+  }
   expect_refused({"bench", "power"}, {"kds_bench"});
   expect_refused({"stability", "--subjects", "powertest"}, {"did you mean power_test?"});
 }
