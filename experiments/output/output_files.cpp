@@ -97,6 +97,13 @@ int make_file(const fs::path& path, const std::string& subject) {
 // of the folder's files, one on a line.
 constexpr std::string_view kList = ".kds-results";
 
+// Returns when the file, its name or its permissions were changed last.
+std::pair<time_t, long> change_of(const fs::path& path) {
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) != 0) return {};
+  return {status.st_ctim.tv_sec, status.st_ctim.tv_nsec};
+}
+
 // Throws InputError if the place holds anything but an empty directory or, if `replace`, files that kds
 // wrote.
 void require_replaceable(const fs::path& place, const std::string& subject, bool replace) {
@@ -119,13 +126,13 @@ void require_replaceable(const fs::path& place, const std::string& subject, bool
   std::set<std::string> names{std::string(kList)};
   std::ifstream list(place / kList);
   for (std::string name; std::getline(list, name);) names.insert(name);
-  const fs::file_time_type written = fs::last_write_time(place / kList, error);  // none without a list
+  const auto written = change_of(place / kList);
   for (fs::directory_iterator entry(place, lost), end; !lost && entry != end; entry.increment(lost)) {
     const std::string name = entry->path().filename().string();
     const char* fault = nullptr;
     if (!names.contains(name) || !entry->is_regular_file(error) || entry->is_symlink(error))
       fault = "is not of an earlier result";
-    else if (entry->last_write_time(error) > written)
+    else if (change_of(entry->path()) > written)
       fault = "has changed since kds wrote it";
     if (fault != nullptr)
       throw InputError(

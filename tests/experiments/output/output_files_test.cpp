@@ -7,9 +7,9 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "experiments/output/result_json.h"
 #include "motions/base/input_error.h"
@@ -151,9 +151,11 @@ TEST(OutputFiles, NothingOfTheUsersIsReplaced) {
   directory.file("out/notes", "mine");
   expect_kept("notes", "is not of an earlier result");  // kds has written nothing there
   fs::remove(folder / "notes");
+  const std::string older = directory.file("older", "mine");
   write_folder(folder, {"a.csv", "b.csv"}, "old");
-  directory.file("out/notes", "mine");
-  fs::last_write_time(folder / "notes", fs::file_time_type());  // moved there, older than the result
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // clocks of file systems have coarse ticks
+  fs::copy(older, folder / "notes");
+  fs::last_write_time(folder / "notes", fs::last_write_time(older));
   expect_kept("notes", "is not of an earlier result");
   fs::remove(folder / "notes");
   fs::create_directory(folder / "more");
@@ -162,11 +164,9 @@ TEST(OutputFiles, NothingOfTheUsersIsReplaced) {
   fs::rename(folder / "a.csv", directory / "moved");
   fs::create_symlink(directory / "moved", folder / "a.csv");
   expect_kept("a.csv", "is not of an earlier result");
-  fs::rename(directory / "moved", folder / "a.csv");
-  directory.file("out/a.csv", "edited");
-  fs::last_write_time(folder / "a.csv", fs::file_time_type::clock::now() + std::chrono::seconds(2));
+  fs::rename(older, folder / "a.csv");
   expect_kept("a.csv", "has changed since kds wrote it");
-  EXPECT_EQ(content_of(folder / "a.csv"), "edited");
+  EXPECT_EQ(content_of(folder / "a.csv"), "mine");
   fs::remove(folder / "a.csv");
   fs::create_directory(directory / "out.old");
   EXPECT_THAT(refused_folder(folder, true), HasSubstr("out.old away"));
