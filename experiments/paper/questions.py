@@ -60,8 +60,8 @@ def sticking_out(nodes, spheres, centers, radius):
 
 
 def ask_about_trust(subjects, rounds):
-    """How much time is saved if bases are trusted for some frames? By the proof of stick_out below, a bound on the distance
-    that beads have moved bounds how far they are out; the table has means over all nodes and times."""
+    """How much time is saved if bases are trusted for some frames? Bounds on the distance that beads have moved bound how far
+    they stick out. Rows have means over all nodes and frames, as shares of the radii."""
     for name, frames, radius in subjects:
         fastest = speed(frames)
         for trusted in FRAMES_TRUSTED:
