@@ -14,6 +14,9 @@
 
 namespace kds {
 
+/// Each thread has at least this many runs, because starting a thread takes as long as about three.
+inline constexpr std::size_t least_runs_of_thread = 64;
+
 /// `pass(run)` handles a run's groups in their order and returns its counts. Returns the sum of all counts.
 template <class Counts, class Pass>
 Counts over_runs(const BottomUpOrder& order, Threads threads, const Pass& pass) {
@@ -30,7 +33,8 @@ Counts over_runs(const BottomUpOrder& order, Threads threads, const Pass& pass) 
     for (std::size_t i = next++; i < last; i = next++) counts[i] = pass(i);
   };
   std::vector<std::future<void>> others;
-  const std::size_t most = std::min<std::size_t>(std::thread::hardware_concurrency(), last);
+  const std::size_t most =
+      std::min<std::size_t>(std::thread::hardware_concurrency(), last / least_runs_of_thread);
   try {
     while (others.size() + 1 < most) others.push_back(std::async(std::launch::async, work));
   } catch (const std::system_error&) {

@@ -126,11 +126,11 @@ TYPED_TEST(StaticWrappedHierarchyIn, PairsUpdatedAreThoseBuilt) {
   }
 }
 
-// The set is larger than one thread's share of work, and some cages are skipped.
+// The set is larger than the least work of two threads, and some cages are skipped.
 TEST(StaticWrappedHierarchy, ThreadsGiveTheSameBits) {
   std::mt19937 random(17);
   std::normal_distribution<double> step;
-  const Eigen::Index beads = 6000;
+  const Eigen::Index beads = 142'000;
   Eigen::Matrix3Xd centers(3, beads);
   Eigen::Vector3d at(0, 0, 0);
   for (Eigen::Index b = 0; b < beads; ++b)
@@ -138,7 +138,7 @@ TEST(StaticWrappedHierarchy, ThreadsGiveTheSameBits) {
   for (const bool equal : {true, false}) {
     std::vector<double> radii(static_cast<std::size_t>(beads), 0.5);
     for (std::size_t b = 0; b < radii.size() && !equal; b += 3) radii[b] = 0.7;
-    const std::vector<BeadRange> necklaces{{0, 3999}, {4000, 4001}, {4002, 5999}};
+    const std::vector<BeadRange> necklaces{{0, 139'999}, {140'000, 140'001}, {140'002, 141'999}};
     StaticWrappedHierarchy<3> one(necklaces), all(necklaces);
     LayeredHierarchy<3> layered_one(necklaces), layered_all(necklaces);
     Balls<3> balls(centers, radii);
@@ -162,7 +162,7 @@ TEST(StaticWrappedHierarchy, ThreadsGiveTheSameBits) {
     fresh.build(balls);
     expect_same(one, fresh);
     const BallSet set{"walk", moved, radii};
-    for (const NodeId node : {0U, 1U, 2U, 1999U, 4000U, 4002U}) {
+    for (const NodeId node : {139'998U, 139'999U, 140'000U, 140'002U}) {
       const BeadRange range = one.tree().range(node);
       const Basis& basis = one.basis(node);
       ASSERT_EQ(not_smallest_ball(set, range.first, range.last, {basis.begin(), basis.end()},

@@ -81,10 +81,12 @@ TEST_P(InHost, Wrapped) {
 
 // Radii differ so much that the bounds of spheres round often.
 TEST_P(InHost, StaticHierarchyOnAllThreads) {
-  const Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Random(3, 2000);
-  std::vector<double> radii(2000);
+  const BeadId beads = 140'000;  // enough for two threads
+  Eigen::Matrix3Xd centers = Eigen::Matrix3Xd::Random(3, beads);
+  for (Eigen::Index b = 1; b < centers.cols(); ++b) centers.col(b) += centers.col(b - 1);
+  std::vector<double> radii(beads);
   for (std::size_t b = 0; b < radii.size(); ++b) radii[b] = 0.001 * static_cast<double>(1 + b % 7);
-  const std::vector<BeadRange> necklaces{{0, 1999}};
+  const std::vector<BeadRange> necklaces{{0, beads - 1}};
   expect_the_same([&] {
     StaticWrappedHierarchy<3> hierarchy(necklaces);
     hierarchy.build(Balls<3>(centers, radii), Threads::all);
