@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "experiments/stability/stability.h"
 #include "experiments/stability/stability_scenes.h"
-#include "experiments/stability/stability_subjects.h"
 #include "kds/event_log.h"
 #include "motions/base/input_error.h"
 #include "structures/session/kinetic_run.h"

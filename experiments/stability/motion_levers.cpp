@@ -15,7 +15,7 @@
 #include <span>
 #include <utility>
 
-#include "experiments/stability/stability_subjects.h"
+#include "experiments/stability/stability.h"
 #include "motions/base/input_error.h"
 #include "motions/curves/positions.h"
 #include "motions/numbers/exact_number.h"

@@ -1,17 +1,17 @@
-#include "experiments/stability/stability_command.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
-#include "experiments/stability/stability_report.h"
+#include "experiments/stability/stability.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -91,8 +91,6 @@ Option<StabilityOptions> names_option(OptionSpec spec, std::vector<std::string> 
       });
 }
 
-}  // namespace
-
 const OptionList<StabilityOptions>& stability_options() {
   using O = StabilityOptions;
   static const auto list =
@@ -107,9 +105,101 @@ const OptionList<StabilityOptions>& stability_options() {
                                           &StabilityCases::cases, 1, 1'000'000),
                              whole_option({"--seed", "N", "seed of the random cases (default: 1)"},
                                           &StabilityCases::seed, 0, ~std::uint64_t{0})}})
-          .with(destination_options(
-              "write stability.json, stability.csv and report.html to DIR (default: none)"));
+          .with(data_options("write stability.json and stability.csv to DIR (default: none)"));
   return list;
+}
+
+std::string totals(std::span<const StabilityRow> rows) {
+  std::uint64_t cases = 0, differing = 0, refused = 0, audits = 0, failed = 0;
+  for (const StabilityRow& row : rows) {
+    cases += row.cases;
+    differing += row.disagreements + row.failed;
+    refused += row.refused;
+    audits += row.audits_run;
+    failed += row.audits_failed;
+  }
+  std::string text = fmt::format(
+      "\n{} rows, {} cases ({} refused); filtered differs from exact in {}; {} of {} audits failed\n",
+      with_thousands(rows.size()), with_thousands(cases), with_thousands(refused), with_thousands(differing),
+      with_thousands(failed), with_thousands(audits));
+  for (const StabilityRow& row : rows)
+    if (!row.holds()) text += fmt::format("DOES NOT HOLD: {}: {}\n", name_of(row), one_line(row.reason));
+  return text;
+}
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void note_trouble(StabilityRow& row, std::size_t number, const std::string& reason,
+                  const std::string& motion) {
+  if (!row.motion.empty()) return;
+  row.reason = fmt::format("case {}: {}", number, reason);
+  row.motion = motion;
+}
+
+std::string name_of(const StabilityRow& row) {
+  return fmt::format("{} {}D degree {}, {}", row.subject, row.dimension, row.degree, row.extreme);
+}
+
+const Table<StabilityRow>& stability_columns() {
+  using Row = StabilityRow;
+  static const Table<Row> table = [] {
+    const auto only_in_json = [](const char* key, std::string Row::*text) {
+      return Column<Row>{.key = key, .json = [=](const Row& r) {
+                           return (r.*text).empty() ? Json(nullptr) : Json(r.*text);
+                         }};
+    };
+    std::vector<Column<Row>> columns{
+        {"subject", "subject", [](const Row& r) { return Field(r.subject); }},
+        {.key = "kind", .value = [](const Row& r) { return Field(r.structure ? "structure" : "certificate"); }},
+        {"dimension", "D", [](const Row& r) { return Field(r.dimension); }},
+        {"degree", "deg", [](const Row& r) { return Field(r.degree); }},
+        {.key = "function_degree",
+         .value = [](const Row& r) { return r.structure ? Field() : Field(r.function_degree); }},
+        {"extreme", "extreme", [](const Row& r) { return Field(r.extreme); }},
+        {"cases", "cases", [](const Row& r) { return Field(r.cases); }},
+        {"events", "events", [](const Row& r) { return Field(r.events); }},
+        {.key = "signs", .value = [](const Row& r) { return Field(r.signs); }},
+        {.key = "agree", .value = [](const Row& r) { return Field(r.cases - r.disagreements - r.failed); }},
+        {.key = "disagreements", .value = [](const Row& r) { return Field(r.disagreements); }},
+        {.heading = "differ", .value = [](const Row& r) { return Field(r.disagreements + r.failed); }},
+        {"refused", "refused", [](const Row& r) { return Field(r.refused); }},
+        {.key = "failed", .value = [](const Row& r) { return Field(r.failed); }},
+        only_in_json("reason", &Row::reason),
+        only_in_json("motion", &Row::motion)};
+    for (const Stage& stage : stage_table)
+      columns.push_back({.key = fmt::format("stages_{}", stage.name),
+                         .value = [count = stage.count](const Row& r) { return Field(r.stages.*count); }});
+    columns.insert(
+        columns.end(),
+        {{.heading = "double",
+          .value = [](const Row& r) { return Field(r.stages.coefficients + r.stages.isolation); }},
+         {.heading = "tracked", .value = [](const Row& r) { return Field(r.stages.refined); }},
+         {.heading = "integer",
+          .value = [](const Row& r) { return Field(r.stages.exact + r.stages.identically_zero); }},
+         {.key = "seconds_filtered", .value = [](const Row& r) { return Field(r.seconds.filtered); }},
+         {.key = "seconds_exact", .value = [](const Row& r) { return Field(r.seconds.exact); }},
+         {.key = "rebuilds", .value = [](const Row& r) { return Field(r.rebuilds); }},
+         {"audits_run", "audits", [](const Row& r) { return Field(r.audits_run); }},
+         {.key = "audits_failed", .value = [](const Row& r) { return Field(r.audits_failed); }},
+         {.key = "holds", .value = [](const Row& r) { return Field(r.holds()); }}});
+    return Table<Row>(std::move(columns));
+  }();
+  return table;
+}
+
+std::optional<std::string> complaint_about(std::span<const StabilityRow> rows) {
+  std::vector<std::string> failing;
+  for (const StabilityRow& row : rows)
+    if (!row.holds()) failing.push_back(name_of(row));
+  if (failing.empty()) return std::nullopt;
+  return fmt::format("{} of {} rows do not hold: {}", failing.size(), rows.size(), fmt::join(failing, "; "));
 }
 
 bool StabilityOptions::wants(const StabilitySubject& subject) const {
@@ -124,6 +214,38 @@ StabilityOptions parse_stability_options(const Arguments& arguments) {
   StabilityOptions options;
   read_arguments(kStabilityCommand, stability_options(), arguments, options);
   return options;
+}
+
+std::vector<StabilitySubject> all_subjects() {
+  std::vector<StabilitySubject> subjects;
+  const auto add = [&subjects](std::vector<StabilitySubject> some) {
+    std::ranges::move(some, std::back_inserter(subjects));
+  };
+  for (const int degree : {1, 3}) add(bead_certificates(degree));
+  for (const int degree : {1, 3}) add(ball_certificates(degree));
+  add(kinetic_structures());
+  add(motion_levers());
+  // Sorts subjects by name in the order of first appearance, then by dimension and degree.
+  std::vector<std::string> names;
+  for (const StabilitySubject& subject : subjects)
+    if (std::ranges::find(names, subject.name) == names.end()) names.push_back(subject.name);
+  const auto place = [&names](const StabilitySubject& subject) {
+    return std::tuple(std::ranges::find(names, subject.name) - names.begin(), subject.dimension,
+                      subject.degree);
+  };
+  std::ranges::stable_sort(subjects, {}, place);
+  for (StabilitySubject& subject : subjects) {
+    subject.run = [subject](const Extreme& extreme, const StabilityCases& cases) {
+      StabilityRow row = subject.run(extreme, cases);
+      row.subject = subject.name;
+      row.structure = subject.structure;
+      row.dimension = subject.dimension;
+      row.degree = subject.degree;
+      row.function_degree = subject.function_degree;
+      return row;
+    };
+  }
+  return subjects;
 }
 
 std::vector<StabilityRow> run_stability(const StabilityOptions& options,
@@ -147,16 +269,17 @@ std::vector<StabilityRow> run_stability(const StabilityOptions& options,
 int stability_command(const Arguments& arguments) {
   const StabilityOptions options = parse_stability_options(arguments);
   TableCommand command("stability", arguments, options, "row");
-  command.check_destinations();
+  command.check_destinations({}, {"stability.json", "stability.csv"});
 
   const std::vector<StabilityRow> rows = run_stability(options, command.progress());
   command.bar().erase();
-  command.deliver_text(stability_json(command.command_line(), options, rows),
-                       stability_options().settings_json(options), {{"stability.csv", stability_csv(rows)}},
-                       stability_table(rows),
-                       [&](Page page) { return stability_page(rows, std::move(page)); });
-
-  if (const auto complaint = complaint_about(rows)) throw std::runtime_error(*complaint);
+  const auto complaint = complaint_about(rows);
+  Json json{{"settings", stability_options().settings_json(options)}};
+  json["rows"] = stability_columns().json(rows);
+  json["holds"] = !complaint;
+  command.deliver(std::move(json), stability_columns().csv(rows),
+                  stability_columns().text(rows) + totals(rows));
+  if (complaint) throw std::runtime_error(*complaint);
   return 0;
 }
 
