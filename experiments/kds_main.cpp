@@ -87,7 +87,8 @@ const Command& command_of(const std::string& name) {
         "reproduce: is a script now; scripts/reproduce builds what it needs and measures the paper's tables");
   if (name == "bench")
     throw InputError(
-        "kds bench is a program of its own: kds_bench, built with -DKDS_BENCHMARKS=ON (docs/measurements.md)");
+        "kds bench is a program of its own: kds_bench, built with -DKDS_BENCHMARKS=ON "
+        "(docs/measurements.md)");
   const bool is_option = name.starts_with('-');
   std::vector<std::string_view> names{"help"};
   if (is_option) names = {"--help", "--version"};

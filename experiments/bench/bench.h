@@ -33,7 +33,7 @@ struct Work {
 struct TimedWork {
   std::size_t items = 0;
   std::string unit = "ns";
-  std::function<double()> seconds;             ///< returns the seconds of one call without its preparation
+  std::function<double()> seconds;              ///< returns the seconds of one call without its preparation
   std::map<std::string, double> counters = {};  ///< ratios of counts, by the names of their rows
 };
 
@@ -57,25 +57,24 @@ auto lazily(Make make) {
 template <class Make>
 void add(const std::string& name, const Make& make) {
   constexpr bool timed = std::same_as<std::invoke_result_t<Make>, TimedWork>;
-  auto* const registered = benchmark::RegisterBenchmark(
-      name.c_str(), [made = lazily([make] {
-                       auto work = make();
-                       if constexpr (timed)
-                         static_cast<void>(work.seconds());
-                       else
-                         work.run();
-                       return work;
-                     })](benchmark::State& state) {
-        const auto& work = made();
-        if constexpr (timed) {
-          for ([[maybe_unused]] auto call : state) state.SetIterationTime(work.seconds());
-          for (const auto& [counter, value] : work.counters) state.counters[counter] = value;
-        } else {
-          for ([[maybe_unused]] auto call : state) work.run();
-        }
-        state.SetLabel(work.unit);
-        if (work.items > 0) state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(work.items));
-      });
+  auto* const registered = benchmark::RegisterBenchmark(name.c_str(), [made = lazily([make] {
+                                                                         auto work = make();
+                                                                         if constexpr (timed)
+                                                                           static_cast<void>(work.seconds());
+                                                                         else
+                                                                           work.run();
+                                                                         return work;
+                                                                       })](benchmark::State& state) {
+    const auto& work = made();
+    if constexpr (timed) {
+      for ([[maybe_unused]] auto call : state) state.SetIterationTime(work.seconds());
+      for (const auto& [counter, value] : work.counters) state.counters[counter] = value;
+    } else {
+      for ([[maybe_unused]] auto call : state) work.run();
+    }
+    state.SetLabel(work.unit);
+    if (work.items > 0) state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(work.items));
+  });
   if (timed) registered->UseManualTime();
 }
 

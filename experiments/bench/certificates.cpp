@@ -231,7 +231,6 @@ void search(Kernel kernel, I& input) {
   }
 }
 
-
 std::string on_chain(const std::string& measure) {
   return fmt::format("certificates/random-chain 0.01 r/{}/{}", chain_beads, measure);
 }

@@ -1,6 +1,7 @@
-// Measures the detector of kds. The peers are a cell list on single scenes, a Verlet list from frame to frame,
-// and the trees of FCL and Bullet if this program was built with them. Kinetic contacts, with all begin and end
-// times, are compared with a cell list that examines only frames. An item is a bead in one frame.
+// Measures the detector of kds. The peers are a cell list on single scenes, a Verlet list from frame to
+// frame, and the trees of FCL and Bullet if this program was built with them. Kinetic contacts, with all
+// begin and end times, are compared with a cell list that examines only frames. An item is a bead in one
+// frame.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -146,9 +147,9 @@ void add_generated(const std::string& name, std::size_t beads) {
   add_static(group, beads,
              lazily([=] { return Scenes(jostled_frames(start_of(name, beads), 0.01, 6), radii); }));
   const auto add_moving = [&](const std::string& motion, double step, bool a_part_shakes) {
-    add_frames(
-        fmt::format("{}frame auto, {}", group, motion),
-        lazily([=] { return Scenes(moving_on(start_of(name, beads), step, a_part_shakes), radii); }), false);
+    add_frames(fmt::format("{}frame auto, {}", group, motion),
+               lazily([=] { return Scenes(moving_on(start_of(name, beads), step, a_part_shakes), radii); }),
+               false);
   };
   for (const double step : {0.003, 0.03, 0.3}) add_moving(fmt::format("{} r a frame", step), step, false);
   add_moving("a sixteenth by 0.3 r", 0.003, true);
@@ -179,8 +180,8 @@ double seconds_of_cell_list(const BenchChain& chain, double radius_factor) {
   });
 }
 
-// Radii of pairs are 1.6 times the radii at which neighbours along the chain meet. From this factor on, contacts
-// are physically meaningful.
+// Radii of pairs are 1.6 times the radii at which neighbours along the chain meet. From this factor on,
+// contacts are physically meaningful.
 void add_protein(const std::filesystem::path& path) {
   const auto chain = lazily([path] { return read_bench_chain(path); });
   const std::size_t beads = read_bench_chain(path).size();
@@ -253,8 +254,10 @@ void add_far(std::size_t beads) {
                   }};
     });
   };
-  add_look(", distant necklaces", [](FarNecklaces& f, const auto& balls) { return f.detector->pairs(balls).size(); });
-  add_look(", declared speed", [](FarNecklaces& f, const auto& balls) { return f.knows->pairs(balls).size(); });
+  add_look(", distant necklaces",
+           [](FarNecklaces& f, const auto& balls) { return f.detector->pairs(balls).size(); });
+  add_look(", declared speed",
+           [](FarNecklaces& f, const auto& balls) { return f.knows->pairs(balls).size(); });
   add_look(" beside reading the positions",
            [](FarNecklaces&, const auto& balls) { return scene_box(balls).low[0]; });
 }
@@ -296,8 +299,7 @@ void add_growth(const char* model, std::size_t beads) {
 
 void add_collision() {
   for (const std::size_t beads : {1000U, 10240U, 102400U})
-    for (const char* name :
-         {"helix", "scaling-helix", "packed", "rotated packed", "random-chain", "spline"})
+    for (const char* name : {"helix", "scaling-helix", "packed", "rotated packed", "random-chain", "spline"})
       add_generated(name, beads);
   for (const std::filesystem::path& path : trajectories()) add_protein(path);
   add_far(102400);

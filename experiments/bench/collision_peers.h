@@ -1,6 +1,6 @@
 #pragma once
-// Collision detection libraries with which kds_bench compares kds, if it was built with them: FCL (libfcl-dev)
-// and Bullet (libbullet-dev).
+// Collision detection libraries with which kds_bench compares kds, if it was built with them: FCL
+// (libfcl-dev) and Bullet (libbullet-dev).
 
 #include <cstddef>
 #include <memory>

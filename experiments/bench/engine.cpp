@@ -22,8 +22,8 @@ namespace {
 
 // An item is an event. The peer has no items, because a run is compared with one build.
 void add_run(const std::string& name, std::size_t points) {
-  const auto scene = lazily(
-      [name] { return Scene(read_instance(source_data_folder() / "kinetic" / (name + ".txt"))); });
+  const auto scene =
+      lazily([name] { return Scene(read_instance(source_data_folder() / "kinetic" / (name + ".txt"))); });
   const std::string measure = fmt::format("engine/{0}/{1}/power/{0}/filtered", name, points);
   const auto events_of_run = [scene] {
     KineticRun run(scene(), {.structures = {"power"}});
@@ -31,7 +31,9 @@ void add_run(const std::string& name, std::size_t points) {
     const auto& per_step = run.structures().front()->statistics.events_per_step;
     return std::accumulate(per_step.begin(), per_step.end(), std::uint64_t{0});
   };
-  add(measure, [=] { return Work{events_of_run(), "ns", [=] { benchmark::DoNotOptimize(events_of_run()); }}; });
+  add(measure, [=] {
+    return Work{events_of_run(), "ns", [=] { benchmark::DoNotOptimize(events_of_run()); }};
+  });
   add(measure + " beside CGAL static build", [=] {
     const Eigen::Matrix3Xd centers = scene().centers(0);
     const std::vector<double> weights = scene().weights(0);

@@ -35,8 +35,8 @@ struct HierarchyInput {
   std::size_t items = tree.node_count() * (chain.frames.size() - 1);
 };
 
-/// Returns the seconds of all steps, with the construction of motions from frames but without the build at the
-/// first frame, and the number of events.
+/// Returns the seconds of all steps, with the construction of motions from frames but without the build at
+/// the first frame, and the number of events.
 std::pair<double, std::uint64_t> run_all_steps(const Scene& scene) {
   KineticRun run(scene, {.structures = {"wrapped"}});
   double seconds = processor_seconds_of([&] { run.load_step(); });
@@ -82,8 +82,8 @@ void add_hierarchy(const std::string& name, std::size_t beads, const Make& make)
   over_frames("layered build", layered, [](auto& h, const auto& now) { h.build(now); });
   add(group + "wrapped kinetic step", [=] {
     const auto scene = std::make_shared<Scene>(input().chain.scene());
-    const double ratio = static_cast<double>(run_all_steps(*scene).second) /
-                         static_cast<double>(bases_that_change(input()));
+    const double ratio =
+        static_cast<double>(run_all_steps(*scene).second) / static_cast<double>(bases_that_change(input()));
     return TimedWork{input().items,
                      "ns/node",
                      [scene] { return run_all_steps(*scene).first; },

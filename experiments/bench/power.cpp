@@ -1,6 +1,7 @@
 // Measures the power diagram from frame to frame by the techniques of
-// structures/power_diagram/diagram_update.h. The peer is CGAL's static build. Regular scenes, in which many balls
-// lie on one sphere and many events coincide, are measured only kinetically, beside builds of both frames.
+// structures/power_diagram/diagram_update.h. The peer is CGAL's static build. Regular scenes, in which many
+// balls lie on one sphere and many events coincide, are measured only kinetically, beside builds of both
+// frames.
 
 #include <algorithm>
 #include <string>
@@ -42,9 +43,9 @@ double seconds_by(UpdateTechnique technique, const BenchChain& chain, bool built
 template <class Make>
 void add_techniques(const std::string& name, std::size_t beads, int dimension, const Make& make) {
   const auto chain = lazily(make);
-  for (const UpdateTechnique t : {UpdateTechnique::reinsert, UpdateTechnique::greedy, UpdateTechnique::kinetic,
-                                  UpdateTechnique::lifted, UpdateTechnique::activate,
-                                  UpdateTechnique::automatic, UpdateTechnique::rebuild}) {
+  for (const UpdateTechnique t :
+       {UpdateTechnique::reinsert, UpdateTechnique::greedy, UpdateTechnique::kinetic, UpdateTechnique::lifted,
+        UpdateTechnique::activate, UpdateTechnique::automatic, UpdateTechnique::rebuild}) {
     const std::string measure = t == UpdateTechnique::automatic ? "auto to rebuild"
                                 : t == UpdateTechnique::rebuild ? "beside " + peer_name(dimension)
                                                                 : std::string(name_of(t));

@@ -1,5 +1,5 @@
-// Measures how long a reader takes for all atoms of all frames of a file. The peer reads the bytes of the file
-// and nothing else. The time to open the file does not count.
+// Measures how long a reader takes for all atoms of all frames of a file. The peer reads the bytes of the
+// file and nothing else. The time to open the file does not count.
 
 #include <algorithm>
 #include <string>

@@ -157,7 +157,8 @@ const Table<StabilityRow>& stability_columns() {
     };
     std::vector<Column<Row>> columns{
         {"subject", "subject", [](const Row& r) { return Field(r.subject); }},
-        {.key = "kind", .value = [](const Row& r) { return Field(r.structure ? "structure" : "certificate"); }},
+        {.key = "kind",
+         .value = [](const Row& r) { return Field(r.structure ? "structure" : "certificate"); }},
         {"dimension", "D", [](const Row& r) { return Field(r.dimension); }},
         {"degree", "deg", [](const Row& r) { return Field(r.degree); }},
         {.key = "function_degree",

@@ -103,7 +103,7 @@ def states_are_those_of_the_run(browser, kds, data, place):
     villin = os.path.join(data, "trajectories", "villin_hp36_300K")
     frames = 80
     run_program(kds, "run", villin + ".dcd", "--topology", villin + ".pdb", "--frames", f":{frames}", "--structures",
-                "wrapped,power,contacts", "--radius", "2.3", "--view", replay, "--dump", dump, "--log", log)
+                "wrapped,power,contacts", "--radius", "2.3", "--view", replay, "--dump", dump, "--log", log, "--replace")
     twin = Twin(dump)
     structures, counts, events, frames_seen = ["wrapped", "power", "contacts"], [0, 0, 0], [], [twin.state()]
     chosen = set()
@@ -173,7 +173,7 @@ def instances_are_shown(browser, kds, data, place):
     for name in ("d2_n20_degree3", "w3_n50_linear"):
         replay, dump = os.path.join(place, name + ".html"), os.path.join(place, name)
         source = os.path.join(data, "kinetic", name + ".txt")
-        run_program(kds, "run", source, "--structures", "power", "--view", replay, "--dump", dump)
+        run_program(kds, "run", source, "--structures", "power", "--view", replay, "--dump", dump, "--replace")
         with open(source) as file:
             beads, columns, degree = map(int, file.readline().split())
             numbers = [list(map(float, line.split())) for line in file if line.strip()]
