@@ -11,7 +11,7 @@ room(motions base numbers curves views frames readers scene models)
 room(certificates base exact types filters formulas search)
 list(APPEND order kds)
 room(structures sorted tournament box hull closest necklace enclosing_sphere moving_sphere hierarchy chord_cages triangulation power_diagram blocks collision contacts session)
-room(experiments output output/page program events view run scenes update compare contacts collide trade stability bench reproduce sweep)
+room(experiments output output/page program events view run scenes update compare contacts collide trade stability bench sweep)
 list(APPEND order experiments)  # main.cpp
 list(APPEND order python)
 

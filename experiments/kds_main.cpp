@@ -44,7 +44,7 @@ constexpr std::array kCommands{
             trade_command},
     Command{"sweep", "run commands over many inputs and settings, on this machine or a cluster",
             sweep_command},
-    Command{"stability", "test the three arithmetics on hard inputs", stability_command},
+    Command{"stability", "compare the two kernels on hard inputs", stability_command},
 };
 
 /// Former commands that are scripts now.
@@ -84,7 +84,8 @@ const Command& command_of(const std::string& name) {
                     name));
   if (name == "reproduce")
     throw InputError(
-        "reproduce: is a script now; scripts/reproduce builds what it needs and measures the paper's tables");
+        "reproduce: is a script now; scripts/reproduce builds the Python module and measures the paper "
+        "again");
   if (name == "bench")
     throw InputError(
         "kds bench is a program of its own: kds_bench, built with -DKDS_BENCHMARKS=ON "

@@ -6,26 +6,10 @@
 
 namespace kds {
 
-namespace {
-
-// Calls the work, unless its first call took more than `enough` seconds.
-void do_round(const std::function<double()>& work, double enough, std::vector<double>& seconds) {
-  if (seconds.size() == 1 && seconds.front() > enough) return;
-  seconds.push_back(work());
-}
-
-}  // namespace
-
 std::string spread_text(const Spread& spread) {
   if (spread.least == spread.most) return short_decimal(spread.median);
   return fmt::format("{} ({} to {})", short_decimal(spread.median), short_decimal(spread.least),
                      short_decimal(spread.most));
-}
-
-Spread repeated_seconds(std::size_t rounds, const std::function<double()>& work, double enough) {
-  std::vector<double> seconds;
-  for (std::size_t round = 0; round < rounds; ++round) do_round(work, enough, seconds);
-  return spread_of(seconds);
 }
 
 std::vector<std::vector<double>> seconds_in_turn(std::size_t rounds,
@@ -33,7 +17,8 @@ std::vector<std::vector<double>> seconds_in_turn(std::size_t rounds,
   constexpr double enough = 1;
   std::vector<std::vector<double>> seconds(works.size());
   for (std::size_t round = 0; round < rounds; ++round)
-    for (std::size_t w = 0; w < works.size(); ++w) do_round(works[w], enough, seconds[w]);
+    for (std::size_t w = 0; w < works.size(); ++w)
+      if (round == 0 || seconds[w].front() <= enough) seconds[w].push_back(works[w]());
   return seconds;
 }
 

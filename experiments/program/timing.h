@@ -40,12 +40,8 @@ inline Spread spread_of(const std::vector<double>& values) {
 /// Returns "0.210 (0.204 to 0.233)", or "0.210" for a single round, which has no spread.
 [[nodiscard]] std::string spread_text(const Spread& spread);
 
-/// Calls `work` once a round and returns the seconds that it reports. Work that takes more than `enough`
-/// seconds is called only once.
-[[nodiscard]] Spread repeated_seconds(std::size_t rounds, const std::function<double()>& work,
-                                      double enough = 1);
-
 /// Runs the works in turn, since the speed of a machine drifts. Returns the seconds of each work by round.
+/// Work that takes more than a second is done in the first round only.
 [[nodiscard]] std::vector<std::vector<double>> seconds_in_turn(
     std::size_t rounds, const std::vector<std::function<double()>>& works);
 

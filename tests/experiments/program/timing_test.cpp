@@ -7,19 +7,6 @@
 namespace kds::timing_test {
 namespace {
 
-TEST(Timing, AsManyRoundsAsAreAskedFor) {
-  for (const std::size_t rounds : {1, 2, 5}) {
-    std::size_t calls = 0;
-    const Spread spread = repeated_seconds(rounds, [&] { return 0.1 * static_cast<double>(++calls); });
-    EXPECT_EQ(calls, rounds);
-    EXPECT_DOUBLE_EQ(spread.least, 0.1);
-    EXPECT_DOUBLE_EQ(spread.most, 0.1 * static_cast<double>(rounds));
-  }
-  std::size_t calls = 0;
-  EXPECT_EQ(repeated_seconds(5, [&] { return static_cast<double>(++calls) + 1; }).median, 2);
-  EXPECT_EQ(calls, 1U);  // long work is called once
-}
-
 TEST(Timing, WorksGoInTurnsRoundByRound) {
   std::string order;
   const auto work = [&order](char name, double seconds) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "experiments/program/input_options.h"
 #include "motions/base/input_error.h"
 
 namespace kds::parse_run_options_test {
@@ -214,10 +215,13 @@ TEST(RunOptions, HelpHasALineForEachOption) {
       static_cast<void>(parse_run_options({"a", flag}));
       FAIL() << "no help";
     } catch (const HelpRequest& help) {
-      for (const char* option :
-           {"--structures", "--motion", "--kernel", "--topology", "--select", "--chain", "--frames",
-            "--radius", "--audit", "--dump", "--log", "--out", "--json", "--quiet"})
+      for (const char* option : {"--structures", "--motion", "--kernel", "--audit", "--dump", "--log",
+                                 "--out", "--json", "--quiet"})
         EXPECT_THAT(help.text, HasSubstr(std::string("\n  ") + option)) << option;
+      for (const char* option : {"--topology", "--select", "--chain", "--frames", "--radius"}) {
+        EXPECT_THAT(help.text, HasSubstr(option));
+        EXPECT_THAT(inputs_help(), HasSubstr(std::string("\n  ") + option)) << option;
+      }
       EXPECT_THAT(help.text, HasSubstr("default: filtered"));
       EXPECT_THAT(help.text, HasSubstr("examples:"));
     }

@@ -106,7 +106,7 @@ TEST(Program, MemoryDoesNotGrowInOtherCommands) {
       {"info", "--radius", "auto"},
       {"info", "--beads"},
       {"collide", "--radius", "1", "--method", "cells", "--json", (directory / "json").string(), "--out",
-       (directory / "out").string()},
+       (directory / "out").string(), "--replace"},
       {"update", "--radius", "0.1", "--rounds", "1", "--techniques", "hermite"}};
   const auto peaks = [&](std::size_t frames) {
     // The input is written frame by frame, because the peak memory of a child process includes that of its

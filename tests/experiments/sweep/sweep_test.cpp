@@ -348,12 +348,12 @@ TEST(Sweep, SeedsArePooled) {
   static_cast<void>(run_sweep(scratch));
   const Json all = collected(scratch);
   std::map<std::string, double> of_task;
-  for (const Json& row : all["rows"]) of_task.emplace(row["task"], row["stages.signs_double"].get<double>());
+  for (const Json& row : all["rows"]) of_task.emplace(row["task"], row["stages_signs_double"].get<double>());
   ASSERT_EQ(of_task.size(), 3U);
   double sum = 0;
   for (const auto& [task, value] : of_task) sum += value;
   const std::string pooled = content_of(scratch / "out/pooled.csv");
-  const std::string mean = ",stages.signs_double,3,";
+  const std::string mean = ",stages_signs_double,3,";
   ASSERT_NE(pooled.find(mean), std::string::npos);
   EXPECT_THAT(pooled.substr(pooled.find(mean) + mean.size()),
               testing::StartsWith(std::to_string(sum / 3).substr(0, 4)));

@@ -277,14 +277,13 @@ TEST(View, RefusesBadOptions) {
 
 TEST(View, ShowsTheContactsThatKdsContactsFollows) {
   const ScratchDirectory scratch;
-  const std::string out = scratch / "out", page = out + "/replay.html";
-  std::filesystem::create_directory(out);
+  const std::string out = scratch / "out", page = scratch / "replay.html";
   constexpr double cutoff = 8;
   const ProgramRun run = run_program({"contacts", kVillin, "--topology", kNames, "--select", "ca", "--frames",
                                       "0:12", "--cutoff", "8", "--apart", "4", "--out", out, "--view", page});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("replay " + page));
-  EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("<a href=\"replay.html\">"));
+  EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("<a href=\"../replay.html\">"));
   const ReplayData data(content_of(page));
   const auto positions = data.positions();
   ASSERT_EQ(positions.size(), 12U);
@@ -329,13 +328,12 @@ TEST(View, ShowsTheContactsThatKdsContactsFollows) {
 
 TEST(View, ShowsTheFirstRunOfAComparison) {
   const ScratchDirectory scratch;
-  const std::string out = scratch / "out", page = out + "/replay.html";
-  std::filesystem::create_directory(out);
+  const std::string out = scratch / "out", page = scratch / "replay.html";
   const ProgramRun run = run_program({"compare", kVillin, "--topology", kNames, "--frames", "0:12",
                                       "--strides", "2,4", "--motions", "hermite,linear", "--structures",
                                       "wrapped,contacts", "--rounds", "1", "--out", out, "--view", page});
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("<a href=\"replay.html\">"));
+  EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("<a href=\"../replay.html\">"));
   const ReplayData data(content_of(page));
   EXPECT_EQ(data.words("frames"), (Ids{0, 2, 4, 6, 8, 10}));
   EXPECT_EQ(data.meta["motion"], "linear");  // the first in the order of motions
