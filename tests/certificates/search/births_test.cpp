@@ -31,7 +31,7 @@ Failure first(Kernel kernel, const M& motion, double now, StageCounts& stages,
   return test::first_failure(kernel, certificate, motion, Instant(now), KnownAtStart::unknown, stages);
 }
 
-// Returns the kind on which both exact kernels agree.
+// Returns the kind on which both kernels agree.
 template <class M>
 Failure agreed(const M& motion, double now = 0, const Precedes& certificate = ahead) {
   StageCounts stages;

@@ -24,7 +24,7 @@ class FailureSearch : public testing::Test {
   using C = typename S::C;
   using M = typename S::M;
 
-  // Compares both exact kernels with the judge, from one instant on.
+  // Compares both kernels with the judge, from one instant on.
   Failure expect_agreement(const C& certificate, const M& motion, const Instant& now,
                            const JudgedTime& judged_now, KnownAtStart birth, JudgedTime& judged_then) {
     const ExactPolynomial function = test::exact_function(certificate, motion);

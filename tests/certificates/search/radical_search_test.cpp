@@ -100,7 +100,7 @@ std::optional<Course> course_of(const M& motion, const ExactPolynomial& norm) {
   return course;
 }
 
-/// Checks all failures of the certificate and its negation in turn, by both exact kernels.
+/// Checks all failures of the certificate and its negation in turn, by both kernels.
 template <class C, class M>
 void expect_course(const M& motion, const Course& course, bool inside, int& failures) {
   C certificate = test::certificate_at<C>(motion, Dyadic(0.0), inside);
@@ -263,7 +263,7 @@ BezierMotion<Dimension, 1> moving(const std::vector<Path>& paths) {
 }
 Path still(const std::array<double, 3>& at, double radius) { return {at, radius, at, radius}; }
 
-// Returns the kind on which both exact kernels agree.
+// Returns the kind on which both kernels agree.
 template <class C, Motion M>
 Failure agreed(const M& motion, bool inside, TouchPolicy touches = TouchPolicy::ignored) {
   const C certificate = test::certificate_at<C>(motion, Dyadic(0.0), inside);

@@ -164,7 +164,7 @@ TEST(Coverage, OfRatiosOverTime) {
                     });
 }
 
-// Means over seeds (scale, theorems), over inputs (compare) and over the tasks of a sweep.
+// Means over inputs (compare) and over the tasks of a sweep.
 TEST(Coverage, OfMeansOfReplicas) {
   struct Replicas {
     std::string data;

@@ -1,5 +1,5 @@
 // Fingerprints of whole runs: the order of all events and every change. The fingerprints are equal on all
-// machines and for all exact kernels. A fingerprint changes only for a stated reason (another event order,
+// machines and with both kernels. A fingerprint changes only for a stated reason (another event order,
 // other kinds or ids of changes).
 
 #include <gtest/gtest.h>

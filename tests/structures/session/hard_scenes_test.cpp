@@ -1,5 +1,5 @@
 // Small scenes that are difficult for exact arithmetic. Each run ends, at the latest at the work limit, and
-// all exact kernels give the same result. By default a few dozen scenes run; with KDS_ALL_HARD_SCENES=1 in
+// both kernels give the same result. By default a few dozen scenes run; with KDS_ALL_HARD_SCENES=1 in
 // the environment all 500 and 1000 run.
 
 #include "tests/support/inputs/hard_scenes.h"
