@@ -7,7 +7,8 @@
 With --machine, replaces the rows of the subjects in docs/measurements/NAME.csv. A missed goal is not an error.
 
 A benchmark is named SUBJECT/INPUT/N/MEASURE. One named "MEASURE beside PEER" is the peer of that measure, or of all measures of
-that input whose names start with MEASURE and which have no peer of their own. The rounds of all benchmarks of an input alternate at random. Figures are medians of processor time.
+that input whose names start with MEASURE and which have no peer of their own. The rounds of all benchmarks of an input alternate
+at random. Figures are medians of processor time.
 """
 import argparse
 import csv

@@ -2,9 +2,7 @@
 
 import kds
 import numpy as np
-from subjects import half_longest_bond, trajectory
-
-BOND = 2 * 0.999  # distance of consecutive centres in models of kds
+from subjects import BOND, half_longest_bond, trajectory
 
 
 def random_numbers(seed):
@@ -32,6 +30,11 @@ def random_numbers(seed):
 def model(name, beads, seed=1, **options):
     """Returns the first frame of a model of kds."""
     return kds.generate(name, beads=beads, frames=1, seed=seed, **options)[0]
+
+
+def layered_and_wrapped(centers, radius):
+    """Returns the spheres of the layered and of the wrapped hierarchy, each with its root first."""
+    return [build(centers, radius)[1] for build in (kds.layered_hierarchy, kds.wrapped_hierarchy)]
 
 
 def tightness_points(height):

@@ -126,7 +126,7 @@ def self_avoiding(draw):
     return drawn, np.array(chain.places)
 
 
-def conformations(kind, amplitude, random):
+def step_of_chain(kind, amplitude, random):
     """Returns a random chain before and after a step."""
 
     def normal():
@@ -157,7 +157,7 @@ def random_steps(kind, amplitudes):
     randoms = [random_numbers(seed * len(KINDS) + KINDS.index(kind)) for seed in SEEDS]
     for a in range(amplitudes):
         amplitude, count = 2.0**(a + 1 - AMPLITUDES), min(128, 16 << (AMPLITUDES - 1 - a))
-        pairs = [conformations(kind, amplitude, random) for random in randoms for _ in range(count)]
+        pairs = [step_of_chain(kind, amplitude, random) for random in randoms for _ in range(count)]
         yield amplitude, np.concatenate([steps_of(np.array(pair), 1) for pair in pairs]), np.tile(np.arange(count) % SHARES, len(SEEDS))
 
 

@@ -11,7 +11,7 @@ beads change most is drawn. draw_all() writes figure-N.svg, which needs matplotl
 
 import kds
 import numpy as np
-from chains import BOND, model, random_numbers, tightness_points
+from chains import BOND, layered_and_wrapped, model, random_numbers, tightness_points
 from common import Report
 
 COLORS = ("#1f2933", "#b3462f", "#c98a1b", "#3b8a5a", "#8fb8de")  # of the levels of a hierarchy; deeper ones have the last
@@ -23,7 +23,7 @@ def levels(nodes):
     return [sum(first <= one and last <= end for first, end in nodes) - 1 for one, last in nodes]
 
 
-def sticking_out(nodes, spheres):
+def nodes_out_of_parents(nodes, spheres):
     """Counts the nodes whose circle is not inside that of their parent, the smallest node around them."""
     count = 0
     for (first, last), inner in list(zip(nodes, spheres))[1:]:
@@ -39,7 +39,7 @@ def panel(figure, name, centers, radius, spheres, note, last_level=9, dark=(), m
     nodes = kds.wrapped_hierarchy(centers, radius)[0].tolist()
     shown = [(sphere, level) for sphere, level in zip(spheres, levels(nodes)) if level <= last_level]
     row = {"row": f"figure {figure}, {name}", "beads": len(centers), "root_radius": float(spheres[0, 3]),
-           "sticking_out": sticking_out(nodes, spheres), "note": note}
+           "sticking_out": nodes_out_of_parents(nodes, spheres), "note": note}
     return row, (name, centers, radius, set(dark), [*shown, *more])
 
 
@@ -48,12 +48,17 @@ def bases(centers, radius=1):
     return [tuple(bead for bead in basis if bead >= 0) for basis in kds.trusted_hierarchy(centers, centers, radius)[0].tolist()]
 
 
+def beads_of_bases(found, nodes, last_level):
+    """Returns the beads in the bases of all nodes down to a level. `found` has the bases of all nodes."""
+    return [bead for basis, level in zip(found, levels(nodes.tolist())) if level <= last_level for bead in basis]
+
+
 def hierarchies():
     """Figure 2."""
     centers = model("spiral", 16, turns=1.25, rolled="1:1")[:, :2]
     nodes, wrapped = kds.wrapped_hierarchy(centers, 1)
     layered, found = kds.layered_hierarchy(centers, 1)[1], bases(centers)
-    dark = [bead for basis, level in zip(found, levels(nodes.tolist())) if level <= 1 for bead in basis]
+    dark = beads_of_bases(found, nodes, 1)
     of_three = sum(len(basis) == 3 for basis in found)
     return [panel("2", "wrapped", centers, 1, wrapped, f"{of_three} of {len(found)} bases have three beads, the others two", 3, dark),
             panel("2", "layered", centers, 1, layered, f"the root is {layered[0, 3] / wrapped[0, 3]:.3f} times the wrapped one", 3)]
@@ -109,18 +114,17 @@ def stability(beads=32, candidates=2000, seed=1):
     for name, centers in (("before", frames[0]), ("after", frames[-1])):
         nodes, spheres = kds.wrapped_hierarchy(centers, 1)
         found = bases(centers)
-        dark = [bead for basis, level in zip(found, levels(nodes.tolist())) if level <= 2 for bead in basis]
         note = f"the root's basis is {', '.join(map(str, found[0]))}; " + (
             f"candidate {candidate}, distances of beads change by {100 * change:.0f}% of the greatest" if name == "before"
             else f"it changed {changes} times and no other basis did")
-        panels.append(panel("3", name, centers, 1, spheres, note, 2, dark))
+        panels.append(panel("3", name, centers, 1, spheres, note, 2, beads_of_bases(found, nodes, 2)))
     return panels
 
 
 def tightness():
     """Figure 5."""
     points = tightness_points(4)
-    layered, wrapped = (build(points, 0)[1] for build in (kds.layered_hierarchy, kds.wrapped_hierarchy))
+    layered, wrapped = layered_and_wrapped(points, 0)
     return [panel("5", "layered", points, 0, layered, f"the wrapped root has radius {wrapped[0, 3]:.3f}",
                   more=[(wrapped[0], len(COLORS) - 1)])]
 

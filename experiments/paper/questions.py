@@ -52,7 +52,7 @@ def ask_about_bounds(subjects):
                    **{bound: searches(len(frames), skin * radius, nearer) for bound, nearer in bounds.items()}}
 
 
-def sticking_out(nodes, spheres, centers, radius):
+def beads_out_of_spheres(nodes, spheres, centers, radius):
     """Returns how far beads stick out of the spheres of their nodes, as shares of the spheres' radii."""
     out = [max(0, (np.linalg.norm(centers[first:last + 1] - sphere[:3], axis=1) + radius - sphere[3]).max())
            for (first, last), sphere in zip(nodes, spheres)]
@@ -73,7 +73,7 @@ def ask_about_trust(subjects, rounds):
                 # |p - z| - R <= |p - p'| + |p' - z'| + |z' - z| - R <= moved + R' + |z' - z| - R
                 slack = (1 + 2**-27) * then[:, 3] + np.linalg.norm(then[:, :3] - now[:, :3], axis=1) - now[:, 3]
                 bounds = [np.maximum(0, moved + slack) / now[:, 3] for moved in (fastest * trusted, moves(before, after)[-1])]
-                rows.append([np.mean(share) for share in (*bounds, sticking_out(nodes, now, after, radius))])
+                rows.append([np.mean(share) for share in (*bounds, beads_out_of_spheres(nodes, now, after, radius))])
             _, _, times = kds.trusted_hierarchy(frames[0], frames[trusted], radius, rounds=rounds)
             ratios = times[:, 0] / times[:, 1]
             yield {"row": f"trust, {name}, {trusted} frames", "frames_trusted": trusted, "trust_per_verify": np.median(ratios),
@@ -127,7 +127,7 @@ def named_by_diagram(centers, radius, left):
     return examined["edges"], examined["common_neighbors"] + examined["centers"] + examined["near"]
 
 
-def conformations(data):
+def chains_at_rest(data):
     """Returns name, centres and radius of the chains at rest."""
     beads, protein = 1024, kds.reading.positions(data / "paper/1a4y_AB.pdb")
     return [("helix", model("helix", beads, motion="rest"), 1), ("scaling helix", model("scaling-helix", beads, motion="rest"), 1),
@@ -157,7 +157,7 @@ def main():
     wandering = kds.generate("random-chain", beads=640, frames=200, seed=1, motion="wander", step=0.01)
     subjects = [*proteins(report.data), ("wandering chain", wandering, 1)]
     for ask in (ask_about_bounds, lambda given: ask_about_trust(given, report.rounds),
-                lambda _: ask_about_combination(conformations(report.data))):
+                lambda _: ask_about_combination(chains_at_rest(report.data))):
         rows = list(ask(subjects))
         report.show(list(rows[0]), [list(row.values()) for row in rows])
         report.results["rows"] += rows

@@ -8,6 +8,7 @@ claimed: exponents and laws hold for these chains and sizes.
 
 import fits
 import kds
+from chains import layered_and_wrapped
 from common import Report
 
 SIZES = (64, 128, 256, 512, 1024, 2048)
@@ -24,7 +25,7 @@ def of_first_frame(centers):
     for hierarchy in ("wrapped", "layered"):
         yield f"{hierarchy}_family", kds.separating_family(centers, 1, hierarchy=hierarchy)[0]
     yield "pairs_looked_at", sum(kds.closest_by_diagram(centers, 1)[1].values())
-    layered, wrapped = (build(centers, 1)[1][0, 3] for build in (kds.layered_hierarchy, kds.wrapped_hierarchy))
+    layered, wrapped = (spheres[0, 3] for spheres in layered_and_wrapped(centers, 1))
     yield "root_ratio", float(layered / wrapped)
 
 

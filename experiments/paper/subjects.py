@@ -15,6 +15,7 @@ STATIC_TURNS = 6.3
 SCALING_TURNS = 0.29
 SPIRAL_TURNS = 16  # caption of table 5
 PAIRED_TURNS = 18  # text of section 4: sets of 18 turns fit table 7 better than those of 16
+BOND = 2 * 0.999  # distance of consecutive centres in models of kds
 # How far the chain is rolled up in the first frame. A straight chain has n - 1 edges, but the paper counts 3000.
 FIRST_ROLLED = 0.001
 
@@ -41,7 +42,7 @@ def two_spirals(step, beads=1000, steps=1000):
     steps it shows; these are chosen to fit its sets.
     """
     part = step / steps
-    rolled, length = FIRST_ROLLED + (1 - FIRST_ROLLED) * part, 1.998 * (beads - 1)
+    rolled, length = FIRST_ROLLED + (1 - FIRST_ROLLED) * part, BOND * (beads - 1)
     lower = kds.generate("spiral", beads=beads, frames=1, turns=PAIRED_TURNS, rolled=f"{rolled!r}:{rolled!r}")[0]
     return np.concatenate([lower, lower + [0, 0, (1 - part) * 0.4 * length + part * 30]])
 

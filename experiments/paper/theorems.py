@@ -19,7 +19,7 @@ import functools
 import fits
 import kds
 import numpy as np
-from chains import beads_of_grid, interleaved_grids, model, order_by_space, sides_of_grids, tightness_points
+from chains import beads_of_grid, interleaved_grids, layered_and_wrapped, model, order_by_space, sides_of_grids, tightness_points
 from common import Report
 from path_cages import cascade
 
@@ -97,7 +97,7 @@ def paths(most):
 
 
 def ratio_of_roots(centers, radius):
-    layered, wrapped = (build(centers, radius)[1][0, 3] for build in (kds.layered_hierarchy, kds.wrapped_hierarchy))
+    layered, wrapped = (spheres[0, 3] for spheres in layered_and_wrapped(centers, radius))
     ratio, bound = (layered / wrapped if wrapped > 0 else 1), np.sqrt(height(len(centers)) + 1)
     return {"n": len(centers), "value": float(ratio), "bound": float(bound), "holds": bool(ratio <= bound)}
 
