@@ -122,9 +122,6 @@ TEST(ObstacleContacts, OfCollide) {
       }
     }
   }
-  EXPECT_THAT(run_program({"collide", w.passes, "--obstacle", w.wall, "--radius", "0.75"}).err,
-              testing::HasSubstr("--method power is left out: the power diagram is of all beads together; it "
-                                 "does not leave out pairs of beads at rest"));
 }
 
 // The exact run and the truth that it is compared with ask about the same pairs.
