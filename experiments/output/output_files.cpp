@@ -12,13 +12,17 @@
 #include <charconv>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <locale>
-#include <set>
+#include <map>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "experiments/output/text.h"
+#include "kds/event_log.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -93,16 +97,61 @@ int make_file(const fs::path& path, const std::string& subject) {
   return descriptor;
 }
 
-// A hidden file in each folder of results. It is locked while the folder is written, and then holds the names
-// of the folder's files, one on a line.
-constexpr std::string_view kList = ".kds-results";
+// A hidden file in each folder of results. It is locked while the folder is written, and then begins with the
+// line kUnfinished. Each other line is a file: the hash of its content, which is 0 until the folder is
+// complete, and its name.
+constexpr std::string_view kList = ".kds-results", kUnfinished = "unfinished";
 
-// Returns when the file, its name or its permissions were changed last.
-std::pair<time_t, long> change_of(const fs::path& path) {
-  struct stat status {};
-  if (::lstat(path.c_str(), &status) != 0) return {};
-  return {status.st_ctim.tv_sec, status.st_ctim.tv_nsec};
+std::uint64_t hash_of_content(const fs::path& path) {
+  WordHash hash;
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> block(std::size_t{1} << 20U);
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
+    for (std::streamsize k = 0; k < file.gcount(); ++k)
+      hash.add(static_cast<unsigned char>(block[static_cast<std::size_t>(k)]));
+  return hash.value();
 }
+
+// What a folder of results says about its files.
+struct ResultList {
+  explicit ResultList(const fs::path& folder) : files{{std::string(kList), 0}} {
+    std::ifstream list(folder / kList);
+    for (std::string line; std::getline(list, line);) {
+      if (line == kUnfinished) {
+        is_unfinished = true;
+        continue;
+      }
+      const std::size_t name = line.find(' ') + 1;
+      std::uint64_t hash = 0;
+      std::from_chars(line.data(), line.data() + line.size(), hash, 16);
+      files.emplace(line.substr(name), hash);
+    }
+  }
+  static std::string line(const std::string& name, std::uint64_t hash) {
+    return fmt::format("{:016x} {}\n", hash, name);
+  }
+
+  // Returns why an entry of the folder is none of the files as kds wrote them, or nothing if it is.
+  [[nodiscard]] const char* fault_of(const fs::directory_entry& entry) const {
+    std::error_code lost;
+    const auto file = files.find(entry.path().filename().string());
+    if (file == files.end() || entry.is_symlink(lost) || !entry.is_regular_file(lost))
+      return "is not of an earlier result";
+    if (is_unfinished || file->first == kList || hash_of_content(entry.path()) == file->second)
+      return nullptr;
+    return "has changed since kds wrote it";
+  }
+  // Returns the name of an entry with a fault, a space and the fault, or nothing.
+  [[nodiscard]] std::string first_fault(const fs::path& folder, std::error_code& lost) const {
+    for (fs::directory_iterator entry(folder, lost), end; !lost && entry != end; entry.increment(lost))
+      if (const char* const fault = fault_of(*entry))
+        return fmt::format("{} there {}", entry->path().filename().string(), fault);
+    return {};
+  }
+
+  std::map<std::string, std::uint64_t> files;
+  bool is_unfinished = false;
+};
 
 // Throws InputError if the place holds anything but an empty directory or, if `replace`, files that kds
 // wrote.
@@ -123,21 +172,9 @@ void require_replaceable(const fs::path& place, const std::string& subject, bool
   if (!replace)
     throw InputError(subject +
                      ": holds files; --replace replaces an earlier result there, or give another directory");
-  std::set<std::string> names{std::string(kList)};
-  std::ifstream list(place / kList);
-  for (std::string name; std::getline(list, name);) names.insert(name);
-  const auto written = change_of(place / kList);
-  for (fs::directory_iterator entry(place, lost), end; !lost && entry != end; entry.increment(lost)) {
-    const std::string name = entry->path().filename().string();
-    const char* fault = nullptr;
-    if (!names.contains(name) || !entry->is_regular_file(error) || entry->is_symlink(error))
-      fault = "is not of an earlier result";
-    else if (change_of(entry->path()) > written)
-      fault = "has changed since kds wrote it";
-    if (fault != nullptr)
-      throw InputError(
-          fmt::format("{}: {} there {}; move it or give another directory", subject, name, fault));
-  }
+  const std::string fault = ResultList(place).first_fault(place, lost);
+  if (!fault.empty())
+    throw InputError(fmt::format("{}: {}; move it or give another directory", subject, fault));
   if (lost) fail_to_write(subject, lost.value());
   if (const fs::path old = place.string() + ".old"; fs::exists(old, error))
     throw InputError(
@@ -176,11 +213,7 @@ struct PartFolder {
         parents(place, its_subject) {
     const bool is_new = ::mkdir(path.c_str(), 0777) == 0;
     if (!is_new && errno != EEXIST) fail_to_write(subject, errno);
-    std::error_code error;
-    if (!is_new && !fs::exists(path / kList, error) &&
-        !(fs::is_directory(path, error) && fs::is_empty(path, error)))
-      throw InputError(
-          fmt::format("{}: {} is in the way and was not written by kds; move it", subject, path.string()));
+    if (!is_new) refuse_what_is_no_leftover();
     const int descriptor = ::open((path / kList).c_str(), O_CREAT | O_RDWR | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor < 0) {
       const int reason = errno;
@@ -197,6 +230,7 @@ struct PartFolder {
       throw InputError(fmt::format("{}: another run writes to {} now; wait, or give another place", subject,
                                    path.string()));
     if (!is_new) clear();
+    list_names(std::string(kUnfinished) + '\n');
   }
   ~PartFolder() {
     std::error_code ignored;
@@ -204,6 +238,20 @@ struct PartFolder {
   }
   PartFolder(const PartFolder&) = delete;
   PartFolder& operator=(const PartFolder&) = delete;
+
+  // A killed program leaves an empty folder, or files that its list names as unfinished.
+  void refuse_what_is_no_leftover() const {
+    std::error_code lost;
+    std::string fault = "is not a directory";
+    if (fs::is_directory(fs::symlink_status(path, lost))) {
+      const ResultList found(path);
+      fault = found.first_fault(path, lost);
+      if (lost) fail_to_write(subject, lost.value());
+      if (fault.empty() && !found.is_unfinished && found.files.size() > 1) fault = "holds a complete result";
+    }
+    if (!fault.empty())
+      throw InputError(fmt::format("{}: {} is in the way: {}; move it", subject, path.string(), fault));
+  }
 
   // Removes what a killed program has left.
   void clear() const {
@@ -222,6 +270,17 @@ struct PartFolder {
   void list_names(const std::string& names) {
     *list << names << std::flush;
     list->check();
+  }
+
+  // Lists the contents of the files, whose names are on a line each.
+  void complete_list(const std::string& names) {
+    std::string lines;
+    std::istringstream all(names);
+    for (std::string name; std::getline(all, name);)
+      lines += ResultList::line(name, hash_of_content(path / name));
+    if (::ftruncate(list->descriptor(), 0) != 0 || ::lseek(list->descriptor(), 0, SEEK_SET) != 0)
+      fail_to_write(subject, errno);
+    list_names(lines);
   }
 
   // Moves the file to its place. The new file gets the permissions and, if permitted, the owner of the old
@@ -249,7 +308,19 @@ struct PartFolder {
       throw;
     }
     is_kept = true;
-    if (is_full) fs::remove_all(old, ignored);
+    if (!is_full) return;
+    const ResultList found(old);
+    for (const auto& [name, hash] : found.files)
+      if (name != kList && found.fault_of(fs::directory_entry(old / name, ignored)) == nullptr)
+        fs::remove(old / name, ignored);
+    // A file may have come since the last check.
+    if (std::distance(fs::directory_iterator(old, ignored), fs::directory_iterator()) == 1)
+      fs::remove_all(old, ignored);
+    else
+      std::fputs(fmt::format("kds: warning: {} keeps files that were not of the earlier result\n",
+                             one_line(old.string()))
+                     .c_str(),
+                 stderr);
   }
 
   void move(const fs::path& from, const fs::path& to) {
@@ -357,11 +428,13 @@ std::ostream& AtomicFiles::open(const fs::path& place) {
     if (name.empty() || name.find_first_of("/\n") != std::string::npos || name == kList)
       throw std::logic_error("'" + name + "' is no name for a file of a result");
     names_ += name + '\n';
-    const PartFolder& part = parts_.front();
+    PartFolder& part = parts_.front();
+    part.list_names(ResultList::line(name, 0));
     return open_.emplace_back(make_file(part.path / name, part.subject), part.subject);
   }
   if (const auto file = place_of_file(place, place.string())) {
-    const PartFolder& part = parts_.emplace_back(*file, place.string());
+    PartFolder& part = parts_.emplace_back(*file, place.string());
+    part.list_names(ResultList::line(part.file().filename().string(), 0));
     return open_.emplace_back(make_file(part.file(), part.subject), part.subject);
   }
   const auto own = descriptor_behind(place);
@@ -389,7 +462,7 @@ void AtomicFiles::finish() {
   for (OutputStream& file : open_) file.close();
   if (!is_directory_) return;
   PartFolder& part = parts_.front();
-  part.list_names(names_);
+  part.complete_list(names_);
   part.is_kept = true;
   require_replaceable(part.place, part.kept_result(), replace_);
   part.is_kept = false;

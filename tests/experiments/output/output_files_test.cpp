@@ -5,11 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <set>
 #include <stdexcept>
-#include <thread>
 
 #include "experiments/output/result_json.h"
 #include "motions/base/input_error.h"
@@ -153,7 +151,6 @@ TEST(OutputFiles, NothingOfTheUsersIsReplaced) {
   fs::remove(folder / "notes");
   const std::string older = directory.file("older", "mine");
   write_folder(folder, {"a.csv", "b.csv"}, "old");
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // clocks of file systems have coarse ticks
   fs::copy(older, folder / "notes");
   fs::last_write_time(folder / "notes", fs::last_write_time(older));
   expect_kept("notes", "is not of an earlier result");
@@ -226,10 +223,51 @@ TEST(OutputFiles, APartThatKdsDidNotWriteStays) {
   fs::create_directory(directory / "out.part");
   directory.file("out.part/notes", "mine");
   directory.file("single.part", "mine");
-  EXPECT_THAT(refused_folder(directory / "out", true), HasSubstr("was not written by kds"));
+  EXPECT_THAT(refused_folder(directory / "out", true), HasSubstr("is in the way: notes there"));
   EXPECT_NE(refusal([&] { write(directory / "single", "x"); }), "");
   EXPECT_EQ(content_of(directory / "out.part/notes"), "mine");
   EXPECT_EQ(content_of(directory / "single.part"), "mine");
+}
+
+// PLACE.part is cleared only if it is what a killed program left.
+TEST(OutputFiles, AnotherResultNamedPartStays) {
+  const ScratchDirectory directory;
+  const auto expect_kept = [&](const char* place, const char* file, const char* reason) {
+    EXPECT_THAT(refused_folder(directory / place, true),
+                AllOf(HasSubstr("is in the way"), HasSubstr(reason)));
+    EXPECT_NE(refusal([&] { write(directory / place, "x"); }), "");
+    EXPECT_TRUE(fs::exists(directory / file)) << file;
+  };
+  write_folder(directory / "a.part", {"a.csv"}, "whole");
+  expect_kept("a", "a.part/a.csv", "holds a complete result");
+  directory.file("a.part/notes", "mine");
+  expect_kept("a", "a.part/notes", "notes there is not of an earlier result");
+  write_folder(directory / "elsewhere", {"b.csv"}, "whole");
+  fs::create_directory_symlink(directory / "elsewhere", directory / "b.part");
+  expect_kept("b", "elsewhere/b.csv", "is not a directory");
+  EXPECT_EXIT(
+      {
+        AtomicFiles files(directory / "c", "--out", false);
+        files.write("c.csv", "half");
+        ::raise(SIGKILL);
+      },
+      testing::KilledBySignal(SIGKILL), "");
+  directory.file("c.part/notes", "mine");
+  expect_kept("c", "c.part/notes", "notes there is not of an earlier result");
+}
+
+// A change is one of content: neither a copy nor new permissions hide or feign one.
+TEST(OutputFiles, ChangesAreThoseOfContent) {
+  const ScratchDirectory directory;
+  write_folder(directory / "out", {"a.csv", "b.csv"}, "old");
+  fs::copy(directory / "out", directory / "copied");
+  ::chmod((directory / "copied/a.csv").c_str(), 0600);
+  write_folder(directory / "copied", {"a.csv"}, "new", true);
+  EXPECT_EQ(content_of(directory / "copied/a.csv"), "new");
+  directory.file("out/b.csv", "odd");  // as long as before
+  for (const char* name : {"a.csv", "b.csv", ".kds-results"})
+    ::chmod((directory / "out" / name).c_str(), 0660);
+  EXPECT_THAT(refused_folder(directory / "out", true), HasSubstr("b.csv there has changed since"));
 }
 
 TEST(OutputFiles, PermissionsAndSymbolicLinksStay) {
