@@ -21,7 +21,7 @@ struct ReplayedEvent {
   std::string where;
 };
 
-/// An event that another simulator tells its listeners of. There may be millions, so it is small.
+/// An event of one simulator that another one passes to its listeners. A run may have millions.
 struct RelayedEvent {
   std::uint32_t structure;
   bool first_at_its_time;  ///< whether no event was relayed at this very time before
@@ -37,7 +37,7 @@ struct RelayedEvent {
   std::unique_ptr<const Certain> certain;
 };
 
-/// What a simulator does with events that are known. The simulator must outlive this object.
+/// Makes changes in a simulator whose events are known. The simulator must outlive this object.
 class KnownEvents {
  public:
   explicit KnownEvents(Simulator& simulator) : simulator_(simulator) {}
@@ -52,7 +52,7 @@ class KnownEvents {
 
   /// Sets the number of the first step. Throws std::logic_error once the structures are built.
   void start_at(std::size_t step);
-  /// Returns `event`, which happens now, for another simulator.
+  /// Returns a copy of the present event that another simulator can relay.
   [[nodiscard]] RelayedEvent event_to_relay(const Event& event, bool first_at_its_time, bool exact) const;
   /// Tells the listeners of the events of a step that another simulator ran. The events are not counted.
   void relay(std::size_t step, const FrameStamp& from, const FrameStamp& to,

@@ -22,7 +22,7 @@
 
 namespace kds::bench {
 
-/// What a benchmark repeats.
+/// The work that a benchmark repeats.
 struct Work {
   std::size_t items = 0;      ///< processed by one call; 0 if only the time of a call is of interest
   std::string unit = "ns";    ///< of the time per item, such as "ns/bead"

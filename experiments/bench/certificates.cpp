@@ -337,7 +337,7 @@ struct Comparing : Failing<Linear> {
   FailureOrder order;
 };
 
-// The same measure on the facets of an instance. Without CGAL's algebraic kernel only kds is timed.
+// Adds a measure of the facets of an instance and, if CGAL's algebraic kernel is there, its peer.
 template <class T, class Ours, class Theirs>
 void add_algebraic(const std::string& measure, const std::string& scene, std::size_t points, const Ours& ours,
                    const Theirs& theirs) {

@@ -112,7 +112,7 @@ std::uint64_t hash_of_content(const fs::path& path) {
   return hash.value();
 }
 
-// What a folder of results says about its files.
+// The contents of a folder's kList: its files, with hashes of their contents.
 struct ResultList {
   explicit ResultList(const fs::path& folder) : files{{std::string(kList), 0}} {
     std::ifstream list(folder / kList);
