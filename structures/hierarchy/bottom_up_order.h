@@ -1,7 +1,7 @@
 #pragma once
 // Bottom-up passes over the nodes of a scene's trees. Each pass handles many independent nodes of one height
-// at a time. With threads, disjoint subtrees run in parallel, followed by the nodes above them. A pass must
-// compute a node only from itself and the nodes below; then all orders give the same bits.
+// at a time, first those of small disjoint subtrees, whose beads stay in a fast cache, and then the nodes
+// above them. A pass must compute a node only from itself and the nodes below.
 
 #include <cstdint>
 #include <span>
@@ -10,9 +10,6 @@
 #include "structures/necklace/necklace_tree.h"
 
 namespace kds {
-
-/// Number of threads of a computation. Results do not depend on it.
-enum class Threads : std::uint8_t { one, all };
 
 class BottomUpOrder {
  public:

@@ -6,7 +6,6 @@
 #include "motions/base/floating_point_guard.h"
 #include "motions/numbers/lanes.h"
 #include "structures/enclosing_sphere/cage.h"
-#include "structures/hierarchy/parallel_passes.h"
 
 namespace kds {
 
@@ -77,10 +76,6 @@ Cage<Dimension> sphere_of_two(const Cage<Dimension>& a, const Cage<Dimension>& b
   return cage;
 }
 
-struct Nothing {
-  Nothing& operator+=(const Nothing&) { return *this; }
-};
-
 // Computes the spheres of nodes of one height.
 template <bool equal, int Dimension, class Four>
 void wrap(std::span<const Four> merges, const Cage<Dimension>* left_spheres,
@@ -137,22 +132,18 @@ void LayeredHierarchy<Dimension>::Merges::append(NodeId node, std::uint32_t left
 }
 
 template <int Dimension>
-void LayeredHierarchy<Dimension>::build(const BallRows<Dimension>& balls, Threads threads) {
+void LayeredHierarchy<Dimension>::build(const BallRows<Dimension>& balls) {
   const FloatingPointGuard to_nearest;
   const BallRow<Dimension>* const beads = balls.rows();
   Cage<Dimension>* const cages = cages_.data();
   using Four = typename Merges::Four;
   constexpr auto wrap_in_lanes = in_long_lanes<&wrap<false, Dimension, Four>>;
   const auto wrap_beads = balls.equal_radii() ? in_long_lanes<&wrap<true, Dimension, Four>> : wrap_in_lanes;
-  over_runs<Nothing>(order_, threads, [&](std::size_t run) {
-    for (std::uint32_t group = order_.runs()[run].first; group < order_.runs()[run].end; ++group) {
-      const Height& height = heights_[group];
-      wrap_beads(height.of_beads.fours(), beads, beads, cages);
-      wrap_in_lanes(height.of_both.fours(), cages, beads, cages);
-      wrap_in_lanes(height.of_nodes.fours(), cages, cages, cages);
-    }
-    return Nothing{};
-  });
+  for (const Height& height : heights_) {
+    wrap_beads(height.of_beads.fours(), beads, beads, cages);
+    wrap_in_lanes(height.of_both.fours(), cages, beads, cages);
+    wrap_in_lanes(height.of_nodes.fours(), cages, cages, cages);
+  }
 }
 
 template class LayeredHierarchy<2>;

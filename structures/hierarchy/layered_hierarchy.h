@@ -38,7 +38,7 @@ class LayeredHierarchy {
     cages_.swap(others);
   }
 
-  void build(const BallRows<Dimension>& balls, Threads threads = Threads::one);
+  void build(const BallRows<Dimension>& balls);
 
  private:
   /// Nodes and their children in groups of four. A group with fewer nodes repeats the last one.

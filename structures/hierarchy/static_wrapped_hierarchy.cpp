@@ -5,7 +5,6 @@
 #include "motions/base/floating_point_guard.h"
 #include "motions/base/interruption.h"
 #include "structures/hierarchy/hierarchy_passes.h"
-#include "structures/hierarchy/parallel_passes.h"
 
 namespace kds {
 
@@ -90,9 +89,10 @@ StaticWrappedHierarchy<Dimension>::StaticWrappedHierarchy(std::span<const BeadRa
 template <int Dimension>
 template <class Form>
 WrapCounts StaticWrappedHierarchy<Dimension>::wrap(const Balls<Dimension>& balls, bool from_children,
-                                                   Update how, Threads threads) {
+                                                   Update how) {
   const auto runs = order_.runs();
-  return over_runs<WrapCounts>(order_, threads, [&](std::size_t run) {
+  WrapCounts counts;
+  for (std::size_t run = 0; run < runs.size(); ++run) {
     const auto groups = order_.groups(runs[run]);
     NodeWrapper<Form> wrapper{tree_, balls, bases_.data(), cages_.data(), loose_.data(), how, frontiers_};
     if (from_children) {
@@ -104,12 +104,13 @@ WrapCounts StaticWrappedHierarchy<Dimension>::wrap(const Balls<Dimension>& balls
     } else {
       wrap_groups<Form>(wrapper, order_, groups, Start::old_bases);
     }
-    return wrapper.counts;
-  });
+    counts += wrapper.counts;
+  }
+  return counts;
 }
 
 template <int Dimension>
-WrapCounts StaticWrappedHierarchy<Dimension>::build(const Balls<Dimension>& balls, Threads threads) {
+WrapCounts StaticWrappedHierarchy<Dimension>::build(const Balls<Dimension>& balls) {
   const FloatingPointGuard to_nearest;
   bases_.resize(tree_.node_count());
   cages_.resize(tree_.node_count());
@@ -117,28 +118,20 @@ WrapCounts StaticWrappedHierarchy<Dimension>::build(const Balls<Dimension>& ball
   frontiers_.of_run.assign(order_.runs().size(), {});
   frontiers_.of_node.assign(tree_.node_count(), {});
   wider_ = balls.equal_radii() && balls.size() > 0 ? balls.radius(0) : 0;
-  trusting_ = false;
   lazy_ = nullptr;
-  return balls.equal_radii() ? wrap<PointForm<Dimension>>(balls, true, Update::blocks, threads)
-                             : wrap<BallForm<Dimension>>(balls, true, Update::blocks, threads);
+  return balls.equal_radii() ? wrap<PointForm<Dimension>>(balls, true, Update::blocks)
+                             : wrap<BallForm<Dimension>>(balls, true, Update::blocks);
 }
 
 template <int Dimension>
-WrapCounts StaticWrappedHierarchy<Dimension>::update(const Balls<Dimension>& balls, Update how,
-                                                     Threads threads) {
+WrapCounts StaticWrappedHierarchy<Dimension>::update(const Balls<Dimension>& balls, Update how) {
   const FloatingPointGuard to_nearest;
-  if (bases_.size() != tree_.node_count()) return build(balls, threads);
-  const bool trusting = how == Update::trust || how == Update::lazy;
-  if (trusting && !trusting_) {
-    verified_.swap(cages_);
-    cages_.resize(verified_.size());
-  }
-  trusting_ = trusting;
+  if (bases_.size() != tree_.node_count()) return build(balls);
   lazy_ = how == Update::lazy ? &balls : nullptr;
   wider_ = balls.equal_radii() && balls.size() > 0 ? balls.radius(0) : 0;
   if (lazy_ != nullptr) return {};
-  return balls.equal_radii() ? wrap<PointForm<Dimension>>(balls, false, how, threads)
-                             : wrap<BallForm<Dimension>>(balls, false, how, threads);
+  return balls.equal_radii() ? wrap<PointForm<Dimension>>(balls, false, how)
+                             : wrap<BallForm<Dimension>>(balls, false, how);
 }
 
 template <int Dimension>
@@ -150,31 +143,7 @@ Sphere StaticWrappedHierarchy<Dimension>::sphere(NodeId node) const {
                    wider_);
 }
 
-template <int Dimension>
-double StaticWrappedHierarchy<Dimension>::stick_out(NodeId node, double moved) const {
-  const FloatingPointGuard to_nearest;
-  if (!trusting_) return 0;
-  const Sphere now = sphere(node), then = sphere_of(verified_[node], wider_);
-  // Cages are rounded. Loose cages, of degenerate beads far from the origin, are rounded relative to that
-  // distance.
-  const double rounding = 0x1p-27 * then.radius + 0x1p-48 * then.center.template lpNorm<Eigen::Infinity>();
-  return std::max(0.0, moved + then.radius + (then.center - now.center).norm() - now.radius + rounding);
-}
-
-template <int Dimension>
-double greatest_move(const Balls<Dimension>& from, const Balls<Dimension>& to) {
-  const FloatingPointGuard to_nearest;
-  double most = 0;
-  for (BeadId b = 0; b < from.size(); ++b) {
-    const Point<Dimension> d = detail::minus(detail::center_of(to, b), detail::center_of(from, b));
-    most = std::max(most, detail::dot(d, d));
-  }
-  return std::sqrt(most) * (1 + 0x1p-48) + 0x1p-500;
-}
-
 template class StaticWrappedHierarchy<2>;
 template class StaticWrappedHierarchy<3>;
-template double greatest_move(const Balls<2>&, const Balls<2>&);
-template double greatest_move(const Balls<3>&, const Balls<3>&);
 
 }  // namespace kds

@@ -94,39 +94,25 @@ class StaticWrappedHierarchy {
   /// balls only.
   [[nodiscard]] Sphere sphere(NodeId node) const;
 
-  /// Builds the hierarchy from scratch. Each node starts with beads of its children's bases. The result does
-  /// not depend on `threads`, bit for bit.
-  WrapCounts build(const Balls<Dimension>& balls, Threads threads = Threads::one);
+  /// Builds the hierarchy from scratch. Each node starts with beads of its children's bases.
+  WrapCounts build(const Balls<Dimension>& balls);
   /// Updates the hierarchy from the bases of the previous time. Unless bases are trusted, all are verified,
   /// and a basis is repaired if beads escaped or became superfluous. With Update::lazy, `balls` must stay at
   /// their address.
-  WrapCounts update(const Balls<Dimension>& balls, Update how = Update::blocks,
-                    Threads threads = Threads::one);
-
-  /// Returns, after Update::trust or lazy, an upper bound of how far a bead of the node may stick out of its
-  /// sphere, if no bead has moved farther than `moved` since the last verified time (greatest_move). Proof,
-  /// with p, z, R now and p', z', R' then: |p - z| - R <= |p - p'| + |p' - z'| + |z' - z| - R <= moved + R' +
-  /// |z' - z| - R.
-  [[nodiscard]] double stick_out(NodeId node, double moved) const;
+  WrapCounts update(const Balls<Dimension>& balls, Update how = Update::blocks);
 
  private:
   template <class Form>
-  WrapCounts wrap(const Balls<Dimension>& balls, bool from_children, Update how, Threads threads);
+  WrapCounts wrap(const Balls<Dimension>& balls, bool from_children, Update how);
 
   NecklaceTree tree_;
   BottomUpOrder order_;
   std::vector<Basis> bases_;
-  std::vector<Cage<Dimension>> cages_;     // at the present time
-  std::vector<Cage<Dimension>> verified_;  // at the last verified time, if it is not the present
-  std::vector<std::uint8_t> loose_;        // beads may be out of the rounded cage by more than 2^-28 of it
+  std::vector<Cage<Dimension>> cages_;  // at the present time
+  std::vector<std::uint8_t> loose_;     // beads may be out of the rounded cage by more than 2^-28 of it
   Frontiers frontiers_;
   double wider_ = 0;  // if radii are equal, spheres are wider than cages by this
-  bool trusting_ = false;
   const Balls<Dimension>* lazy_ = nullptr;
 };
-
-/// Returns the greatest distance that a bead has moved, rounded up.
-template <int Dimension>
-[[nodiscard]] double greatest_move(const Balls<Dimension>& from, const Balls<Dimension>& to);
 
 }  // namespace kds

@@ -126,11 +126,11 @@ TYPED_TEST(StaticWrappedHierarchyIn, PairsUpdatedAreThoseBuilt) {
   }
 }
 
-// The set is larger than the least work of two threads, and some cages are skipped.
-TEST(StaticWrappedHierarchy, ThreadsGiveTheSameBits) {
+// Trees of very different sizes, the largest with many subtrees that are passed one by one.
+TEST(StaticWrappedHierarchy, OfLargeAndSmallNecklacesTogether) {
   std::mt19937 random(17);
   std::normal_distribution<double> step;
-  const Eigen::Index beads = 142'000;
+  const Eigen::Index beads = 14'200;
   Eigen::Matrix3Xd centers(3, beads);
   Eigen::Vector3d at(0, 0, 0);
   for (Eigen::Index b = 0; b < beads; ++b)
@@ -138,31 +138,19 @@ TEST(StaticWrappedHierarchy, ThreadsGiveTheSameBits) {
   for (const bool equal : {true, false}) {
     std::vector<double> radii(static_cast<std::size_t>(beads), 0.5);
     for (std::size_t b = 0; b < radii.size() && !equal; b += 3) radii[b] = 0.7;
-    const std::vector<BeadRange> necklaces{{0, 139'999}, {140'000, 140'001}, {140'002, 141'999}};
-    StaticWrappedHierarchy<3> one(necklaces), all(necklaces);
-    LayeredHierarchy<3> layered_one(necklaces), layered_all(necklaces);
+    const std::vector<BeadRange> necklaces{{0, 13'999}, {14'000, 14'001}, {14'002, 14'199}};
+    StaticWrappedHierarchy<3> one(necklaces);
     Balls<3> balls(centers, radii);
-    EXPECT_EQ(one.build(balls, Threads::one).pivots, all.build(balls, Threads::all).pivots);
-    expect_same(one, all);
+    one.build(balls);
     const Eigen::Matrix3Xd moved = 1.01 * centers + 0.02 * Eigen::Matrix3Xd::Random(3, beads);
     balls.move_to(moved);
-    const WrapCounts a = one.update(balls, Update::blocks, Threads::one),
-                     b = all.update(balls, Update::blocks, Threads::all);
-    EXPECT_EQ(a.changed, b.changed);
-    EXPECT_GT(a.changed, 0U);
-    expect_same(one, all);
-    layered_one.build(balls, Threads::one);
-    layered_all.build(balls, Threads::all);
-    for (NodeId node = 0; node < one.tree().node_count(); ++node) {
-      ASSERT_EQ(layered_one.sphere(node).center, layered_all.sphere(node).center);
-      ASSERT_EQ(layered_one.sphere(node).radius, layered_all.sphere(node).radius);
-    }
+    EXPECT_GT(one.update(balls).changed, 0U);
     // A fresh build gives the same spheres; a few spheres are checked from the definition.
     StaticWrappedHierarchy<3> fresh(necklaces);
     fresh.build(balls);
     expect_same(one, fresh);
     const BallSet set{"walk", moved, radii};
-    for (const NodeId node : {139'998U, 139'999U, 140'000U, 140'002U}) {
+    for (const NodeId node : {13'998U, 13'999U, 14'000U, 14'002U}) {
       const BeadRange range = one.tree().range(node);
       const Basis& basis = one.basis(node);
       ASSERT_EQ(not_smallest_ball(set, range.first, range.last, {basis.begin(), basis.end()},
@@ -237,7 +225,7 @@ TEST(StaticWrappedHierarchy, EveryVerificationGivesTheSameAndCountsItsTests) {
   }
 }
 
-TEST(StaticWrappedHierarchy, TrustedBasesHaveABoundOnWhatSticksOut) {
+TEST(StaticWrappedHierarchy, TrustedBasesStayAndBeadsStickOut) {
   for (const bool equal : {true, false}) {
     const Walk walk = jittering_walk(300, equal, 0.05);
     StaticWrappedHierarchy<3> trusting(walk.necklaces), lazy(walk.necklaces);
@@ -247,7 +235,6 @@ TEST(StaticWrappedHierarchy, TrustedBasesHaveABoundOnWhatSticksOut) {
     std::size_t out = 0;
     for (std::size_t k = 1; k < walk.frames.size(); ++k) {
       const Balls<3> balls(walk.frames[k], walk.radii);
-      const double moved = greatest_move(first, balls);
       EXPECT_EQ(trusting.update(balls, Update::trust).bead_tests, 0U);
       lazy.update(balls, Update::lazy);
       for (NodeId node = 0; node < trusting.tree().node_count(); ++node) {
@@ -258,12 +245,10 @@ TEST(StaticWrappedHierarchy, TrustedBasesHaveABoundOnWhatSticksOut) {
         for (BeadId b = range.first; b <= range.last; ++b)
           sticks = std::max(sticks,
                             (walk.frames[k].col(b) - sphere.center).norm() + walk.radii[b] - sphere.radius);
-        ASSERT_LE(sticks, trusting.stick_out(node, moved)) << node;
-        ASSERT_LE(sticks, lazy.stick_out(node, moved)) << node;
         out += sticks > 1e-9 ? 1 : 0;
       }
     }
-    EXPECT_GT(out, 0U) << "or the bound was not tried";
+    EXPECT_GT(out, 0U);
     // A verified update is exact and equal to a fresh build.
     const Balls<3> last(walk.frames.back(), walk.radii);
     StaticWrappedHierarchy<3> fresh(walk.necklaces);
@@ -272,7 +257,6 @@ TEST(StaticWrappedHierarchy, TrustedBasesHaveABoundOnWhatSticksOut) {
     lazy.update(last);
     expect_same(fresh, trusting);
     expect_same(fresh, lazy);
-    EXPECT_EQ(lazy.stick_out(0, 1), 0);
   }
 }
 
