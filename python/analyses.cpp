@@ -1,12 +1,16 @@
 #include "python/analyses.h"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -235,12 +239,18 @@ py::list generate(const Arguments& arguments) {
   return arrays_of(necklaces);
 }
 
-py::object read_positions(const std::string& path, const std::string& topology) {
+py::object read_positions(const std::string& path, const std::optional<std::string>& topology) {
+  for (const std::string& file : {path, topology.value_or(path)}) {
+    if (file.find('\0') != std::string::npos)
+      throw InputError(fmt::format("{}: has a null character, expected a path", file.c_str()));
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) throw InputError(fmt::format("'{}': no such file", file));
+  }
   std::vector<Trajectory> necklaces;
   {
     const Watch watch;
     ReadOptions options;
-    if (!topology.empty()) options.topology = topology;
+    if (topology) options.topology = *topology;
     necklaces.push_back(read_trajectory(path, options));
   }
   return arrays_of(necklaces)[0];

@@ -5,6 +5,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <optional>
 #include <string>
 
 #include "experiments/program/command_line.h"
@@ -28,7 +29,9 @@ namespace kds::python {
 [[nodiscard]] pybind11::dict conditions(const Arguments& arguments, const pybind11::object& progress);
 /// `kds generate`. Returns an array (frames, beads, 3) for each necklace.
 [[nodiscard]] pybind11::list generate(const Arguments& arguments);
-/// Returns the backbone of the first chain of a file, an array (frames, beads, 3). `topology` may be empty.
-[[nodiscard]] pybind11::object read_positions(const std::string& path, const std::string& topology);
+/// Returns the backbone of the first chain of a file, an array (frames, beads, 3). `topology` names
+/// its atoms, if the file does not.
+[[nodiscard]] pybind11::object read_positions(const std::string& path,
+                                              const std::optional<std::string>& topology);
 
 }  // namespace kds::python

@@ -1,5 +1,5 @@
 #pragma once
-// Balls at rest that Python gives, and arrays for what is made of them.
+// Balls at rest as Python gives them, checked, and helpers that return results as arrays.
 
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
@@ -23,31 +23,39 @@ namespace kds::python {
 
 namespace py = pybind11;
 
+/// Returns the points of an array (beads, 2) or (beads, 3) as columns, checked. `name` is the caller's.
+inline Eigen::Matrix3Xd points_given(const char* name, const Numbers& points, py::ssize_t least = 1) {
+  if (points.ndim() != 2 || (points.shape(1) != 3 && points.shape(1) != 2) || points.shape(0) == 0)
+    throw InputError(fmt::format("{}: has the shape {}; expected (beads, 3) or (beads, 2)", name,
+                                 std::string(py::str(points.attr("shape")))));
+  if (points.shape(0) < least)
+    throw InputError(fmt::format("{}: has 1 bead; expected {} or more", name, least));
+  Eigen::Matrix3Xd columns = Eigen::Matrix3Xd::Zero(3, points.shape(0));
+  for (py::ssize_t bead = 0; bead < points.shape(0); ++bead)
+    for (py::ssize_t axis = 0; axis < points.shape(1); ++axis) {
+      const double x = points.at(bead, axis);
+      if (!std::isfinite(x))
+        throw InputError(
+            fmt::format("{}: bead {} has {} = {}, expected a finite coordinate", name, bead, "xyz"[axis], x));
+      columns(axis, bead) = x;
+    }
+  return columns;
+}
+
 /// Balls of the caller, checked.
 struct BallsGiven {
   Eigen::Matrix3Xd centers;
   std::vector<double> radii;
   int dimension = 3;
 
-  BallsGiven(const Numbers& points, const Numbers& lengths) {
-    if (points.ndim() != 2 || (points.shape(1) != 3 && points.shape(1) != 2) || points.shape(0) == 0)
-      throw InputError(fmt::format("centers: has the shape {}; expected (beads, 3) or (beads, 2)",
-                                   std::string(py::str(points.attr("shape")))));
+  BallsGiven(const Numbers& points, const Numbers& lengths, const char* name = "centers")
+      : centers(points_given(name, points)) {
     const auto beads = static_cast<std::size_t>(points.shape(0));
     if (lengths.size() != 1 && static_cast<std::size_t>(lengths.size()) != beads)
       throw InputError(fmt::format("radii: has {} numbers; expected {}, one for each bead, or one for all",
                                    lengths.size(), beads));
     dimension = static_cast<int>(points.shape(1));
-    centers.setZero(3, static_cast<Eigen::Index>(beads));
     for (std::size_t bead = 0; bead < beads; ++bead) {
-      for (int axis = 0; axis < dimension; ++axis) {
-        const double x =
-            points.data()[bead * static_cast<std::size_t>(dimension) + static_cast<std::size_t>(axis)];
-        if (!std::isfinite(x))
-          throw InputError(fmt::format("centers: bead {} has {} = {}, expected a finite coordinate", bead,
-                                       "xyz"[axis], x));
-        centers(axis, static_cast<Eigen::Index>(bead)) = x;
-      }
       const double radius = lengths.data()[lengths.size() == 1 ? 0 : bead];
       if (!(radius >= 0) || !std::isfinite(radius))
         throw InputError(
@@ -102,8 +110,12 @@ std::vector<double> spheres_of(const Hierarchy& hierarchy) {
   return spheres;
 }
 
-/// Returns the numbers of spheres_of as an array (nodes, 4).
+/// Returns the numbers of spheres_of as an array (nodes, 4). Refuses coordinates so large that a sphere of
+/// theirs is no double.
 inline py::array_t<double> array_of_spheres(std::vector<double> spheres) {
+  for (const double number : spheres)
+    if (!std::isfinite(number))
+      throw InputError("centers: are too large, so that the spheres around them overflow doubles");
   const auto nodes = static_cast<py::ssize_t>(spheres.size() / 4);
   return array_of(std::move(spheres), {nodes, 4});
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -52,7 +53,7 @@ struct Family {
 template <int Dimension>
 Family search(const SphereTree<Dimension>& tree, const PairsAsked& asked, std::size_t rule, BeadId leaf) {
   if (rules[rule] == "explicit") return {explicit_family(tree, asked), std::nullopt};
-  if (rule == 0 && leaf == 1) {
+  if (rules[rule] == "more beads" && leaf == 1) {  // the paper's rule, timed as the library's own search
     const PairsFound found = find_pairs(tree, asked);
     return {found.family, found.tests};
   }
@@ -103,6 +104,8 @@ py::tuple closest_by_diagram(const Numbers& centers, const Numbers& radii,
     });
   }
   py::object pair = py::none();
+  if (report.pair && !std::isfinite(report.pair->distance))
+    throw InputError("centers: are too large, so that their distances overflow doubles");
   if (report.pair) pair = py::make_tuple(report.pair->first, report.pair->second, report.pair->distance);
   const PairsLookedAt& looked = report.looked_at;
   py::dict counts;
@@ -116,7 +119,7 @@ py::tuple closest_by_diagram(const Numbers& centers, const Numbers& radii,
 
 py::tuple trusted_hierarchy(const Numbers& before, const Numbers& after, const Numbers& radii,
                             std::size_t rounds) {
-  const BallsGiven first(before, radii), second(after, radii);
+  const BallsGiven first(before, radii, "before"), second(after, radii, "after");
   if (first.radii.size() != second.radii.size() || first.dimension != second.dimension)
     throw InputError("after: has another shape than before; expected the same beads");
   std::vector<std::int64_t> bases;

@@ -13,7 +13,7 @@
 #include "experiments/program/timing.h"
 #include "motions/base/input_error.h"
 #include "python/arrays.h"
-#include "python/static_structures.h"
+#include "python/balls_given.h"
 #include "python/watch.h"
 #include "structures/collision/hierarchy_search.h"
 #include "structures/hierarchy/layered_hierarchy.h"
@@ -27,19 +27,9 @@ namespace py = pybind11;
 
 namespace {
 
-Eigen::Matrix3Xd matrix_of(const Numbers& points) {
-  if (points.ndim() != 2 || points.shape(1) < 2 || points.shape(1) > 3 || points.shape(0) < 2)
-    throw InputError(fmt::format("centers: has the shape {}; expected (beads, 3) or (beads, 2)",
-                                 std::string(py::str(points.attr("shape")))));
-  Eigen::Matrix3Xd matrix = Eigen::Matrix3Xd::Zero(3, points.shape(0));
-  for (py::ssize_t bead = 0; bead < points.shape(0); ++bead)
-    for (py::ssize_t axis = 0; axis < points.shape(1); ++axis) matrix(axis, bead) = points.at(bead, axis);
-  return matrix;
-}
-
 template <int Dimension>
-Balls<Dimension> balls_of(const Numbers& points, double radius) {
-  const Eigen::Matrix3Xd centers = matrix_of(points);
+Balls<Dimension> balls_of(const char* name, const Numbers& points, double radius) {
+  const Eigen::Matrix3Xd centers = points_given(name, points, 2);
   return Balls<Dimension>(centers, std::vector<double>(static_cast<std::size_t>(centers.cols()), radius));
 }
 
@@ -83,7 +73,7 @@ py::dict timed_in_turn(std::size_t rounds, const std::vector<Work>& works) {
 
 template <int Dimension>
 py::dict builds(const Numbers& points, std::size_t rounds) {
-  const Eigen::Matrix3Xd centers = matrix_of(points);
+  const Eigen::Matrix3Xd centers = points_given("centers", points, 2);
   const std::vector<double> zeros(static_cast<std::size_t>(centers.cols()), 0.0);
   const Balls<Dimension> balls(centers, zeros);
   StaticWrappedHierarchy<Dimension> wrapped(one_necklace(points));
@@ -121,7 +111,7 @@ bool collides(const Balls<Dimension>& balls) {
 
 template <int Dimension>
 py::dict searches(const Numbers& points, double radius, std::size_t apart, std::size_t rounds) {
-  const Balls<Dimension> balls = balls_of<Dimension>(points, radius);
+  const Balls<Dimension> balls = balls_of<Dimension>("centers", points, radius);
   const std::vector<BeadRange> necklaces = one_necklace(points);
   const PairsAsked asked{necklaces, true, static_cast<BeadId>(apart), true};
   SphereTree<Dimension> wrapped(Hierarchy::wrapped, necklaces), layered(Hierarchy::layered, necklaces);
@@ -151,8 +141,8 @@ class TimedUpdate {
 
   TimedUpdate(const Numbers& before, const Numbers& after, const std::vector<BeadRange>& necklaces,
               Update how)
-      : before_(balls_of<Dimension>(before, 0)),
-        after_(balls_of<Dimension>(after, 0)),
+      : before_(balls_of<Dimension>("before", before, 0)),
+        after_(balls_of<Dimension>("after", after, 0)),
         hierarchy_(necklaces),
         how_(how) {
     hierarchy_.build(before_);
@@ -216,7 +206,8 @@ double mean_frontier(const StaticWrappedHierarchy<Dimension>& hierarchy, const W
 }
 
 void check_frames(const Numbers& before, const Numbers& after) {
-  if (matrix_of(before).cols() != matrix_of(after).cols() || before.shape(1) != after.shape(1))
+  const Eigen::Index beads = points_given("before", before, 2).cols();
+  if (points_given("after", after, 2).cols() != beads || before.shape(1) != after.shape(1))
     throw InputError(fmt::format("after: has the shape {}; expected that of before, {}",
                                  std::string(py::str(after.attr("shape"))),
                                  std::string(py::str(before.attr("shape")))));
@@ -238,7 +229,7 @@ py::dict updates(const Numbers& before, const Numbers& after, std::size_t rounds
           });
         }}});
   StaticWrappedHierarchy<Dimension> moved(necklaces);
-  const Balls<Dimension> start = balls_of<Dimension>(before, 0);
+  const Balls<Dimension> start = balls_of<Dimension>("before", before, 0);
   const auto tests = [](const WrapCounts& counts) { return counts.bead_tests + counts.cage_tests; };
   const auto [by_naive, by_cascade] = released([&] {
     moved.build(start);
@@ -314,12 +305,14 @@ class SearchBetween {
 template <int Dimension>
 py::dict updates_between(const Numbers& before, const Numbers& after, std::size_t first, std::size_t rounds) {
   const auto beads = static_cast<std::size_t>(before.shape(0));
-  if (first < 2 || first + 2 > beads)
+  if (beads < 4)
+    throw InputError(fmt::format("before: has {} beads; expected two necklaces of 2 or more", beads));
+  if (first < 2 || first > beads - 2)
     throw InputError(fmt::format("first: is {}; expected the number of beads of the first necklace, 2 to {}",
                                  first, beads - 2));
   const std::vector<BeadRange> necklaces{{0, static_cast<BeadId>(first - 1)},
                                          {static_cast<BeadId>(first), static_cast<BeadId>(beads - 1)}};
-  const Balls<Dimension> end = balls_of<Dimension>(after, 0);
+  const Balls<Dimension> end = balls_of<Dimension>("after", after, 0);
   LayeredHierarchy<Dimension> layered(necklaces);
   TimedUpdate<Dimension> lazy(before, after, necklaces, Update::lazy),
       full(before, after, necklaces, Update::cascade);
@@ -340,7 +333,7 @@ py::dict updates_between(const Numbers& before, const Numbers& after, std::size_
                                           {"lazy", [&] { return lazy.seconds(arrived); }},
                                           {"full", [&] { return full.seconds(arrived); }}});
   StaticWrappedHierarchy<Dimension> wrapped(necklaces);
-  const Balls<Dimension> start = balls_of<Dimension>(before, 0);
+  const Balls<Dimension> start = balls_of<Dimension>("before", before, 0);
   const WrapCounts counts = released([&] {
     layered.build(end);
     wrapped.build(start);

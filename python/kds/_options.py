@@ -24,6 +24,7 @@ _NO_ARGUMENTS = {
     "rounds": "a run is made once; kds.compare takes it", "help": "help(kds.run) explains all arguments"}
 
 _FOLDER = os.path.dirname(__file__)
+LARGEST = 2**62  # whole numbers of the extension module have 64 bits
 
 
 class InputWarning(UserWarning):
@@ -98,6 +99,8 @@ def whole(name, value, least=None):
         raise InputError(f"{name}: is {value!r}; expected {expected}") from None
     if least is not None and found < least:
         raise InputError(f"{name}: is {found}; expected {expected}")
+    if abs(found) > LARGEST:
+        raise InputError(f"{name}: is {found}; expected at most {LARGEST}")
     return found
 
 

@@ -1,7 +1,7 @@
 """Quantities of balls at rest that experiments/paper counts and times. Times are processor times in seconds."""
 
 from . import _kds
-from ._options import flag, numbers, whole, wholes
+from ._options import flag, plain, whole, wholes
 from ._static import _balls
 
 
@@ -54,5 +54,5 @@ def trusted_hierarchy(before, after, radius, *, rounds=0):
     >>> bases[0].tolist(), spheres[0].tolist()
     ([0, 1, -1, -1], [2.0, 0.0, 0.0, 3.0])
     """
-    return _kds.trusted_hierarchy(numbers("before", before), numbers("after", after), _balls(before, radius)[1],
+    return _kds.trusted_hierarchy(plain("before", before), plain("after", after), _balls(before, radius)[1],
                                   whole("rounds", rounds, 0))

@@ -3,12 +3,12 @@
 import numpy as np
 
 from . import _kds
-from ._options import number, numbers, whole, wholes
+from ._options import number, plain, whole, wholes
 
 
 def _balls(centers, radius):
     """Returns both as arrays of numbers."""
-    return numbers("centers", centers), np.ravel(numbers("radius", radius))
+    return plain("centers", centers), np.ravel(plain("radius", radius))
 
 
 def power_diagram(centers, radius):

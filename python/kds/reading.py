@@ -15,4 +15,4 @@ def positions(path, topology=None):
     >>> kds.reading.positions(os.path.join(data, "proteins", "1l2y.pdb")).shape[1:]
     (60, 3)
     """
-    return _kds.read_positions(os.fspath(path), "" if topology is None else os.fspath(topology))
+    return _kds.read_positions(os.fspath(path), None if topology is None else os.fspath(topology))

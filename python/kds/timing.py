@@ -6,7 +6,7 @@ The scripts of experiments/paper measure with these functions.
 """
 
 from . import _kds
-from ._options import number, numbers, whole
+from ._options import number, plain, whole
 
 
 def builds(centers, *, rounds=5):
@@ -21,7 +21,7 @@ def builds(centers, *, rounds=5):
     >>> len(found["wrapped"]), 0.5 < found["rho_min"] <= found["rho_avg"] <= 1
     (3, True)
     """
-    return _kds.time_builds(numbers("centers", centers), whole("rounds", rounds, 0))
+    return _kds.time_builds(plain("centers", centers), whole("rounds", rounds, 0))
 
 
 def searches(centers, radius=0, *, apart=2, rounds=5):
@@ -36,7 +36,7 @@ def searches(centers, radius=0, *, apart=2, rounds=5):
     >>> found["wrapped_pairs"], found["collisions"]
     (3, 0)
     """
-    return _kds.time_searches(numbers("centers", centers), number("radius", radius, "a length from 0"),
+    return _kds.time_searches(plain("centers", centers), number("radius", radius, "a length from 0"),
                               whole("apart", apart, 1), whole("rounds", rounds, 0))
 
 
@@ -53,7 +53,7 @@ def updates(before, after, *, rounds=5):
     >>> found["cascade_tests"] < found["naive_tests"]
     True
     """
-    return _kds.time_updates(numbers("before", before), numbers("after", after), whole("rounds", rounds, 0))
+    return _kds.time_updates(plain("before", before), plain("after", after), whole("rounds", rounds, 0))
 
 
 def updates_between(before, after, first, *, rounds=5):
@@ -68,5 +68,5 @@ def updates_between(before, after, first, *, rounds=5):
     >>> kds.timing.updates_between(line, line, 2, rounds=1)["wrapped_pairs"]
     1
     """
-    return _kds.time_updates_between(numbers("before", before), numbers("after", after), whole("first", first, 2),
+    return _kds.time_updates_between(plain("before", before), plain("after", after), whole("first", first, 2),
                                      whole("rounds", rounds, 0))

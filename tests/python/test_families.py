@@ -2,9 +2,12 @@
 
 import itertools
 import math
+import os
 import unittest
 
 import kds
+import kds.reading
+import kds.timing
 import numpy as np
 
 RULES = ("more beads", "larger sphere", "first node")
@@ -161,6 +164,39 @@ class AtRest(unittest.TestCase):
                 self.assertAlmostEqual(sphere[3], math.dist(*after[beads]) / 2 + 1, places=9)
                 of_two += 1
         self.assertGreater(of_two, 20)
+
+
+class Refusals(unittest.TestCase):
+    def assert_refused(self, text, function, *arguments, **options):
+        with self.assertRaises(kds.InputError) as refused:
+            function(*arguments, **options)
+        self.assertIn(text, str(refused.exception))
+        self.assertNotIn("\n", str(refused.exception))
+
+    def test_points_that_are_none(self):
+        line = [[0, 0, 0], [2, 0, 0], [4, 0, 0], [6, 0, 0]]
+        for bad in (math.nan, math.inf):
+            points = [[0, 0, bad], *line[1:]]
+            self.assert_refused("centers: bead 0 has z", kds.timing.builds, points)
+            self.assert_refused("centers: bead 0 has z", kds.timing.searches, points)
+            self.assert_refused("after: bead 0 has z", kds.timing.updates, line, points)
+            self.assert_refused("before: bead 0 has z", kds.timing.updates_between, points, line, 2)
+            self.assert_refused("before: bead 0 has z", kds.trusted_hierarchy, points, line, 1)
+        self.assert_refused("centers: has 1 bead; expected 2", kds.timing.builds, line[:1])
+        self.assert_refused("expected two necklaces", kds.timing.updates_between, line[:3], line[:3], 2)
+        self.assert_refused("rounds: is 1000", kds.timing.builds, line, rounds=10**20)
+        self.assert_refused("would round", kds.layered_hierarchy, np.array([[0, 0, 0], [2**62 + 1, 0, 0]]), 1)
+
+    def test_results_that_are_no_doubles(self):
+        far = [[-1.7e308, 0, 0], [1.7e308, 1.7e308, 0]]
+        self.assert_refused("too large", kds.trusted_hierarchy, far, far, 1)
+        self.assert_refused("too large", kds.closest_by_diagram, [*far, [0, -1.7e308, 0]], 0)
+
+    def test_files_that_are_none(self):
+        file = os.path.join(os.environ["KDS_DATA"], "proteins", "1l2y.pdb")
+        self.assert_refused("no such file", kds.reading.positions, "nowhere.pdb")
+        self.assert_refused("'nowhere.pdb': no such file", kds.reading.positions, file, "nowhere.pdb")
+        self.assert_refused("null character", kds.reading.positions, file + "\0x")
 
 
 if __name__ == "__main__":
