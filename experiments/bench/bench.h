@@ -18,7 +18,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "kds/stopwatch.h"
+#include "experiments/program/timing.h"
 
 namespace kds::bench {
 
@@ -37,11 +37,6 @@ struct TimedWork {
   std::map<std::string, double> counters = {};  ///< ratios of counts, by the names of their rows
 };
 
-template <class Call>
-double processor_seconds_of(const Call& call) {
-  return seconds_of<ProcessorClock>(call);
-}
-
 /// Returns a function that calls `make` at its first call, keeps the result and returns a reference to it. So
 /// only inputs of benchmarks that run are made.
 template <class Make>
@@ -57,14 +52,15 @@ auto lazily(Make make) {
 template <class Make>
 void add(const std::string& name, const Make& make) {
   constexpr bool timed = std::same_as<std::invoke_result_t<Make>, TimedWork>;
-  auto* const registered = benchmark::RegisterBenchmark(name.c_str(), [made = lazily([make] {
-                                                                         auto work = make();
-                                                                         if constexpr (timed)
-                                                                           static_cast<void>(work.seconds());
-                                                                         else
-                                                                           work.run();
-                                                                         return work;
-                                                                       })](benchmark::State& state) {
+  const auto made = lazily([make] {
+    auto work = make();
+    if constexpr (timed)
+      static_cast<void>(work.seconds());
+    else
+      work.run();
+    return work;
+  });
+  const auto repeat = [made](benchmark::State& state) {
     const auto& work = made();
     if constexpr (timed) {
       for ([[maybe_unused]] auto call : state) state.SetIterationTime(work.seconds());
@@ -74,7 +70,8 @@ void add(const std::string& name, const Make& make) {
     }
     state.SetLabel(work.unit);
     if (work.items > 0) state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(work.items));
-  });
+  };
+  auto* const registered = benchmark::RegisterBenchmark(name.c_str(), repeat);
   if (timed) registered->UseManualTime();
 }
 

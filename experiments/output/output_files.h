@@ -2,7 +2,7 @@
 // Results that appear whole or not at all (atomic rename). A result waits in PLACE.part, a folder beside its
 // place, until every result of the command is complete. PLACE.part is locked while it is in use, and is
 // removed if the command fails. A killed program leaves it. The next result for that place says so and
-// replaces it.
+// replaces it, unless it holds other files.
 
 #include <filesystem>
 #include <initializer_list>

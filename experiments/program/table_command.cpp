@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "experiments/output/output_files.h"
@@ -22,6 +23,11 @@ bool same_file(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, error) || place_of(a) == place_of(b);
 }
 
+// Returns the place of a result and its PLACE.part.
+std::array<fs::path, 2> places_of(const fs::path& place) {
+  return {place, place_of(place).string() + ".part"};
+}
+
 }  // namespace
 
 void TakenPaths::read(const InputOptions& options) {
@@ -34,13 +40,6 @@ void TakenPaths::read(const InputOptions& options) {
   if (options.radius.starts_with(file)) add("--radius", options.radius.substr(file.size()));
 }
 
-void TakenPaths::read_folder(const std::string& owner, const fs::path& folder) {
-  std::error_code error;
-  for (fs::recursive_directory_iterator file(folder, error), end; file != end && !error;
-       file.increment(error))
-    if (file->is_regular_file(error)) add(owner, file->path());
-}
-
 void TakenPaths::write_json(const std::string& destination) {
   if (destination == "-") return write("--json -", "/dev/stdout");
   write("--json", destination);
@@ -49,38 +48,47 @@ void TakenPaths::write_json(const std::string& destination) {
 void TakenPaths::write(const std::string& option, const fs::path& path) {
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_regular_file(path, error)) return;
-  for (const auto& [owner, other] : taken_)
-    if (same_file(path, other))
-      throw InputError(fmt::format("{} {}: is the file of {}", option, path.string(), owner));
-  for (const auto& [owner, directory] : directories_) {
-    if (leads_to(path, directory))
-      throw InputError(
-          fmt::format("{} {}: is to be a directory, for {} {}, expected another place for the file", option,
-                      path.string(), owner, directory.string()));
-    if (leads_to(directory, path))
-      throw InputError(
-          fmt::format("{} {}: lies in the directory of {}, which appears as a whole, expected "
-                      "another place for the file",
-                      option, path.string(), owner));
+  for (const fs::path& place : places_of(path)) {
+    for (const auto& [owner, other] : taken_)
+      if (same_file(place, other))
+        throw InputError(fmt::format("{} {}: is the file of {}", option, place.string(), owner));
+    for (const auto& [owner, directory] : directories_) {
+      if (leads_to(place, directory))
+        throw InputError(
+            fmt::format("{} {}: is to be a directory, for {} {}, expected another place for the file", option,
+                        place.string(), owner, directory.string()));
+      if (leads_to(directory, place))
+        throw InputError(
+            fmt::format("{} {}: lies in the directory of {}, which appears as a whole, expected "
+                        "another place for the file",
+                        option, place.string(), owner));
+    }
   }
-  add(option, path);
+  for (const fs::path& place : places_of(path)) add(option, place);
 }
 
 void TakenPaths::write_into(const std::string& option, const fs::path& directory) {
-  for (const auto& [owner, file] : taken_)
-    if (leads_to(file, directory))
-      throw InputError(fmt::format("{} {}: {} is the file of {}, expected a directory", option,
-                                   directory.string(), file.string(), owner));
-  for (const auto& [owner, path] : taken_)
-    if (leads_to(directory, path))
-      throw InputError(
-          fmt::format("{} {}: {} lies there, which is the file of {}; expected another directory", option,
-                      directory.string(), path.string(), owner));
-  for (const auto& [owner, other] : directories_)
-    if (leads_to(directory, other) || leads_to(other, directory))
-      throw InputError(fmt::format("{} {}: is in the way of {} {}, expected another directory", option,
-                                   directory.string(), owner, other.string()));
-  directories_.emplace_back(option, directory);
+  for (const fs::path& place : places_of(directory)) {
+    for (const auto& [owner, file] : taken_) {
+      if (leads_to(file, place))
+        throw InputError(fmt::format("{} {}: {} is the file of {}, expected a directory", option,
+                                     place.string(), file.string(), owner));
+      if (leads_to(place, file))
+        throw InputError(
+            fmt::format("{} {}: {} lies there, which is the file of {}; expected another directory", option,
+                        place.string(), file.string(), owner));
+    }
+    for (const auto& [owner, other] : directories_)
+      if (leads_to(place, other) || leads_to(other, place))
+        throw InputError(fmt::format("{} {}: is in the way of {} {}, expected another directory", option,
+                                     place.string(), owner, other.string()));
+  }
+  for (const fs::path& place : places_of(directory)) directories_.emplace_back(option, place);
+}
+
+void TakenPaths::require_directory(bool replace) const {
+  if (replace && directories_.empty())
+    throw InputError("--replace: replaces a directory of results, expected --out DIR as well");
 }
 
 void TakenPaths::write(const Destinations& destinations) {
@@ -107,6 +115,7 @@ void TableCommand::check_destinations(TakenPaths taken) {
 
 void TableCommand::check_destinations(TakenPaths taken, const std::vector<std::string>& files) {
   taken.write(destinations_);
+  taken.require_directory(destinations_.replace);
   const auto& [out, json, quiet, paper, replace] = destinations_;
   if (json && *json != "-") ensure_writable_file(*json, "--json");
   if (std::ranges::find(files, kReport) != files.end()) check_page(destinations_);

@@ -37,19 +37,19 @@ class TakenPaths {
   }
   /// Registers the files that are read.
   void read(const InputOptions& options);
-  /// Registers all files in a folder from which some are read.
-  void read_folder(const std::string& owner, const std::filesystem::path& folder);
   /// Registers the destination of --json: a file, as `write` does, or - for standard output, which may itself
   /// be redirected to a file.
   void write_json(const std::string& destination);
-  /// Registers a file that will be written. Throws InputError if the file is already registered, or is or
-  /// lies in a directory of another result. Devices may be shared.
+  /// Registers a file that will be written, and its PLACE.part (output_files.h). Throws InputError if one of
+  /// them is already registered, or is or lies in a directory of another result. Devices may be shared.
   void write(const std::string& option, const std::filesystem::path& path);
-  /// Registers a directory that will be written as a whole. Throws InputError if the directory or one of its
-  /// parents is registered as a file, or if a registered file or directory lies in it.
+  /// Registers a directory that will be written as a whole, and its PLACE.part. Throws InputError if one of
+  /// them or of their parents is registered as a file, or if a registered file or directory lies in them.
   void write_into(const std::string& option, const std::filesystem::path& directory);
   /// Registers the destinations --out and --json.
   void write(const Destinations& destinations);
+  /// Throws InputError if --replace is given (`replace`) and no directory is registered.
+  void require_directory(bool replace) const;
 
  private:
   std::vector<std::pair<std::string, std::filesystem::path>> taken_, directories_;

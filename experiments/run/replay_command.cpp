@@ -200,6 +200,7 @@ int replay_command(const Arguments& arguments) {
   const RunOptions run = logged_run(log);
   paths.read(run);
   paths.write(destinations);
+  paths.require_directory(destinations.replace);
   const auto& events = options.events;
   if (events) paths.write("--events", *events);
   if (options.view) paths.write("--view", *options.view);

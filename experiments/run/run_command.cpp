@@ -20,6 +20,7 @@ void check_before_run(const RunOptions& options) {
   paths.read(options);
   paths.write(options);
   if (options.dump) paths.write_into("--dump", *options.dump);
+  paths.require_directory(options.replace);
   if (options.events) paths.write("--events", *options.events);
   if (options.log) paths.write("--log", *options.log);
   if (options.view) paths.write("--view", *options.view);

@@ -149,8 +149,8 @@ const OptionList<RunOptions>& motion_and_structure_options() {
                   {"wrapped"},
                   choice_option({"--between", "NAME",
                                  "spheres of wrapped between frames. events: the smallest sphere at every "
-                                 "moment; chord: "
-                                 "interpolated between the frames, faster, without events (default: events)"},
+                                 "moment; chord: interpolated between the frames, faster, without events "
+                                 "(default: events)"},
                                 &O::between, between_names)),
               real_option({"--tightness", "EPS",
                            "with --between chord: keep radii within 1 + EPS times the smallest, splitting a "

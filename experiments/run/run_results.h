@@ -24,8 +24,7 @@ namespace kds {
 
 class RunResults {
  public:
-  /// `events` is the file that gets every event, if any, and `view` the page that
-  /// shows the run.
+  /// `events` is the file that gets every event, if any, and `view` the page that shows the run.
   explicit RunResults(Destinations destinations, std::optional<std::filesystem::path> events = std::nullopt,
                       std::optional<std::filesystem::path> view = std::nullopt)
       : destinations_(std::move(destinations)),

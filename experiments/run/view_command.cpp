@@ -105,6 +105,8 @@ void check_before_view(const ViewOptions& options) {
     paths.write_into("--vtk", *options.vtk);
     check_directory(*options.vtk, "--vtk", options.replace);
   }
+  if (options.replace && !options.vtk)
+    throw InputError("--replace: replaces a directory of results, expected --vtk DIR as well");
   if (options.page) ensure_writable_file(*options.page, "-o");
   if (options.script) ensure_writable_file(*options.script, "--script");
 }

@@ -16,6 +16,7 @@
 #include "certificates/exact/exact_polynomial.h"
 #include "certificates/search/certificate_search.h"
 #include "certificates/types/orientation.h"
+#include "experiments/program/timing.h"
 #include "experiments/stability/compare_answers.h"
 #include "experiments/stability/stability.h"
 #include "experiments/stability/stability_scenes.h"
@@ -193,7 +194,7 @@ class CertificateTrial {
           [&] { answers.push_back(follow(kernel, c->certificate, *c->search, stages)); });
       spent.push_back(time / static_cast<double>(answers.back().size()));
     }
-    seconds = median(std::move(spent));
+    seconds = median_of(std::move(spent));
     return answers;
   }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "experiments/program/timing.h"
 #include "experiments/stability/stability.h"
 #include "experiments/stability/stability_scenes.h"
 #include "kds/event_log.h"
@@ -147,7 +148,7 @@ StabilitySubject structure_subject(const std::string& structure, Of of, int dime
       }
       add_case(row, times, {structure, settings}, one);
     }
-    row.seconds = {median(std::move(times.filtered)), median(std::move(times.exact))};
+    row.seconds = {median_of(std::move(times.filtered)), median_of(std::move(times.exact))};
     return row;
   };
   return subject;

@@ -53,9 +53,6 @@ struct StabilityRow {
 /// Returns a name such as "power_test 3D degree 1, scale:2^300".
 [[nodiscard]] std::string name_of(const StabilityRow& row);
 
-/// Returns the median, or 0 if there are no values.
-[[nodiscard]] double median(std::vector<double> values);
-
 /// Keeps the first problem of a row: its description, and the data to reproduce it.
 void note_trouble(StabilityRow& row, std::size_t number, const std::string& reason,
                   const std::string& motion);

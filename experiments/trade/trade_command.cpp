@@ -129,10 +129,8 @@ const OptionList<TradeOptions>& trade_options() {
           .with(OptionList<InputOptions>(
               {only_for({"contacts", "events", "scenes"},
                         groups_option("contacts: one bead of a pair must be in SEL1 and the other in SEL2, "
-                                      "each as --select takes "
-                                      "it, "
-                                      "among the beads that are read; leaves out settings with --select ca "
-                                      "(default: all pairs)"))}))
+                                      "each as --select takes it, among the beads that are read; leaves out "
+                                      "settings with --select ca (default: all pairs)"))}))
           .with(destination_options("write trade.json, trade.csv and report.html to DIR (default: none)",
                                     "write the rows to FILE; - is standard output (default: none)",
                                     "print no table and no progress bar; the bar counts runs: one of each "

@@ -1,6 +1,6 @@
 #pragma once
 // Pairs of nodes of a tree: where searches over them start, and whether two spheres are disjoint.
-// For searches, which are in this folder and in python/separating_families.cpp.
+// Private to the searches of this folder and of python/separating_families.cpp.
 
 #include <cstdint>
 #include <span>

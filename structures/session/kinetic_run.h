@@ -78,12 +78,11 @@ class StructureByType final : public RunningStructure {
   Structure structure_;
 };
 
-/// Throws std::invalid_argument for any index of a structure, frame or step that is too large; the message
-/// says how many there are.
+/// A run of structures over one motion. Functions that take an index of a structure, frame or step throw
+/// std::invalid_argument if it is too large; the message says how many there are.
 class KineticRun {
  public:
-  /// A run over frames that are pushed. Throws StructureRefusal, or InputError if the
-  /// motion is refused.
+  /// A run over frames that are pushed. Throws StructureRefusal, or InputError if the motion is refused.
   KineticRun(PushedFrames frames, const KineticRunOptions& options);
   /// A run over a scene, which must outlive the run.
   KineticRun(const Scene& scene, const KineticRunOptions& options);

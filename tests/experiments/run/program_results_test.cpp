@@ -248,6 +248,14 @@ TEST(Program, AnOutputIsAFileOrADirectory) {
   for (const char* below : {"", "/below"})
     expect_refused({"generate", "grid", "--beads", "8", "-o", both + ".xyz", "--out", both + ".xyz" + below},
                    {"--out", "both.xyz is the file of -o, expected a directory"});
+  // Results wait in PLACE.part.
+  const std::string part = both + ".part";
+  expect_refused({"run", kSmall, "--json", part, "--out", both}, {"--json", "both.part", "--out"});
+  expect_refused({"run", kSmall, "--log", both, "--events", part}, {"both.part: is the file of"});
+  expect_refused({"run", kSmall, "--dump", part, "--out", both}, {"both.part", "is in the way of"});
+  for (const char* command : {"run", "compare", "info"})
+    expect_refused({command, kTrajectory, "--replace"}, {"--replace: replaces a directory of results"});
+  expect_refused({"view", kTrajectory, "-o", both, "--replace"}, {"--replace", "--vtk DIR"});
   EXPECT_EQ(directory.entries(), 0U);
 }
 

@@ -85,13 +85,13 @@ void drop_machine(Json& json) {
     for (Json& member : json) drop_machine(member);
 }
 
-/// Returns the files below a folder by name, without what depends on the machine. Leaves out pages, lists of
-/// checksums, and tables with seconds, whose rows are in JSON too.
+/// Returns the files below a folder by name, without what depends on the machine. Leaves out pages, hashes
+/// of their contents, and tables with seconds, whose rows are in JSON too.
 std::map<std::string, std::string> files_below(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().lexically_relative(folder).string();
-    if (!entry.is_regular_file() || name.ends_with(".html") || name.ends_with(".files") ||
+    if (!entry.is_regular_file() || name.ends_with(".html") || name == "out/.kds-results" ||
         name == "out/compare.csv" || name == "out/trade.csv")
       continue;
     std::string& content = files[name] = content_of(entry.path());
