@@ -1,10 +1,13 @@
 #include "structures/chord_cages/chord_cages.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 #include "motions/base/floating_point_guard.h"
+#include "motions/base/input_error.h"
 #include "structures/enclosing_sphere/cage.h"
 
 namespace kds {
@@ -88,6 +91,13 @@ void ChordCages<Hierarchy>::take(int k) {
   const auto place = static_cast<std::size_t>(k);
   bring_to(hierarchy_, balls_[place]);
   cages_[place].take(hierarchy_, balls_[place]);
+  // No sphere is larger than the one at the root of its necklace.
+  for (NodeId root = 0; root < tree().node_count();
+       root += tree().range(root).last - tree().range(root).first)
+    if (!std::isfinite(cages(k)[root].radius))
+      throw InputError("the sphere around beads " + std::to_string(tree().range(root).first) + " to " +
+                       std::to_string(tree().range(root).last) +
+                       " exceeds the range of numbers; give all lengths in a larger unit");
 }
 
 template <class Hierarchy>

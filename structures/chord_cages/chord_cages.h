@@ -90,6 +90,8 @@ class ChordCages {
   /// If `keep_bases`, the bases of each step's start are kept too, provided that the hierarchy has bases.
   ChordCages(std::span<const BeadRange> necklaces, int degree, bool keep_bases = false);
 
+  // The functions below throw InputError if a radius exceeds the range of double.
+
   /// Builds the cages at the beads' positions at the start of the first step. Until the beads move, only
   /// control point 0 has cages.
   void build(const Curves<dimension>& curves);

@@ -12,6 +12,12 @@
 
 namespace kds {
 
+namespace {
+
+constexpr unsigned finest_grid = 200;  // binary places of times at which edits look
+
+}  // namespace
+
 template <int Dimension>
 void DiagramEditor<Dimension>::require_time() const {
   state_.simulator.require_standing_still();
@@ -67,7 +73,9 @@ bool DiagramEditor<Dimension>::stays_flat(std::span<const BeadId> beads) const {
 
 template <int Dimension>
 std::optional<Dyadic> DiagramEditor<Dimension>::rational_now() const {
-  const ExactTime& now = state_.simulator.now().exact();
+  // The kernels know the time of one event as a number or as a root. On the grid both become the number.
+  ExactTime& now = state_.simulator.now().exact();
+  static_cast<void>(next_on_grid(now, finest_grid));
   return now.is_dyadic() ? std::optional(now.lower()) : std::nullopt;
 }
 
@@ -257,7 +265,7 @@ void DiagramEditor<Dimension>::take_out(BeadId bead, std::span<const CellId> hol
   if (const auto now = rational_now()) {
     if (try_at(*now, false)) return;
   } else {
-    for (const unsigned bits : {80U, 200U}) {  // an event before these times is very unlikely
+    for (const unsigned bits : {80U, finest_grid}) {  // an event before these times is very unlikely
       const Dyadic time = next_on_grid(state_.simulator.now().exact(), bits);
       if (time < Dyadic(1.0) && try_at(time, true)) return;
     }
