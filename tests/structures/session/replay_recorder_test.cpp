@@ -239,7 +239,7 @@ INSTANTIATE_TEST_SUITE_P(ReplayRecorder, RecordedIn,
 TEST(ReplayRecorder, KeepsChangesOfTiesRepairsAndRebuilds) {
   std::size_t rebuilds = 0;
   for (std::uint64_t seed = 1; seed <= rounds(40U, 8U); ++seed) {
-    const auto lattice = lattice_scene(seed);
+    const auto lattice = lattice_balls(seed);
     const Scene scene({&lattice.necklace, 1}, lattice.radii);
     SCOPED_TRACE(seed);
     try {

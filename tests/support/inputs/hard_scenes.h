@@ -62,14 +62,14 @@ inline Instance wild_instance(std::uint64_t seed) {
 
 /// A scene of 5 to 16 balls with a few different radii in 2 to 4 frames. Coordinates are -1, 0 and 1, or
 /// slightly larger. Many balls coincide, contain each other, rest, or change places at the same time.
-struct LatticeScene {
+struct LatticeBalls {
   Trajectory necklace;
   std::vector<double> radii;
 };
-inline LatticeScene lattice_scene(std::uint64_t seed) {
+inline LatticeBalls lattice_balls(std::uint64_t seed) {
   Random random(seed);
-  LatticeScene lattice;
-  lattice.necklace.file = "lattice scene of seed " + std::to_string(seed);
+  LatticeBalls lattice;
+  lattice.necklace.file = "lattice balls of seed " + std::to_string(seed);
   const int beads = pick(random, 5, 16), frames = pick(random, 2, 4), reach = pick(random, 1, 2);
   for (int frame = 0; frame < frames; ++frame) {
     Eigen::Matrix3Xd& positions = lattice.necklace.frames.emplace_back(3, beads);

@@ -1,0 +1,267 @@
+#include "tests/laws/exact_balls.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace kds::test {
+
+using Integer = second::Integer;
+using Rational = second::Rational;
+
+Beads box_of(const ExactBalls& balls, const Beads& present) {
+  const auto& at = balls.centers;
+  Beads ends;
+  for (std::size_t axis = 0; axis < balls.dimension(); ++axis) {
+    for (const bool high : {false, true}) {
+      BeadId end = no_bead;
+      for (const BeadId b : present)
+        if (end == no_bead || (high ? at[b][axis] > at[end][axis] : at[b][axis] < at[end][axis])) end = b;
+      ends.push_back(end);
+    }
+  }
+  return ends;
+}
+
+Beads closest_of(const ExactBalls& balls, const Beads& present) {
+  Beads closest;
+  Integer least;
+  for (const BeadId a : present) {
+    for (const BeadId b : present) {
+      if (a >= b) continue;
+      const Integer square = balls.square(a, b);
+      if (!closest.empty() && least <= square) continue;
+      closest = {a, b};
+      least = square;
+    }
+  }
+  return closest;
+}
+
+Beads hull_of(const ExactBalls& balls, const Beads& present) {
+  if (present.empty()) return {};
+  const auto& at = balls.centers;
+  const auto first =
+      *std::min_element(present.begin(), present.end(), [&](BeadId a, BeadId b) { return at[a] < at[b]; });
+  Beads corners;
+  BeadId last = first;
+  do {
+    corners.push_back(last);
+    BeadId next = last;
+    for (const BeadId b : present) {
+      if (at[b] == at[last]) continue;
+      const Integer turn = next == last ? Integer(-1)
+                                        : (at[next][0] - at[last][0]) * (at[b][1] - at[last][1]) -
+                                              (at[next][1] - at[last][1]) * (at[b][0] - at[last][0]);
+      const bool is_between = turn == 0 && (at[next] < at[last] ? at[b] < at[next] : at[next] < at[b]);
+      if (turn < 0 || is_between) next = b;  // the farthest of collinear beads
+    }
+    last = next;
+  } while (at[last] != at[first]);
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+Beads supports_of(const ExactBalls& balls, const Beads& present, const std::vector<BeadRange>& nodes,
+                  std::span<const SlabDirection> directions) {
+  Beads supports;
+  for (const BeadRange& node : nodes) {
+    for (std::size_t side = 0; side < 2 * directions.size(); ++side) {
+      const SlabDirection& direction = directions[side / 2];
+      BeadId support = no_bead;
+      for (const BeadId b : present) {
+        if (b < node.first || node.last < b) continue;
+        if (support == no_bead) {
+          support = b;
+          continue;
+        }
+        Integer along = 0;
+        for (std::size_t axis = 0; axis < balls.dimension(); ++axis)
+          along += (side % 2 == 0 ? -1 : 1) * direction.steps[axis] *
+                   (balls.centers[b][axis] - balls.centers[support][axis]);
+        const Integer larger = balls.radii[b] - balls.radii[support];
+        const Integer of_radii = direction.square() * larger * larger;
+        const bool is_further =
+            larger >= 0 ? along > 0 || along * along < of_radii : along > 0 && along * along > of_radii;
+        if (is_further) support = b;
+      }
+      supports.push_back(support);
+    }
+  }
+  return supports;
+}
+
+Beads contacts_of(const ExactBalls& balls, const Beads& present, const PairsAsked& asked) {
+  Beads pairs;
+  for (const BeadId a : present) {
+    for (const BeadId b : present) {
+      if (a >= b || !asked.asks({a, b})) continue;
+      const Integer reach = balls.radii[a] + balls.radii[b];
+      if (balls.square(a, b) <= reach * reach) pairs.insert(pairs.end(), {a, b});
+    }
+  }
+  return pairs;
+}
+
+std::optional<std::string> not_sorted(const ExactBalls& balls, const Beads& present, const Beads& order) {
+  Beads ascending = order;
+  std::sort(ascending.begin(), ascending.end());
+  if (ascending != present) return "the list does not have each bead once";
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (balls.centers[order[i - 1]][0] > balls.centers[order[i]][0])
+      return fmt::format("bead {} lies behind bead {}", order[i - 1], order[i]);
+  return std::nullopt;
+}
+
+namespace {
+
+/// Returns the sign of a determinant, by Bareiss' elimination.
+int sign_of_determinant(std::vector<std::vector<Integer>> rows) {
+  const std::size_t n = rows.size();
+  int sign = 1;
+  Integer before = 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    while (pivot < n && rows[pivot][k] == 0) ++pivot;
+    if (pivot == n) return 0;
+    if (pivot != k) {
+      std::swap(rows[pivot], rows[k]);
+      sign = -sign;
+    }
+    for (std::size_t i = k + 1; i < n; ++i)
+      for (std::size_t j = k + 1; j < n; ++j)
+        rows[i][j] = (rows[i][j] * rows[k][k] - rows[i][k] * rows[k][j]) / before;
+    before = rows[k][k];
+  }
+  return before > 0 ? sign : -sign;
+}
+
+/// Points, followed by their height over the paraboloid: squared length less weight. Relative to the first
+/// bead of `beads`, one row for each other bead.
+std::vector<std::vector<Integer>> rows_of(const ExactBalls& balls, const Beads& beads, bool lifted) {
+  std::vector<std::vector<Integer>> rows;
+  const auto& origin = balls.centers[beads.front()];
+  for (std::size_t i = 1; i < beads.size(); ++i) {
+    auto& row = rows.emplace_back();
+    Integer height = balls.weights[beads.front()] - balls.weights[beads[i]];
+    for (std::size_t axis = 0; axis < origin.size(); ++axis) {
+      row.push_back(balls.centers[beads[i]][axis] - origin[axis]);
+      height += row.back() * row.back();
+    }
+    if (lifted) row.push_back(height);
+  }
+  return rows;
+}
+
+/// Returns the sign of the orientation of dimension + 1 beads.
+int orientation(const ExactBalls& balls, const Beads& beads) {
+  return sign_of_determinant(rows_of(balls, beads, false));
+}
+Beads with(Beads beads, BeadId more) {
+  beads.push_back(more);
+  return beads;
+}
+
+}  // namespace
+
+std::optional<std::string> not_regular(const ExactBalls& balls, const Beads& present,
+                                       const std::vector<Beads>& cells) {
+  std::map<Beads, Beads> apices;  // of each facet
+  Beads used;
+  for (const Beads& cell : cells) {
+    const int side = orientation(balls, cell);
+    if (side == 0) return fmt::format("cell {} is flat", cell);
+    for (const BeadId b : present) {
+      if (std::find(cell.begin(), cell.end(), b) != cell.end()) continue;
+      if (side * sign_of_determinant(rows_of(balls, with(cell, b), true)) < 0)
+        return fmt::format("bead {} is inside the power sphere of cell {}", b, cell);
+    }
+    for (const BeadId apex : cell) {
+      Beads facet;
+      std::copy_if(cell.begin(), cell.end(), std::back_inserter(facet), [&](BeadId b) { return b != apex; });
+      apices[facet].push_back(apex);
+      used.push_back(apex);
+    }
+  }
+  for (const auto& [facet, beside] : apices) {
+    const int side = orientation(balls, with(facet, beside[0]));
+    if (beside.size() > 2) return fmt::format("facet {} has more than two cells", facet);
+    if (beside.size() == 2) {
+      if (side * orientation(balls, with(facet, beside[1])) >= 0)
+        return fmt::format("the cells of facet {} overlap", facet);
+      continue;
+    }
+    for (const BeadId b : present)
+      if (side * orientation(balls, with(facet, b)) < 0)
+        return fmt::format("bead {} lies beyond the hull at facet {}", b, facet);
+  }
+  if (cells.empty()) return std::nullopt;
+  // A bead without a cell must be hidden: it lies below no cell's power sphere, so some cell contains it and
+  // its power test there is not negative. The test above has seen to the latter.
+  for (const BeadId b : present) {
+    if (std::find(used.begin(), used.end(), b) != used.end()) continue;
+    const bool housed = std::any_of(cells.begin(), cells.end(), [&](const Beads& cell) {
+      const int side = orientation(balls, cell);
+      for (std::size_t i = 0; i < cell.size(); ++i) {
+        Beads moved = cell;
+        moved[i] = b;
+        if (side * orientation(balls, moved) < 0) return false;
+      }
+      return true;
+    });
+    if (!housed) return fmt::format("bead {} is in no cell", b);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> not_smallest(const ExactBalls& balls, const BeadRange& node, const Beads& basis) {
+  if (basis.empty()) return "no basis";
+  for (const BeadId b : basis)
+    if (b < node.first || node.last < b) return fmt::format("basis bead {} is not of the node", b);
+  // The centre is a combination of the basis with weights w, where G w = diag(G) / 2 for Gram matrix G.
+  const std::size_t m = basis.size() - 1;
+  const auto& origin = balls.centers[basis[0]];
+  const auto rows = rows_of(balls, basis, false);
+  const auto dot = [](const auto& a, const auto& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), Integer(0));
+  };
+  std::vector<std::vector<Rational>> g(m, std::vector<Rational>(m + 1));
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t j = 0; j < m; ++j) g[i][j] = dot(rows[i], rows[j]);
+    g[i][m] = g[i][i] / 2;
+  }
+  for (std::size_t k = 0; k < m; ++k) {
+    if (g[k][k] == 0) return "the basis is dependent";  // G is positive semidefinite
+    for (std::size_t i = 0; i < m; ++i) {
+      if (i == k) continue;
+      const Rational factor = g[i][k] / g[k][k];
+      for (std::size_t j = k; j <= m; ++j) g[i][j] -= factor * g[k][j];
+    }
+  }
+  Rational first = 1;
+  std::vector<Rational> center(origin.size());  // relative to the first basis bead
+  for (std::size_t i = 0; i < m; ++i) {
+    const Rational weight = g[i][m] / g[i][i];
+    if (weight < 0) return "the centre is not inside the basis";
+    first -= weight;
+    for (std::size_t axis = 0; axis < center.size(); ++axis) center[axis] += weight * rows[i][axis];
+  }
+  if (first < 0) return "the centre is not inside the basis";
+  const auto square = [&](BeadId b) {
+    Rational sum = 0;
+    for (std::size_t axis = 0; axis < center.size(); ++axis) {
+      const Rational along = balls.centers[b][axis] - origin[axis] - center[axis];
+      sum += along * along;
+    }
+    return sum;
+  };
+  const Rational radius = square(basis[0]);
+  for (BeadId b = node.first; b <= node.last; ++b)
+    if (square(b) > radius) return fmt::format("bead {} of node {}-{} sticks out", b, node.first, node.last);
+  return std::nullopt;
+}
+
+}  // namespace kds::test

@@ -1,0 +1,101 @@
+#pragma once
+// Positions of all beads at one time, as whole numbers that are not the library's, and the definitions of
+// what structures must be, by brute force.
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "motions/base/bead.h"
+#include "motions/curves/curves.h"
+#include "structures/hierarchy/box_hierarchy.h"
+#include "structures/necklace/bead_pairs.h"
+#include "tests/support/judges/second_numbers.h"
+
+namespace kds::test {
+
+/// Lengths are multiplied by one positive number, and weights by its square, which makes all of them whole.
+struct ExactBalls {
+  std::vector<std::vector<second::Integer>> centers;
+  std::vector<second::Integer> radii, weights;
+
+  [[nodiscard]] std::size_t dimension() const { return centers.front().size(); }
+  /// Returns the square of the distance of two centres.
+  [[nodiscard]] second::Integer square(BeadId a, BeadId b) const {
+    second::Integer sum = 0;
+    for (std::size_t axis = 0; axis < dimension(); ++axis) {
+      const second::Integer along = centers[a][axis] - centers[b][axis];
+      sum += along * along;
+    }
+    return sum;
+  }
+};
+
+/// Computes the balls at time u of the step by the definition of Bezier curves.
+template <int Dimension>
+[[nodiscard]] ExactBalls balls_at(const Curves<Dimension>& curves, const Dyadic& u) {
+  const auto rows = static_cast<BeadId>(curves.bead_count());
+  const auto column = [&](auto value) {
+    std::vector<double> numbers;
+    for (int k = 0; k <= curves.own_degree(); ++k) numbers.push_back(value(k));
+    return numbers;
+  };
+  std::vector<double> lengths, squares;
+  for (BeadId b = 0; b < rows; ++b)
+    for (int k = 0; k <= curves.own_degree(); ++k) {
+      for (int axis = 0; axis < Dimension; ++axis) lengths.push_back(curves.coordinate(b, k, axis));
+      lengths.push_back(curves.radius(b, k));
+      squares.push_back(curves.weight(b, k));
+    }
+  // Rounds the unit of squares down to twice a unit of lengths.
+  const int of_squares = second::unit_of(squares);
+  const int unit = std::min(second::unit_of(lengths), of_squares / 2 - 1);
+  const second::Rational time = second::of(u);
+  const second::Integer power = pow(denominator(time), static_cast<unsigned>(curves.own_degree()));
+  ExactBalls balls;
+  for (BeadId b = 0; b < rows; ++b) {
+    auto& center = balls.centers.emplace_back();
+    for (int axis = 0; axis < Dimension; ++axis)
+      center.push_back(
+          second::whole_value(column([&](int k) { return curves.coordinate(b, k, axis); }), time, unit));
+    balls.radii.push_back(
+        second::whole_value(column([&](int k) { return curves.radius(b, k); }), time, unit));
+    balls.weights.push_back(
+        power * second::whole_value(column([&](int k) { return curves.weight(b, k); }), time, 2 * unit));
+  }
+  return balls;
+}
+
+using Beads = std::vector<BeadId>;
+
+// The answers of structures by their definitions, for the beads that are present. Among beads that tie, the
+// least bead counts.
+
+/// Returns the first and last bead along each axis.
+[[nodiscard]] Beads box_of(const ExactBalls& balls, const Beads& present);
+/// Returns the two beads, or nothing if fewer are present.
+[[nodiscard]] Beads closest_of(const ExactBalls& balls, const Beads& present);
+/// Returns the corners of the convex hull in the plane by gift wrapping, counterclockwise from the least.
+[[nodiscard]] Beads hull_of(const ExactBalls& balls, const Beads& present);
+/// Returns the beads of each node that reach furthest along each side of the directions.
+[[nodiscard]] Beads supports_of(const ExactBalls& balls, const Beads& present,
+                                const std::vector<BeadRange>& nodes,
+                                std::span<const SlabDirection> directions);
+/// Returns the pairs in question whose closed balls intersect, two ids for each pair.
+[[nodiscard]] Beads contacts_of(const ExactBalls& balls, const Beads& present, const PairsAsked& asked);
+
+/// Explains why the order is not that along the first axis, or returns nothing. Beads may tie in any order.
+[[nodiscard]] std::optional<std::string> not_sorted(const ExactBalls& balls, const Beads& present,
+                                                    const Beads& order);
+/// Explains why these cells are not a regular triangulation of the present beads, or returns nothing. In
+/// degenerate position every regular triangulation is accepted. Cells have dimension + 1 beads.
+[[nodiscard]] std::optional<std::string> not_regular(const ExactBalls& balls, const Beads& present,
+                                                     const std::vector<Beads>& cells);
+/// Explains why the smallest sphere through the basis is not the smallest one around a node's beads, or
+/// returns nothing. All radii must be equal.
+[[nodiscard]] std::optional<std::string> not_smallest(const ExactBalls& balls, const BeadRange& node,
+                                                      const Beads& basis);
+
+}  // namespace kds::test

@@ -1,0 +1,39 @@
+#pragma once
+// The structures that must obey the laws, one row each. A new structure needs one row here.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "structures/session/kinetic_run.h"
+#include "tests/laws/exact_balls.h"
+
+namespace kds::test {
+
+/// What a judge looks at: a structure of a run, and the exact balls at a time at which nothing fails.
+struct Judged {
+  const Scene& scene;
+  const RunningStructure& structure;
+  const ExactBalls& balls;
+  const Beads& present;
+};
+
+struct LawStructure {
+  std::string name;  ///< of the structure specification
+  StructureSettings settings = {};
+  /// Whether the beads' positions determine the structure, also if they tie.
+  bool is_unique = false;
+  /// Explains why the structure is not what its definition says, or returns nothing.
+  std::function<std::optional<std::string>(const Judged&)> fault = {};
+
+  /// Returns the name of the row, for messages.
+  [[nodiscard]] std::string title() const;
+};
+
+[[nodiscard]] const std::vector<LawStructure>& law_structures();
+
+/// Returns the structure's state now, within a step: ids in a fixed order.
+[[nodiscard]] Beads state_now(const RunningStructure& structure);
+
+}  // namespace kds::test

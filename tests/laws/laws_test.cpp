@@ -1,0 +1,399 @@
+// Five laws that every structure obeys on every scene. The tables are law_scenes.cpp and law_structures.cpp.
+//
+//   1. Between all events the structure passes its audit, and brute force finds the same.
+//   2. The kernels filtered and exact have the same events at the same times, and the same dumps.
+//   3. A run cut into parts on several threads is the whole run.
+//   4. Replaying the events without certificates gives the same structure at each frame.
+//   5. After edits, the structure is the one built from the beads that are present, on their present curves.
+//      The kernels agree, and a replay gives the same structure.
+//
+// KDS_LAW_SCENES in the environment multiplies the number of scenes; KDS_LAW_SEED is the first seed.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certificates/exact/exact_time.h"
+#include "kds/known_events.h"
+#include "motions/base/input_error.h"
+#include "structures/session/parallel_run.h"
+#include "tests/laws/law_scenes.h"
+#include "tests/laws/law_structures.h"
+#include "tests/support/inputs/random.h"
+#include "tests/support/property_runs.h"
+#include "tests/support/rounds.h"
+
+namespace kds::laws_test {
+namespace {
+
+using namespace test;
+
+/// Steps of integer arithmetic after which a run is given up. Integers alone take a second for each 10^8.
+constexpr std::uint64_t most_work = 40'000'000;
+
+/// Everything that two runs must have in common.
+struct Outcome {
+  std::string ending;  // "done", "too much work", or the message of a refusal
+  std::vector<Event> events;
+  std::vector<std::string> dumps;  // of all frames
+  Beads state;                     // at the end
+  std::vector<std::uint64_t> events_by_kind;
+  std::uint64_t rebuilds = 0, fingerprint = 0;
+
+  [[nodiscard]] bool is_decided() const { return ending != "too much work"; }
+  void add_dumps(const std::vector<DumpFile>& files) {
+    for (const DumpFile& file : files) dumps.push_back(file.ending + "\n" + file.text);
+  }
+  void add_end(Simulator& simulator, const RunningStructure& structure,
+               const StructureStatistics& statistics) {
+    state = state_now(structure);
+    fingerprint = simulator.fingerprint();
+    events_by_kind = statistics.events_by_kind;
+    rebuilds = statistics.rebuilds;
+    ending = "done";
+  }
+};
+
+void expect_same_events(const std::vector<Event>& some, const std::vector<Event>& others) {
+  ASSERT_EQ(some.size(), others.size());
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    ASSERT_EQ(some[i].step, others[i].step) << "event " << i;
+    ASSERT_EQ(some[i].change, others[i].change) << "event " << i;
+    ASSERT_EQ(some[i].lower, others[i].lower) << "event " << i;
+    ASSERT_EQ(some[i].upper, others[i].upper) << "event " << i;
+  }
+}
+
+void expect_same(const Outcome& run, const Outcome& other) {
+  EXPECT_EQ(run.ending, other.ending);
+  expect_same_events(run.events, other.events);
+  EXPECT_EQ(run.dumps, other.dumps);
+  EXPECT_EQ(run.events_by_kind, other.events_by_kind);
+  EXPECT_EQ(run.rebuilds, other.rebuilds);
+  EXPECT_EQ(run.fingerprint, other.fingerprint);
+}
+
+/// Ends an outcome with the reason why `run` did not end by itself, if there is one.
+template <class Run>
+void note_ending(Outcome& outcome, Run run) {
+  try {
+    run();
+  } catch (const InputError& refusal) {  // input beyond a stated limit
+    outcome.ending = refusal.what();
+  } catch (const WorkLimitReached&) {
+    outcome.ending = "too much work";
+  } catch (const std::exception& error) {  // a failed audit, an internal error
+    outcome.ending = error.what();
+    ADD_FAILURE() << error.what();
+  }
+}
+
+Beads all_beads(const Scene& scene) {
+  Beads beads(scene.bead_count());
+  for (BeadId b = 0; b < beads.size(); ++b) beads[b] = b;
+  return beads;
+}
+
+/// Calls `look` at each audit inside a step. It gets a time slightly later, because a structure may be
+/// degenerate at a single moment without an event.
+class Judge final : public KineticStructure {
+ public:
+  using Look = std::function<std::optional<std::string>(const ExactBalls&)>;
+
+  template <int Dimension>
+  Judge(Simulator& simulator, const MotionRef<Dimension>& motion, Look look)
+      : look_(std::move(look)), balls_([motion](const Dyadic& u) { return balls_at(motion.curves(), u); }) {
+    static_cast<void>(simulator.add(*this));
+  }
+  [[nodiscard]] std::string_view name() const override { return "judge"; }
+  [[nodiscard]] std::span<const EventKind> kinds() const override { return {}; }
+  void build() override {}
+  void start_step() override {}
+  void fail(unsigned, std::uint32_t) override {}
+  void apply(const Change&) override {}
+  [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override {
+    if (time == Dyadic(0.0) || time == Dyadic(1.0)) return std::nullopt;
+    return look_(balls_(Dyadic((time.numerator() << 100U) + 1, time.exponent() + 100)));
+  }
+
+ private:
+  Look look_;
+  std::function<ExactBalls(const Dyadic&)> balls_;
+};
+
+/// A structure on a scene.
+class Subject {
+ public:
+  Subject(const Scene& scene, const LawStructure& row, bool judged)
+      : scene_(scene), row_(row), spec_(*structure_registry().find(row.name)), judged_(judged && row.fault) {}
+
+  void expect_laws(std::uint64_t seed) {
+    const Outcome plain = run(Kernel::filtered, AuditMode::none);
+    if (!plain.is_decided()) return;
+    ++decided;
+    const Outcome audited = run(Kernel::filtered, AuditMode::events);
+    if (audited.is_decided()) {
+      SCOPED_TRACE("law 1, audits");
+      expect_same(audited, plain);
+    }
+    const Outcome exact = run(Kernel::exact, AuditMode::none);
+    if (exact.is_decided()) {
+      SCOPED_TRACE("law 2, kernels");
+      expect_same(exact, plain);
+    }
+    expect_parts(plain, seed);
+    if (plain.ending != "done" || !spec_.has_events(row_.settings)) return;
+    {
+      SCOPED_TRACE("law 4, replay");
+      const Outcome again = replayed(plain.events, plain.fingerprint);
+      EXPECT_EQ(again.dumps, plain.dumps);
+      EXPECT_EQ(again.state, plain.state);
+    }
+    expect_edits(seed);
+  }
+
+  int decided = 0;
+
+ private:
+  [[nodiscard]] KineticRunOptions options(Kernel kernel, AuditMode audits) const {
+    return {{row_.name}, kernel, audits, row_.settings};
+  }
+
+  /// Runs the scene. With audits, brute force judges as well; of many beads, or many events, a part.
+  [[nodiscard]] Outcome run(Kernel kernel, AuditMode audits) const {
+    Outcome outcome;
+    EventLog log;
+    note_ending(outcome, [&] {
+      KineticRun run(scene_, options(kernel, audits));
+      run.limit_work(most_work);
+      run.listen(log);
+      if (audits == AuditMode::events && judged_) {
+        const Beads present = all_beads(scene_);
+        std::uint64_t audit = 0;
+        const std::uint64_t stride = present.size() < 12 ? 1 : present.size() * present.size() / 16;
+        static_cast<void>(
+            run.add<Judge>(Judge::Look([this, &run, present, audit, stride](
+                                           const ExactBalls& balls) mutable -> std::optional<std::string> {
+              if (audit++ % stride != 0) return std::nullopt;
+              return row_.fault({scene_, run.running(0), balls, present});
+            })));
+      }
+      run.build();
+      outcome.add_dumps(run.running(0).dump(0));
+      for (std::size_t frame = 1; run.run_step(); ++frame) outcome.add_dumps(run.running(0).dump(frame));
+      run.finish();
+      const StructureStatistics& statistics = run.structures()[0]->statistics;
+      outcome.add_end(run.simulator(), run.running(0), statistics);
+      const CertificateCounts& c = statistics.certificates;
+      EXPECT_EQ(c.created, c.never_failing + c.cancelled + c.failed + c.touched);
+      EXPECT_EQ(c.alive, 0U);
+    });
+    outcome.events = std::move(log.events);
+    return outcome;
+  }
+
+  void expect_parts(const Outcome& whole, std::uint64_t seed) const {
+    SCOPED_TRACE("law 3, parts");
+    Outcome cut;
+    EventLog log;
+    bool is_cut = true;
+    note_ending(cut, [&] {
+      ParallelRun run(scene_, options(Kernel::filtered, AuditMode::none), {2 + seed % 4, 1 + seed % 3, true});
+      is_cut = !run.uncut();
+      if (!is_cut) return;
+      run.listen(log);
+      run.run([&](std::size_t frame) { cut.add_dumps(run.whole().running(0).dump(frame)); });
+      cut.add_end(run.simulator(), run.whole().running(0), run.whole().structures()[0]->statistics);
+    });
+    if (!is_cut) return;
+    cut.events = std::move(log.events);
+    expect_same(cut, whole);
+  }
+
+  /// Replays events without certificates, which must give this fingerprint. Returns the dumps and the state.
+  [[nodiscard]] Outcome replayed(const std::vector<Event>& log, std::uint64_t fingerprint) const {
+    Outcome outcome;
+    note_ending(outcome, [&] {
+      Simulator simulator(AuditMode::frames);
+      const auto motion = make_scene_motion(scene_);
+      const auto structure = spec_.make(simulator, scene_, motion->ref(), row_.settings);
+      motion->load(0);
+      KnownEvents(simulator).build_for_replay();
+      outcome.add_dumps(structure->dump(0));
+      auto next = log.begin();
+      for (std::size_t step = 0; step < scene_.step_count(); ++step) {
+        std::vector<ReplayedEvent> events;
+        for (; next != log.end() && next->step == step; ++next)
+          events.push_back({0, next->lower, next->upper, next->change, "the run"});
+        motion->load(step);
+        KnownEvents(simulator).replay_step(events);
+        outcome.add_dumps(structure->dump(step + 1));
+      }
+      simulator.finish();
+      outcome.state = state_now(*structure);
+      EXPECT_EQ(simulator.fingerprint(), fingerprint);
+    });
+    return outcome;
+  }
+
+  /// Edits the structure at events and at multiples of 1/8, with both kernels. A log does not hold curves, so
+  /// only every second run changes courses, and the others are replayed.
+  void expect_edits(std::uint64_t seed) const {
+    SCOPED_TRACE("law 5, edits");
+    const bool bends = seed % 2 == 0;
+    std::optional<std::uint64_t> filtered;
+    for (const Kernel kernel : {Kernel::filtered, Kernel::exact}) {
+      Outcome outcome;
+      EventLog log;
+      note_ending(outcome, [&] {
+        KineticRun run(scene_, options(kernel, AuditMode::events));
+        if (dynamic_cast<CourseFollower*>(run.structures()[0]) == nullptr) return;
+        run.limit_work(most_work);
+        run.listen(log);
+        Random random(seed);
+        for (int edits = 0; edits < 10 && run.next_event(); ++edits) {
+          if (const double u = 0.125 * pick(random, 1, 7);
+              edits % 3 == 2 && run.simulator().now().upper() < u)
+            run.simulator().run_until(Dyadic(u));
+          insert_or_erase(run, random);
+          if (bends) change_courses(run, random);
+          expect_as_built(run);
+        }
+        while (run.run_step()) continue;
+        run.finish();
+        if (!filtered) filtered = run.simulator().fingerprint();
+        EXPECT_EQ(run.simulator().fingerprint(), *filtered);
+        if (bends || kernel == Kernel::exact) return;
+        EXPECT_EQ(replayed(log.events, *filtered).state, state_now(run.running(0)));
+      });
+      if (outcome.ending == "too much work") return;
+    }
+  }
+
+  void insert_or_erase(KineticRun& run, Random& random) const {
+    const auto bead = static_cast<BeadId>(random() % scene_.bead_count());
+    BeadEdits* const edits = edits_of(*run.structures()[0]);
+    if (edits == nullptr) return;
+    const bool was_absent = edits->is_absent(bead);
+    try {
+      was_absent ? run.insert(0, bead) : run.erase(0, bead);
+      EXPECT_NE(edits->is_absent(bead), was_absent);
+    } catch (const std::invalid_argument&) {  // too few beads would remain, or they would all stay flat
+      EXPECT_EQ(edits->is_absent(bead), was_absent);
+    }
+  }
+
+  /// Gives one, two or all beads the courses of others, up to the end of the step, where they stay. Sometimes
+  /// the declared change leaves a course as it is.
+  void change_courses(KineticRun& run, Random& random) const {
+    const auto count = static_cast<BeadId>(scene_.bead_count());
+    Beads beads;
+    const auto kind = random() % 5;
+    for (BeadId b = 0; b < count && kind == 0; ++b) beads.push_back(b);
+    for (std::uint64_t i = 0; i < kind % 3 + 1 && kind > 0; ++i)
+      beads.push_back(static_cast<BeadId>(random() % count));
+    const auto shift = kind == 1 ? 0 : static_cast<BeadId>(random() % count);
+    try {
+      run.change_motion(beads, [&](SceneMotion& motion) {
+        std::visit(
+            [&]<int D>(const MotionRef<D>& ref) {
+              for (const BeadId bead : beads)
+                for (int k = 0; k < ref.degree(); ++k)
+                  for (int axis = 0; axis < D; ++axis)
+                    motion.set_coordinate(bead, k, axis,
+                                          ref.curves().coordinate((bead + shift) % count, k, axis));
+            },
+            run.motion()->ref());
+      });
+    } catch (const std::invalid_argument&) {  // all beads stay in one plane, so the diagram has no cells
+    }
+  }
+
+  /// Compares the structure, a little later, with one that runs from the start of the step with the present
+  /// beads on their present curves, and with brute force.
+  void expect_as_built(KineticRun& run) const {
+    const Dyadic soon = next_on_grid(run.simulator().now().exact(), 200);
+    if (!(soon < Dyadic(1.0))) return;
+    run.simulator().run_until(soon);
+    Beads present = all_beads(scene_);
+    const BeadEdits* const edits = edits_of(*run.structures()[0]);
+    std::erase_if(present, [&](BeadId b) { return edits != nullptr && edits->is_absent(b); });
+    const SceneMotion::Ref motion = run.motion()->ref();
+    if (judged_) {
+      const ExactBalls balls =
+          std::visit([&](const auto& ref) { return balls_at(ref.curves(), soon); }, motion);
+      EXPECT_EQ(row_.fault({scene_, run.running(0), balls, present}), std::nullopt);
+    }
+    if (!row_.is_unique) return;
+    const auto twin = [&] {
+      Simulator simulator;
+      simulator.exact_work().set_limit(most_work);
+      const auto structure = spec_.make(simulator, scene_, motion, row_.settings);
+      if (edits != nullptr)
+        for (BeadId b = 0; b < scene_.bead_count(); ++b)
+          if (edits->is_absent(b)) edits_of(structure->kinetic())->leave_out(b);
+      simulator.build();
+      simulator.enter_step();
+      simulator.run_until(soon);
+      return state_now(*structure);
+    };
+    EXPECT_EQ(state_now(run.running(0)), twin());
+  }
+
+  const Scene& scene_;
+  const LawStructure& row_;
+  const StructureSpec& spec_;
+  bool judged_;
+};
+
+class Laws : public testing::TestWithParam<LawScene> {};
+
+TEST_P(Laws, Hold) {
+  const LawScene& family = GetParam();
+  const std::uint64_t seeds = rounds(family.seeds) * from_environment("KDS_LAW_SCENES", 1);
+  const std::uint64_t first = from_environment("KDS_LAW_SEED", 0);
+  int decided = 0, refused = 0;
+  for (std::uint64_t seed = first; seed < first + seeds && !HasFailure(); ++seed) {
+    std::optional<Scene> scene;
+    try {
+      scene.emplace(family.make(seed));
+    } catch (const InputError&) {
+      ++refused;
+      continue;
+    }
+    for (const LawStructure& row : law_structures()) {
+      const auto& names = family.structures;
+      if (!names.empty() && std::find(names.begin(), names.end(), row.name) == names.end()) continue;
+      SCOPED_TRACE(family.name + ", seed " + std::to_string(seed) + ", " + row.title());
+      Subject subject(*scene, row, family.judged);
+      try {
+        if (structure_registry().find(row.name)->refusal(*scene)) continue;
+        static_cast<void>(KineticRun(*scene, {{row.name}, Kernel::filtered, AuditMode::none, row.settings}));
+      } catch (const InputError&) {  // too small weights, or no boxes with these directions in the plane
+        continue;
+      }
+      subject.expect_laws(seed);
+      decided += subject.decided;
+    }
+  }
+  if (family.refused) {
+    EXPECT_EQ(refused, static_cast<int>(seeds));
+  } else {
+    EXPECT_GT(decided, 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Laws, testing::ValuesIn(law_scenes()), [](const auto& test) {
+  std::string name = test.param.name;
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace kds::laws_test
