@@ -149,10 +149,6 @@ TEST(BallHierarchy, RandomBallsInSpace) {
 TEST(BallHierarchy, RandomBallsInThePlane) {
   EXPECT_GT((run_random<BezierMotion<2, 1>, Radii::any>(test::rounds(8U), 7)), test::rounds(200U));
 }
-TEST(BallHierarchy, EqualBallsInThePlane) {
-  EXPECT_GT((run_random<BezierMotion<2, 1>, Radii::equal>(test::rounds(20U), 9)), test::rounds(400U));
-}
-
 // The code for any radii gives the same events for equal radii as the code for equal radii.
 TEST(BallHierarchy, EqualRadiiEitherWay) {
   for (unsigned seed = 0; seed < 10; ++seed) {
@@ -200,22 +196,6 @@ TEST(BallHierarchy, AFullBasisTurnsOverWhileABallEnters) {
     EXPECT_EQ((fingerprint_of<Radii::any, Kernel::exact>(std::vector{motion})),
               (fingerprint_of<Radii::any, Kernel::filtered>(std::vector{motion})));
   }
-}
-
-TEST(BallHierarchy, AProteinWithTwoSizesOfBeads) {
-  std::vector<Space> steps = trajectory_steps("villin_hp36_300K.dcd", 0, 2);
-  for (Space& motion : steps) {
-    for (BeadId b = 0; b < motion.bead_count(); ++b) {
-      const double radius = b % 3 == 0 ? 0.5 : b % 7 == 0 ? 0.9 : 0.75;
-      for (int k = 0; k <= 1; ++k) {
-        motion.set_radius(b, k, radius);
-        motion.set_weight(b, k, radius * radius);
-      }
-    }
-  }
-  EXPECT_GT(run_audited<Radii::any>(steps, 5), 0U);
-  EXPECT_EQ((fingerprint_of<Radii::any, Kernel::exact>(steps)),
-            (fingerprint_of<Radii::any, Kernel::filtered>(steps)));
 }
 
 // Lifted motion has fictitious weights between frames, so its radii would be fictitious too.

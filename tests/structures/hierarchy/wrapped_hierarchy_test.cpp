@@ -2,15 +2,12 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <map>
-#include <numbers>
 
 #include "tests/support/inputs/moving_beads.h"
-#include "tests/support/inputs/random_motion.h"
+#include "tests/support/inputs/random.h"
 #include "tests/support/judges/cgal_sphere.h"
 #include "tests/support/judges/exact_checks.h"
-#include "tests/support/rounds.h"
 
 namespace kds::wrapped_hierarchy_test {
 namespace {
@@ -125,8 +122,6 @@ void run_audited(const std::vector<Space>& steps) {
   run_audited<Kernel::filtered>(steps, one_necklace(steps.front()));
 }
 
-std::string to_text(const std::vector<Points>& frames) { return testing::PrintToString(frames); }
-
 template <Kernel K>
 std::uint64_t fingerprint_of(const std::vector<Space>& steps, const Necklaces& necklaces) {
   WrappedRig<K> rig(steps.front(), AuditMode::none, necklaces);
@@ -192,189 +187,6 @@ TEST(WrappedHierarchy, ABasisTurnsOverByTouchingAlone) {
                       {{0, 0, 2}, {2, 0, 2}, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 2}, {2, 2, 0}})});
 }
 
-TEST(WrappedHierarchy, BeadsInOnePlace) {
-  const Points together(6, {1, 2, 3});
-  const Points apart{{0, 0, 0}, {3, 1, 0}, {0, 4, 1}, {2, 0, 5}, {1, 1, 1}, {3, 3, 3}};
-  run_audited({moving(together, together)});
-  run_audited({moving(together, apart)});
-  run_audited({moving(apart, together)});
-  run_audited(through({apart, together, apart}));
-  run_audited(through({apart, together, together, apart}));
-  Points pairs = apart;
-  pairs[1] = pairs[0];
-  pairs[3] = pairs[2];
-  run_audited(through({apart, pairs, pairs, apart}));
-  run_audited({moving(pairs, pairs)});
-}
-
-TEST(WrappedHierarchy, BeadsOnOneLine) {
-  Points line, turned, reversed, crowded;
-  for (int i = 0; i < 12; ++i) {
-    line.push_back({static_cast<double>(i), 2.0 * i, 0});
-    turned.push_back({static_cast<double>(-i), i * 0.5, 3.0 * i});
-    reversed.push_back({11.0 - i, 2.0 * (11 - i), 0});
-    crowded.push_back({static_cast<double>(i * 5 % 12), 2.0 * (i * 5 % 12), 0});
-  }
-  run_audited({moving(line, line)});
-  run_audited({moving(line, turned)});
-  run_audited({moving(line, reversed)});
-  run_audited({moving(line, crowded)});
-  run_audited(through({line, crowded, reversed, turned, line}));
-}
-
-TEST(WrappedHierarchy, Grids) {
-  Points grid, turned, sheared;
-  for (int i = 0; i < 27; ++i) {
-    const double x = i % 3, y = i / 3 % 3, z = i / 9;
-    grid.push_back({x, y, z});
-    turned.push_back({2 - y, x, z});  // a quarter turn; in between, linear motion shrinks the grid
-    sheared.push_back({x + y, y - z, z + x});
-  }
-  run_audited<Kernel::filtered>({moving(grid, grid)}, {{0, 26}});
-  run_audited<Kernel::filtered>({moving(grid, turned)}, {{0, 26}}, 3);
-  run_audited<Kernel::filtered>({moving(grid, sheared)}, {{0, 26}}, 3);
-  run_audited<Kernel::filtered>(through({grid, turned, sheared, grid}), {{0, 26}}, 5);
-}
-
-TEST(WrappedHierarchy, RotatingPolygonsAndHelix) {
-  for (const int corners : {4, 5, 6, 8}) {
-    std::vector<Points> frames(4);
-    for (int k = 0; k < 4; ++k) {
-      for (int i = 0; i < corners; ++i) {
-        const double angle = 2 * std::numbers::pi * i / corners + 0.4 * k;
-        frames[static_cast<std::size_t>(k)].push_back({std::cos(angle), std::sin(angle), 0.1 * k});
-      }
-    }
-    SCOPED_TRACE(corners);
-    run_audited(through(frames));
-  }
-  std::vector<Points> frames(3);
-  for (int k = 0; k < 3; ++k) {
-    for (int i = 0; i < 24; ++i) {
-      const double angle = 2 * std::numbers::pi * i / 8 + 0.3 * k;
-      frames[static_cast<std::size_t>(k)].push_back({std::cos(angle), std::sin(angle), 0.25 * i});
-    }
-  }
-  run_audited(through(frames));
-  // A similar case with whole coordinates: a square and an octagon of 3-4-5 triangles, turned by a quarter.
-  const Points octagon{{5, 0, 0},  {4, 3, 0},   {3, 4, 0},   {0, 5, 0},  {-3, 4, 0}, {-4, 3, 0},
-                       {-5, 0, 0}, {-4, -3, 0}, {-3, -4, 0}, {0, -5, 0}, {3, -4, 0}, {4, -3, 0}};
-  Points turned;
-  for (const auto& p : octagon) turned.push_back({-p[1], p[0], 0});
-  run_audited({moving(octagon, turned)});
-  for (auto& p : turned) p[2] = p[0];
-  run_audited({moving(octagon, turned)});
-}
-
-TEST(WrappedHierarchy, RandomMotionsFullOfTies) {
-  std::mt19937 random(21);
-  for (int round = 0; round < test::rounds(300); ++round) {
-    const std::size_t beads = 2 + random() % 9;
-    const int range = 2 + static_cast<int>(random() % 4);
-    Points from = random_grid_points(random, beads, range);
-    Points to = random_grid_points(random, beads, range);
-    if (round % 5 == 0) {
-      for (auto& p : from) p[2] = 0;
-      for (auto& p : to) p[2] = 0;
-    }
-    SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
-    run_audited({moving(from, to)});
-    if (HasFailure()) return;
-  }
-}
-
-TEST(WrappedHierarchy, RandomFramesFullOfTies) {
-  std::mt19937 random(22);
-  for (int round = 0; round < test::rounds(80); ++round) {
-    const std::size_t beads = 3 + random() % 7;
-    std::vector<Points> frames;
-    for (int k = 0; k < 4; ++k)
-      frames.push_back(k > 0 && random() % 4 == 0 ? frames.back() : random_grid_points(random, beads, 3));
-    SCOPED_TRACE(text_of("round ", round, ": ", to_text(frames)));
-    run_audited(through(frames));
-    if (HasFailure()) return;
-  }
-}
-
-// Symmetric motions p -> -p, also mirrored and turned: all events happen at u = 1/2.
-TEST(WrappedHierarchy, SymmetricMotions) {
-  std::mt19937 random(23);
-  for (int round = 0; round < test::rounds(150); ++round) {
-    const Points from = random_grid_points(random, 4 + random() % 4, 5);
-    Points to = from;
-    for (auto& p : to) {
-      for (int axis = 0; axis < 3; ++axis) {
-        if (((round % 7 + 1) >> axis & 1) != 0) p[static_cast<std::size_t>(axis)] *= -1;
-      }
-    }
-    SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
-    run_audited({moving(from, to)});
-    if (HasFailure()) return;
-  }
-}
-
-// Real input in general position.
-
-TEST(WrappedHierarchy, RightAtTheFramesOfATrajectory) {
-  const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 3);
-  WrappedRig<Kernel::filtered> rig(steps.front(), AuditMode::none, one_necklace(steps.front()));
-  rig.simulator.build();
-  expect_right_at(rig, Dyadic(0.0));
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    rig.step(steps[k]);
-    expect_right_at(rig, Dyadic(1.0));
-  }
-  EXPECT_GT(rig.external_events(), 5U);
-  EXPECT_TRUE(books_balance(rig.structure.statistics));
-  EXPECT_EQ(rig.structure.statistics.rebuilds, 0U);
-}
-
-TEST(WrappedHierarchy, AuditsPassOnCoarseFrames) {
-  const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 400, 200);
-  run_audited<Kernel::filtered>(steps, one_necklace(steps.front()), 10);
-}
-
-TEST(WrappedHierarchy, RandomInstance) {
-  const Space motion = instance_motion<Space>("d3_n50_linear");
-  run_audited<Kernel::filtered>({motion}, {{0, 49}}, 10);
-}
-
-TEST(WrappedHierarchy, KernelsAgree) {
-  const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 60, 30);
-  const std::vector<Space> instance{instance_motion<Space>("d3_n20_linear")};
-  for (const auto& [motion, last] : {std::pair(&steps, 107U), std::pair(&instance, 19U)}) {
-    const Necklaces necklaces{{0, last}};
-    WrappedRig<Kernel::filtered> filtered(motion->front(), AuditMode::none, necklaces);
-    filtered.run(*motion);
-    EXPECT_EQ(fingerprint_of<Kernel::exact>(*motion, necklaces), filtered.simulator.fingerprint());
-  }
-}
-
-TEST(WrappedHierarchy, ExactAgreesOnMotionsFullOfTies) {
-  std::mt19937 random(24);
-  for (int round = 0; round < test::rounds(60); ++round) {
-    const Points from = random_grid_points(random, 7, 4);
-    const Points to = random_grid_points(random, 7, 4);
-    SCOPED_TRACE(text_of("round ", round, ": ", to_text({from, to})));
-    try {
-      EXPECT_EQ(fingerprint_of<Kernel::exact>({moving(from, to)}, {{0, 6}}),
-                fingerprint_of<Kernel::filtered>({moving(from, to)}, {{0, 6}}));
-    } catch (const std::exception& error) {
-      ADD_FAILURE() << error.what();
-    }
-    if (HasFailure()) return;
-  }
-}
-
-TEST(WrappedHierarchy, DegenerateInstances) {
-  for (const char* name :
-       {"static", "half", "rigid", "gridrigid", "gridscale", "converge", "gridrand", "gridint", "swap"}) {
-    SCOPED_TRACE(name);
-    const Space motion = instance_motion<Space>(std::string("degenerate_d3_n64_") + name);
-    run_audited<Kernel::filtered>({motion}, {{0, 63}}, 20);
-  }
-}
-
 TEST(WrappedHierarchy, SeveralNecklaces) {
   const Space motion = instance_motion<Space>("d3_n50_linear");
   const Necklaces necklaces{{0, 16}, {17, 17}, {18, 19}, {20, 49}};
@@ -398,15 +210,6 @@ TEST(WrappedHierarchy, RefusesChangesThatCannotBe) {
   EXPECT_THROW(rig.structure.apply({0, 4, {1, 4, 1, 4}}), std::invalid_argument);
   EXPECT_THROW(rig.structure.apply({0, 4, {0, 4, 0, 5}}), std::invalid_argument);
   rig.structure.apply({0, 4, {0, 4, 0, 4}});
-}
-
-TEST(WrappedHierarchy, TheExactStageIsRareInGeneralPosition) {
-  const Space motion = instance_motion<Space>("d3_n50_linear");
-  WrappedRig<Kernel::filtered> rig(motion, AuditMode::none, one_necklace(motion));
-  rig.run();
-  const auto& statistics = rig.structure.statistics;
-  EXPECT_LT(statistics.stages.exact, statistics.certificates.created / 100);
-  EXPECT_LT(statistics.stages.signs_exact, 100U);
 }
 
 // The audit must be able to fail: it rejects every other basis.

@@ -5,9 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "structures/power_diagram/power_diagram.h"
-#include "tests/lattice/run_lattice_scenes.h"
 #include "tests/support/inputs/moving_beads.h"
-#include "tests/support/rounds.h"
 #include "tests/support/text_of.h"
 
 namespace kds::hull_winding_test {
@@ -78,18 +76,6 @@ TEST_P(HullWinding, SurvivesABeadFromFarAway) {
 
 INSTANTIATE_TEST_SUITE_P(Kernels, HullWinding, testing::ValuesIn({Kernel::filtered, Kernel::exact}),
                          [](const auto& test) { return std::string(name_of(test.param)); });
-
-// The diagram equals a static build after every event of scenes full of ties, because an audit follows each
-// event.
-TEST(PowerDiagram, LatticeScenesAreRightAfterEveryEvent) {
-  LatticeCounts counts;
-  for (std::uint32_t seed = 1; seed <= rounds(100U, 3U); ++seed) {
-    const auto failure = run_lattice_scenes(seed, counts);
-    ASSERT_EQ(failure, std::nullopt) << *failure;
-  }
-  EXPECT_GT(counts.rebuilt, counts.scenes / 4);
-  EXPECT_LT(counts.refused, counts.scenes / 10);
-}
 
 }  // namespace
 }  // namespace kds::hull_winding_test

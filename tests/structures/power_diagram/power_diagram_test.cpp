@@ -50,17 +50,6 @@ INSTANTIATE_TEST_SUITE_P(Data, PowerInstance,
                                          Count{"d3_n100_linear", 4225}, Count{"d3_n200_linear", 11286}),
                          [](const auto& test) { return test.param.name; });
 
-TEST(PowerDiagram, AuditsPassBetweenAllEvents) {
-  const std::array instances{std::pair("d3_n20_linear", 5), std::pair("d3_n50_linear", 200)};
-  for (const auto& [name, stride] : std::span(instances).first(test::rounds(instances.size()))) {
-    PowerRig rig(instance_motion<Space>(name), AuditMode::events);
-    Witness witness(rig.simulator, definition(rig, stride));
-    ASSERT_NO_THROW(rig.run()) << name;
-    // One audit runs after each event, one before the first event, and one at each end.
-    EXPECT_EQ(rig.structure.statistics.audits_run, rig.external_events() + 3);
-  }
-}
-
 // The maintained diagram gives the closest pair at every frame.
 TEST(PowerDiagram, EdgesAtFramesHaveTheClosestPair) {
   const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 4);
@@ -79,31 +68,6 @@ TEST(PowerDiagram, EdgesAtFramesHaveTheClosestPair) {
     EXPECT_EQ(kept.pair->second, built.pair->second);
     EXPECT_EQ(kept.looked_at.edges, built.looked_at.edges);
   }
-}
-
-TEST(PowerDiagram, KernelsAgree) {
-  const Space motion = instance_motion<Space>("d3_n20_linear");
-  PowerRig filtered(motion);
-  filtered.run();
-  PowerRig exact(motion, AuditMode::none, Kernel::exact);
-  exact.run();
-  EXPECT_EQ(exact.simulator.fingerprint(), filtered.simulator.fingerprint());
-  const auto& counts = filtered.structure.statistics.certificates;
-  EXPECT_EQ(exact.structure.statistics.certificates.created, counts.created);
-  EXPECT_EQ(exact.structure.statistics.certificates.never_failing, counts.never_failing);
-  EXPECT_EQ(exact.structure.statistics.certificates.peak, counts.peak);
-}
-
-TEST(PowerDiagram, KernelsAgreeOnRealTrajectories) {
-  const auto steps = trajectory_steps("villin_hp36_300K.dcd", 0, 4, 2);
-  PowerRig filtered(steps.front(), AuditMode::frames);
-  filtered.run(steps);
-  PowerRig exact(steps.front(), AuditMode::none, Kernel::exact);
-  exact.run(steps);
-  EXPECT_GT(filtered.external_events(), 0U);
-  EXPECT_EQ(filtered.structure.statistics.rebuilds, 0U);
-  EXPECT_EQ(exact.simulator.fingerprint(), filtered.simulator.fingerprint());
-  expect_right_at_the_end(filtered);
 }
 
 // Applying the logged flips to a set of cells leads from CGAL's cells at u = 0 to CGAL's cells at u = 1.
@@ -145,15 +109,6 @@ TEST(PowerDiagram, LoggedFlipsTurnTheFirstCellsIntoTheLast) {
   }
   EXPECT_EQ(std::vector(cells.begin(), cells.end()),
             cgal_regular_cells(exact_points(motion, Dyadic(1.0))).cells);
-}
-
-// Every event creates certificates at their own root. The double stages must decide them.
-TEST(PowerDiagram, TheExactStageIsRareInGeneralPosition) {
-  PowerRig rig(instance_motion<Space>("d3_n50_linear"));
-  rig.run();
-  const StageCounts& stages = rig.structure.statistics.stages;
-  EXPECT_LT(stages.exact, rig.structure.statistics.certificates.created / 100);
-  EXPECT_LT(stages.signs_exact, 100U);
 }
 
 TEST(PowerDiagram, CountsCertificatesPerBead) {

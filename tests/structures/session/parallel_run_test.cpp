@@ -16,7 +16,7 @@
 #include "motions/base/interruption.h"
 #include "motions/frames/trajectory.h"
 #include "structures/contacts/contacts.h"
-#include "tests/support/inputs/hard_scenes.h"
+#include "tests/support/inputs/random.h"
 #include "tests/support/inputs/moving_beads.h"
 #include "tests/support/rounds.h"
 
@@ -121,25 +121,6 @@ PartCounts expect_law(const Scene& scene, const KineticRunOptions& options, std:
   return cut.parts();
 }
 
-/// Beads of a grid that mostly rest or move by whole units, in one plane if `flat`. Many events coincide,
-/// also with frames.
-Trajectory grid(std::uint64_t seed, int side, bool flat, int frames) {
-  Random random(seed);
-  Trajectory necklace;
-  necklace.file = "grid of seed " + std::to_string(seed);
-  const int beads = side * side * (flat ? 1 : side);
-  for (int frame = 0; frame < frames; ++frame) {
-    Eigen::Matrix3Xd& positions = necklace.frames.emplace_back(3, beads);
-    for (int bead = 0; bead < beads; ++bead) {
-      const Eigen::Vector3d home(bead % side, bead / side % side, bead / (side * side));
-      positions.col(bead) = home;
-      for (int axis = 0; axis < (flat ? 2 : 3); ++axis)
-        if (frame % 3 == 1 && random() % 3 == 0) positions(axis, bead) += pick(random, -1, 1);
-    }
-  }
-  return necklace;
-}
-
 /// A chain whose beads wander.
 Trajectory wandering_chain(std::uint64_t seed, int beads, int frames) {
   Random random(seed);
@@ -181,32 +162,6 @@ TEST(ParallelRun, IsTheUncutRunOfWanderingChains) {
   }
 }
 
-TEST(ParallelRun, IsTheUncutRunOfLatticeScenes) {
-  int again = 0;
-  for (std::uint64_t seed = 0; seed < test::rounds(40U); ++seed) {
-    SCOPED_TRACE(seed);
-    const LatticeScene lattice = lattice_scene(seed);
-    if (lattice.necklace.frames.size() < 3) continue;
-    const Scene scene(std::span(&lattice.necklace, 1), lattice.radii);
-    again += static_cast<int>(
-        expect_law(scene, {{"sorted", "box", "wrapped", "power"}}, 1, 1 + seed % 5).run_again);
-  }
-  EXPECT_GT(again, 0);
-}
-
-TEST(ParallelRun, IsTheUncutRunOfGrids) {
-  int again = 0;
-  for (std::uint64_t seed = 0; seed < test::rounds(8U); ++seed) {
-    SCOPED_TRACE(seed);
-    const bool flat = seed % 2 == 0;
-    const Scene scene = scene_of(grid(seed, flat ? 5 : 3, flat, 9), {0.5});
-    std::vector<std::string> structures = all_structures;
-    if (flat) structures.emplace_back("hull");
-    again += static_cast<int>(expect_law(scene, {structures}, 1 + seed % 3, 1 + seed % 5).run_again);
-  }
-  EXPECT_GT(again, 0);
-}
-
 TEST(ParallelRun, IsTheUncutRunOfShippedTrajectories) {
   Random random(11);
   for (const auto& [name, frames] :
@@ -223,34 +178,6 @@ TEST(ParallelRun, IsTheUncutRunOfShippedTrajectories) {
                    1 + static_cast<std::size_t>(random() % 5));
     EXPECT_EQ(parts.run_again, 0U);
   }
-}
-
-// Searches of another kernel find other brackets of the same roots.
-TEST(ParallelRun, HasTheBracketsOfTheExactKernel) {
-  std::vector<Scene> scenes;
-  for (std::uint64_t seed = 0; seed < test::rounds(3U); ++seed) {
-    scenes.push_back(scene_of(grid(seed, 3, false, 5), {0.5}));
-    for (const FrameMotion motion : {FrameMotion::linear, FrameMotion::hermite})
-      scenes.push_back(scene_of(wandering_chain(seed, 12, 5), {0.5}, motion));
-  }
-  std::size_t on_grid = 0, off_grid = 0;
-  for (const Scene& scene : scenes) {
-    ParallelRun cut(scene, {all_structures}, {2, 2});
-    EventLog log;
-    cut.listen(log);
-    cut.run([](std::size_t) {});
-    KineticRun whole(scene, {all_structures, Kernel::exact});
-    SameEvents same(log);
-    whole.listen(same);
-    whole.run();
-    EXPECT_EQ(log.events.size(), same.count());
-    for (const Event& event : log.events) {
-      EXPECT_TRUE(event.upper == event.lower || event.upper == event.lower + 0x1p-24);
-      ++(event.lower == event.upper ? on_grid : off_grid);
-    }
-  }
-  EXPECT_GT(on_grid, 100U);
-  EXPECT_GT(off_grid, 100U);
 }
 
 TEST(ParallelRun, AuditsAsOften) {
