@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "examples/new_certificate.h"
-#include "kds/guarded_structure.h"
+#include "kds/certified_places.h"
 
 template <int Dimension>
-class NeighborPairs final : public kds::GuardedStructure<Near> {
+class NeighborPairs final : public kds::CertifiedPlaces<Near> {
  public:
   using Pair = std::array<kds::BeadId, 2>;
 
   NeighborPairs(kds::Simulator& simulator, const kds::MotionRef<Dimension>& motion)
-      : GuardedStructure(simulator, motion, "neighbor_pairs", part_and_meet) {
+      : CertifiedPlaces(simulator, motion, "neighbor_pairs", part_and_meet) {
     for (kds::BeadId b = 1; b < motion.bead_count(); ++b)
       for (kds::BeadId a = 0; a < b; ++a) pairs_.push_back({a, b});
     near_.resize(pairs_.size());

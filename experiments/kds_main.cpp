@@ -21,7 +21,7 @@
 #include "experiments/program/commands.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option_values.h"
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/input_error.h"
 #include "motions/numbers/lanes.h"
 #include "structures/session/structure_spec.h"
@@ -125,7 +125,7 @@ int run_program(const Arguments& arguments) {
 // Does not throw, since standard error may be closed.
 void complain(const std::string& message) { std::fputs(fmt::format("kds: {}\n", message).c_str(), stderr); }
 
-int guarded(const Arguments& arguments) {
+int run_catching_input_errors(const Arguments& arguments) {
   try {
     return run_program(arguments);
   } catch (const HelpRequest& help) {
@@ -153,7 +153,7 @@ std::span<const Command> all_commands() { return kCommands; }
 int run_arguments(const Arguments& arguments) {
   try {
     if (const auto missing = missing_in_processor()) throw std::runtime_error(*missing);
-    return guarded(arguments);
+    return run_catching_input_errors(arguments);
   } catch (const std::bad_alloc&) {
     complain("out of memory");
   } catch (const std::exception& error) {
@@ -165,7 +165,7 @@ int run_arguments(const Arguments& arguments) {
 }
 
 int kds_main(int argc, char** argv) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   prepare_process();
   return run_arguments(Arguments(argv + (argc > 0 ? 1 : 0), argv + argc));
 }

@@ -27,9 +27,11 @@ enum class CertificateHandle : std::uint32_t {
   zero = 0xfffffffeU,      ///< the function is zero for the whole step; treated as `never`
   violated = 0xfffffffdU,  ///< does not hold just after the present time; nothing is kept
 };                         // any other value is a slot number
-[[nodiscard]] constexpr bool has_slot(CertificateHandle guard) { return guard < CertificateHandle::violated; }
-[[nodiscard]] constexpr std::uint32_t slot_of(CertificateHandle guard) {
-  return static_cast<std::uint32_t>(guard);
+[[nodiscard]] constexpr bool has_slot(CertificateHandle handle) {
+  return handle < CertificateHandle::violated;
+}
+[[nodiscard]] constexpr std::uint32_t slot_of(CertificateHandle handle) {
+  return static_cast<std::uint32_t>(handle);
 }
 
 /// Numbers the tables of a run: by structure, then by table.
@@ -110,9 +112,9 @@ class CertificateTable final : public FailureSource {
     search_->set_constants(constants);
   }
 
-  /// Guards the structure by `certificate` from now to the end of the step. `place` is the certificate's
-  /// place in the structure. The place is passed back with the failure, and KineticStructure::tie_of turns it
-  /// into the number that breaks ties between certificates of one function.
+  /// Adds a certificate, which guards the structure from now to the end of the step. `place` is the
+  /// certificate's place in the structure. The place is passed back with the failure, and
+  /// KineticStructure::tie_of turns it into the number that breaks ties between certificates of one function.
   [[nodiscard]] CertificateHandle watch(const Certificate& certificate, std::uint32_t place,
                                         KnownAtStart birth = KnownAtStart::unknown) {
     Failure failure;
@@ -142,8 +144,8 @@ class CertificateTable final : public FailureSource {
   [[nodiscard]] Certificate& one_of_many(std::uint32_t place, KnownAtStart birth) {
     constexpr std::size_t at_a_time = 512;
     if (waiting_count_ >= at_a_time)
-      search_enqueued([this](std::uint32_t at, CertificateHandle guard) {
-        append_little(settled_, {at, guard});
+      search_enqueued([this](std::uint32_t at, CertificateHandle handle) {
+        append_little(settled_, {at, handle});
       });
     return enqueue_empty(place, birth);
   }
@@ -151,7 +153,7 @@ class CertificateTable final : public FailureSource {
   /// in which they were enqueued.
   template <std::invocable<std::uint32_t, CertificateHandle> Visit>
   void watch_enqueued(Visit visit) {
-    for (const SearchedCertificate& s : settled_) visit(s.place, s.guard);
+    for (const SearchedCertificate& s : settled_) visit(s.place, s.handle);
     settled_.clear();
     search_enqueued(visit);
   }
@@ -161,13 +163,13 @@ class CertificateTable final : public FailureSource {
   }
 
   /// Removes a certificate that has not failed.
-  void drop(CertificateHandle guard) {
-    if (guard == CertificateHandle::violated) return;
+  void drop(CertificateHandle handle) {
+    if (handle == CertificateHandle::violated) return;
     --owner_.statistics.certificates.alive;
-    if (!has_slot(guard)) return;
+    if (!has_slot(handle)) return;
     ++owner_.statistics.certificates.cancelled;
-    simulator_.cancel(slots_[slot_of(guard)].handle);
-    free_.push_back(slot_of(guard));
+    simulator_.cancel(slots_[slot_of(handle)].queued);
+    free_.push_back(slot_of(handle));
   }
 
   /// Removes all certificates in the queue for which `asked(certificate)` is true. Visits every slot. Must
@@ -181,8 +183,8 @@ class CertificateTable final : public FailureSource {
     }
   }
   /// Sets the certificate's place in the structure from now on.
-  void set_place(CertificateHandle guard, std::uint32_t place) {
-    if (has_slot(guard)) slots_[slot_of(guard)].place = place;
+  void set_place(CertificateHandle handle, std::uint32_t place) {
+    if (has_slot(handle)) slots_[slot_of(handle)].place = place;
   }
 
   /// Counts certificates that are known to hold for the rest of the step.
@@ -195,16 +197,16 @@ class CertificateTable final : public FailureSource {
   }
 
   /// Prefetches the certificate, which will be needed soon.
-  void fetch(CertificateHandle guard) const {
-    if (has_slot(guard)) __builtin_prefetch(&slots_[slot_of(guard)]);
+  void fetch(CertificateHandle handle) const {
+    if (has_slot(handle)) __builtin_prefetch(&slots_[slot_of(handle)]);
   }
   /// Prefetches the queue entry of a certificate that will be removed soon.
-  void fetch_scheduled(CertificateHandle guard) const {
-    if (has_slot(guard)) simulator_.fetch(slots_[slot_of(guard)].handle);
+  void fetch_scheduled(CertificateHandle handle) const {
+    if (has_slot(handle)) simulator_.fetch(slots_[slot_of(handle)].queued);
   }
   /// The failure time of a certificate in the queue.
   [[nodiscard]] const FailureTime& time(std::uint32_t slot) const {
-    return simulator_.scheduled(slots_[slot].handle);
+    return simulator_.scheduled(slots_[slot].queued);
   }
   [[nodiscard]] const Certificate& certificate(std::uint32_t slot) const { return slots_[slot].certificate; }
   /// Returns whether the certificate only touches zero at its time and does not fail. Always false unless the
@@ -262,13 +264,13 @@ class CertificateTable final : public FailureSource {
   struct Slot {
     Certificate certificate;
     std::uint32_t place = 0;
-    QueueHandle handle = 0;
+    QueueHandle queued = 0;
     bool touch = false;
   };
 
   struct SearchedCertificate {
     std::uint32_t place;
-    CertificateHandle guard;
+    CertificateHandle handle;
   };
 
   template <std::invocable<std::uint32_t, CertificateHandle> Visit>
@@ -343,7 +345,7 @@ class CertificateTable final : public FailureSource {
     held.certificate = certificate;
     held.place = place;
     held.touch = failure.time.touch;
-    held.handle = simulator_.schedule(failure.time, *this, slot);
+    held.queued = simulator_.schedule(failure.time, *this, slot);
     return static_cast<CertificateHandle>(slot);
   }
 

@@ -19,7 +19,7 @@
 #include "kds/failure_order.h"
 #include "kds/kinetic_structure.h"
 #include "kds/stopwatch.h"
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/require_index.h"
 
 namespace kds {
@@ -40,7 +40,7 @@ class Simulator {
     explicit ComputeScope(Simulator& simulator) : account_(simulator.work_) {}
 
    private:
-    FloatingPointGuard to_nearest_;
+    FloatingPointScope to_nearest_;
     ExactWork::Open account_;
   };
 

@@ -1,7 +1,7 @@
 #pragma once
 // Bases that hold what structures repeat. A structure derives from StructureBase, from EditableBase if beads
-// can be inserted, erased and given other curves while time runs, or from GuardedStructure
-// (guarded_structure.h) if each of its places has one certificate.
+// can be inserted, erased and given other curves while time runs, or from CertifiedPlaces
+// (certified_places.h) if each of its places has one certificate.
 
 #include <array>
 #include <cstddef>

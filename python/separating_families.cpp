@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/input_error.h"
 #include "structures/collision/node_pairs.h"
 
@@ -196,7 +196,7 @@ void require_connected_chain(const SphereTree<Dimension>& tree, const PairsAsked
 template <int Dimension>
 FamilySize ruled_family(const SphereTree<Dimension>& tree, const PairsAsked& asked, Split split,
                         BeadId leaf) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   RuledSearch<Dimension> search(tree, split, leaf);
   detail::for_each_root(tree.roots(), asked,
                         [&](const NodePair& roots, BeadId least_apart) { search.visit(roots, least_apart); });
@@ -205,14 +205,14 @@ FamilySize ruled_family(const SphereTree<Dimension>& tree, const PairsAsked& ask
 
 template <int Dimension>
 std::uint64_t explicit_family(const SphereTree<Dimension>& tree, const PairsAsked& asked) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   require_connected_chain(tree, asked);
   return ExplicitFamily<Dimension>(tree, asked.apart).count_from(tree.roots().front());
 }
 
 template <int Dimension>
 FamilySize smallest_family(const SphereTree<Dimension>& tree, const PairsAsked& asked) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   Smallest<Dimension> smallest(tree);
   detail::for_each_root(tree.roots(), asked,
                         [&](const NodePair& roots, BeadId least_apart) { smallest.add(roots, least_apart); });

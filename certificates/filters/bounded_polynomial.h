@@ -21,7 +21,7 @@ namespace kds {
 // has an error of at most 2^-1022, whether it is flushed to zero or not, times factors whose product is below
 // M^(h-p), where p <= h is the power that the product itself carried. That is at most 2^-69 of the smallest
 // bound, and the constants are inflated by more. Outside this range the filter is undecided. Rounding must be
-// to nearest (motions/base/floating_point_guard.h).
+// to nearest (motions/base/floating_point_scope.h).
 //
 // Two bounds for the plain Bernstein coefficients c follow. The division of c by binomials rounds once more.
 //

@@ -138,8 +138,8 @@ template <int Degree>
   }
 }
 
-/// Runs Halley's iteration on the local polynomials, guarded by the bracket of signs seen so far, then finds
-/// a bracket around the result whose ends are proved.
+/// Runs Halley's iteration on the local polynomials, safeguarded by the bracket of signs seen so far, then
+/// finds a bracket around the result whose ends are proved.
 template <int Degree>
 [[KDS_LANES_TARGETS]] void narrow(LanesDescent<Degree>& descent, const Lanes::Mask& wanted) {
   Lanes slope(-1.0);

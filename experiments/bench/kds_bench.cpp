@@ -6,10 +6,10 @@
 
 #include "experiments/bench/bench.h"
 #include "experiments/output/result_json.h"
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 
 int main(int argc, char** argv) try {
-  const kds::FloatingPointGuard to_nearest;
+  const kds::FloatingPointScope to_nearest;
   kds::bench::add_certificates();
   kds::bench::add_engine();
   kds::bench::add_hierarchies();

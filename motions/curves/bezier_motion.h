@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/curves/motion.h"
 #include "motions/numbers/bernstein.h"
 

@@ -9,7 +9,7 @@
 #include <cstddef>
 
 #include "motions/base/bead.h"
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 
 namespace kds {
 

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 
 namespace kds {
 

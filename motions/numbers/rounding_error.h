@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 
 namespace kds {
 
@@ -13,7 +13,7 @@ namespace kds {
 /// with each operation. A running bound is slower than a filter's fixed bound, but much sharper where numbers
 /// differ widely in size. There is no assumption about ranges: overflow makes the bound infinite or NaN, and
 /// losses from underflow are added to the bound, also where subnormal operands and results are flushed to
-/// zero. Rounding must be to nearest (motions/base/floating_point_guard.h).
+/// zero. Rounding must be to nearest (motions/base/floating_point_scope.h).
 ///
 /// The bounds are rounded too, by a relative 2^-53 per operation. The user of a bound must therefore inflate
 /// it once (`inflation`).

@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
 #include "motions/frames/trajectory.h"
@@ -58,7 +58,7 @@ void warn_of_ending(const std::filesystem::path& path, const ReaderSpec& reader,
 }
 
 FramesOpened open_frames(const std::filesystem::path& path, const ReadOptions& options) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   const ReaderSpec& reader = reader_of(path, options.format);
   if (options.topology) refuse_trajectory_as_topology(path, *options.topology, reader.takes_topology);
   if (!reader.open)
@@ -144,7 +144,7 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
       until_damage_(options.until_damage),
       heads_(heads_of(opened_)),
       notes_(heads_.size()) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   FrameRead first;
   if (!opened_.frames->next(first))
     throw InputError(fmt::format("{}: the file holds no frame", opened_.file));
@@ -380,7 +380,7 @@ void NecklaceStream::note_apart(const FrameRead& frame) {
 }
 
 bool NecklaceStream::next(FrameRead& frame) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   if (ended_) return false;
   try {
     return read(frame);

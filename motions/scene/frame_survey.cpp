@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/input_error.h"
 #include "motions/numbers/exact_number.h"
 #include "motions/scene/length_unit.h"
@@ -79,7 +79,7 @@ double LongestBond::radius() const {
 
 FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
                           const std::function<void(const std::string&)>& warn) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   const std::vector<NecklaceBeads>& necklaces = frames.necklaces();
   FrameSurvey survey;
   PlaneSearch planes;

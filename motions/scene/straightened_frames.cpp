@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 
 namespace kds {
 
@@ -64,7 +64,7 @@ void StraightenedFrames::go_to_next_block() {
 }
 
 void StraightenedFrames::straighten_block() {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   if (samples_.empty()) return;
   const std::size_t end = std::min(begin_ + block + 1, samples_.size());
   std::vector<FrameRead> straight(samples_.begin() + static_cast<std::ptrdiff_t>(begin_),

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/input_error.h"
 #include "motions/curves/bezier_motion.h"
 
@@ -106,7 +106,7 @@ class DeviationSearch {
 
 StrideDeviation deviation_of_stride(const Scene& scene, FrameSource& every, std::size_t stride,
                                     std::optional<double> most) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   DeviationSearch search(scene, stride, most.value_or(std::numeric_limits<double>::infinity()));
   ControlPoints points;
   FrameRead before, after;

@@ -23,7 +23,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "structures/blocks/block_loops.h"
 
 #define KDS_BLOCK_INLINE [[gnu::always_inline, KDS_BLOCK_TARGET]] inline

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/input_error.h"
 #include "structures/enclosing_sphere/cage.h"
 
@@ -102,7 +102,7 @@ void ChordCages<Hierarchy>::take(int k) {
 
 template <class Hierarchy>
 void ChordCages<Hierarchy>::build(const Curves<dimension>& curves) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   moved_ = false;
   balls_.front().move_to(curves, 0);
   take(0);
@@ -110,7 +110,7 @@ void ChordCages<Hierarchy>::build(const Curves<dimension>& curves) {
 
 template <class Hierarchy>
 void ChordCages<Hierarchy>::move_to(const Curves<dimension>& curves) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   if (moved_) {
     std::swap(balls_.front(), balls_.back());
     std::swap(cages_.front(), cages_.back());

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kds/simulator.h"
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/integer_balls.h"
 #include "structures/necklace/ball_distance.h"
@@ -234,7 +234,7 @@ void ChordHierarchy<Hierarchy>::apply(const Change&) {
 
 template <class Hierarchy>
 std::optional<std::string> ChordHierarchy<Hierarchy>::audit(const Dyadic& time) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   const Curves<dimension> curves = motion_.curves();
   const bool at_start = time == Dyadic(0.0), at_end = time == Dyadic(1.0);
   if (at_start || at_end) {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "structures/chord_cages/chord_cages.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/enclosing_sphere/sphere_of_balls.h"
@@ -414,7 +414,7 @@ void find_loose_nodes(const LinearStep<D>& step, double tightness, std::vector<N
 
 template <int D>
 void TightCages<D>::prove(const ChordCages<StaticWrappedHierarchy<D>>& cages, const Curves<D>& curves) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   bisections_ = unproved_ = 0;
   bisected_.clear();
   parts_.clear();

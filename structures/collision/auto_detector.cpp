@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 
 namespace kds {
 
@@ -243,7 +243,7 @@ void AutoDetector<Dimension>::widen_skin(const Balls<Dimension>& balls, double w
 
 template <int Dimension>
 const std::vector<BeadPair>& AutoDetector<Dimension>::pairs(const Balls<Dimension>& balls) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   if (mode_ == Mode::nothing || balls.size() != tree_.bead_count() || balls.size() == 0 ||
       (!speed_ && !radii_.empty() && !same_radii(balls))) {
     radii_.clear();  // measure the scene only once a second frame needs it

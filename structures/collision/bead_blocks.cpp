@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 
 namespace kds {
 
@@ -306,7 +306,7 @@ void BeadBlocks<Dimension>::turn(const std::optional<Axes<Dimension>>& axes) {
 
 template <int Dimension>
 std::span<const double> BeadBlocks<Dimension>::strayed_by_block(const Balls<Dimension>& balls) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   if (balls.size() != beads_) throw std::invalid_argument("balls and necklaces must be of the same beads");
   strays_.resize(boxes_.size());
   with_sources(balls, source_of(0, 0), [&](BlockSource<Dimension> some, std::size_t first, std::size_t last) {
@@ -320,7 +320,7 @@ std::span<const double> BeadBlocks<Dimension>::strayed_by_block(const Balls<Dime
 
 template <int Dimension>
 double BeadBlocks<Dimension>::strayed(const Balls<Dimension>& balls) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   if (balls.size() != beads_) throw std::invalid_argument("balls and necklaces must be of the same beads");
   float farthest = 0;
   with_sources(balls, source_of(0, 0),

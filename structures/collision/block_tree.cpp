@@ -6,7 +6,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/interruption.h"
 #include "structures/blocks/float_frame.h"
 
@@ -267,7 +267,7 @@ const std::vector<BeadPair>& BlockTree<Dimension>::pairs(const Balls<Dimension>&
 template <int Dimension>
 const std::vector<BeadPair>* BlockTree<Dimension>::pairs_unless(const Balls<Dimension>& balls,
                                                                 std::size_t most) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   find_candidates(balls, 0, most);
   if (candidate_count_ > most) return nullptr;
   pairs_.clear();
@@ -280,7 +280,7 @@ const std::vector<BeadPair>* BlockTree<Dimension>::pairs_unless(const Balls<Dime
 template <int Dimension>
 std::optional<std::span<const BeadPair>> BlockTree<Dimension>::near_pairs(const Balls<Dimension>& balls,
                                                                           double gap, std::size_t most) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   find_candidates(balls, gap, most);
   if (candidate_count_ > most) return std::nullopt;
   return std::span<const BeadPair>(candidates_.data(), candidate_count_);
@@ -308,7 +308,7 @@ void BlockTree<Dimension>::mark(std::span<const std::uint32_t> blocks) {
 template <int Dimension>
 std::optional<std::span<const BeadPair>> BlockTree<Dimension>::near_pairs_of(
     const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks, std::size_t most) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   if (balls.size() != bead_count())
     throw std::invalid_argument("balls and necklaces must be of the same beads");
   mark(blocks);

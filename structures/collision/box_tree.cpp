@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "structures/hierarchy/box_hierarchy.h"
 
 namespace kds {
@@ -49,7 +49,7 @@ BoxTree<Dimension>::BoxTree(std::span<const BeadRange> necklaces, int directions
 
 template <int Dimension>
 void BoxTree<Dimension>::build(const Balls<Dimension>& balls) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   const std::size_t count = directions_.size();
   for (std::size_t node = nodes_.size(); node-- > 0;) {  // children before their parents
     const TreeBox& box = nodes_[node];

@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/interruption.h"
 #include "structures/collision/balls_meet.h"
 #include "structures/enclosing_sphere/sphere_scan.h"
@@ -53,7 +53,7 @@ std::array<Run, 2> asked_of(BeadId bead, std::size_t necklace, const PairsAsked&
 template <int Dimension, class Distance, class Visit>
 void visit_near(const Balls<Dimension>& balls, const PairsAsked& asked, const Distance& distance,
                 const Visit& visit) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   if (!asked.groups.empty() || !asked.at_rest.empty()) {
     std::uint64_t visited = 0;
     return PairsInQuestion(asked).for_each([&](BeadId i, BeadId j) {

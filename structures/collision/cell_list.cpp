@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/interruption.h"
 #include "motions/numbers/lanes.h"
 
@@ -187,7 +187,7 @@ void CellList<Dimension>::look_around(const Balls<Dimension>& balls, const Grid&
 
 template <int Dimension>
 std::span<const BeadPair> CellList<Dimension>::near_pairs(const Balls<Dimension>& balls, double gap) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   const std::size_t beads = asked_.necklaces.empty() ? 0 : std::size_t{asked_.necklaces.back().last} + 1;
   if (balls.size() != beads) throw std::invalid_argument("balls and necklaces must be of the same beads");
   candidates_.clear();
@@ -205,7 +205,7 @@ std::span<const BeadPair> CellList<Dimension>::near_pairs(const Balls<Dimension>
 template <int Dimension>
 const std::vector<BeadPair>& CellList<Dimension>::pairs_within(const Balls<Dimension>& balls,
                                                                double distance) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   pairs_.clear();
   for (const BeadPair& pair : near_pairs(balls, distance))
     if (distance == 0 ? balls_meet(balls, pair.first, pair.second)
@@ -286,7 +286,7 @@ void VerletList<Dimension>::rebuild(const Balls<Dimension>& balls) {
 
 template <int Dimension>
 const std::vector<BeadPair>& VerletList<Dimension>::pairs(const Balls<Dimension>& balls) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   if (!holds(balls)) rebuild(balls);
   pairs_.clear();
   const MeetingBalls meet(balls);

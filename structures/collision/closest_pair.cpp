@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/scene/near_pairs.h"
 #include "structures/collision/balls_meet.h"
 #include "structures/necklace/ball_distance.h"
@@ -195,7 +195,7 @@ class Search {
 template <int Dimension>
 ClosestPairReport closest_pair(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
                                const DiagramEdges& diagram, const BeadPairs& neighbors) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   const std::size_t beads = radii.size();
   if (static_cast<std::size_t>(centers.cols()) != beads || diagram.edges.bead_count() != beads ||
       neighbors.bead_count() != beads)
@@ -209,7 +209,7 @@ ClosestPairReport closest_pair(const Eigen::Matrix3Xd& centers, std::span<const 
 template <int Dimension>
 ClosestPairReport closest_pair(const Eigen::Matrix3Xd& centers, std::span<const double> radii,
                                const BeadPairs& neighbors) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   return closest_pair<Dimension>(centers, radii, static_edges<Dimension>(centers, squares(radii)), neighbors);
 }
 

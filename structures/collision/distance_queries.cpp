@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "structures/collision/hierarchy_search.h"
 
 namespace kds {
@@ -50,7 +50,7 @@ bool DistanceQueries<Dimension>::search(const Balls<Dimension>& balls, double la
 
 template <int Dimension>
 std::optional<ClosestPair> DistanceQueries<Dimension>::closest_pair(const Balls<Dimension>& balls) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   if (balls.size() != tree_.bead_count())
     throw std::invalid_argument("balls and necklaces must be of the same beads");
   ClosestSoFar<Dimension> closest(balls);
@@ -71,7 +71,7 @@ std::optional<ClosestPair> DistanceQueries<Dimension>::closest_pair(const Balls<
 template <int Dimension>
 const std::vector<BeadPair>& DistanceQueries<Dimension>::pairs_within(const Balls<Dimension>& balls,
                                                                       double distance) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   pairs_.clear();
   const auto near = tree_.near_pairs(balls, distance, std::numeric_limits<std::size_t>::max());
   for (const BeadPair& pair : near.value())

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/interruption.h"
 #include "structures/collision/balls_meet.h"
 #include "structures/collision/node_pairs.h"
@@ -174,7 +174,7 @@ bool splits_first(const Node& a, const Node& b) {
 template <class Node, class Judge, class Apart>
 PairsFound search(std::span<const Node> nodes, std::span<const std::uint32_t> roots, const PairsAsked& asked,
                   const Judge& judge, const Apart& apart) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   PairsFound found;
   // Returns whether the two nodes have to be split.
   const auto look_at = [&](const NodePair& pair) {
@@ -246,7 +246,7 @@ BoundedPair bounded(const SphereTree<Dimension>& tree, std::uint32_t first, std:
 template <int Dimension>
 std::optional<std::string> family_fault(const SeparatingFamily& family, std::span<const BeadPair> colliding,
                                         const Balls<Dimension>& balls, const PairsAsked& asked) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   return Check<Dimension>(family, colliding, balls, asked).fault();
 }
 
@@ -271,7 +271,7 @@ PairsFound find_pairs(const SphereTree<Dimension>& tree, const PairsAsked& asked
 template <int Dimension>
 std::optional<ClosestPair> find_closest_pair(const SphereTree<Dimension>& tree, const Balls<Dimension>& balls,
                                              const PairsAsked& asked) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   ClosestSoFar<Dimension> closest(balls);
   // Pairs near along the chain are close, which gives a good bound from the start.
   for (std::size_t n = 0; n < asked.necklaces.size(); ++n) {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "structures/enclosing_sphere/sphere_scan.h"
 
 namespace kds {
@@ -88,7 +88,7 @@ SphereTree<Dimension>::SphereTree(Hierarchy kind, std::span<const BeadRange> nec
 
 template <int Dimension>
 void SphereTree<Dimension>::build(const Balls<Dimension>& balls) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   const std::size_t nodes = spheres_.size() - balls.size();
   for (BeadId b = 0; b < balls.size(); ++b) {
     spheres_[nodes + b].center = detail::center_of(balls, b);

@@ -154,7 +154,7 @@ class Contacts final : public EditableBase {
 
   void find_pairs(typename MovingFamily<Dimension>::Resting resting, bool list_overlapping,
                   PairsOfBlocks& pairs);
-  /// Guards the pairs from this place on.
+  /// Creates the certificates of the pairs from this place on.
   void watch_from(std::uint32_t place, bool at_start);
   [[nodiscard]] const BeadPair& pair_at(std::uint32_t place) const { return pairs_.unclear[place]; }
   [[nodiscard]] bool is_zero_at_start(const Curves<Dimension>& curves, const BeadPair& pair);

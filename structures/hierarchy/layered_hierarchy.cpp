@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/numbers/lanes.h"
 #include "structures/enclosing_sphere/cage.h"
 
@@ -133,7 +133,7 @@ void LayeredHierarchy<Dimension>::Merges::append(NodeId node, std::uint32_t left
 
 template <int Dimension>
 void LayeredHierarchy<Dimension>::build(const BallRows<Dimension>& balls) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   const BallRow<Dimension>* const beads = balls.rows();
   Cage<Dimension>* const cages = cages_.data();
   using Four = typename Merges::Four;

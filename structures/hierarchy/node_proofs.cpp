@@ -30,8 +30,8 @@ void NodeProofs<Dimension>::take_curves() {
   chord_cache_.forget();
 }
 
-// A pair of balls needs a guard if neither holds the other. A pair of beads of equal radius needs one if
-// their centres differ.
+// A pair of balls needs a certificate if neither holds the other. A pair of beads of equal radius needs one
+// if their centres differ.
 template <int Dimension>
 void NodeProofs<Dimension>::add_unsettled(std::span<const NodeId> pairs, std::span<const Basis> bases,
                                           std::vector<NodeId>& nodes) {

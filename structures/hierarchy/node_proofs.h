@@ -46,7 +46,7 @@ class NodeProofs {
 
   // For many nodes, at the start of a step.
 
-  /// Adds to `nodes` the nodes of two beads in `pairs` that need a guard.
+  /// Adds to `nodes` the nodes of two beads in `pairs` that need a certificate.
   void add_unsettled(std::span<const NodeId> pairs, std::span<const Basis> bases, std::vector<NodeId>& nodes);
   /// Removes nodes that rest.
   void take_out_resting(std::span<const Basis> bases, std::vector<NodeId>& nodes);

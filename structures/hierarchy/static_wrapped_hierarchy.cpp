@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/interruption.h"
 #include "structures/hierarchy/hierarchy_passes.h"
 
@@ -111,7 +111,7 @@ WrapCounts StaticWrappedHierarchy<Dimension>::wrap(const Balls<Dimension>& balls
 
 template <int Dimension>
 WrapCounts StaticWrappedHierarchy<Dimension>::build(const Balls<Dimension>& balls) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   bases_.resize(tree_.node_count());
   cages_.resize(tree_.node_count());
   loose_.resize(tree_.node_count());
@@ -125,7 +125,7 @@ WrapCounts StaticWrappedHierarchy<Dimension>::build(const Balls<Dimension>& ball
 
 template <int Dimension>
 WrapCounts StaticWrappedHierarchy<Dimension>::update(const Balls<Dimension>& balls, Update how) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   if (bases_.size() != tree_.node_count()) return build(balls);
   lazy_ = how == Update::lazy ? &balls : nullptr;
   wider_ = balls.equal_radii() && balls.size() > 0 ? balls.radius(0) : 0;
@@ -136,7 +136,7 @@ WrapCounts StaticWrappedHierarchy<Dimension>::update(const Balls<Dimension>& bal
 
 template <int Dimension>
 Sphere StaticWrappedHierarchy<Dimension>::sphere(NodeId node) const {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   if (lazy_ == nullptr) return sphere_of(cages_[node], wider_);
   return sphere_of(lazy_->equal_radii() ? trusted_cage<PointForm<Dimension>>(*lazy_, bases_[node])
                                         : trusted_cage<BallForm<Dimension>>(*lazy_, bases_[node]),

@@ -27,8 +27,8 @@ class SupportTables {
   using Tables = CertificateTables<ReachesFurther, BallReachesFurther>;
 
  public:
-  /// Guards the structure `owner`, which has number `index` in the simulator. If `radii` promises equal
-  /// radii, the motion's radii are not looked at.
+  /// Holds the certificates of `owner`, a structure that has number `index` in the simulator. If `radii`
+  /// promises equal radii, the motion's radii are not looked at.
   SupportTables(Simulator& simulator, KineticStructure& owner, std::size_t index,
                 const MotionRef<Dimension>& motion, Radii radii)
       : motion_(motion),

@@ -7,12 +7,12 @@
 #include <string>
 #include <utility>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/require_index.h"
 #include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
 #include "structures/enclosing_sphere/integer_balls.h"
-#include "structures/hierarchy/node_guards.h"
+#include "structures/hierarchy/node_certificates.h"
 #include "structures/hierarchy/node_proofs.h"
 #include "structures/hierarchy/signs_just_after.h"
 #include "structures/necklace/bead_pairs.h"
@@ -80,9 +80,9 @@ WrappedHierarchy<Dimension>::WrappedHierarchy(Simulator& simulator, const Motion
       kept_(select_nodes(tree_, selection)),
       index_(simulator.add(*this)),
       proofs_(std::make_unique<NodeProofs<Dimension>>(simulator, tree_, curves_, motion.degree(), radii)),
-      guards_(std::make_unique<NodeGuards<Dimension>>(simulator, *this, index_, motion, curves_, radii,
-                                                      tree_.node_count(), *proofs_)),
-      repair_(std::make_unique<BasisRepair<Dimension>>(radii, *proofs_, guards_->signs())) {
+      certificates_(std::make_unique<NodeCertificates<Dimension>>(simulator, *this, index_, motion, curves_,
+                                                                  radii, tree_.node_count(), *proofs_)),
+      repair_(std::make_unique<BasisRepair<Dimension>>(radii, *proofs_, certificates_->signs())) {
   sort_kept_nodes();
 }
 
@@ -166,7 +166,7 @@ void WrappedHierarchy<Dimension>::build() {
   proofs_->take_curves();
   if (query_) kept_.assign(bases_.size(), 0);  // the query has not run yet
   const Balls<Dimension> balls = balls_at_start(curves_);
-  SignsJustAfter<Dimension>& signs = guards_->signs();
+  SignsJustAfter<Dimension>& signs = certificates_->signs();
   std::vector<BeadId> touching;
   for (auto id = static_cast<NodeId>(bases_.size()); id-- > 0;) {  // children first
     if (!keeps(id)) continue;
@@ -216,12 +216,12 @@ template <int Dimension>
 void WrappedHierarchy<Dimension>::start_step() {
   curves_ = motion_.curves();
   if (query_) ask_query();
-  guards_->start_step();
+  certificates_->start_step();
   proofs_->take_curves();
-  guarded_ = wide_;
-  proofs_->add_unsettled(pairs_, bases_, guarded_);
-  proofs_->take_out_resting(bases_, guarded_);
-  proofs_->find_candidates(guarded_, bases_);
+  to_certify_ = wide_;
+  proofs_->add_unsettled(pairs_, bases_, to_certify_);
+  proofs_->take_out_resting(bases_, to_certify_);
+  proofs_->find_candidates(to_certify_, bases_);
   watch_all_nodes();
   repair_faults();
 }
@@ -248,12 +248,13 @@ void WrappedHierarchy<Dimension>::watch_all_nodes() {
     } else if (is_one_bead(id)) {
       faults_[id] = BasisFault::violated;
     } else if (!is_lone_pair(id)) {
-      guards_->enqueue_basis(id, basis, proofs_->take_out_staying(basis, tree_.range(id), chord, beyond_));
+      certificates_->enqueue_basis(id, basis,
+                                   proofs_->take_out_staying(basis, tree_.range(id), chord, beyond_));
       all_watched_.insert(all_watched_.end(), beyond_.begin(), beyond_.end());
     }
     watched_ends_.push_back(all_watched_.size());
   }
-  for (const NamedBead& violated : guards_->watch_enqueued(false))
+  for (const NamedBead& violated : certificates_->watch_enqueued(false))
     faults_[violated.node] = BasisFault::violated;
   begin = 0;
   for (std::size_t i = 0; i < watched_ends_.size(); ++i) {
@@ -264,64 +265,64 @@ void WrappedHierarchy<Dimension>::watch_all_nodes() {
     beyond_.assign(beyond.begin(), beyond.end());
     enqueue_beyond(id);
   }
-  for (const NamedBead& violated : guards_->watch_enqueued(true))
+  for (const NamedBead& violated : certificates_->watch_enqueued(true))
     faults_[violated.node] = BasisFault::violated;
 }
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::repair_faults() {
-  guards_->forget_named_if([this](NodeId id) { return faults_[id] != BasisFault::no; });
-  std::vector<NodeId>& repaired = guarded_;  // in order, as changes are recorded
+  certificates_->forget_named_if([this](NodeId id) { return faults_[id] != BasisFault::no; });
+  std::vector<NodeId>& repaired = to_certify_;  // in order, as changes are recorded
   repaired.clear();
   for (const ChordCandidate<Dimension>& candidate : proofs_->candidates())
     if (faults_[candidate.node] != BasisFault::no) repaired.push_back(candidate.node);
   std::sort(repaired.begin(), repaired.end());
   for (const NodeId id : repaired) {
     const Basis before = bases_[id];
-    guards_->drop(id);
+    certificates_->drop(id);
     if (faults_[id] == BasisFault::improper) static_cast<void>(repair(id, no_bead));
-    guard_node(id, before, no_bead);
+    certify_node(id, before, no_bead);
   }
-  guards_->count_per_bead();
+  certificates_->count_per_bead();
 }
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::follow_certificates() {
-  guards_->follow_names();
+  certificates_->follow_names();
 }
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::count_certificates() {
-  guards_->count_followed();
+  certificates_->count_followed();
 }
 
 // Single nodes at any time.
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::enqueue_beyond(NodeId id) {
-  if (proofs_->worth_another_look(beyond_.size()) && guards_->holds_any(id))
-    proofs_->take_out_until(guards_->guarded_until(id), bases_[id], beyond_);
-  guards_->enqueue_beyond(id, bases_[id], beyond_);
+  if (proofs_->worth_another_look(beyond_.size()) && certificates_->holds_any(id))
+    proofs_->take_out_until(certificates_->certified_until(id), bases_[id], beyond_);
+  certificates_->enqueue_beyond(id, bases_[id], beyond_);
 }
 
 template <int Dimension>
 std::optional<BeadId> WrappedHierarchy<Dimension>::watch_node(NodeId id, BeadId risen) {
-  guards_->forget_named_of(id);
+  certificates_->forget_named_of(id);
   if (is_one_bead(id)) return bases_[id].beads[1];
   if (is_lone_pair(id)) return std::nullopt;
   // Basis beads come first: if one leaves, or is superfluous all the time so that its function is zero, the
   // other certificates mean nothing.
   const unsigned stays = proofs_->find_beads_to_watch(bases_[id], tree_.range(id), risen, beyond_);
-  guards_->enqueue_basis(id, bases_[id], stays);
-  if (const auto to_spare = guards_->watch_enqueued_of_one(false)) return to_spare;
+  certificates_->enqueue_basis(id, bases_[id], stays);
+  if (const auto to_spare = certificates_->watch_enqueued_of_one(false)) return to_spare;
   enqueue_beyond(id);
-  return guards_->watch_enqueued_of_one(true);
+  return certificates_->watch_enqueued_of_one(true);
 }
 
 template <int Dimension>
-void WrappedHierarchy<Dimension>::guard_node(NodeId id, Basis before, BeadId risen) {
+void WrappedHierarchy<Dimension>::certify_node(NodeId id, Basis before, BeadId risen) {
   while (const std::optional<BeadId> violated = watch_node(id, risen)) {
-    guards_->drop(id);
+    certificates_->drop(id);
     risen = no_bead;
     if (!repair(id, *violated))
       throw std::logic_error(name_of(id) + ": a basis is violated and right at once, at bead " +
@@ -341,7 +342,7 @@ bool WrappedHierarchy<Dimension>::repair(NodeId id, BeadId bead, bool failed) {
 
 template <int Dimension>
 void WrappedHierarchy<Dimension>::fail(unsigned table, std::uint32_t slot) {
-  const auto [id, bead, touches] = guards_->take_failed(table, slot, bases_);
+  const auto [id, bead, touches] = certificates_->take_failed(table, slot, bases_);
   const Basis before = bases_[id];
   BeadId risen = no_bead;
   if (!touches) {
@@ -353,8 +354,8 @@ void WrappedHierarchy<Dimension>::fail(unsigned table, std::uint32_t slot) {
     // anew.
     static_cast<void>(repair(id, no_bead));
   }
-  guard_node(id, before, risen);
-  guards_->forget_failure();
+  certify_node(id, before, risen);
+  certificates_->forget_failure();
 }
 
 template <int Dimension>
@@ -392,11 +393,11 @@ void WrappedHierarchy<Dimension>::release(std::span<const BeadId> beads) {
     const BeadRange& range = tree_.range(id);
     const auto first = std::lower_bound(sorted.begin(), sorted.end(), range.first);
     if (!keeps(id) || first == sorted.end() || *first > range.last) continue;
-    guards_->drop(id);
+    certificates_->drop(id);
     proofs_->forget(id);
     released_.push_back(id);
   }
-  guards_->forget_named_if(
+  certificates_->forget_named_if(
       [this](NodeId id) { return std::binary_search(released_.begin(), released_.end(), id); });
 }
 
@@ -409,9 +410,9 @@ void WrappedHierarchy<Dimension>::take_up(std::span<const BeadId> beads) {
   for (const NodeId id : released_) {
     const Basis before = bases_[id];
     static_cast<void>(repair(id, no_bead));
-    guard_node(id, before, no_bead);
+    certify_node(id, before, no_bead);
   }
-  guards_->count_per_bead();
+  certificates_->count_per_bead();
 }
 
 // Replay of changes, and audits of bases by their definition.
@@ -440,7 +441,7 @@ void WrappedHierarchy<Dimension>::apply(const Change& change) {
 
 template <int Dimension>
 std::vector<Basis> WrappedHierarchy<Dimension>::bases_at(const Dyadic& time) const {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   const IntegerBalls<Dimension> whole = integer_balls_at(motion_.curves(), time);
   std::vector<Basis> bases(bases_.size());
   for (NodeId id = 0; id < bases_.size(); ++id) {
@@ -454,7 +455,7 @@ std::vector<Basis> WrappedHierarchy<Dimension>::bases_at(const Dyadic& time) con
 /// bounds prove most nodes; integers decide the rest. No certificate is used.
 template <int Dimension>
 std::optional<std::string> WrappedHierarchy<Dimension>::audit(const Dyadic& time) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   const RoundedPositions<Dimension> rounded(motion_, time);
   std::optional<IntegerBalls<Dimension>> whole;
   for (NodeId id = 0; id < bases_.size(); ++id) {

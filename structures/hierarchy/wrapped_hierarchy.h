@@ -13,7 +13,7 @@
 // cannot be inserted or erased, because the tree depends on the necklaces.
 //
 // The class has three parts, each in its own file: proofs that replace certificates (node_proofs.h), the
-// certificates held (node_guards.h), and the repair of a basis (signs_just_after.h).
+// certificates held (node_certificates.h), and the repair of a basis (signs_just_after.h).
 
 #include <cstdint>
 #include <memory>
@@ -39,7 +39,7 @@ class Balls;
 template <int Dimension>
 class BasisRepair;
 template <int Dimension>
-class NodeGuards;
+class NodeCertificates;
 template <int Dimension>
 class NodeProofs;
 
@@ -93,7 +93,7 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
 
   [[nodiscard]] bool move_together(BeadId a, BeadId b) const;
   /// Returns whether the node consists of two beads of equal radius that are both in the basis. Such beads
-  /// need no guard unless they coincide.
+  /// need no certificate unless they coincide.
   [[nodiscard]] bool is_lone_pair(NodeId node) const;
   /// Returns whether the basis consists of two beads that coincide all the time.
   [[nodiscard]] bool is_one_bead(NodeId node) const;
@@ -104,15 +104,17 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   void ask_query();
   /// Sets `wide_` and `pairs_`.
   void sort_kept_nodes();
-  /// Guards all nodes at the start of a step. Sets `faults_` for the nodes whose basis is not right.
+  /// Creates the certificates of all nodes at the start of a step. Sets `faults_` for the nodes whose basis
+  /// is not right.
   void watch_all_nodes();
-  /// Repairs the nodes whose basis is not right, and guards them.
+  /// Repairs the nodes whose basis is not right, and creates their certificates.
   void repair_faults();
-  /// Guards a node and repairs its basis while a certificate is violated already. Logs the change from
-  /// `before`. `risen` is no_bead or a bead whose certificate has just failed and that is on its proper side
-  /// now.
-  void guard_node(NodeId node, Basis before, BeadId risen);
-  /// Guards the node's present basis and returns the first bead whose certificate is violated, if any.
+  /// Creates the certificates of a node, and repairs its basis while a certificate is violated already. Logs
+  /// the change from `before`. `risen` is no_bead or a bead whose certificate has just failed and that is on
+  /// its proper side now.
+  void certify_node(NodeId node, Basis before, BeadId risen);
+  /// Creates the certificates of the node's present basis, and returns the first bead whose certificate is
+  /// violated, if any.
   [[nodiscard]] std::optional<BeadId> watch_node(NodeId node, BeadId risen);
   /// Enqueues certificates of beads, except beads that stay inside as long as the node's other certificates
   /// are kept.
@@ -135,11 +137,11 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   std::vector<std::uint8_t> kept_;  // one flag per node
   std::size_t index_;
   std::unique_ptr<NodeProofs<Dimension>> proofs_;
-  std::unique_ptr<NodeGuards<Dimension>> guards_;
+  std::unique_ptr<NodeCertificates<Dimension>> certificates_;
   std::unique_ptr<BasisRepair<Dimension>> repair_;
   NodeQuery query_;
   std::vector<NodeId> wide_, pairs_;  // kept nodes of more than two beads, and of two
-  std::vector<NodeId> guarded_;
+  std::vector<NodeId> to_certify_;
   std::vector<NodeId> released_;  // nodes that hold beads whose course changes
   enum class BasisFault : std::uint8_t { no, violated, improper };
   std::vector<BasisFault> faults_;   // one per node

@@ -92,7 +92,7 @@ BeadId further(const Circle& circle, std::size_t from, std::size_t steps) {
 ConvexHull::ConvexHull(Simulator& simulator, const MotionRef<2>& motion)
     : EditableBase(simulator, motion.bead_count(), "hull", hull_kinds),
       motion_(motion),
-      guards_(simulator, *this, index(), motion) {}
+      certificates_(simulator, *this, index(), motion) {}
 
 void ConvexHull::build() {
   present().structure_is_built();
@@ -100,9 +100,9 @@ void ConvexHull::build() {
   const Kernel kernel = simulator().kernel();
   const StaticHull hull = static_hull(
       present().all(),
-      [&](BeadId a, BeadId b) { return guards_.order_at_start(kernel, a, b, statistics.stages); },
+      [&](BeadId a, BeadId b) { return certificates_.order_at_start(kernel, a, b, statistics.stages); },
       [&](BeadId a, BeadId b, BeadId c) {
-        return guards_.turn_at_start(kernel, {a, b, c}, statistics.stages);
+        return certificates_.turn_at_start(kernel, {a, b, c}, statistics.stages);
       });
   lower_.assign(beads, present().absent(), hull.lower);
   upper_.assign(beads, present().absent(), hull.upper);
@@ -133,12 +133,12 @@ void ConvexHull::count_certificates() {
 }
 
 void ConvexHull::fail(unsigned table, std::uint32_t slot) {
-  const HullGuards::Failed failed = guards_.failure(table, slot);
+  const HullCertificates::Failed failed = certificates_.failure(table, slot);
   HalfHull& half = HalfHull::is_upper(failed.place) ? upper_ : lower_;
   half.fail(table, failed.place);
-  guards_.failure_is_over();
+  certificates_.failure_is_over();
   if (half.take_changed()) needs_after_batch = true;
-  if (table != HullGuards::turns) record(interchange, {failed.before, failed.after});
+  if (table != HullCertificates::turns) record(interchange, {failed.before, failed.after});
 }
 
 // Records the changes from the previous corners to the present corners of both halves.

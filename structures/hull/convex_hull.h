@@ -57,8 +57,8 @@ class ConvexHull final : public EditableBase {
   void change_corners(const Change& change);
 
   MotionRef<2> motion_;
-  HullGuards guards_;
-  HalfHull lower_{guards_, false}, upper_{guards_, true};
+  HullCertificates certificates_;
+  HalfHull lower_{certificates_, false}, upper_{certificates_, true};
   std::vector<BeadId> corners_;
 };
 

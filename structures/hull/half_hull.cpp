@@ -34,12 +34,12 @@ void HalfHull::start() {
 void HalfHull::fail(unsigned table, std::uint32_t place) {
   const BeadId b = place / 4;
   Bead& bead = beads_[b];
-  OrderGuard& order = place % 2 == 1 ? bead.before_right : bead.after_left;
-  CertificateHandle& failed = table == HullGuards::turns         ? bead.turn
-                              : table == HullGuards::orders_in_x ? order.x
-                                                                 : order.y;
+  OrderHandles& order = place % 2 == 1 ? bead.before_right : bead.after_left;
+  CertificateHandle& failed = table == HullCertificates::turns         ? bead.turn
+                              : table == HullCertificates::orders_in_x ? order.x
+                                                                       : order.y;
   failed = CertificateHandle::violated;
-  if (table == HullGuards::orders_in_y) guards_.drop(order);
+  if (table == HullCertificates::orders_in_y) certificates_.drop(order);
   if (bead.in_chain) {
     unheld_.push_back(b);
   } else {
@@ -100,13 +100,13 @@ void HalfHull::hold_all() {
 void HalfHull::hold(BeadId v) {
   Bead& vertex = beads_[v];
   if (vertex.left != no_bead && vertex.right != no_bead && vertex.turn == CertificateHandle::violated) {
-    vertex.turn = guards_.watch_turn({vertex.left, v, vertex.right}, upper_ ? -1 : 1, place_of(v));
-    if (vertex.turn == CertificateHandle::zero) guards_.drop(vertex.turn);
+    vertex.turn = certificates_.watch_turn({vertex.left, v, vertex.right}, upper_ ? -1 : 1, place_of(v));
+    if (vertex.turn == CertificateHandle::zero) certificates_.drop(vertex.turn);
     if (vertex.turn == CertificateHandle::violated) return remove(v);
   }
   const BeadId right = vertex.right;
   if (right == no_bead || vertex.after_left.is_held()) return;
-  const Ordered ordered = guards_.watch_order(v, right, place_of(v), vertex.after_left);
+  const Ordered ordered = certificates_.watch_order(v, right, place_of(v), vertex.after_left);
   if (ordered == Ordered::together) remove(std::max(v, right));
   if (ordered == Ordered::after) remove(beads_[right].right == no_bead && v != first_ ? right : v);
 }
@@ -117,7 +117,7 @@ void HalfHull::place(BeadId b) {
   Bead& bead = beads_[b];
   BeadId left = bead.left != no_bead && beads_[bead.left].in_chain ? bead.left : first_;
   while (true) {
-    const Ordered ordered = guards_.watch_order(left, b, place_of(b), bead.after_left);
+    const Ordered ordered = certificates_.watch_order(left, b, place_of(b), bead.after_left);
     if (ordered == Ordered::after) {
       if (left == first_) return put_in(b, no_bead);
       left = beads_[left].left;
@@ -129,14 +129,14 @@ void HalfHull::place(BeadId b) {
       if (ordered == Ordered::together) return put_under(b, left);
       return put_in(b, left);
     }
-    const Ordered ordered_right = guards_.watch_order(b, right, place_of(b, true), bead.before_right);
+    const Ordered ordered_right = certificates_.watch_order(b, right, place_of(b, true), bead.before_right);
     if (ordered_right == Ordered::after) {
-      guards_.drop(bead.after_left);
+      certificates_.drop(bead.after_left);
       left = right;
       continue;
     }
     if (ordered_right == Ordered::together && b < right) return stand_in(b, right);
-    bead.turn = guards_.watch_turn({left, right, b}, upper_ ? -1 : 1, place_of(b));
+    bead.turn = certificates_.watch_turn({left, right, b}, upper_ ? -1 : 1, place_of(b));
     if (bead.turn == CertificateHandle::violated) return put_in(b, left);
     return put_under(b, left);
   }
@@ -209,7 +209,7 @@ void HalfHull::stand_in(BeadId b, BeadId vertex) {
 /// Drops the certificate of an edge and displaces the beads under it. These beads will search for their
 /// places from `look_from`, a bead of the chain.
 void HalfHull::open_edge(BeadId left, BeadId look_from) {
-  guards_.drop(beads_[left].after_left);
+  certificates_.drop(beads_[left].after_left);
   for (const BeadId b : beads_[left].under) {
     displace(b);
     beads_[b].left = look_from;
@@ -220,7 +220,7 @@ void HalfHull::open_edge(BeadId left, BeadId look_from) {
 /// Drops the turn at a bead of the chain, so that this certificate, and the one of the following edge if
 /// missing, are created anew.
 void HalfHull::loosen(BeadId v) {
-  guards_.drop(beads_[v].turn);
+  certificates_.drop(beads_[v].turn);
   unheld_.push_back(v);
 }
 
@@ -240,9 +240,9 @@ void HalfHull::displace(BeadId b) {
 /// Drops all certificates of the bead.
 void HalfHull::release(BeadId b) {
   beads_[b].place_under = not_under;
-  guards_.drop(beads_[b].after_left);
-  guards_.drop(beads_[b].before_right);
-  guards_.drop(beads_[b].turn);
+  certificates_.drop(beads_[b].after_left);
+  certificates_.drop(beads_[b].before_right);
+  certificates_.drop(beads_[b].turn);
 }
 
 std::vector<BeadId> HalfHull::chain() const {

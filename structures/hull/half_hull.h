@@ -1,6 +1,6 @@
 #pragma once
-// The upper or the lower half of a kinetic convex hull: a chain of beads in their order (HullGuards), and
-// every other bead under one of its edges. There are three kinds of certificates:
+// The upper or the lower half of a kinetic convex hull: a chain of beads in their order (HullCertificates),
+// and every other bead under one of its edges. There are three kinds of certificates:
 //
 //   each bead of the chain comes before the next                            (1)
 //   the chain turns strictly, always to the same side, at each inner bead   (2)
@@ -39,7 +39,7 @@ namespace kds {
 /// second axis.
 enum class Ordered : std::uint8_t { before, together, after };
 
-struct OrderGuard {
+struct OrderHandles {
   CertificateHandle x = CertificateHandle::violated;
   CertificateHandle y = CertificateHandle::violated;
 
@@ -47,11 +47,12 @@ struct OrderGuard {
 };
 
 /// The certificates of a convex hull: the order of two beads along the axes, and the turn of three beads.
-class HullGuards {
+class HullCertificates {
  public:
   enum Table : unsigned { orders_in_x, orders_in_y, turns };
 
-  HullGuards(Simulator& simulator, KineticStructure& owner, std::size_t structure, const MotionRef<2>& motion)
+  HullCertificates(Simulator& simulator, KineticStructure& owner, std::size_t structure,
+                   const MotionRef<2>& motion)
       : x_(simulator, owner, structure, orders_in_x, motion),
         y_(simulator, owner, structure, orders_in_y, motion),
         turns_(simulator, owner, structure, turns, motion) {}
@@ -74,28 +75,28 @@ class HullGuards {
   }
   void failure_is_over() { failed_ = {}; }
 
-  /// Returns the order of two beads just after now, and guards it while it is so. If the first bead comes
-  /// after the second, creates no guard.
-  [[nodiscard]] Ordered watch_order(BeadId first, BeadId second, std::uint32_t place, OrderGuard& guard) {
-    guard.x = watch(x_, Precedes{{first, second}}, place);
-    if (guard.x == CertificateHandle::violated) return Ordered::after;
-    if (guard.x != CertificateHandle::zero) return Ordered::before;
-    guard.y = watch(y_, PrecedesAlong<1>{{first, second}}, place);
-    if (guard.y == CertificateHandle::zero) return Ordered::together;
-    if (guard.y != CertificateHandle::violated) return Ordered::before;
-    drop(guard);
+  /// Returns the order of two beads just after now, and creates the certificates that hold while the order
+  /// lasts. If the first bead comes after the second, creates none.
+  [[nodiscard]] Ordered watch_order(BeadId first, BeadId second, std::uint32_t place, OrderHandles& handles) {
+    handles.x = watch(x_, Precedes{{first, second}}, place);
+    if (handles.x == CertificateHandle::violated) return Ordered::after;
+    if (handles.x != CertificateHandle::zero) return Ordered::before;
+    handles.y = watch(y_, PrecedesAlong<1>{{first, second}}, place);
+    if (handles.y == CertificateHandle::zero) return Ordered::together;
+    if (handles.y != CertificateHandle::violated) return Ordered::before;
+    drop(handles);
     return Ordered::after;
   }
-  /// Guards that three beads in this order turn counterclockwise (side 1) or clockwise (-1), or that they
-  /// never turn.
+  /// Creates the certificate that three beads in this order turn counterclockwise (side 1) or clockwise (-1),
+  /// or that they never turn.
   [[nodiscard]] CertificateHandle watch_turn(const std::array<BeadId, 3>& beads, int side,
                                              std::uint32_t place) {
     return watch(turns_, Orientation<2>{beads, side}, place);
   }
-  void drop(OrderGuard& guard) {
-    x_.drop(guard.x);
-    y_.drop(guard.y);
-    guard = {};
+  void drop(OrderHandles& handles) {
+    x_.drop(handles.x);
+    y_.drop(handles.y);
+    handles = {};
   }
   void drop(CertificateHandle& turn) {
     turns_.drop(turn);
@@ -135,7 +136,7 @@ class HullGuards {
 
 class HalfHull {
  public:
-  HalfHull(HullGuards& guards, bool upper) : guards_(guards), upper_(upper) {}
+  HalfHull(HullCertificates& certificates, bool upper) : certificates_(certificates), upper_(upper) {}
 
   /// Sets the number of beads, the absent beads (if any are marked) and a chain of some present beads, with
   /// which start() begins.
@@ -164,10 +165,10 @@ class HalfHull {
   struct Bead {
     bool present = true;
     bool in_chain = false;
-    BeadId left = no_bead;   // in the chain: the bead before it; otherwise: the left end of its edge
-    BeadId right = no_bead;  // in the chain: the bead after it
-    OrderGuard after_left;   // in the chain: its order with the bead after it; otherwise: with the left end
-    OrderGuard before_right;
+    BeadId left = no_bead;    // in the chain: the bead before it; otherwise: the left end of its edge
+    BeadId right = no_bead;   // in the chain: the bead after it
+    OrderHandles after_left;  // in the chain: its order with the bead after it; otherwise: with the left end
+    OrderHandles before_right;
     CertificateHandle turn =
         CertificateHandle::violated;  // in the chain: at it; otherwise: not beyond its edge
     std::vector<BeadId> under;        // beads under the edge that begins at it
@@ -190,7 +191,7 @@ class HalfHull {
     return 4 * bead + (upper_ ? 2 : 0) + (right ? 1 : 0);
   }
 
-  HullGuards& guards_;
+  HullCertificates& certificates_;
   bool upper_;
   BeadId first_ = no_bead;
   std::vector<Bead> beads_;

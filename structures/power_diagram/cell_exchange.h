@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "structures/power_diagram/facet_guards.h"
-#include "structures/power_diagram/hidden_guards.h"
+#include "structures/power_diagram/facet_certificates.h"
+#include "structures/power_diagram/hidden_certificates.h"
 
 namespace kds {
 
@@ -18,7 +18,7 @@ class CellExchange {
   using Events = typename State::Events;
 
  public:
-  CellExchange(State& state, FacetGuards<Dimension>& facets, HiddenGuards<Dimension>& hidden)
+  CellExchange(State& state, FacetCertificates<Dimension>& facets, HiddenCertificates<Dimension>& hidden)
       : state_(state), facets_(facets), hidden_(hidden) {}
 
   /// Returns cells that fill the place of `hole`. The cells are taken from the static triangulation of
@@ -30,8 +30,8 @@ class CellExchange {
   [[nodiscard]] bool can_fill(std::span<const CellId> hole, std::span<const Beads> made);
   /// Returns whether cells that fit into the hole are regular, together with the cells around them.
   [[nodiscard]] bool is_regular(std::span<const CellId> hole, std::span<const Beads> made);
-  /// Exchanges the cells, records the exchange and guards the new cells. The hidden beads of the hole must
-  /// already be displaced.
+  /// Exchanges the cells, records the exchange and creates the certificates of the new cells. The hidden
+  /// beads of the hole must already be displaced.
   void fill(std::span<const CellId> hole, std::span<const Beads> made);
   /// Records that the cells `gone` are removed and the cells `made`, positively oriented, are added. Returns
   /// the added cells as they are recorded, sorted.
@@ -42,8 +42,8 @@ class CellExchange {
 
  private:
   State& state_;
-  FacetGuards<Dimension>& facets_;
-  HiddenGuards<Dimension>& hidden_;
+  FacetCertificates<Dimension>& facets_;
+  HiddenCertificates<Dimension>& hidden_;
 };
 
 extern template class CellExchange<2>;

@@ -41,7 +41,7 @@ class DiagramEditor {
   using ExactPosition = std::array<Rational, static_cast<std::size_t>(Dimension) + 1>;
 
  public:
-  DiagramEditor(State& state, FacetGuards<Dimension>& facets, HiddenGuards<Dimension>& hidden,
+  DiagramEditor(State& state, FacetCertificates<Dimension>& facets, HiddenCertificates<Dimension>& hidden,
                 DiagramRebuilder<Dimension>& rebuilder)
       : state_(state),
         facets_(facets),
@@ -89,8 +89,8 @@ class DiagramEditor {
   void rebuild_after_edit(Kind kind, BeadId bead);
 
   State& state_;
-  FacetGuards<Dimension>& facets_;
-  HiddenGuards<Dimension>& hidden_;
+  FacetCertificates<Dimension>& facets_;
+  HiddenCertificates<Dimension>& hidden_;
   DiagramRebuilder<Dimension>& rebuilder_;
   CellExchange<Dimension> exchange_;
   // Beads between release and take_up, the control points of their old curves, their positions now if the

@@ -13,7 +13,7 @@ namespace kds {
 template <int Dimension>
 void DiagramFlips<Dimension>::fail(unsigned table, std::uint32_t slot) {
   state_.vanished_until = state_.simulator.now().upper();
-  if (table < HiddenGuards<Dimension>::appearing) {
+  if (table < HiddenCertificates<Dimension>::appearing) {
     const auto failed = facets_.take_failure(table, slot);
     if (!failed) return;
     begin_event(failed->identity);

@@ -13,8 +13,8 @@
 #include <cstdint>
 #include <span>
 
-#include "structures/power_diagram/facet_guards.h"
-#include "structures/power_diagram/hidden_guards.h"
+#include "structures/power_diagram/facet_certificates.h"
+#include "structures/power_diagram/hidden_certificates.h"
 
 namespace kds {
 
@@ -25,7 +25,7 @@ class DiagramFlips {
   using Beads = typename State::Beads;
 
  public:
-  DiagramFlips(State& state, FacetGuards<Dimension>& facets, HiddenGuards<Dimension>& hidden)
+  DiagramFlips(State& state, FacetCertificates<Dimension>& facets, HiddenCertificates<Dimension>& hidden)
       : state_(state), facets_(facets), hidden_(hidden) {}
 
   /// Handles the failure, at the present time, of the certificate in `slot` of a table: repairs the diagram
@@ -53,8 +53,8 @@ class DiagramFlips {
   void apply_to_hidden(const Change& change);
 
   State& state_;
-  FacetGuards<Dimension>& facets_;
-  HiddenGuards<Dimension>& hidden_;
+  FacetCertificates<Dimension>& facets_;
+  HiddenCertificates<Dimension>& hidden_;
   Identity last_identity_;
   std::uint64_t last_moment_ = 0;
 };

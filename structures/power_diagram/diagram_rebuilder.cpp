@@ -160,9 +160,9 @@ std::vector<ExactTime> DiagramRebuilder<Dimension>::contradictions(const Dyadic&
   std::vector<ExactTime> times;
   ExactTime limit(time);
   // Collects the failures before that time.
-  const auto later = [&](const auto& table, CertificateHandle guard) {
-    if (!has_slot(guard)) return true;
-    ExactTime failure = exact_time(*table.exact_function(slot_of(guard)), table.time(slot_of(guard)));
+  const auto later = [&](const auto& table, CertificateHandle handle) {
+    if (!has_slot(handle)) return true;
+    ExactTime failure = exact_time(*table.exact_function(slot_of(handle)), table.time(slot_of(handle)));
     if (ExactTime::compare(limit, failure) < 0) return true;
     times.push_back(std::move(failure));
     return times.size() < most_times;

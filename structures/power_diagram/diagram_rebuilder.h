@@ -9,8 +9,8 @@
 
 #include "certificates/exact/exact_time.h"
 #include "structures/power_diagram/cell_exchange.h"
-#include "structures/power_diagram/facet_guards.h"
-#include "structures/power_diagram/hidden_guards.h"
+#include "structures/power_diagram/facet_certificates.h"
+#include "structures/power_diagram/hidden_certificates.h"
 
 namespace kds {
 
@@ -21,7 +21,7 @@ class DiagramRebuilder {
   using Beads = typename State::Beads;
 
  public:
-  DiagramRebuilder(State& state, FacetGuards<Dimension>& facets, HiddenGuards<Dimension>& hidden)
+  DiagramRebuilder(State& state, FacetCertificates<Dimension>& facets, HiddenCertificates<Dimension>& hidden)
       : state_(state), facets_(facets), hidden_(hidden), exchange_(state, facets, hidden) {}
 
   /// Builds the diagram from the k-th control points, at an end of the step.
@@ -30,7 +30,7 @@ class DiagramRebuilder {
   void build_bare_at_end();
   /// Resets the counts that limit rebuilds within a step.
   void start_step();
-  /// Guards all facets and all hidden beads.
+  /// Creates the certificates of all facets and all hidden beads.
   void watch_all();
   /// Called after the events of one time: if the diagram is wrong just after them, repairs or rebuilds it.
   void after_batch();
@@ -73,8 +73,8 @@ class DiagramRebuilder {
   void record(const Dyadic& time, std::span<const Beads> cells_before);
 
   State& state_;
-  FacetGuards<Dimension>& facets_;
-  HiddenGuards<Dimension>& hidden_;
+  FacetCertificates<Dimension>& facets_;
+  HiddenCertificates<Dimension>& hidden_;
   CellExchange<Dimension> exchange_;
   unsigned coarsest_that_worked_ = coarsest_grid;  // in this step; blocked flips come in groups
 };

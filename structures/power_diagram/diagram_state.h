@@ -189,14 +189,14 @@ struct DiagramState {
   [[nodiscard]] KnownAtStart known_of(const Certificate& certificate) const {
     return certificate.identity() == present ? KnownAtStart::at_own_root : KnownAtStart::unknown;
   }
-  /// Drops a guard. Returns whether its certificate also fails right now, but names other beads than the
-  /// present event's certificate; in this case another event happens at this moment too.
+  /// Drops a certificate. Returns whether it also fails right now, but names other beads than the present
+  /// event's certificate; in this case another event happens at this moment too.
   template <class Table>
-  bool give_up(Table& table, CertificateHandle guard) {
-    const bool vanishes = has_slot(guard) && table.time(slot_of(guard)).lower <= simulator.now().upper() &&
-                          table.identity(slot_of(guard)) != present && vanishes_now(table, slot_of(guard));
+  bool give_up(Table& table, CertificateHandle handle) {
+    const bool vanishes = has_slot(handle) && table.time(slot_of(handle)).lower <= simulator.now().upper() &&
+                          table.identity(slot_of(handle)) != present && vanishes_now(table, slot_of(handle));
     if (vanishes) suspect(Doubt::unclear);
-    table.drop(guard);
+    table.drop(handle);
     return vanishes;
   }
 

@@ -88,7 +88,7 @@ std::span<const FacetId> FacetProofs<Dimension>::hull_not_proved_ahead() {
     for (std::size_t lane = 0; lane < cells_in_batch; ++lane) {
       const FacetId facet = on_hull_[first + (lane < count ? lane : 0)];
       Orientation<Dimension> orientation;
-      FacetCertificates(state_.beads_of(cell_of(facet)))
+      CellCertificates(state_.beads_of(cell_of(facet)))
           .make(state_.apex(cell_of(facet), index_of(facet)), orientation);
       std::copy(orientation.beads.begin(), orientation.beads.end(), beads[lane].begin());
       if (!orientation.side()) std::swap(beads[lane][0], beads[lane][1]);

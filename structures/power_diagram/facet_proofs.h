@@ -1,7 +1,7 @@
 #pragma once
 // Proofs that facets of a power diagram hold without a certificate: by the slack of their beads
 // (facet_slack.h), by foresight, which looks some steps ahead, or by a filter of the whole step
-// (facet_filter.h). The remaining facets are in doubt and get certificates (facet_guards.h).
+// (facet_filter.h). The remaining facets are in doubt and get certificates (facet_certificates.h).
 
 #include <algorithm>
 #include <array>
@@ -153,7 +153,7 @@ class FacetProofs {
 
   /// Called at the start of a step. Facts from earlier steps are used only if all beads move.
   void start_step(bool all_move);
-  /// Called when the facets of the step are about to be guarded.
+  /// Called when the certificates of the facets are about to be created.
   void start_facets(bool all_move);
   /// Discards all that is known of cells and facets.
   void forget_all();

@@ -25,8 +25,8 @@ struct PowerDiagram<Dimension>::Parts {
         editor(state, facets, hidden, rebuilder) {}
 
   DiagramState<Dimension> state;
-  FacetGuards<Dimension> facets;
-  HiddenGuards<Dimension> hidden;
+  FacetCertificates<Dimension> facets;
+  HiddenCertificates<Dimension> hidden;
   DiagramFlips<Dimension> flips;
   DiagramRebuilder<Dimension> rebuilder;
   DiagramEditor<Dimension> editor;
@@ -64,7 +64,7 @@ void PowerDiagram<Dimension>::start_step() {
   state.vanished_until = state.flat ? 0.0 : -1.0;
   const bool wrong = state.flat && is_wrong_just_after(state);
   state.clear_doubt();
-  // Guard a wrong diagram too: its certificates limit the time of the rebuild.
+  // Create the certificates of a wrong diagram too: they limit the time of the rebuild.
   if (wrong) facets.remember();
   if (state.has_cells()) rebuilder.watch_all();
   if ((wrong || !state.has_cells()) && !rebuilder.try_to_rebuild()) {
@@ -83,12 +83,12 @@ void PowerDiagram<Dimension>::fail(unsigned table, std::uint32_t slot) {
 
 template <int Dimension>
 void PowerDiagram<Dimension>::fetch(unsigned table, std::uint32_t place, bool next) const {
-  if (table < HiddenGuards<Dimension>::appearing) parts_->facets.fetch(cell_of(place), next);
+  if (table < HiddenCertificates<Dimension>::appearing) parts_->facets.fetch(cell_of(place), next);
 }
 
 template <int Dimension>
 std::uint64_t PowerDiagram<Dimension>::tie_of(unsigned table, std::uint32_t place) const {
-  return table < HiddenGuards<Dimension>::appearing ? parts_->facets.tie_of(place) : place;
+  return table < HiddenCertificates<Dimension>::appearing ? parts_->facets.tie_of(place) : place;
 }
 
 template <int Dimension>

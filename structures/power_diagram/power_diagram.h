@@ -4,8 +4,8 @@
 // parts have their own headers:
 //
 //   DiagramState      the state shared by all parts
-//   FacetGuards       the certificates of facets
-//   HiddenGuards      the certificates and the host cells of hidden beads
+//   FacetCertificates       the certificates of facets
+//   HiddenCertificates      the certificates and the host cells of hidden beads
 //   DiagramFlips      handles failed certificates
 //   DiagramEditor     inserts and erases beads, and gives them other curves
 //   DiagramRebuilder  rebuilds the diagram if flips do not suffice

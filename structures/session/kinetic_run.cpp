@@ -9,7 +9,7 @@
 
 #include "certificates/exact/exact_time.h"
 #include "kds/kinetic_structure.h"
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/input_error.h"
 #include "structures/session/scene_motion.h"
 
@@ -115,7 +115,7 @@ void KineticRun::plan(std::function<void()> addition) {
 }
 
 void KineticRun::make_by_name() {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   const std::vector<std::string> names =
       options_.structures.empty() && options_.by_default ? default_structures(scene_) : options_.structures;
   for (const std::string& name : names) {
@@ -187,7 +187,7 @@ bool KineticRun::can_enter() const {
 void KineticRun::load() {
   if (motion_) return check_radii();
   if (std::exchange(loaded_, true)) return;
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   const std::size_t step = simulator().step();
   scene_motion_->load(step);
   simulator().set_frames(scene_.stamp(step), scene_.stamp(step + 1));
@@ -420,7 +420,7 @@ std::vector<Event> KineticRun::built(std::size_t structure) const {
 }
 
 std::vector<DumpFile> KineticRun::dump(std::size_t frame) const {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   require_index("frame", frame, scene_.frame_count());
   std::vector<DumpFile> files;
   for (const auto& structure : running_) {
@@ -430,13 +430,13 @@ std::vector<DumpFile> KineticRun::dump(std::size_t frame) const {
 }
 
 std::vector<NodeSphere> KineticRun::spheres_at(std::size_t structure, const Dyadic& u) const {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   require_index("structure", structure, running_.size());
   return running_[structure]->spheres_at(u);
 }
 
 std::optional<CombinatorialElements> KineticRun::elements(std::size_t structure, std::size_t frame) const {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   require_index("structure", structure, running_.size());
   require_index("frame", frame, scene_.frame_count());
   return running_[structure]->elements(frame);
@@ -452,7 +452,7 @@ void KineticRun::count_certificates(std::size_t structure, std::span<const BeadI
 }
 
 void KineticRun::time_static_builds(std::size_t frame, std::vector<double>& seconds) const {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   require_index("frame", frame, scene_.frame_count());
   seconds.resize(running_.size(), 0);
   for (std::size_t s = 0; s < running_.size(); ++s) seconds[s] += running_[s]->static_seconds(frame);

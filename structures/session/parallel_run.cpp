@@ -15,7 +15,7 @@
 
 #include "certificates/base/kernel.h"
 #include "kds/simulator.h"
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/interruption.h"
 #include "motions/frames/frame_buffer.h"
 
@@ -479,7 +479,7 @@ void ParallelRun::run_part(Part& part, std::unique_ptr<Worker> worker) const {
 }
 
 void ParallelRun::note_frame(Part& part, Worker& worker, std::size_t number) const {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   KineticRun& run = worker.run;
   Frame frame;
   frame.events = std::exchange(worker.recorder.events, {});
@@ -505,7 +505,7 @@ void ParallelRun::note_frame(Part& part, Worker& worker, std::size_t number) con
 /// Returns the states of all structures at the frame where the run stands. Returns nothing if one of them
 /// depends on more than positions.
 std::optional<ParallelRun::States> ParallelRun::states_of(const KineticRun& run) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   States states;
   for (std::size_t s = 0; s < run.structures().size(); ++s) {
     std::optional<std::vector<BeadId>> state = run.running(s).state();

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "motions/base/require_index.h"
 
 namespace kds {
@@ -40,7 +40,7 @@ ReplayRecorder::ReplayRecorder(KineticRun& run) : run_(run) {
 }
 
 void ReplayRecorder::begin() {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   begun_ = true;
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     rebuilds_.push_back(run_.structures()[s]->statistics.rebuilds);
@@ -68,7 +68,7 @@ void ReplayRecorder::on_event(const Event& event) {
 }
 
 void ReplayRecorder::reach_frame() {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     Structure& structure = structures_[s];
     const KineticStructure& kinetic = *run_.structures()[s];

@@ -19,7 +19,7 @@ static_assert(list_kinds.size() == SortedList<1>::changes + 1);
 
 template <int D>
 SortedList<D>::SortedList(Simulator& simulator, const MotionRef<D>& motion)
-    : GuardedStructure(simulator, motion, "sorted", list_kinds), motion_(motion) {}
+    : CertifiedPlaces(simulator, motion, "sorted", list_kinds), motion_(motion) {}
 
 template <int D>
 void SortedList<D>::build() {
@@ -36,7 +36,7 @@ void SortedList<D>::build() {
 
 template <int D>
 void SortedList<D>::start_step() {
-  GuardedStructure::start_step();
+  CertifiedPlaces::start_step();
   auto& most = statistics.certificates.per_bead_max;
   most = std::max<std::uint64_t>(most, std::min<std::size_t>(2, place_count()));
 }
@@ -46,7 +46,7 @@ void SortedList<D>::repair(std::size_t i) {
   record(interchanges, {order_[i], order_[i + 1]});
   std::swap(order_[i], order_[i + 1]);
   for (const std::size_t beside : {i - 1, i + 1}) {  // i - 1 wraps round at 0
-    if (beside < place_count()) guard_anew(beside);
+    if (beside < place_count()) certify_anew(beside);
   }
 }
 
@@ -55,7 +55,7 @@ void SortedList<D>::repair(std::size_t i) {
 template <int D>
 void SortedList<D>::edit(std::uint8_t kind, BeadId bead) {
   kind == inserts ? add(bead) : remove(bead);
-  guard_all();
+  certify_all();
 }
 
 template <int D>
@@ -72,7 +72,7 @@ void SortedList<D>::add(BeadId bead) {
   put_in(i, bead);
   if (order_.size() < 2) return;
   insert_place(std::min(i, pairs));
-  if (i > 0 && i + 1 < order_.size()) guard_anew(i - 1);  // the bead separates this pair
+  if (i > 0 && i + 1 < order_.size()) certify_anew(i - 1);  // the bead separates this pair
 }
 
 template <int D>
@@ -81,7 +81,7 @@ void SortedList<D>::remove(BeadId bead) {
   const std::size_t i = take_out(bead);
   if (order_.empty()) return;
   erase_place(std::min(i, place_count()));
-  if (i > 0 && i < order_.size()) guard_anew(i - 1);  // the bead separated this pair
+  if (i > 0 && i < order_.size()) certify_anew(i - 1);  // the bead separated this pair
 }
 
 template <int D>
@@ -102,7 +102,7 @@ void SortedList<D>::release(std::span<const BeadId> beads) {
   std::vector<char> among(bead_count(), 0);
   for (const BeadId bead : beads) among[bead] = 1;
   for (std::size_t i = 0; i < place_count(); ++i)
-    if (among[order_[i]] != 0 || among[order_[i + 1]] != 0) guard_anew(i);
+    if (among[order_[i]] != 0 || among[order_[i + 1]] != 0) certify_anew(i);
 }
 
 template <int D>

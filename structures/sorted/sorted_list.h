@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "certificates/types/precedes.h"
-#include "kds/guarded_structure.h"
+#include "kds/certified_places.h"
 
 namespace kds {
 
 template <int Dimension>
-class SortedList final : public GuardedStructure<Precedes, EditableBase> {
+class SortedList final : public CertifiedPlaces<Precedes, EditableBase> {
  public:
   /// Kinds of events, with these ids: `interchanges`, the bead that was first, then the other; `inserts`, the
   /// bead, then the bead before it or no_bead; `erases`, the bead; `changes`, the bead on another curve.
@@ -38,7 +38,7 @@ class SortedList final : public GuardedStructure<Precedes, EditableBase> {
 
   void edit(std::uint8_t kind, BeadId bead) override;
   void release(std::span<const BeadId> beads) override;
-  void follow(std::span<const BeadId>) override { guard_all(); }
+  void follow(std::span<const BeadId>) override { certify_all(); }
   void add(BeadId bead);
   void remove(BeadId bead);
   /// Returns the place in the order where an absent bead belongs just after now.

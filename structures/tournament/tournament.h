@@ -79,7 +79,7 @@ class Tournament {
     if constexpr (requires { tree_.resize(contestants); }) tree_.resize(contestants);
     winner_.resize(tree_.end());
     for (std::uint32_t i = 0; i < contestants; ++i) set_present(i, i >= absent.size() || absent[i] == 0);
-    guards_.assign(tree_.inner_end(), CertificateHandle::violated);
+    handles_.assign(tree_.inner_end(), CertificateHandle::violated);
     tree_.each_level([this](const auto& nodes) { this->hold_contests(nodes); });
   }
 
@@ -103,9 +103,9 @@ class Tournament {
   /// Handles the failure, at the present time, of the certificate at this place.
   void fail(std::uint32_t place) {
     std::uint32_t node = place / of_;
-    guards_[node] = CertificateHandle::violated;
+    handles_[node] = CertificateHandle::violated;
     winner_[node] = loser(node);
-    guards_[node] = watch(node, KnownAtStart::at_own_root);
+    handles_[node] = watch(node, KnownAtStart::at_own_root);
     std::uint32_t before = 0;
     do {
       node = tree_.parent(node);
@@ -172,8 +172,8 @@ class Tournament {
   }
 
   [[nodiscard]] bool stands(std::uint32_t node) const {
-    if (guards_[node] == CertificateHandle::zero) return winner_[node] < loser(node);
-    return guards_[node] != CertificateHandle::violated;
+    if (handles_[node] == CertificateHandle::zero) return winner_[node] < loser(node);
+    return handles_[node] != CertificateHandle::violated;
   }
 
   [[nodiscard]] CertificateHandle watch(std::uint32_t node, KnownAtStart known) {
@@ -181,23 +181,23 @@ class Tournament {
   }
 
   void drop(std::uint32_t node) {
-    table_.drop(guards_[node]);
-    guards_[node] = CertificateHandle::violated;
+    table_.drop(handles_[node]);
+    handles_[node] = CertificateHandle::violated;
   }
 
   void hold_contest(std::uint32_t node) {
     drop(node);
     enter_contest(node);
     if (loser(node) == none) return;
-    guards_[node] = watch(node, KnownAtStart::unknown);
+    handles_[node] = watch(node, KnownAtStart::unknown);
     if (!stands(node)) turn(node);
   }
 
   /// Makes the other contestant win.
   void turn(std::uint32_t node) {
-    table_.drop(guards_[node]);
+    table_.drop(handles_[node]);
     winner_[node] = loser(node);
-    guards_[node] = watch(node, KnownAtStart::unknown);
+    handles_[node] = watch(node, KnownAtStart::unknown);
   }
 
   /// Holds the contests of nodes on one level, all at once.
@@ -208,7 +208,7 @@ class Tournament {
         table_.enqueue_one_of_many(ahead_(winner_[node], second), node * of_ + which_, KnownAtStart::unknown);
     }
     table_.watch_enqueued(
-        [&](std::uint32_t place, CertificateHandle guard) { guards_[place / of_] = guard; });
+        [&](std::uint32_t place, CertificateHandle handle) { handles_[place / of_] = handle; });
     for (const std::uint32_t node : nodes)
       if (!stands(node) && loser(node) != none) turn(node);
   }
@@ -217,9 +217,9 @@ class Tournament {
   Ahead ahead_;
   std::uint32_t which_, of_;
   Tree tree_;
-  std::vector<std::uint32_t> winner_;      // for each node
-  std::vector<CertificateHandle> guards_;  // for each inner node's contest; violated: no guard
-  std::vector<std::uint32_t> given_up_;    // nodes whose contests must be held again
+  std::vector<std::uint32_t> winner_;       // for each node
+  std::vector<CertificateHandle> handles_;  // for each inner node's contest; violated: no certificate
+  std::vector<std::uint32_t> given_up_;     // nodes whose contests must be held again
 };
 
 }  // namespace kds

@@ -6,7 +6,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <algorithm>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "structures/triangulation/cgal_triangulations.h"
 
 namespace kds {
@@ -166,7 +166,7 @@ namespace kds {
 
 template <int Dimension>
 StaticTriangulation<Dimension> static_triangulation(std::span<const ExactBead> beads, bool oriented) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   using Cgal = CgalTriangulation<Geometry, Dimension>;
   using Triangulation = typename Cgal::Type;
   std::vector<std::pair<typename Triangulation::Weighted_point, BeadId>> points;

@@ -17,11 +17,11 @@ namespace kds {
 
 /// The certificates of a cell's facets. The cell's beads are sorted only once for all facets.
 template <std::size_t N>
-class FacetCertificates {
+class CellCertificates {
  public:
   static constexpr int dimension = static_cast<int>(N) - 1;
 
-  [[gnu::always_inline]] explicit FacetCertificates(const std::array<BeadId, N>& cell)
+  [[gnu::always_inline]] explicit CellCertificates(const std::array<BeadId, N>& cell)
       : sorted_(cell), sign_(sort_beads(sorted_)) {}
 
   /// Calls `use` with the certificate of the facet whose other cell has the vertex `apex` opposite to it.
@@ -70,7 +70,7 @@ class FacetCertificates {
 template <std::size_t N, class Use>
 [[gnu::always_inline]] inline decltype(auto) with_facet_certificate(const std::array<BeadId, N>& cell,
                                                                     BeadId apex, Use use) {
-  return FacetCertificates(cell).to(apex, use);
+  return CellCertificates(cell).to(apex, use);
 }
 
 /// Returns the face of the hull that is the finite facet of an infinite cell, positively oriented seen from

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 #include "structures/triangulation/regular_triangulation_cgal.h"
 #include "structures/triangulation/regular_triangulation_edits.h"
 #include "structures/triangulation/regular_triangulation_flips.h"
@@ -264,7 +264,7 @@ auto RegularTriangulation<Dimension>::finite_edges() const -> std::vector<std::p
 template <int Dimension>
 StaticTriangulation<Dimension> static_triangulation(const Eigen::Matrix3Xd& centers,
                                                     std::span<const double> weights) {
-  const FloatingPointGuard to_nearest;
+  const FloatingPointScope to_nearest;
   RegularTriangulation<Dimension> triangulation;
   auto built = triangulation.build_bare(centers, weights);
   built.cells = triangulation.finite_cells();
@@ -278,7 +278,7 @@ StaticBuild triangulation_by_cgal(const Eigen::Matrix3Xd& centers, std::span<con
   for (std::size_t b = 0; b < weights.size(); ++b)
     points.push_back(weighted_point<Dimension>(centers, weights, b));
   return [points = std::move(points)] {
-    const FloatingPointGuard to_nearest;
+    const FloatingPointScope to_nearest;
     const typename CgalOf<Dimension>::Type triangulation(points.begin(), points.end());
   };
 }

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 
 namespace kds {
 
@@ -59,7 +59,7 @@ template <int Dimension>
 StaticBuild spheres_by_cgal(std::span<const BeadRange> nodes, const Eigen::Matrix3Xd& centers,
                             std::span<const double> radii) {
   return [nodes, spheres = cgal_spheres<Dimension>(centers, radii)] {
-    const FloatingPointGuard to_nearest;
+    const FloatingPointScope to_nearest;
     wrap<Dimension>(nodes, spheres);
   };
 }
@@ -74,7 +74,7 @@ StaticBuild hull_by_cgal(const Eigen::Matrix3Xd& centers) {
   std::vector<Point> points;
   for (Eigen::Index b = 0; b < centers.cols(); ++b) points.emplace_back(centers(0, b), centers(1, b));
   return [points = std::move(points)] {
-    const FloatingPointGuard to_nearest;
+    const FloatingPointScope to_nearest;
     std::vector<Point> corners;
     CGAL::convex_hull_2(points.begin(), points.end(), std::back_inserter(corners));
   };

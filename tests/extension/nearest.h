@@ -10,16 +10,16 @@
 #include <vector>
 
 #include "certificates/search/define_certificate_search.h"
-#include "kds/guarded_structure.h"
+#include "kds/certified_places.h"
 #include "structures/session/structure_spec.h"
 #include "tests/extension/farther.h"
 
 namespace extension {
 
-class Nearest final : public kds::GuardedStructure<Farther> {
+class Nearest final : public kds::CertifiedPlaces<Farther> {
  public:
   Nearest(kds::Simulator& simulator, const kds::MotionRef<3>& motion)
-      : GuardedStructure(simulator, motion, "nearest", overtakes) {
+      : CertifiedPlaces(simulator, motion, "nearest", overtakes) {
     for (kds::BeadId b = 2; b < motion.bead_count(); ++b) others_.push_back(b);
   }
 
@@ -52,7 +52,7 @@ class Nearest final : public kds::GuardedStructure<Farther> {
     std::swap(others_[place], nearest_);
     record(0, {nearest_});
     for (std::size_t other = 0; other < others_.size(); ++other)
-      if (other != place) guard_anew(other);
+      if (other != place) certify_anew(other);
   }
 
   kds::BeadId nearest_ = 1;

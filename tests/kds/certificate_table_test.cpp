@@ -116,9 +116,9 @@ TEST_P(CertificateTableTest, KeepsNothingOfWhatIsViolatedAtBirth) {
 
 TEST_P(CertificateTableTest, TellsTheOwnerOfFailures) {
   run([this] {
-    const CertificateHandle guard = owner.table.watch({{3, 12}}, 70);
-    ASSERT_TRUE(has_slot(guard));
-    const std::uint32_t slot = slot_of(guard);
+    const CertificateHandle handle = owner.table.watch({{3, 12}}, 70);
+    ASSERT_TRUE(has_slot(handle));
+    const std::uint32_t slot = slot_of(handle);
     EXPECT_EQ(owner.table.certificate(slot).beads, (std::array<BeadId, 2>{3, 12}));
     EXPECT_EQ(owner.table.place_in_structure(slot), 70U);
     EXPECT_EQ(owner.table.identity(slot), (Precedes{{12, 3}}).identity());
@@ -195,9 +195,9 @@ TEST_P(CertificateTableTest, TheFailingSlotIsNotUsedAgainAtOnce) {
         slots.push_back(slot);
         const BeadId next = 9 - static_cast<BeadId>(owner.failed.size());
         if (next > 4) {
-          const CertificateHandle guard = owner.table.watch({{next, 12}}, next);
-          EXPECT_TRUE(has_slot(guard));
-          EXPECT_NE(slot_of(guard), slot);
+          const CertificateHandle handle = owner.table.watch({{next, 12}}, next);
+          EXPECT_TRUE(has_slot(handle));
+          EXPECT_NE(slot_of(handle), slot);
         }
       });
   EXPECT_THAT(owner.failed, testing::ElementsAre(9, 8, 7, 6, 5));
@@ -218,8 +218,8 @@ TEST_P(CertificateTableTest, PlacesTellStructuresTablesAndPlacesApart) {
   Owner second(two, motion);
   first.on_start = [&] { (void)first.table.watch({{3, 12}}, 4); };
   second.on_start = [&] {
-    const CertificateHandle guard = second.table.watch({{3, 12}}, 4);
-    EXPECT_NE(first.table.place(0), second.table.place(slot_of(guard)));
+    const CertificateHandle handle = second.table.watch({{3, 12}}, 4);
+    EXPECT_NE(first.table.place(0), second.table.place(slot_of(handle)));
     EXPECT_EQ(first.table.structure(), 0U);
     EXPECT_EQ(second.table.structure(), 1U);
   };
@@ -255,7 +255,7 @@ TEST_P(CertificateTableTest, EveryStageIsCounted) {
             19U);
 }
 
-// Watching a few certificates at a time or all at once makes the same guards in the same order.
+// Watching a few certificates at a time or all at once makes the same handles in the same order.
 TEST_P(CertificateTableTest, ManyAreAsOneByOne) {
   std::vector<std::pair<std::uint32_t, CertificateHandle>> expected, many;
   for (const bool a_few_at_a_time : {false, true}) {
@@ -272,8 +272,8 @@ TEST_P(CertificateTableTest, ManyAreAsOneByOne) {
             table.enqueue({{left, right}}, place, KnownAtStart::unknown);
           }
         }
-        table.watch_enqueued([&](std::uint32_t place, CertificateHandle guard) {
-          (a_few_at_a_time ? many : expected).emplace_back(place, guard);
+        table.watch_enqueued([&](std::uint32_t place, CertificateHandle handle) {
+          (a_few_at_a_time ? many : expected).emplace_back(place, handle);
         });
       }
     });
@@ -292,9 +292,9 @@ TEST_P(CertificateTableTest, TheBooksBalance) {
     for (int i = 0; i < 4; ++i) {
       const auto left = static_cast<BeadId>(random() % 20);
       const auto right = static_cast<BeadId>((left + 1 + random() % 19) % 20);
-      const CertificateHandle guard =
+      const CertificateHandle handle =
           owner.table.watch({{left, right}}, static_cast<std::uint32_t>(random() % 1000));
-      if (guard != CertificateHandle::violated) live.push_back(guard);
+      if (handle != CertificateHandle::violated) live.push_back(handle);
     }
     peak = std::max<std::uint64_t>(peak, live.size());
     if (live.size() > 2 && random() % 3 != 0) {

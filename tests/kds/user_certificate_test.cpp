@@ -58,7 +58,7 @@ class Cages final : public KineticStructure {
     return kinds;
   }
   void build() override { passed = 0; }
-  void start_step() override { guard_ = table_.watch({in_a_row}, 0); }
+  void start_step() override { handle_ = table_.watch({in_a_row}, 0); }
   void fail(unsigned, std::uint32_t slot) override {
     EXPECT_EQ(table_.identity(slot).beads, in_a_row);
     time = table_.certificate(slot).beads == in_a_row ? simulator_.now().lower() : -1;
@@ -75,7 +75,7 @@ class Cages final : public KineticStructure {
   Simulator& simulator_;
   std::size_t index_;
   CertificateTable<CagesInOrder> table_;
-  CertificateHandle guard_{};
+  CertificateHandle handle_{};
 };
 
 template <class M>

@@ -6,7 +6,7 @@
 
 #include "motions/curves/positions.h"
 #include "structures/enclosing_sphere/enclosing_sphere.h"
-#include "structures/hierarchy/node_guards.h"
+#include "structures/hierarchy/node_certificates.h"
 #include "structures/hierarchy/node_proofs.h"
 #include "structures/hierarchy/signs_just_after.h"
 #include "tests/support/inputs/moving_beads.h"
@@ -25,8 +25,8 @@ struct Parts {
         curves(motion),
         owner(simulator, [](const Dyadic&) { return std::nullopt; }),
         proofs(simulator, tree, curves, 1, radii),
-        guards(simulator, owner, 0, motion, curves, radii, tree.node_count(), proofs),
-        repair(radii, proofs, guards.signs()) {
+        certificates(simulator, owner, 0, motion, curves, radii, tree.node_count(), proofs),
+        repair(radii, proofs, certificates.signs()) {
     proofs.take_curves();
   }
 
@@ -35,7 +35,7 @@ struct Parts {
   Curves<3> curves;
   Witness owner;
   NodeProofs<3> proofs;
-  NodeGuards<3> guards;
+  NodeCertificates<3> certificates;
   BasisRepair<3> repair;
 };
 
@@ -113,7 +113,7 @@ TEST(NodeProofs, ProveAllOfBeadsAtRestButNothingByIntegers) {
   }
 }
 
-TEST(NodeGuards, HoldACertificateUntilItIsDropped) {
+TEST(NodeCertificates, HoldACertificateUntilItIsDropped) {
   // A bead leaves the sphere of two others in the middle of the step.
   Space motion = moving({{-1, 0, 0}, {1, 0, 0}, {0, 0, 0}}, {{-1, 0, 0}, {1, 0, 0}, {0, 2, 0}});
   Parts parts(motion, Kernel::filtered, Radii::equal);
@@ -121,51 +121,51 @@ TEST(NodeGuards, HoldACertificateUntilItIsDropped) {
   const Basis pair(std::array<BeadId, 2>{0, 1});
   const std::array<BeadId, 1> beyond{2};
   const NodeId root = 0;
-  parts.guards.enqueue_beyond(root, pair, beyond);
-  EXPECT_EQ(parts.guards.watch_enqueued_of_one(true), std::nullopt);
-  EXPECT_TRUE(parts.guards.holds_any(root));
-  EXPECT_NEAR(parts.guards.guarded_until(root), 0.5, 1e-12);
-  parts.guards.count_per_bead();
+  parts.certificates.enqueue_beyond(root, pair, beyond);
+  EXPECT_EQ(parts.certificates.watch_enqueued_of_one(true), std::nullopt);
+  EXPECT_TRUE(parts.certificates.holds_any(root));
+  EXPECT_NEAR(parts.certificates.certified_until(root), 0.5, 1e-12);
+  parts.certificates.count_per_bead();
   EXPECT_EQ(parts.owner.statistics.certificates.per_bead_max, 1U);
-  parts.guards.drop(root);
-  EXPECT_FALSE(parts.guards.holds_any(root));
+  parts.certificates.drop(root);
+  EXPECT_FALSE(parts.certificates.holds_any(root));
   EXPECT_EQ(parts.owner.statistics.certificates.cancelled, 1U);
   EXPECT_EQ(parts.owner.statistics.certificates.alive, 0U);
 }
 
 // Bead 2 is named by one certificate, then by a second of another node, then by two others after the first is
 // dropped. The count never exceeds two, and it is taken only when it is asked for.
-TEST(NodeGuards, FollowHowManyCertificatesNameABead) {
+TEST(NodeCertificates, FollowHowManyCertificatesNameABead) {
   Space motion = moving({{-1, 0, 0}, {1, 0, 0}, {0, 0, 0}}, {{-1, 0, 0}, {1, 0, 0}, {0, 2, 0}});
   Parts parts(motion, Kernel::filtered, Radii::equal);
   const std::uint64_t& most = parts.owner.statistics.certificates.per_bead_max;
   const Basis pair(std::array<BeadId, 2>{0, 1}), other(std::array<BeadId, 2>{1, 2});
   const std::array<BeadId, 1> second{2}, zeroth{0};
   parts.simulator.build();
-  parts.guards.enqueue_beyond(0, pair, second);
-  parts.guards.count_followed();
+  parts.certificates.enqueue_beyond(0, pair, second);
+  parts.certificates.count_followed();
   EXPECT_EQ(most, 0U);  // nothing is followed yet
-  static_cast<void>(parts.guards.watch_enqueued_of_one(true));
-  parts.guards.drop(0);
-  parts.guards.follow_names();
-  parts.guards.enqueue_beyond(0, pair, second);
-  static_cast<void>(parts.guards.watch_enqueued_of_one(true));
-  parts.guards.count_followed();
+  static_cast<void>(parts.certificates.watch_enqueued_of_one(true));
+  parts.certificates.drop(0);
+  parts.certificates.follow_names();
+  parts.certificates.enqueue_beyond(0, pair, second);
+  static_cast<void>(parts.certificates.watch_enqueued_of_one(true));
+  parts.certificates.count_followed();
   EXPECT_EQ(most, 1U);
-  parts.guards.drop(0);
-  parts.guards.enqueue_beyond(0, pair, second);
-  static_cast<void>(parts.guards.watch_enqueued_of_one(true));
-  parts.guards.count_followed();
+  parts.certificates.drop(0);
+  parts.certificates.enqueue_beyond(0, pair, second);
+  static_cast<void>(parts.certificates.watch_enqueued_of_one(true));
+  parts.certificates.count_followed();
   EXPECT_EQ(most, 1U);  // the first certificate is gone
-  parts.guards.enqueue_beyond(1, other, zeroth);
-  static_cast<void>(parts.guards.watch_enqueued_of_one(true));
-  parts.guards.count_followed();
+  parts.certificates.enqueue_beyond(1, other, zeroth);
+  static_cast<void>(parts.certificates.watch_enqueued_of_one(true));
+  parts.certificates.count_followed();
   EXPECT_EQ(most, 2U);
-  parts.guards.drop(0);
-  parts.guards.drop(1);
-  parts.guards.enqueue_beyond(0, pair, second);
-  static_cast<void>(parts.guards.watch_enqueued_of_one(true));
-  parts.guards.count_followed();
+  parts.certificates.drop(0);
+  parts.certificates.drop(1);
+  parts.certificates.enqueue_beyond(0, pair, second);
+  static_cast<void>(parts.certificates.watch_enqueued_of_one(true));
+  parts.certificates.count_followed();
   EXPECT_EQ(most, 2U);
 }
 

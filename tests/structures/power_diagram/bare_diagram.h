@@ -58,11 +58,11 @@ class BareDiagram final : public KineticStructure {
   [[nodiscard]] std::uint64_t expected_alive() const {
     return state.triangulation.live_count() * (Dimension + 1) / 2 + state.hidden.size() * (Dimension + 2);
   }
-  /// Returns the number of guards with a failure in the queue.
+  /// Returns the number of certificates with a failure in the queue.
   [[nodiscard]] std::size_t waiting() const {
     std::size_t count = 0;
-    const auto look = [&](const auto&, CertificateHandle guard) {
-      count += has_slot(guard) ? 1 : 0;
+    const auto look = [&](const auto&, CertificateHandle handle) {
+      count += has_slot(handle) ? 1 : 0;
       return true;
     };
     static_cast<void>(facets.all_of(look) && hidden.all_of(look));
@@ -70,8 +70,8 @@ class BareDiagram final : public KineticStructure {
   }
 
   DiagramState<Dimension> state;
-  FacetGuards<Dimension> facets;
-  HiddenGuards<Dimension> hidden;
+  FacetCertificates<Dimension> facets;
+  HiddenCertificates<Dimension> hidden;
   DiagramFlips<Dimension> flips;
   DiagramRebuilder<Dimension> rebuilder;
   DiagramEditor<Dimension> editor;

@@ -1,8 +1,8 @@
 #pragma once
-// The certificates of hidden beads. Each hidden bead is guarded against its host cell by a power test and by
-// an orientation for each facet of the host. When the power test fails, the bead becomes visible (1-4). When
-// an orientation fails, the bead wanders to the cell beyond that facet, or becomes visible there if that cell
-// is infinite.
+// The certificates of hidden beads. Each hidden bead has a power test against its host cell and an
+// orientation for each facet of the host. When the power test fails, the bead becomes visible (1-4). When an
+// orientation fails, the bead wanders to the cell beyond that facet, or becomes visible there if that cell is
+// infinite.
 
 #include <array>
 #include <optional>
@@ -15,7 +15,7 @@
 namespace kds {
 
 template <int Dimension>
-class HiddenGuards {
+class HiddenCertificates {
   using State = DiagramState<Dimension>;
   using Events = typename State::Events;
   using Beads = typename State::Beads;
@@ -24,27 +24,29 @@ class HiddenGuards {
   /// Numbers of the tables.
   enum : unsigned { appearing = 2, departing = 3 };
 
-  explicit HiddenGuards(State& state);
+  explicit HiddenCertificates(State& state);
 
-  /// Called at the start of a step, when the guards of the previous step are gone.
-  void start_step() { guards_.clear(); }
-  /// Finds a new host for each hidden bead that has no host or has left it, and guards all hidden beads.
+  /// Called at the start of a step, when the certificates of the previous step are gone.
+  void start_step() { handles_.clear(); }
+  /// Finds a new host for each hidden bead that has no host or has left it, and creates the certificates of
+  /// all hidden beads.
   void watch_all();
-  /// Drops the guards of a hidden bead.
+  /// Drops the certificates of a hidden bead.
   void drop(BeadId bead);
   void drop_all();
 
-  /// Hides a bead that was visible; it has no guards yet.
+  /// Hides a bead that was visible; it has no certificates yet.
   void hide(BeadId bead);
-  /// Sets the host of a hidden bead and guards the bead there.
+  /// Sets the host of a hidden bead and creates its certificates there.
   void enter(BeadId bead, CellId host);
-  /// Moves a hidden bead that leaves its host through `facet` into the cell where it is now, and guards it
-  /// there.
+  /// Moves a hidden bead that leaves its host through `facet` into the cell where it is now, and creates its
+  /// certificates there.
   void wander(BeadId bead, int facet);
   /// Makes the certificates of a bead anew; its host stays the same.
   void watch(BeadId bead);
 
-  /// Called before these cells are removed: their hidden beads have no host and no guards until rehouse.
+  /// Called before these cells are removed: their hidden beads have no host and no certificates until
+  /// rehouse.
   void displace(std::span<const CellId> cells);
   /// Returns the displaced beads, ascending.
   [[nodiscard]] std::span<const BeadId> displaced() const { return displaced_; }
@@ -52,7 +54,7 @@ class HiddenGuards {
   /// Adds a bead hidden just now to the displaced beads, or removes a bead that became visible from them.
   void add_displaced(BeadId bead);
   void remove_displaced(BeadId bead) { std::erase(displaced_, bead); }
-  /// Finds hosts for all displaced beads, searching from `near`, and guards the beads.
+  /// Finds hosts for all displaced beads, searching from `near`, and creates their certificates.
   void rehouse(CellId near);
 
   /// Walks from `cell`, entered through facet `came_from`, to the cell that contains the bead just after now.
@@ -68,22 +70,22 @@ class HiddenGuards {
   };
   [[nodiscard]] std::optional<Failed> take_failure(unsigned table, std::uint32_t slot);
 
-  /// Returns whether `holds(table, guard)` is true for all guards.
+  /// Returns whether `holds(table, handle)` is true for all certificates.
   template <class Holds>
   [[nodiscard]] bool all_of(Holds holds) const {
-    for (const Guards& guards : guards_) {
+    for (const Handles& handles : handles_) {
       for (std::size_t i = 0; i <= Dimension; ++i)
-        if (!holds(departures_, guards[i])) return false;
-      if (!holds(appearances_, guards.back())) return false;
+        if (!holds(departures_, handles[i])) return false;
+      if (!holds(appearances_, handles.back())) return false;
     }
     return true;
   }
 
  private:
   /// One orientation for each facet of the host, then the power test.
-  using Guards = std::array<CertificateHandle, Dimension + 2>;
-  static constexpr Guards no_guards = [] {
-    Guards none{};
+  using Handles = std::array<CertificateHandle, Dimension + 2>;
+  static constexpr Handles no_handles = [] {
+    Handles none{};
     none.fill(CertificateHandle::violated);
     return none;
   }();
@@ -95,11 +97,11 @@ class HiddenGuards {
   State& state_;
   CertificateTable<PowerTest<Dimension>> appearances_;
   CertificateTable<Orientation<Dimension>> departures_;
-  std::vector<Guards> guards_;  // for each bead; empty if none is hidden
+  std::vector<Handles> handles_;  // for each bead; empty if none is hidden
   std::vector<BeadId> displaced_;
 };
 
-extern template class HiddenGuards<2>;
-extern template class HiddenGuards<3>;
+extern template class HiddenCertificates<2>;
+extern template class HiddenCertificates<3>;
 
 }  // namespace kds

@@ -1,13 +1,13 @@
 // Every facet has exactly one certificate, which is created and dropped with its cells, whatever the filters
 // prove about it.
 
-#include "structures/power_diagram/facet_guards.h"
+#include "structures/power_diagram/facet_certificates.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/structures/power_diagram/bare_diagram.h"
 
-namespace kds::facet_guards_test {
+namespace kds::facet_certificates_test {
 namespace {
 
 using namespace test;
@@ -30,7 +30,7 @@ void expect_one_a_facet(Kernel kernel, double step) {
   }
 }
 
-TEST(FacetGuards, HaveOneCertificateAFacet) {
+TEST(FacetCertificates, HaveOneCertificateAFacet) {
   for (const Kernel kernel : {Kernel::filtered, Kernel::exact}) {
     for (const double step : {1e-9, 0.01}) {
       expect_one_a_facet<3>(kernel, step);
@@ -39,7 +39,7 @@ TEST(FacetGuards, HaveOneCertificateAFacet) {
   }
 }
 
-TEST(FacetGuards, OfAllKernelsWaitForTheSameFailures) {
+TEST(FacetCertificates, OfAllKernelsWaitForTheSameFailures) {
   const auto motion = random_beads<3>(2, 60, 0.01);
   std::vector<std::size_t> waiting;
   for (const Kernel kernel : {Kernel::filtered, Kernel::exact}) {
@@ -53,7 +53,7 @@ TEST(FacetGuards, OfAllKernelsWaitForTheSameFailures) {
   EXPECT_EQ(waiting[0], waiting[1]);
 }
 
-TEST(FacetGuards, AroundNewCellsAreMadeAnew) {
+TEST(FacetCertificates, AroundNewCellsAreMadeAnew) {
   BareRig<3> rig(random_beads<3>(3, 40, 0.01));
   BareDiagram<3>& diagram = rig.structure;
   rig.simulator.build();
@@ -71,7 +71,7 @@ TEST(FacetGuards, AroundNewCellsAreMadeAnew) {
 }
 
 // Facets between beads at rest are only counted, and have no certificate.
-TEST(FacetGuards, OfBeadsThatRestAreOnlyCounted) {
+TEST(FacetCertificates, OfBeadsThatRestAreOnlyCounted) {
   auto motion = random_beads<3>(4, 60, 0.05);
   std::vector<char> moving(60, 0);
   moving[7] = 1;
@@ -96,8 +96,8 @@ TEST(FacetGuards, OfBeadsThatRestAreOnlyCounted) {
   EXPECT_EQ(diagram.facets.flipped().size(), around.size());
 }
 
-// Dropping a guard that fails at this moment puts the diagram in doubt.
-TEST(FacetGuards, AreGivenUpInDoubtWhereTheyFailNow) {
+// Dropping a certificate that fails at this moment puts the diagram in doubt.
+TEST(FacetCertificates, AreGivenUpInDoubtWhereTheyFailNow) {
   BareRig<3> rig(random_beads<3>(5, 40, 0.1));
   BareDiagram<3>& diagram = rig.structure;
   diagram.flipping = false;
@@ -107,9 +107,9 @@ TEST(FacetGuards, AreGivenUpInDoubtWhereTheyFailNow) {
   diagram.facets.drop_all();
   EXPECT_EQ(diagram.state.doubt, Doubt::none);
   diagram.facets.watch_all();
-  rig.simulator.leave_step();  // all these guards fail, and nothing is repaired
+  rig.simulator.leave_step();  // all these certificates fail, and nothing is repaired
   EXPECT_GT(diagram.failed.size(), 5U);
 }
 
 }  // namespace
-}  // namespace kds::facet_guards_test
+}  // namespace kds::facet_certificates_test

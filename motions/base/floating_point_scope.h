@@ -17,14 +17,14 @@ namespace kds {
 /// may have changed the environment; for example, some libraries are linked so that every program which loads
 /// them flushes subnormal numbers to zero.
 ///
-/// All computations behind public functions of the library run under a guard, including worker threads. Code
-/// that calls a failure-time search or a filter without a simulator must create a guard itself.
-class FloatingPointGuard {
+/// All computations behind public functions of the library run in such a scope, including those of worker
+/// threads. Code that calls a failure-time search or a filter without a simulator must create a scope itself.
+class FloatingPointScope {
  public:
-  FloatingPointGuard();
-  ~FloatingPointGuard();
-  FloatingPointGuard(const FloatingPointGuard&) = delete;
-  FloatingPointGuard& operator=(const FloatingPointGuard&) = delete;
+  FloatingPointScope();
+  ~FloatingPointScope();
+  FloatingPointScope(const FloatingPointScope&) = delete;
+  FloatingPointScope& operator=(const FloatingPointScope&) = delete;
 
  private:
   bool changed_;

@@ -1,4 +1,4 @@
-#include "structures/power_diagram/hidden_guards.h"
+#include "structures/power_diagram/hidden_certificates.h"
 
 #include <algorithm>
 #include <array>
@@ -7,13 +7,13 @@
 namespace kds {
 
 template <int Dimension>
-HiddenGuards<Dimension>::HiddenGuards(State& state)
+HiddenCertificates<Dimension>::HiddenCertificates(State& state)
     : state_(state),
       appearances_(state.simulator, state.owner, state.index, appearing, state.motion),
       departures_(state.simulator, state.owner, state.index, departing, state.motion) {}
 
 template <int Dimension>
-void HiddenGuards<Dimension>::enqueue(BeadId bead) {
+void HiddenCertificates<Dimension>::enqueue(BeadId bead) {
   const Beads& v = state_.beads_of(state_.hidden.host(bead));
   for (int i = 0; i <= Dimension; ++i) {
     const Orientation<Dimension> inside(State::with(v, i, bead), 1);
@@ -27,51 +27,51 @@ void HiddenGuards<Dimension>::enqueue(BeadId bead) {
 }
 
 template <int Dimension>
-void HiddenGuards<Dimension>::watch_enqueued() {
-  const auto take = [this](BeadId bead, int i, CertificateHandle guard) {
-    if (guard == CertificateHandle::violated) state_.suspect(Doubt::wrong);
-    guards_[bead][static_cast<std::size_t>(i)] = guard;
+void HiddenCertificates<Dimension>::watch_enqueued() {
+  const auto take = [this](BeadId bead, int i, CertificateHandle handle) {
+    if (handle == CertificateHandle::violated) state_.suspect(Doubt::wrong);
+    handles_[bead][static_cast<std::size_t>(i)] = handle;
   };
   appearances_.watch_enqueued(
-      [&](BeadId bead, CertificateHandle guard) { take(bead, Dimension + 1, guard); });
+      [&](BeadId bead, CertificateHandle handle) { take(bead, Dimension + 1, handle); });
   departures_.watch_enqueued(
-      [&](FacetId place, CertificateHandle guard) { take(cell_of(place), index_of(place), guard); });
+      [&](FacetId place, CertificateHandle handle) { take(cell_of(place), index_of(place), handle); });
 }
 
 template <int Dimension>
-void HiddenGuards<Dimension>::watch(BeadId bead) {
+void HiddenCertificates<Dimension>::watch(BeadId bead) {
   enqueue(bead);
   watch_enqueued();
 }
 
 template <int Dimension>
-void HiddenGuards<Dimension>::enter(BeadId bead, CellId host) {
+void HiddenCertificates<Dimension>::enter(BeadId bead, CellId host) {
   state_.hidden.enter(bead, host);
   watch(bead);
 }
 
 template <int Dimension>
-void HiddenGuards<Dimension>::hide(BeadId bead) {
+void HiddenCertificates<Dimension>::hide(BeadId bead) {
   state_.hidden.hide(bead);
-  guards_.resize(state_.bead_count(), no_guards);
+  handles_.resize(state_.bead_count(), no_handles);
 }
 
 template <int Dimension>
-void HiddenGuards<Dimension>::drop(BeadId bead) {
-  for (std::size_t i = 0; i <= Dimension; ++i) state_.give_up(departures_, guards_[bead][i]);
-  state_.give_up(appearances_, guards_[bead].back());
-  guards_[bead] = no_guards;
+void HiddenCertificates<Dimension>::drop(BeadId bead) {
+  for (std::size_t i = 0; i <= Dimension; ++i) state_.give_up(departures_, handles_[bead][i]);
+  state_.give_up(appearances_, handles_[bead].back());
+  handles_[bead] = no_handles;
 }
 
 template <int Dimension>
-void HiddenGuards<Dimension>::drop_all() {
-  for (BeadId bead = 0; bead < guards_.size(); ++bead) drop(bead);
+void HiddenCertificates<Dimension>::drop_all() {
+  for (BeadId bead = 0; bead < handles_.size(); ++bead) drop(bead);
 }
 
 template <int Dimension>
-void HiddenGuards<Dimension>::watch_all() {
+void HiddenCertificates<Dimension>::watch_all() {
   const HiddenBeads& hidden = state_.hidden;
-  guards_.assign(hidden.empty() ? 0 : state_.bead_count(), no_guards);
+  handles_.assign(hidden.empty() ? 0 : state_.bead_count(), no_handles);
   displaced_.clear();
   if (hidden.empty()) return;
   for (const BeadId bead : hidden.beads()) {
@@ -81,14 +81,14 @@ void HiddenGuards<Dimension>::watch_all() {
       enqueue(bead);
     }
   }
-  const auto take = [this](BeadId bead, int i, CertificateHandle guard) {
-    guards_[bead][static_cast<std::size_t>(i)] = guard;
-    if (guard == CertificateHandle::violated) displaced_.push_back(bead);
+  const auto take = [this](BeadId bead, int i, CertificateHandle handle) {
+    handles_[bead][static_cast<std::size_t>(i)] = handle;
+    if (handle == CertificateHandle::violated) displaced_.push_back(bead);
   };
   departures_.watch_enqueued(
-      [&](FacetId place, CertificateHandle guard) { take(cell_of(place), index_of(place), guard); });
+      [&](FacetId place, CertificateHandle handle) { take(cell_of(place), index_of(place), handle); });
   appearances_.watch_enqueued(
-      [&](BeadId bead, CertificateHandle guard) { take(bead, Dimension + 1, guard); });
+      [&](BeadId bead, CertificateHandle handle) { take(bead, Dimension + 1, handle); });
   std::sort(displaced_.begin(), displaced_.end());
   displaced_.erase(std::unique(displaced_.begin(), displaced_.end()), displaced_.end());
   for (const BeadId bead : displaced_) drop(bead);
@@ -96,7 +96,7 @@ void HiddenGuards<Dimension>::watch_all() {
 }
 
 template <int Dimension>
-void HiddenGuards<Dimension>::displace(std::span<const CellId> cells) {
+void HiddenCertificates<Dimension>::displace(std::span<const CellId> cells) {
   displaced_.clear();
   if (state_.hidden.empty()) return;
   for (const CellId cell : cells) state_.hidden.empty_out(cell, displaced_);
@@ -105,12 +105,12 @@ void HiddenGuards<Dimension>::displace(std::span<const CellId> cells) {
 }
 
 template <int Dimension>
-void HiddenGuards<Dimension>::add_displaced(BeadId bead) {
+void HiddenCertificates<Dimension>::add_displaced(BeadId bead) {
   displaced_.insert(std::upper_bound(displaced_.begin(), displaced_.end(), bead), bead);
 }
 
 template <int Dimension>
-void HiddenGuards<Dimension>::rehouse(CellId near) {
+void HiddenCertificates<Dimension>::rehouse(CellId near) {
   if (displaced_.empty()) return;
   HiddenBeads& hidden = state_.hidden;
   for (const BeadId bead : displaced_) {
@@ -128,7 +128,7 @@ void HiddenGuards<Dimension>::rehouse(CellId near) {
 }
 
 template <int Dimension>
-CellId HiddenGuards<Dimension>::walk_to(BeadId bead, CellId cell, int came_from) {
+CellId HiddenCertificates<Dimension>::walk_to(BeadId bead, CellId cell, int came_from) {
   if (state_.is_infinite(cell)) {
     cell = state_.neighbor(cell, state_.place_of(cell, infinite_bead));
     came_from = -1;
@@ -152,7 +152,7 @@ CellId HiddenGuards<Dimension>::walk_to(BeadId bead, CellId cell, int came_from)
 /// by several cells, the host is the one of these cells with the least beads, wherever the walk started. Flat
 /// cells are passed through, because all beads of their plane seem to lie in them.
 template <int Dimension>
-CellId HiddenGuards<Dimension>::find_host(BeadId bead, CellId cell, int came_from) {
+CellId HiddenCertificates<Dimension>::find_host(BeadId bead, CellId cell, int came_from) {
   const CellId at = walk_to(bead, cell, came_from);
   if (at == no_cell || state_.is_infinite(at)) return no_cell;
   std::vector<CellId> around{at};
@@ -183,7 +183,7 @@ CellId HiddenGuards<Dimension>::find_host(BeadId bead, CellId cell, int came_fro
 }
 
 template <int Dimension>
-void HiddenGuards<Dimension>::wander(BeadId bead, int facet) {
+void HiddenCertificates<Dimension>::wander(BeadId bead, int facet) {
   const auto [beyond, came_from] = state_.across(state_.hidden.host(bead), facet);
   drop(bead);
   const CellId host = find_host(bead, beyond, came_from);
@@ -197,15 +197,16 @@ void HiddenGuards<Dimension>::wander(BeadId bead, int facet) {
 }
 
 template <int Dimension>
-auto HiddenGuards<Dimension>::take_failure(unsigned table, std::uint32_t slot) -> std::optional<Failed> {
+auto HiddenCertificates<Dimension>::take_failure(unsigned table, std::uint32_t slot)
+    -> std::optional<Failed> {
   Failed failed;
   if (table == appearing) {
     failed = {appearances_.place_in_structure(slot), std::nullopt, appearances_.identity(slot)};
-    guards_[failed.bead].back() = CertificateHandle::violated;
+    handles_[failed.bead].back() = CertificateHandle::violated;
   } else {
     const FacetId place = departures_.place_in_structure(slot);
     failed = {cell_of(place), index_of(place), departures_.identity(slot)};
-    guards_[failed.bead][static_cast<std::size_t>(index_of(place))] = CertificateHandle::violated;
+    handles_[failed.bead][static_cast<std::size_t>(index_of(place))] = CertificateHandle::violated;
   }
   if (state_.doubt != Doubt::wrong) return failed;
   // This failure is not handled at its place, so a repair of other cells would not suffice.
@@ -213,7 +214,7 @@ auto HiddenGuards<Dimension>::take_failure(unsigned table, std::uint32_t slot) -
   return std::nullopt;
 }
 
-template class HiddenGuards<2>;
-template class HiddenGuards<3>;
+template class HiddenCertificates<2>;
+template class HiddenCertificates<3>;
 
 }  // namespace kds

@@ -1,4 +1,4 @@
-#include "structures/hierarchy/node_guards.h"
+#include "structures/hierarchy/node_certificates.h"
 
 #include <algorithm>
 #include <utility>
@@ -18,9 +18,10 @@ inline constexpr bool radical_of_two_or_more = std::tuple_size_v<decltype(Certif
 // The simplex of a full basis may turn over when one of its certificates touches zero, so these touches are
 // reported. Equal radii need no radical certificates.
 template <int Dimension>
-NodeGuards<Dimension>::NodeGuards(Simulator& simulator, KineticStructure& owner, std::size_t index,
-                                  const MotionRef<Dimension>& motion, const Curves<Dimension>& curves,
-                                  Radii radii, std::size_t nodes, NodeProofs<Dimension>& proofs)
+NodeCertificates<Dimension>::NodeCertificates(Simulator& simulator, KineticStructure& owner,
+                                              std::size_t index, const MotionRef<Dimension>& motion,
+                                              const Curves<Dimension>& curves, Radii radii, std::size_t nodes,
+                                              NodeProofs<Dimension>& proofs)
     : simulator_(simulator),
       owner_(owner),
       curves_(curves),
@@ -37,7 +38,7 @@ NodeGuards<Dimension>::NodeGuards(Simulator& simulator, KineticStructure& owner,
       per_bead_(owner.statistics.certificates, motion.bead_count()) {}
 
 template <int Dimension>
-void NodeGuards<Dimension>::start_step() {
+void NodeCertificates<Dimension>::start_step() {
   std::fill(held_by_.begin(), held_by_.end(), HeldBy{});
   held_.clear();
   free_.clear();
@@ -48,7 +49,7 @@ void NodeGuards<Dimension>::start_step() {
 }
 
 template <int Dimension>
-void NodeGuards<Dimension>::hold(NodeId id, CertificateHandle handle, unsigned table) {
+void NodeCertificates<Dimension>::hold(NodeId id, CertificateHandle handle, unsigned table) {
   if (handle == CertificateHandle::violated) return;
   HeldBy& by = held_by_[id];
   if (!has_slot(handle)) {
@@ -70,8 +71,8 @@ void NodeGuards<Dimension>::hold(NodeId id, CertificateHandle handle, unsigned t
 /// Returns the first failure of a radical certificate, if the path of the sphere proves it.
 template <int Dimension>
 template <class Certificate>
-std::optional<Failure> NodeGuards<Dimension>::crossing_of(const Basis& basis, BeadId bead, bool inside,
-                                                          bool at_own_root) {
+std::optional<Failure> NodeCertificates<Dimension>::crossing_of(const Basis& basis, BeadId bead, bool inside,
+                                                                bool at_own_root) {
   if constexpr (radical_of_two_or_more<Certificate, Dimension>) {
     if (!proofs_.proves_crossings()) return std::nullopt;
     const auto failure = proofs_.crossing(basis, bead, inside, at_own_root);
@@ -82,8 +83,8 @@ std::optional<Failure> NodeGuards<Dimension>::crossing_of(const Basis& basis, Be
 }
 
 template <int Dimension>
-void NodeGuards<Dimension>::enqueue(NodeId id, const Basis& basis, BeadId bead, bool inside,
-                                    int orientation) {
+void NodeCertificates<Dimension>::enqueue(NodeId id, const Basis& basis, BeadId bead, bool inside,
+                                          int orientation) {
   const auto enqueue_it = [&]<class C>(const C& c) {
     const auto& present = signs_.present;
     const bool own_root = present && present->is_of(c);
@@ -110,7 +111,7 @@ void NodeGuards<Dimension>::enqueue(NodeId id, const Basis& basis, BeadId bead, 
 }
 
 template <int Dimension>
-void NodeGuards<Dimension>::enqueue_basis(NodeId id, const Basis& basis, unsigned stays) {
+void NodeCertificates<Dimension>::enqueue_basis(NodeId id, const Basis& basis, unsigned stays) {
   if (basis.size < 2 || (radii_ == Radii::equal && basis.size == 2)) return;  // they never part
   for (std::size_t i = 0; i < basis.size; ++i) {
     if ((stays >> i & 1U) == 0) enqueue(id, without(basis, basis.beads[i]), basis.beads[i], false, 0);
@@ -118,14 +119,15 @@ void NodeGuards<Dimension>::enqueue_basis(NodeId id, const Basis& basis, unsigne
 }
 
 template <int Dimension>
-void NodeGuards<Dimension>::enqueue_beyond(NodeId id, const Basis& basis, std::span<const BeadId> beyond) {
+void NodeCertificates<Dimension>::enqueue_beyond(NodeId id, const Basis& basis,
+                                                 std::span<const BeadId> beyond) {
   if (beyond.empty()) return;
   const int orientation = orientation_of(basis, signs_);
   for (const BeadId b : beyond) enqueue(id, basis, b, true, orientation);
 }
 
 template <int Dimension>
-std::span<const NamedBead> NodeGuards<Dimension>::watch_enqueued(bool zero_will_do) {
+std::span<const NamedBead> NodeCertificates<Dimension>::watch_enqueued(bool zero_will_do) {
   violated_.clear();
   for (unsigned number = 1; number <= Tables::count; ++number) {
     if (watched_[number].empty()) continue;
@@ -144,7 +146,7 @@ std::span<const NamedBead> NodeGuards<Dimension>::watch_enqueued(bool zero_will_
 }
 
 template <int Dimension>
-std::optional<BeadId> NodeGuards<Dimension>::watch_enqueued_of_one(bool zero_will_do) {
+std::optional<BeadId> NodeCertificates<Dimension>::watch_enqueued_of_one(bool zero_will_do) {
   if (failed_again_) {
     for (unsigned number = 1; number <= Tables::count; ++number) {
       tables_.visit(number, [](auto& table) { table.forget_enqueued(); });
@@ -157,7 +159,7 @@ std::optional<BeadId> NodeGuards<Dimension>::watch_enqueued_of_one(bool zero_wil
 }
 
 template <int Dimension>
-double NodeGuards<Dimension>::guarded_until(NodeId id) {
+double NodeCertificates<Dimension>::certified_until(NodeId id) {
   double until = 1;
   for (std::uint32_t place = held_by_[id].first; place != none; place = held_[place].next) {
     tables_.visit(held_[place].table, [&](auto& table) {
@@ -168,7 +170,7 @@ double NodeGuards<Dimension>::guarded_until(NodeId id) {
 }
 
 template <int Dimension>
-void NodeGuards<Dimension>::drop(NodeId id) {
+void NodeCertificates<Dimension>::drop(NodeId id) {
   forget_followed(id);
   HeldBy& by = held_by_[id];
   owner_.statistics.certificates.alive -= by.never_failing;
@@ -181,8 +183,8 @@ void NodeGuards<Dimension>::drop(NodeId id) {
 }
 
 template <int Dimension>
-typename NodeGuards<Dimension>::Failed NodeGuards<Dimension>::take_failed(unsigned table, std::uint32_t slot,
-                                                                          std::span<const Basis> bases) {
+typename NodeCertificates<Dimension>::Failed NodeCertificates<Dimension>::take_failed(
+    unsigned table, std::uint32_t slot, std::span<const Basis> bases) {
   named_.clear();
   Failed failed;
   tables_.visit(table, [&](auto& t) {
@@ -203,25 +205,25 @@ typename NodeGuards<Dimension>::Failed NodeGuards<Dimension>::take_failed(unsign
 }
 
 template <int Dimension>
-void NodeGuards<Dimension>::count_per_bead() {
+void NodeCertificates<Dimension>::count_per_bead() {
   for (const NamedBead& one : named_) per_bead_.add(one.bead);
   for (const NamedBead& one : named_) per_bead_.reset(one.bead);
 }
 
 template <int Dimension>
-void NodeGuards<Dimension>::follow_names() {
+void NodeCertificates<Dimension>::follow_names() {
   followed_.resize(held_by_.size());
   named_by_.resize(bead_count_);
 }
 
 template <int Dimension>
-void NodeGuards<Dimension>::count_followed() {
+void NodeCertificates<Dimension>::count_followed() {
   auto& most = owner_.statistics.certificates.per_bead_max;
   for (const BeadId bead : risen_) most = std::max<std::uint64_t>(most, named_by_[bead]);
   risen_.clear();
 }
 
-template class NodeGuards<2>;
-template class NodeGuards<3>;
+template class NodeCertificates<2>;
+template class NodeCertificates<3>;
 
 }  // namespace kds

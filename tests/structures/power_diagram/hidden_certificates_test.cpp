@@ -1,12 +1,12 @@
-// Hidden beads are guarded in the cells that contain them.
+// Hidden beads have certificates in the cells that contain them.
 
-#include "structures/power_diagram/hidden_guards.h"
+#include "structures/power_diagram/hidden_certificates.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/structures/power_diagram/bare_diagram.h"
 
-namespace kds::hidden_guards_test {
+namespace kds::hidden_certificates_test {
 namespace {
 
 using namespace test;
@@ -34,7 +34,7 @@ void expect_housed(Kernel kernel) {
   EXPECT_EQ(diagram.state.doubt, Doubt::none);
   EXPECT_EQ(diagram.statistics.certificates.alive, diagram.expected_alive());
   for (const BeadId bead : diagram.state.hidden.beads()) EXPECT_TRUE(is_in_host(diagram.state, bead)) << bead;
-  // Displaced beads have no host and no guards. Hidden beads find their cells again from any cell.
+  // Displaced beads have no host and no certificates. Hidden beads find their cells again from any cell.
   const BeadId bead = diagram.state.hidden.beads()[0];
   const CellId host = diagram.state.hidden.host(bead);
   diagram.hidden.displace(std::array{host});
@@ -52,7 +52,7 @@ void expect_housed(Kernel kernel) {
   EXPECT_EQ(diagram.statistics.certificates.alive, 0U);
 }
 
-TEST(HiddenGuards, HouseAndGuardAllHiddenBeads) {
+TEST(HiddenCertificates, HouseAndCertifyAllHiddenBeads) {
   for (const Kernel kernel : {Kernel::filtered, Kernel::exact}) {
     expect_housed<3>(kernel);
     expect_housed<2>(kernel);
@@ -60,7 +60,7 @@ TEST(HiddenGuards, HouseAndGuardAllHiddenBeads) {
 }
 
 // A walk leads from any cell to the cell that contains a bead, or out of the hull.
-TEST(HiddenGuards, WalksArriveFromAnywhere) {
+TEST(HiddenCertificates, WalksArriveFromAnywhere) {
   auto motion = random_beads<3>(2, 60, 0, 0.1);
   BareRig<3> rig(motion);
   BareDiagram<3>& diagram = rig.structure;
@@ -77,4 +77,4 @@ TEST(HiddenGuards, WalksArriveFromAnywhere) {
 }
 
 }  // namespace
-}  // namespace kds::hidden_guards_test
+}  // namespace kds::hidden_certificates_test

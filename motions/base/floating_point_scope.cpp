@@ -1,4 +1,4 @@
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 
 #ifdef __SSE2__
 #include <xmmintrin.h>
@@ -21,13 +21,13 @@ bool is_default() {
 
 // The default environment is that at the start of a program: rounding to nearest, no flushing to zero, no
 // traps.
-FloatingPointGuard::FloatingPointGuard() : changed_(!is_default()) {
+FloatingPointScope::FloatingPointScope() : changed_(!is_default()) {
   if (!changed_) return;
   std::fegetenv(&of_host_);
   std::fesetenv(FE_DFL_ENV);
 }
 
-FloatingPointGuard::~FloatingPointGuard() {
+FloatingPointScope::~FloatingPointScope() {
   if (changed_) std::fesetenv(&of_host_);
 }
 

@@ -20,22 +20,23 @@
 
 namespace kds {
 
-/// The guard of a facet of a kinetic power diagram, stored in the 32 bits that its cell keeps for it.
-struct FacetGuard {
+/// The handle of a facet's certificate in a kinetic power diagram, stored in the 32 bits that its cell keeps
+/// for it.
+struct FacetHandle {
   /// The function of the certificate: a power test, an orientation on the hull, or the orientation of a cell.
   /// If a power test is zero for the whole step (all its beads stay on one sphere), it would not notice that
-  /// the facet's cells turn over. Each side then guards the orientation of its own cell.
+  /// the facet's cells turn over. Each side then has a certificate of its own: the orientation of its cell.
   enum class About : std::uint8_t { power, hull, cell };
 
-  CertificateHandle guard = CertificateHandle::violated;
+  CertificateHandle handle = CertificateHandle::violated;
   About about = About::power;
 
-  /// Returns the guard as the cell stores it. A new cell stores 0, which means `violated`.
+  /// Returns the handle as the cell stores it. A new cell stores 0, which means `violated`.
   [[nodiscard]] constexpr std::uint32_t packed() const {
     return static_cast<std::uint32_t>(about) << 30U |
-           ((static_cast<std::uint32_t>(guard) - first_name) & mask);
+           ((static_cast<std::uint32_t>(handle) - first_name) & mask);
   }
-  [[nodiscard]] static constexpr FacetGuard of(std::uint32_t note) {
+  [[nodiscard]] static constexpr FacetHandle of(std::uint32_t note) {
     const std::uint32_t low = note & mask;  // violated, zero, never, then the slots
     return {static_cast<CertificateHandle>(low < names ? first_name + low : low - names),
             static_cast<About>(note >> 30U)};
@@ -81,7 +82,7 @@ class KnownFailures {
 };
 
 template <int Dimension>
-class FacetGuards {
+class FacetCertificates {
   using State = DiagramState<Dimension>;
   using Beads = typename State::Beads;
 
@@ -89,30 +90,30 @@ class FacetGuards {
   /// Numbers of the tables.
   enum : unsigned { powers = 0, orientations = 1 };
 
-  explicit FacetGuards(State& state);
+  explicit FacetCertificates(State& state);
 
-  /// Called at the start of a step, when the guards of the previous step are gone.
+  /// Called at the start of a step, when the certificates of the previous step are gone.
   void start_step();
-  /// Guards all facets. Facets that rest in this step need no certificate. Facets whose test is positive over
-  /// the whole step, as most are, are only counted.
+  /// Creates the certificates of all facets. Facets that rest in this step need no certificate. Facets whose
+  /// test is positive over the whole step, as most are, are only counted.
   void watch_all();
-  /// Guards all facets of new cells. If an event made these cells, a facet between two of them has all
-  /// beads of the event and therefore its function.
+  /// Creates the certificates of all facets of new cells. If an event made these cells, a facet between two
+  /// of them has all beads of the event and therefore its function.
   void watch_around(std::span<const CellId> cells);
-  /// Drops a facet's guard, if it has one.
+  /// Drops a facet's certificate, if it has one.
   void drop(CellId cell, int i) {
-    const FacetGuard facet = guard(cell, i);
-    bool vanishes = facet.about == About::power ? state_.give_up(power_tests_, facet.guard)
-                                                : state_.give_up(orientations_, facet.guard);
+    const FacetHandle facet = handle(cell, i);
+    bool vanishes = facet.about == About::power ? state_.give_up(power_tests_, facet.handle)
+                                                : state_.give_up(orientations_, facet.handle);
     if (facet.about == About::cell) {
       const auto [other, k] = state_.across(cell, i);
-      vanishes |= state_.give_up(orientations_, guard(other, k).guard);
+      vanishes |= state_.give_up(orientations_, handle(other, k).handle);
     }
     if (vanishes) state_.touch(std::array{cell, state_.neighbor(cell, i)});
     forget(cell, i);
   }
-  /// Drops the guards of all facets of these cells. Dropping a facet between two of them a second time has no
-  /// effect.
+  /// Drops the certificates of all facets of these cells. Dropping a facet between two of them a second time
+  /// has no effect.
   void drop_around(std::span<const CellId> cells) {
     for (const CellId cell : cells) {
       for (int i = 0; i <= Dimension; ++i) drop(cell, i);
@@ -126,7 +127,7 @@ class FacetGuards {
   }
   void forget_known() { known_.reset(); }
   /// Called before another triangulation: discards all knowledge of its cells and facets and leaves all
-  /// facets unguarded.
+  /// facets without certificates.
   void forget_cells();
   /// Called when beads are about to get other curves.
   void forget_courses() { proofs_.forget_courses(); }
@@ -139,17 +140,17 @@ class FacetGuards {
   };
   [[nodiscard]] std::optional<Failed> take_failure(unsigned table, std::uint32_t slot);
 
-  /// Returns whether `holds(table, guard)` is true for all guards.
+  /// Returns whether `holds(table, handle)` is true for all certificates.
   template <class Holds>
   [[nodiscard]] bool all_of(Holds holds) const {
-    const auto guard_holds = [&](FacetGuard g) {
-      return g.about == About::power ? holds(power_tests_, g.guard) : holds(orientations_, g.guard);
+    const auto handle_holds = [&](FacetHandle g) {
+      return g.about == About::power ? holds(power_tests_, g.handle) : holds(orientations_, g.handle);
     };
     bool all = true;
     for_all_facets([&](CellId cell, int i) {
       const auto [other, k] = state_.across(cell, i);
-      all = all && guard_holds(guard(cell, i)) &&
-            (guard(cell, i).about != About::cell || guard_holds(guard(other, k)));
+      all = all && handle_holds(handle(cell, i)) &&
+            (handle(cell, i).about != About::cell || handle_holds(handle(other, k)));
     });
     return all;
   }
@@ -158,7 +159,7 @@ class FacetGuards {
   /// their beads. The negations of these certificates hold.
   template <class Visit>
   void for_violated(std::size_t most, Visit visit) const {
-    if (!guarded_) return;
+    if (!certified_) return;
     for (const Violated& facet : violated_in_order(most)) {
       if (facet.of_cell) {
         visit(Orientation<Dimension>(state_.beads_of(facet.cell), 1));
@@ -194,24 +195,24 @@ class FacetGuards {
   void fetch(CellId cell, bool next) const;
 
  private:
-  using About = FacetGuard::About;
-  static constexpr std::uint32_t resting_note = FacetGuard{CertificateHandle::never, About::power}.packed();
+  using About = FacetHandle::About;
+  static constexpr std::uint32_t resting_note = FacetHandle{CertificateHandle::never, About::power}.packed();
 
-  [[nodiscard]] FacetGuard guard(CellId cell, int i) const {
-    return FacetGuard::of(state_.triangulation.cells()[cell].note[static_cast<std::size_t>(i)]);
+  [[nodiscard]] FacetHandle handle(CellId cell, int i) const {
+    return FacetHandle::of(state_.triangulation.cells()[cell].note[static_cast<std::size_t>(i)]);
   }
-  /// Sets the guard as this cell alone stores it.
-  [[gnu::always_inline]] void set_own_guard(CellId cell, int i, FacetGuard value) {
+  /// Sets the handle as this cell alone stores it.
+  [[gnu::always_inline]] void set_own_handle(CellId cell, int i, FacetHandle value) {
     state_.triangulation.note(cell, i) = value.packed();
     if (notes_ != Notes::any && value.packed() != resting_note) remember_noted(cell);
   }
   void remember_noted(CellId cell);
-  void set_guard(CellId cell, int i, FacetGuard value) {
-    set_own_guard(cell, i, value);
+  void set_handle(CellId cell, int i, FacetHandle value) {
+    set_own_handle(cell, i, value);
     const auto [other, k] = state_.across(cell, i);
-    set_own_guard(other, k, value);
+    set_own_handle(other, k, value);
   }
-  void forget(CellId cell, int i) { set_guard(cell, i, {}); }
+  void forget(CellId cell, int i) { set_handle(cell, i, {}); }
   template <class Visit>
   void for_all_facets(Visit visit) const {
     for (CellId cell = 0; cell < state_.triangulation.cells().size(); ++cell) {
@@ -222,16 +223,17 @@ class FacetGuards {
     }
   }
 
-  /// Facets are guarded together: enqueue several, then call watch_enqueued.
+  /// Certificates are searched together: enqueue several, then call watch_enqueued.
   void enqueue(CellId cell, int i);
-  void enqueue(const FacetCertificates<Dimension + 1>& certificates, CellId cell, int i, KnownAtStart known);
+  void enqueue(const CellCertificates<Dimension + 1>& certificates, CellId cell, int i, KnownAtStart known);
   void watch_enqueued();
   /// Enqueues one certificate of a facet, to be searched with others or already known.
   template <class Certificate, class Make>
   void enqueue_in(CertificateTable<Certificate>& table, FacetId place, KnownAtStart birth, Make make);
   template <class Certificate>
-  void remember(const CertificateTable<Certificate>& table, FacetId facet, CertificateHandle guard);
-  /// Guards all facets that are not proved to hold. Without `in_lanes` no filter is used.
+  void remember(const CertificateTable<Certificate>& table, FacetId facet, CertificateHandle handle);
+  /// Creates the certificates of all facets that are not proved to hold. Without `in_lanes` no filter is
+  /// used.
   template <bool in_lanes>
   void watch_all_moving();
   void watch_marked();
@@ -242,8 +244,8 @@ class FacetGuards {
   /// Prefetches the queue entries that a flip will cancel.
   void fetch_scheduled(CellId cell) const {
     for (int i = 0; i <= Dimension; ++i) {
-      if (const FacetGuard facet = guard(cell, i); facet.about == About::power)
-        power_tests_.fetch_scheduled(facet.guard);
+      if (const FacetHandle facet = handle(cell, i); facet.about == About::power)
+        power_tests_.fetch_scheduled(facet.handle);
     }
   }
 
@@ -260,7 +262,7 @@ class FacetGuards {
   CertificateTable<PowerTest<Dimension>> power_tests_;
   CertificateTable<Orientation<Dimension>> orientations_;
   FacetProofs<Dimension> proofs_;
-  bool guarded_ = false;
+  bool certified_ = false;
   /// The meaning of the notes in cells: `any` makes no promise; with `resting`, all facets rest except
   /// perhaps those of the cells in `noted_`.
   enum class Notes : std::uint8_t { any, resting };
@@ -271,7 +273,7 @@ class FacetGuards {
   std::vector<CellId> flipped_;
 };
 
-extern template class FacetGuards<2>;
-extern template class FacetGuards<3>;
+extern template class FacetCertificates<2>;
+extern template class FacetCertificates<3>;
 
 }  // namespace kds

@@ -24,13 +24,13 @@ struct NamedBead {
 };
 
 template <int Dimension>
-class NodeGuards {
+class NodeCertificates {
  public:
-  /// Guards the structure `owner`, which has number `index` in the simulator. `curves` are those of the
-  /// present step.
-  NodeGuards(Simulator& simulator, KineticStructure& owner, std::size_t index,
-             const MotionRef<Dimension>& motion, const Curves<Dimension>& curves, Radii radii,
-             std::size_t nodes, NodeProofs<Dimension>& proofs);
+  /// Holds the certificates of `owner`, a structure that has number `index` in the simulator. `curves` are
+  /// those of the present step.
+  NodeCertificates(Simulator& simulator, KineticStructure& owner, std::size_t index,
+                   const MotionRef<Dimension>& motion, const Curves<Dimension>& curves, Radii radii,
+                   std::size_t nodes, NodeProofs<Dimension>& proofs);
 
   [[nodiscard]] SignsJustAfter<Dimension>& signs() { return signs_; }
 
@@ -51,7 +51,7 @@ class NodeGuards {
   [[nodiscard]] bool holds_any(NodeId node) const { return held_by_[node].first != none; }
   /// Returns the time by which the node's certificates are made anew at the latest: the first failure of any
   /// of them.
-  [[nodiscard]] double guarded_until(NodeId node);
+  [[nodiscard]] double certified_until(NodeId node);
   void drop(NodeId node);
 
   struct Failed {

@@ -1,4 +1,4 @@
-#include "structures/power_diagram/facet_guards.h"
+#include "structures/power_diagram/facet_certificates.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 namespace kds {
 
 template <int Dimension>
-FacetGuards<Dimension>::FacetGuards(State& state)
+FacetCertificates<Dimension>::FacetCertificates(State& state)
     : state_(state),
       power_tests_(state.simulator, state.owner, state.index, powers, state.motion, TouchPolicy::reported),
       orientations_(state.simulator, state.owner, state.index, orientations, state.motion,
@@ -17,13 +17,13 @@ FacetGuards<Dimension>::FacetGuards(State& state)
       proofs_(state) {}
 
 template <int Dimension>
-void FacetGuards<Dimension>::start_step() {
+void FacetCertificates<Dimension>::start_step() {
   proofs_.start_step(all_move());
-  guarded_ = false;
+  certified_ = false;
 }
 
 template <int Dimension>
-void FacetGuards<Dimension>::move_only(std::vector<char> moving) {
+void FacetCertificates<Dimension>::move_only(std::vector<char> moving) {
   moving_ = std::move(moving);
   flipped_.clear();
   proofs_.forget_ends();  // steps of other beads end at other positions
@@ -31,25 +31,25 @@ void FacetGuards<Dimension>::move_only(std::vector<char> moving) {
 }
 
 template <int Dimension>
-void FacetGuards<Dimension>::forget_cells() {
+void FacetCertificates<Dimension>::forget_cells() {
   proofs_.forget_all();
   notes_ = Notes::any;
 }
 
 template <int Dimension>
-void FacetGuards<Dimension>::drop_all() {
+void FacetCertificates<Dimension>::drop_all() {
   forget_cells();
-  if (guarded_) for_all_facets([this](CellId cell, int i) { drop(cell, i); });
+  if (certified_) for_all_facets([this](CellId cell, int i) { drop(cell, i); });
 }
 
 template <int Dimension>
-void FacetGuards<Dimension>::enqueue(CellId cell, int i) {
-  enqueue(FacetCertificates(state_.beads_of(cell)), cell, i, KnownAtStart::unknown);
+void FacetCertificates<Dimension>::enqueue(CellId cell, int i) {
+  enqueue(CellCertificates(state_.beads_of(cell)), cell, i, KnownAtStart::unknown);
 }
 
 template <int Dimension>
-void FacetGuards<Dimension>::enqueue(const FacetCertificates<Dimension + 1>& certificates, CellId cell, int i,
-                                     KnownAtStart known) {
+void FacetCertificates<Dimension>::enqueue(const CellCertificates<Dimension + 1>& certificates, CellId cell,
+                                           int i, KnownAtStart known) {
   // Which side reports the facet depends on which facets the filters proved. The facet's place must not
   // depend on it, because the place determines the order of simultaneous failures and the cells that a flip
   // makes.
@@ -65,8 +65,8 @@ void FacetGuards<Dimension>::enqueue(const FacetCertificates<Dimension + 1>& cer
 
 template <int Dimension>
 template <class Certificate, class Make>
-void FacetGuards<Dimension>::enqueue_in(CertificateTable<Certificate>& table, FacetId place,
-                                        KnownAtStart birth, Make make) {
+void FacetCertificates<Dimension>::enqueue_in(CertificateTable<Certificate>& table, FacetId place,
+                                              KnownAtStart birth, Make make) {
   if (known_ && birth == KnownAtStart::unknown) {
     Certificate certificate;
     make(certificate);
@@ -80,25 +80,25 @@ void FacetGuards<Dimension>::enqueue_in(CertificateTable<Certificate>& table, Fa
 
 template <int Dimension>
 template <class Certificate>
-void FacetGuards<Dimension>::remember(const CertificateTable<Certificate>& table, FacetId facet,
-                                      CertificateHandle guard) {
+void FacetCertificates<Dimension>::remember(const CertificateTable<Certificate>& table, FacetId facet,
+                                            CertificateHandle handle) {
   Failure failure;
-  if (has_slot(guard)) {
-    failure = {Failure::Kind::later, table.time(slot_of(guard))};
-  } else if (guard == CertificateHandle::zero) {
+  if (has_slot(handle)) {
+    failure = {Failure::Kind::later, table.time(slot_of(handle))};
+  } else if (handle == CertificateHandle::zero) {
     failure.kind = Failure::Kind::zero;
-  } else if (guard == CertificateHandle::violated) {
+  } else if (handle == CertificateHandle::violated) {
     failure.kind = Failure::Kind::at_birth;
   }
   const CellId cell = cell_of(facet);
   Certificate certificate;
-  FacetCertificates(state_.beads_of(cell)).make(state_.apex(cell, index_of(facet)), certificate);
+  CellCertificates(state_.beads_of(cell)).make(state_.apex(cell, index_of(facet)), certificate);
   known_->add(certificate, failure);
 }
 
 template <int Dimension>
-void FacetGuards<Dimension>::watch_all() {
-  guarded_ = true;
+void FacetCertificates<Dimension>::watch_all() {
+  certified_ = true;
   proofs_.start_facets(all_move());
   if (!all_move()) {
     watch_marked();
@@ -112,7 +112,7 @@ void FacetGuards<Dimension>::watch_all() {
 
 template <int Dimension>
 template <bool in_lanes>
-void FacetGuards<Dimension>::watch_all_moving() {
+void FacetCertificates<Dimension>::watch_all_moving() {
   if (proofs_.has_slack()) {
     note_resting();
   } else {
@@ -128,7 +128,7 @@ void FacetGuards<Dimension>::watch_all_moving() {
 
 /// Marks all facets as resting. Skips cells whose notes say so already.
 template <int Dimension>
-void FacetGuards<Dimension>::note_resting() {
+void FacetCertificates<Dimension>::note_resting() {
   if (notes_ == Notes::resting) {
     for (const CellId cell : noted_) state_.triangulation.note_all(cell, resting_note);
   } else {
@@ -140,14 +140,14 @@ void FacetGuards<Dimension>::note_resting() {
 }
 
 template <int Dimension>
-void FacetGuards<Dimension>::remember_noted(CellId cell) {
+void FacetCertificates<Dimension>::remember_noted(CellId cell) {
   append_little(noted_, cell);
   if (8 * noted_.size() > state_.triangulation.cells().size()) notes_ = Notes::any;  // too many to list
 }
 
-/// Guards the facets that have a moving bead.
+/// Creates the certificates of the facets that have a moving bead.
 template <int Dimension>
-void FacetGuards<Dimension>::watch_marked() {
+void FacetCertificates<Dimension>::watch_marked() {
   notes_ = Notes::any;
   RegularTriangulation<Dimension>& triangulation = state_.triangulation;
   const auto moves = [this](BeadId bead) { return bead != infinite_bead && moving_[bead] != 0; };
@@ -172,41 +172,41 @@ void FacetGuards<Dimension>::watch_marked() {
 }
 
 template <int Dimension>
-void FacetGuards<Dimension>::watch_enqueued() {
-  const auto take = [this](FacetId facet, CertificateHandle guard, About about) {
-    if (guard == CertificateHandle::violated)
+void FacetCertificates<Dimension>::watch_enqueued() {
+  const auto take = [this](FacetId facet, CertificateHandle handle, About about) {
+    if (handle == CertificateHandle::violated)
       state_.suspect_at(cell_of(facet), state_.neighbor(cell_of(facet), index_of(facet)));
-    set_guard(cell_of(facet), index_of(facet), {guard, about});
+    set_handle(cell_of(facet), index_of(facet), {handle, about});
   };
-  power_tests_.watch_enqueued([&](FacetId facet, CertificateHandle guard) {
-    if (known_) remember(power_tests_, facet, guard);
-    take(facet, guard, About::power);
-    if (guard == CertificateHandle::zero) watch_cells_beside(cell_of(facet), index_of(facet));
+  power_tests_.watch_enqueued([&](FacetId facet, CertificateHandle handle) {
+    if (known_) remember(power_tests_, facet, handle);
+    take(facet, handle, About::power);
+    if (handle == CertificateHandle::zero) watch_cells_beside(cell_of(facet), index_of(facet));
   });
-  orientations_.watch_enqueued([&](FacetId facet, CertificateHandle guard) {
-    if (known_) remember(orientations_, facet, guard);
-    take(facet, guard, About::hull);
+  orientations_.watch_enqueued([&](FacetId facet, CertificateHandle handle) {
+    if (known_) remember(orientations_, facet, handle);
+    take(facet, handle, About::hull);
   });
 }
 
 /// Replaces a power test that is zero for the whole step by the orientations of both cells.
 template <int Dimension>
-void FacetGuards<Dimension>::watch_cells_beside(CellId cell, int i) {
-  power_tests_.drop(guard(cell, i).guard);
+void FacetCertificates<Dimension>::watch_cells_beside(CellId cell, int i) {
+  power_tests_.drop(handle(cell, i).handle);
   for (const auto& [own, k] : {std::pair(cell, i), state_.across(cell, i)}) watch_cell(own, k);
 }
 
 template <int Dimension>
-void FacetGuards<Dimension>::watch_cell(CellId cell, int i) {
+void FacetCertificates<Dimension>::watch_cell(CellId cell, int i) {
   const Orientation<Dimension> orientation(state_.beads_of(cell), 1);
-  const CertificateHandle guard =
+  const CertificateHandle handle =
       orientations_.watch(orientation, facet_id(cell, i), state_.known_of(orientation));
-  set_own_guard(cell, i, {guard, About::cell});
-  if (guard == CertificateHandle::violated) state_.suspect_at(cell, state_.neighbor(cell, i));
+  set_own_handle(cell, i, {handle, About::cell});
+  if (handle == CertificateHandle::violated) state_.suspect_at(cell, state_.neighbor(cell, i));
 }
 
 template <int Dimension>
-void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
+void FacetCertificates<Dimension>::watch_around(std::span<const CellId> cells) {
   if (!all_move()) flipped_.insert(flipped_.end(), cells.begin(), cells.end());
   state_.touch(cells);
   StageCounts& stages = state_.owner.statistics.stages;
@@ -222,7 +222,7 @@ void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
       found = proofs_.found_around(cells.subspan(c, std::min(few_cells, cells.size() - c)));
     const unsigned hold = in_some_part(found[c % few_cells]);
     unsigned outer = 0;
-    const FacetCertificates certificates(state_.beads_of(cell));
+    const CellCertificates certificates(state_.beads_of(cell));
     for (int i = 0; i <= Dimension; ++i) {
       const auto [other, k] = state_.across(cell, i);
       proofs_.forget(cell, i, other, k);
@@ -230,7 +230,7 @@ void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
       if (at == static_cast<std::ptrdiff_t>(cells.size())) {
         outer |= 1U << i;
         if ((hold >> i & 1U) != 0) {
-          set_guard(cell, i, {CertificateHandle::never, About::power});
+          set_handle(cell, i, {CertificateHandle::never, About::power});
           ++positive;
         } else {
           enqueue(certificates, cell, i, KnownAtStart::unknown);
@@ -252,16 +252,16 @@ void FacetGuards<Dimension>::watch_around(std::span<const CellId> cells) {
   watch_enqueued();
 }
 
-/// Sets the guard of a facet between two cells made by an event. The event's function has no further root.
+/// Sets the handle of a facet between two cells made by an event. The event's function has no further root.
 template <int Dimension>
-void FacetGuards<Dimension>::hold_inner(CellId cell, int i) {
+void FacetCertificates<Dimension>::hold_inner(CellId cell, int i) {
   const bool on_hull = state_.present.type == Orientation<Dimension>::type.number;
-  set_guard(cell, i, {CertificateHandle::never, on_hull ? About::hull : About::power});
+  set_handle(cell, i, {CertificateHandle::never, on_hull ? About::hull : About::power});
   power_tests_.hold_never(1);
 }
 
 template <int Dimension>
-auto FacetGuards<Dimension>::take_failure(unsigned table, std::uint32_t slot) -> std::optional<Failed> {
+auto FacetCertificates<Dimension>::take_failure(unsigned table, std::uint32_t slot) -> std::optional<Failed> {
   const FacetId place =
       table == powers ? power_tests_.place_in_structure(slot) : orientations_.place_in_structure(slot);
   const CellId cell = cell_of(place);
@@ -272,8 +272,8 @@ auto FacetGuards<Dimension>::take_failure(unsigned table, std::uint32_t slot) ->
   const bool touch = table == powers ? power_tests_.touches(slot) : orientations_.touches(slot);
   if (touch || state_.doubt == Doubt::wrong) state_.touch(std::array{cell, state_.neighbor(cell, facet)});
   if (touch) state_.suspect(Doubt::unclear);
-  if (guard(cell, facet).about == About::cell) {
-    set_own_guard(cell, facet, {CertificateHandle::violated, About::cell});
+  if (handle(cell, facet).about == About::cell) {
+    set_own_handle(cell, facet, {CertificateHandle::violated, About::cell});
     if (touch) {
       watch_cell(cell, facet);
     } else {
@@ -293,10 +293,10 @@ auto FacetGuards<Dimension>::take_failure(unsigned table, std::uint32_t slot) ->
 }
 
 template <int Dimension>
-auto FacetGuards<Dimension>::violated_in_order(std::size_t most) const -> std::vector<Violated> {
+auto FacetCertificates<Dimension>::violated_in_order(std::size_t most) const -> std::vector<Violated> {
   std::vector<Violated> violated;
   const auto add = [&](CellId cell, int i, bool of_cell) {
-    if (guard(cell, i).guard != CertificateHandle::violated) return;
+    if (handle(cell, i).handle != CertificateHandle::violated) return;
     Violated facet{{}, of_cell, cell, i};
     const Beads& v = state_.beads_of(cell);
     std::copy(v.begin(), v.end(), facet.beads.begin());
@@ -305,7 +305,7 @@ auto FacetGuards<Dimension>::violated_in_order(std::size_t most) const -> std::v
     violated.push_back(facet);
   };
   for_all_facets([&](CellId cell, int i) {
-    const bool of_cell = guard(cell, i).about == About::cell;
+    const bool of_cell = handle(cell, i).about == About::cell;
     add(cell, i, of_cell);
     if (!of_cell) return;
     const auto [other, k] = state_.across(cell, i);
@@ -319,11 +319,12 @@ auto FacetGuards<Dimension>::violated_in_order(std::size_t most) const -> std::v
 }
 
 template <int Dimension>
-void FacetGuards<Dimension>::fetch(CellId cell, bool next) const {
+void FacetCertificates<Dimension>::fetch(CellId cell, bool next) const {
   state_.triangulation.fetch(cell, next);
   if (!next) return;
   for (int i = 0; i <= Dimension; ++i) {
-    if (const FacetGuard facet = guard(cell, i); facet.about == About::power) power_tests_.fetch(facet.guard);
+    if (const FacetHandle facet = handle(cell, i); facet.about == About::power)
+      power_tests_.fetch(facet.handle);
   }
   const auto& named = state_.triangulation.cells()[cell];
   for (const auto* beads : {&named.vertex, &named.apex}) {
@@ -333,7 +334,7 @@ void FacetGuards<Dimension>::fetch(CellId cell, bool next) const {
   }
 }
 
-template class FacetGuards<2>;
-template class FacetGuards<3>;
+template class FacetCertificates<2>;
+template class FacetCertificates<3>;
 
 }  // namespace kds

@@ -1,4 +1,4 @@
-#include "motions/base/floating_point_guard.h"
+#include "motions/base/floating_point_scope.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "tests/support/inputs/host_environment.h"
 
-namespace kds::floating_point_guard_test {
+namespace kds::floating_point_scope_test {
 namespace {
 
 // Divides at run time: `volatile` prevents the compiler from folding the quotient.
@@ -21,11 +21,11 @@ class Host : public testing::TestWithParam<test::HostEnvironment> {
   void TearDown() override { std::fesetenv(FE_DFL_ENV); }
 };
 
-TEST_P(Host, IsSetAsideUnderAGuardAndComesBack) {
+TEST_P(Host, IsSetAsideInAScopeAndComesBack) {
   constexpr double least = std::numeric_limits<double>::min();
   {
-    const FloatingPointGuard guard;
-    const FloatingPointGuard within;
+    const FloatingPointScope scope;
+    const FloatingPointScope within;
     EXPECT_EQ(quotient(1, 3), 1.0 / 3);
     EXPECT_EQ(quotient(-1, 3), -1.0 / 3);
     EXPECT_EQ(quotient(1, 10), 0.1);
@@ -38,14 +38,14 @@ TEST_P(Host, IsSetAsideUnderAGuardAndComesBack) {
 TEST_P(Host, ComesBackWhereAnExceptionPasses) {
   EXPECT_THROW(
       {
-        const FloatingPointGuard guard;
+        const FloatingPointScope scope;
         throw 1;
       },
       int);
   EXPECT_TRUE(test::is_set(GetParam()));
 }
 
-// Without a guard the results differ, so the tests above can fail.
+// Without a scope the results differ, so the tests above can fail.
 TEST_P(Host, DiffersFromTheDefault) {
   const bool to_nearest = quotient(1, 3) == 1.0 / 3 && quotient(-1, 3) == -1.0 / 3 && quotient(1, 10) == 0.1;
   const bool gradual = quotient(std::numeric_limits<double>::min(), 2) != 0;
@@ -55,4 +55,4 @@ TEST_P(Host, DiffersFromTheDefault) {
 INSTANTIATE_TEST_SUITE_P(All, Host, testing::ValuesIn(test::host_environments));
 
 }  // namespace
-}  // namespace kds::floating_point_guard_test
+}  // namespace kds::floating_point_scope_test
