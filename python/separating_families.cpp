@@ -93,9 +93,9 @@ class ExplicitFamily {
     // Two cages of a depth whose centres are within reach have parents whose centres are within reach: each
     // centre lies in its parent's cage.
     reach_.resize(radius_.size());
-    reach_.back() = 9 * radius_.back() * slack;
+    reach_.back() = 9 * radius_.back() * margin;
     for (std::size_t d = radius_.size() - 1; d-- > 0;)
-      reach_[d] = std::max(9 * radius_[d] * slack, reach_[d + 1] + 2 * radius_[d] * slack);
+      reach_[d] = std::max(9 * radius_[d] * margin, reach_[d + 1] + 2 * radius_[d] * margin);
   }
 
   std::uint64_t count_from(std::uint32_t root) {
@@ -104,7 +104,7 @@ class ExplicitFamily {
   }
 
  private:
-  static constexpr double slack = 1 + 1e-9;  // more than all roundings
+  static constexpr double margin = 1 + 1e-9;  // more than all roundings
 
   void visit(const NodePair& pair, std::size_t depth) {
     const TreeSphere<Dimension>&a = spheres_[pair.first], &b = spheres_[pair.second];
@@ -118,7 +118,7 @@ class ExplicitFamily {
     const Point<Dimension> d = detail::minus(a.center, b.center);
     const double distance = std::sqrt(detail::dot(d, d));
     if (distance > reach_[depth]) return;
-    if (distance <= (8 * radius_[depth] + std::abs(a.radius - b.radius)) * slack &&
+    if (distance <= (8 * radius_[depth] + std::abs(a.radius - b.radius)) * margin &&
         detail::separation(a, b, 0) == Separation::apart)
       ++size_;
     if (a.is_bead() && b.is_bead()) return;

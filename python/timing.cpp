@@ -177,11 +177,11 @@ class TimedUpdate {
 // bead by bead; the early end also keeps the compiler from testing several beads at once.
 template <int Dimension>
 std::size_t escaped_nodes(const StaticWrappedHierarchy<Dimension>& hierarchy, const Balls<Dimension>& balls) {
-  constexpr double slack = 1e-9;  // for rounding: spheres pass through the centres of their bases
+  constexpr double margin = 1e-9;  // for rounding: spheres pass through the centres of their bases
   std::size_t escaped = 0;
   for (NodeId node = 0; node < hierarchy.tree().node_count(); ++node) {
     const Sphere sphere = hierarchy.sphere(node);
-    const double most = sphere.radius * sphere.radius * (1 + slack);
+    const double most = sphere.radius * sphere.radius * (1 + margin);
     const BeadRange& range = hierarchy.tree().range(node);
     for (BeadId bead = range.first; bead <= range.last; ++bead) {
       double squared = 0;

@@ -80,7 +80,7 @@ class ReachView {
 
 /// The error of the formula at one position from rounding alone: at most error * M^power.
 template <class Certificate, int Dimension>
-inline const Magnitude magnitude_at_rest =
+inline const Magnitude magnitude_at_position =
     function_of(Certificate{}, MagnitudeView<Dimension, 0>()).scaled[0];
 
 /// Computes the slacks of four certificates at the start of the motion's step.
@@ -98,11 +98,11 @@ template <class Certificate, Motion M>
   view.set_reach(reach);
   const auto function = Certificate::formula(view, places).scaled[0];
 
-  const Magnitude& rest = magnitude_at_rest<Certificate, M::dimension>;
+  const Magnitude& magnitude = magnitude_at_position<Certificate, M::dimension>;
   const Lanes length = view.largest_length();
   Lanes scale(1.0);
-  for (int i = 0; i < rest.power; ++i) scale = scale * length;
-  const Lanes rounding = Lanes(rest.error * inflation) * scale;
+  for (int i = 0; i < magnitude.power; ++i) scale = scale * length;
+  const Lanes rounding = Lanes(magnitude.error * inflation) * scale;
   const Lanes above = sides * function.value - rounding;
   const Lanes share = Lanes::min(above / (function.error * Lanes(inflation)), Lanes(1.0));
   const Lanes::Mask proved = (above > Lanes(0.0)) & (share > Lanes(0.0)) & (scale >= Lanes(0x1p-900)) &

@@ -292,8 +292,8 @@ void add_cells(const std::string& measure, bool on_any_processor) {
 // One step examines all beads and all facets. The slack is known beforehand. Beads move by `distance` times
 // their radius.
 void add_tolerance(double distance) {
-  struct Resting : Facets<Linear> {
-    explicit Resting(double by) : Facets(chain<Linear>(by)) {
+  struct Slow : Facets<Linear> {
+    explicit Slow(double by) : Facets(chain<Linear>(by)) {
       step();  // records the reference positions
     }
     void step() {
@@ -306,8 +306,8 @@ void add_tolerance(double distance) {
   };
   add_pair(
       fmt::format("certificates/random-chain {0} r/{1}/tolerance/facet/linear/{0}r", distance, chain_beads),
-      predicate, "ns", [=] { return Resting(distance); }, [](Resting& r) { r.step(); },
-      [](Resting& r) { r.peer.test(r.finite); });
+      predicate, "ns", [=] { return Slow(distance); }, [](Slow& r) { r.step(); },
+      [](Slow& r) { r.peer.test(r.finite); });
 }
 
 // Facets of a scene that fail in the step.

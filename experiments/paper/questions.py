@@ -71,8 +71,8 @@ def ask_about_trust(subjects, rounds):
                 nodes, then = kds.wrapped_hierarchy(before, radius)
                 _, now, _ = kds.trusted_hierarchy(before, after, radius)
                 # |p - z| - R <= |p - p'| + |p' - z'| + |z' - z| - R <= moved + R' + |z' - z| - R
-                slack = (1 + 2**-27) * then[:, 3] + np.linalg.norm(then[:, :3] - now[:, :3], axis=1) - now[:, 3]
-                bounds = [np.maximum(0, moved + slack) / now[:, 3] for moved in (fastest * trusted, moves(before, after)[-1])]
+                excess = (1 + 2**-27) * then[:, 3] + np.linalg.norm(then[:, :3] - now[:, :3], axis=1) - now[:, 3]
+                bounds = [np.maximum(0, moved + excess) / now[:, 3] for moved in (fastest * trusted, moves(before, after)[-1])]
                 rows.append([np.mean(share) for share in (*bounds, beads_out_of_spheres(nodes, now, after, radius))])
             _, _, times = kds.trusted_hierarchy(frames[0], frames[trusted], radius, rounds=rounds)
             ratios = times[:, 0] / times[:, 1]

@@ -188,15 +188,15 @@ class TruthIn final : public Truth {
     unit = std::min(unit, unit_of(sphere.radius));
     const auto finer = static_cast<unsigned>(whole_.unit - unit);
     const IntegerBall<Dimension>& ball = whole_.balls[bead];
-    const Integer slack = whole(sphere.radius, unit) - (ball.radius << finer);
-    if (slack < 0) return true;
+    const Integer excess = whole(sphere.radius, unit) - (ball.radius << finer);
+    if (excess < 0) return true;
     Integer square = 0;
     for (int axis = 0; axis < Dimension; ++axis) {
       const Integer d =
           (ball.center[static_cast<std::size_t>(axis)] << finer) - whole(sphere.center[axis], unit);
       square += d * d;
     }
-    return square > slack * slack;
+    return square > excess * excess;
   }
   static int unit_of(double x) {
     const SplitDouble parts = split(x);

@@ -88,8 +88,8 @@ std::vector<ContactTime> contact_times(std::span<const BeadPair> built, std::spa
 
 namespace {
 
-bool share_time(const ContactTime& a, const ContactTime& b, double slack) {
-  return a.from <= b.to + slack && b.from <= a.to + slack;
+bool share_time(const ContactTime& a, const ContactTime& b, double margin) {
+  return a.from <= b.to + margin && b.from <= a.to + margin;
 }
 
 std::span<const ContactTime> of_pair(std::span<const ContactTime> contacts, const BeadPair& pair) {
@@ -100,7 +100,7 @@ std::span<const ContactTime> of_pair(std::span<const ContactTime> contacts, cons
 }  // namespace
 
 ContactMatch match_contacts(std::span<const ContactTime> expected, std::span<const ContactTime> found,
-                            double slack) {
+                            double margin) {
   ContactMatch match;
   match.expected = expected.size();
   for (const ContactTime& contact : expected) {
@@ -110,7 +110,7 @@ ContactMatch match_contacts(std::span<const ContactTime> expected, std::span<con
     };
     const ContactTime* nearest = nullptr;
     for (const ContactTime& other : same) {
-      if (share_time(contact, other, slack) && (nearest == nullptr || apart(other) < apart(*nearest)))
+      if (share_time(contact, other, margin) && (nearest == nullptr || apart(other) < apart(*nearest)))
         nearest = &other;
     }
     if (nearest == nullptr) {
@@ -126,7 +126,7 @@ ContactMatch match_contacts(std::span<const ContactTime> expected, std::span<con
   for (const ContactTime& contact : found) {
     const auto same = of_pair(expected, contact.pair);
     if (std::ranges::none_of(same,
-                             [&](const ContactTime& other) { return share_time(contact, other, slack); }))
+                             [&](const ContactTime& other) { return share_time(contact, other, margin); }))
       ++match.spurious;
   }
   return match;

@@ -49,9 +49,9 @@ struct ContactMatch {
 };
 
 /// Matches contacts. An expected contact is missed if no found contact of the same pair overlaps it to within
-/// `slack` frames. A found contact is spurious if no expected contact of the same pair overlaps it to within
-/// `slack` frames. Both lists must be sorted as contact_times sorts them.
+/// `margin` frames. A found contact is spurious if no expected contact of the same pair overlaps it to within
+/// `margin` frames. Both lists must be sorted as contact_times sorts them.
 [[nodiscard]] ContactMatch match_contacts(std::span<const ContactTime> expected,
-                                          std::span<const ContactTime> found, double slack);
+                                          std::span<const ContactTime> found, double margin);
 
 }  // namespace kds

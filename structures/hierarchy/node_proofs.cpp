@@ -62,8 +62,8 @@ void NodeProofs<Dimension>::add_unsettled(std::span<const NodeId> pairs, std::sp
 }
 
 template <int Dimension>
-void NodeProofs<Dimension>::take_out_resting(std::span<const Basis> bases, std::vector<NodeId>& nodes) {
-  if (any_) slack_.take_out_resting(paths_, bases, nodes);
+void NodeProofs<Dimension>::take_out_skipped(std::span<const Basis> bases, std::vector<NodeId>& nodes) {
+  if (any_) slack_.take_out_skipped(paths_, bases, nodes);
 }
 
 template <int Dimension>

@@ -1,8 +1,9 @@
 #pragma once
-// Proofs from the paths of beads and spheres that make certificates of a wrapped hierarchy's nodes
-// unnecessary: nodes that rest (node_slack.h), and beads that stay inside or stay in their basis
-// (sphere_chord.h). All proofs run in double. The exact kernel, and motions whose degree exceeds that of
-// paths, have no proofs.
+// Proofs that make certificates of a wrapped hierarchy's nodes unnecessary, from the paths of beads and
+// spheres. Slack (a distance) proves whole nodes, which the step skips (node_slack.h). Filters (floating
+// point with proved bounds) prove that beads stay inside or stay in their basis (sphere_chord.h). There is no
+// lookahead here, which power diagrams have (facet_proofs.h). All proofs run in double. The exact kernel, and
+// motions whose degree exceeds that of paths, have no proofs.
 
 #include <array>
 #include <cstdint>
@@ -48,8 +49,8 @@ class NodeProofs {
 
   /// Adds to `nodes` the nodes of two beads in `pairs` that need a certificate.
   void add_unsettled(std::span<const NodeId> pairs, std::span<const Basis> bases, std::vector<NodeId>& nodes);
-  /// Removes nodes that rest.
-  void take_out_resting(std::span<const Basis> bases, std::vector<NodeId>& nodes);
+  /// Removes nodes that slack lets the step skip.
+  void take_out_skipped(std::span<const Basis> bases, std::vector<NodeId>& nodes);
   /// Sets `candidates()` to the given nodes that may not be steady, and `beyond()` to their beads that may
   /// not stay inside, node by node.
   void find_candidates(std::span<const NodeId> nodes, std::span<const Basis> bases);

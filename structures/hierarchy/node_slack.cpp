@@ -133,27 +133,27 @@ template <int D, std::size_t M, bool equal>
   }
   error = (error + off + rounding) * Lanes(up);
 
-  // The centre moves from z' by at most drift * t + drift_at_rest. The radius is known to within
+  // The centre moves from z' by at most drift * t + drift_at_start. The radius is known to within
   // radius_error.
-  Lanes drift(0.0), drift_at_rest(0.0);
+  Lanes drift(0.0), drift_at_start(0.0);
   if constexpr (!(equal && M == 1)) {  // otherwise it is the midpoint
     const Lanes gain = (g.longest_sum * Lanes(2.0) + turn * Lanes(2 * root_of_m)) * (largest + most + error);
     drift = gain * Lanes(2.0) * (Lanes(1.0 + margin) - lightest) * Lanes(up);
-    drift_at_rest = gain * error * Lanes(up);
+    drift_at_start = gain * error * Lanes(up);
   }
-  const Lanes radius_error = (drift_at_rest + error) / (Lanes(1.0) - slope) * Lanes(up);
+  const Lanes radius_error = (drift_at_start + error) / (Lanes(1.0) - slope) * Lanes(up);
   drift = (drift + slope) * Lanes(up);
-  drift_at_rest = (drift_at_rest + slope * radius_error) * Lanes(up);
+  drift_at_start = (drift_at_start + slope * radius_error) * Lanes(up);
 
   const Lanes steepest = (g.longest + turn * Lanes(root_of_m)) * Lanes(up);
   const Lanes by_weight =
-      (lightest / steepest - drift_at_rest) / drift;  // infinite if the centre stays at z'
+      (lightest / steepest - drift_at_start) / drift;  // infinite if the centre stays at z'
   const Lanes by_radius = Lanes(0.5) * (least - radius_error - rounding);
   const Lanes::Mask proved = (size > Lanes(0x1p-150)) & (Lanes(paths.extent()) < Lanes(0x1p150)) &
-                             (slope < Lanes(0.9)) & (lightest > steepest * drift_at_rest) &
+                             (slope < Lanes(0.9)) & (lightest > steepest * drift_at_start) &
                              (error < l);  // false too if a bound is NaN
   room.center = end.z;
-  room.reach = end.rho - (off + drift_at_rest + radius_error) * Lanes(up) -
+  room.reach = end.rho - (off + drift_at_start + radius_error) * Lanes(up) -
                Lanes(margin) * (Lanes(paths.extent()) + l);
   room.pace = (Lanes(3.0) + drift) * Lanes(up);
   room.most = Lanes::choose(proved, Lanes::min(most, Lanes::min(by_weight, by_radius)), Lanes(0.0));
@@ -296,11 +296,11 @@ NodeSlack<Dimension>::NodeSlack(const NecklaceTree& tree)
 }
 
 template <int Dimension>
-void NodeSlack<Dimension>::take_out_resting(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
+void NodeSlack<Dimension>::take_out_skipped(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
                                             std::vector<NodeId>& nodes) {
   if (has_reference_) {
     look_at(paths);
-    if (resting(nodes) >= worth_keeping_) {
+    if (share_skipped(nodes) >= worth_keeping_) {
       samples_.reset();
       lasted_ = true;
       return take_out(nodes);
@@ -316,7 +316,7 @@ void NodeSlack<Dimension>::take_out_resting(const BeadPaths<Dimension>& paths, s
   const std::size_t stride = nodes.size() / sample_size + 1;
   for (std::size_t i = 0; i < nodes.size(); i += stride) some.push_back(nodes[i]);
   take_slack(paths, bases, some);
-  const double share = resting(some);
+  const double share = share_skipped(some);
   has_reference_ = share >= least_share;
   if (!has_reference_) return give_up();
   lasted_ = false;
@@ -374,18 +374,18 @@ void NodeSlack<Dimension>::look_at(const BeadPaths<Dimension>& paths) {
 }
 
 template <int Dimension>
-double NodeSlack<Dimension>::resting(std::span<const NodeId> nodes) const {
+double NodeSlack<Dimension>::share_skipped(std::span<const NodeId> nodes) const {
   std::size_t count = 0;
-  for (const NodeId id : nodes) count += rests(id) ? 1 : 0;
+  for (const NodeId id : nodes) count += is_skipped(id) ? 1 : 0;
   return nodes.empty() ? 0 : static_cast<double>(count) / static_cast<double>(nodes.size());
 }
 
 template <int Dimension>
 void NodeSlack<Dimension>::take_out(std::vector<NodeId>& nodes) const {
   std::size_t count = 0;
-  for (const NodeId id : nodes) {  // no branch, because resting nodes are unpredictable
+  for (const NodeId id : nodes) {  // no branch, because the outcome is unpredictable
     nodes[count] = id;
-    count += rests(id) ? 0 : 1;
+    count += is_skipped(id) ? 0 : 1;
   }
   nodes.resize(count);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Finds nodes of a wrapped hierarchy that rest in a step: their beads have moved from an earlier frame by
+// Finds nodes of a wrapped hierarchy that a step can skip: their beads have moved from an earlier frame by
 // less than their sphere's slack (sphere_slack), apart from the common drift. These nodes need no
 // certificates. All slack refers to one reference frame, which is renewed when too much slack is used up. If
 // motion is too fast, no slack is computed; a sample of nodes decides.
@@ -58,9 +58,9 @@ class NodeSlack {
  public:
   explicit NodeSlack(const NecklaceTree& tree);
 
-  /// Removes from `nodes` the nodes that rest in the step. Call it at the start of a step. `bases` are those
+  /// Removes from `nodes` the nodes that the step skips. Call it at the start of a step. `bases` are those
   /// of all nodes.
-  void take_out_resting(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
+  void take_out_skipped(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,
                         std::vector<NodeId>& nodes);
   /// Must be called when the node's basis changes.
   void forget(NodeId node) { slack_[node] = none; }
@@ -68,10 +68,10 @@ class NodeSlack {
  private:
   static constexpr double none = -1;
   static constexpr std::size_t sample_size = 16;
-  /// Least share of nodes that must rest. Finding slack costs nearly as much as it saves in one step. A
+  /// Least share of nodes that must be skipped. Finding slack costs nearly as much as it saves in one step. A
   /// reference must also last for another step.
   static constexpr double least_share = 0.7;
-  /// A reference stays while this fraction of the share that rested at its frame still rests.
+  /// A reference stays while this fraction of the share that was skipped at its frame is still skipped.
   static constexpr double still_worth = 0.72;
   /// Slack is limited to the distance that a node strays in this many steps.
   static constexpr double steps_ahead = 16;
@@ -82,9 +82,9 @@ class NodeSlack {
   void forget_all();
   /// Stops for now because motion is too fast.
   void give_up();
-  [[nodiscard]] bool rests(NodeId node) const { return stray_[node] <= slack_[node]; }
-  /// Returns the share of the given nodes that rests.
-  [[nodiscard]] double resting(std::span<const NodeId> nodes) const;
+  [[nodiscard]] bool is_skipped(NodeId node) const { return stray_[node] <= slack_[node]; }
+  /// Returns the share of the given nodes that is skipped.
+  [[nodiscard]] double share_skipped(std::span<const NodeId> nodes) const;
   void take_out(std::vector<NodeId>& nodes) const;
 
   void take_slack(const BeadPaths<Dimension>& paths, std::span<const Basis> bases,

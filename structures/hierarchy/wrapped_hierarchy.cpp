@@ -220,7 +220,7 @@ void WrappedHierarchy<Dimension>::start_step() {
   proofs_->take_curves();
   to_certify_ = wide_;
   proofs_->add_unsettled(pairs_, bases_, to_certify_);
-  proofs_->take_out_resting(bases_, to_certify_);
+  proofs_->take_out_skipped(bases_, to_certify_);
   proofs_->find_candidates(to_certify_, bases_);
   watch_all_nodes();
   repair_faults();

@@ -114,29 +114,29 @@ template <int Dimension>
 template <bool in_lanes>
 void FacetCertificates<Dimension>::watch_all_moving() {
   if (proofs_.has_slack()) {
-    note_resting();
+    note_skipped();
   } else {
     notes_ = Notes::any;
   }
   const auto proved = proofs_.template prove_all<in_lanes>(
-      [this](CellId cell) { state_.triangulation.note_all(cell, resting_note); },
+      [this](CellId cell) { state_.triangulation.note_all(cell, skipped_note); },
       [this](CellId cell, int i) { enqueue(cell, i); });
-  power_tests_.hold_never(proved.at_rest + proved.positive);
+  power_tests_.hold_never(proved.skipped + proved.positive);
   state_.owner.statistics.stages.coefficients += proved.positive;
-  state_.owner.statistics.stages.slack += proved.at_rest;
+  state_.owner.statistics.stages.slack += proved.skipped;
 }
 
-/// Marks all facets as resting. Skips cells whose notes say so already.
+/// Marks all facets as skipped. Leaves out cells whose notes say so already.
 template <int Dimension>
-void FacetCertificates<Dimension>::note_resting() {
-  if (notes_ == Notes::resting) {
-    for (const CellId cell : noted_) state_.triangulation.note_all(cell, resting_note);
+void FacetCertificates<Dimension>::note_skipped() {
+  if (notes_ == Notes::skipped) {
+    for (const CellId cell : noted_) state_.triangulation.note_all(cell, skipped_note);
   } else {
     for (CellId cell = 0; cell < state_.triangulation.cells().size(); ++cell)
-      state_.triangulation.note_all(cell, resting_note);
+      state_.triangulation.note_all(cell, skipped_note);
   }
   noted_.clear();
-  notes_ = Notes::resting;
+  notes_ = Notes::skipped;
 }
 
 template <int Dimension>
@@ -153,7 +153,7 @@ void FacetCertificates<Dimension>::watch_marked() {
   const auto moves = [this](BeadId bead) { return bead != infinite_bead && moving_[bead] != 0; };
   std::vector<char> has_moving(triangulation.cells().size(), 0);
   for (CellId cell = 0; cell < has_moving.size(); ++cell) {
-    triangulation.note_all(cell, resting_note);
+    triangulation.note_all(cell, skipped_note);
     const Beads& v = state_.beads_of(cell);
     has_moving[cell] = triangulation.is_live(cell) && std::any_of(v.begin(), v.end(), moves) ? 1 : 0;
   }

@@ -94,7 +94,7 @@ class FacetCertificates {
 
   /// Called at the start of a step, when the certificates of the previous step are gone.
   void start_step();
-  /// Creates the certificates of all facets. Facets that rest in this step need no certificate. Facets whose
+  /// Creates the certificates of all facets. Facets that slack or lookahead proves are skipped. Facets whose
   /// test is positive over the whole step, as most are, are only counted.
   void watch_all();
   /// Creates the certificates of all facets of new cells. If an event made these cells, a facet between two
@@ -169,8 +169,8 @@ class FacetCertificates {
     }
   }
 
-  /// From now on, only the marked beads move in a step (one entry for each bead). Facets whose beads all rest
-  /// need no certificate. If empty, all beads move.
+  /// From now on, only the marked beads move in a step (one entry for each bead). Facets whose beads are all
+  /// at rest are skipped. If empty, all beads move.
   void move_only(std::vector<char> moving);
   [[nodiscard]] bool all_move() const { return moving_.empty(); }
   /// Returns the cells that flips made since move_only; cells may be listed repeatedly or may be removed
@@ -196,7 +196,7 @@ class FacetCertificates {
 
  private:
   using About = FacetHandle::About;
-  static constexpr std::uint32_t resting_note = FacetHandle{CertificateHandle::never, About::power}.packed();
+  static constexpr std::uint32_t skipped_note = FacetHandle{CertificateHandle::never, About::power}.packed();
 
   [[nodiscard]] FacetHandle handle(CellId cell, int i) const {
     return FacetHandle::of(state_.triangulation.cells()[cell].note[static_cast<std::size_t>(i)]);
@@ -204,7 +204,7 @@ class FacetCertificates {
   /// Sets the handle as this cell alone stores it.
   [[gnu::always_inline]] void set_own_handle(CellId cell, int i, FacetHandle value) {
     state_.triangulation.note(cell, i) = value.packed();
-    if (notes_ != Notes::any && value.packed() != resting_note) remember_noted(cell);
+    if (notes_ != Notes::any && value.packed() != skipped_note) remember_noted(cell);
   }
   void remember_noted(CellId cell);
   void set_handle(CellId cell, int i, FacetHandle value) {
@@ -237,7 +237,7 @@ class FacetCertificates {
   template <bool in_lanes>
   void watch_all_moving();
   void watch_marked();
-  void note_resting();
+  void note_skipped();
   void hold_inner(CellId cell, int i);
   void watch_cells_beside(CellId cell, int i);
   void watch_cell(CellId cell, int i);
@@ -263,9 +263,9 @@ class FacetCertificates {
   CertificateTable<Orientation<Dimension>> orientations_;
   FacetProofs<Dimension> proofs_;
   bool certified_ = false;
-  /// The meaning of the notes in cells: `any` makes no promise; with `resting`, all facets rest except
+  /// The meaning of the notes in cells: `any` makes no promise; with `skipped`, all facets are skipped except
   /// perhaps those of the cells in `noted_`.
-  enum class Notes : std::uint8_t { any, resting };
+  enum class Notes : std::uint8_t { any, skipped };
   Notes notes_ = Notes::any;
   std::vector<CellId> noted_;
   std::optional<KnownFailures> known_;

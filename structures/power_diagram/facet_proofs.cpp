@@ -8,15 +8,15 @@ namespace kds {
 
 namespace {
 
-/// Least share of beads that go straight on. A facet rests only if all of its four or five beads do, so with
-/// a smaller share looking ahead costs more than it saves.
+/// Least share of beads that go straight on. Lookahead skips a facet only if all of its four or five beads do
+/// so. With a smaller share looking ahead costs more than it saves.
 constexpr double worth_a_look = 0.7;
 constexpr int steps_in_mean = 8;
 
 }  // namespace
 
 template <int Dimension>
-void FacetForesight<Dimension>::start_step(const Curves<Dimension>& curves,
+void FacetLookahead<Dimension>::start_step(const Curves<Dimension>& curves,
                                            const Triangulation& triangulation) {
   ++step_;
   const bool was_used = used_;
@@ -41,7 +41,7 @@ void FacetForesight<Dimension>::start_step(const Curves<Dimension>& curves,
 }
 
 template <int Dimension>
-void FacetForesight<Dimension>::forget_all() {
+void FacetLookahead<Dimension>::forget_all() {
   used_ = false;
   in_mean_ = 0;
 }
@@ -50,7 +50,7 @@ template <int Dimension>
 FacetProofs<Dimension>::FacetProofs(State& state)
     : state_(state),
       filter_(cell_filter_over(state.motion)),
-      filter_ahead_(cell_filter_over<Dimension>(foresight_.ahead(), FilterOf::parts)) {}
+      filter_ahead_(cell_filter_over<Dimension>(lookahead_.ahead(), FilterOf::parts)) {}
 
 template <int Dimension>
 void FacetProofs<Dimension>::start_step(bool all_move) {
@@ -59,9 +59,9 @@ void FacetProofs<Dimension>::start_step(bool all_move) {
       state_.simulator.kernel() != Kernel::exact && !state_.motion.is_lifted() && all_move;
   if (keeps_facts) slack_.start_step(state_.curves, state_.triangulation);
   if (keeps_facts && state_.motion.degree() == 1 && !slack_.any()) {
-    foresight_.start_step(state_.curves, state_.triangulation);
+    lookahead_.start_step(state_.curves, state_.triangulation);
   } else {
-    foresight_.forget_all();
+    lookahead_.forget_all();
   }
   ends_positive_.clear();
 }
@@ -75,7 +75,7 @@ void FacetProofs<Dimension>::start_facets(bool all_move) {
 template <int Dimension>
 void FacetProofs<Dimension>::forget_all() {
   slack_.forget_all();
-  foresight_.forget_all();
+  lookahead_.forget_all();
   ends_positive_.clear();
 }
 
@@ -104,7 +104,7 @@ std::span<const FacetId> FacetProofs<Dimension>::hull_not_proved_ahead() {
       if (part > positive_parts) {
         on_hull_[doubts++] = facet;  // in place of one that was read already
       } else {
-        foresight_.proved(cell_of(facet), index_of(facet),
+        lookahead_.proved(cell_of(facet), index_of(facet),
                           static_cast<int>(MotionAhead<Dimension>::steps) >> part);
       }
     }
@@ -125,8 +125,8 @@ auto FacetProofs<Dimension>::found_around(std::span<const CellId> cells) -> std:
   return found;
 }
 
-template class FacetForesight<2>;
-template class FacetForesight<3>;
+template class FacetLookahead<2>;
+template class FacetLookahead<3>;
 template class FacetProofs<2>;
 template class FacetProofs<3>;
 

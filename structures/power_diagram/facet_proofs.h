@@ -1,7 +1,8 @@
 #pragma once
-// Proofs that facets of a power diagram hold without a certificate: by the slack of their beads
-// (facet_slack.h), by foresight, which looks some steps ahead, or by a filter of the whole step
-// (facet_filter.h). The remaining facets are in doubt and get certificates (facet_certificates.h).
+// Proofs that facets of a power diagram hold without a certificate. There are three kinds: slack, a distance
+// (facet_slack.h); lookahead, which has proved some steps ahead (FacetLookahead); and a filter, floating
+// point with a proved bound, for the whole step (facet_filter.h). The step skips facets that slack or
+// lookahead proves. Facets that no proof covers are in doubt and get certificates (facet_certificates.h).
 
 #include <algorithm>
 #include <array>
@@ -24,14 +25,14 @@
 namespace kds {
 
 /// Facets that are known to hold for some steps ahead, provided that all their beads go straight on
-/// (motion_ahead.h). Such facets rest while this condition holds: the following steps skip them. Likewise,
-/// cells can be known to stay positive. One of the two cells of each facet stores until which step the facet
-/// holds. At the start of a step, one branch-free pass over all cells determines which of their beads have
-/// turned and which facets must be examined.
+/// (motion_ahead.h). The following steps skip such facets while this condition holds. Likewise, cells can be
+/// known to stay positive. One of the two cells of each facet stores until which step the facet holds. At the
+/// start of a step, one branch-free pass over all cells determines which of their beads have turned and which
+/// facets must be examined.
 ///
 /// If too many beads turn from step to step, looking ahead is switched off, and only a few beads are watched.
 template <int Dimension>
-class FacetForesight {
+class FacetLookahead {
  public:
   using Triangulation = RegularTriangulation<Dimension>;
 
@@ -158,13 +159,13 @@ class FacetProofs {
   /// Discards all that is known of cells and facets.
   void forget_all();
   /// Called when beads are about to get other curves.
-  void forget_courses() { foresight_.forget_all(); }
+  void forget_courses() { lookahead_.forget_all(); }
 
-  /// Returns whether slack decides which facets rest.
+  /// Returns whether slack decides which facets are skipped.
   [[nodiscard]] bool has_slack() const { return slack_.any(); }
   /// Numbers of facets that hold without a certificate.
   struct Proved {
-    std::uint64_t at_rest = 0;   ///< by slack, or by foresight
+    std::uint64_t skipped = 0;   ///< by slack, or by lookahead
     std::uint64_t positive = 0;  ///< positive over the whole step
   };
   /// Calls doubt(cell, i) for all facets that are not proved to hold. Unless has_slack(), calls note(cell)
@@ -182,15 +183,15 @@ class FacetProofs {
     };
     const auto finite_of = [&](CellId cell) { return in_lanes ? finite_facets(cells[cell]) : 0; };
     Proved proved;
-    if (foresight_.any()) {
-      proved.at_rest = facet_count() - prove_ahead(positive, note, doubt);
+    if (lookahead_.any()) {
+      proved.skipped = facet_count() - prove_ahead(positive, note, doubt);
     } else if (slack_.any()) {
       std::uint64_t others = 0;
       slack_.for_the_others(triangulation, [&](CellId cell, unsigned facets) {
         others += count_of<Dimension>(facets);
         look_at(cell, facets, finite_of(cell));
       });
-      proved.at_rest = facet_count() - others;
+      proved.skipped = facet_count() - others;
     } else {
       constexpr std::size_t ahead = 12;
       cover_.start(cells.size());
@@ -213,14 +214,14 @@ class FacetProofs {
   [[nodiscard]] std::array<unsigned, few_cells> found_around(std::span<const CellId> cells);
   /// Stores what found_around has found for these facets of a cell.
   void proved_around(CellId cell, unsigned facets, unsigned found) {
-    if (looks_ahead()) foresight_.proved(cell, facets, found);
+    if (looks_ahead()) lookahead_.proved(cell, facets, found);
   }
   /// Forgets what is known of a facet whose beads change: facet i of `cell`, which is facet k of `other`. The
   /// beads of `cell` may change too.
   void forget(CellId cell, int i, CellId other, int k) {
     slack_.forget(cell, i);
     slack_.forget(other, k);
-    foresight_.forget(cell, i, other, k);
+    lookahead_.forget(cell, i, other, k);
   }
 
   /// Returns for each cell whether it is known to be positive at the end of the step. The span may be shorter
@@ -233,7 +234,7 @@ class FacetProofs {
     return state_.triangulation.live_count() * (Dimension + 1) / 2;
   }
   /// Returns whether facets are searched for some steps ahead: only if all beads are known ahead.
-  [[nodiscard]] bool looks_ahead() const { return foresight_.any() && foresight_.ahead().all_known(); }
+  [[nodiscard]] bool looks_ahead() const { return lookahead_.any() && lookahead_.ahead().all_known(); }
 
   /// Takes what a filter finds: facets not found positive are in doubt.
   template <class Doubt>
@@ -245,16 +246,16 @@ class FacetProofs {
     };
   }
   /// Looks ahead for facets not known from previous steps, and examines the remaining ones for this step
-  /// only. Returns the number of facets not known to hold from foresight.
+  /// only. Returns the number of facets not proved by lookahead.
   template <class Note, class Doubt>
   std::uint64_t prove_ahead(FacetFilter<Dimension>& positive, const Note& note, const Doubt& doubt) {
     const auto& triangulation = state_.triangulation;
     const auto cells = triangulation.cells();
     std::uint64_t others = 0;
     const auto found = taking_doubts(doubt);
-    const bool all_known = foresight_.ahead().all_known();
+    const bool all_known = lookahead_.ahead().all_known();
     const auto found_ahead = [&](CellId cell, unsigned wanted, unsigned positive_parts_of_step) {
-      foresight_.proved(cell, wanted, positive_parts_of_step);
+      lookahead_.proved(cell, wanted, positive_parts_of_step);
       unsigned doubts = wanted & ~in_some_part(positive_parts_of_step);
       if (doubts == 0) return;
       others += count_of<Dimension>(doubts);
@@ -263,12 +264,12 @@ class FacetProofs {
     };
     FacetFilter<Dimension> ahead(*filter_ahead_, unit_);
     on_hull_.clear();
-    foresight_.for_the_others(triangulation, note, [&](CellId cell, unsigned facets) {
+    lookahead_.for_the_others(triangulation, note, [&](CellId cell, unsigned facets) {
       const unsigned finite = finite_facets(cells[cell]);
       for (unsigned left = facets & ~finite; left != 0; left &= left - 1)
         on_hull_.push_back(facet_id(cell, std::countr_zero(left)));
       if (finite == 0 && state_.is_infinite(cell)) {
-        foresight_.stays_positive_ahead(cell);
+        lookahead_.stays_positive_ahead(cell);
       } else {
         ahead.look_at(cells[cell], cell, facets & finite, found_ahead);
       }
@@ -279,7 +280,7 @@ class FacetProofs {
       doubt(cell_of(facet), index_of(facet));
     }
     for (CellId cell = 0; cell < ends_positive_.size(); ++cell)
-      if (foresight_.stays_positive(cell)) ends_positive_[cell] = 1;
+      if (lookahead_.stays_positive(cell)) ends_positive_[cell] = 1;
     return others;
   }
   /// Looks ahead for the facets on_hull_. An orientation guards each of these facets, as it guards a cell.
@@ -292,13 +293,13 @@ class FacetProofs {
   LengthUnit unit_;  // close to the cells' lengths in this step
   std::vector<std::uint8_t> ends_positive_;
   FacetSlack<Dimension> slack_;
-  FacetForesight<Dimension> foresight_;
+  FacetLookahead<Dimension> lookahead_;
   std::unique_ptr<CellFilter<Dimension>> filter_ahead_;
   std::vector<FacetId> on_hull_;  // facets of the hull to be examined ahead
 };
 
-extern template class FacetForesight<2>;
-extern template class FacetForesight<3>;
+extern template class FacetLookahead<2>;
+extern template class FacetLookahead<3>;
 extern template class FacetProofs<2>;
 extern template class FacetProofs<3>;
 

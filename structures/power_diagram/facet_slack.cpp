@@ -10,10 +10,10 @@ namespace kds {
 namespace {
 
 /// Computing slack costs about as much as a search in doubles, so a new reference must let at least this
-/// share of all facets rest in addition to those that rest already.
+/// share of all facets be skipped in addition to those that are skipped already.
 constexpr double worth_a_reference = 0.25;
-/// A new reference must also let at least this share of all facets rest, because comparing slack and keeping
-/// it up to date also costs time.
+/// A new reference must also let at least this share of all facets be skipped, because comparing slack and
+/// keeping it up to date also costs time.
 constexpr double least_share = 0.4;
 /// A reference below this share is dropped.
 constexpr double least_worth = 0.05;
@@ -97,9 +97,9 @@ class FourAtOnce {
 template <int Dimension>
 void FacetSlack<Dimension>::start_step(const Curves<Dimension>& curves, const Triangulation& triangulation) {
   if (triangulation.cells().empty()) return forget_all();
-  const double rest = measure(curves, triangulation);
-  if (displacements_.has_reference() && rest < least_worth) forget_all();  // too far away to be useful
-  const double wanted = std::max(rest + worth_a_reference, least_share);
+  const double skipped = measure(curves, triangulation);
+  if (displacements_.has_reference() && skipped < least_worth) forget_all();  // too far away to be useful
+  const double wanted = std::max(skipped + worth_a_reference, least_share);
   if (wanted > 1) return;
   if (samples_.skips()) return;
   fresh_.set_reference(curves);
@@ -118,7 +118,7 @@ double FacetSlack<Dimension>::measure(const Curves<Dimension>& curves, const Tri
   displacements_.look_at(curves);
   farthest_ = round_up(displacements_.strays(), strays_);
   grow(triangulation.cells().size());
-  std::size_t looked_at = 0, rest = 0, by_beads = 0;
+  std::size_t looked_at = 0, skipped = 0, by_beads = 0;
   for_sample(triangulation, [&](CellId cell, int i) {
     const FacetId beyond = triangulation.beyond(cell, i);
     const FacetId here = cell < cell_of(beyond) ? facet_id(cell, i) : beyond;
@@ -126,14 +126,14 @@ double FacetSlack<Dimension>::measure(const Curves<Dimension>& curves, const Tri
         (others_by_beads(triangulation.cells()[cell_of(here)], cell_of(here)) >> index_of(here) & 1U) != 0;
     const bool coarsely = farthest_ < slack_[cell_of(here)][static_cast<std::size_t>(index_of(here))];
     ++looked_at;
-    rest += among_others ? 0 : 1;
+    skipped += among_others ? 0 : 1;
     by_beads += !among_others && !coarsely ? 1 : 0;
   });
   // If the strays are unbounded, the slack of one cell does not determine at which of its two cells a facet
   // is stored; the comparison by beads does.
   by_beads_ = share_of(by_beads, looked_at) > share_worth_a_look ||
               !(farthest_ < std::numeric_limits<float>::infinity());
-  return share_of(rest, looked_at);
+  return share_of(skipped, looked_at);
 }
 
 template <int Dimension>
@@ -160,16 +160,16 @@ template <int Dimension>
 double FacetSlack<Dimension>::sampled(const Curves<Dimension>& curves, const Triangulation& triangulation,
                                       std::span<const float> strays) const {
   const auto cells = triangulation.cells();
-  std::size_t looked_at = 0, rest = 0;
+  std::size_t looked_at = 0, skipped = 0;
   FourAtOnce four(curves, triangulation, [&](CellId cell, int i, float slack) {
     const BeadId apex = triangulation.apex_beyond(cell, i);
     const float most = std::max(stray_of(cells[cell].vertex, strays), stray_of(std::span(&apex, 1), strays));
     ++looked_at;
-    rest += most < slack ? 1 : 0;
+    skipped += most < slack ? 1 : 0;
   });
   for_sample(triangulation, [&](CellId cell, int i) { four.add(cell, i); });
   four.flush();
-  return share_of(rest, looked_at);
+  return share_of(skipped, looked_at);
 }
 
 template class FacetSlack<2>;

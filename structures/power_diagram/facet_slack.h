@@ -2,7 +2,7 @@
 // The slack of a triangulation's facets (certificates/filters/slack.h), kept across steps. The stray of a
 // bead is its distance from its position at the reference frame. A step skips a facet if the strays of its
 // beads are smaller than its slack. All slack is computed at one reference frame. A newer reference frame
-// replaces it if a sample of facets shows that many more facets would rest. In fast motion there is no
+// replaces it if a sample of facets shows that many more facets would be skipped. In fast motion there is no
 // reference.
 //
 // The least slack of each cell is first compared with the largest stray of any bead, in one pass over an
@@ -30,10 +30,10 @@ class FacetSlack {
 
   /// Called at the start of a step, when its motion is loaded.
   void start_step(const Curves<Dimension>& curves, const Triangulation& triangulation);
-  /// Returns whether any facet may rest.
+  /// Returns whether any facet may be skipped.
   [[nodiscard]] bool any() const { return displacements_.has_reference(); }
-  /// Calls `visit(cell, facets)` for all facets of live cells that do not rest, one bit each; each facet is
-  /// reported at one of its cells. Must be called before any flip in the step.
+  /// Calls `visit(cell, facets)` for all facets of live cells that are not skipped, one bit each; each facet
+  /// is reported at one of its cells. Must be called before any flip in the step.
   template <class Visit>
   void for_the_others(const Triangulation& triangulation, Visit visit) {
     const auto cells = triangulation.cells();
@@ -92,7 +92,7 @@ class FacetSlack {
     return facets;
   }
 
-  /// Measures the strays. Returns the share of facets that may rest, in a sample.
+  /// Measures the strays. Returns the share of facets that may be skipped, in a sample.
   double measure(const Curves<Dimension>& curves, const Triangulation& triangulation);
   /// Makes room for new cells, whose facets are passed to `forget` before they are read.
   void grow(std::size_t cells) {
@@ -105,7 +105,7 @@ class FacetSlack {
     return most;
   }
   void take_all(const Curves<Dimension>& curves, const Triangulation& triangulation);
-  /// Returns the share of sampled facets that would rest if the start of this step were the reference.
+  /// Returns the share of sampled facets that would be skipped if the start of this step were the reference.
   [[nodiscard]] double sampled(const Curves<Dimension>& curves, const Triangulation& triangulation,
                                std::span<const float> strays) const;
 

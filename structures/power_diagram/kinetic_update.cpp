@@ -243,7 +243,7 @@ void MovingDiagram<Dimension>::move_some(const Eigen::Matrix3Xd& centers, std::s
   activate(faults, moves);
   hidden_that_show(next, moves);
   const auto count = static_cast<std::size_t>(std::count(moves.begin(), moves.end(), 1));
-  // With so many moving beads, hardly any facet would rest.
+  // With so many moving beads, hardly any facet would be skipped.
   if (4 * count > 3 * weights.size()) return move_all(centers, weights, counts);
 
   for (BeadId b = 0; b < weights.size(); ++b) rest_at_end(b);

@@ -108,7 +108,7 @@ class PowerDiagram final : public KineticStructure, public BeadEdits, public Dia
   // Steps that move only some of the beads to the next frame (diagram_update.h).
 
   /// From now on, only the marked beads move in a step (one entry for each bead), and a step does not end at
-  /// a frame; call reach_frame for that. Facets whose beads all rest need no certificate. If empty, all beads
+  /// a frame; call reach_frame for that. Facets whose beads are all at rest are skipped. If empty, all beads
   /// move.
   void move_only(std::vector<char> moving);
   /// Returns the cells that flips made since move_only; cells may be listed repeatedly or may be removed

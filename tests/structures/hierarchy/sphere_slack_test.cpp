@@ -150,7 +150,7 @@ TEST(NodeSlack, ABeadThatGoesAwayAndBackWithinAStep) {
   const std::array necklace{BeadRange{0, 3}};
   const NecklaceTree tree(necklace);
   const Basis pair(std::array<BeadId, 2>{0, 1});
-  const auto rests = [&](double swing, double away) {
+  const auto is_skipped = [&](double swing, double away) {
     BezierMotion<3, 2> motion(4);
     for (BeadId b = 0; b < 4; ++b) {
       for (int k = 0; k <= 2; ++k) {
@@ -162,15 +162,15 @@ TEST(NodeSlack, ABeadThatGoesAwayAndBackWithinAStep) {
     }
     BeadPaths<3> paths;
     paths.set(Curves<3>(motion));
-    NodeSlack<3> resting(tree);
+    NodeSlack<3> slack(tree);
     std::vector<NodeId> nodes{*tree.find(necklace[0])};
     const std::vector<Basis> bases(tree.node_count(), pair);
-    resting.take_out_resting(paths, bases, nodes);
+    slack.take_out_skipped(paths, bases, nodes);
     return nodes.empty();
   };
-  EXPECT_TRUE(rests(0, 0));
-  EXPECT_TRUE(rests(1, 0));
-  for (const double swing : {0.0, 1.0, 1e10, 1.2e308}) EXPECT_FALSE(rests(swing, 50)) << swing;
+  EXPECT_TRUE(is_skipped(0, 0));
+  EXPECT_TRUE(is_skipped(1, 0));
+  for (const double swing : {0.0, 1.0, 1e10, 1.2e308}) EXPECT_FALSE(is_skipped(swing, 50)) << swing;
 }
 
 }  // namespace

@@ -281,9 +281,9 @@ TEST(WrappedHierarchy, TiesAtTheStartAreSettledWhenItIsBuilt) {
   }
 }
 
-// Beads jostle slowly: most nodes rest, some become active, and the reference moves. Now and then the whole
-// chain jumps.
-TEST(WrappedHierarchy, NodesRestInSlowMotion) {
+// Beads jostle slowly: most nodes are skipped, some become active, and the reference moves. Now and then the
+// whole chain jumps.
+TEST(WrappedHierarchy, NodesAreSkippedInSlowMotion) {
   Random random(5);
   std::vector<Points> frames(1, Points(60));
   for (std::size_t b = 1; b < 60; ++b) {

@@ -71,7 +71,7 @@ TEST(FacetCertificates, AroundNewCellsAreMadeAnew) {
 }
 
 // Facets between beads at rest are only counted, and have no certificate.
-TEST(FacetCertificates, OfBeadsThatRestAreOnlyCounted) {
+TEST(FacetCertificates, BetweenBeadsAtRestAreOnlyCounted) {
   auto motion = random_beads<3>(4, 60, 0.05);
   std::vector<char> moving(60, 0);
   moving[7] = 1;

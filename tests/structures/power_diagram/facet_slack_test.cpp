@@ -1,4 +1,4 @@
-// A facet that rests in a step does not fail in the step, judged in integers.
+// A facet that a step skips does not fail in the step, judged in integers.
 
 #include "structures/power_diagram/facet_slack.h"
 
@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t beads = 150;
 
 template <int dimension>
-void expect_resting_to_hold(double distance, double least_share) {
+void expect_skipped_to_hold(double distance, double least_share) {
   using M = BezierMotion<dimension, 1>;
   test::Random random(9);
   M motion(beads);
@@ -32,7 +32,7 @@ void expect_resting_to_hold(double distance, double least_share) {
   const auto power_tests = search_over<PowerTest<dimension>>(any);
   const auto orientations = search_over<Orientation<dimension>>(any);
   StageCounts stages;
-  std::size_t resting = 0, all = 0;
+  std::size_t skipped = 0, all = 0;
   for (int step = 0; step < 4; ++step) {
     for (BeadId b = 0; b < beads; ++b) {
       for (int axis = 0; axis < dimension; ++axis) {
@@ -60,7 +60,7 @@ void expect_resting_to_hold(double distance, double least_share) {
         }
         ++all;
         if (other) continue;
-        ++resting;
+        ++skipped;
         with_facet_certificate(
             cell.vertex, triangulation.apex_beyond(id, i), [&]<class C>(const C& certificate) {
               const KnownAtStart known = KnownAtStart::unknown;
@@ -92,15 +92,15 @@ void expect_resting_to_hold(double distance, double least_share) {
     });
     EXPECT_EQ(times, 1U);
   }
-  EXPECT_GE(static_cast<double>(resting), least_share * static_cast<double>(all));
+  EXPECT_GE(static_cast<double>(skipped), least_share * static_cast<double>(all));
   EXPECT_EQ(all > 0, least_share > 0);
 }
 
 TEST(FacetSlack, HoldWhereBeadsStrayLess) {
-  expect_resting_to_hold<3>(1e-6, 0.9);
-  expect_resting_to_hold<3>(1e-4, 0.5);
-  expect_resting_to_hold<3>(0.1, 0);  // too fast for any facet to rest
-  expect_resting_to_hold<2>(1e-5, 0.9);
+  expect_skipped_to_hold<3>(1e-6, 0.9);
+  expect_skipped_to_hold<3>(1e-4, 0.5);
+  expect_skipped_to_hold<3>(0.1, 0);  // too fast for any facet to be skipped
+  expect_skipped_to_hold<2>(1e-5, 0.9);
 }
 
 }  // namespace
