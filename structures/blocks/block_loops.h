@@ -2,7 +2,7 @@
 // Declares blocks of 16 consecutive beads in float, a tree over these blocks in sequence order (16 children
 // per node, a linear BVH), and the inner loops that work on them. The block tree (block_tree.h) calls the
 // loops. These loops are compiled once per vector target, and every target gives the same bits. A "box" here
-// is the axis-aligned box of float balls (float_frame.h).
+// is the axis-aligned box of float balls (float_conversion.h).
 
 #include <array>
 #include <cstddef>

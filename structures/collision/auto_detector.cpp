@@ -11,9 +11,9 @@ namespace kds {
 
 template <int Dimension>
 void KeptPairs<Dimension>::keep(const Balls<Dimension>& balls, std::span<const BeadPair> near, double skin,
-                                const FloatFrame<Dimension>& frame) {
+                                const FloatConversion<Dimension>& conversion) {
   skin_ = skin;
-  scale_ = frame.scale;
+  scale_ = conversion.scale;
   pairs_.clear();
   starts_.fill(0);
   replace(balls, {}, near, 0);
@@ -170,7 +170,7 @@ const std::vector<BeadPair>& AutoDetector<Dimension>::rebuild(const Balls<Dimens
     return from_scratch(balls);
   }
   ++counts_.rebuilds;
-  kept_.keep(balls, *near, skin, tree_.frame());
+  kept_.keep(balls, *near, skin, tree_.conversion());
   // A wide skin suits scenes in which few beads are near others.
   if (kept_.size() > most_pairs_a_bead * balls.size()) longest_skin_ = std::min(longest_skin_, 0.5 * skin);
   mode_ = Mode::kept;

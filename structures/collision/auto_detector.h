@@ -21,7 +21,7 @@
 #include <span>
 #include <vector>
 
-#include "structures/blocks/float_frame.h"
+#include "structures/blocks/float_conversion.h"
 #include "structures/collision/balls_meet.h"
 #include "structures/collision/block_tree.h"
 #include "structures/collision/cell_list.h"
@@ -42,10 +42,10 @@ namespace kds {
 template <int Dimension>
 class KeptPairs {
  public:
-  /// Keeps the pairs `near`: all pairs that are at most `skin` apart, and possibly others. `frame` is the
-  /// scene's float frame.
+  /// Keeps the pairs `near`: all pairs that are at most `skin` apart, and possibly others. `conversion` is
+  /// the scene's float conversion.
   void keep(const Balls<Dimension>& balls, std::span<const BeadPair> near, double skin,
-            const FloatFrame<Dimension>& frame);
+            const FloatConversion<Dimension>& conversion);
   /// Replaces the pairs with a marked bead; `marks` holds a nonzero mark for each such bead. `near` contains
   /// all pairs with a marked bead that are at most the skin apart, and possibly others. Distances there count
   /// marked beads at their present positions, and other beads where their pairs were found. A marked bead's
@@ -141,7 +141,8 @@ class AutoDetector {
   std::vector<BeadPair> pairs_;
   std::vector<double> strays_;
   std::vector<std::uint32_t> far_blocks_;
-  std::optional<DistanceQueries<Dimension>> distances_;  // has a tree of its own, because tree_ holds a frame
+  std::optional<DistanceQueries<Dimension>>
+      distances_;  // has a tree of its own, because tree_ holds the beads of a frame
   Counts counts_;
 };
 

@@ -126,10 +126,10 @@ Blocks<Dimension> BeadBlocks<Dimension>::view() {
 template <int Dimension>
 BlockSource<Dimension> BeadBlocks<Dimension>::source_of(double gap, double radius) const {
   BlockSource<Dimension> source{};
-  source.shift = frame_.shift;
-  source.scale = frame_.scale;
-  source.radius_factor = frame_.scale * (1 + 0x1p-20);
-  source.radius_added = frame_.float_radius(0.5 * gap);
+  source.shift = conversion_.shift;
+  source.scale = conversion_.scale;
+  source.radius_factor = conversion_.scale * (1 + 0x1p-20);
+  source.radius_added = conversion_.float_radius(0.5 * gap);
   source.radius = static_cast<float>(radius * source.radius_factor + source.radius_added);
   return source;
 }
@@ -161,10 +161,10 @@ BlockSource<Dimension> BeadBlocks<Dimension>::gather(const Balls<Dimension>& bal
     for (std::size_t k = count; k < lanes; ++k) copy[k] = copy[count - 1];
     (are_radii ? source.radii : source.centers[i]) = copy.data();
   }
-  return frame_.axes ? placed(source, lanes) : source;
+  return conversion_.axes ? placed(source, lanes) : source;
 }
 
-// Like gather, but in a frame with axes.
+// Like gather, but by a conversion with axes.
 template <int Dimension>
 BlockSource<Dimension> BeadBlocks<Dimension>::placed(BlockSource<Dimension> source, std::size_t lanes) {
   std::array<double*, static_cast<std::size_t>(Dimension)> places;
@@ -172,7 +172,7 @@ BlockSource<Dimension> BeadBlocks<Dimension>::placed(BlockSource<Dimension> sour
     gathered_[axis].resize(gathered_blocks * beads_in_block);
     places[axis] = gathered_[axis].data();
   }
-  place_along_axes(frame_, source.centers, places, lanes);
+  place_along_axes(conversion_, source.centers, places, lanes);
   std::copy(places.begin(), places.end(), source.centers.begin());
   source.shift = {};
   source.scale = 1;
@@ -196,13 +196,13 @@ void BeadBlocks<Dimension>::with_sources(const Balls<Dimension>& balls, BlockSou
   std::size_t block = 0;
   for (const BeadRange& range : asked_.necklaces) {
     const std::size_t count = std::size_t{range.last} - range.first + 1, whole = count / beads_in_block;
-    const std::size_t at_once = frame_.axes ? gathered_blocks : std::max<std::size_t>(whole, 1);
+    const std::size_t at_once = conversion_.axes ? gathered_blocks : std::max<std::size_t>(whole, 1);
     for (std::size_t first = 0; first < whole; first += at_once) {
       const std::size_t bead = range.first + first * beads_in_block, some = std::min(at_once, whole - first);
       for (std::size_t axis = 0; axis < Dimension; ++axis)
         source.centers[axis] = balls.coordinates(axis) + bead;
       source.radii = balls.radii() + bead;
-      visit(frame_.axes ? placed(source, some * beads_in_block) : source, block + first,
+      visit(conversion_.axes ? placed(source, some * beads_in_block) : source, block + first,
             block + first + some);
     }
     block += whole;
@@ -225,7 +225,7 @@ void BeadBlocks<Dimension>::clear_lanes_behind(std::size_t block) {
 }
 
 template <int Dimension>
-BlockExtent BeadBlocks<Dimension>::fill_in_frame(const Balls<Dimension>& balls, double gap) {
+BlockExtent BeadBlocks<Dimension>::fill_floats(const Balls<Dimension>& balls, double gap) {
   BlockExtent extent;
   const auto loop = equal_ ? loops_.fill_equal : loops_.fill_unequal;
   const BlockSource<Dimension> source = source_of(gap, balls.radius(0));
@@ -239,7 +239,7 @@ BlockExtent BeadBlocks<Dimension>::fill_in_frame(const Balls<Dimension>& balls, 
   return extent;
 }
 
-// Returns false if the frame cannot hold the beads.
+// Returns false if the conversion cannot hold the beads.
 template <int Dimension>
 bool BeadBlocks<Dimension>::fill_again(const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks) {
   const auto loop = equal_ ? loops_.fill_equal : loops_.fill_unequal;
@@ -250,7 +250,7 @@ bool BeadBlocks<Dimension>::fill_again(const Balls<Dimension>& balls, std::span<
         gather(balls, source, beads_of(block), [&](std::size_t k) { return bead_at(block, k); });
     const BlockExtent extent = loop(its, block, block + 1, view(), levels_[0].data());
     clear_lanes_behind(block);
-    fits = fits && extent.coordinate <= frame_.bound;
+    fits = fits && extent.coordinate <= conversion_.bound;
   }
   for (const std::uint32_t block : blocks) find_stretched(block > 0 ? block - 1 : 0, block + 1);
   return fits;
@@ -264,23 +264,23 @@ void BeadBlocks<Dimension>::fill(const Balls<Dimension>& balls, double gap) {
     sorted_.resize(beads_ + beads_in_block);  // read by lanes without a bead too
   }
   const auto fits = [this](const BlockExtent& e) {
-    return e.coordinate <= frame_.bound && e.radius <= largest_float_radius;
+    return e.coordinate <= conversion_.bound && e.radius <= largest_float_radius;
   };
-  const auto blunt = [this](const BlockExtent& e) {  // and a frame of this scene is finer
-    return e.coordinate < 0x1p-6 * frame_.bound && frame_.bound > 0x1p-20;
+  const auto blunt = [this](const BlockExtent& e) {  // and a conversion for this scene is finer
+    return e.coordinate < 0x1p-6 * conversion_.bound && conversion_.bound > 0x1p-20;
   };
   BlockExtent extent;
-  if (frame_.bound > 0) extent = fill_in_frame(balls, gap);
-  if (frame_.bound == 0 || !fits(extent) || blunt(extent)) {
-    frame_ = fit_float_frame(scene_box(balls), gap, frame_.axes);
-    extent = fill_in_frame(balls, gap);
-    if (!fits(extent)) throw std::logic_error("a frame of floats does not hold its own scene");
+  if (conversion_.bound > 0) extent = fill_floats(balls, gap);
+  if (conversion_.bound == 0 || !fits(extent) || blunt(extent)) {
+    conversion_ = fit_float_conversion(scene_box(balls), gap, conversion_.axes);
+    extent = fill_floats(balls, gap);
+    if (!fits(extent)) throw std::logic_error("a conversion to floats does not hold its own scene");
   }
   gap_ = gap;
   // A step that the loop accepts is shorter than computed by at most 2^-20 M, the loss of differences and
   // products (below 15 u M). Even so, `apart` such steps are longer than any distance that floats call near.
   least_ahead_ =
-      static_cast<float>(2.0 * extent.radius * (1 + 0x1p-16) / asked_.apart + 0x1p-18 * frame_.bound);
+      static_cast<float>(2.0 * extent.radius * (1 + 0x1p-16) / asked_.apart + 0x1p-18 * conversion_.bound);
   find_stretched(0, boxes_.size());
   for (std::size_t level = 0; level + 1 < levels_.size(); ++level)
     loops_.unite(levels_[level].data(), 0, levels_[level].size(), levels_[level + 1].data());
@@ -300,8 +300,8 @@ void BeadBlocks<Dimension>::find_stretched(std::size_t first, std::size_t last) 
 template <int Dimension>
 void BeadBlocks<Dimension>::turn(const std::optional<Axes<Dimension>>& axes) {
   // A coordinate along another axis is less than twice as large.
-  if (axes.has_value() != frame_.axes.has_value()) frame_.bound *= axes ? 2 : 0.5;
-  frame_.axes = axes;
+  if (axes.has_value() != conversion_.axes.has_value()) conversion_.bound *= axes ? 2 : 0.5;
+  conversion_.axes = axes;
 }
 
 template <int Dimension>
@@ -311,7 +311,7 @@ std::span<const double> BeadBlocks<Dimension>::strayed_by_block(const Balls<Dime
   strays_.resize(boxes_.size());
   with_sources(balls, source_of(0, 0), [&](BlockSource<Dimension> some, std::size_t first, std::size_t last) {
     for (std::size_t block = first; block < last; ++block) {
-      strays_[block] = frame_.farthest(loops_.stray(some, block, block + 1, view()));
+      strays_[block] = conversion_.farthest(loops_.stray(some, block, block + 1, view()));
       for (const double*& axis : some.centers) axis += beads_in_block;
     }
   });
@@ -327,7 +327,7 @@ double BeadBlocks<Dimension>::strayed(const Balls<Dimension>& balls) {
                [&](const BlockSource<Dimension>& some, std::size_t first, std::size_t last) {
                  farthest = std::max(farthest, loops_.stray(some, first, last, view()));
                });
-  return frame_.farthest(farthest);
+  return conversion_.farthest(farthest);
 }
 
 template class BeadBlocks<2>;

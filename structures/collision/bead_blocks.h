@@ -14,7 +14,7 @@
 
 #include "motions/base/bead.h"
 #include "structures/blocks/block_loops.h"
-#include "structures/blocks/float_frame.h"
+#include "structures/blocks/float_conversion.h"
 #include "structures/necklace/balls.h"
 #include "structures/necklace/bead_pairs.h"
 
@@ -51,7 +51,7 @@ class BeadBlocks {
   void arrange(BlockOrder order);
 
   /// Returns the origin and scale of the floats of the last scene.
-  [[nodiscard]] const FloatFrame<Dimension>& frame() const { return frame_; }
+  [[nodiscard]] const FloatConversion<Dimension>& conversion() const { return conversion_; }
   /// Sets the axes for the next scenes; none means the coordinate axes.
   void turn(const std::optional<Axes<Dimension>>& axes);
 
@@ -59,8 +59,8 @@ class BeadBlocks {
   /// Pairs at most `gap` apart count as near.
   void fill(const Balls<Dimension>& balls, double gap);
   /// Fills the beads of these blocks (ascending) again at their present positions. The caller then updates
-  /// the nodes above by unite(). Returns false if the frame cannot hold the beads; then all beads must be
-  /// filled again.
+  /// the nodes above by unite(). Returns false if the conversion cannot hold the beads; then all beads must
+  /// be filled again.
   [[nodiscard]] bool fill_again(const Balls<Dimension>& balls, std::span<const std::uint32_t> blocks);
   /// Writes the box of a node of levels()[level] into its parent.
   void unite(std::size_t level, std::size_t node) {
@@ -96,7 +96,7 @@ class BeadBlocks {
   [[nodiscard]] const std::vector<std::uint16_t>& stretched() const { return stretched_; }
 
  private:
-  [[nodiscard]] BlockExtent fill_in_frame(const Balls<Dimension>& balls, double gap);
+  [[nodiscard]] BlockExtent fill_floats(const Balls<Dimension>& balls, double gap);
   void find_stretched(std::size_t first, std::size_t last);
   void clear_lanes_behind(std::size_t block);
   [[nodiscard]] BlockSource<Dimension> source_of(double gap, double radius) const;
@@ -114,7 +114,7 @@ class BeadBlocks {
   std::size_t beads_ = 0;
   BlockOrder order_ = BlockOrder::sequence;
 
-  FloatFrame<Dimension> frame_;
+  FloatConversion<Dimension> conversion_;
   bool equal_ = true;
   double gap_ = 0;
   float limit_ = 0;

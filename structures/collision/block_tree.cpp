@@ -8,7 +8,7 @@
 
 #include "motions/base/floating_point_scope.h"
 #include "motions/base/interruption.h"
-#include "structures/blocks/float_frame.h"
+#include "structures/blocks/float_conversion.h"
 
 namespace kds {
 
@@ -135,7 +135,7 @@ auto BlockTree<Dimension>::search(const Balls<Dimension>& balls, bool may_give_u
     const double work_a_block = work / static_cast<double>(blocks_.size());
     if (may_turn_ && work_a_block > work_of_turned_block) {
       may_turn_ = false;
-      bond_axes_ = bond_axes(balls, blocks_.frame().scale);
+      bond_axes_ = bond_axes(balls, blocks_.conversion().scale);
       if (bond_axes_) return Outcome::better_turned;
     }
     if (work_a_block > work_of_sorted_block) return Outcome::better_sorted;

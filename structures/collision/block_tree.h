@@ -3,17 +3,17 @@
 // beads in sequence. Blocks hold 16 beads in float, with four boxes of four beads each, and a tree with 16
 // children per node lies above them. The search descends into pairs of nodes whose boxes meet, level by
 // level, 16 boxes at once. A pair of blocks then compares its 16 pairs of boxes at once, and a pair of boxes
-// its 16 pairs of beads. Floats serve only to rule pairs out (proof in float_frame.h). The remaining pairs
-// are decided exactly. The tree is built anew for every scene, in 1 to 2 ns per bead.
+// its 16 pairs of beads. Floats serve only to rule pairs out (proof in float_conversion.h). The remaining
+// pairs are decided exactly. The tree is built anew for every scene, in 1 to 2 ns per bead.
 //
 // Blocks along a straight or nearly straight piece of chain are compared neither with themselves nor with the
 // next block. Each bead there lies so far ahead of the bead before it in one direction that no pair asked
 // about can meet.
 //
-// If blocks of consecutive beads meet many others, the boxes are turned to the chain's bonds (float_frame.h),
-// provided that the bonds lie along few directions. If turned boxes still meet many others, or if the bonds
-// have no such directions, the beads are sorted along a Morton curve, which costs time, and blocks are made
-// in this spatial order. Both decisions are made after an eighth of the work.
+// If blocks of consecutive beads meet many others, the boxes are turned to the chain's bonds
+// (float_conversion.h), provided that the bonds lie along few directions. If turned boxes still meet many
+// others, or if the bonds have no such directions, the beads are sorted along a Morton curve, which costs
+// time, and blocks are made in this spatial order. Both decisions are made after an eighth of the work.
 //
 // The result is exact for all finite input. The time depends on the input. Coordinates that are huge compared
 // with distances and radii (10^5 times and more) make the filter less effective, and widely different radii
@@ -75,8 +75,8 @@ class BlockTree {
   /// Call it after near_pairs. Updates the positions of the beads of these blocks (ascending) and of no
   /// others. Returns all pairs asked about that contain such a bead and are at most the previous gap apart,
   /// and some pairs slightly farther apart. All other beads count at the positions of the last search.
-  /// Returns none if there are more than `most` pairs or if beads have left the frame; then all must be
-  /// searched again. Radii must be unchanged.
+  /// Returns none if there are more than `most` pairs or if beads have left the range of the conversion; then
+  /// all must be searched again. Radii must be unchanged.
   std::optional<std::span<const BeadPair>> near_pairs_of(const Balls<Dimension>& balls,
                                                          std::span<const std::uint32_t> blocks,
                                                          std::size_t most);
@@ -85,8 +85,8 @@ class BlockTree {
 
   [[nodiscard]] const Counts& counts() const { return counts_; }
   [[nodiscard]] BlockOrder order() const { return blocks_.order(); }
-  /// Returns the frame of the last scene.
-  [[nodiscard]] const FloatFrame<Dimension>& frame() const { return blocks_.frame(); }
+  /// Returns the conversion of the last scene.
+  [[nodiscard]] const FloatConversion<Dimension>& conversion() const { return blocks_.conversion(); }
   /// Sets the axes of the boxes for the next searches, none for the coordinate axes. The axes hold until the
   /// tree makes its choices anew.
   void turn(const std::optional<Axes<Dimension>>& axes) { blocks_.turn(axes); }
@@ -128,7 +128,7 @@ class BlockTree {
   const BlockLoops<Dimension>& loops_;
   BeadBlocks<Dimension> blocks_;
   bool may_turn_ = true;                      // bonds have not been tested for axes yet
-  std::optional<Axes<Dimension>> bond_axes_;  // axes for a frame that is to be turned
+  std::optional<Axes<Dimension>> bond_axes_;  // axes for a conversion that is to be turned
   std::uint64_t searches_since_choice_ = 0;
 
   // Marks of the blocks that are searched again, of the nodes above them level by level, and of their beads.

@@ -18,22 +18,22 @@ CellList<Dimension>::CellList(PairsAsked asked)
   if (one_necklace_) least_along_ = asked_.within ? asked_.apart : std::int64_t{no_bead} + 1;
 }
 
-// Scaled coordinates X have errors of at most 2^-53 of the frame's bound M. If two balls meet, the distance
-// of their X exceeds the sum of their radii by at most 2^-50 M; the squared excess, with all roundings, is
-// less than `compare` allows. A cell is wider than the reach of any two balls by 2^-20 of its width, and its
-// number, below 2^20, has an error below 2^-30.
+// Scaled coordinates X have errors of at most 2^-53 of the conversion's bound M. If two balls meet, the
+// distance of their X exceeds the sum of their radii by at most 2^-50 M; the squared excess, with all
+// roundings, is less than `compare` allows. A cell is wider than the reach of any two balls by 2^-20 of its
+// width, and its number, below 2^20, has an error below 2^-30.
 template <int Dimension>
 auto CellList<Dimension>::lay_grid(const Balls<Dimension>& balls, double gap) const -> Grid {
   const SceneBox<Dimension> box = scene_box(balls);
   Grid grid;
-  grid.frame = fit_float_frame(box, gap);
-  const double scale = grid.frame.scale;
-  grid.gap = gap * scale + 0x1p-49 * grid.frame.bound;
+  grid.conversion = fit_float_conversion(box, gap);
+  const double scale = grid.conversion.scale;
+  grid.gap = gap * scale + 0x1p-49 * grid.conversion.bound;
   const double largest = box.largest_radius * scale;
   std::array<double, dimension> length;
   for (std::size_t axis = 0; axis < dimension; ++axis) {
-    grid.low[axis] = box.low[axis] * scale - grid.frame.shift[axis];
-    length[axis] = box.high[axis] * scale - grid.frame.shift[axis] - grid.low[axis];
+    grid.low[axis] = box.low[axis] * scale - grid.conversion.shift[axis];
+    length[axis] = box.high[axis] * scale - grid.conversion.shift[axis] - grid.low[axis];
   }
   const double longest = *std::max_element(length.begin(), length.end());
   const double side =
@@ -53,7 +53,7 @@ auto CellList<Dimension>::entry_of(const Balls<Dimension>& balls, const Grid& gr
     -> BeadInCell {
   BeadInCell entry;
   for (std::size_t axis = 0; axis < dimension; ++axis)
-    entry.center[axis] = balls.coordinates(axis)[bead] * grid.frame.scale - grid.frame.shift[axis];
+    entry.center[axis] = balls.coordinates(axis)[bead] * grid.conversion.scale - grid.conversion.shift[axis];
   entry.bead = bead;
   return entry;
 }
@@ -64,7 +64,7 @@ void CellList<Dimension>::find_keys(const Balls<Dimension>& balls, const Grid& g
   for (std::size_t axis = 0; axis < dimension; ++axis) {
     const double* x = balls.coordinates(axis);
     for (std::size_t b = 0; b < balls.size(); ++b) {
-      const double along = x[b] * grid.frame.scale - grid.frame.shift[axis] - grid.low[axis];
+      const double along = x[b] * grid.conversion.scale - grid.conversion.shift[axis] - grid.low[axis];
       const auto cell = static_cast<std::uint64_t>(static_cast<std::int64_t>(along * grid.cells_a_length));
       keys_of_beads_[b] += (cell + 1) * grid.stride[axis];
     }
@@ -124,7 +124,7 @@ template <int Dimension>
 template <bool Equal>
 void CellList<Dimension>::compare_cell(const Balls<Dimension>& balls, std::uint32_t begin, std::uint32_t end,
                                        const Grid& grid) {
-  const double reach_of_equal = 2 * balls.radius(0) * grid.frame.scale + grid.gap;
+  const double reach_of_equal = 2 * balls.radius(0) * grid.conversion.scale + grid.gap;
   double limit = reach_of_equal * reach_of_equal * (1 + 0x1p-40) + 0x1p-1000;
   for (std::uint32_t e = begin; e < end; ++e) {
     const BeadInCell& entry = entries_[e];
@@ -137,7 +137,7 @@ void CellList<Dimension>::compare_cell(const Balls<Dimension>& balls, std::uint3
       }
       if constexpr (!Equal) {
         const double reach =
-            (balls.radii()[entry.bead] + balls.radii()[other.bead]) * grid.frame.scale + grid.gap;
+            (balls.radii()[entry.bead] + balls.radii()[other.bead]) * grid.conversion.scale + grid.gap;
         limit = reach * reach * (1 + 0x1p-40) + 0x1p-1000;
       }
       // Neighbours along the chain are always near, so both conditions form a single branch.

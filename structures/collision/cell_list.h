@@ -19,7 +19,7 @@
 #include <span>
 #include <vector>
 
-#include "structures/blocks/float_frame.h"
+#include "structures/blocks/float_conversion.h"
 #include "structures/collision/balls_meet.h"
 #include "structures/necklace/bead_pairs.h"
 
@@ -47,7 +47,7 @@ class CellList {
     BeadId bead;
   };
   struct Grid {
-    FloatFrame<Dimension> frame;
+    FloatConversion<Dimension> conversion;
     std::array<double, dimension> low;
     std::array<std::uint64_t, dimension> stride;  // key differences of adjacent cells
     double cells_a_length, gap;                   // scaled

@@ -7,8 +7,8 @@
 // too many. If this search fails, for huge numbers or for more equally close beads than memory should hold, a
 // layered hierarchy is searched by branch and bound.
 //
-// The result is exact: all pairs up to the gap are found (float_frame.h), and the closest of them is decided
-// exactly. If its distance is within the gap, no other pair is closer.
+// The result is exact: all pairs up to the gap are found (float_conversion.h), and the closest of them is
+// decided exactly. If its distance is within the gap, no other pair is closer.
 
 #include <optional>
 #include <vector>

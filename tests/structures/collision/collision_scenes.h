@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "structures/blocks/float_frame.h"
+#include "structures/blocks/float_conversion.h"
 #include "structures/necklace/ball_distance.h"
 #include "structures/necklace/balls.h"
 #include "structures/necklace/bead_pairs.h"
@@ -116,7 +116,7 @@ inline CollisionScene random_scene(Random& random, std::size_t most_beads) {
     scene.name += ", offset " + std::to_string(std::log2(offset));
   }
   if (beads > 2 && random() % 8 == 0) {
-    scene.centers.col(1) *= -1e7;  // one bead far away makes the float frame coarse for all other beads
+    scene.centers.col(1) *= -1e7;  // one bead far away makes the float conversion coarse for all other beads
     if (!scene.centers.allFinite()) scene.centers.col(1).setConstant(-1.7e308);
     scene.name += ", one far";
   }

@@ -112,7 +112,8 @@ CollisionScene many_beads(Random& random, int dimension, bool gas, bool equal) {
   return scene;
 }
 
-// A tail swings, one bead repeatedly leaves the float frame and comes back, and all other beads creep.
+// A tail swings, one bead repeatedly leaves the range of the float conversion and comes back, and all other
+// beads creep.
 template <int Dimension>
 void swing_tail(bool gas, bool equal) {
   Random random(1);
@@ -206,7 +207,7 @@ TEST(KeptLists, ABeadWithoutAMarkMayGoBack) {
   const std::vector<BeadPair> both{{0, 1}};
   const std::vector<unsigned char> first_is_marked{1, 0};
   std::vector<BeadPair> meeting;
-  kept.keep(together, both, 1, fit_float_frame(scene_box(together), 1));
+  kept.keep(together, both, 1, fit_float_conversion(scene_box(together), 1));
   kept.replace(away, first_is_marked, both, 0.4);
   EXPECT_EQ(kept.size(), 1U);
   kept.find_meeting(away, 0.4, meeting);

@@ -2,9 +2,9 @@
 // Converts centres to floats for filters: coordinate x becomes f, the float nearest to x scale - shift. A
 // filter on these floats must never miss two balls that meet. The proof follows.
 //
-// Let u = 2^-24, let M be the frame's bound, at least 2^-30, and let every |f| be at most M. The scale is a
-// power of two. Hence X = x scale - shift is rounded twice, once of these to float: |f - X| <= u (1 + 2^-19)
-// M, underflow included. A ball of radius r gets the float radius
+// Let u = 2^-24, let M be the bound of the conversion, at least 2^-30, and let every |f| be at most M. The
+// scale is a power of two. Hence X = x scale - shift is rounded twice, once of these to float: |f - X| <= u
+// (1 + 2^-19) M, underflow included. A ball of radius r gets the float radius
 //
 //   R  =  (1 + 2^-20) r scale + 2^-21 M          (float_radius; 2^-20 = 16 u, 2^-21 = 8 u)
 //
@@ -23,9 +23,9 @@
 //      has moved by at most |f' - f| (1 + 1.8 u) + 3.48 u M, and the computed root of the sum of squares has
 //      lost less than 2.6 u.
 //
-// A frame may have axes of its own. The axes have length one and are perpendicular, both up to 2^-40. X is
-// then a sum of products with the axes. All roundings of these sums are below 2^-49 M, or below 2^-49 |f' -
-// f| if that is larger. Lengths differ by less than 2^-39 of themselves. Both errors are below 2^-14 u and
+// A conversion may have axes of its own. The axes have length one and are perpendicular, both up to 2^-40. X
+// is then a sum of products with the axes. All roundings of these sums are below 2^-49 M, or below 2^-49 |f'
+// - f| if that is larger. Lengths differ by less than 2^-39 of themselves. Both errors are below 2^-14 u and
 // fit into 2^-19 u M above and into the several u of S and of |f' - f| that 1 to 3 leave.
 //
 // Balls up to a gap g apart are balls that meet once their radii grow by g / 2.
@@ -41,16 +41,17 @@
 
 namespace kds {
 
-/// Axes of a frame, one per row.
+/// Axes of a conversion, one per row.
 template <int Dimension>
 using Axes =
     std::array<std::array<double, static_cast<std::size_t>(Dimension)>, static_cast<std::size_t>(Dimension)>;
 
+/// Scales, shifts and perhaps turns coordinates so that floats hold them.
 template <int Dimension>
-struct FloatFrame {
+struct FloatConversion {
   std::array<double, static_cast<std::size_t>(Dimension)> shift{};
   double scale = 1;
-  double bound = 0;                     ///< M; 0 for a frame without a scene
+  double bound = 0;                     ///< M; 0 for a conversion without a scene
   std::optional<Axes<Dimension>> axes;  ///< none: the coordinate axes
 
   /// Returns R before it is rounded to float.
@@ -68,10 +69,10 @@ struct FloatFrame {
 /// A float radius below which squares do not overflow, by a wide margin.
 inline constexpr float largest_float_radius = 0x1p40F;
 
-/// Converts coordinates of beads to X in a frame with axes, in doubles. `count` is a multiple of four. Input
-/// and output may be the same arrays.
+/// Converts coordinates of beads to X by a conversion with axes, in doubles. `count` is a multiple of four.
+/// Input and output may be the same arrays.
 template <int Dimension>
-void place_along_axes(const FloatFrame<Dimension>& frame,
+void place_along_axes(const FloatConversion<Dimension>& conversion,
                       const std::array<const double*, static_cast<std::size_t>(Dimension)>& coordinates,
                       const std::array<double*, static_cast<std::size_t>(Dimension)>& places,
                       std::size_t count);
@@ -131,14 +132,14 @@ template <int Dimension>
   return box;
 }
 
-/// Returns a frame with room for beads that move on: `bound` is twice the largest f that the scene's
+/// Returns a conversion with room for beads that move on: `bound` is twice the largest f that the scene's
 /// coordinates can have. Along the coordinate axes the f are below 1, and so are the scaled radii and half
 /// the scaled gap. Radii and gap are finite.
 template <int Dimension>
-[[nodiscard]] FloatFrame<Dimension> fit_float_frame(
+[[nodiscard]] FloatConversion<Dimension> fit_float_conversion(
     const SceneBox<Dimension>& box, double gap, const std::optional<Axes<Dimension>>& axes = std::nullopt) {
-  FloatFrame<Dimension> frame;
-  frame.axes = axes;
+  FloatConversion<Dimension> conversion;
+  conversion.axes = axes;
   double largest = std::max(0.5 * gap, box.largest_radius);
   double size = largest;  // half the longest side of the box, or the largest radius
   for (std::size_t axis = 0; axis < Dimension; ++axis) {
@@ -148,16 +149,16 @@ template <int Dimension>
   // Keeps |x| scale below 2^100. Differences of coordinates this large are then zero or at least 2^47.
   const int limit = largest > 0 ? 100 - std::ilogb(largest) - 1 : 0;
   const int wanted = size > 0 ? -std::ilogb(size) - 1 : limit;
-  frame.scale = std::ldexp(1.0, std::min({wanted, limit, 1023}));
+  conversion.scale = std::ldexp(1.0, std::min({wanted, limit, 1023}));
   double farthest = 0x1p-31;
   for (std::size_t axis = 0; axis < Dimension; ++axis) {
-    frame.shift[axis] = (0.5 * box.low[axis] + 0.5 * box.high[axis]) * frame.scale;
-    farthest = std::max({farthest, std::abs(box.low[axis] * frame.scale - frame.shift[axis]),
-                         std::abs(box.high[axis] * frame.scale - frame.shift[axis])});
+    conversion.shift[axis] = (0.5 * box.low[axis] + 0.5 * box.high[axis]) * conversion.scale;
+    farthest = std::max({farthest, std::abs(box.low[axis] * conversion.scale - conversion.shift[axis]),
+                         std::abs(box.high[axis] * conversion.scale - conversion.shift[axis])});
   }
   // With turned axes, a corner of the box may lie on an axis, so coordinates may be larger.
-  frame.bound = axes ? 4 * farthest : 2 * farthest;
-  return frame;
+  conversion.bound = axes ? 4 * farthest : 2 * farthest;
+  return conversion;
 }
 
 /// Returns axes that most bonds of a chain lie along, estimated from a sample of the bonds. Returns none if

@@ -1,6 +1,6 @@
-// Checks the error bounds stated in float_frame.h over rationals.
+// Checks the error bounds stated in float_conversion.h over rationals.
 
-#include "structures/blocks/float_frame.h"
+#include "structures/blocks/float_conversion.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include "tests/structures/collision/collision_scenes.h"
 #include "tests/support/rounds.h"
 
-namespace kds::float_frame_test {
+namespace kds::float_conversion_test {
 namespace {
 
 using namespace test;
@@ -52,8 +52,8 @@ Pair touching_pair(Random& random) {
   return pair;
 }
 
-/// Returns the coordinates of all beads in the frame, rounded to floats; one row per axis.
-std::array<std::vector<float>, 3> places_in(const FloatFrame<3>& frame, const Balls<3>& balls) {
+/// Returns the coordinates of all beads in the conversion, rounded to floats; one row per axis.
+std::array<std::vector<float>, 3> places_in(const FloatConversion<3>& conversion, const Balls<3>& balls) {
   std::array<std::vector<double>, 3> copies;
   std::array<double*, 3> doubles{};
   std::array<const double*, 3> coordinates{};
@@ -62,16 +62,16 @@ std::array<std::vector<float>, 3> places_in(const FloatFrame<3>& frame, const Ba
     std::copy_n(balls.coordinates(axis), balls.size(), copies[axis].begin());
     coordinates[axis] = doubles[axis] = copies[axis].data();
   }
-  if (frame.axes) place_along_axes(frame, coordinates, doubles, copies[0].size());
+  if (conversion.axes) place_along_axes(conversion, coordinates, doubles, copies[0].size());
   std::array<std::vector<float>, 3> places;
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (BeadId b = 0; b < balls.size(); ++b)
       places[axis].push_back(static_cast<float>(
-          frame.axes ? copies[axis][b] : copies[axis][b] * frame.scale - frame.shift[axis]));
+          conversion.axes ? copies[axis][b] : copies[axis][b] * conversion.scale - conversion.shift[axis]));
   return places;
 }
 
-TEST(FloatFrame, BallsThatTouchAreNearInFloats) {
+TEST(FloatConversion, BallsThatTouchAreNearInFloats) {
   Random random(1);
   double tightest = 1, tightest_turned = 1;
   for (unsigned k = 0; k < rounds(100000U); ++k) {
@@ -79,14 +79,14 @@ TEST(FloatFrame, BallsThatTouchAreNearInFloats) {
     const Balls<3> balls(pair.centers, pair.radii);
     std::optional<Axes<3>> axes;
     if (k % 2 == 1) axes = random_axes<3>(random);
-    const FloatFrame<3> frame = fit_float_frame(scene_box(balls), 0, axes);
-    const auto places = places_in(frame, balls);
-    const auto r = static_cast<float>(frame.float_radius(pair.radii[0]));
-    const auto s = static_cast<float>(frame.float_radius(pair.radii[1]));
+    const FloatConversion<3> conversion = fit_float_conversion(scene_box(balls), 0, axes);
+    const auto places = places_in(conversion, balls);
+    const auto r = static_cast<float>(conversion.float_radius(pair.radii[0]));
+    const auto s = static_cast<float>(conversion.float_radius(pair.radii[1]));
     float square = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float f = places[axis][0], g = places[axis][1];
-      ASSERT_LE(std::abs(f), frame.bound);
+      ASSERT_LE(std::abs(f), conversion.bound);
       ASSERT_LE(f - r, g + s);
       ASSERT_LE(g - s, f + r);
       square += (f - g) * (f - g);
@@ -100,21 +100,21 @@ TEST(FloatFrame, BallsThatTouchAreNearInFloats) {
   EXPECT_LT(tightest_turned, 0x1p-16);
 }
 
-TEST(FloatFrame, CoordinatesErrByLessThanClaimed) {
+TEST(FloatConversion, CoordinatesErrByLessThanClaimed) {
   Random random(2);
   for (unsigned k = 0; k < rounds(3000U); ++k) {
     const CollisionScene scene = random_scene(random, 5);
     const Balls<3> balls(scene.centers, scene.radii);
     std::optional<Axes<3>> axes;
     if (k % 2 == 1) axes = random_axes<3>(random);
-    const FloatFrame<3> frame = fit_float_frame(scene_box(balls), 0, axes);
-    ASSERT_GE(frame.bound, 0x1p-30);
-    const auto places = places_in(frame, balls);
+    const FloatConversion<3> conversion = fit_float_conversion(scene_box(balls), 0, axes);
+    ASSERT_GE(conversion.bound, 0x1p-30);
+    const auto places = places_in(conversion, balls);
     for (BeadId b = 0; b < balls.size(); ++b) {
       std::array<Rational, 3> exact;
       for (std::size_t axis = 0; axis < 3; ++axis)
-        exact[axis] =
-            Rational(balls.coordinate(b, axis)) * Rational(frame.scale) - Rational(frame.shift[axis]);
+        exact[axis] = Rational(balls.coordinate(b, axis)) * Rational(conversion.scale) -
+                      Rational(conversion.shift[axis]);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         Rational along = exact[axis];
         if (axes) {
@@ -122,16 +122,17 @@ TEST(FloatFrame, CoordinatesErrByLessThanClaimed) {
           for (std::size_t j = 0; j < 3; ++j) along += Rational((*axes)[axis][j]) * exact[j];
         }
         const float f = places[axis][b];
-        ASSERT_LE(abs(Rational(f) - along), Rational(0x1p-24) * Rational(1 + 0x1p-19) * Rational(frame.bound))
+        ASSERT_LE(abs(Rational(f) - along),
+                  Rational(0x1p-24) * Rational(1 + 0x1p-19) * Rational(conversion.bound))
             << scene.name;
-        ASSERT_LE(std::abs(f), frame.bound);
+        ASSERT_LE(std::abs(f), conversion.bound);
       }
-      ASSERT_LT(balls.radius(b) * frame.scale, 1.0);
+      ASSERT_LT(balls.radius(b) * conversion.scale, 1.0);
     }
   }
 }
 
-TEST(FloatFrame, StrayedIsNoLessThanExactly) {
+TEST(FloatConversion, StrayedIsNoLessThanExactly) {
   Random random(3);
   for (unsigned k = 0; k < rounds(2000U); ++k) {
     const CollisionScene scene = random_scene(random, 40);
@@ -165,4 +166,4 @@ TEST(FloatFrame, StrayedIsNoLessThanExactly) {
 }
 
 }  // namespace
-}  // namespace kds::float_frame_test
+}  // namespace kds::float_conversion_test

@@ -1,4 +1,4 @@
-#include "structures/blocks/float_frame.h"
+#include "structures/blocks/float_conversion.h"
 
 #include <algorithm>
 #include <array>
@@ -118,16 +118,16 @@ std::optional<Axes<Dimension>> averaged(const std::vector<Direction<Dimension>>&
 }  // namespace
 
 template <int Dimension>
-void place_along_axes(const FloatFrame<Dimension>& frame,
+void place_along_axes(const FloatConversion<Dimension>& conversion,
                       const std::array<const double*, static_cast<std::size_t>(Dimension)>& coordinates,
                       const std::array<double*, static_cast<std::size_t>(Dimension)>& places,
                       std::size_t count) {
-  place(frame.shift, frame.scale, frame.axes.value(), coordinates, places, count);
+  place(conversion.shift, conversion.scale, conversion.axes.value(), coordinates, places, count);
 }
 
-template void place_along_axes(const FloatFrame<2>&, const std::array<const double*, 2>&,
+template void place_along_axes(const FloatConversion<2>&, const std::array<const double*, 2>&,
                                const std::array<double*, 2>&, std::size_t);
-template void place_along_axes(const FloatFrame<3>&, const std::array<const double*, 3>&,
+template void place_along_axes(const FloatConversion<3>&, const std::array<const double*, 3>&,
                                const std::array<double*, 3>&, std::size_t);
 
 template <int Dimension>
