@@ -16,7 +16,7 @@ constexpr int steps = 3;
 using Motion = kds::BezierMotion<3, 1>;  // in space, linear between two frames
 
 /// Computes the position of a bead of a coil that winds up, at a frame.
-void place(kds::BeadId bead, int frame, double (&at)[3]) {
+void set_position(kds::BeadId bead, int frame, double (&at)[3]) {
   const double angle = 0.6 * bead * (1 + 0.15 * frame), radius = 2 + 0.3 * std::sin(1.7 * bead + frame);
   at[0] = radius * std::cos(angle);
   at[1] = radius * std::sin(angle);
@@ -28,7 +28,7 @@ void load(Motion& motion, int step) {
   double at[3];
   for (kds::BeadId bead = 0; bead < beads; ++bead) {
     for (int end = 0; end < 2; ++end) {
-      place(bead, step + end, at);
+      set_position(bead, step + end, at);
       for (int axis = 0; axis < 3; ++axis) motion.set_coordinate(bead, end, axis, at[axis]);
       motion.set_radius(bead, end, 0.9);
       motion.set_weight(bead, end, 0.9 * 0.9);

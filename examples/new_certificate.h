@@ -35,6 +35,6 @@ struct Above {
   [[nodiscard]] kds::Identity identity() const { return kds::identity_of(type, beads); }
   [[nodiscard]] bool side() const { return above; }
   static constexpr auto formula(const kds::MotionView auto& view, const std::array<kds::BeadId, 1>& b) {
-    return dot(view.difference(b[0], view.place(&Constants::foot)), view.constant(&Constants::normal));
+    return dot(view.difference(b[0], view.bead(&Constants::foot)), view.constant(&Constants::normal));
   }
 };

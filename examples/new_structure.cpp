@@ -16,7 +16,7 @@ constexpr int steps = 4;
 using Motion = kds::BezierMotion<2, 1>;  // in the plane, linear between two frames
 
 /// Places beads on two circles that rotate in opposite directions.
-void place(Motion& motion, int end, int frame) {
+void set_position(Motion& motion, int end, int frame) {
   for (kds::BeadId bead = 0; bead < beads; ++bead) {
     const double radius = bead % 2 == 0 ? 5 : 4, turn = (bead % 2 == 0 ? 0.2 : -0.3) * frame + 0.5 * bead;
     motion.set_coordinate(bead, end, 0, radius * std::cos(turn));
@@ -31,8 +31,8 @@ std::uint64_t run(kds::Kernel kernel, bool tell) {
   kds::Simulator simulator(kds::AuditMode::events, kernel);
   NeighborPairs<2> neighbors(simulator, motion);
   for (int step = 0; step < steps; ++step) {
-    place(motion, 0, step);
-    place(motion, 1, step + 1);
+    set_position(motion, 0, step);
+    set_position(motion, 1, step + 1);
     neighbors.set_cutoff({cutoff_at(step), cutoff_at(step + 1)});
     if (step == 0) simulator.build();
     simulator.run_step();

@@ -53,8 +53,8 @@ class NumberOfTable {
 
 namespace detail {
 
-/// The identity of a certificate with constants needs two more places: its last place names the table, and
-/// the place before the last stays unused.
+/// The identity of a certificate with constants needs two more entries: its last entry names the table, and
+/// the entry before the last stays unused.
 template <class Certificate>
 concept IdentityHasRoom = !HasConstants<Certificate> ||
                           (std::tuple_size_v<decltype(Certificate{}.beads)> + 2 <= Identity::most_beads);
@@ -139,7 +139,7 @@ class CertificateTable final : public FailureSource {
   void enqueue_one_of_many(const Certificate& certificate, std::uint32_t place, KnownAtStart birth) {
     one_of_many(place, birth) = certificate;
   }
-  /// Enqueues one of many as above, and returns its place in memory, where the caller constructs it. Copying
+  /// Enqueues one of many as above, and returns a reference, through which the caller constructs it. Copying
   /// a certificate just made elsewhere is slow.
   [[nodiscard]] Certificate& one_of_many(std::uint32_t place, KnownAtStart birth) {
     constexpr std::size_t at_a_time = 512;

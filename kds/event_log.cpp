@@ -92,7 +92,7 @@ class Scale {
     Rational at_lower = at(time.lower()), at_upper = at(time.upper());
     while (!time.is_dyadic() && is_wide(at_lower, at_upper)) {
       if (sgn(at_lower) * sgn(at_upper) < 0) {
-        if (compare_with(time, place_of(Rational(0))) == 0) return {};
+        if (compare_with(time, in_interval(Rational(0))) == 0) return {};
       } else {
         narrow(time, std::max(abs(at_lower), abs(at_upper)));
       }
@@ -104,7 +104,7 @@ class Scale {
     // The bracket is so narrow that these two numbers are neighbours. The number half way between them
     // decides which one is nearer.
     const Rational tie = (first.value() + last.value()) / Rational(2);
-    const int side = compare_with(time, place_of(tie));
+    const int side = compare_with(time, in_interval(tie));
     return side < 0 ? first : side > 0 ? last : kds::rounded(tie);
   }
 
@@ -122,7 +122,7 @@ class Scale {
     else
       time.narrow_to_width(width);
   }
-  [[nodiscard]] Rational place_of(const Rational& value) const { return (value - begin_) / length_; }
+  [[nodiscard]] Rational in_interval(const Rational& value) const { return (value - begin_) / length_; }
 
   Rational begin_, length_;
 };
@@ -150,19 +150,19 @@ class TimeOnScales {
 }  // namespace
 
 RoundedTime rounded_time(const Instant& now, const FrameStamp& from, const FrameStamp& to) {
-  TimeOnScales place(now);
-  RoundedTime time{place.on(static_cast<double>(from.number), static_cast<double>(to.number)), {}};
-  if (from.picoseconds && to.picoseconds) time.picoseconds = place.on(*from.picoseconds, *to.picoseconds);
+  TimeOnScales scales(now);
+  RoundedTime time{scales.on(static_cast<double>(from.number), static_cast<double>(to.number)), {}};
+  if (from.picoseconds && to.picoseconds) time.picoseconds = scales.on(*from.picoseconds, *to.picoseconds);
   return time;
 }
 
-TimeBracket canonical_bracket(const Instant& now, unsigned places) {
-  const auto cells = static_cast<double>(std::uint64_t{1} << places);
+TimeBracket canonical_bracket(const Instant& now, unsigned bits) {
+  const auto cells = static_cast<double>(std::uint64_t{1} << bits);
   const double first = std::floor(now.lower() * cells), last = std::ceil(now.upper() * cells);
   if (last <= first + 1) return {first / cells, last / cells};
   std::optional<ExactTime> time = now.exact_apart();
   if (!time) return {now.lower(), now.upper()};
-  const double after = next_on_grid(*time, places).round_down(), before = after - 1 / cells;
+  const double after = next_on_grid(*time, bits).round_down(), before = after - 1 / cells;
   return {before, time->is_dyadic() && time->lower() == Dyadic(before) ? before : after};
 }
 

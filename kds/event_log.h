@@ -35,14 +35,14 @@ struct TimeBracket {
 
 /// Brackets of events end at multiples of 2^-event_places. Searches leave brackets of up to 2^-24. The finer
 /// the grid is, the more often a number of the grid lies in such a bracket, which takes exact work: for 3% of
-/// the flips of a power diagram with 24 places, for all of them with 40.
-inline constexpr unsigned event_places = 24;
+/// the flips of a power diagram with 24 bits, for all of them with 40.
+inline constexpr unsigned event_bits = 24;
 
 /// Returns the canonical bracket of a time, which depends on the time alone and not on how a search found it:
-/// the time itself, twice, if it is a multiple of 2^-places, otherwise its two neighbours among these
-/// multiples. `places` is at most 52. Takes exact work if a multiple lies in the bracket of `now`, which is
+/// the time itself, twice, if it is a multiple of 2^-bits, otherwise its two neighbours among these
+/// multiples. `bits` is at most 52. Takes exact work if a multiple lies in the bracket of `now`, which is
 /// not narrowed. If then only a bracket is known (a replayed time), returns this bracket.
-[[nodiscard]] TimeBracket canonical_bracket(const Instant& now, unsigned places = event_places);
+[[nodiscard]] TimeBracket canonical_bracket(const Instant& now, unsigned bits = event_bits);
 
 /// A change of a structure as listeners receive it: a complete record that remains valid after the run.
 struct Event {

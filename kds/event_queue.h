@@ -81,7 +81,7 @@ class EventQueue {
 
   void erase(QueueHandle handle) {
     if (entries_[handle].bin == in_heap) {
-      erase_near(entries_[handle].place);
+      erase_near(entries_[handle].index);
     } else {
       erase_far(entries_[handle]);
     }
@@ -110,7 +110,7 @@ class EventQueue {
   struct Entry {
     Key key;
     std::uint32_t bin;    // bin number, or in_heap
-    std::uint32_t place;  // position in the bin or in the heap
+    std::uint32_t index;  // position in the bin or in the heap
   };
 
   // Far entries.
@@ -126,7 +126,7 @@ class EventQueue {
   void push_far(QueueHandle handle, std::uint32_t bin) {
     Entry& entry = entries_[handle];
     entry.bin = bin;
-    entry.place = static_cast<std::uint32_t>(bins_[bin].size());
+    entry.index = static_cast<std::uint32_t>(bins_[bin].size());
     bins_[bin].push_back(handle);
     filled_[bin / 64] |= 1ULL << (bin % 64);
     ++far_count_;
@@ -135,8 +135,8 @@ class EventQueue {
   void erase_far(const Entry& entry) {
     std::vector<QueueHandle>& bin = bins_[entry.bin];
     const QueueHandle last = bin.back();
-    bin[entry.place] = last;
-    entries_[last].place = entry.place;
+    bin[entry.index] = last;
+    entries_[last].index = entry.index;
     bin.pop_back();
     if (bin.empty()) filled_[entry.bin / 64] &= ~(1ULL << (entry.bin % 64));
     --far_count_;
@@ -223,7 +223,7 @@ class EventQueue {
   }
 
   void put(std::size_t i, QueueHandle handle) {
-    entries_[handle].place = static_cast<std::uint32_t>(i);
+    entries_[handle].index = static_cast<std::uint32_t>(i);
     near_[i] = handle;
   }
 

@@ -19,7 +19,7 @@
 
 namespace kds {
 
-/// A structure with its place in a run: its name, its kinds of events and its number in the simulator.
+/// A structure with its registration in a run: its name, its kinds of events and its number in the simulator.
 class StructureBase : public KineticStructure {
  public:
   StructureBase(const StructureBase&) = delete;

@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, 5> rules{"more beads", "larger sphere", "
                                                 "smallest"};
 
 template <std::size_t Count>
-std::size_t place_of(const char* name, const std::string& word,
+std::size_t index_of(const char* name, const std::string& word,
                      const std::array<std::string_view, Count>& known) {
   const auto* const found = std::find(known.begin(), known.end(), word);
   if (found == known.end())
@@ -70,8 +70,8 @@ py::tuple separating_family(const Numbers& centers, const Numbers& radii,
                             const std::string& rule, std::size_t leaf, std::size_t apart, bool between,
                             std::size_t rounds) {
   const BallsGiven balls(centers, radii);
-  const auto kind = static_cast<Hierarchy>(place_of("hierarchy", hierarchy, hierarchy_names));
-  const std::size_t which = place_of("rule", rule, rules);
+  const auto kind = static_cast<Hierarchy>(index_of("hierarchy", hierarchy, hierarchy_names));
+  const std::size_t which = index_of("rule", rule, rules);
   if (leaf < 1 || leaf > balls.radii.size())
     throw InputError(fmt::format("leaf: {} is not a number of beads from 1 to {}", leaf, balls.radii.size()));
   PairsAsked asked = balls.pairs(necklaces, apart);

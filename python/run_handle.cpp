@@ -169,7 +169,7 @@ void RunHandle::execute(const py::object& progress) {
   if (parts) {
     parts->listen(events_);
     follow_approach(*parts);
-  } else if (const auto closest = place_of_closest(run); closest) {
+  } else if (const auto closest = index_of_closest(run); closest) {
     approach.emplace(run, *closest);
   }
   if (options_.view) {
@@ -329,7 +329,7 @@ std::uint64_t RunHandle::fingerprint() {
   return report_ ? report_->fingerprint : run_->simulator().fingerprint();
 }
 
-std::size_t RunHandle::place_of(const std::string& structure) const {
+std::size_t RunHandle::index_of(const std::string& structure) const {
   const auto& all = run_->structures();
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&](const KineticStructure* one) { return one->name() == structure; });
@@ -356,7 +356,7 @@ Structure* RunHandle::find_structure() const {
 }
 
 py::array_t<std::int64_t> RunHandle::edges(std::optional<double> time) {
-  static_cast<void>(place_of("power"));
+  static_cast<void>(index_of("power"));
   std::vector<BeadPair> pairs;
   {
     const Use use(*this);
@@ -372,7 +372,7 @@ py::array_t<std::int64_t> RunHandle::edges(std::optional<double> time) {
 }
 
 py::array_t<std::int64_t> RunHandle::contacts(std::optional<double> time) {
-  static_cast<void>(place_of("contacts"));
+  static_cast<void>(index_of("contacts"));
   std::vector<BeadPair> pairs;
   {
     const Use use(*this);
@@ -388,12 +388,12 @@ py::array_t<std::int64_t> RunHandle::contacts(std::optional<double> time) {
 }
 
 py::tuple RunHandle::spheres(const std::string& structure, std::optional<double> time) {
-  const std::size_t place = place_of(structure);
+  const std::size_t index = index_of(structure);
   std::vector<NodeSphere> nodes;
   {
     const Use use(*this);
     const Dyadic u = stand_at(time);
-    nodes = run_->spheres_at(place, u);
+    nodes = run_->spheres_at(index, u);
   }
   std::vector<std::int64_t> beads;
   std::vector<double> spheres;
@@ -408,12 +408,12 @@ py::tuple RunHandle::spheres(const std::string& structure, std::optional<double>
 }
 
 py::tuple RunHandle::elements(const std::string& structure, std::size_t frame) {
-  const std::size_t place = place_of(structure);
+  const std::size_t index = index_of(structure);
   std::optional<CombinatorialElements> found;
   {
     const Use use(*this);
     static_cast<void>(stand_at(static_cast<double>(frame)));
-    found = run_->elements(place, frame);
+    found = run_->elements(index, frame);
   }
   if (!found) throw InputError(fmt::format("{}: its state at a frame is no set of elements", structure));
   std::sort(found->all.begin(), found->all.end());

@@ -119,7 +119,7 @@ class RunHandle {
   /// Opens the run on several threads, or returns null if it takes one. Keeps a warning that says why.
   [[nodiscard]] std::unique_ptr<ParallelRun> open_parts();
   [[nodiscard]] ReplayLabels labels() const;
-  [[nodiscard]] std::size_t place_of(const std::string& structure) const;
+  [[nodiscard]] std::size_t index_of(const std::string& structure) const;
   /// Goes to a time and returns the parameter in the step under way or just run.
   [[nodiscard]] Dyadic stand_at(std::optional<double> time);
   template <class Structure>

@@ -31,17 +31,18 @@ inline constexpr Channels channels_of = [] {
 
 /// The number of beads of a function.
 template <class F>
-inline constexpr std::size_t bead_places = std::tuple_size_v<decltype(F{}.beads)>;
+inline constexpr std::size_t bead_arity = std::tuple_size_v<decltype(F{}.beads)>;
 
 /// The argument of a formula: an array of beads, or a type that holds further parameters too.
 template <class F>
 using BeadsOf = decltype(F{}.beads);
 
-/// Returns beads numbered by their places 0, 1, 2 ..., as formulas over lanes name them. Further parameters
-/// are kept.
+/// Returns the beads 0, 1, 2 ..., by which formulas over lanes name their arguments. Further parameters are
+/// kept.
 template <class F>
-[[nodiscard]] constexpr BeadsOf<F> in_places(BeadsOf<F> beads = {}) {
-  for (std::size_t place = 0; place < bead_places<F>; ++place) beads[place] = static_cast<BeadId>(place);
+[[nodiscard]] constexpr BeadsOf<F> argument_numbers(BeadsOf<F> beads = {}) {
+  for (std::size_t argument = 0; argument < bead_arity<F>; ++argument)
+    beads[argument] = static_cast<BeadId>(argument);
   return beads;
 }
 

@@ -29,7 +29,7 @@ struct Identity {
   static constexpr std::size_t most_beads = 8;
 
   std::uint32_t type = 0;
-  std::array<BeadId, most_beads> beads{};  ///< unused places hold the highest id
+  std::array<BeadId, most_beads> beads{};  ///< unused entries hold the highest id
 
   friend constexpr auto operator<=>(const Identity&, const Identity&) = default;
 };

@@ -7,8 +7,8 @@
 //
 //   Constant<1>, Constant<2>   a length, a squared length: view.constant(&Constants::name), a polynomial
 //   ConstantVector<D>          a vector of lengths, as of a plane's normal: view.constant, D polynomials
-//   ConstantPoint<D>           a point: view.place, used in the formula where a bead is
-//   ConstantBead               a bead that all certificates of the table name: view.place
+//   ConstantPoint<D>           a point: view.bead, used in the formula where a bead is
+//   ConstantBead               a bead that all certificates of the table name: view.bead
 //
 // A type that uses the positions of beads, view.position(bead), declares `static constexpr bool
 // uses_positions = true`. Types without constants and positions pay nothing for these features.
@@ -200,17 +200,17 @@ inline const Constants sample_of_constants{};
 
 /// Returns the index of a member among the constants, from 0.
 template <class Constants, class Member>
-[[nodiscard, gnu::always_inline]] inline std::size_t place_of_constant(Member Constants::*member) {
+[[nodiscard, gnu::always_inline]] inline std::size_t index_of_constant(Member Constants::*member) {
   const Constants& sample = detail::sample_of_constants<Constants>;
   const void* const wanted = &(sample.*member);
-  std::size_t place = 0;
+  std::size_t index = 0;
   bool found = false;
   const auto look_at = [&](const void* member_of_sample) {
     found = found || member_of_sample == wanted;
-    if (!found) ++place;
+    if (!found) ++index;
   };
   std::apply([&](const auto&... each) { (look_at(&each), ...); }, detail::members_of(sample));
-  return place;
+  return index;
 }
 
 }  // namespace kds

@@ -16,17 +16,17 @@ namespace {
 
 // When to try a gcd. Bisection is cheaper while two times differ, but it is wasted if they are equal, so a
 // gcd is tried after a few bisections. The root of a wide polynomial may have any scale; it is first narrowed
-// to `digits_before_gcd` digits. A time with `most_places_before_gcd` binary places is narrow enough: without
-// this limit, a time at which thousands of functions vanish would be narrowed by a few bits for each of them,
-// and the numbers would grow with the number of comparisons.
+// to `digits_before_gcd` digits. A time with `most_bits_before_gcd` bits after the point is narrow enough:
+// without this limit, a time at which thousands of functions vanish would be narrowed by a few bits for each
+// of them, and the numbers would grow with the number of comparisons.
 constexpr int bisections_before_gcd = 4;
-constexpr unsigned digits_before_gcd = 64, most_places_before_gcd = 256;
+constexpr unsigned digits_before_gcd = 64, most_bits_before_gcd = 256;
 
 bool wants_gcd(const ExactTime& time, int bisections) {
   if (time.is_dyadic()) return true;
   if (time.polynomial().wide() != nullptr) return has_digits({time.lower(), time.upper()}, digits_before_gcd);
   return bisections >= bisections_before_gcd ||
-         std::min(time.lower().exponent(), time.upper().exponent()) >= most_places_before_gcd;
+         std::min(time.lower().exponent(), time.upper().exponent()) >= most_bits_before_gcd;
 }
 
 // Returns true if the time was constructed from this very polynomial, and is thus its only root in the
@@ -100,21 +100,21 @@ void ExactTime::refine() {
   if (is_dyadic()) return;
   // Halving gains one bit per step, which is too slow for a root of a very different scale or with
   // thousands of digits.
-  constexpr unsigned few_places = 256;
-  if (polynomial_.wide() == nullptr && root_.upper.exponent() > few_places)
+  constexpr unsigned few_bits = 256;
+  if (polynomial_.wide() == nullptr && root_.upper.exponent() > few_bits)
     polynomial_ = ExactPolynomial(std::make_shared<const WidePolynomial>(polynomial_.scaled()));
   if (polynomial_.wide() != nullptr) return narrow_root(*polynomial_.wide(), root_);
   cut_at(Dyadic::midpoint(root_.lower, root_.upper));
 }
 
-void ExactTime::cut_at(Dyadic place) {
-  const int sign = polynomial_.sign_at(place);
+void ExactTime::cut_at(Dyadic point) {
+  const int sign = polynomial_.sign_at(point);
   if (sign == 0) {
-    root_ = {place, place};
+    root_ = {point, point};
   } else if (sign == root_.sign_at_lower) {
-    root_.lower = std::move(place);
+    root_.lower = std::move(point);
   } else {
-    root_.upper = std::move(place);
+    root_.upper = std::move(point);
   }
 }
 
@@ -158,8 +158,8 @@ void ExactTime::narrow_to_width(double width) {
 
 namespace {
 
-// Returns the number of binary places down to the length of the time's interval.
-std::int64_t places_of(const ExactTime& time) {
+// Returns the number of bits after the point down to the length of the time's interval.
+std::int64_t bits_of(const ExactTime& time) {
   const unsigned exponent = std::max(time.lower().exponent(), time.upper().exponent());
   const Integer length = (time.upper().numerator() << (exponent - time.upper().exponent())) -
                          (time.lower().numerator() << (exponent - time.lower().exponent()));
@@ -170,7 +170,7 @@ std::int64_t places_of(const ExactTime& time) {
 // thousands of bits for others, and the surplus would never be used.
 void refine_both(ExactTime& a, ExactTime& b) {
   constexpr std::int64_t far_ahead = 64;
-  const std::int64_t ahead = a.is_dyadic() || b.is_dyadic() ? 0 : places_of(a) - places_of(b);
+  const std::int64_t ahead = a.is_dyadic() || b.is_dyadic() ? 0 : bits_of(a) - bits_of(b);
   if (ahead <= far_ahead) a.refine();
   if (ahead >= -far_ahead) b.refine();
 }

@@ -41,8 +41,8 @@ class ExactTime {
 
  private:
   friend Dyadic next_on_grid(ExactTime& time, unsigned bits);
-  /// Moves an end of the interval to `place`, which lies within, or both if `place` is the time.
-  void cut_at(Dyadic place);
+  /// Moves an end of the interval to `point`, which lies within, or both if `point` is the time.
+  void cut_at(Dyadic point);
 
   ExactPolynomial polynomial_;
   RootInterval root_;

@@ -36,14 +36,14 @@ std::shared_ptr<const WidePolynomial> RecentFunctions::of(const void* formula,
     if (known.formula == formula && same(known.numbers, numbers))
       return negative ? known.negative : known.function;
   }
-  Known& place = shelf.known[shelf.oldest];
+  Known& entry = shelf.known[shelf.oldest];
   shelf.oldest = (shelf.oldest + 1) % shelf.known.size();
   const auto function = std::make_shared<const WidePolynomial>(std::move(source));
-  place = {formula, numbers, function, std::make_shared<const WidePolynomial>(function)};
-  return negative ? place.negative : place.function;
+  entry = {formula, numbers, function, std::make_shared<const WidePolynomial>(function)};
+  return negative ? entry.negative : entry.function;
 }
 
-std::size_t RecentCoefficients::place_of(const Key& key) {
+std::size_t RecentCoefficients::entry_of(const Key& key) {
   constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;
   std::uint64_t hash = 0;
   for (const double& x : key.numbers) {
@@ -56,7 +56,7 @@ std::size_t RecentCoefficients::place_of(const Key& key) {
 
 const std::vector<Integer>* RecentCoefficients::of(const Key& key) const {
   if (known_.empty()) return nullptr;
-  const Known& known = known_[place_of(key)];
+  const Known& known = known_[entry_of(key)];
   // Compare bit by bit: 0 and -0 make the same function, but it is not worth a special case to share it.
   const bool same = known.formula == key.formula && known.numbers.size() == key.numbers.size() &&
                     std::memcmp(known.numbers.data(), key.numbers.data(), key.numbers.size_bytes()) == 0;
@@ -65,7 +65,7 @@ const std::vector<Integer>* RecentCoefficients::of(const Key& key) const {
 
 void RecentCoefficients::keep(const Key& key, const std::vector<Integer>& coefficients) {
   if (known_.empty()) known_.resize(room);
-  Known& known = known_[place_of(key)];
+  Known& known = known_[entry_of(key)];
   known.formula = key.formula;
   known.numbers.assign(key.numbers.begin(), key.numbers.end());
   known.coefficients = coefficients;

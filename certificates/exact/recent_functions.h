@@ -37,7 +37,7 @@ class RecentCoefficients {
     std::vector<double> numbers;
     std::vector<Integer> coefficients;
   };
-  [[nodiscard]] static std::size_t place_of(const Key& key);
+  [[nodiscard]] static std::size_t entry_of(const Key& key);
 
   std::vector<Known> known_;  // indexed by a hash of the numbers, the same in every run
 };

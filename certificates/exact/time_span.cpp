@@ -45,11 +45,11 @@ ExactPolynomial between(const ExactPolynomial& p, const Rational& a, const Ratio
 /// Returns a dyadic number between two rational numbers, low < high, with few digits.
 Dyadic dyadic_in(const Rational& low, const Rational& high) {
   const Rational room = high - low;
-  unsigned places = 0;
-  for (Rational step(1); step >= room; step /= 2) ++places;
-  Integer below = numerator(low) << places;
+  unsigned bits = 0;
+  for (Rational step(1); step >= room; step /= 2) ++bits;
+  Integer below = numerator(low) << bits;
   mpz_fdiv_q(below.get_mpz_t(), below.get_mpz_t(), low.get_den_mpz_t());
-  return {below + 1, places};  // in (low, low + 2^-places], and 2^-places < room
+  return {below + 1, bits};  // in (low, low + 2^-bits], and 2^-bits < room
 }
 
 /// Returns the image of an irrational time as a root on [0, 1], or nothing if the time proves to be dyadic.
@@ -67,11 +67,11 @@ std::optional<ExactTime> image(const ExactTime& time, const AffineMap& map) {
 
 }  // namespace
 
-int compare_with(ExactTime& time, const Rational& place) {
-  if (time.is_dyadic()) return sgn(Rational(time.lower().rational() - place));
-  if (place <= time.lower().rational()) return 1;
-  if (place >= time.upper().rational()) return -1;
-  const Integer p = numerator(place), q = denominator(place);
+int compare_with(ExactTime& time, const Rational& point) {
+  if (time.is_dyadic()) return sgn(Rational(time.lower().rational() - point));
+  if (point <= time.lower().rational()) return 1;
+  if (point >= time.upper().rational()) return -1;
+  const Integer p = numerator(point), q = denominator(point);
   ExactTime there(ExactPolynomial({p, p - q}), RootInterval{Dyadic(0.0), Dyadic(1.0)});
   return ExactTime::compare(time, there);
 }

@@ -21,7 +21,7 @@ struct StepClock {
 [[nodiscard]] int compare_span(ExactTime& earlier, const StepClock& earlier_clock, ExactTime& later,
                                const StepClock& later_clock, double length);
 
-/// Returns the sign of time - place. Narrows the time to that side of `place`.
-[[nodiscard]] int compare_with(ExactTime& time, const Rational& place);
+/// Returns the sign of time - point. Narrows the time to that side of `point`.
+[[nodiscard]] int compare_with(ExactTime& time, const Rational& point);
 
 }  // namespace kds

@@ -21,17 +21,17 @@ constexpr std::size_t most_kept_bits = 2048;
 /// it.
 bool suffice(const std::vector<BallNumber>& c, std::size_t digits) {
   struct Corner {
-    std::int64_t place, top;
+    std::int64_t index, top;
     /// Returns whether this corner is on or below the line through the two others.
     [[nodiscard]] bool is_below(const Corner& from, const Corner& to) const {
-      return (top - from.top) * (to.place - from.place) <= (to.top - from.top) * (place - from.place);
+      return (top - from.top) * (to.index - from.index) <= (to.top - from.top) * (index - from.index);
     }
   };
   std::vector<Corner> polygon, doubtful;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Corner corner{static_cast<std::int64_t>(k), c[k].top_bit()};
     if (!c[k].has_digits(digits)) {
-      doubtful.push_back({corner.place, corner.top + static_cast<std::int64_t>(digits)});
+      doubtful.push_back({corner.index, corner.top + static_cast<std::int64_t>(digits)});
     } else if (!c[k].is_zero()) {
       while (polygon.size() > 1 && polygon.back().is_below(polygon[polygon.size() - 2], corner))
         polygon.pop_back();
@@ -40,7 +40,7 @@ bool suffice(const std::vector<BallNumber>& c, std::size_t digits) {
   }
   return std::all_of(doubtful.begin(), doubtful.end(), [&](const Corner& x) {
     const auto after =
-        std::find_if(polygon.begin(), polygon.end(), [&](const Corner& y) { return y.place > x.place; });
+        std::find_if(polygon.begin(), polygon.end(), [&](const Corner& y) { return y.index > x.index; });
     return after != polygon.begin() && after != polygon.end() && x.is_below(*(after - 1), *after);
   });
 }
@@ -88,8 +88,8 @@ std::size_t bits_at(const WidePolynomial& polynomial, unsigned exponent) {
 
 /// Returns how many binary digits both ends have in common, measured from 0 or 1, whichever is nearer.
 std::size_t digits_of(const detail::Ends& ends) {
-  const std::size_t places = std::min(bit_length(ends.upper), bit_length(ends.above_lower));
-  return places - std::min(places, bit_length(ends.upper - ends.lower));
+  const std::size_t bits = std::min(bit_length(ends.upper), bit_length(ends.above_lower));
+  return bits - std::min(bits, bit_length(ends.upper - ends.lower));
 }
 
 bool is_enough(const Variations& v) { return v.least == v.most || v.least >= 2; }

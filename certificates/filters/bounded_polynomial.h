@@ -59,8 +59,8 @@ struct ErrorBound {
 enum class Verdict : std::uint8_t { never, found, undecided };
 
 /// A polynomial whose Bernstein coefficients are known up to a proved error, and the search for the first
-/// place where it certainly turns negative. The work is bounded; if a result cannot be proved, the class says
-/// so.
+/// time at which it certainly turns negative. The work is bounded; if a result cannot be proved, the class
+/// says so.
 struct BoundedPolynomial {
   Coefficients<double> bernstein;  ///< plain Bernstein coefficients on [0,1], at least one
   double value_error = 0;          ///< error of any value at a double

@@ -256,8 +256,8 @@ template <class FloatLanes, Motion M>
                                                               PositiveBits& positive) {
   using View = FloatLanesView<M, FloatLanes>;
   RowSizes<FloatLanes> sizes;
-  const auto cofactors = power_cofactors<View>([&](std::size_t place) __attribute__((always_inline)) {
-    const View view(motion, &all_cells[first], place, unit);
+  const auto cofactors = power_cofactors<View>([&](std::size_t vertex) __attribute__((always_inline)) {
+    const View view(motion, &all_cells[first], vertex, unit);
     const PowerRow<View> row(view, 1, 0);
     sizes.take(view);
     return row;
@@ -291,8 +291,8 @@ template <class FloatLanes, Motion M>
   const auto& bound = bounds.of_step;
   const auto* cells = &all_cells[first];
   RowSizes<FloatLanes> cell_sizes;
-  const auto row_of = [&](std::size_t place) __attribute__((always_inline)) {
-    const View view(motion, cells, place, unit);
+  const auto row_of = [&](std::size_t vertex) __attribute__((always_inline)) {
+    const View view(motion, cells, vertex, unit);
     const PowerRow<View> row(view, 1, 0);
     cell_sizes.take(view);
     return row;
@@ -307,8 +307,8 @@ template <class FloatLanes, Motion M>
                 static_cast<int>(positive_throughout<M::dimension>), bits);
   }
   int bit = 1;
-  for (std::size_t place = vertices; place < vertices + beyond; ++place, bit += bit) {
-    const View view(motion, cells, place, unit);
+  for (std::size_t vertex = vertices; vertex < vertices + beyond; ++vertex, bit += bit) {
+    const View view(motion, cells, vertex, unit);
     const PowerRow<View> row(view, 1, 0);
     const auto function = cofactors.with(row);
     RowSizes<FloatLanes> sizes = cell_sizes;

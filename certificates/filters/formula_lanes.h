@@ -32,12 +32,11 @@ namespace detail {
 /// Inlined into callers that are themselves compiled for lanes.
 template <class Certificate, Motion M, int Degree>
 [[gnu::always_inline]] inline void evaluate_in_line(
-    const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
-    const Lanes& sides, const LanesBound<Degree>& bound, ScaledLanes<Degree>& lanes,
-    const BeadsOf<Certificate>& like = {}) {
-  const BeadsOf<Certificate> places = in_places<Certificate>(like);  // constants for the compiler
-  const LanesView<M, bead_places<Certificate>, channels_of<Certificate>> view(motion, tuples);
-  const auto function = Certificate::formula(view, places);
+    const M& motion, const typename LanesView<M, bead_arity<Certificate>>::Tuples& tuples, const Lanes& sides,
+    const LanesBound<Degree>& bound, ScaledLanes<Degree>& lanes, const BeadsOf<Certificate>& like = {}) {
+  const BeadsOf<Certificate> arguments = argument_numbers<Certificate>(like);  // constants for the compiler
+  const LanesView<M, bead_arity<Certificate>, channels_of<Certificate>> view(motion, tuples);
+  const auto function = Certificate::formula(view, arguments);
 
   const Lanes length = view.largest_length();
   Lanes scale(1.0);
@@ -58,9 +57,8 @@ template <class Certificate, Motion M, int Degree>
 /// any of the certificates.
 template <class Certificate, Motion M, int Degree>
 [[KDS_LANES_TARGETS]] void evaluate_lanes(
-    const M& motion, const typename LanesView<M, bead_places<Certificate>>::Tuples& tuples,
-    const Lanes& sides, const LanesBound<Degree>& bound, ScaledLanes<Degree>& lanes,
-    const BeadsOf<Certificate>& like) {
+    const M& motion, const typename LanesView<M, bead_arity<Certificate>>::Tuples& tuples, const Lanes& sides,
+    const LanesBound<Degree>& bound, ScaledLanes<Degree>& lanes, const BeadsOf<Certificate>& like) {
   detail::evaluate_in_line<Certificate>(motion, tuples, sides, bound, lanes, like);
 }
 
@@ -78,13 +76,13 @@ template <class Certificate, Motion M, int Degree>
 // bound is proved for 2^-900 <= M^h <= 2^900, as in bounded_polynomial.h. No allocation.
 
 /// A view of four tuples of beads at time u.
-template <Motion M, std::size_t Places>
+template <Motion M, std::size_t Arity>
 class LanesMomentView {
  public:
   using Number = Lanes;
   static constexpr int dimension = M::dimension;
   static constexpr int degree = 0;
-  using Tuples = typename LanesView<M, Places, Channels{}>::Tuples;
+  using Tuples = typename LanesView<M, Arity, Channels{}>::Tuples;
 
   [[gnu::always_inline]] LanesMomentView(const M& motion, const Tuples& tuples, double u)
       : whole_(motion, tuples) {
@@ -110,7 +108,7 @@ class LanesMomentView {
   [[nodiscard, gnu::always_inline]] Lanes largest_length() const { return whole_.largest_length(); }
 
  private:
-  LanesView<M, Places, Channels{}> whole_;
+  LanesView<M, Arity, Channels{}> whole_;
   std::array<double, static_cast<std::size_t>(M::degree) + 1> weights_;
 };
 
@@ -139,15 +137,15 @@ inline const MomentBound moment_bound = derive_moment_bound<Function, Dimension>
 template <class Function, Motion M>
 requires(!channels_of<Function>.weights && !channels_of<Function>.radii)  //
     [[KDS_LANES_TARGETS]] void positive_at_moment(
-        const M& motion, const typename LanesMomentView<M, bead_places<Function>>::Tuples& tuples,
+        const M& motion, const typename LanesMomentView<M, bead_arity<Function>>::Tuples& tuples,
         const Lanes& sides, double lower, double upper, bool& all_positive,
         const BeadsOf<Function>& like = {}) {
   constexpr int degree = M::degree;
   all_positive = false;
   if (!((2 * degree) * (upper - lower) + (4 * degree + 4) * 0x1p-53 <= 0x1p-25)) return;
-  const BeadsOf<Function> places = in_places<Function>(like);  // constants for the compiler
-  const LanesMomentView<M, bead_places<Function>> view(motion, tuples, upper);
-  const Lanes value = sides * Function::formula(view, places).scaled[0];
+  const BeadsOf<Function> arguments = argument_numbers<Function>(like);  // constants for the compiler
+  const LanesMomentView<M, bead_arity<Function>> view(motion, tuples, upper);
+  const Lanes value = sides * Function::formula(view, arguments).scaled[0];
   const auto& bound = detail::moment_bound<Function, M::dimension>;
   const Lanes length = view.largest_length();
   Lanes scale(1.0);

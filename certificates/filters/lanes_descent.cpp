@@ -44,14 +44,14 @@ template <class Row>
   const std::size_t count = c.size();
   const int degree = static_cast<int>(count) - 1;
   // Find where the control polygon descends through zero.
-  Lanes place(0.0), left(0.0), right(-1.0);
+  Lanes index(0.0), left(0.0), right(-1.0);
   for (std::size_t k = 0; k + 1 < count; ++k) {
     const Lanes::Mask crosses = (c[k] > Lanes(0.0)) & (c[k + 1] <= Lanes(0.0));
-    place = Lanes::choose(crosses, Lanes(static_cast<double>(k)), place);
+    index = Lanes::choose(crosses, Lanes(static_cast<double>(k)), index);
     left = Lanes::choose(crosses, c[k], left);
     right = Lanes::choose(crosses, c[k + 1], right);
   }
-  Lanes t = (place + left / (left - right)) * Lanes(1.0 / degree);
+  Lanes t = (index + left / (left - right)) * Lanes(1.0 / degree);
   Row power = c;  // coefficients of t^k, by forward differences
   for (std::size_t r = 1; r < count; ++r) {
     for (std::size_t i = count - 1; i >= r; --i) power[i] = power[i] - power[i - 1];
@@ -87,14 +87,14 @@ template <class Row>
 template <class Row>
 [[gnu::always_inline]] inline Lanes first_descent_of_polygon(const Row& c) {
   const std::size_t last = c.size() - 1;
-  Lanes place(static_cast<double>(last)), left(0.0), right(-1.0);
+  Lanes index(static_cast<double>(last)), left(0.0), right(-1.0);
   for (std::size_t k = last; k-- > 0;) {
     const Lanes::Mask falls = (c[k] > Lanes(0.0)) & (c[k + 1] <= Lanes(0.0));
-    place = Lanes::choose(falls, Lanes(static_cast<double>(k)), place);
+    index = Lanes::choose(falls, Lanes(static_cast<double>(k)), index);
     left = Lanes::choose(falls, c[k], left);
     right = Lanes::choose(falls, c[k + 1], right);
   }
-  return (place + left / (left - right)) * Lanes(1.0 / static_cast<double>(last));
+  return (index + left / (left - right)) * Lanes(1.0 / static_cast<double>(last));
 }
 
 /// Walks along each polynomial. The step doubles if all coefficients on it are positive and halves if they

@@ -11,8 +11,8 @@
 // coefficients, and hence convex:
 //   E(s reach) <= E(0) + s E(reach) for s from 0 to 1.
 // E(0) consists of rounding alone. Operation by operation it is at most what the formula's magnitudes give
-// (motions/numbers/rounding_error.h), which are used in its place. The sign therefore holds while no
-// difference moves by more than s reach, with s = (value - E(0)) / E(reach), at most 1.
+// (motions/numbers/rounding_error.h), which are used instead. The sign therefore holds while no difference
+// moves by more than s reach, with s = (value - E(0)) / E(reach), at most 1.
 //
 // Weights and radii must stay constant. The slack is proved; it is 0 if nothing can be proved.
 
@@ -25,17 +25,17 @@ namespace kds {
 
 /// A view of four tuples of beads at the start of a step, in which each coordinate difference has an error of
 /// `reach`.
-template <Motion M, std::size_t Places, Channels channels>
+template <Motion M, std::size_t Arity, Channels channels>
 class ReachView {
  public:
   using Number = Tracked<Lanes>;
   static constexpr int dimension = M::dimension;
   static constexpr int degree = 0;
-  using Tuples = typename LanesView<M, Places, channels>::Tuples;
+  using Tuples = typename LanesView<M, Arity, channels>::Tuples;
 
   [[gnu::always_inline]] ReachView(const M& motion, const Tuples& tuples) : view_(motion, tuples) {
-    for (std::size_t place = 1; place < Places; ++place) {
-      for (const auto& coordinate : view_.difference(static_cast<BeadId>(place), 0))
+    for (std::size_t argument = 1; argument < Arity; ++argument) {
+      for (const auto& coordinate : view_.difference(static_cast<BeadId>(argument), 0))
         longest_ = Lanes::max(longest_, Lanes::abs(coordinate.scaled[0]));
     }
   }
@@ -73,7 +73,7 @@ class ReachView {
     return {value, error + Lanes(Number::unit_roundoff) * Lanes::abs(value)};
   }
 
-  LanesView<M, Places, channels> view_;
+  LanesView<M, Arity, channels> view_;
   Lanes reach_{0.0};
   Lanes longest_{0.0};
 };
@@ -87,16 +87,16 @@ inline const Magnitude magnitude_at_position =
 template <class Certificate, Motion M>
 [[KDS_LANES_TARGETS]] void slack_lanes(
     const M& motion,
-    const typename LanesView<M, bead_places<Certificate>, channels_of<Certificate>>::Tuples& tuples,
+    const typename LanesView<M, bead_arity<Certificate>, channels_of<Certificate>>::Tuples& tuples,
     const Lanes& sides, Lanes& slack) {
   constexpr double share_of_length = 1.0 / 16;  // long enough for most, and E is nearly linear
   constexpr double inflation = 1 + 0x1p-30;
-  decltype(Certificate{}.beads) places{};
-  for (std::size_t p = 0; p < places.size(); ++p) places[p] = static_cast<BeadId>(p);
-  ReachView<M, bead_places<Certificate>, channels_of<Certificate>> view(motion, tuples);
+  decltype(Certificate{}.beads) arguments{};
+  for (std::size_t p = 0; p < arguments.size(); ++p) arguments[p] = static_cast<BeadId>(p);
+  ReachView<M, bead_arity<Certificate>, channels_of<Certificate>> view(motion, tuples);
   const Lanes reach = Lanes(share_of_length) * view.longest();
   view.set_reach(reach);
-  const auto function = Certificate::formula(view, places).scaled[0];
+  const auto function = Certificate::formula(view, arguments).scaled[0];
 
   const Magnitude& magnitude = magnitude_at_position<Certificate, M::dimension>;
   const Lanes length = view.largest_length();

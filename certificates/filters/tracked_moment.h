@@ -22,7 +22,7 @@ namespace kds {
   return number.value > error ? 1 : number.value < -error ? -1 : 0;
 }
 
-/// A function over this view names beads by their places among those given. Weights of a lifted motion are
+/// A function over this view names beads by their indices among those given. Weights of a lifted motion are
 /// not available, because they are not Bezier curves between frames.
 template <Motion M>
 class TrackedMoment {
@@ -70,9 +70,9 @@ class TrackedMoment {
     const double length = own * (upper - lower) * TrackedDouble::inflation;
     const auto during = [&](auto control) { return value<C::degree>(own, control, earlier, later, length); };
     std::fill_n(seen_.begin(), columns, TrackedDouble{});
-    for (std::size_t place = 1; place < beads.size(); ++place) {
-      const BeadId bead = beads[place], first = beads[0];
-      TrackedDouble* const row = seen_.begin() + place * columns;
+    for (std::size_t index = 1; index < beads.size(); ++index) {
+      const BeadId bead = beads[index], first = beads[0];
+      TrackedDouble* const row = seen_.begin() + index * columns;
       if (bead == first) {  // exactly zero: computing it would give a subnormal error, which is slow
         std::fill_n(row, columns, TrackedDouble{});
         continue;
@@ -123,8 +123,8 @@ class TrackedMoment {
     if (i == 0) return -seen(j, column);
     return seen(i, column) - seen(j, column);
   }
-  [[nodiscard]] const TrackedDouble& seen(std::size_t place, std::size_t column) const {
-    return seen_[place * columns + column];
+  [[nodiscard]] const TrackedDouble& seen(std::size_t index, std::size_t column) const {
+    return seen_[index * columns + column];
   }
 
   Coefficients<TrackedDouble> seen_;  // rows of the beads, from the first; columns not requested are not set

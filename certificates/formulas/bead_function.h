@@ -66,25 +66,25 @@ struct BeadFunction {
 
 namespace detail {
 
-/// Records the formula of a function. `places`: beads named by their places. `C`: Curves or LiftedCurves.
+/// Records the formula of a function. `arguments`: beads numbered 0, 1, 2 ... `C`: Curves or LiftedCurves.
 template <class F, class C>
-[[nodiscard]] RecordedFormula recorded(const decltype(F{}.beads) & places) {
+[[nodiscard]] RecordedFormula recorded(const decltype(F{}.beads) & arguments) {
   RecordedFormula formula;
   const RecordingView<C::dimension, lifted<C>, channels_of<F>> view(formula);
-  formula.finish(F::formula(view, places).step);
+  formula.finish(F::formula(view, arguments).step);
   return formula;
 }
 
 template <class F>
-[[nodiscard]] auto places_of(const F& function) {
-  auto places = function.beads;
-  std::iota(places.begin(), places.end(), BeadId{0});
-  return places;
+[[nodiscard]] auto arguments_of(const F& function) {
+  auto arguments = function.beads;
+  std::iota(arguments.begin(), arguments.end(), BeadId{0});
+  return arguments;
 }
 
 template <class F, class C>
 [[nodiscard]] const KnownFormula& known_formula() {
-  static const KnownFormula known(recorded<F, C>(places_of(F{})), channels_of<F>, C::dimension, lifted<C>);
+  static const KnownFormula known(recorded<F, C>(arguments_of(F{})), channels_of<F>, C::dimension, lifted<C>);
   return known;
 }
 
@@ -93,10 +93,10 @@ template <class F, class C>
 /// same for all functions of a run.
 template <class F, class C>
 [[nodiscard]] const RecordedFormula& own_formula(const F& function) {
-  using Places = decltype(places_of(function));
-  thread_local std::optional<std::pair<Places, RecordedFormula>> last;
-  const Places places = places_of(function);
-  if (!last || last->first != places) last.emplace(places, recorded<F, C>(places));
+  using Arguments = decltype(arguments_of(function));
+  thread_local std::optional<std::pair<Arguments, RecordedFormula>> last;
+  const Arguments arguments = arguments_of(function);
+  if (!last || last->first != arguments) last.emplace(arguments, recorded<F, C>(arguments));
   return last->second;
 }
 
@@ -116,7 +116,7 @@ template <class C, class F, class Ask>
 decltype(auto) with_bead_function(const F& function, Ask ask) {
   const KnownFormula& known = detail::known_formula<F, C>();
   const std::span<const BeadId> beads(function.beads);
-  if constexpr (std::is_same_v<decltype(F{}.beads), std::array<BeadId, bead_places<F>>>) {
+  if constexpr (std::is_same_v<decltype(F{}.beads), std::array<BeadId, bead_arity<F>>>) {
     return ask(BeadFunction{known, known.formula(), beads, detail::is_negative(function)});
   } else {
     return ask(

@@ -23,7 +23,7 @@ namespace kds {
 template <class Number>
 class BeadSource {
  public:
-  /// Stores the value of a step, and of the following steps that are its other coordinates, at their places.
+  /// Stores the value of a step, and of the following steps that are its other coordinates, at their slots.
   virtual void read(const FormulaStep* step, std::span<Coefficients<Number>> values) const = 0;
 
  protected:
@@ -36,13 +36,14 @@ class ViewedBeads final : public BeadSource<typename View::Number> {
   using Kind = FormulaStep::Kind;
 
  public:
-  /// `beads`: the beads that the formula names by their places; empty if the view does not distinguish beads.
+  /// `beads`: the beads that the formula names by their indices; empty if the view does not distinguish
+  /// beads.
   explicit ViewedBeads(const View& view, std::span<const BeadId> beads = {}) : view_(view), beads_(beads) {}
 
   void read(const FormulaStep* step, std::span<Coefficients<Number>> values) const override {
     const BeadId i = beads_.empty() ? step->a : beads_[step->a];
     const BeadId j = beads_.empty() ? step->b : beads_[step->b];
-    Coefficients<Number>& value = values[step->place];
+    Coefficients<Number>& value = values[step->slot];
     switch (step->kind) {
       case Kind::weight_difference:
         return set(value, view_.weight_difference(i, j));
@@ -57,7 +58,7 @@ class ViewedBeads final : public BeadSource<typename View::Number> {
           throw std::logic_error("a formula asks for lifts of a motion that has none");
         }
       default:
-        for (auto& coordinate : view_.difference(i, j)) set(values[step++->place], std::move(coordinate));
+        for (auto& coordinate : view_.difference(i, j)) set(values[step++->slot], std::move(coordinate));
     }
   }
 
@@ -83,12 +84,12 @@ template <class Number>
                                              const BeadSource<Number>& beads) {
   using Kind = FormulaStep::Kind;
   thread_local std::vector<Coefficients<Number>> room;
-  if (room.size() < formula.places()) room.resize(formula.places());
+  if (room.size() < formula.slots()) room.resize(formula.slots());
   const std::span<Coefficients<Number>> values = room;
   for (const FormulaStep& step : formula.steps()) {
-    Coefficients<Number>& value = values[step.place];
+    Coefficients<Number>& value = values[step.slot];
     const auto start_from_a = [&] {
-      if (step.place != step.a) value = values[step.a];
+      if (step.slot != step.a) value = values[step.a];
     };
     switch (step.kind) {
       case Kind::centre_difference:

@@ -41,15 +41,15 @@ template <class View>
 TrackedDouble value_at_moment(const RecordedFormula& formula, const View& view) {
   using Kind = FormulaStep::Kind;
   thread_local std::vector<TrackedDouble> room;
-  if (room.size() < formula.places()) room.resize(formula.places());
+  if (room.size() < formula.slots()) room.resize(formula.slots());
   TrackedDouble* const values = room.data();
   for (const FormulaStep& step : formula.steps()) {
-    TrackedDouble& value = values[step.place];
+    TrackedDouble& value = values[step.slot];
     switch (step.kind) {
       case Kind::centre_difference: {
         const FormulaStep* coordinate = &step;
         for (const auto& difference : view.difference(step.a, step.b))
-          values[(coordinate++)->place] = difference.scaled[0];
+          values[(coordinate++)->slot] = difference.scaled[0];
         break;
       }
       case Kind::next_coordinate:

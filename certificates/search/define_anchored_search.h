@@ -78,17 +78,17 @@ class AnchoredView {
     return view_.difference(anchor_of(member), anchors_[0]);
   }
   template <int Dimension>
-  [[nodiscard, gnu::always_inline]] BeadId place(ConstantPoint<Dimension> Constants::*member) const {
+  [[nodiscard, gnu::always_inline]] BeadId bead(ConstantPoint<Dimension> Constants::*member) const {
     return anchor_of(member);
   }
-  [[nodiscard, gnu::always_inline]] BeadId place(ConstantBead Constants::*member) const {
+  [[nodiscard, gnu::always_inline]] BeadId bead(ConstantBead Constants::*member) const {
     return anchor_of(member);
   }
 
  private:
   template <class Member>
   [[nodiscard, gnu::always_inline]] BeadId anchor_of(Member Constants::*member) const {
-    return anchors_[1 + place_of_constant(member)];
+    return anchors_[1 + index_of_constant(member)];
   }
 
   const View& view_;
@@ -140,42 +140,42 @@ class GatheredCurves {
   [[nodiscard]] int own_degree() const { return own_degree_; }
   [[nodiscard]] std::size_t bead_count() const { return beads_; }
   [[nodiscard]] const double* control_point(BeadId bead, int k) const {
-    return control_.data() + place(bead, k) * (dimension + 1);
+    return control_.data() + row_of(bead, k) * (dimension + 1);
   }
   [[nodiscard]] double coordinate(BeadId bead, int k, int axis) const { return control_point(bead, k)[axis]; }
   [[nodiscard]] double weight(BeadId bead, int k) const { return control_point(bead, k)[dimension]; }
-  [[nodiscard]] const double* radii(BeadId bead) const { return radii_.data() + place(bead, 0); }
+  [[nodiscard]] const double* radii(BeadId bead) const { return radii_.data() + row_of(bead, 0); }
   [[nodiscard]] double radius(BeadId bead, int k) const { return radii(bead)[k]; }
 
   /// Resizes. Existing beads are kept; new ones are zero.
   void resize(std::size_t beads) {
     beads_ = beads;
-    control_.resize(place(beads, 0) * (dimension + 1));
-    radii_.resize(place(beads, 0));
+    control_.resize(row_of(beads, 0) * (dimension + 1));
+    radii_.resize(row_of(beads, 0));
   }
   void set_coordinate(BeadId bead, int k, int axis, double value) {
-    control_[place(bead, k) * (dimension + 1) + static_cast<std::size_t>(axis)] = value;
+    control_[row_of(bead, k) * (dimension + 1) + static_cast<std::size_t>(axis)] = value;
   }
   void set_weight(BeadId bead, int k, double value) { set_coordinate(bead, k, dimension, value); }
-  void set_radius(BeadId bead, int k, double value) { radii_[place(bead, k)] = value; }
+  void set_radius(BeadId bead, int k, double value) { radii_[row_of(bead, k)] = value; }
 
   /// Copies the channels of a bead that `channels` selects; the others are zero.
   template <Channels channels>
   void copy(BeadId to, const Curves<dimension>& from, BeadId bead) {
-    const std::size_t row = place(1, 0);
-    double* const points = control_.data() + place(to, 0) * (dimension + 1);
+    const std::size_t row = row_of(1, 0);
+    double* const points = control_.data() + row_of(to, 0) * (dimension + 1);
     std::copy_n(from.control_point(bead, 0), row * (dimension + 1), points);
     if constexpr (!channels.weights)
       for (int k = 0; k <= own_degree_; ++k) set_weight(to, k, 0);
     if constexpr (channels.radii) {
-      std::copy_n(from.radii(bead), row, radii_.data() + place(to, 0));
+      std::copy_n(from.radii(bead), row, radii_.data() + row_of(to, 0));
     } else {
-      std::fill_n(radii_.data() + place(to, 0), row, 0.0);
+      std::fill_n(radii_.data() + row_of(to, 0), row, 0.0);
     }
   }
 
  private:
-  [[nodiscard]] std::size_t place(std::size_t bead, int k) const {
+  [[nodiscard]] std::size_t row_of(std::size_t bead, int k) const {
     return bead * (static_cast<std::size_t>(own_degree_) + 1) + static_cast<std::size_t>(k);
   }
 
@@ -201,7 +201,7 @@ class Anchors {
                members_of(constants));
     *this = std::move(anchors);
   }
-  /// Copies the anchors to the first places of `gathered`. Constants that are beads are copied from their
+  /// Copies the anchors to the first beads of `gathered`. Constants that are beads are copied from their
   /// present curves.
   void copy_to(GatheredCurves<Dimension>& gathered, const Curves<Dimension>& motion) const {
     constexpr Channels all{true, true};
@@ -329,9 +329,9 @@ class AnchoredSearch final : public CertificateSearch<Certificate> {
       Function& function = functions[i];
       function.wanted_side = certificates[i].side();
       function.certificate = &certificates[i];
-      for (std::size_t place = 0; place < Function::own_beads; ++place) {
-        gathered.template copy<channels_of<Certificate>>(next, motion, certificates[i].beads[place]);
-        function.beads[place] = next++;
+      for (std::size_t index = 0; index < Function::own_beads; ++index) {
+        gathered.template copy<channels_of<Certificate>>(next, motion, certificates[i].beads[index]);
+        function.beads[index] = next++;
       }
       for (std::size_t anchor = 0; anchor < Function::anchors; ++anchor)
         function.beads[Function::own_beads + anchor] = static_cast<BeadId>(anchor);

@@ -27,33 +27,33 @@ namespace detail {
 /// The first filter, on four certificates at a time. `C`: FixedCurves or LiftedCurves.
 template <class Certificate, class C>
 class LanesFilter {
-  using View = LanesView<C, bead_places<Certificate>, channels_of<Certificate>>;
+  using View = LanesView<C, bead_arity<Certificate>, channels_of<Certificate>>;
   static constexpr int degree =
       decltype(Certificate::formula(std::declval<const View&>(), Certificate{}.beads))::degree;
-  using Tuples = typename LanesView<C, bead_places<Certificate>>::Tuples;
+  using Tuples = typename LanesView<C, bead_arity<Certificate>>::Tuples;
 
  public:
-  using Places = std::array<std::size_t, Lanes::width>;
+  using Indices = std::array<std::size_t, Lanes::width>;
 
   explicit LanesFilter(const ErrorBound& bound) : bound_(bound) {}
 
-  /// Searches up to four certificates, named by their places, that differ only in their beads. Calls
-  /// `alone(place)` for each certificate that it leaves undecided.
+  /// Searches up to four certificates, named by their indices, that differ only in their beads. Calls
+  /// `alone(index)` for each certificate that it leaves undecided.
   template <class Alone>
   void first_failures(const C& curves, std::span<const Certificate> certificates,
-                      std::span<const std::size_t> places, const Instant& now,
+                      std::span<const std::size_t> indices, const Instant& now,
                       std::span<const KnownAtStart> known, StageCounts& stages, std::span<Failure> failures,
                       Alone alone) const {
-    const auto [tuples, sides] = in_lanes(certificates, places);
+    const auto [tuples, sides] = in_lanes(certificates, indices);
     LanesNow lanes_now{now.lower(), now.upper(), now.isolating(), 0};
-    for (std::size_t lane = 0; lane < places.size(); ++lane) {
-      if (known[places[lane]] == KnownAtStart::at_own_root) lanes_now.at_own_root |= 1U << lane;
+    for (std::size_t lane = 0; lane < indices.size(); ++lane) {
+      if (known[indices[lane]] == KnownAtStart::at_own_root) lanes_now.at_own_root |= 1U << lane;
     }
     ScaledLanes<degree> functions;
-    evaluate_lanes<Certificate>(curves, tuples, sides, bound_, functions, certificates[places[0]].beads);
+    evaluate_lanes<Certificate>(curves, tuples, sides, bound_, functions, certificates[indices[0]].beads);
     if (Lanes::all(functions.positive)) {
-      for (const std::size_t place : places) failures[place] = {};
-      stages.coefficients += places.size();
+      for (const std::size_t index : indices) failures[index] = {};
+      stages.coefficients += indices.size();
       return;
     }
     LanesOutcome<degree> outcome;
@@ -63,21 +63,21 @@ class LanesFilter {
     if (Lanes::any(outcome.unclear))
       isolate_lanes(descent, now.upper(), outcome.unclear, outcome.known, search);
     if (Lanes::any(search.found)) narrow_lanes(descent, search.found);
-    for (std::size_t lane = 0; lane < places.size(); ++lane) {
-      const std::size_t place = places[lane];
+    for (std::size_t lane = 0; lane < indices.size(); ++lane) {
+      const std::size_t index = indices[lane];
       if (search.never[lane] != 0) {
         ++(outcome.positive[lane] != 0 ? stages.coefficients : stages.isolation);
-        failures[place] = {};
+        failures[index] = {};
       } else if (search.found[lane] != 0) {
         ++stages.isolation;
-        failures[place] = {Failure::Kind::later,
+        failures[index] = {Failure::Kind::later,
                            {descent.lower.v[lane], descent.upper.v[lane], 0, true, false,
                             search.last[lane] != 0, DecidedBy::isolation}};
       } else if (outcome.violated[lane] != 0) {
         ++stages.isolation;
-        failures[place] = failed_at_birth(now);
+        failures[index] = failed_at_birth(now);
       } else {
-        failures[place] = alone(place);
+        failures[index] = alone(index);
       }
     }
   }
@@ -85,10 +85,10 @@ class LanesFilter {
   /// Returns whether two certificates differ only in their beads, and not in other parameters of their
   /// formulas.
   [[nodiscard]] static bool of_one_formula(const Certificate& a, const Certificate& b) {
-    if constexpr (std::is_same_v<BeadsOf<Certificate>, std::array<BeadId, bead_places<Certificate>>>) {
+    if constexpr (std::is_same_v<BeadsOf<Certificate>, std::array<BeadId, bead_arity<Certificate>>>) {
       return true;
     } else {
-      return in_places<Certificate>(a.beads) == in_places<Certificate>(b.beads);
+      return argument_numbers<Certificate>(a.beads) == argument_numbers<Certificate>(b.beads);
     }
   }
 
@@ -99,21 +99,21 @@ class LanesFilter {
     if constexpr (!channels_of<Certificate>.weights && !channels_of<Certificate>.radii) {
       for (const Certificate& one : some)
         if (!of_one_formula(one, some.front())) return false;
-      constexpr Places places{0, 1, 2, 3};
-      const auto [tuples, sides] = in_lanes(some, std::span(places).first(some.size()));
+      constexpr Indices indices{0, 1, 2, 3};
+      const auto [tuples, sides] = in_lanes(some, std::span(indices).first(some.size()));
       positive_at_moment<Certificate>(curves, tuples, sides, lower, upper, positive, some.front().beads);
     }
     return positive;
   }
 
  private:
-  /// Gathers the certificates at these places; the last one fills the remaining lanes.
+  /// Gathers the certificates at these indices; the last one fills the remaining lanes.
   [[nodiscard]] static auto in_lanes(std::span<const Certificate> certificates,
-                                     std::span<const std::size_t> places) {
+                                     std::span<const std::size_t> indices) {
     constexpr std::array<double, 2> signs{-1, 1};  // no branch, because sides are unpredictable
     std::pair<Tuples, Lanes> lanes;
     for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-      const Certificate& certificate = certificates[places[std::min(lane, places.size() - 1)]];
+      const Certificate& certificate = certificates[indices[std::min(lane, indices.size() - 1)]];
       lanes.first[lane] = certificate.beads;
       lanes.second.v[lane] = signs[certificate.side() ? 1 : 0];
     }
@@ -272,14 +272,14 @@ class SearchInLanes final : public SearchOneByOne<Certificate, CurvesOf<C>> {
     if (kernel == Kernel::exact)
       return Base::first_failures(kernel, certificates, now, known, stages, touches, failures);
     const C curves = curves_now();
-    typename Filter::Places places{};
+    typename Filter::Indices indices{};
     std::size_t count = 0;
-    const auto alone = [&](std::size_t place) {
-      return Base::careful_first_failure(kernel, certificates[place], CurvesOf<C>(curves), now, known[place],
+    const auto alone = [&](std::size_t index) {
+      return Base::careful_first_failure(kernel, certificates[index], CurvesOf<C>(curves), now, known[index],
                                          stages, touches);
     };
     const auto search = [&] {
-      filter_.first_failures(curves, certificates, std::span(places).first(count), now, known, stages,
+      filter_.first_failures(curves, certificates, std::span(indices).first(count), now, known, stages,
                              failures, alone);
       count = 0;
     };
@@ -287,8 +287,8 @@ class SearchInLanes final : public SearchOneByOne<Certificate, CurvesOf<C>> {
     for (std::size_t i = 0; i < certificates.size(); ++i) {
       if (i + Lanes::width < certificates.size()) fetch_early(certificates[i + Lanes::width], curves);
       if (!shared.is_to_search(kernel, i, known[i], now, stages, failures)) continue;
-      if (count > 0 && !Filter::of_one_formula(certificates[i], certificates[places[0]])) search();
-      places[count++] = i;
+      if (count > 0 && !Filter::of_one_formula(certificates[i], certificates[indices[0]])) search();
+      indices[count++] = i;
       if (count == Lanes::width) search();
     }
     if (count > 0) search();

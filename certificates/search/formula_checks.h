@@ -138,15 +138,15 @@ class FormulaProbe {
     return polynomial(1);
   }
   template <int Dimension>
-  constexpr BeadId place(ConstantPoint<Dimension> Constants::*) const {
+  constexpr BeadId bead(ConstantPoint<Dimension> Constants::*) const {
     static_assert(Dimension == dimension, "a ConstantPoint of other dimension than the motion's");
     return 0;
   }
-  constexpr BeadId place(ConstantBead Constants::*) const { return 0; }
+  constexpr BeadId bead(ConstantBead Constants::*) const { return 0; }
   template <class Other>
-  constexpr BeadId place(const Other&) const {
+  constexpr BeadId bead(const Other&) const {
     static_assert(never<Other>,
-                  "the formula asks for the place of what has none: `view.place(&Constants::name)` takes a "
+                  "the formula asks for the bead of what is none: `view.bead(&Constants::name)` takes a "
                   "kds::ConstantPoint or a kds::ConstantBead of the certificate's `struct Constants`");
     return 0;
   }

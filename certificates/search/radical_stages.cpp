@@ -81,7 +81,7 @@ std::optional<Failure> proved_failure(const RadicalInDouble& certificate, const 
   }
   static_cast<void>(certificate.norm());  // computed first: it is needed soon, and computing it yields signs
   const int sign = certificate.certain_sign_on(now.lower(), now.upper());
-  // A negative sign may come from beads in one place, which have no sphere. Integers decide that.
+  // A negative sign may come from beads at one position, which have no sphere. Integers decide that.
   if (sign <= 0) return std::nullopt;
   return walk_candidates(certificate, now.upper());
 }

@@ -108,8 +108,8 @@ class RadicalSigns {
  public:
   /// Multiplies the radical by `sign`, and its root part also by `root_sign`.
   RadicalSigns(const View& view, const Beads& beads, int sign, int root_sign)
-      : view_(view), places_(beads), sign_(sign), root_sign_(root_sign) {
-    std::iota(places_.begin(), places_.end(), 0U);
+      : view_(view), arguments_(beads), sign_(sign), root_sign_(root_sign) {
+    std::iota(arguments_.begin(), arguments_.end(), 0U);
   }
 
   [[nodiscard]] int rational() const { return of<typename Radical::Rational>(sign_); }
@@ -129,11 +129,11 @@ class RadicalSigns {
  private:
   template <class Polynomial>
   [[nodiscard, gnu::flatten, gnu::noinline]] int of(int sign) const {
-    return sign * certain_sign(Polynomial::formula(view_, places_).scaled[0]);
+    return sign * certain_sign(Polynomial::formula(view_, arguments_).scaled[0]);
   }
 
   const View& view_;
-  Beads places_;
+  Beads arguments_;
   int sign_, root_sign_;
 };
 
@@ -168,9 +168,9 @@ class CertificateInDouble final : public RadicalInDouble {
     const auto certain = [](const TrackedDouble& number) { return certain_sign(number); };
     if constexpr (requires(View & view) { Certificate::is_usable(view, certificate_.beads, certain); }) {
       const View view(curves_, certificate_.beads, lower, upper, channels);
-      auto places = certificate_.beads;
-      std::iota(places.begin(), places.end(), 0U);
-      return Certificate::is_usable(view, places, certain);
+      auto arguments = certificate_.beads;
+      std::iota(arguments.begin(), arguments.end(), 0U);
+      return Certificate::is_usable(view, arguments, certain);
     }
     return true;
   }

@@ -32,7 +32,7 @@ inline const LanesBound<0> bound_at_rest{FunctionValues<Function, Curves<Dimensi
 template <class Function, int Dimension>
 [[KDS_LANES_TARGETS]] void snapshot_positive(
     const Snapshot<Dimension>& snapshot,
-    const typename LanesView<Snapshot<Dimension>, bead_places<Function>>::Tuples& tuples, const Lanes& sides,
+    const typename LanesView<Snapshot<Dimension>, bead_arity<Function>>::Tuples& tuples, const Lanes& sides,
     Lanes::Mask& positive) {
   ScaledLanes<0> lanes;
   detail::evaluate_in_line<Function>(snapshot, tuples, sides, detail::bound_at_rest<Function, Dimension>,

@@ -313,11 +313,11 @@ struct BallInSphere {
           const auto without = [&](int column) {
             std::array<BernsteinVector<typename View::Number, View::degree, Dimension>, Size> rows;
             for (std::size_t i = 0; i < Size; ++i) {
-              std::size_t place = 0;
+              std::size_t index = 0;
               for (int axis = 0; axis < Dimension; ++axis) {
-                if (axis != column) rows[i][place++] = balls.d[i][static_cast<std::size_t>(axis)];
+                if (axis != column) rows[i][index++] = balls.d[i][static_cast<std::size_t>(axis)];
               }
-              if (column < Dimension) rows[i][place] = balls.s[i];
+              if (column < Dimension) rows[i][index] = balls.s[i];
             }
             const auto minor_of_all = determinant(rows, balls.e);
             return minor_of_all * minor_of_all;

@@ -39,7 +39,7 @@ struct BenchChain {
 /// Returns two frames of the model with its default settings, between which it rotates.
 [[nodiscard]] std::vector<Eigen::Matrix3Xd> rotating_frames(std::string_view model, std::size_t beads);
 
-/// Returns two frames of a grid in which a single bead moves to another place between its neighbours.
+/// Returns two frames of a grid in which a single bead moves to another position between its neighbours.
 [[nodiscard]] std::vector<Eigen::Matrix3Xd> grid_with_one_moving(std::size_t beads);
 
 /// Returns a chain rolled up in the plane, with as many turns as the beads have room for.

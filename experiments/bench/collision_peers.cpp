@@ -47,10 +47,10 @@ class FclTree final : public PeerTree {
     pairs_ = 0;
     tree_.collide(this, [](fcl::CollisionObject<double>* a, fcl::CollisionObject<double>* b, void* data) {
       auto& self = *static_cast<FclTree*>(data);
-      const auto place = [&self](const fcl::CollisionObject<double>* object) {
+      const auto bead_of = [&self](const fcl::CollisionObject<double>* object) {
         return static_cast<std::size_t>(object - self.objects_.data());
       };
-      self.pairs_ += are_counted(self.balls_, place(a), place(b)) ? 1 : 0;
+      self.pairs_ += are_counted(self.balls_, bead_of(a), bead_of(b)) ? 1 : 0;
       return false;
     });
     return pairs_;
@@ -85,8 +85,8 @@ class BulletTree final : public PeerTree, private btDbvt::ICollide {
 
  private:
   void Process(const btDbvtNode* a, const btDbvtNode* b) override {
-    const auto place = [](const btDbvtNode* node) { return static_cast<std::size_t>(node->dataAsInt); };
-    pairs_ += are_counted(balls_, place(a), place(b)) ? 1 : 0;
+    const auto bead_of = [](const btDbvtNode* node) { return static_cast<std::size_t>(node->dataAsInt); };
+    pairs_ += are_counted(balls_, bead_of(a), bead_of(b)) ? 1 : 0;
   }
 
   const Balls<3>& balls_;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "experiments/events/event_places.h"
+#include "experiments/events/event_distribution.h"
 #include "experiments/events/frame_axis.h"
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/paper.h"
@@ -145,7 +145,7 @@ std::string ClosestCourse::figure() const {
                 {{"closest pair", {}}},
                 true};
   for (std::size_t k = 0; k < distances_.size(); ++k)
-    plot.curves.front().points.emplace_back(axis.place(frames_shown_[k]), distances_[k]);
+    plot.curves.front().points.emplace_back(axis.coordinate(frames_shown_[k]), distances_[k]);
   return html_figure(
       svg_plot(plot),
       fmt::format(

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <span>
 
-#include "experiments/events/event_places.h"
+#include "experiments/events/event_distribution.h"
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
@@ -102,12 +102,13 @@ std::vector<std::vector<const ComparedInput*>> inputs_by_chain(const Comparison&
 }
 
 double share(const CompareRow& row, std::size_t bead) {
-  return 100 * static_cast<double>(row.structure.places.by_bead[bead]) / static_cast<double>(row.events());
+  return 100 * static_cast<double>(row.structure.distribution.by_bead[bead]) /
+         static_cast<double>(row.events());
 }
 
 // Returns the beads that most events name, in descending order of the number of events.
 std::vector<std::size_t> busiest(const CompareRow& row, std::size_t most) {
-  const auto& counts = row.structure.places.by_bead;
+  const auto& counts = row.structure.distribution.by_bead;
   std::vector<std::size_t> beads(counts.size());
   std::iota(beads.begin(), beads.end(), std::size_t{0});
   const std::size_t shown = std::min(most, beads.size());
@@ -149,8 +150,8 @@ std::string along_chain(const Comparison& comparison, const std::vector<const Co
     for (std::size_t bead = 0; bead < chain.beads; ++bead) bars.values.push_back(share(row, bead));
     HtmlRow& line = table.emplace_back(HtmlRow{{bars.name}});
     for (const std::size_t bead : beads)
-      line.cells.push_back(
-          fmt::format("{} ({} events)", name_of(bead), with_thousands(row.structure.places.by_bead[bead])));
+      line.cells.push_back(fmt::format("{} ({} events)", name_of(bead),
+                                       with_thousands(row.structure.distribution.by_bead[bead])));
   }
   if (plot.rows.empty()) return "";
   std::string files;
@@ -257,7 +258,7 @@ std::string plots_by_level(const Comparison& comparison) {
               [&](const CompareRow& row) {
                 Points points;
                 if (!at_smallest_stride(comparison, row) || row.events() == 0) return PlottedRow{};
-                for (const std::uint64_t count : row.structure.places.by_level)
+                for (const std::uint64_t count : row.structure.distribution.by_level)
                   points.emplace_back(static_cast<double>(points.size()),
                                       100 * static_cast<double>(count) / static_cast<double>(row.events()));
                 return PlottedRow{std::move(points)};

@@ -188,18 +188,19 @@ Table<CompareRow> compare_columns(const Comparison& comparison) {
   Table<Compared> table = identity_columns();
   table.add(event_columns(comparison)).add(cost_columns());
   table.add(spread_columns<Compared>("seconds", "seconds", [](const Compared& r) { return r.seconds; }));
-  table.add({{.key = "by_level",
-              .json =
-                  [](const Compared& r) {
-                    const auto& levels = r.structure.places.by_level;
-                    return levels.empty() ? Json() : Json(levels);
-                  }},
-             {.key = "by_bead", .json = [](const Compared& r) { return Json(r.structure.places.by_bead); }},
-             {.key = "over_time", .json = [](const Compared& r) {
-                Json events = Json::array();
-                for (const EventBin& bin : r.structure.course.bins()) events.push_back(bin.events);
-                return Json{{"steps", r.structure.course.width()}, {"events", events}};
-              }}});
+  table.add(
+      {{.key = "by_level",
+        .json =
+            [](const Compared& r) {
+              const auto& levels = r.structure.distribution.by_level;
+              return levels.empty() ? Json() : Json(levels);
+            }},
+       {.key = "by_bead", .json = [](const Compared& r) { return Json(r.structure.distribution.by_bead); }},
+       {.key = "over_time", .json = [](const Compared& r) {
+          Json events = Json::array();
+          for (const EventBin& bin : r.structure.course.bins()) events.push_back(bin.events);
+          return Json{{"steps", r.structure.course.width()}, {"events", events}};
+        }}});
   return table;
 }
 

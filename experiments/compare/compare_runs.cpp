@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "experiments/events/event_places.h"
+#include "experiments/events/event_distribution.h"
 #include "experiments/output/text.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/run_report.h"
@@ -193,8 +193,8 @@ std::vector<CompareRow> run_once(const Scene& scene, const RunOptions& options,
   const auto run = open_parallel_run(options, scene, AuditMode::none, parallel, [](const std::string&) {});
   KineticRun& whole = run->whole();
   StepCounts counts(whole, scene);
-  EventPlaces places(whole, scene);
-  run->listen(places);
+  EventDistributions distributions(whole, scene);
+  run->listen(distributions);
   std::vector<NetChanges> net(whole.structures().size());
   std::vector<CompareRow> rows(net.size());
   run_steps(*run, options, [&](std::size_t frame) {
@@ -222,7 +222,7 @@ std::vector<CompareRow> run_once(const Scene& scene, const RunOptions& options,
       row.picoseconds = *report.last_frame->picoseconds - *report.first_frame->picoseconds;
     row.structure = report.structures[s];
     row.net_changes = net[s].count();
-    row.structure.places = places.places()[s];
+    row.structure.distribution = distributions.distributions()[s];
   }
   return rows;
 }

@@ -28,22 +28,22 @@ StepMoment step_moment(std::size_t step, double u) {
   return u < 1 ? StepMoment{step, u} : StepMoment{step + 1, 0};
 }
 
-/// An interval that is sorted by pair, by source, and by its place in the source.
-struct PlacedInterval {
+/// An interval that is sorted by pair, by source, and by its number in the source.
+struct NumberedInterval {
   std::uint64_t pair = 0;
   Source source = Source::own;
-  std::size_t place = 0;        // among all intervals of the source
+  std::size_t number = 0;       // among all intervals of the source
   StepMoment earliest, latest;  // bounds of its begin and of its end
   double length = 0;
 
-  friend bool operator<(const PlacedInterval& a, const PlacedInterval& b) {
+  friend bool operator<(const NumberedInterval& a, const NumberedInterval& b) {
     if (a.pair != b.pair) return a.pair < b.pair;
-    return a.source != b.source ? a.source < b.source : a.place < b.place;
+    return a.source != b.source ? a.source < b.source : a.number < b.number;
   }
 };
 
 /// Sharpens the bounds of disjoint intervals, which stand in their order. Both bounds then ascend.
-void sharpen(std::vector<PlacedInterval>& intervals) {
+void sharpen(std::vector<NumberedInterval>& intervals) {
   for (std::size_t k = 1; k < intervals.size(); ++k)
     intervals[k].earliest = std::max(intervals[k].earliest, intervals[k - 1].earliest);
   for (std::size_t k = intervals.size(); k > 1; --k)
@@ -51,24 +51,25 @@ void sharpen(std::vector<PlacedInterval>& intervals) {
 }
 
 /// Returns the only interval that may contain `inner`, or null if several may.
-const PlacedInterval* container_of(const PlacedInterval& inner, const std::vector<PlacedInterval>& all) {
+const NumberedInterval* container_of(const NumberedInterval& inner,
+                                     const std::vector<NumberedInterval>& all) {
   const auto first = std::partition_point(
-      all.begin(), all.end(), [&](const PlacedInterval& one) { return one.latest < inner.earliest; });
+      all.begin(), all.end(), [&](const NumberedInterval& one) { return one.latest < inner.earliest; });
   if (first == all.end() || inner.latest < first->earliest) return nullptr;
   const auto second = first + 1;
   return second == all.end() || inner.latest < second->earliest ? &*first : nullptr;
 }
 
-/// Marks each interval of `all` that certainly contains one of `inner`. Marks stand at the places.
-void mark_containers(const std::vector<PlacedInterval>& inner, const std::vector<PlacedInterval>& all,
+/// Marks each interval of `all` that certainly contains one of `inner`. Marks stand at their numbers.
+void mark_containers(const std::vector<NumberedInterval>& inner, const std::vector<NumberedInterval>& all,
                      std::vector<std::uint8_t>& marks) {
-  for (const PlacedInterval& one : inner)
-    if (const PlacedInterval* const container = container_of(one, all)) marks[container->place] = 1;
+  for (const NumberedInterval& one : inner)
+    if (const NumberedInterval* const container = container_of(one, all)) marks[container->number] = 1;
 }
 
-std::uint64_t marked(const std::vector<PlacedInterval>& intervals, const std::vector<std::uint8_t>& marks) {
+std::uint64_t marked(const std::vector<NumberedInterval>& intervals, const std::vector<std::uint8_t>& marks) {
   std::uint64_t count = 0;
-  for (const PlacedInterval& one : intervals) count += marks[one.place];
+  for (const NumberedInterval& one : intervals) count += marks[one.number];
   return count;
 }
 
@@ -93,12 +94,12 @@ class ContactBounder {
   }
 
   void finish() {
-    certificate_.is_sure.assign(places_[static_cast<std::size_t>(Source::own)], 0);
-    certificate_.is_found.assign(places_[static_cast<std::size_t>(Source::enlarged)], 0);
+    certificate_.is_sure.assign(counts_[static_cast<std::size_t>(Source::own)], 0);
+    certificate_.is_found.assign(counts_[static_cast<std::size_t>(Source::enlarged)], 0);
     is_certain_.assign(certificate_.is_found.size(), 0);
     std::optional<std::uint64_t> pair;
     std::sort(all_.begin(), all_.end());
-    for (const PlacedInterval& interval : all_) {
+    for (const NumberedInterval& interval : all_) {
       if (pair && *pair != interval.pair) finish_pair(*pair);
       pair = interval.pair;
       of_pair_[static_cast<std::size_t>(interval.source)].push_back(interval);
@@ -109,17 +110,17 @@ class ContactBounder {
  private:
   void add(Source source, const ContactInterval& interval, const StepMoment& earliest,
            const StepMoment& latest, double length) {
-    const std::size_t place = places_[static_cast<std::size_t>(source)]++;
+    const std::size_t number = counts_[static_cast<std::size_t>(source)]++;
     all_.push_back(
-        {(std::uint64_t{interval.first} << 32U) | interval.second, source, place, earliest, latest, length});
+        {(std::uint64_t{interval.first} << 32U) | interval.second, source, number, earliest, latest, length});
   }
 
   void finish_pair(std::uint64_t pair) {
     for (auto& intervals : of_pair_) sharpen(intervals);
     const auto& [shrunk, own, enlarged, frames] = of_pair_;
     ContactBoundsOfPair bounds;
-    for (const PlacedInterval& one : shrunk) bounds.least_time += one.length;
-    for (const PlacedInterval& one : enlarged) bounds.most_time += one.length;
+    for (const NumberedInterval& one : shrunk) bounds.least_time += one.length;
+    for (const NumberedInterval& one : enlarged) bounds.most_time += one.length;
     for (const auto* certain : {&shrunk, &frames}) {
       mark_containers(*certain, own, certificate_.is_sure);
       mark_containers(*certain, enlarged, is_certain_);
@@ -138,9 +139,9 @@ class ContactBounder {
   }
 
   ContactsCertificate& certificate_;
-  std::vector<PlacedInterval> all_;
-  std::array<std::size_t, 4> places_{};                 // by Source: intervals so far
-  std::array<std::vector<PlacedInterval>, 4> of_pair_;  // by Source
+  std::vector<NumberedInterval> all_;
+  std::array<std::size_t, 4> counts_{};                   // by Source: intervals so far
+  std::array<std::vector<NumberedInterval>, 4> of_pair_;  // by Source
   std::vector<std::uint8_t> is_certain_;  // by interval of enlarged balls: whether a true contact lies in it
 };
 

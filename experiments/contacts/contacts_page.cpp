@@ -35,17 +35,17 @@ std::string timeline_of(const ContactsReport& report, const ContactsFigures& fig
   const TimelinePlot empty{
       "frame", static_cast<double>(report.first_frame), static_cast<double>(report.last_frame), {}};
   std::vector<TimelinePlot> plots;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> places;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> positions;
   for (const PairRow& row : busiest_of(report, figures, timeline_rows)) {
     if (plots.empty() || plots.back().rows.size() == rows_in_plot) plots.push_back(empty);
-    places[{row.pair->first, row.pair->second}] = {plots.size() - 1, plots.back().rows.size()};
+    positions[{row.pair->first, row.pair->second}] = {plots.size() - 1, plots.back().rows.size()};
     plots.back().rows.push_back({row.first() + ", " + row.second(), {}});
   }
   const double pixel = (empty.to - empty.from) / pixels;
   for (const IntervalRecord& r : report.intervals) {
-    const auto place = places.find({r.first, r.second});
-    if (place == places.end()) continue;
-    auto& spans = plots[place->second.first].rows[place->second.second].spans;
+    const auto position = positions.find({r.first, r.second});
+    if (position == positions.end()) continue;
+    auto& spans = plots[position->second.first].rows[position->second.second].spans;
     if (!spans.empty() && r.begin_frame - spans.back().second < pixel) {
       spans.back().second = r.end_frame;
     } else {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "experiments/contacts/contacts_rows.h"
-#include "experiments/events/event_places.h"
+#include "experiments/events/event_distribution.h"
 #include "experiments/output/text.h"
 #include "experiments/run/run_report.h"
 #include "motions/base/text_input.h"
@@ -284,13 +284,13 @@ struct IntervalsCsv {
     for (const std::string& name : report.elements.names) names.push_back(csv_field(name));
     stream << "i,j,first,second,begin_frame,end_frame" << (timed ? ",begin_picoseconds,end_picoseconds" : "")
            << ",length,open_at_start,open_at_end" << (flagged ? "," : "") << last_column << '\n';
-    std::size_t place = 0;
+    std::size_t index = 0;
     for (const IntervalRecord& r : intervals) {
       stream << fmt::format("{},{},{},{},{:.12g},{:.12g}", r.first, r.second, names[r.first], names[r.second],
                             r.begin_frame, r.end_frame);
       if (timed) stream << fmt::format(",{:.12g},{:.12g}", r.begin_picoseconds, r.end_picoseconds);
       stream << fmt::format(",{},{},{}", r.length, r.open_at_start, r.open_at_end);
-      if (flagged) stream << ',' << (flags[place++] != 0 ? if_set : if_not);
+      if (flagged) stream << ',' << (flags[index++] != 0 ? if_set : if_not);
       stream << '\n';
     }
   }

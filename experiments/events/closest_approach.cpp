@@ -59,7 +59,7 @@ std::optional<ClosestApproach> ClosestApproachOfRun::least() const {
   return least_ && least_->distance.upper < HUGE_VAL ? least_ : std::nullopt;
 }
 
-std::optional<std::size_t> place_of_closest(const KineticRun& run) {
+std::optional<std::size_t> index_of_closest(const KineticRun& run) {
   const auto& structures = run.structures();
   const auto closest = std::find_if(structures.begin(), structures.end(),
                                     [](const KineticStructure* s) { return s->name() == "closest"; });

@@ -57,6 +57,6 @@ class ClosestApproachOfRun final : public EventListener {
 };
 
 /// Returns the index of the structure `closest` in the run, if the run has it.
-[[nodiscard]] std::optional<std::size_t> place_of_closest(const KineticRun& run);
+[[nodiscard]] std::optional<std::size_t> index_of_closest(const KineticRun& run);
 
 }  // namespace kds

@@ -48,10 +48,11 @@ std::string contact_map(const std::string& label, const std::vector<std::string>
   MapPlot map{label, block == 1 ? "occupancy" : fmt::format("largest occupancy of {0} x {0}", block),
               -0.5,  static_cast<double>(names.size()) - 0.5,
               side,  {}};
-  if (are_short) map.name_of = [&](std::size_t place) { return names[std::min(place, names.size() - 1)]; };
-  for (const auto& [place, pair] : squares) {
+  if (are_short)
+    map.name_of = [&](std::size_t position) { return names[std::min(position, names.size() - 1)]; };
+  for (const auto& [position, pair] : squares) {
     const auto middle = [&](std::size_t index) { return (static_cast<double>(index) + 0.5) * side - 0.5; };
-    map.squares.push_back({middle(place.first), middle(place.second), pair->occupancy,
+    map.squares.push_back({middle(position.first), middle(position.second), pair->occupancy,
                            fmt::format("{} and {}", names[pair->first], names[pair->second])});
   }
   return svg_plot(map);

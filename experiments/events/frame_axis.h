@@ -22,7 +22,7 @@ class FrameAxis {
   }
 
   [[nodiscard]] std::string label() const { return timed_ ? "time in picoseconds" : "frame"; }
-  [[nodiscard]] double place(const FrameStamp& frame) const {
+  [[nodiscard]] double coordinate(const FrameStamp& frame) const {
     return timed_ ? *frame.picoseconds : static_cast<double>(frame.number);
   }
 

@@ -23,8 +23,9 @@ std::string look_up(const char* file, const std::string& key, char separator) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with(key)) continue;
-    const std::size_t place = line.find(separator);
-    const std::size_t first = line.find_first_not_of(" \t\"", place == std::string::npos ? place : place + 1);
+    const std::size_t offset = line.find(separator);
+    const std::size_t first =
+        line.find_first_not_of(" \t\"", offset == std::string::npos ? offset : offset + 1);
     if (first == std::string::npos) continue;
     return line.substr(first, line.find_last_not_of(" \t\"\r") + 1 - first);
   }

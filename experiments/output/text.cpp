@@ -22,9 +22,9 @@ std::string superscript(int exponent) {
 
 std::string with_thousands(std::uint64_t value) {
   std::string digits = fmt::format("{}", value);
-  for (std::size_t place = digits.size(); place > 3;) {
-    place -= 3;
-    digits.insert(place, 1, ',');
+  for (std::size_t offset = digits.size(); offset > 3;) {
+    offset -= 3;
+    digits.insert(offset, 1, ',');
   }
   return digits;
 }

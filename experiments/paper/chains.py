@@ -96,9 +96,9 @@ def interleaved_grids(side, dimension, gap):
     if dimension == 2:
         return layer
     chains = ([], [])
-    for chain, places in zip(chains, layer):
+    for chain, positions in zip(chains, layer):
         for level in range(side):
-            chain.append(places[::1 if level % 2 == 0 else -1] + [0, 0, apart * level])
+            chain.append(positions[::1 if level % 2 == 0 else -1] + [0, 0, apart * level])
             if level + 1 < side:
                 out = end if level % 2 == 0 else -1  # every layer begins at the left
                 chain.append(chain[-1][-1:] + [out * beside, 0, apart / 2])
@@ -111,9 +111,9 @@ def order_by_space(centers):
     def cut(beads):
         if len(beads) < 3:
             return [beads]
-        places = centers[beads]
-        axis = int(np.argmax(np.ptp(places, axis=0)))
-        beads = beads[np.lexsort((beads, places[:, axis]))]
+        positions = centers[beads]
+        axis = int(np.argmax(np.ptp(positions, axis=0)))
+        beads = beads[np.lexsort((beads, positions[:, axis]))]
         half = (len(beads) + 1) // 2
         return cut(beads[:half]) + cut(beads[half:])
 

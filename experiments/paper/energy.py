@@ -71,27 +71,27 @@ class GrowingChain:
     """A chain that grows bead by bead. A bending angle of pi is straight."""
 
     def __init__(self):
-        self.places = [np.zeros(3), np.array([BOND, 0, 0])]
+        self.positions = [np.zeros(3), np.array([BOND, 0, 0])]
         self.bonds, self.normals = [np.array([1.0, 0, 0])], [np.array([0, 0, 1.0])]
 
     def add(self, bending, torsion):
         along, normal = self.bonds[-1], self.normals[-1]
-        if len(self.places) > 2:
+        if len(self.positions) > 2:
             normal = cos(torsion) * normal + np.sin(torsion) * cross(along, normal)
         along = cos(pi - bending) * along + np.sin(pi - bending) * cross(normal, along)
         along = along / sqrt(along @ along)
         normal = normal - (normal @ along) * along
         self.bonds.append(along)
         self.normals.append(normal / sqrt(normal @ normal))
-        self.places.append(self.places[-1] + BOND * along)
+        self.positions.append(self.positions[-1] + BOND * along)
 
     def remove(self):
-        for part in (self.places, self.bonds, self.normals):
+        for part in (self.positions, self.bonds, self.normals):
             part.pop()
 
     def overlaps(self):
         """Whether the last bead, of radius 1, overlaps another one than that before it."""
-        return len(self.places) > 2 and (((np.array(self.places[:-2]) - self.places[-1])**2).sum(axis=1) <= 4).any()
+        return len(self.positions) > 2 and (((np.array(self.positions[:-2]) - self.positions[-1])**2).sum(axis=1) <= 4).any()
 
 
 def cross(a, b):
@@ -102,16 +102,16 @@ def chain_of(bending, torsion):
     chain = GrowingChain()
     for angles in zip(bending, [0, *torsion]):
         chain.add(*angles)
-    return np.array(chain.places)
+    return np.array(chain.positions)
 
 
 def self_avoiding(draw):
     """Grows a chain of which no two beads overlap but consecutive ones. draw(bead) gives the bending angle before it and the
     torsion angle of its bond. Angles are drawn again where beads overlap, and the chain is shortened at dead ends."""
     chain, drawn, dead_ends = GrowingChain(), [], 0
-    while len(chain.places) < BEADS:
+    while len(chain.positions) < BEADS:
         for _ in range(50):
-            drawn.append(draw(len(chain.places)))
+            drawn.append(draw(len(chain.positions)))
             chain.add(*drawn[-1])
             if not chain.overlaps():
                 break
@@ -123,7 +123,7 @@ def self_avoiding(draw):
             for _ in range(min(8 << dead_ends % 6, len(drawn))):
                 chain.remove()
                 drawn.pop()
-    return drawn, np.array(chain.places)
+    return drawn, np.array(chain.positions)
 
 
 def step_of_chain(kind, amplitude, random):

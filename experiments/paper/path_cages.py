@@ -11,34 +11,34 @@ import kds
 TOLERANCE = 1e-9
 
 
-def farthest(cage, place):
-    """Returns the greatest distance from `place` to a point of the ball."""
-    return dist(cage[:3], place) + cage[3]
+def farthest(cage, point):
+    """Returns the greatest distance from `point` to a point of the ball."""
+    return dist(cage[:3], point) + cage[3]
 
 
-def holds_farthest(other, cage, place):
-    """Returns whether the point of `cage` that is farthest from `place` lies in `other`."""
-    distance = dist(cage[:3], place)
+def holds_farthest(other, cage, point):
+    """Returns whether the point of `cage` that is farthest from `point` lies in `other`."""
+    distance = dist(cage[:3], point)
     if distance == 0:
         return dist(cage[:3], other[:3]) + cage[3] <= other[3]
     reach = cage[3] / distance
-    return dist([c + reach * (c - p) for c, p in zip(cage[:3], place)], other[:3]) <= other[3]
+    return dist([c + reach * (c - p) for c, p in zip(cage[:3], point)], other[:3]) <= other[3]
 
 
-def farthest_in_both(cage, other, place):
-    """Returns the greatest distance from `place` to a point of two balls that meet. It is at the farthest point of one of them
+def farthest_in_both(cage, other, point):
+    """Returns the greatest distance from `point` to a point of two balls that meet. It is at the farthest point of one of them
     if that lies in the other, otherwise on the circle where the spheres meet."""
-    if holds_farthest(other, cage, place):
-        return farthest(cage, place)
-    if holds_farthest(cage, other, place):
-        return farthest(other, place)
+    if holds_farthest(other, cage, point):
+        return farthest(cage, point)
+    if holds_farthest(cage, other, point):
+        return farthest(other, point)
     distance = dist(cage[:3], other[:3])
     if distance == 0:
-        return min(farthest(cage, place), farthest(other, place))
+        return min(farthest(cage, point), farthest(other, point))
     axis = [(o - c) / distance for c, o in zip(cage[:3], other[:3])]
     along = (distance**2 + cage[3]**2 - other[3]**2) / (2 * distance)  # the circle's plane, from the centre of `cage`
     radius = sqrt(max(0.0, cage[3]**2 - along**2))
-    offset = [p - c for c, p in zip(cage[:3], place)]
+    offset = [p - c for c, p in zip(cage[:3], point)]
     height = sum(o * a for o, a in zip(offset, axis))
     aside = hypot(*(o - height * a for o, a in zip(offset, axis)))
     return hypot(along - height, aside + radius)
@@ -49,7 +49,7 @@ def cascade(before, after, with_paths):
     intersections that were compared with a sphere, and the nodes with a bead outside."""
     nodes, now = (array.tolist() for array in kds.wrapped_hierarchy(after, 1))
     bases, old, _ = (array.tolist() for array in kds.trusted_hierarchy(before, after, 1))
-    beads = [[*place, 0.0][:3] + [1.0] for place in after.tolist()]
+    beads = [[*point, 0.0][:3] + [1.0] for point in after.tolist()]
     tests, escaped = 0, []
 
     def is_inside(node, first, last, path):

@@ -85,8 +85,8 @@ def search(nodes, spheres, centers, radius, block):
     """The search of the paper's figure 6 for contacts of a chain with itself. Two blocks of at most `block` beads whose spheres
     meet are left to another method if they are farther apart along the chain than a block is long. Returns the number of pairs
     of spheres, and which beads are left."""
-    places = {tuple(beads): sphere for beads, sphere in zip(nodes.tolist(), spheres.tolist())}
-    places.update({(bead, bead): [*center, radius] for bead, center in enumerate(centers.tolist())})
+    spheres_of = {tuple(beads): sphere for beads, sphere in zip(nodes.tolist(), spheres.tolist())}
+    spheres_of.update({(bead, bead): [*center, radius] for bead, center in enumerate(centers.tolist())})
     left, pairs = np.zeros(len(centers), bool), 0
 
     def halves(node):
@@ -103,7 +103,7 @@ def search(nodes, spheres, centers, radius, block):
             continue
         if b[1] - a[0] < 2:  # neighbours
             continue
-        (x, y, z, r), (u, v, w, s) = places[a], places[b]
+        (x, y, z, r), (u, v, w, s) = spheres_of[a], spheres_of[b]
         size, other_size = a[1] - a[0] + 1, b[1] - b[0] + 1
         if (x - u)**2 + (y - v)**2 + (z - w)**2 > (r + s)**2 or size == other_size == 1:
             pairs += 1

@@ -154,7 +154,7 @@ OptionList<InputOptions> make_input_options() {
        [](InputOptions& o, const std::string& text) {
          const std::vector<std::string> names = reader_registry().names_with_frames();
          const std::vector<std::string_view> views(names.begin(), names.end());
-         o.reading.format = names[place_among("--format", text, views)];
+         o.reading.format = names[index_among("--format", text, views)];
        },
        [](const InputOptions& o) { return o.reading.format.value_or(""); }},
       {{"--dt", "PS",

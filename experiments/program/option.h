@@ -145,13 +145,13 @@ class OptionList {
   }
 
   /// Throws InputError for an option that is given (`is_given(option)`) and applies to none of `words`.
-  /// `place` says where the words stand, such as "among the structures".
+  /// `where` says where the words stand, such as "among the structures".
   template <class IsGiven>
-  void refuse_needless(const std::vector<std::string>& words, std::string_view place,
+  void refuse_needless(const std::vector<std::string>& words, std::string_view where,
                        const IsGiven& is_given) const {
     for (const auto& option : options_)
       if (!option.applies_to.empty() && is_given(option))
-        require_use_of(option.spec.name, option.applies_to, words, place);
+        require_use_of(option.spec.name, option.applies_to, words, where);
   }
 
   /// Returns the arguments that ask for the same settings from any directory.

@@ -65,15 +65,15 @@ void refuse_unknown(std::string_view option, std::string_view word, std::span<co
 }
 
 void require_use_of(std::string_view option, const std::vector<std::string_view>& uses,
-                    const std::vector<std::string>& words, std::string_view place) {
+                    const std::vector<std::string>& words, std::string_view where) {
   if (std::find_first_of(uses.begin(), uses.end(), words.begin(), words.end()) != uses.end()) return;
   if (uses.size() == 1)
-    throw InputError(fmt::format("{}: applies only to {}, which is not {}", option, uses.front(), place));
+    throw InputError(fmt::format("{}: applies only to {}, which is not {}", option, uses.front(), where));
   throw InputError(fmt::format("{}: applies only to {} and {}, none of which is {}", option,
-                               fmt::join(uses.begin(), uses.end() - 1, ", "), uses.back(), place));
+                               fmt::join(uses.begin(), uses.end() - 1, ", "), uses.back(), where));
 }
 
-std::size_t place_among(std::string_view option, std::string_view word,
+std::size_t index_among(std::string_view option, std::string_view word,
                         std::span<const std::string_view> names) {
   const auto found = std::ranges::find(names, word);
   if (found == names.end()) refuse_unknown(option, word, names);

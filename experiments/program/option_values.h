@@ -34,20 +34,20 @@ namespace kds {
 [[noreturn]] void refuse_unknown(std::string_view option, std::string_view word,
                                  std::span<const std::string_view> names, std::string_view expected = "");
 
-/// Throws InputError if an option that applies only to `uses` is given with other `words`. `place` says where
+/// Throws InputError if an option that applies only to `uses` is given with other `words`. `where` says where
 /// the words stand.
 void require_use_of(std::string_view option, const std::vector<std::string_view>& uses,
-                    const std::vector<std::string>& words, std::string_view place);
+                    const std::vector<std::string>& words, std::string_view where);
 
 /// Returns the index of `word` in `names`. Throws InputError if `word` is not a name.
-[[nodiscard]] std::size_t place_among(std::string_view option, std::string_view word,
+[[nodiscard]] std::size_t index_among(std::string_view option, std::string_view word,
                                       std::span<const std::string_view> names);
 
 /// Returns the enumerator with this name. `names` are the names of the enumerators from `first` on.
 template <class Enum>
 [[nodiscard]] Enum choice_of(std::string_view option, std::string_view word,
                              std::span<const std::string_view> names, Enum first = Enum{}) {
-  return static_cast<Enum>(static_cast<std::size_t>(first) + place_among(option, word, names));
+  return static_cast<Enum>(static_cast<std::size_t>(first) + index_among(option, word, names));
 }
 
 /// Returns the path of a file or directory. The path - is refused.

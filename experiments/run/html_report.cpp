@@ -15,7 +15,7 @@
 
 #include "certificates/base/kernel.h"
 #include "experiments/events/contact_map.h"
-#include "experiments/events/event_places.h"
+#include "experiments/events/event_distribution.h"
 #include "experiments/events/frame_axis.h"
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"
@@ -266,7 +266,7 @@ double a_step(std::uint64_t events, std::size_t steps) {
 
 // Returns where a structure changes most often, or an empty text if no event names a bead.
 std::string busiest_bead(const RunReport& report, const StructureReport& structure) {
-  const auto& counts = structure.places.by_bead;
+  const auto& counts = structure.distribution.by_bead;
   const auto most = std::ranges::max_element(counts);
   if (most == counts.end() || *most == 0) return "";
   return fmt::format(", most often at {} ({})",
@@ -354,11 +354,11 @@ std::string plots_over_time(const RunReport& report) {
     const std::vector<EventBin>& bins = structure.course.bins();
     width = std::max(width, structure.course.width());
     Curve per_step{structure.name, {}}, so_far{structure.name, {}};
-    so_far.points.emplace_back(bins.empty() ? 0.0 : axis.place(bins.front().first_frame), 0.0);
+    so_far.points.emplace_back(bins.empty() ? 0.0 : axis.coordinate(bins.front().first_frame), 0.0);
     for (std::size_t b = 0; b < bins.size(); ++b) {
       const double mean = static_cast<double>(bins[b].events) / static_cast<double>(bins[b].steps);
-      const double end = axis.place(end_of(report, bins, b));
-      per_step.points.emplace_back(axis.place(bins[b].first_frame), mean);
+      const double end = axis.coordinate(end_of(report, bins, b));
+      per_step.points.emplace_back(axis.coordinate(bins[b].first_frame), mean);
       if (b + 1 == bins.size()) per_step.points.emplace_back(end, mean);
       so_far.points.emplace_back(end, static_cast<double>(bins[b].cumulative));
     }
@@ -383,7 +383,7 @@ std::string plot_of_displacement(const RunReport& report) {
   LinePlot plot{
       axis.label(), "displacement", Drawn::staircase, {{"mean of the beads", {}}, {"farthest bead", {}}}};
   for (const Displacements::Bin& bin : bins) {
-    const double x = axis.place(bin.first_frame);
+    const double x = axis.coordinate(bin.first_frame);
     plot.curves[0].points.emplace_back(x, bin.mean());
     plot.curves[1].points.emplace_back(x, bin.most);
   }
@@ -489,13 +489,13 @@ std::string maps_over_time(const RunReport& report) {
   const ShortNames names(report);
   std::string html;
   for (const StructureReport& structure : report.structures) {
-    const EventGrid& grid = structure.places.grid;
-    const auto& by_bead = structure.places.by_bead;
+    const EventGrid& grid = structure.distribution.grid;
+    const auto& by_bead = structure.distribution.by_bead;
     if (grid.counts.size() < 2 || std::ranges::all_of(by_bead, [](auto count) { return count == 0; }))
       continue;
     const FrameAxis axis(grid.edges);
     HeatPlot plot{axis.label(), "bead", "events", {}, {}, {}, {}};
-    for (const FrameStamp& frame : grid.edges) plot.x_edges.push_back(axis.place(frame));
+    for (const FrameStamp& frame : grid.edges) plot.x_edges.push_back(axis.coordinate(frame));
     const auto first_of = [&](std::size_t block) {
       return std::min(block * grid.beads_per_block, by_bead.size());
     };
@@ -520,7 +520,7 @@ std::string plot_along_chain(const RunReport& report) {
   const auto name_here = [&report](std::size_t bead) { return name_of(report, bead); };
   RowsPlot plot{"bead", 0, name_here, {}};
   for (const StructureReport& structure : report.structures) {
-    const auto& counts = structure.places.by_bead;
+    const auto& counts = structure.distribution.by_bead;
     if (counts.empty()) continue;
     plot.columns = counts.size();
     const auto most = std::ranges::max_element(counts);

@@ -10,7 +10,7 @@
 
 #include "experiments/events/closest_approach.h"
 #include "experiments/events/contact_map.h"
-#include "experiments/events/event_places.h"
+#include "experiments/events/event_distribution.h"
 #include "experiments/program/timing.h"
 #include "experiments/run/certify_stride.h"
 #include "experiments/run/run_options.h"
@@ -40,7 +40,7 @@ struct StructureReport {
   Spread of_ratio;  ///< `seconds` divided by `static_seconds`, round by round; 0 if `static_seconds` is 0
   std::uint64_t rebuilds = 0;
   std::uint64_t audits_run = 0, audits_failed = 0;
-  PlacesOfEvents places;  ///< empty if the run does not record places
+  EventDistribution distribution;  ///< empty if the run does not record it
 
   /// Returns the name of the kind, with " (internal)" appended for an internal kind, as in "overtake
   /// (internal)".

@@ -29,8 +29,8 @@ void RunResults::begin(const Scene& scene, KineticRun& run, const RunOptions& op
   events_.emplace(files_->open("events.csv"), scene.stamp(0).picoseconds.has_value());
   scene_ = &scene;
   displacement_ = Displacements(bin_width(scene.step_count(), EventCourse::most_bins));
-  places_.emplace(run, scene);
-  run.simulator().listen(*places_);
+  distributions_.emplace(run, scene);
+  run.simulator().listen(*distributions_);
   if (has_contacts(run)) run.simulator().listen(occupancy_.emplace());
   if (has_contacts(run)) contacts_files_.emplace_back(contacts_file);
   if (has_contacts(run) && certified) contacts_files_.emplace_back(possible_contacts_file);
@@ -92,7 +92,7 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
   if (files_) {
     files_->write("summary.json", json);
     for (std::size_t s = 0; s < report.structures.size(); ++s)
-      report.structures[s].places = places_->places()[s];
+      report.structures[s].distribution = distributions_->distributions()[s];
     report.displacement = displacement_;
     if (occupancy_ && report.first_frame && report.last_frame)
       report.contact_pairs = occupancy_->pairs(static_cast<double>(report.first_frame->number),

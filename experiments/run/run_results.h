@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "experiments/events/contact_map.h"
+#include "experiments/events/event_distribution.h"
 #include "experiments/events/event_files.h"
-#include "experiments/events/event_places.h"
 #include "experiments/output/output_files.h"
 #include "experiments/run/event_log_file.h"
 #include "experiments/run/run_options.h"
@@ -56,7 +56,7 @@ class RunResults {
   std::optional<AtomicFiles> files_;
   const Scene* scene_ = nullptr;
   std::optional<EventsCsv> events_;
-  std::optional<EventPlaces> places_;
+  std::optional<EventDistributions> distributions_;
   Displacements displacement_;
   std::optional<ContactOccupancy> occupancy_;
   std::optional<ContactsTable> contacts_;

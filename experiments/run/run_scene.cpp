@@ -210,7 +210,7 @@ void run_steps(ParallelRun& run, const RunOptions& options,
 }
 
 void follow_approach(ParallelRun& run) {
-  const auto closest = place_of_closest(run.whole());
+  const auto closest = index_of_closest(run.whole());
   if (closest)
     run.observe([at = *closest](KineticRun& part) { return std::make_unique<ApproachOfPart>(part, at); });
 }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "experiments/events/closest_approach.h"
-#include "experiments/events/event_places.h"
+#include "experiments/events/event_distribution.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_report.h"
 #include "experiments/run/run_results.h"

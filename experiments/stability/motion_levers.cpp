@@ -101,11 +101,11 @@ Looks look_at_tolerance(const Extreme& extreme, int dimension, SceneRandom& rand
   const double tolerance = any_tolerance(frames, random);
   StraightenedFrames straight(source_of(frames), tolerance);
   Looks looks;
-  std::size_t place = 0;
-  for (FrameRead frame; straight.next(frame); ++place)
+  std::size_t read = 0;
+  for (FrameRead frame; straight.next(frame); ++read)
     for (std::size_t b = 0; b < bead_count; ++b)
-      looks.look(is_within(exact_point(frame.positions, b), exact_point(frames[place], b), tolerance));
-  looks.look(place == frames.size());
+      looks.look(is_within(exact_point(frame.positions, b), exact_point(frames[read], b), tolerance));
+  looks.look(read == frames.size());
   return looks;
 }
 

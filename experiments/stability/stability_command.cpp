@@ -223,11 +223,11 @@ std::vector<StabilitySubject> all_subjects() {
   std::vector<std::string> names;
   for (const StabilitySubject& subject : subjects)
     if (std::ranges::find(names, subject.name) == names.end()) names.push_back(subject.name);
-  const auto place = [&names](const StabilitySubject& subject) {
+  const auto row_of = [&names](const StabilitySubject& subject) {
     return std::tuple(std::ranges::find(names, subject.name) - names.begin(), subject.dimension,
                       subject.degree);
   };
-  std::ranges::stable_sort(subjects, {}, place);
+  std::ranges::stable_sort(subjects, {}, row_of);
   for (StabilitySubject& subject : subjects) {
     subject.run = [subject](const Extreme& extreme, const StabilityCases& cases) {
       StabilityRow row = subject.run(extreme, cases);

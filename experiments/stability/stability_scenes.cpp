@@ -203,12 +203,12 @@ BeadCurves coincident_midstep(const SceneShape& shape, SceneRandom& random) {
 // Integer multiples of one moving difference, so that the beads are exactly collinear.
 BeadCurves collinear(const SceneShape& shape, SceneRandom& random) {
   BeadCurves beads = grid(shape, random, 9);
-  constexpr double places[] = {-1, 2, -2, 3, -3, 4, -4, 5};  // distinct for up to ten beads
+  constexpr double factors[] = {-1, 2, -2, 3, -3, 4, -4, 5};  // distinct for up to ten beads
   const auto first = static_cast<std::size_t>(pick(random, 0, 7));
   for_all(beads, [&](double& x, std::size_t b, int k, int axis) {
     if (b < 2) return;
     const double from = beads.coordinate(0, k, axis);
-    x = from + places[(first + b) % 8] * (beads.coordinate(1, k, axis) - from);
+    x = from + factors[(first + b) % 8] * (beads.coordinate(1, k, axis) - from);
   });
   return beads;
 }
@@ -271,10 +271,10 @@ BeadCurves cospherical(const SceneShape& shape, SceneRandom& random) {
   const std::vector<Point> points = points_on_sphere(random, shape);
   for (std::size_t b = 0; b < shape.beads; ++b) {
     for (int k = 0; k <= shape.degree; ++k) {
-      const auto place = static_cast<std::size_t>(k);
+      const auto index = static_cast<std::size_t>(k);
       for (int axis = 0; axis < shape.dimension; ++axis) {
         const auto along = static_cast<std::size_t>(axis);
-        beads.coordinate(b, k, axis) = center[place][along] + size[place] * points[b][along];
+        beads.coordinate(b, k, axis) = center[index][along] + size[index] * points[b][along];
       }
     }
   }
@@ -374,7 +374,7 @@ BeadCurves nearly_flat(const SceneShape& shape, SceneRandom& random) {
   return beads;
 }
 
-// Control points that alternate between far places: functions of the highest degree with many roots.
+// Control points that alternate between far positions: functions of the highest degree with many roots.
 BeadCurves winding(const SceneShape& shape, SceneRandom& random) {
   BeadCurves beads = generic(shape, random);
   for_all(beads, [&](double& x, std::size_t, int k, int) {
@@ -419,7 +419,7 @@ constexpr Extreme kExtremes[] = {
     {"radii:10^6", "radii of ratio 10^6", unlike_radii<6>, 1, 1, unequal},
     {"radii:10^9", "radii of ratio 10^9", unlike_radii<9>, 1, 1, unequal},
     {"beads:ulp-apart", "pairs of beads a last place apart", ulp_apart},
-    {"beads:coincident", "pairs of beads in one place", coincident},
+    {"beads:coincident", "pairs of beads at one position", coincident},
     {"beads:coincident-mid", "the same at u = 1/2", coincident_midstep},
     {"beads:collinear", "all on one moving line", collinear, 2},
     {"beads:collinear-mid", "the same at u = 1/2", collinear_midstep, 2},

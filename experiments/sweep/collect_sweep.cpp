@@ -82,7 +82,7 @@ struct TaskResult {
 };
 
 TaskResult result_of(const TaskStates& states, const SweepTask& task) {
-  const Json record = states.read(states.of(task.name).place);
+  const Json record = states.read(states.of(task.name).span);
   const Json *const result = record.find("result"), *const warnings = record.find("warnings");
   if (result == nullptr || result->members() == nullptr)
     throw OutputError(fmt::format("task {}: its record has no result", hex_digits(task.name)));

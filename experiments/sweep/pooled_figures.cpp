@@ -33,12 +33,12 @@ void PooledGroup::add(const SweepTask& task, const std::vector<ResultRow>& rows,
   std::unordered_map<std::string, std::size_t> seen;
   for (const ResultRow& row : rows) {
     const std::string identity = identity_of(row, pooled);
-    const std::size_t place = seen[identity]++;  // rows that nothing else tells apart
+    const std::size_t copy = seen[identity]++;  // rows that nothing else tells apart
     for (const auto& [name, value] : row.fields) {
       const auto number = value.number();
       if (!number || is_identity(name, value) || name.starts_with("input.")) continue;
       const auto [found, is_new] =
-          places_.emplace(fmt::format("{}\n{}\n{}", identity, place, name), figures_.size());
+          indices_.emplace(fmt::format("{}\n{}\n{}", identity, copy, name), figures_.size());
       if (is_new) figures_.push_back({identity, name});
       PooledFigure& figure = figures_[found->second];
       figure.add(*number);

@@ -46,7 +46,7 @@ class PooledGroup {
 
  private:
   std::unordered_set<TaskName> copied_;
-  std::unordered_map<std::string, std::size_t> places_;  ///< of figures, by row and measure
+  std::unordered_map<std::string, std::size_t> indices_;  ///< of figures, by row and measure
   std::vector<PooledFigure> figures_;
 };
 

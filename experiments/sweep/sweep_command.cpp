@@ -203,7 +203,7 @@ int sweep_command(const Arguments& arguments) {
     refuse("kds sweep needs SWEEP.json, or status or collect with a folder (see kds sweep --help)");
   if (operands.size() == 2) {
     const std::array<std::string_view, 2> known{"status", "collect"};
-    static_cast<void>(place_among("kds sweep", operands[0], known));
+    static_cast<void>(index_among("kds sweep", operands[0], known));
     for (const auto& option : sweep_options().all())
       if (parsed.has(option.spec.name))
         refuse("{}: has no meaning for kds sweep {}", option.spec.name, operands[0]);

@@ -100,7 +100,7 @@ std::optional<TaskMessage> failure_of(const SweepPlan& plan, const SweepTask& ta
   const TaskState& state = states.of(task.name);
   const TaskStatus status = state.status();
   if (status != TaskStatus::failed && status != TaskStatus::crashed) return std::nullopt;
-  const Json json = states.read(state.place);
+  const Json json = states.read(state.span);
   const Json *const error = json.find("error"), *const code = json.find("code");
   TaskMessage failure = message_of(
       plan, task, error != nullptr && error->text() != nullptr ? *error->text() : "the sweep was killed");

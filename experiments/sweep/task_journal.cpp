@@ -81,14 +81,14 @@ void TaskStates::take(std::string_view line, std::uint64_t offset) {
   count(record, *name, text, {journal, static_cast<std::uint32_t>(text.size()), offset + json});
 }
 
-void TaskStates::count(RecordKind kind, TaskName name, std::string_view json, const RecordPlace& place) {
+void TaskStates::count(RecordKind kind, TaskName name, std::string_view json, const RecordSpan& span) {
   TaskState& task = tasks_[name];
   task.attempts += kind == RecordKind::attempt ? 1U : 0U;
   task.died += kind == RecordKind::died ? 1U : 0U;
   if (kind == RecordKind::drop || kind == RecordKind::fail || kind == RecordKind::done) ++task.closed;
   if (kind < RecordKind::died || task.settled == TaskStatus::done) return;
   if (kind == RecordKind::died && task.settled == TaskStatus::failed) return;
-  task.place = place;
+  task.span = span;
   if (kind == RecordKind::fail) task.settled = TaskStatus::failed;
   if (kind != RecordKind::done) return;
   task.settled = TaskStatus::done;
@@ -108,12 +108,12 @@ void TaskStates::forgive() {
   std::erase_if(tasks_, [](const auto& task) { return task.second.settled != TaskStatus::done; });
 }
 
-Json TaskStates::read(const RecordPlace& place) const {
-  if (place.length == 0) return {};
-  const fs::path& file = journals_[place.journal].file;
+Json TaskStates::read(const RecordSpan& span) const {
+  if (span.length == 0) return {};
+  const fs::path& file = journals_[span.journal].file;
   std::ifstream stream(file, std::ios::binary);
-  std::string text(place.length, '\0');
-  stream.seekg(static_cast<std::streamoff>(place.offset));
+  std::string text(span.length, '\0');
+  stream.seekg(static_cast<std::streamoff>(span.offset));
   if (!stream.read(text.data(), static_cast<std::streamsize>(text.size())))
     throw OutputError(fmt::format("{}: a journal was removed while it was read", file.string()));
   return parse_json(text);
@@ -123,7 +123,7 @@ std::map<std::string, std::size_t> TaskStates::of_other_versions() const {
   std::map<std::string, std::size_t> versions;
   for (const auto& [name, task] : tasks_) {
     if (task.settled != TaskStatus::done) continue;
-    const JournalMaker& maker = journals_[task.place.journal].maker;
+    const JournalMaker& maker = journals_[task.span.journal].maker;
     if (maker.sources != results_version()) ++versions[maker.version];
   }
   return versions;

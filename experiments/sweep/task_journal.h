@@ -35,8 +35,8 @@ enum class TaskStatus : std::uint8_t { open, done, failed, crashed };
 /// An attempt that leaves no result is repeated until there are this many.
 inline constexpr std::uint32_t most_attempts = 2;
 
-/// The place of a record's JSON.
-struct RecordPlace {
+/// Where the JSON of a record stands.
+struct RecordSpan {
   std::uint32_t journal = 0, length = 0;  ///< length 0: no record
   std::uint64_t offset = 0;
 };
@@ -48,7 +48,7 @@ struct TaskState {
   float seconds = 0;                      ///< of the attempt with the result
   TaskStatus settled = TaskStatus::open;  ///< done or failed, otherwise open
   bool warned = false;                    ///< the record of the result has warnings
-  RecordPlace place;  ///< of the result, otherwise of the last failure, otherwise of the last death
+  RecordSpan span;  ///< of the result, otherwise of the last failure, otherwise of the last death
 
   /// Attempts without a result. One of them may be running.
   [[nodiscard]] std::uint32_t lost() const { return attempts > closed ? attempts - closed : 0; }
@@ -72,11 +72,11 @@ class TaskStates {
 
   [[nodiscard]] const TaskState& of(TaskName task) const;
   /// Counts a record that this process has written.
-  void count(RecordKind kind, TaskName task, std::string_view json, const RecordPlace& place = {});
+  void count(RecordKind kind, TaskName task, std::string_view json, const RecordSpan& span = {});
   /// Forgets failures and lost attempts of all tasks.
   void forgive();
   /// Returns the JSON of a record. Throws OutputError if the journal is gone.
-  [[nodiscard]] Json read(const RecordPlace& place) const;
+  [[nodiscard]] Json read(const RecordSpan& span) const;
   /// Returns the number of results for each other version of kds, by its name.
   [[nodiscard]] std::map<std::string, std::size_t> of_other_versions() const;
   /// Lines that are no records, apart from the last line of a journal.

@@ -56,8 +56,9 @@ Trajectory calphas_of(const Trajectory& necklace, const std::vector<Residue>& re
   for (std::size_t r = 0; r < residues.size(); ++r) {
     some.bead_names.push_back(necklace.bead_names[residues[r].calpha]);
     if (r + 1 == residues.size()) continue;
-    const auto holds = [&](const std::vector<std::size_t>& places) {
-      return std::find(places.begin(), places.end(), residues[r].beads.last) != places.end();
+    const auto holds = [&](const std::vector<std::size_t>& residues_of_beads) {
+      return std::find(residues_of_beads.begin(), residues_of_beads.end(), residues[r].beads.last) !=
+             residues_of_beads.end();
     };
     if (holds(necklace.breaks)) some.breaks.push_back(r);
     if (holds(necklace.gaps)) some.gaps.push_back(r);

@@ -27,9 +27,9 @@ class Clock {
   [[nodiscard]] std::size_t frame(std::size_t of_setting) const { return of_setting * stride_; }
   /// Returns the time in parts of a frame.
   [[nodiscard]] std::size_t start_of(std::size_t step) const { return frame(step) * parts_of_frame; }
-  /// Returns the place of a time in its step, from 0 to 1. The result is exact because strides are powers of
+  /// Returns a time as a share of its step, from 0 to 1. The result is exact because strides are powers of
   /// two.
-  [[nodiscard]] double place_in(std::size_t step, std::size_t time) const {
+  [[nodiscard]] double time_in(std::size_t step, std::size_t time) const {
     return static_cast<double>(time - start_of(step)) / static_cast<double>(stride_ * parts_of_frame);
   }
   /// The event must have a rounded time, because its bracket is 2^-24 of a step wide.
@@ -122,7 +122,7 @@ class Sampler final : public FrameObserver {
     in_step_ = step;
     const auto end = times_.lower_bound(clock_.start_of(step + 1));
     for (auto time = times_.upper_bound(clock_.start_of(step)); time != end; ++time) {
-      const double u = clock_.place_in(step, *time);
+      const double u = clock_.time_in(step, *time);
       run_.go_to(static_cast<double>(step) + u);
       take(*time, step, u);
     }

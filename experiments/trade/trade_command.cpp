@@ -52,7 +52,7 @@ constexpr CommandSpec kTradeCommand{
     "  unsure                      contacts that are possible but not certain\n"
     "  time, at most               error of times, in frames: mean, maximum\n"
     "  closest, moved              largest error of the closest distance; largest distance of a bead from "
-    "its true place",
+    "its true position",
     {},
     {},
     "kds trade villin.dcd --topology villin.pdb --frames 0:200 --out report\n"

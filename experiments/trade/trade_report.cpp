@@ -187,8 +187,8 @@ constexpr const char* words_of_columns =
     "spurious: events or contacts compared with the exact run. With --certify all possible contacts count as "
     "found, and unsure are the contacts that are possible but not certain. --select ca is another model: "
     "contacts of residues count that are at least its --apart apart. Time: error of times, in frames. "
-    "Closest: error of the closest distance. Moved: distance of a bead from its true place. *: no other row "
-    "of the group is both as fast and as accurate.";
+    "Closest: error of the closest distance. Moved: distance of a bead from its true position. *: no other "
+    "row of the group is both as fast and as accurate.";
 
 }  // namespace
 

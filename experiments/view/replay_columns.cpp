@@ -43,22 +43,22 @@ void add_times(BlockBytes& block, const ReplayRecorder::Events& events) {
   block.add(reaches);
 }
 
-/// Returns for each event the place of its first id in `ids`, and the end.
-std::vector<std::size_t> places_of_ids(const ReplayRecorder::Events& events) {
-  std::vector<std::size_t> places{0};
-  for (const std::uint8_t size : events.size) places.push_back(places.back() + size);
-  return places;
+/// Returns for each event the index of its first id in `ids`, and the end.
+std::vector<std::size_t> starts_of_ids(const ReplayRecorder::Events& events) {
+  std::vector<std::size_t> starts{0};
+  for (const std::uint8_t size : events.size) starts.push_back(starts.back() + size);
+  return starts;
 }
 
 /// Adds the first ids of all events, then the second ones, and so on.
 void add_ids(BlockBytes& block, const ReplayRecorder::Events& events) {
-  const std::vector<std::size_t> places = places_of_ids(events);
+  const std::vector<std::size_t> starts = starts_of_ids(events);
   const std::size_t most =
       events.count() == 0 ? 0 : *std::max_element(events.size.begin(), events.size.end());
   for (std::size_t k = 0; k < most; ++k) {
     for (std::size_t e = 0; e < events.count(); ++e) {
       if (k >= events.size[e]) continue;
-      const std::size_t at = places[e] + k;
+      const std::size_t at = starts[e] + k;
       block.add_varint(static_cast<std::int32_t>(events.ids[at] - (k == 0 ? 0 : events.ids[at - 1])));
     }
   }
@@ -89,7 +89,7 @@ BlockBytes event_columns(const ReplayRecorder::Events& events) {
 }
 
 BlockBytes change_columns(const ReplayRecorder::Layer& layer, const ReplayRecorder::Events& events) {
-  const std::vector<std::size_t> places_of = places_of_ids(events);
+  const std::vector<std::size_t> starts = starts_of_ids(events);
   const std::vector<std::uint32_t>& words = layer.changes;
   BlockBytes block, removed, added, places, others;
   Differences of_events;
@@ -99,7 +99,7 @@ BlockBytes change_columns(const ReplayRecorder::Layer& layer, const ReplayRecord
     removed.add_varint(gone);
     added.add_varint(come);
     at += 3;
-    const auto ids = std::span(events.ids).subspan(places_of[event], events.size[event]);
+    const auto ids = std::span(events.ids).subspan(starts[event], events.size[event]);
     Differences of_others;
     for (const std::size_t end = at + (gone + come) * layer.layer.arity; at < end; ++at) {
       const auto place = std::find(ids.begin(), ids.end(), words[at]) - ids.begin();

@@ -6,7 +6,7 @@
 
 namespace kds {
 
-/// The place of the data in the page.
+/// Marks where the data stand in the page.
 inline constexpr std::string_view replay_data_mark = "<!--KDS-DATA-->";
 
 /// Returns the page in pieces, which must be joined.

@@ -65,13 +65,13 @@ class InputFile::OnDisk {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
-  // Fills `to` from `place` on, except at the end of the file.
-  std::size_t read(std::uint64_t place, char* to, std::size_t size) const {
-    size = static_cast<std::size_t>(std::min<std::uint64_t>(size, size_ - std::min(place, size_)));
+  // Fills `to` from `offset` on, except at the end of the file.
+  std::size_t read(std::uint64_t offset, char* to, std::size_t size) const {
+    size = static_cast<std::size_t>(std::min<std::uint64_t>(size, size_ - std::min(offset, size_)));
     std::size_t done = 0;
     while (done < size) {
       const ssize_t got = ::pread(descriptor_, to + done, std::min<std::size_t>(size - done, 1U << 30U),
-                                  static_cast<off_t>(place + done));
+                                  static_cast<off_t>(offset + done));
       if (got == 0) break;
       if (got < 0 && errno == EINTR) continue;
       if (got < 0)
@@ -121,7 +121,7 @@ class InputFile::Members {
         inside_ = false;
       else if (code != Z_OK && code != Z_BUF_ERROR)
         throw InputError(fmt::format("{}: the gzipped data are damaged at byte {} ({})", disk_.name(),
-                                     place(), stream_.msg == nullptr ? zError(code) : stream_.msg));
+                                     offset(), stream_.msg == nullptr ? zError(code) : stream_.msg));
     }
     return done;
   }
@@ -134,7 +134,7 @@ class InputFile::Members {
  private:
   [[nodiscard]] std::size_t left() const { return end_ - begin_; }
   // The byte of the file that is unpacked next.
-  [[nodiscard]] std::uint64_t place() const { return filled_ - left(); }
+  [[nodiscard]] std::uint64_t offset() const { return filled_ - left(); }
 
   // Appends further bytes to those that are left; returns false at the end of the file.
   bool fill() {
@@ -163,12 +163,12 @@ class InputFile::Members {
       return;
     }
     if (left() == 1 && bytes_[begin_] == '\x1F') return;
-    const std::uint64_t behind = place();
+    const std::uint64_t behind = offset();
     for (; left() > 0 || fill(); ++begin_)
       if (bytes_[begin_] != '\0')
         throw InputError(fmt::format(
             "{}: expected the end of the file or another gzip member at byte {}, found {} at byte {}",
-            disk_.name(), behind, place() == behind ? "other data" : "zeros and then other data", place()));
+            disk_.name(), behind, offset() == behind ? "other data" : "zeros and then other data", offset()));
     ended_ = true;
   }
 
@@ -241,24 +241,24 @@ std::size_t InputFile::unpack(char* to, std::size_t size) {
   return got;
 }
 
-void InputFile::seek(std::uint64_t place) {
-  if (place == read_) return;
+void InputFile::seek(std::uint64_t offset) {
+  if (offset == read_) return;
   if (!packed_) {
-    read_ = std::min(place, disk_->size());
+    read_ = std::min(offset, disk_->size());
     return;
   }
-  if (place < unpacked_ - behind_.size()) rewind();
-  read_ = std::min(place, unpacked_);
+  if (offset < unpacked_ - behind_.size()) rewind();
+  read_ = std::min(offset, unpacked_);
   std::array<char, 1 << 15> skipped;
-  while (read_ < place)
+  while (read_ < offset)
     if (read(skipped.data(),
-             static_cast<std::size_t>(std::min<std::uint64_t>(place - read_, skipped.size()))) == 0)
+             static_cast<std::size_t>(std::min<std::uint64_t>(offset - read_, skipped.size()))) == 0)
       return;
 }
 
-bool InputFile::read_at(std::uint64_t place, char* to, std::size_t size) try {
-  seek(place);
-  if (read_ != place) return false;
+bool InputFile::read_at(std::uint64_t offset, char* to, std::size_t size) try {
+  seek(offset);
+  if (read_ != offset) return false;
   while (size > 0) {
     const std::size_t got = read(to, size);
     if (got == 0) return false;
@@ -347,13 +347,13 @@ void LineReader::rewind() {
   cut_ = false;
 }
 
-void LineReader::seek(std::uint64_t place, std::size_t number) {
-  if (place == 0) return rewind();
-  const std::uint64_t in_memory = file_.place() - end_;
-  if (in_memory <= place && place <= file_.place()) {
-    begin_ = static_cast<std::size_t>(place - in_memory);
+void LineReader::seek(std::uint64_t offset, std::size_t number) {
+  if (offset == 0) return rewind();
+  const std::uint64_t in_memory = file_.offset() - end_;
+  if (in_memory <= offset && offset <= file_.offset()) {
+    begin_ = static_cast<std::size_t>(offset - in_memory);
   } else {
-    file_.seek(place);
+    file_.seek(offset);
     begin_ = end_ = 0;
   }
   number_ = number - 1;

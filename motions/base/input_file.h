@@ -49,12 +49,12 @@ class InputFile {
   /// Continues at this byte of the unpacked file, or at its end. Fast for plain files. A gzipped file is
   /// unpacked up to that byte, from the start if the byte is more than `kept_behind` bytes before the last
   /// one unpacked.
-  void seek(std::uint64_t place);
+  void seek(std::uint64_t offset);
   /// Reads `size` bytes from this byte on. Returns false if the file ends before them, also if a gzipped file
   /// is cut off there.
-  [[nodiscard]] bool read_at(std::uint64_t place, char* to, std::size_t size);
+  [[nodiscard]] bool read_at(std::uint64_t offset, char* to, std::size_t size);
   /// Returns the position of the next byte.
-  [[nodiscard]] std::uint64_t place() const { return read_; }
+  [[nodiscard]] std::uint64_t offset() const { return read_; }
   struct Length {
     std::uint64_t bytes = 0;  ///< length of the unpacked file
     bool cut = false;         ///< the gzipped file is truncated after these bytes
@@ -102,12 +102,12 @@ class LineReader {
   /// Returns whether the line read last ended at the end of the file, without a line end.
   [[nodiscard]] bool cut() const { return cut_; }
   /// Returns the position in the file of the next line, in bytes.
-  [[nodiscard]] std::uint64_t place() const { return file_.place() - (end_ - begin_); }
+  [[nodiscard]] std::uint64_t offset() const { return file_.offset() - (end_ - begin_); }
   /// Starts again at the first line.
   void rewind();
   /// Continues at the line that begins at this byte and has this number. Takes no time if the line is in
   /// memory, as the next line is. A gzipped file is otherwise unpacked up to the line.
-  void seek(std::uint64_t place, std::size_t number);
+  void seek(std::uint64_t offset, std::size_t number);
   [[nodiscard]] const std::string& name() const { return file_.name(); }
 
   static constexpr std::size_t longest = std::size_t{1} << 20U;

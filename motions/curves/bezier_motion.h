@@ -116,9 +116,9 @@ class AnyDegreeMotion {
     return wanted;
   }
   [[nodiscard]] std::size_t row() const { return static_cast<std::size_t>(own_degree_) + 1; }
-  [[nodiscard]] double& number(BeadId bead, int k, int place) {
+  [[nodiscard]] double& number(BeadId bead, int k, int column) {
     return control_[(bead * row() + static_cast<std::size_t>(k)) * (dimension + 1) +
-                    static_cast<std::size_t>(place)];
+                    static_cast<std::size_t>(column)];
   }
 
   int own_degree_;

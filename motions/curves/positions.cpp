@@ -94,9 +94,9 @@ template <int D>
 auto PositionsOf<D>::exact_position(const Curves<D>& curves, BeadId bead, const Dyadic& time)
     -> std::array<Rational, static_cast<std::size_t>(D) + 1> {
   std::array<Rational, static_cast<std::size_t>(D) + 1> position;
-  for (int place = 0; place <= D; ++place) {  // the weight comes last
-    position[static_cast<std::size_t>(place)] = curve_at(
-        curves.own_degree(), time.rational(), [&](int k) { return curves.control_point(bead, k)[place]; });
+  for (int axis = 0; axis <= D; ++axis) {  // the weight comes last
+    position[static_cast<std::size_t>(axis)] = curve_at(
+        curves.own_degree(), time.rational(), [&](int k) { return curves.control_point(bead, k)[axis]; });
   }
   return position;
 }

@@ -59,15 +59,15 @@ class LatticeReduction {
   bool shorten(Eigen::Index last) {
     const auto before = basis_.vectors.leftCols(last);
     const Eigen::MatrixXd gram = before.transpose() * before;
-    const Eigen::VectorXd place = gram.inverse() * (before.transpose() * basis_.vectors.col(last));
-    if (!place.allFinite()) return false;
+    const Eigen::VectorXd multiples = gram.inverse() * (before.transpose() * basis_.vectors.col(last));
+    if (!multiples.allFinite()) return false;
     Eigen::Vector3d best = basis_.steps.col(last);
     double least = length(last) * (1 - 1e-12);
     bool found = false;
     for (int i = -1; i <= 1; ++i)
       for (int j = last == 2 ? -1 : 0; j <= (last == 2 ? 1 : 0); ++j) {
-        Eigen::Vector3d steps = basis_.steps.col(last) - (std::round(place[0]) + i) * basis_.steps.col(0);
-        if (last == 2) steps -= (std::round(place[1]) + j) * basis_.steps.col(1);
+        Eigen::Vector3d steps = basis_.steps.col(last) - (std::round(multiples[0]) + i) * basis_.steps.col(0);
+        if (last == 2) steps -= (std::round(multiples[1]) + j) * basis_.steps.col(1);
         const double now = (cell_ * steps).squaredNorm();
         if (!(now < least)) continue;
         least = now;
@@ -278,8 +278,8 @@ std::optional<LongerThanCell> longer_than_cell(const Eigen::Ref<const Eigen::Mat
   for (Eigen::Index i = 0; i < 3 && !longer; ++i) {
     if (images.reduced().col(i).isZero(0)) continue;
     const Eigen::Vector3d along = images.reduced().col(i).normalized();
-    const Eigen::RowVectorXd places = along.transpose() * chain;
-    const double length = places.maxCoeff() - places.minCoeff();
+    const Eigen::RowVectorXd offsets = along.transpose() * chain;
+    const double length = offsets.maxCoeff() - offsets.minCoeff();
     // Beads may be put into the cell of either basis, so take the longer one.
     const double most = std::max((along.transpose() * images.reduced()).cwiseAbs().sum(),
                                  (along.transpose() * cell).cwiseAbs().sum());

@@ -62,7 +62,7 @@ class Images {
 struct ImageBeside {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< shift to the nearest image, in cell vectors
   double distance = 0;                              ///< least distance of two beads, for the nearest image
-  double present = 0;  ///< least distance of two beads, for the chain in its present place
+  double present = 0;  ///< least distance of two beads, for the chain at its present position
 
   /// Chains are moved, or reported across files, only if the image is much nearer.
   [[nodiscard]] bool is_much_nearer() const {

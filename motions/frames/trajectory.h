@@ -19,7 +19,7 @@ struct LaterBreaks {
 struct Trajectory {
   std::string file;                        ///< where it was read, for messages
   std::vector<Eigen::Matrix3Xd> frames;    ///< one column a bead, in the file's length unit (angstrom)
-  std::vector<std::size_t> frame_numbers;  ///< 0-based place of each frame in the file
+  std::vector<std::size_t> frame_numbers;  ///< 0-based index of each frame in the file
   std::vector<double> times;          ///< one a frame, in picoseconds; empty unless all frames have a time
   std::vector<double> element_radii;  ///< van der Waals radius of each bead; empty where elements are unknown
   std::string element_lack;           ///< which file does not tell which element, if elements are unknown
@@ -43,13 +43,13 @@ struct Trajectory {
   }
 };
 
-/// Finds chain breaks: places where residues are missing, so that two consecutive beads are far apart.
+/// Finds chain breaks: gaps where residues are missing, so that two consecutive beads are far apart.
 /// Returns b for each bond b to b+1 of this frame that is longer than 1.5 times the median bond. Needs two
 /// bonds. There is no bond at `gaps`, which are in ascending order.
 [[nodiscard]] std::vector<std::size_t> find_chain_breaks(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
                                                          const std::vector<std::size_t>& gaps = {});
 
-/// Returns one line that names the first ten places.
+/// Returns one line that names the first ten breaks.
 [[nodiscard]] std::string describe_chain_breaks(const std::string& file,
                                                 const std::vector<std::size_t>& breaks);
 

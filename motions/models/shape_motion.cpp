@@ -47,22 +47,22 @@ class Neighbours {
 
 // Returns whether the bead's bonds stay short enough. Beads before this one have already moved, beads after
 // it have not.
-bool keeps_bonds(const Shape& before, const Shape& now, Index bead, const Vector3d& place) {
+bool keeps_bonds(const Shape& before, const Shape& now, Index bead, const Vector3d& position) {
   constexpr double longest = 2 * radius * usual_bond;
   for (const Index other : {bead - 1, bead + 1}) {
     if (other < 0 || other >= now.cols()) continue;
     const double limit = std::max(longest * longest, squared_distance(before.col(bead), before.col(other)));
-    if (squared_distance(place, now.col(other)) > limit) return false;
+    if (squared_distance(position, now.col(other)) > limit) return false;
   }
   return true;
 }
 
 bool keeps_apart(const Shape& before, const Shape& now, const Neighbours& neighbours, Index bead,
-                 const Vector3d& place) {
+                 const Vector3d& position) {
   constexpr double clear = clear_distance * radius;
   return std::all_of(neighbours.of(bead).begin(), neighbours.of(bead).end(), [&](BeadId other) {
     const Vector3d start = before.col(bead) - before.col(other);
-    const Vector3d end = place - now.col(other);
+    const Vector3d end = position - now.col(other);
     return least_square(start, end) >= std::min(clear * clear, dot(start, start));
   });
 }
@@ -110,10 +110,10 @@ std::vector<Shape> wandering(const Shape& shape, std::size_t frames, double step
     for (Index bead = 0; bead < now.cols(); ++bead) {
       InterruptionCheck::ask();
       for (int n = 0; n < tries; ++n) {
-        const Vector3d place = before.col(bead) + step * radius * random.direction(dimension);
-        if (!keeps_bonds(before, now, bead, place)) continue;
-        if (!keeps_apart(before, now, neighbours, bead, place)) continue;
-        now.col(bead) = place;
+        const Vector3d position = before.col(bead) + step * radius * random.direction(dimension);
+        if (!keeps_bonds(before, now, bead, position)) continue;
+        if (!keeps_apart(before, now, neighbours, bead, position)) continue;
+        now.col(bead) = position;
         break;
       }
     }

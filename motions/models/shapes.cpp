@@ -37,9 +37,9 @@ Shape beads_along(const Curve& curve, std::size_t beads, double bond, std::size_
   Shape shape(3, static_cast<Eigen::Index>(beads));
   std::size_t piece = 1;
   for (std::size_t b = 0; b < beads; ++b) {
-    const double place = std::min(gap * static_cast<double>(b), lengths.back());
-    while (piece < pieces && lengths[piece] < place) ++piece;
-    const double share = (place - lengths[piece - 1]) / (lengths[piece] - lengths[piece - 1]);
+    const double position = std::min(gap * static_cast<double>(b), lengths.back());
+    while (piece < pieces && lengths[piece] < position) ++piece;
+    const double share = (position - lengths[piece - 1]) / (lengths[piece] - lengths[piece - 1]);
     shape.col(static_cast<Eigen::Index>(b)) =
         scale * ((1 - share) * corners[piece - 1] + share * corners[piece]);
   }
@@ -72,27 +72,27 @@ Eigen::Vector3d grill_at(double t) {
 // only for look-up, so its order does not matter.
 class Occupied {
  public:
-  void add(const Eigen::Vector3d& place) { cells_[key(place, 0, 0, 0)].push_back(place); }
-  void remove(const Eigen::Vector3d& place) {
-    auto& cell = cells_[key(place, 0, 0, 0)];
-    cell.erase(std::find(cell.begin(), cell.end(), place));
+  void add(const Eigen::Vector3d& position) { cells_[key(position, 0, 0, 0)].push_back(position); }
+  void remove(const Eigen::Vector3d& position) {
+    auto& cell = cells_[key(position, 0, 0, 0)];
+    cell.erase(std::find(cell.begin(), cell.end(), position));
   }
-  [[nodiscard]] bool near(const Eigen::Vector3d& place) const {
+  [[nodiscard]] bool near(const Eigen::Vector3d& position) const {
     for (int n = 0; n < 27; ++n) {
-      const auto cell = cells_.find(key(place, n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
+      const auto cell = cells_.find(key(position, n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
       if (cell == cells_.end()) continue;
       for (const Eigen::Vector3d& other : cell->second)
-        if (squared_distance(place, other) < clear_distance * clear_distance) return true;
+        if (squared_distance(position, other) < clear_distance * clear_distance) return true;
     }
     return false;
   }
 
  private:
-  [[nodiscard]] static std::int64_t key(const Eigen::Vector3d& place, int x, int y, int z) {
+  [[nodiscard]] static std::int64_t key(const Eigen::Vector3d& position, int x, int y, int z) {
     const auto number = [](double at, int shift) {  // numbers from 0 on
       return static_cast<std::int64_t>(at / clear_distance) + shift + 1;
     };
-    return (number(place[0], x) << 42U) + (number(place[1], y) << 21U) + number(place[2], z);
+    return (number(position[0], x) << 42U) + (number(position[1], y) << 21U) + number(position[2], z);
   }
   std::unordered_map<std::int64_t, std::vector<Eigen::Vector3d>> cells_;
 };
@@ -149,28 +149,28 @@ Shape packed_grid(std::size_t beads, int dimension, double gap, double bond) {
   const double root = dimension == 2 ? std::sqrt(count) : cube_root(count);
   const auto side = std::max<std::size_t>(2, static_cast<std::size_t>(std::nearbyint(root)));
 
-  std::vector<Eigen::Vector3d> places;
+  std::vector<Eigen::Vector3d> positions;
   bool right = true, up = true;
   std::size_t row = 0, layer = 0;
   const auto x_of = [&](std::size_t i) { return step * static_cast<double>(right ? i : side - 1 - i); };
-  while (places.size() < beads) {
+  while (positions.size() < beads) {
     const double y = apart * static_cast<double>(row), z = apart * static_cast<double>(layer);
-    for (std::size_t i = 0; i < side; ++i) places.emplace_back(x_of(i), y, z);
+    for (std::size_t i = 0; i < side; ++i) positions.emplace_back(x_of(i), y, z);
     const bool layer_ends = dimension == 3 && (up ? row + 1 == side : row == 0);
     const double x = x_of(side - 1) + (right ? beside : -beside);
     const double half = apart / 2;
     if (layer_ends) {
-      places.emplace_back(x, y, z + half);
+      positions.emplace_back(x, y, z + half);
       up = !up;
       ++layer;
     } else {
-      places.emplace_back(x, up ? y + half : y - half, z);
+      positions.emplace_back(x, up ? y + half : y - half, z);
       row = up ? row + 1 : row - 1;
     }
     right = !right;
   }
   Shape shape(3, static_cast<Eigen::Index>(beads));
-  for (std::size_t b = 0; b < beads; ++b) shape.col(static_cast<Eigen::Index>(b)) = places[b];
+  for (std::size_t b = 0; b < beads; ++b) shape.col(static_cast<Eigen::Index>(b)) = positions[b];
   return shape;
 }
 

@@ -17,7 +17,7 @@ namespace kds {
 // Code compiled for another target passes vectors by another calling convention. Everything called from such
 // a function must therefore be inlined into it, and callers must pass lanes by reference. The function must
 // also not be cloned: g++ 14 makes a clone that takes the vector by value (-fipa-sra), and callers store the
-// vector in a place that the clone does not read.
+// vector where the clone does not read.
 #define KDS_FOR_TARGET(name) gnu::target(name), gnu::flatten, gnu::noinline, gnu::noclone
 #if defined(__x86_64__) && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define KDS_LANES_ARE_COMPILED_FOR_TARGETS 1

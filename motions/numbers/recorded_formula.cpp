@@ -43,20 +43,20 @@ void RecordedFormula::finish(std::uint16_t result) {
     const bool a_ends = uses_a && last_use[step.a] == i;
     const bool b_ends = uses_b && last_use[step.b] == i && step.b != step.a;
     const bool twice = uses_b && step.a == step.b;
-    if (uses_a) step.a = steps_[step.a].place;
-    if (uses_b) step.b = steps_[step.b].place;
+    if (uses_a) step.a = steps_[step.a].slot;
+    if (uses_b) step.b = steps_[step.b].slot;
     if (a_ends && is_in_place(step.kind) && !twice) {
-      step.place = step.a;
+      step.slot = step.a;
     } else {
-      if (unused.empty()) unused.push_back(static_cast<std::uint16_t>(places_++));
-      step.place = unused.back();
+      if (unused.empty()) unused.push_back(static_cast<std::uint16_t>(slots_++));
+      step.slot = unused.back();
       unused.pop_back();
       if (a_ends) unused.push_back(step.a);
     }
     if (b_ends) unused.push_back(step.b);
-    if (last_use[i] == never) unused.push_back(step.place);  // computed but never used
+    if (last_use[i] == never) unused.push_back(step.slot);  // computed but never used
   }
-  result_ = steps_[result].place;
+  result_ = steps_[result].slot;
 }
 
 std::uint16_t detail::record(RecordedFormula* formula, Kind kind, std::uint16_t a, std::uint16_t b,

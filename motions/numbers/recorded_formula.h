@@ -15,7 +15,7 @@
 namespace kds {
 
 /// One operation of a recorded formula. In the first six kinds, `a` and `b` are beads. In the other kinds
-/// they are the places of the operands; while the formula is being recorded, they are the numbers of the
+/// they are the slots of the operands; while the formula is being recorded, they are the numbers of the
 /// steps that compute the operands.
 struct FormulaStep {
   enum class Kind : std::uint8_t {
@@ -36,9 +36,9 @@ struct FormulaStep {
   Kind kind;
   std::uint16_t a = 0, b = 0;
   std::int64_t number = 0;
-  /// The place where the result is stored. Steps share a place once its value is no longer needed. In sums,
-  /// differences, negatives and multiples the place may be that of `a`.
-  std::uint16_t place = 0;
+  /// The slot where the result is stored. Steps share a slot once its value is no longer needed. In sums,
+  /// differences, negatives and multiples the slot may be that of `a`.
+  std::uint16_t slot = 0;
 };
 
 class RecordedFormula {
@@ -47,19 +47,19 @@ class RecordedFormula {
 
   /// Appends a step and returns its number. Throws std::length_error if there are already 2^16 steps.
   std::uint16_t add(Kind kind, std::uint16_t a, std::uint16_t b = 0, std::int64_t number = 0);
-  /// Ends the recording and assigns places. `result` is the step that computes the formula's value.
+  /// Ends the recording and assigns slots. `result` is the step that computes the formula's value.
   void finish(std::uint16_t result);
 
   [[nodiscard]] std::span<const FormulaStep> steps() const { return steps_; }
-  /// Returns the place where the formula's value is finally stored.
+  /// Returns the slot where the formula's value is finally stored.
   [[nodiscard]] std::size_t result() const { return result_; }
-  /// Returns the number of places.
-  [[nodiscard]] std::size_t places() const { return places_; }
+  /// Returns the number of slots.
+  [[nodiscard]] std::size_t slots() const { return slots_; }
 
  private:
   std::vector<FormulaStep> steps_;
   std::size_t result_ = 0;
-  std::size_t places_ = 0;
+  std::size_t slots_ = 0;
 };
 
 /// Stands in for the number type of polynomials that are recorded, not computed.

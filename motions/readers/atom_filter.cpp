@@ -52,7 +52,7 @@ std::optional<ResidueNumber> take_number(std::string_view& rest) {
   return read;
 }
 
-// Returns the place of the hyphen between the two numbers of a range. A hyphen is a sign if it stands before
+// Returns the offset of the hyphen between the two numbers of a range. A hyphen is a sign if it stands before
 // the second number or, where another hyphen follows, before the first.
 std::size_t hyphen_of_range(std::string_view text) {
   const bool first_is_sign = text.starts_with('-') && text.size() > 1 && is_numeral(text[1]) &&
@@ -171,7 +171,7 @@ SelectionTexts texts_of(const GivenText& given) {
   if (head.empty()) return parts;
   std::vector<std::string> fields = split_list(head, '/');
   const std::size_t special = head.find_first_of("/([:");
-  std::size_t first = 3;  // place of the first field among /model/chain/residues/atoms
+  std::size_t first = 3;  // index of the first field among /model/chain/residues/atoms
   if (head[0] == '/') {
     fields.erase(fields.begin());
     first = 0;

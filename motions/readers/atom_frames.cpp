@@ -21,7 +21,7 @@ namespace {
 
 // The atoms that are beads or guides, and what is known of them.
 struct ChosenAtoms {
-  std::vector<std::size_t> places;  // the beads, then the guides
+  std::vector<std::size_t> indices;  // the beads, then the guides
   std::size_t bead_count = 0;
   BondPaths bonds;
   std::vector<double> element_radii;
@@ -45,21 +45,21 @@ bool number_all(std::vector<std::size_t> ids) {
   return true;
 }
 
-// Returns the place in the file of each selected atom, whose id is one more than its place in the topology.
+// Returns the index in the file of each selected atom, whose id is one more than its index in the topology.
 // Returns nothing, and the first missing bead, if the file does not have all these ids.
-std::optional<std::vector<std::size_t>> places_by_id(const std::vector<std::size_t>& ids,
-                                                     const std::vector<std::size_t>& selected,
-                                                     std::size_t& missing) {
-  std::unordered_map<std::size_t, std::size_t> place_of;
-  for (std::size_t place = 0; place < ids.size(); ++place) place_of.emplace(ids[place], place);
-  std::vector<std::size_t> places;
+std::optional<std::vector<std::size_t>> indices_by_id(const std::vector<std::size_t>& ids,
+                                                      const std::vector<std::size_t>& selected,
+                                                      std::size_t& missing) {
+  std::unordered_map<std::size_t, std::size_t> index_of;
+  for (std::size_t index = 0; index < ids.size(); ++index) index_of.emplace(ids[index], index);
+  std::vector<std::size_t> indices;
   for (const std::size_t atom : selected) {
-    const auto found = place_of.find(atom + 1);
-    missing = places.size();
-    if (found == place_of.end()) return std::nullopt;
-    places.push_back(found->second);
+    const auto found = index_of.find(atom + 1);
+    missing = indices.size();
+    if (found == index_of.end()) return std::nullopt;
+    indices.push_back(found->second);
   }
-  return places;
+  return indices;
 }
 
 // Warns if elements of the file contradict those of the topology, unless the file's elements are guessed.
@@ -71,7 +71,7 @@ void compare_elements(const std::string& file, const std::string& topology, cons
   if (radii.empty() || !all_known || !guesses.empty() || chosen.element_radii.empty()) return;
   std::size_t differ = 0, first = 0;
   for (std::size_t bead = chosen.bead_count; bead-- > 0;) {
-    if (radii[chosen.places[bead]] == chosen.element_radii[bead]) continue;
+    if (radii[chosen.indices[bead]] == chosen.element_radii[bead]) continue;
     ++differ;
     first = bead;
   }
@@ -80,7 +80,7 @@ void compare_elements(const std::string& file, const std::string& topology, cons
       "{}: bead {} ({}) has another element than in {} (radius {}, not {}), which is used; do atoms have "
       "the same order? ({})",
       file, first, chosen.names.empty() ? "without a name" : chosen.names[first], topology,
-      radii[chosen.places[first]], chosen.element_radii[first], counted(differ, "bead")));
+      radii[chosen.indices[first]], chosen.element_radii[first], counted(differ, "bead")));
 }
 
 // Begins a piece at each bead that follows guides, for a file without these atoms.
@@ -103,8 +103,8 @@ ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, co
                          std::vector<std::string>& warnings) {
   const std::size_t atom_count = frames.atom_count();
   ChosenAtoms chosen;
-  chosen.places.resize(atom_count);
-  std::iota(chosen.places.begin(), chosen.places.end(), std::size_t{0});
+  chosen.indices.resize(atom_count);
+  std::iota(chosen.indices.begin(), chosen.indices.end(), std::size_t{0});
   chosen.bead_count = atom_count;
   if (!options.topology) {
     if (options.selection.needs_names()) throw needs_names("--select", file, "atoms");
@@ -126,10 +126,10 @@ ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, co
   if (has_all) wanted.insert(wanted.end(), topology.guides.begin(), topology.guides.end());
   std::size_t missing = 0;
   const bool by_id = !ids.empty() && (!has_all || number_all(ids));
-  if (const auto places = by_id ? places_by_id(ids, wanted, missing) : std::nullopt)
-    chosen.places = *places;
+  if (const auto indices = by_id ? indices_by_id(ids, wanted, missing) : std::nullopt)
+    chosen.indices = *indices;
   else if (has_all)
-    chosen.places = wanted;
+    chosen.indices = wanted;
   else if (!ids.empty())
     throw InputError(fmt::format(
         "{}: expected the {} selected from {}, found no atom with the id {} (bead {}, {}); --topology with a "
@@ -153,8 +153,8 @@ ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, co
 void take_own_elements(const AtomFrames& frames, const ChosenAtoms& atoms, FramesOpened& opened) {
   const std::vector<double> radii = frames.element_radii(opened.warnings);
   for (std::size_t i = 0; i < atoms.bead_count; ++i) {
-    if (!radii.empty() && !std::isnan(radii[atoms.places[i]])) {
-      opened.element_radii.push_back(radii[atoms.places[i]]);
+    if (!radii.empty() && !std::isnan(radii[atoms.indices[i]])) {
+      opened.element_radii.push_back(radii[atoms.indices[i]]);
       continue;
     }
     opened.element_radii.clear();
@@ -162,8 +162,8 @@ void take_own_elements(const AtomFrames& frames, const ChosenAtoms& atoms, Frame
       opened.element_lack =
           radii.empty()
               ? fmt::format("{} names no elements, which a file given by --topology may do", opened.file)
-              : fmt::format("{} does not tell the element of atom {} (bead {})", opened.file, atoms.places[i],
-                            i);
+              : fmt::format("{} does not tell the element of atom {} (bead {})", opened.file,
+                            atoms.indices[i], i);
     return;
   }
 }
@@ -213,7 +213,7 @@ FramesOpened open_atom_frames(const std::filesystem::path& path, const ReadOptio
   opened.bead_groups = std::move(atoms.groups);
   opened.chains = std::move(atoms.chains);
   opened.chain_like = atoms.chain_like;
-  opened.frames = std::make_unique<ChosenFrames>(std::move(frames), std::move(atoms.places), asked);
+  opened.frames = std::make_unique<ChosenFrames>(std::move(frames), std::move(atoms.indices), asked);
   return opened;
 }
 

@@ -30,7 +30,7 @@ class AtomFrames {
   /// Returns whether a frame may have a cell. If none can, frames between those asked for are not read.
   [[nodiscard]] virtual bool may_have_cell() const = 0;
   /// Reads frame k: its time, its cell, and the position of each of `atoms` (a column each, in angstrom).
-  /// Calls in ascending order of k are fast. `atoms` are places in the file, from 0, in any order. The
+  /// Calls in ascending order of k are fast. `atoms` are indices in the file, from 0, in any order. The
   /// positions may be left out if `frame.asked` is false and the frame has no cell. Throws DamagedFrame if
   /// the bytes of the frame are not what the format allows.
   virtual void read(std::size_t k, std::span<const std::size_t> atoms, FrameRead& frame) = 0;

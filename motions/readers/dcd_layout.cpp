@@ -96,7 +96,7 @@ class HeaderReader {
     return layout.number<std::int32_t>(bytes.data() + 4 * k);
   }
 
-  std::uint64_t position() const { return input_.place(); }
+  std::uint64_t position() const { return input_.offset(); }
 
   DcdLayout layout;
   static constexpr std::uint64_t header_bytes = 84;
@@ -164,10 +164,10 @@ void read_lammps_times(std::int32_t first, std::int32_t steps, double length, Dc
 void read_times(const HeaderReader& reader, const std::vector<char>& header, DcdLayout& layout) {
   constexpr double akma = 0.04888821;  // picoseconds
   const std::int32_t first = reader.integer(header, 2), steps = reader.integer(header, 3);
-  const char* const place = header.data() + std::size_t{4} * 10;
+  const char* const field = header.data() + std::size_t{4} * 10;
   const bool by_xplor = reader.integer(header, 20) == 0;
-  const double length = by_xplor ? reader.layout.number<double>(place)
-                                 : static_cast<double>(reader.layout.number<float>(place));
+  const double length = by_xplor ? reader.layout.number<double>(field)
+                                 : static_cast<double>(reader.layout.number<float>(field));
   if (layout.title.find("LAMMPS") != std::string::npos) {
     read_lammps_times(first, steps, length, layout);
     return;

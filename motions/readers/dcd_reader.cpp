@@ -65,9 +65,10 @@ class DcdFile {
     const char* record = bytes_.data();
     records_.clear();
     for (const std::uint64_t size : record_sizes(k)) {
-      const std::uint64_t place = layout_.frame_begin(k) + static_cast<std::uint64_t>(record - bytes_.data());
-      check_marker(k, place, layout_.marker(record), size);
-      check_marker(k, place, layout_.marker(record + layout_.marker_size + size), size);
+      const std::uint64_t offset =
+          layout_.frame_begin(k) + static_cast<std::uint64_t>(record - bytes_.data());
+      check_marker(k, offset, layout_.marker(record), size);
+      check_marker(k, offset, layout_.marker(record + layout_.marker_size + size), size);
       records_.push_back(record + layout_.marker_size);
       record += layout_.record_size(size);
     }
@@ -103,22 +104,22 @@ class DcdFile {
 
   // Checks the markers before the records of a frame, as far as the file reaches.
   void check_markers(std::size_t k) {
-    std::uint64_t place = layout_.frame_begin(k);
+    std::uint64_t offset = layout_.frame_begin(k);
     for (const std::uint64_t size : record_sizes(k)) {
       std::array<char, 8> marker{};
-      if (!input_.read_at(place, marker.data(), layout_.marker_size)) return;
-      check_marker(k, place, layout_.marker(marker.data()), size);
-      place += layout_.record_size(size);
+      if (!input_.read_at(offset, marker.data(), layout_.marker_size)) return;
+      check_marker(k, offset, layout_.marker(marker.data()), size);
+      offset += layout_.record_size(size);
     }
   }
 
-  void check_marker(std::size_t k, std::uint64_t place, std::uint64_t found, std::uint64_t expected) const {
+  void check_marker(std::size_t k, std::uint64_t offset, std::uint64_t found, std::uint64_t expected) const {
     if (found == expected) return;
     const std::uint64_t atoms = layout_.atoms_in_frame(k);
     if (expected == 4 * atoms && found % 4 == 0 && layout_.with_sign(found) >= 0)
-      throw DamagedFrame(file_, k, place,
+      throw DamagedFrame(file_, k, offset,
                          fmt::format("record holds {}, expected {}", counted(found / 4, "atom"), atoms));
-    throw DamagedFrame(file_, k, place,
+    throw DamagedFrame(file_, k, offset,
                        fmt::format("record holds {} bytes, expected {}", layout_.with_sign(found), expected));
   }
 
@@ -140,9 +141,9 @@ class Atoms {
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (std::size_t i = 0; i < dcd_.layout().atom_count; ++i)
         first_(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(i)) = dcd_.coordinate(axis, i);
-    place_of_.assign(dcd_.layout().atom_count, fixed);
+    free_index_of_.assign(dcd_.layout().atom_count, fixed);
     for (std::size_t i = 0; i < dcd_.layout().free_atoms.size(); ++i)
-      place_of_[dcd_.layout().free_atoms[i]] = i;
+      free_index_of_[dcd_.layout().free_atoms[i]] = i;
   }
 
   void read(std::size_t k, std::span<const std::size_t> atoms, Eigen::Matrix3Xd& frame) {
@@ -156,16 +157,16 @@ class Atoms {
 
  private:
   double coordinate(std::size_t k, std::size_t axis, std::size_t atom) const {
-    if (k == 0 || place_of_.empty()) return dcd_.coordinate(axis, atom);
-    if (place_of_[atom] == fixed)
+    if (k == 0 || free_index_of_.empty()) return dcd_.coordinate(axis, atom);
+    if (free_index_of_[atom] == fixed)
       return first_(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(atom));
-    return dcd_.coordinate(axis, place_of_[atom]);
+    return dcd_.coordinate(axis, free_index_of_[atom]);
   }
 
   static constexpr std::size_t fixed = static_cast<std::size_t>(-1);
   DcdFile& dcd_;
   Eigen::Matrix3Xd first_;
-  std::vector<std::size_t> place_of_;
+  std::vector<std::size_t> free_index_of_;
 };
 
 class DcdFrames final : public AtomFrames {

@@ -109,7 +109,7 @@ std::optional<std::string> set_elements_by_mass(std::vector<StructureResidue>& r
     }
     for (StructureAtom& atom : residue.atoms) {
       if (atom.element_is_given) continue;
-      const double mass = masses[atom.place];
+      const double mass = masses[atom.index];
       atom.is_massless = any_mass && mass < least_of_nuclei;
       atom.element = any_mass ? element_by_mass(mass) : element_by_name(residue, atom.name);
       // Hydrogens whose mass is repartitioned weigh up to 4.032. Helium bonds to no atom.

@@ -17,7 +17,7 @@ void guess_elements_by_name(StructureResidue& residue);
 /// if the atom's name begins with the letter of that element or the atom is alone in its residue. Otherwise
 /// the name gives the element, because united atoms (CH3) and hydrogens that took a part of their neighbour's
 /// mass have masses of their own. An atom whose mass is below 0.9 is a massless site, unless all masses are
-/// 0. `masses` are by place. Returns a note if elements were taken from names.
+/// 0. `masses` are by index. Returns a note if elements were taken from names.
 [[nodiscard]] std::optional<std::string> set_elements_by_mass(std::vector<StructureResidue>& residues,
                                                               const std::vector<double>& masses);
 

@@ -227,9 +227,9 @@ XyzColumns read_columns(const Value& value) {
                        in_quotes(text)));
   XyzColumns columns{std::nullopt, 0, std::nullopt, 0, true};
   std::optional<std::size_t> position, number;
-  const auto once = [&](std::optional<std::size_t>& place, const std::string& name) {
-    if (place) refuse(fmt::format("Properties names {} twice", in_quotes(name)));
-    place = columns.count;
+  const auto once = [&](std::optional<std::size_t>& index, const std::string& name) {
+    if (index) refuse(fmt::format("Properties names {} twice", in_quotes(name)));
+    index = columns.count;
   };
   for (std::size_t i = 0; i < parts.size(); i += 3) {
     const std::string name = lower_case(trimmed(parts[i])), type(trimmed(parts[i + 1]));

@@ -76,10 +76,10 @@ class GroColumns {
 
 // Returns the time in a title, as in "protein in water t= 12.00000 step= 6000".
 std::optional<double> time_in(std::string_view title) {
-  for (std::size_t place = title.rfind("t="); place != std::string_view::npos;
-       place = place == 0 ? std::string_view::npos : title.rfind("t=", place - 1)) {
-    if (place > 0 && title[place - 1] != ' ' && title[place - 1] != ',') continue;
-    std::string_view rest = trimmed(title.substr(place + 2));
+  for (std::size_t offset = title.rfind("t="); offset != std::string_view::npos;
+       offset = offset == 0 ? std::string_view::npos : title.rfind("t=", offset - 1)) {
+    if (offset > 0 && title[offset - 1] != ' ' && title[offset - 1] != ',') continue;
+    std::string_view rest = trimmed(title.substr(offset + 2));
     rest = rest.substr(0, rest.find_first_of(" \t,;"));
     const auto time = parse_double(rest);
     if (time && std::isfinite(*time)) return time;
@@ -111,11 +111,11 @@ struct GroBox {
   // The numbers are xx, yy, zz, then xy, xz, yx, yz, zx, zy, where xy is the y coordinate of the first
   // vector.
   CellRead cell() const {
-    constexpr std::array<std::pair<int, int>, 9> places{
+    constexpr std::array<std::pair<int, int>, 9> indices{
         {{0, 0}, {1, 1}, {2, 2}, {1, 0}, {2, 0}, {0, 1}, {2, 1}, {0, 2}, {1, 2}}};
     Eigen::Matrix3d vectors = Eigen::Matrix3d::Zero();
     for (std::size_t i = 0; i < lengths.size(); ++i)
-      vectors(places[i].first, places[i].second) = angstrom_of_nanometres(lengths[i]);
+      vectors(indices[i].first, indices[i].second) = angstrom_of_nanometres(lengths[i]);
     return read_cell(vectors);
   }
 };
@@ -210,7 +210,7 @@ class GroModels final : public StructureModels {
     } catch (const CutFile&) {
       held_.ends_inside = true;
     }
-    held_.end = lines_.place();
+    held_.end = lines_.offset();
     has_times_ = timed > 0 && timed == held_.whole;
     if (timed > 0 && !has_times_)
       notes_.push_back(
@@ -255,7 +255,7 @@ class GroModels final : public StructureModels {
   }
 
   bool next_line(std::string_view& line) {
-    line_begin_ = lines_.place();
+    line_begin_ = lines_.offset();
     return lines_.next(line);
   }
 
@@ -323,10 +323,10 @@ class GroModels final : public StructureModels {
     return Found::frame;
   }
 
-  void add_atom(std::size_t k, std::size_t place, std::string_view line, const GroColumns& columns,
+  void add_atom(std::size_t k, std::size_t index, std::string_view line, const GroColumns& columns,
                 std::vector<StructureResidue>& blocks) const {
     const std::optional<Eigen::Vector3d> position = columns.position_in(line);
-    if (!position) throw damage(k, fmt::format("three coordinates of atom {}", place + 1), line);
+    if (!position) throw damage(k, fmt::format("three coordinates of atom {}", index + 1), line);
     std::string_view number = trimmed(line.substr(0, 5));
     const std::string_view name = trimmed(line.substr(5, 5));
     if (number.empty()) number = "?";
@@ -336,7 +336,7 @@ class GroModels final : public StructureModels {
     }
     StructureAtom& atom = blocks.back().atoms.emplace_back();
     atom.name = trimmed(line.substr(10, 5));
-    atom.place = place;
+    atom.index = index;
     for (Eigen::Index axis = 0; axis < 3; ++axis)
       atom.position[axis] = angstrom_of_nanometres((*position)[axis]);
   }

@@ -87,14 +87,14 @@ class LammpsFrames final : public AtomFrames {
   }
 
  private:
-  struct Place {
+  struct FrameBegin {
     std::uint64_t byte = 0;
     std::size_t line = 1;
   };
 
   // Reads the next line. Returns false at the end of the file, or if the file ends inside the line.
   bool read_line() {
-    line_begin_ = lines_.place();
+    line_begin_ = lines_.offset();
     return lines_.next(line_) && !lines_.cut();
   }
 
@@ -111,12 +111,12 @@ class LammpsFrames final : public AtomFrames {
     } catch (const CutFile&) {
       held_.ends_inside = true;
     }
-    if (held_.ends_inside) held_.end = lines_.place();
+    if (held_.ends_inside) held_.end = lines_.offset();
   }
 
   bool count_frame() {
     const std::size_t k = held_.whole;
-    const Place place{lines_.place(), lines_.number() + 1};
+    const FrameBegin begin{lines_.offset(), lines_.number() + 1};
     DumpHeader header;
     if (!read_header(k, header)) return false;
     if (k == 0) {
@@ -138,7 +138,7 @@ class LammpsFrames final : public AtomFrames {
     }
     may_have_cell_ =
         may_have_cell_ || (header.box && header.box->periodic != std::array{false, false, false});
-    frames_.push_back(place);
+    frames_.push_back(begin);
     ++held_.whole;
     return true;
   }
@@ -160,7 +160,7 @@ class LammpsFrames final : public AtomFrames {
   bool read_header(std::size_t k, DumpHeader& header) {
     do {
       if (!read_line()) {
-        held_.ends_inside = held_.ends_inside || (lines_.cut() && line_begin_ < lines_.place());
+        held_.ends_inside = held_.ends_inside || (lines_.cut() && line_begin_ < lines_.offset());
         return false;
       }
     } while (trimmed(line_).empty());
@@ -323,7 +323,7 @@ class LammpsFrames final : public AtomFrames {
     }
   }
 
-  // Returns the place among all atoms of the atom in this row. Each place comes once in a frame.
+  // Returns the index among all atoms of the atom in this row. Each index comes once in a frame.
   std::size_t atom_of_row(std::size_t k) {
     const std::size_t id = id_of_row(k);
     std::size_t atom = id - ids_.front();  // if there are no gaps between ids
@@ -371,7 +371,7 @@ class LammpsFrames final : public AtomFrames {
   std::uint64_t line_begin_ = 0;
   std::vector<std::string_view> fields_;  // the fields of a line
   FramesHeld held_;
-  std::vector<Place> frames_;
+  std::vector<FrameBegin> frames_;
   DumpHeader first_;  // header of frame 0
   DumpColumns columns_;
   bool may_have_cell_ = false;

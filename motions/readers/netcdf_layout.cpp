@@ -61,7 +61,7 @@ std::uint64_t NetcdfLayout::record_begin(std::uint64_t k) const {
 }
 
 void NetcdfLayout::fail(const std::string& what) const {
-  throw InputError(fmt::format("{}: byte {}: {}", file_, place_, what));
+  throw InputError(fmt::format("{}: byte {}: {}", file_, offset_, what));
 }
 
 void NetcdfLayout::fail_end() const {
@@ -72,33 +72,33 @@ void NetcdfLayout::fail_end() const {
 
 // Reads an unsigned number of 1 to 8 bytes, the most significant first.
 std::uint64_t NetcdfLayout::number(std::size_t bytes) {
-  if (header_.size() - place_ < bytes) fail_end();
+  if (header_.size() - offset_ < bytes) fail_end();
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < bytes; ++i)
-    value = value << 8U | static_cast<unsigned char>(header_[place_ + i]);
-  place_ += bytes;
+    value = value << 8U | static_cast<unsigned char>(header_[offset_ + i]);
+  offset_ += bytes;
   return value;
 }
 
 // Reads the length of a list whose items take at least 4 bytes each.
 std::size_t NetcdfLayout::list(std::uint64_t tag, const char* items) {
-  const auto begin = place_;
+  const auto begin = offset_;
   const std::uint64_t found = number(4);
   const std::uint64_t length = size();
   if (found != tag && (found != 0 || length != 0)) {
-    place_ = begin;
+    offset_ = begin;
     fail(fmt::format("expected the NetCDF list of {} (tag {}), found tag {} and length {}", items, tag,
                      static_cast<std::int32_t>(found), with_sign(length)));
   }
-  if (length > (header_.size() - place_) / 4) fail_end();
+  if (length > (header_.size() - offset_) / 4) fail_end();
   return static_cast<std::size_t>(length);
 }
 
 std::string_view NetcdfLayout::padded_bytes(std::uint64_t bytes) {
-  const std::uint64_t left = header_.size() - place_;
+  const std::uint64_t left = header_.size() - offset_;
   if (bytes > left || padded_size(bytes) > left) fail_end();
-  const std::string_view text(header_.data() + place_, static_cast<std::size_t>(bytes));
-  place_ += static_cast<std::size_t>(padded_size(bytes));
+  const std::string_view text(header_.data() + offset_, static_cast<std::size_t>(bytes));
+  offset_ += static_cast<std::size_t>(padded_size(bytes));
   return text;
 }
 
@@ -106,7 +106,7 @@ int NetcdfLayout::type() {
   const std::uint64_t found = number(4);
   const std::uint64_t last = version_ == 5 ? bytes_of_type.size() - 1 : double_type;
   if (found == 0 || found > last) {
-    place_ -= 4;
+    offset_ -= 4;
     fail(
         fmt::format("expected a NetCDF type from 1 to {}, found {}", last, static_cast<std::int32_t>(found)));
   }
@@ -124,7 +124,7 @@ void NetcdfLayout::skip_attributes() {
 }
 
 void NetcdfLayout::read_header() {
-  place_ = 3;
+  offset_ = 3;
   version_ = number(1);
   const std::uint64_t records = size();
   const std::uint64_t streamed =
@@ -146,12 +146,12 @@ void NetcdfLayout::read_variable(const std::vector<std::uint64_t>& dimensions) {
   variable.name = padded_bytes(size());
   variable.id = static_cast<int>(variables_.size());
   const std::uint64_t rank = size();
-  if (rank > (header_.size() - place_) / 4) fail_end();
+  if (rank > (header_.size() - offset_) / 4) fail_end();
   for (std::uint64_t i = 0; i < rank; ++i) {
-    const auto begin = place_;
+    const auto begin = offset_;
     const std::uint64_t dimension = size();
     if (dimension >= dimensions.size()) {
-      place_ = begin;
+      offset_ = begin;
       fail(fmt::format("expected the number of one of {} dimensions, counted from 0, found {}",
                        dimensions.size(), with_sign(dimension)));
     }
@@ -162,7 +162,7 @@ void NetcdfLayout::read_variable(const std::vector<std::uint64_t>& dimensions) {
   }
   skip_attributes();
   variable.type = type();
-  const std::size_t size_place = place_;
+  const std::size_t size_offset = offset_;
   const std::uint64_t size_told = size();
   variable.begin = number(version_ == 1 ? 4 : 8);
   variable.bytes = bytes_of_type[static_cast<std::size_t>(variable.type)];
@@ -171,18 +171,18 @@ void NetcdfLayout::read_variable(const std::vector<std::uint64_t>& dimensions) {
     variable.bytes *= length;
   }
   if (variable.begin > most_bytes) fail("a variable begins beyond the end of any file");
-  check_size(variable, size_told, size_place);
+  check_size(variable, size_told, size_offset);
   variables_.push_back(std::move(variable));
 }
 
 // The bytes of a part follow from the lengths. Writers may leave out the padding, write 0 for variables
 // without records, and write any number where the bytes do not fit into 31 bits.
-void NetcdfLayout::check_size(const NetcdfVariable& variable, std::uint64_t told, std::size_t place) {
+void NetcdfLayout::check_size(const NetcdfVariable& variable, std::uint64_t told, std::size_t offset) {
   const std::uint64_t padded = padded_size(variable.bytes);
   if (told == padded || told == variable.bytes) return;
   if (version_ != 5 && padded > std::numeric_limits<std::int32_t>::max() - 3U) return;
   if (told == 0 && variable.has_records && records_claimed_.value_or(0) == 0) return;
-  place_ = place;
+  offset_ = offset;
   fail(fmt::format("expected a size of {} for the variable {}, as its dimensions say, found {}", padded,
                    in_quotes(variable.name), with_sign(told)));
 }

@@ -47,7 +47,7 @@ class NetcdfLayout {
  private:
   void read_header();
   void read_variable(const std::vector<std::uint64_t>& dimensions);
-  void check_size(const NetcdfVariable& variable, std::uint64_t told, std::size_t place);
+  void check_size(const NetcdfVariable& variable, std::uint64_t told, std::size_t offset);
   void sum_records();
   void skip_attributes();
   [[nodiscard]] std::uint64_t number(std::size_t bytes);
@@ -65,7 +65,7 @@ class NetcdfLayout {
   std::string file_;
   std::uint64_t file_size_ = 0;
   std::string header_;
-  std::size_t place_ = 0;  // in the header
+  std::size_t offset_ = 0;  // in the header
   std::uint64_t version_ = 0;
   std::optional<std::uint64_t> records_claimed_;
   std::uint64_t record_size_ = 0;

@@ -33,37 +33,37 @@ struct Source {
 std::size_t line_of_value(std::string_view text, std::size_t line, const std::string& first_tag,
                           std::size_t columns, std::size_t index) {
   constexpr std::string_view blanks = " \t\n";
-  std::size_t place = 0;
-  for (std::size_t left = line; left > 1 && place < text.size(); --left)
-    place = std::min(text.find('\n', place), text.size() - 1) + 1;
+  std::size_t offset = 0;
+  for (std::size_t left = line; left > 1 && offset < text.size(); --left)
+    offset = std::min(text.find('\n', offset), text.size() - 1) + 1;
   bool found = false;
   std::size_t to_skip = columns - 1 + index;
   for (;;) {
-    const std::size_t next = std::min(text.find_first_not_of(blanks, place), text.size());
-    line += static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(place),
+    const std::size_t next = std::min(text.find_first_not_of(blanks, offset), text.size());
+    line += static_cast<std::size_t>(std::count(text.begin() + static_cast<std::ptrdiff_t>(offset),
                                                 text.begin() + static_cast<std::ptrdiff_t>(next), '\n'));
-    place = next;
-    if (place == text.size()) return line;
-    if (text[place] == '#') {
-      place = std::min(text.find('\n', place), text.size());
+    offset = next;
+    if (offset == text.size()) return line;
+    if (text[offset] == '#') {
+      offset = std::min(text.find('\n', offset), text.size());
       continue;
     }
-    std::size_t end = text.find_first_of(blanks, place);
-    if (text[place] == ';' && (place == 0 || text[place - 1] == '\n')) {
-      end = text.find("\n;", place);
+    std::size_t end = text.find_first_of(blanks, offset);
+    if (text[offset] == ';' && (offset == 0 || text[offset - 1] == '\n')) {
+      end = text.find("\n;", offset);
       if (end != std::string_view::npos) end += 2;
-    } else if (text[place] == '\'' || text[place] == '"') {
-      end = place;
-      do end = text.find(text[place], end + 1);
+    } else if (text[offset] == '\'' || text[offset] == '"') {
+      end = offset;
+      do end = text.find(text[offset], end + 1);
       while (end != std::string_view::npos && end + 1 < text.size() &&
              blanks.find(text[end + 1]) == std::string_view::npos);
       if (end != std::string_view::npos) ++end;
     }
-    const std::string_view token = text.substr(place, end - place);
+    const std::string_view token = text.substr(offset, end - offset);
     if (found && to_skip-- == 0) return line;
     found = found || token == first_tag;
     line += static_cast<std::size_t>(std::count(token.begin(), token.end(), '\n'));
-    place += token.size();
+    offset += token.size();
   }
 }
 
@@ -166,7 +166,7 @@ class Table {
   }
 
   std::size_t rows() const { return tags_.empty() ? 0 : values().size() / tags_.size(); }
-  bool has(const std::string& column) const { return place_of(column) < tags_.size(); }
+  bool has(const std::string& column) const { return index_of(column) < tags_.size(); }
 
   // The first of these columns that has a value in this row, "" if none has.
   std::string text(std::size_t row, std::initializer_list<std::size_t> columns) const {
@@ -193,8 +193,8 @@ class Table {
                                  loop_ != nullptr ? item.loop.tags[column] : item.pair[0],
                                  in_quotes(values()[index])));
   }
-  // The place of a column in a row; one past the last column if there is none.
-  std::size_t place_of(const std::string& column) const {
+  // The index of a column in a row; one past the last column if there is none.
+  std::size_t index_of(const std::string& column) const {
     return static_cast<std::size_t>(std::find(tags_.begin(), tags_.end(), category_ + lower_case(column)) -
                                     tags_.begin());
   }
@@ -214,7 +214,7 @@ class Table {
 std::map<std::string, Entity> entities_of(const Source& source, const gemmi::cif::Block& block) {
   std::map<std::string, Entity> entities;
   const Table table(source, block, "_entity.");
-  const std::size_t id = table.place_of("id"), type = table.place_of("type");
+  const std::size_t id = table.index_of("id"), type = table.index_of("type");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string said = lower_case(table.text(row, {type}));
     const bool other = said == "non-polymer" || said == "branched" || said == "water";
@@ -251,7 +251,7 @@ std::vector<StructureModel> models_of(const Source& source, const gemmi::cif::Bl
   const Table atoms(source, block, "_atom_site.");
   check_columns(source.file, atoms);
   const std::map<std::string, Entity> entities = entities_of(source, block);
-  const auto column = [&](const char* name) { return atoms.place_of(name); };
+  const auto column = [&](const char* name) { return atoms.index_of(name); };
   const std::size_t x = column("Cartn_x"), y = column("Cartn_y"), z = column("Cartn_z"),
                     model = column("pdbx_PDB_model_num"), group = column("group_PDB"),
                     asym = column("auth_asym_id"), label_asym = column("label_asym_id"),
@@ -287,7 +287,7 @@ std::vector<StructureModel> models_of(const Source& source, const gemmi::cif::Bl
     atom.alternate = location.empty() ? '\0' : location[0];
     atom.element = gemmi::Element(atoms.text(row, {symbol}));
     atom.element_is_given = atom.element != gemmi::El::X;
-    atom.place = into.atoms++;
+    atom.index = into.atoms++;
     atom.occupancy = parse_cif_number(atoms.text(row, {occupancy}));
     atom.b_factor = parse_cif_number(atoms.text(row, {b_factor}));
     atom.position = {atoms.number(row, x), atoms.number(row, y), atoms.number(row, z)};
@@ -307,7 +307,7 @@ CellRead cell_of(const Source& source, const gemmi::cif::Block& block) {
        {Names("_symmetry.", "space_group_name_H-M"), Names("_space_group.", "name_H-M_alt")}) {
     const Table table(source, block, category);
     if (table.rows() == 0 || !table.has(tag)) continue;
-    const std::string group = table.text(0, {table.place_of(tag)});
+    const std::string group = table.text(0, {table.index_of(tag)});
     if (!group.empty() && !is_space_group_p1(group)) return {};
   }
   const Table table(source, block, "_cell.");
@@ -316,8 +316,8 @@ CellRead cell_of(const Source& source, const gemmi::cif::Block& block) {
   constexpr std::array tags{"length_a", "length_b", "length_c", "angle_alpha", "angle_beta", "angle_gamma"};
   for (std::size_t i = 0; i < tags.size(); ++i) {
     // A value that is not known means that there is no cell.
-    if (!table.has(tags[i]) || table.text(0, {table.place_of(tags[i])}).empty()) return {};
-    const auto number = table.find_number(0, table.place_of(tags[i]));
+    if (!table.has(tags[i]) || table.text(0, {table.index_of(tags[i])}).empty()) return {};
+    const auto number = table.find_number(0, table.index_of(tags[i]));
     if (!number) return {std::nullopt, "_cell has a length or an angle that is no number"};
     numbers[i] = *number;
   }

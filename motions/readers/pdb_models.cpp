@@ -98,7 +98,7 @@ void PdbModelReader::add_atom(std::string_view line, Run& run) {
   run.lines.add(lines_.number());
   if (run.model == nullptr) return;
   PdbAtom atom = read_atom_line(lines_.name(), lines_.number(), line);
-  atom.atom.place = run.model->atoms.size();
+  atom.atom.index = run.model->atoms.size();
   run.model->atoms.push_back(std::move(atom));
   run.bytes += line.size();
   if (run.bytes > most_whole)
@@ -189,7 +189,7 @@ FramesHeld PdbModelReader::held() const {
   const bool ends_inside_model = ended_ && (ends_inside_line_ || (models_ > 1 && closed_ + 1 == models_));
   return {models_ - (ends_inside_model ? 1 : 0),
           ends_inside_model || ends_inside_line_,
-          lines_.place(),
+          lines_.offset(),
           {},
           ends_inside_line_};
 }

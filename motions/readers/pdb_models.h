@@ -16,7 +16,7 @@
 namespace kds {
 
 struct PdbModel {
-  std::vector<PdbAtom> atoms;     ///< each with its place in the model, from 0
+  std::vector<PdbAtom> atoms;     ///< each with its index in the model, from 0
   std::vector<std::size_t> ends;  ///< chain ends: the number of atoms before each TER, ascending
   CellRead cell;  ///< the cell of a simulation box: CRYST1 with space group P 1 (or without one)
 };

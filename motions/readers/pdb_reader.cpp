@@ -106,7 +106,7 @@ class StructureFrames final : public FrameReader {
   // Describes what the first frame determines for all frames.
   void describe(FramesOpened& opened) {
     const StructureModel model = models_->model(asked_[0]);
-    SelectedChains selected = select_chains(place(asked_[0]), model, selection_, chain_, groups_);
+    SelectedChains selected = select_chains(name_of(asked_[0]), model, selection_, chain_, groups_);
     names_ = names_of(selected.atoms);
     guide_names_ = names_of(selected.guides);
     opened.bonds = std::move(selected.bonds);
@@ -125,7 +125,7 @@ class StructureFrames final : public FrameReader {
     const std::size_t k = walk_.frame();
     frame.asked = walk_.is_asked();
     const StructureModel read = models_->model(k);
-    const SelectedChains selected = select_chains(place(k), read, selection_, chain_);
+    const SelectedChains selected = select_chains(name_of(k), read, selection_, chain_);
     check_same_atoms(file_, asked_[0], names_, k, selected.atoms);
     frame.stamp = {k, read.picoseconds};
     frame.positions = positions(selected, guide_names_.size());
@@ -142,7 +142,7 @@ class StructureFrames final : public FrameReader {
   void rewind() override { walk_.rewind(); }
 
  private:
-  std::string place(std::size_t k) const { return alone_ ? file_ : fmt::format("{}: frame {}", file_, k); }
+  std::string name_of(std::size_t k) const { return alone_ ? file_ : fmt::format("{}: frame {}", file_, k); }
 
   std::string file_;
   std::unique_ptr<StructureModels> models_;
@@ -178,8 +178,8 @@ Topology topology_of(const std::filesystem::path& path, const ReadOptions& optio
   topology.atom_count = model.atom_count;
   SelectedChains selected =
       select_chains(path.string(), model, options.selection, options.chain, options.groups);
-  for (const SelectedAtom& atom : selected.atoms) topology.selected.push_back(atom.atom->place);
-  for (const SelectedAtom& guide : selected.guides) topology.guides.push_back(guide.atom->place);
+  for (const SelectedAtom& atom : selected.atoms) topology.selected.push_back(atom.atom->index);
+  for (const SelectedAtom& guide : selected.guides) topology.guides.push_back(guide.atom->index);
   topology.bonds = std::move(selected.bonds);
   topology.element_radii = element_radii_of(path.string(), selected.atoms, topology.element_lack);
   topology.bead_names = names_of(selected.atoms);

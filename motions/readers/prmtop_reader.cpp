@@ -100,7 +100,7 @@ class Prmtop {
     return fields;
   }
 
-  // Does the same for names, which must not be blank: a line that lost one would give its place to the next.
+  // Does the same for names, which must not be blank: a line that lost one would shift the names after it.
   const std::vector<std::string>& names(const std::string& name, std::size_t count) {
     const std::vector<std::string>& fields = texts(name, count);
     const auto blank = std::find(fields.begin(), fields.end(), "");
@@ -215,10 +215,10 @@ StructureModel read_prmtop(const std::filesystem::path& path) {
     residue.number = std::to_string(i + 1);
     residue.name = labels[i];
     residue.molecule = std::to_string(molecule);
-    for (std::size_t place = begins[i]; place < begins[i + 1]; ++place) {
+    for (std::size_t index = begins[i]; index < begins[i + 1]; ++index) {
       StructureAtom atom;
-      atom.name = names[place];
-      atom.place = place;
+      atom.name = names[index];
+      atom.index = index;
       grouping.add(residue, std::move(atom));
     }
   }
@@ -230,7 +230,7 @@ StructureModel read_prmtop(const std::filesystem::path& path) {
     static_cast<void>(prmtop.texts("ATOMIC_NUMBER", atoms));
     for (StructureResidue& residue : model.residues)
       for (StructureAtom& atom : residue.atoms) {
-        const double number = prmtop.number("ATOMIC_NUMBER", atom.place);
+        const double number = prmtop.number("ATOMIC_NUMBER", atom.index);
         atom.element_is_given = number >= 1 && number < 104;
         if (atom.element_is_given) atom.element = gemmi::Element(static_cast<int>(number));
         all_known = all_known && atom.element_is_given;

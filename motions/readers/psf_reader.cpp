@@ -63,8 +63,8 @@ struct PsfForm {
                                    [&](std::string_view field) { return field.size() > serial; });
     if (!has_columns || !touch) return fields;
     fields.clear();
-    for (std::size_t place = 0; place < line.size(); place += serial)
-      fields.push_back(trimmed(line.substr(place, serial)));
+    for (std::size_t index = 0; index < line.size(); index += serial)
+      fields.push_back(trimmed(line.substr(index, serial)));
     return fields;
   }
 
@@ -85,16 +85,16 @@ struct PsfForm {
   std::optional<PsfAtom> parse_columns(std::string_view line) const {
     if (line.size() < serial || !parse_count(trimmed(line.substr(0, serial)))) return std::nullopt;
     std::array<std::string_view, 4> names;
-    std::size_t place = serial;
+    std::size_t index = serial;
     for (std::string_view& text : names) {
-      if (line.size() < place + 1 + name || line[place] != ' ') return std::nullopt;
-      text = trimmed(line.substr(place + 1, name));
+      if (line.size() < index + 1 + name || line[index] != ' ') return std::nullopt;
+      text = trimmed(line.substr(index + 1, name));
       if (text.find(' ') != std::string_view::npos) return std::nullopt;
-      place += 1 + name;
+      index += 1 + name;
     }
-    if (line.size() <= place || line[place] != ' ') return std::nullopt;
+    if (line.size() <= index || line[index] != ' ') return std::nullopt;
     // The type, which has four or six columns, then charge and mass.
-    const auto mass = mass_in(split_fields(line.substr(place)));
+    const auto mass = mass_in(split_fields(line.substr(index)));
     if (!mass || names[3].empty()) return std::nullopt;
     return PsfAtom{names[0], names[1], names[2], names[3], *mass};
   }
@@ -191,7 +191,7 @@ class PsfFile {
       residue_of_.push_back(residues_.size() - 1);
       StructureAtom& atom = atoms_.emplace_back();
       atom.name = read->name;
-      atom.place = i;
+      atom.index = i;
       masses_.push_back(read->mass);
     }
   }
@@ -234,7 +234,7 @@ class PsfFile {
   LineReader lines_;
   std::vector<StructureAtom> atoms_;
   std::vector<double> masses_;
-  std::vector<std::size_t> residue_of_;     // of each atom: a place in residues_
+  std::vector<std::size_t> residue_of_;     // of each atom: an index in residues_
   std::vector<StructureResidue> residues_;  // in sequence, without atoms
 };
 

@@ -24,7 +24,7 @@ struct StructureAtom {
   gemmi::Element element{gemmi::El::X};
   bool element_is_given = false;  ///< given in its own column, not guessed from the name
   bool is_massless = false;       ///< its mass is below that of any nucleus
-  std::size_t place = 0;          ///< index among the model's atoms in the file, from 0
+  std::size_t index = 0;          ///< index among the model's atoms in the file, from 0
   std::optional<double> occupancy = {}, b_factor = {};
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };

@@ -11,11 +11,11 @@
 
 namespace kds {
 
-/// The atoms of a structure's first model, by their place in the file.
+/// The atoms of a structure's first model, by their index in the file.
 struct Topology {
   std::size_t atom_count = 0;         ///< with all alternate locations, waters and ligands
-  std::vector<std::size_t> selected;  ///< places of the beads, in the order of the chains
-  std::vector<std::size_t> guides;    ///< places of the guides of `bonds`
+  std::vector<std::size_t> selected;  ///< indices of the beads, in the order of the chains
+  std::vector<std::size_t> guides;    ///< indices of the guides of `bonds`
   BondPaths bonds;                    ///< along the beads
   std::vector<ChainRead> chains;      ///< the chains of the beads
   std::vector<std::string> warnings;  ///< about parts left out or guessed, one line each

@@ -102,9 +102,9 @@ class TrrFrames final : public AtomFrames {
     }
   }
 
-  void load(std::uint64_t place, char* to, std::size_t size) {
-    if (!input_.read_at(place, to, size))
-      throw InputError(fmt::format("{}: cannot read the file at byte {}", input_.name(), place));
+  void load(std::uint64_t offset, char* to, std::size_t size) {
+    if (!input_.read_at(offset, to, size))
+      throw InputError(fmt::format("{}: cannot read the file at byte {}", input_.name(), offset));
   }
 
   void count_frames() try {
@@ -131,8 +131,8 @@ class TrrFrames final : public AtomFrames {
     std::array<char, TrrHeader::most_size> bytes{};
     const auto left = static_cast<std::size_t>(std::min<std::uint64_t>(length_ - begin, bytes.size()));
     if (!input_.read_at(begin, bytes.data(), left)) return std::nullopt;
-    const auto damaged = [&](std::size_t place, const std::string& what) {
-      return DamagedFrame(input_.name(), frame, begin + place, what);
+    const auto damaged = [&](std::size_t offset, const std::string& what) {
+      return DamagedFrame(input_.name(), frame, begin + offset, what);
     };
     const std::size_t told = std::min(left, trr_start.size());
     if (std::string_view(bytes.data(), told) != trr_start.substr(0, told))

@@ -26,7 +26,7 @@ __extension__ using XtcWide = unsigned __int128;
 constexpr std::int32_t xtc_magic = 1995, xtc_magic_long = 2023;
 constexpr std::size_t xtc_most_plain = 9;  // atoms whose coordinates are not packed
 
-// Sizes of differences, from place 9 of the table on. The cube of a size has as many bits as its place says.
+// Sizes of differences, from index 9 of the table on. The cube of a size has as many bits as its index says.
 constexpr std::size_t xtc_first_small = 9;
 constexpr std::array<std::uint32_t, 64> xtc_small_sizes{
     8,       10,      12,      16,      20,      25,      32,       40,       50,      64,      80,
@@ -92,7 +92,7 @@ struct XtcHeader {
   float precision = 0;
   std::array<std::int32_t, 3> least{};   // the least of all coordinates
   std::array<std::uint32_t, 3> sizes{};  // one more than the difference of the largest and the least
-  std::size_t small = 0;                 // place in the table of sizes, at the first atom
+  std::size_t small = 0;                 // index in the table of sizes, at the first atom
 
   static constexpr std::size_t most_size = 96;
   [[nodiscard]] std::uint64_t end() const { return begin + size + (data + 3) / 4 * 4; }
@@ -106,7 +106,7 @@ class XtcBits {
   // Goes to the frame's coordinates. Reads their bytes at once if all atoms are wanted, else block by block.
   void open(const XtcHeader& header, bool all) {
     header_ = &header;
-    place_ = loaded_ = 0;
+    offset_ = loaded_ = 0;
     block_ = all ? header.data : std::uint64_t{1} << 16U;
     if (bytes_.size() < header.data + most_group) bytes_.resize(header.data + most_group);
   }
@@ -114,8 +114,8 @@ class XtcBits {
   // Reads the bits of the next group. Bits past the end of the coordinates are any bits, but never past the
   // end of the memory. Returns false if the group before used such bits.
   [[nodiscard]] bool begin_group() {
-    if (place_ > 8 * header_->data) return false;
-    while (loaded_ < header_->data && place_ / 8 + most_group > loaded_) {
+    if (offset_ > 8 * header_->data) return false;
+    while (loaded_ < header_->data && offset_ / 8 + most_group > loaded_) {
       const std::uint64_t more = std::min(block_, header_->data - loaded_);
       if (!input_.read_at(header_->begin + header_->size + loaded_, bytes_.data() + loaded_, more))
         throw InputError(fmt::format("{}: cannot read the file at byte {}", input_.name(),
@@ -128,8 +128,8 @@ class XtcBits {
 
   // Returns the next bits, at most 56.
   std::uint64_t read(unsigned bits) {
-    const auto word = xdr_number<std::uint64_t>(bytes_.data() + place_ / 8) << (place_ % 8);
-    place_ += bits;
+    const auto word = xdr_number<std::uint64_t>(bytes_.data() + offset_ / 8) << (offset_ % 8);
+    offset_ += bits;
     return bits == 0 ? 0 : word >> (64 - bits);
   }
 
@@ -140,7 +140,7 @@ class XtcBits {
     return unpack(low | static_cast<XtcWide>(read(radix.bits - 64)) << 64U, radix);
   }
 
-  [[nodiscard]] std::uint64_t bytes_used() const { return (place_ + 7) / 8; }
+  [[nodiscard]] std::uint64_t bytes_used() const { return (offset_ + 7) / 8; }
 
  private:
   // A group has at most 11 atoms of 96 bits each and 6 bits more; a read looks at 8 bytes.
@@ -164,7 +164,7 @@ class XtcBits {
   InputFile& input_;
   std::vector<char>& bytes_;
   const XtcHeader* header_ = nullptr;
-  std::uint64_t place_ = 0;   // in bits
+  std::uint64_t offset_ = 0;  // in bits
   std::uint64_t loaded_ = 0;  // bytes
   std::uint64_t block_ = 0;   // bytes to read next
 };
@@ -346,10 +346,10 @@ class XtcFrames final : public AtomFrames {
     const std::uint64_t left = length_ - begin;
     if (!input_.read_at(begin, bytes.data(), std::min<std::uint64_t>(left, bytes.size())))
       return std::nullopt;
-    const auto integer = [&](std::size_t place) { return xdr_number<std::int32_t>(bytes.data() + place); };
-    const auto check = [&](bool good, std::size_t place, const auto& expected, const auto& found) {
+    const auto integer = [&](std::size_t offset) { return xdr_number<std::int32_t>(bytes.data() + offset); };
+    const auto check = [&](bool good, std::size_t offset, const auto& expected, const auto& found) {
       if (!good)
-        throw DamagedFrame(input_.name(), frame, begin + place,
+        throw DamagedFrame(input_.name(), frame, begin + offset,
                            fmt::format("expected {}, found {}", expected, found));
     };
     if (left < 4) return std::nullopt;
@@ -402,16 +402,16 @@ class XtcFrames final : public AtomFrames {
     std::array<char, magic_and_atoms> wanted;
     std::vector<char> bytes(block);
     if (!input_.read_at(header.begin, wanted.data(), wanted.size())) return;
-    for (std::uint64_t place = header.begin + header.size; place + magic_and_atoms <= length_;
-         place += block - magic_and_atoms) {
-      const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(block, length_ - place));
-      if (!input_.read_at(place, bytes.data(), size)) return;
+    for (std::uint64_t offset = header.begin + header.size; offset + magic_and_atoms <= length_;
+         offset += block - magic_and_atoms) {
+      const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(block, length_ - offset));
+      if (!input_.read_at(offset, bytes.data(), size)) return;
       for (std::size_t at = 0; at + magic_and_atoms <= size; at += 4)  // frames have multiples of 4 bytes
         if (std::memcmp(bytes.data() + at, wanted.data(), magic_and_atoms) == 0)
           throw DamagedFrame(
               input_.name(), begins_.size(), header.begin + 88,
               fmt::format("expected coordinates up to the next frame at byte {}, found a size of {}",
-                          place + at, counted(header.data, "byte")));
+                          offset + at, counted(header.data, "byte")));
     }
   }
 
@@ -427,7 +427,7 @@ class XtcFrames final : public AtomFrames {
 
 bool looks_like_xtc(std::string_view start) {
   if (start.size() < 56) return false;
-  const auto integer = [&](std::size_t place) { return xdr_number<std::int32_t>(start.data() + place); };
+  const auto integer = [&](std::size_t offset) { return xdr_number<std::int32_t>(start.data() + offset); };
   return (integer(0) == xtc_magic || integer(0) == xtc_magic_long) && integer(4) > 0 &&
          integer(4) == integer(52);
 }

@@ -11,7 +11,7 @@
 // Atoms come in groups. The first atom of a group is packed with the sizes of the whole frame. A run of atoms
 // may follow; each of these is packed as the difference from the atom before it, with a smaller size. A bit
 // tells whether five more bits follow. These bits give the length of the run and may move the smaller size by
-// one place in a table. Without them the run is as long as the last one. The first two atoms of a group with
+// one entry in a table. Without them the run is as long as the last one. The first two atoms of a group with
 // a run are exchanged.
 
 #include <filesystem>

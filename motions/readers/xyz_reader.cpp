@@ -86,7 +86,7 @@ class XyzFrames final : public AtomFrames {
     } catch (const DamagedFrame& damage) {
       held_.damage = damage;
     }
-    held_.end = lines_.place();
+    held_.end = lines_.offset();
     rewind();
   }
 
@@ -151,7 +151,7 @@ class XyzFrames final : public AtomFrames {
   }
 
   [[noreturn]] void fail_count(std::size_t k, const std::string& message) const {
-    throw DamagedFrame(fmt::format("{}:{}", lines_.name(), lines_.number()), k, lines_.place(), message);
+    throw DamagedFrame(fmt::format("{}:{}", lines_.name(), lines_.number()), k, lines_.offset(), message);
   }
 
   [[noreturn]] void fail_gone(std::size_t k) const {
@@ -172,7 +172,7 @@ class XyzFrames final : public AtomFrames {
 
   // Skips a frame by counting lines. Contents are examined only in the requested frames.
   bool skip_frame(FramesHeld& held) {
-    const std::uint64_t frame_begin = lines_.place();
+    const std::uint64_t frame_begin = lines_.offset();
     if (!read_count()) return false;
     const auto count = atoms_in_frame();
     if (!count)
@@ -197,7 +197,7 @@ class XyzFrames final : public AtomFrames {
     if (!read_line()) return false;
     const std::string comment(line_);
     may_have_cell_ = may_have_cell_ || names_lattice(comment);
-    const std::uint64_t first_atom = lines_.place();
+    const std::uint64_t first_atom = lines_.offset();
     const std::size_t first_line = lines_.number() + 1;
     for (std::size_t i = 0; i < count; ++i)
       if (!read_line()) return false;

@@ -33,15 +33,15 @@ struct BeadInCell {
 // are exact, so two points within 2^power of each other lie in the same cell or in neighbouring cells.
 // Returns nothing if a number needs more than 52 bits.
 std::optional<GridCell> cell_of(const Eigen::Matrix3Xd& centers, BeadId bead, int power) {
-  std::array<std::int64_t, 3> place{};
+  std::array<std::int64_t, 3> cell{};
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const double x = centers(axis, static_cast<Eigen::Index>(bead));
     double number = std::floor(std::ldexp(x, -power));
     if (x < 0 && number == 0) number = -1;  // underflow in scaling
     if (!(std::abs(number) < 0x1p52)) return std::nullopt;
-    place[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(number);
+    cell[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(number);
   }
-  return GridCell{place[0], place[1], place[2]};
+  return GridCell{cell[0], cell[1], cell[2]};
 }
 
 std::optional<std::vector<BeadInCell>> sorted_entries(const Eigen::Matrix3Xd& centers,

@@ -76,7 +76,7 @@ bool adjacent(const Ball& a, const Ball& b) {
   };
   const bool in_order = std::pair(a.necklace, a.bead) < std::pair(b.necklace, b.bead);
   throw InputError(fmt::format(
-      "--radius: element:fit cannot separate {} and {}, which are at one place in the first frame",
+      "--radius: element:fit cannot separate {} and {}, which are at one position in the first frame",
       name(in_order ? a : b), name(in_order ? b : a)));
 }
 

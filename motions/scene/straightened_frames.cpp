@@ -26,10 +26,10 @@ StraightenedFrames::StraightenedFrames(std::unique_ptr<FrameSource> samples, dou
 }
 
 bool StraightenedFrames::next(FrameRead& frame) {
-  if (place_ == ready_.size()) fill();
-  if (place_ == ready_.size()) return false;
-  frame.stamp = ready_[place_].stamp;
-  frame.positions = ready_[place_++].positions;
+  if (next_ready_ == ready_.size()) fill();
+  if (next_ready_ == ready_.size()) return false;
+  frame.stamp = ready_[next_ready_].stamp;
+  frame.positions = ready_[next_ready_++].positions;
   frame.cell.reset();
   ++next_;
   return true;
@@ -40,7 +40,7 @@ void StraightenedFrames::seek(std::size_t k) {
     source_->seek(0);
     samples_.clear();
     ready_.clear();
-    begin_ = place_ = next_ = 0;
+    begin_ = next_ready_ = next_ = 0;
     grid_ = 0;
   }
   FrameRead passed;
@@ -77,7 +77,7 @@ void StraightenedFrames::straighten_block() {
   } else {
     straight.front().positions = ready_.back().positions;
   }
-  place_ = first ? 0 : 1;
+  next_ready_ = first ? 0 : 1;
   ready_ = std::move(straight);
   const Eigen::Index beads = ready_.front().positions.cols();
   for (Eigen::Index bead = 0; bead < beads; ++bead) {

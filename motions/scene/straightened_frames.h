@@ -58,7 +58,7 @@ class StraightenedFrames final : public FrameSource {
   std::vector<FrameRead> samples_;  ///< samples of the present block and around it
   std::size_t begin_ = 0;           ///< first sample of the block
   std::vector<FrameRead> ready_;    ///< straightened frames of the present block
-  std::size_t place_ = 0;           ///< index of the next frame in `ready_`
+  std::size_t next_ready_ = 0;      ///< index of the next frame in `ready_`
   std::size_t next_ = 0;            ///< number of the next frame
 };
 

@@ -14,15 +14,15 @@
 
 namespace kds {
 
-/// A view of four tuples of beads. A formula over this view names beads by their places in the tuple: 0, 1, 2
-/// ... Radii are loaded only if `channels` selects them.
-template <Motion M, std::size_t Places, Channels channels = all_channels>
+/// A view of four tuples of beads. A formula over this view names beads by their indices in the tuple: 0, 1,
+/// 2 ... Radii are loaded only if `channels` selects them.
+template <Motion M, std::size_t Arity, Channels channels = all_channels>
 class LanesView {
  public:
   using Number = Lanes;
   static constexpr int dimension = M::dimension;
   static constexpr int degree = M::degree;
-  using Tuples = std::array<std::array<BeadId, Places>, Lanes::width>;
+  using Tuples = std::array<std::array<BeadId, Arity>, Lanes::width>;
 
   [[gnu::always_inline]] LanesView(const M& motion, const Tuples& t) {
     if constexpr (lifted<M>) {
@@ -30,30 +30,30 @@ class LanesView {
         drift_[static_cast<std::size_t>(axis)] = Lanes(motion.drift(axis));
     }
     if constexpr (channels.radii) {
-      for (std::size_t place = 0; place < Places; ++place) {
+      for (std::size_t index = 0; index < Arity; ++index) {
         for (int k = 0; k <= degree; ++k) {
-          radius_[place][static_cast<std::size_t>(k)] =
-              Lanes::Vector{motion.radius(t[0][place], k), motion.radius(t[1][place], k),
-                            motion.radius(t[2][place], k), motion.radius(t[3][place], k)};
+          radius_[index][static_cast<std::size_t>(k)] =
+              Lanes::Vector{motion.radius(t[0][index], k), motion.radius(t[1][index], k),
+                            motion.radius(t[2][index], k), motion.radius(t[3][index], k)};
         }
       }
     }
-    for (std::size_t place = 0; place < Places; ++place) {
+    for (std::size_t index = 0; index < Arity; ++index) {
       for (int k = 0; k <= degree; ++k) {
         if constexpr (dimension == 3) {
-          control_[place][static_cast<std::size_t>(k)] =
-              Lanes::transposed(motion.control_point(t[0][place], k), motion.control_point(t[1][place], k),
-                                motion.control_point(t[2][place], k), motion.control_point(t[3][place], k));
+          control_[index][static_cast<std::size_t>(k)] =
+              Lanes::transposed(motion.control_point(t[0][index], k), motion.control_point(t[1][index], k),
+                                motion.control_point(t[2][index], k), motion.control_point(t[3][index], k));
           continue;
         }
         for (int axis = 0; axis < dimension; ++axis) {
-          control_[place][static_cast<std::size_t>(k)][static_cast<std::size_t>(axis)] =
-              Lanes::Vector{motion.coordinate(t[0][place], k, axis), motion.coordinate(t[1][place], k, axis),
-                            motion.coordinate(t[2][place], k, axis), motion.coordinate(t[3][place], k, axis)};
+          control_[index][static_cast<std::size_t>(k)][static_cast<std::size_t>(axis)] =
+              Lanes::Vector{motion.coordinate(t[0][index], k, axis), motion.coordinate(t[1][index], k, axis),
+                            motion.coordinate(t[2][index], k, axis), motion.coordinate(t[3][index], k, axis)};
         }
-        control_[place][static_cast<std::size_t>(k)][dimension] =
-            Lanes::Vector{motion.weight(t[0][place], k), motion.weight(t[1][place], k),
-                          motion.weight(t[2][place], k), motion.weight(t[3][place], k)};
+        control_[index][static_cast<std::size_t>(k)][dimension] =
+            Lanes::Vector{motion.weight(t[0][index], k), motion.weight(t[1][index], k),
+                          motion.weight(t[2][index], k), motion.weight(t[3][index], k)};
       }
     }
   }
@@ -103,11 +103,11 @@ class LanesView {
                                                              Lanes& largest) const {
     Bernstein<Lanes, degree> result;
     for (int k = 0; k <= degree; ++k) {
-      const auto place = static_cast<std::size_t>(k);
-      const Lanes d = control_[i][place][static_cast<std::size_t>(axis)] -
-                      control_[j][place][static_cast<std::size_t>(axis)];
+      const auto index = static_cast<std::size_t>(k);
+      const Lanes d = control_[i][index][static_cast<std::size_t>(axis)] -
+                      control_[j][index][static_cast<std::size_t>(axis)];
       largest = Lanes::max(largest, Lanes::abs(d));
-      result.scaled[place] = Lanes(static_cast<double>(binomial(degree, k))) * d;
+      result.scaled[index] = Lanes(static_cast<double>(binomial(degree, k))) * d;
     }
     return result;
   }
@@ -115,16 +115,16 @@ class LanesView {
   [[gnu::always_inline]] Bernstein<Lanes, degree> of_radii(BeadId i, BeadId j, double sign) const {
     Bernstein<Lanes, degree> result;
     for (int k = 0; k <= degree; ++k) {
-      const auto place = static_cast<std::size_t>(k);
-      const Lanes sum = radius_[i][place] + Lanes(sign) * radius_[j][place];
+      const auto index = static_cast<std::size_t>(k);
+      const Lanes sum = radius_[i][index] + Lanes(sign) * radius_[j][index];
       length_ = Lanes::max(length_, Lanes::abs(sum));
-      result.scaled[place] = Lanes(static_cast<double>(binomial(degree, k))) * sum;
+      result.scaled[index] = Lanes(static_cast<double>(binomial(degree, k))) * sum;
     }
     return result;
   }
 
-  std::array<std::array<std::array<Lanes, dimension + 1>, degree + 1>, Places> control_;  // the weight last
-  std::array<std::array<Lanes, degree + 1>, channels.radii ? Places : 0> radius_;
+  std::array<std::array<std::array<Lanes, dimension + 1>, degree + 1>, Arity> control_;  // the weight last
+  std::array<std::array<Lanes, degree + 1>, channels.radii ? Arity : 0> radius_;
   std::array<Lanes, lifted<M> ? dimension : 0> drift_;
   mutable Lanes length_{0.0};
   mutable Lanes weight_{0.0};
@@ -158,16 +158,16 @@ class FloatLanesView {
   using Number = LanesOfFloats;
   static constexpr int dimension = M::dimension;
   static constexpr int degree = M::degree;
-  /// Takes one pair per lane: the first bead of each tuple and the bead at this place.
-  template <std::size_t Places>
-  [[gnu::always_inline]] FloatLanesView(const M& motion, const std::array<BeadId, Places>* tuples,
-                                        std::size_t place, const LengthUnit& unit) {
+  /// Takes one pair per lane: the first bead of each tuple and the bead at this index.
+  template <std::size_t Arity>
+  [[gnu::always_inline]] FloatLanesView(const M& motion, const std::array<BeadId, Arity>* tuples,
+                                        std::size_t index, const LengthUnit& unit) {
     const Lanes::Vector scales = unit.scales<dimension>();
     for (int k = 0; k <= degree; ++k) {
       std::array<typename Number::Row, Number::width> rows;
       for (std::size_t lane = 0; lane < Number::width; ++lane)
         rows[lane] = Number::rounded(
-            scales * (point(motion, tuples[lane][place], k) - point(motion, tuples[lane][0], k)));
+            scales * (point(motion, tuples[lane][index], k) - point(motion, tuples[lane][0], k)));
       numbers_[static_cast<std::size_t>(k)] = Number::transposed(rows);
     }
     if constexpr (lifted<M>) {
@@ -228,10 +228,10 @@ class FloatLanesView {
   [[gnu::always_inline]] void take(std::size_t channel, Bernstein<Number, degree>& polynomial,
                                    Number& largest) const {
     for (int k = 0; k <= degree; ++k) {
-      const auto place = static_cast<std::size_t>(k);
-      const Number& d = numbers_[place][channel];
+      const auto index = static_cast<std::size_t>(k);
+      const Number& d = numbers_[index][channel];
       largest = Number::max(largest, Number::abs(d));
-      polynomial.scaled[place] = Number(static_cast<float>(binomial(degree, k))) * d;
+      polynomial.scaled[index] = Number(static_cast<float>(binomial(degree, k))) * d;
     }
   }
 

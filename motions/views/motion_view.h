@@ -281,7 +281,7 @@ static_assert(MotionView<TrackedView<BezierMotion<3, 1>>> && MotionView<TrackedV
 static_assert(MotionView<MagnitudeView<3, 1>>);
 
 /// A view without a motion: it records a formula, which can be played later (recorded_formula.h). The formula
-/// names beads by their places among its own beads.
+/// names beads by their indices among its own beads.
 template <int DimensionValue, bool Lifted, Channels channels>
 class RecordingView {
   using Kind = FormulaStep::Kind;

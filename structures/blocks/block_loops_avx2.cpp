@@ -18,9 +18,9 @@ namespace {
 inline constexpr auto bit_numbers = [] {
   std::array<std::uint64_t, 256> table{};
   for (std::size_t bits = 0; bits < table.size(); ++bits) {
-    unsigned place = 0;
+    unsigned index = 0;
     for (std::uint64_t bit = 0; bit < 8; ++bit)
-      if ((bits >> bit & 1) != 0) table[bits] |= bit << (8 * place++);
+      if ((bits >> bit & 1) != 0) table[bits] |= bit << (8 * index++);
   }
   return table;
 }();

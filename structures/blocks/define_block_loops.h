@@ -105,7 +105,7 @@ template <int Dimension, bool Equal>
       transpose(radius);
     }
     BlockNode<Dimension>& parent = parents[b / children_of_node];
-    const std::size_t place = b % children_of_node;
+    const std::size_t index = b % children_of_node;
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
       std::array<Row4, 4> rows;
       for (std::size_t g = 0; g < 4; ++g) {
@@ -129,8 +129,8 @@ template <int Dimension, bool Equal>
       }
       store_row(blocks.boxes[b].low[axis].data(), low);
       store_row(blocks.boxes[b].high[axis].data(), high);
-      parent.low[axis][place] = least(low);
-      parent.high[axis][place] = greatest(high);
+      parent.low[axis][index] = least(low);
+      parent.high[axis][index] = greatest(high);
     }
   }
   return {greatest(farthest), Equal ? source.radius : greatest(widest)};
@@ -162,13 +162,13 @@ template <int Dimension>
                                                std::size_t last, BlockNode<Dimension>* parents) {
   for (std::size_t n = first; n < last; ++n) {
     BlockNode<Dimension>& parent = parents[n / children_of_node];
-    const std::size_t place = n % children_of_node;
+    const std::size_t index = n % children_of_node;
     for (std::size_t axis = 0; axis < Dimension; ++axis) {
       const float* low = nodes[n].low[axis].data();
       const float* high = nodes[n].high[axis].data();
-      parent.low[axis][place] = least(
+      parent.low[axis][index] = least(
           smaller(smaller(load_row(low), load_row(low + 4)), smaller(load_row(low + 8), load_row(low + 12))));
-      parent.high[axis][place] = greatest(larger(larger(load_row(high), load_row(high + 4)),
+      parent.high[axis][index] = greatest(larger(larger(load_row(high), load_row(high + 4)),
                                                  larger(load_row(high + 8), load_row(high + 12))));
     }
   }
@@ -255,7 +255,8 @@ template <class Target, int Dimension>
 
 /// Tells which pairs of beads are far enough apart in their necklace. Bit 4 i + j of beads[4 g + h] stands
 /// for bead i of group g and bead j of group h. Bit 4 g + h of `groups` is set if these groups have such a
-/// pair. The table `lanes_apart` is indexed by the least difference of the beads' places within their blocks.
+/// pair. The table `lanes_apart` is indexed by the least difference of the beads' indices within their
+/// blocks.
 struct LanesApart {
   std::array<std::uint16_t, 16> beads{};
   std::uint16_t groups = 0;

@@ -13,10 +13,10 @@ namespace kds {
 namespace {
 
 template <std::size_t Dimension>
-[[KDS_LANES_TARGETS]] void place(const std::array<double, Dimension>& shift, double scale,
-                                 const std::array<std::array<double, Dimension>, Dimension>& axes,
-                                 const std::array<const double*, Dimension>& coordinates,
-                                 const std::array<double*, Dimension>& places, std::size_t count) {
+[[KDS_LANES_TARGETS]] void turn(const std::array<double, Dimension>& shift, double scale,
+                                const std::array<std::array<double, Dimension>, Dimension>& axes,
+                                const std::array<const double*, Dimension>& coordinates,
+                                const std::array<double*, Dimension>& turned, std::size_t count) {
   for (std::size_t b = 0; b < count; b += Lanes::width) {
     std::array<Lanes, Dimension> from;
     for (std::size_t axis = 0; axis < Dimension; ++axis)
@@ -24,7 +24,7 @@ template <std::size_t Dimension>
     for (std::size_t k = 0; k < Dimension; ++k) {
       Lanes sum = from[0].v * axes[k][0];
       for (std::size_t axis = 1; axis < Dimension; ++axis) sum += from[axis].v * axes[k][axis];
-      __builtin_memcpy(places[k] + b, &sum.v, sizeof sum.v);
+      __builtin_memcpy(turned[k] + b, &sum.v, sizeof sum.v);
     }
   }
 }
@@ -118,17 +118,16 @@ std::optional<Axes<Dimension>> averaged(const std::vector<Direction<Dimension>>&
 }  // namespace
 
 template <int Dimension>
-void place_along_axes(const FloatConversion<Dimension>& conversion,
-                      const std::array<const double*, static_cast<std::size_t>(Dimension)>& coordinates,
-                      const std::array<double*, static_cast<std::size_t>(Dimension)>& places,
-                      std::size_t count) {
-  place(conversion.shift, conversion.scale, conversion.axes.value(), coordinates, places, count);
+void turn_to_axes(const FloatConversion<Dimension>& conversion,
+                  const std::array<const double*, static_cast<std::size_t>(Dimension)>& coordinates,
+                  const std::array<double*, static_cast<std::size_t>(Dimension)>& turned, std::size_t count) {
+  turn(conversion.shift, conversion.scale, conversion.axes.value(), coordinates, turned, count);
 }
 
-template void place_along_axes(const FloatConversion<2>&, const std::array<const double*, 2>&,
-                               const std::array<double*, 2>&, std::size_t);
-template void place_along_axes(const FloatConversion<3>&, const std::array<const double*, 3>&,
-                               const std::array<double*, 3>&, std::size_t);
+template void turn_to_axes(const FloatConversion<2>&, const std::array<const double*, 2>&,
+                           const std::array<double*, 2>&, std::size_t);
+template void turn_to_axes(const FloatConversion<3>&, const std::array<const double*, 3>&,
+                           const std::array<double*, 3>&, std::size_t);
 
 template <int Dimension>
 std::optional<Axes<Dimension>> bond_axes(const Balls<Dimension>& balls, double scale) {

@@ -72,10 +72,9 @@ inline constexpr float largest_float_radius = 0x1p40F;
 /// Converts coordinates of beads to X by a conversion with axes, in doubles. `count` is a multiple of four.
 /// Input and output may be the same arrays.
 template <int Dimension>
-void place_along_axes(const FloatConversion<Dimension>& conversion,
-                      const std::array<const double*, static_cast<std::size_t>(Dimension)>& coordinates,
-                      const std::array<double*, static_cast<std::size_t>(Dimension)>& places,
-                      std::size_t count);
+void turn_to_axes(const FloatConversion<Dimension>& conversion,
+                  const std::array<const double*, static_cast<std::size_t>(Dimension)>& coordinates,
+                  const std::array<double*, static_cast<std::size_t>(Dimension)>& turned, std::size_t count);
 
 /// The scene's bounding box and its largest radius.
 template <int Dimension>

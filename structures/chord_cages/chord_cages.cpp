@@ -88,9 +88,9 @@ ChordCages<Hierarchy>::ChordCages(std::span<const BeadRange> necklaces, int degr
 
 template <class Hierarchy>
 void ChordCages<Hierarchy>::take(int k) {
-  const auto place = static_cast<std::size_t>(k);
-  bring_to(hierarchy_, balls_[place]);
-  cages_[place].take(hierarchy_, balls_[place]);
+  const auto index = static_cast<std::size_t>(k);
+  bring_to(hierarchy_, balls_[index]);
+  cages_[index].take(hierarchy_, balls_[index]);
   // No sphere is larger than the one at the root of its necklace.
   for (NodeId root = 0; root < tree().node_count();
        root += tree().range(root).last - tree().range(root).first)

@@ -45,7 +45,7 @@ class OutwardCages {
     return cage;
   }
   /// Returns four cages in four lanes. Each lane equals the single result, bit for bit.
-  [[nodiscard, gnu::always_inline]] FourBalls<Dimension> four(const FourPlaces& nodes) const {
+  [[nodiscard, gnu::always_inline]] FourBalls<Dimension> four(const FourIndices& nodes) const {
     FourBalls<Dimension> balls(cages_.data(), nodes);
     Lanes size = abs(balls.center[0]);
     for (std::size_t axis = 1; axis < Dimension; ++axis) size += abs(balls.center[axis]);

@@ -231,7 +231,7 @@ bool one_is_below(const std::array<GapCoefficients, 2>& of, const std::array<dou
 
 /// Returns which of four nodes, whose bases have M + 1 beads, are proved tight.
 template <bool of_points, int D, std::size_t M>
-[[gnu::always_inline]] inline Lanes::Mask are_tight(const LinearStep<D>& step, const FourPlaces& nodes,
+[[gnu::always_inline]] inline Lanes::Mask are_tight(const LinearStep<D>& step, const FourIndices& nodes,
                                                     double tightness) {
   using Numbers = std::array<Lanes, static_cast<std::size_t>(D)>;
   const Basis* const bases = step.start_bases.data();
@@ -343,8 +343,8 @@ template <int D>
 ControlBall<D> control_ball(const Curves<D>& curves, BeadId bead, double from, double to, int k) {
   const int degree = curves.own_degree();
   ControlBall<D> ball;
-  const auto number = [&](int place, std::size_t which) {
-    return which == D ? curves.radius(bead, place) : curves.coordinate(bead, place, static_cast<int>(which));
+  const auto number = [&](int index, std::size_t which) {
+    return which == D ? curves.radius(bead, index) : curves.coordinate(bead, index, static_cast<int>(which));
   };
   if (from == 0 && to == 1) {
     for (std::size_t which = 0; which <= D; ++which) ball[which] = number(k, which);
@@ -358,13 +358,13 @@ ControlBall<D> control_ball(const Curves<D>& curves, BeadId bead, double from, d
   }
   std::array<double, 64> points{};
   for (std::size_t which = 0; which <= D; ++which) {
-    for (int place = 0; place <= degree; ++place)
-      points[static_cast<std::size_t>(place)] = number(place, which);
+    for (int index = 0; index <= degree; ++index)
+      points[static_cast<std::size_t>(index)] = number(index, which);
     for (int level = 1; level <= degree; ++level) {
       const double t = level <= k ? to : from;
-      for (std::size_t place = 0; place + static_cast<std::size_t>(level) <= static_cast<std::size_t>(degree);
-           ++place)
-        points[place] += t * (points[place + 1] - points[place]);
+      for (std::size_t index = 0; index + static_cast<std::size_t>(level) <= static_cast<std::size_t>(degree);
+           ++index)
+        points[index] += t * (points[index + 1] - points[index]);
     }
     ball[which] = points[0];
   }

@@ -57,7 +57,7 @@ class KineticClosestPair final : public EditableBase {
   [[nodiscard]] std::optional<std::string> audit(const Dyadic& time) override;
 
  private:
-  /// Makes certificates between candidates, which are named by their places in the list.
+  /// Makes certificates between candidates, which are named by their indices in the list.
   struct Ahead {
     const std::vector<Pair>* candidates;
     Closer operator()(std::uint32_t ahead, std::uint32_t behind) const {

@@ -45,7 +45,7 @@ void KeptPairs<Dimension>::replace(const Balls<Dimension>& balls, std::span<cons
   }
   // Each class holds first the pairs that stay, in their order, then the new pairs.
   more_pairs_.resize(pairs_.size() + near.size() + 1);
-  std::array<std::size_t, classes> places;
+  std::array<std::size_t, classes> starts;
   std::size_t out = 0;
   for (std::size_t c = 0; c < classes; ++c) {
     const std::size_t begin = out;
@@ -55,11 +55,11 @@ void KeptPairs<Dimension>::replace(const Balls<Dimension>& balls, std::span<cons
       out += (marks[pair.first] | marks[pair.second]) == 0 ? 1 : 0;
     }
     starts_[c] = begin;
-    places[c] = out;
+    starts[c] = out;
     out += added[c];
   }
   starts_[classes] = out;
-  for (std::size_t k = 0; k < near.size(); ++k) more_pairs_[places[class_of_[k]]++] = near[k];
+  for (std::size_t k = 0; k < near.size(); ++k) more_pairs_[starts[class_of_[k]]++] = near[k];
   more_pairs_.resize(out);
   pairs_.swap(more_pairs_);
   const auto first = pairs_.begin(), last = first + static_cast<std::ptrdiff_t>(starts_[1]),

@@ -29,13 +29,13 @@ template bool balls_meet_exactly(const Balls<3>&, BeadId, BeadId);
 void PairSorter::sort(std::vector<BeadPair>& pairs, std::size_t beads) {
   if (pairs.size() < beads / 16) return std::sort(pairs.begin(), pairs.end());
   // Counting sort by the first bead; few pairs share one.
-  places_.assign(beads + 1, 0);
-  for (const BeadPair& pair : pairs) ++places_[pair.first + 1];
-  for (std::size_t b = 0; b < beads; ++b) places_[b + 1] += places_[b];
+  starts_.assign(beads + 1, 0);
+  for (const BeadPair& pair : pairs) ++starts_[pair.first + 1];
+  for (std::size_t b = 0; b < beads; ++b) starts_[b + 1] += starts_[b];
   sorted_.resize(pairs.size());
-  for (const BeadPair& pair : pairs) sorted_[places_[pair.first]++] = pair;
+  for (const BeadPair& pair : pairs) sorted_[starts_[pair.first]++] = pair;
   for (std::size_t begin = 0; begin < sorted_.size();) {
-    const auto end = places_[sorted_[begin].first];
+    const auto end = starts_[sorted_[begin].first];
     std::sort(sorted_.begin() + static_cast<std::ptrdiff_t>(begin),
               sorted_.begin() + static_cast<std::ptrdiff_t>(end));
     begin = end;

@@ -116,7 +116,7 @@ class PairSorter {
   void sort(std::vector<BeadPair>& pairs, std::size_t beads);
 
  private:
-  std::vector<std::size_t> places_;
+  std::vector<std::size_t> starts_;
   std::vector<BeadPair> sorted_;
 };
 

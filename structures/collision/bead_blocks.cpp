@@ -51,13 +51,13 @@ template <int Dimension>
 void MortonOrder<Dimension>::sort_keys(int key_bits) {
   const int half = (key_bits + 1) / 2;
   const std::uint64_t mask = (std::uint64_t{1} << half) - 1;
-  std::vector<std::uint32_t> places;
+  std::vector<std::uint32_t> starts;
   more_keys_.resize(keys_.size());
   for (const int shift : {32, 32 + half}) {
-    places.assign(mask + 2, 0);
-    for (const std::uint64_t key : keys_) ++places[(key >> shift & mask) + 1];
-    for (std::size_t k = 0; k + 1 < places.size(); ++k) places[k + 1] += places[k];
-    for (const std::uint64_t key : keys_) more_keys_[places[key >> shift & mask]++] = key;
+    starts.assign(mask + 2, 0);
+    for (const std::uint64_t key : keys_) ++starts[(key >> shift & mask) + 1];
+    for (std::size_t k = 0; k + 1 < starts.size(); ++k) starts[k + 1] += starts[k];
+    for (const std::uint64_t key : keys_) more_keys_[starts[key >> shift & mask]++] = key;
     keys_.swap(more_keys_);
   }
 }
@@ -161,19 +161,20 @@ BlockSource<Dimension> BeadBlocks<Dimension>::gather(const Balls<Dimension>& bal
     for (std::size_t k = count; k < lanes; ++k) copy[k] = copy[count - 1];
     (are_radii ? source.radii : source.centers[i]) = copy.data();
   }
-  return conversion_.axes ? placed(source, lanes) : source;
+  return conversion_.axes ? turned_to_axes(source, lanes) : source;
 }
 
 // Like gather, but by a conversion with axes.
 template <int Dimension>
-BlockSource<Dimension> BeadBlocks<Dimension>::placed(BlockSource<Dimension> source, std::size_t lanes) {
-  std::array<double*, static_cast<std::size_t>(Dimension)> places;
+BlockSource<Dimension> BeadBlocks<Dimension>::turned_to_axes(BlockSource<Dimension> source,
+                                                             std::size_t lanes) {
+  std::array<double*, static_cast<std::size_t>(Dimension)> turned;
   for (std::size_t axis = 0; axis < Dimension; ++axis) {
     gathered_[axis].resize(gathered_blocks * beads_in_block);
-    places[axis] = gathered_[axis].data();
+    turned[axis] = gathered_[axis].data();
   }
-  place_along_axes(conversion_, source.centers, places, lanes);
-  std::copy(places.begin(), places.end(), source.centers.begin());
+  turn_to_axes(conversion_, source.centers, turned, lanes);
+  std::copy(turned.begin(), turned.end(), source.centers.begin());
   source.shift = {};
   source.scale = 1;
   return source;
@@ -202,7 +203,7 @@ void BeadBlocks<Dimension>::with_sources(const Balls<Dimension>& balls, BlockSou
       for (std::size_t axis = 0; axis < Dimension; ++axis)
         source.centers[axis] = balls.coordinates(axis) + bead;
       source.radii = balls.radii() + bead;
-      visit(conversion_.axes ? placed(source, some * beads_in_block) : source, block + first,
+      visit(conversion_.axes ? turned_to_axes(source, some * beads_in_block) : source, block + first,
             block + first + some);
     }
     block += whole;

@@ -104,7 +104,7 @@ class BeadBlocks {
   template <class Bead>
   [[nodiscard]] BlockSource<Dimension> gather(const Balls<Dimension>& balls, BlockSource<Dimension> source,
                                               std::size_t count, const Bead& bead);
-  [[nodiscard]] BlockSource<Dimension> placed(BlockSource<Dimension> source, std::size_t lanes);
+  [[nodiscard]] BlockSource<Dimension> turned_to_axes(BlockSource<Dimension> source, std::size_t lanes);
   /// Calls visit(source, first block, last block) with sources that cover all blocks.
   template <class Visit>
   void with_sources(const Balls<Dimension>& balls, BlockSource<Dimension> source, const Visit& visit);

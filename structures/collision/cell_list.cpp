@@ -79,9 +79,9 @@ void CellList<Dimension>::count_out(const Balls<Dimension>& balls, const Grid& g
   for (std::size_t k = 1; k < starts_.size(); ++k) starts_[k] += starts_[k - 1];
   for (std::size_t b = 0; b < beads; ++b) {
     // Filling a cell moves its start to its end, which is the next cell's start.
-    const std::uint32_t place = starts_[keys_of_beads_[b]]++;
-    entries_[place] = entry_of(balls, grid, static_cast<BeadId>(b));
-    keys_[place] = keys_of_beads_[b];
+    const std::uint32_t at = starts_[keys_of_beads_[b]]++;
+    entries_[at] = entry_of(balls, grid, static_cast<BeadId>(b));
+    keys_[at] = keys_of_beads_[b];
   }
 }
 
@@ -93,12 +93,12 @@ void CellList<Dimension>::sort_by_radix(const Balls<Dimension>& balls, const Gri
   for (std::size_t b = 0; b < beads; ++b) keyed_[b] = {keys_of_beads_[b], b};
   constexpr int digit = 11;
   constexpr std::uint64_t mask = (1U << digit) - 1;
-  std::array<std::uint32_t, mask + 2> places;
+  std::array<std::uint32_t, mask + 2> starts;
   for (int shift = 0; shift < static_cast<int>(std::bit_width(grid.keys)); shift += digit) {
-    places.fill(0);
-    for (const auto& keyed : keyed_) ++places[(keyed[0] >> shift & mask) + 1];
-    for (std::size_t k = 1; k < places.size(); ++k) places[k] += places[k - 1];
-    for (const auto& keyed : keyed_) more_keyed_[places[keyed[0] >> shift & mask]++] = keyed;
+    starts.fill(0);
+    for (const auto& keyed : keyed_) ++starts[(keyed[0] >> shift & mask) + 1];
+    for (std::size_t k = 1; k < starts.size(); ++k) starts[k] += starts[k - 1];
+    for (const auto& keyed : keyed_) more_keyed_[starts[keyed[0] >> shift & mask]++] = keyed;
     keyed_.swap(more_keyed_);
   }
   for (std::size_t k = 0; k < beads; ++k) {

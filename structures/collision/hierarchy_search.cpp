@@ -102,7 +102,7 @@ class Check {
       for (; closes != closing.end() && closes->rows.last < row; ++closes)
         separated_.erase(closes->columns.first);
       for (; opens != opening.end() && opens->rows.first == row; ++opens) {
-        const auto [place, is_new] = separated_.emplace(opens->columns.first, opens->columns.last);
+        const auto [where, is_new] = separated_.emplace(opens->columns.first, opens->columns.last);
         if (!is_new) return name_of(row, opens->columns.first) + " are separated twice";
       }
       const auto first = collides;

@@ -169,7 +169,7 @@ struct Look {
   [[nodiscard, gnu::always_inline]] std::uint32_t second_block(std::size_t k) const {
     return seconds[groups[k] / 16];
   }
-  /// Returns the place in its block of the first of four beads.
+  /// Returns the index in its block of the first of four beads.
   [[nodiscard, gnu::always_inline]] std::uint32_t first_bead(std::size_t k) const { return groups[k] & 12U; }
   [[nodiscard, gnu::always_inline]] std::uint32_t second_bead(std::size_t k) const {
     return 4 * (groups[k] & 3U);
@@ -218,8 +218,8 @@ void prove_in_fours(const BlockNumbers& blocks, Look& look) {
 template <class Visit>
 void for_each_pair(BeadId first, BeadId second, std::uint32_t bits, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) {
-    const auto place = static_cast<BeadId>(std::countr_zero(bits));
-    visit(first + place / 4, second + place % 4);
+    const auto index = static_cast<BeadId>(std::countr_zero(bits));
+    visit(first + index / 4, second + index % 4);
   }
 }
 
@@ -235,9 +235,9 @@ struct Move {
   Blocks<Dimension> swept;
 };
 
-/// Returns a bead of a block. In a block with fewer beads, the last bead fills the remaining places.
-[[nodiscard, gnu::always_inline]] inline BeadId bead_at(const BeadBlock& block, std::size_t place) {
-  return block.first + std::min(static_cast<BeadId>(place), static_cast<BeadId>(block.count - 1));
+/// Returns a bead of a block. In a block with fewer beads, the last bead stands for the missing ones.
+[[nodiscard, gnu::always_inline]] inline BeadId bead_at(const BeadBlock& block, std::size_t index) {
+  return block.first + std::min(static_cast<BeadId>(index), static_cast<BeadId>(block.count - 1));
 }
 
 /// Converts the coordinates of a block.

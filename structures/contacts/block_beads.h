@@ -70,7 +70,7 @@ struct BeadBlock {
   return blocks;
 }
 
-/// Two blocks, given by their places. The second does not come before the first.
+/// Two blocks, given by their indices. The second does not come before the first.
 struct BlockPair {
   std::uint32_t first, second;
 };

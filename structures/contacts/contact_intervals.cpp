@@ -50,8 +50,8 @@ StepClock ContactIntervals::clock_of(const FrameStamp& from, const FrameStamp& t
 }
 
 ContactMoment ContactIntervals::moment_of(const Event& event) const {
-  constexpr unsigned places = 44;  // lengths are as certain as the readings of clocks
-  const TimeBracket bracket = canonical_bracket(simulator_.now(), places);
+  constexpr unsigned bits = 44;  // lengths are as certain as the readings of clocks
+  const TimeBracket bracket = canonical_bracket(simulator_.now(), bits);
   return {event.step, bracket.lower, bracket.upper, clock_of(event.from, event.to),
           event.rounded.value_or(RoundedTime{event.frame(), event.picoseconds()})};
 }

@@ -62,7 +62,7 @@ void ContactLifetimes::add(const ContactInterval& interval) {
   const auto [at, is_new] = pairs_.try_emplace(key);
   PairLifetimes& pair = at->second.figures;
   if (is_new) {
-    at->second.place = static_cast<std::uint32_t>(pairs_.size() - 1);
+    at->second.index = static_cast<std::uint32_t>(pairs_.size() - 1);
     pair.first = interval.first;
     pair.second = interval.second;
     pair.first_begin = interval.begin;
@@ -74,7 +74,7 @@ void ContactLifetimes::add(const ContactInterval& interval) {
   pair.open_at_both += interval.open_at_start && interval.open_at_end ? 1 : 0;
   pair.total += length;
   pair.longest = std::max(pair.longest, length);
-  if (!interval.open_at_start) lives_.push_back({length, at->second.place, interval.open_at_end});
+  if (!interval.open_at_start) lives_.push_back({length, at->second.index, interval.open_at_end});
   largest_reading_ =
       std::max({largest_reading_, std::abs(interval.begin.clock.begin), std::abs(interval.end.clock.end)});
 }

@@ -96,7 +96,7 @@ class ContactLifetimes {
   };
   struct Pair {
     PairLifetimes figures;
-    std::uint32_t place = 0;
+    std::uint32_t index = 0;
   };
 
   std::map<std::uint64_t, Pair> pairs_;

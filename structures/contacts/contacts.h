@@ -44,41 +44,41 @@ class ContactSet {
  public:
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool contains(const BeadPair& pair) const {
-    return size_ > 0 && places_[place_of(key_of(pair))] != empty;
+    return size_ > 0 && slots_[slot_of(key_of(pair))] != empty;
   }
   /// Returns false if the pair was in the set already.
   bool insert(const BeadPair& pair) {
-    if (2 * (size_ + 1) > places_.size()) grow();
-    std::uint64_t& place = places_[place_of(key_of(pair))];
-    if (place != empty) return false;
-    place = key_of(pair);
+    if (2 * (size_ + 1) > slots_.size()) grow();
+    std::uint64_t& slot = slots_[slot_of(key_of(pair))];
+    if (slot != empty) return false;
+    slot = key_of(pair);
     ++size_;
     return true;
   }
   /// Returns false if the pair was not in the set.
   bool erase(const BeadPair& pair) {
     if (!contains(pair)) return false;
-    std::size_t gap = place_of(key_of(pair));
-    // Moves later entries into the gap if the gap lies between their home place and their present place.
-    for (std::size_t at = next(gap); places_[at] != empty; at = next(at)) {
-      const std::size_t home = home_of(places_[at]);
+    std::size_t gap = slot_of(key_of(pair));
+    // Moves later entries into the gap if the gap lies between their home slot and their present slot.
+    for (std::size_t at = next(gap); slots_[at] != empty; at = next(at)) {
+      const std::size_t home = home_of(slots_[at]);
       if (((at - home) & mask()) < ((at - gap) & mask())) continue;
-      places_[gap] = places_[at];
+      slots_[gap] = slots_[at];
       gap = at;
     }
-    places_[gap] = empty;
+    slots_[gap] = empty;
     --size_;
     return true;
   }
   void clear() {
-    std::fill(places_.begin(), places_.end(), empty);
+    std::fill(slots_.begin(), slots_.end(), empty);
     size_ = 0;
   }
   /// Returns all pairs, ascending.
   [[nodiscard]] std::vector<BeadPair> pairs() const {
     std::vector<BeadPair> all;
     all.reserve(size_);
-    for (const std::uint64_t key : places_)
+    for (const std::uint64_t key : slots_)
       if (key != empty) all.push_back({static_cast<BeadId>(key >> 32U), static_cast<BeadId>(key)});
     std::sort(all.begin(), all.end());
     return all;
@@ -90,25 +90,25 @@ class ContactSet {
   static std::uint64_t key_of(const BeadPair& pair) {
     return (static_cast<std::uint64_t>(pair.first) << 32U) | pair.second;
   }
-  [[nodiscard]] std::size_t mask() const { return places_.size() - 1; }
-  [[nodiscard]] std::size_t next(std::size_t place) const { return (place + 1) & mask(); }
+  [[nodiscard]] std::size_t mask() const { return slots_.size() - 1; }
+  [[nodiscard]] std::size_t next(std::size_t slot) const { return (slot + 1) & mask(); }
   [[nodiscard]] std::size_t home_of(std::uint64_t key) const {
     return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15ULL) >> 32U) & mask();
   }
-  /// Returns the place that holds the key, or the place to insert it.
-  [[nodiscard]] std::size_t place_of(std::uint64_t key) const {
-    std::size_t place = home_of(key);
-    while (places_[place] != key && places_[place] != empty) place = next(place);
-    return place;
+  /// Returns the slot that holds the key, or the slot to insert it.
+  [[nodiscard]] std::size_t slot_of(std::uint64_t key) const {
+    std::size_t slot = home_of(key);
+    while (slots_[slot] != key && slots_[slot] != empty) slot = next(slot);
+    return slot;
   }
   void grow() {
-    std::vector<std::uint64_t> old(std::max<std::size_t>(64, 2 * places_.size()), empty);
-    old.swap(places_);
+    std::vector<std::uint64_t> old(std::max<std::size_t>(64, 2 * slots_.size()), empty);
+    old.swap(slots_);
     for (const std::uint64_t key : old)
-      if (key != empty) places_[place_of(key)] = key;
+      if (key != empty) slots_[slot_of(key)] = key;
   }
 
-  std::vector<std::uint64_t> places_;  // size is a power of two
+  std::vector<std::uint64_t> slots_;  // size is a power of two
   std::size_t size_ = 0;
 };
 

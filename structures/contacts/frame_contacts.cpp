@@ -21,7 +21,7 @@ FrameContacts::Pair& FrameContacts::pair_of(const ContactInterval& interval) {
   const std::uint64_t key = (std::uint64_t{interval.first} << 32U) | interval.second;
   const auto [at, is_new] = pairs_.try_emplace(key);
   if (is_new) {
-    at->second.place = seen_.size();
+    at->second.index = seen_.size();
     seen_.resize(seen_.size() + rows_.size());
   }
   return at->second;
@@ -65,7 +65,7 @@ void FrameContacts::add_inner(const ContactInterval& interval) {
     const Run samples = samples_in(interval, row.sampling.spacing);
     if (samples.is_empty()) continue;
     ++row.found;
-    Seen& seen = seen_[pair.place + k];
+    Seen& seen = seen_[pair.index + k];
     extend(seen.plain, samples, 0, row.sums[plain]);
     extend(seen.bridged, samples, bridge_, row.sums[bridged]);
     if (seen.pending == none) seen.pending = samples.first;
@@ -85,7 +85,7 @@ void FrameContacts::add_outer(const ContactInterval& interval) {
     Row& row = rows_[k];
     const Run samples = samples_in(interval, row.sampling.spacing);
     if (samples.is_empty()) continue;
-    Seen& seen = seen_[pair.place + k];
+    Seen& seen = seen_[pair.index + k];
     const bool goes_on = !seen.outer.is_empty() && samples.first - seen.outer.last == 1;
     if (!goes_on) close_outer(seen, row.sums[dual]);
     if (seen.outer.is_empty()) seen.outer.first = samples.first;
@@ -98,7 +98,7 @@ void FrameContacts::add_outer(const ContactInterval& interval) {
 void FrameContacts::finish() {
   for (auto& [key, pair] : pairs_) {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      Seen& seen = seen_[pair.place + k];
+      Seen& seen = seen_[pair.index + k];
       close(seen.plain, rows_[k].sums[plain]);
       close(seen.bridged, rows_[k].sums[bridged]);
       close_outer(seen, rows_[k].sums[dual]);

@@ -93,9 +93,9 @@ class FrameContacts {
     std::size_t inner = none;    // first sample of `outer` within the inner cutoff
     std::size_t pending = none;  // that of the outer run that is not known yet
   };
-  /// A pair. Its entries of `seen_` begin at `place`.
+  /// A pair. Its entries of `seen_` begin at `index`.
   struct Pair {
-    std::size_t place = 0;
+    std::size_t index = 0;
     bool is_inside = false;  // an inner interval belongs to the next outer one
     ContactMoment begin;     // of the first such interval
   };

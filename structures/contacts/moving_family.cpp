@@ -238,7 +238,7 @@ auto MovingFamily<Dimension>::extent() const -> Extent {
   return all;
 }
 
-// Sorts the blocks along a Morton curve. Any order is valid, so blocks whose place is unknown may go
+// Sorts the blocks along a Morton curve. Any order is valid, so blocks whose position is unknown may go
 // anywhere.
 template <int Dimension>
 void MovingFamily<Dimension>::sort_blocks(const Extent& all) {
@@ -251,9 +251,9 @@ void MovingFamily<Dimension>::sort_blocks(const Extent& all) {
           0.5 * boxes_.side(block, 0, axis, false) + 0.5 * boxes_.side(block, 0, axis, true);
       const double share = 0.5 + 0.5 * (center - all.middle[static_cast<std::size_t>(axis)]) / all.half;
       if (!(share >= 0 && share <= 1)) continue;
-      const auto place = static_cast<std::uint64_t>(share * most);
+      const auto position = static_cast<std::uint64_t>(share * most);
       for (unsigned bit = 0; bit < bits; ++bit)
-        codes[block] |= (place >> bit & 1U) << (bit * Dimension + static_cast<unsigned>(axis));
+        codes[block] |= (position >> bit & 1U) << (bit * Dimension + static_cast<unsigned>(axis));
     }
   }
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -276,10 +276,10 @@ void MovingFamily<Dimension>::split(Resting resting, std::size_t level, std::siz
   const std::uint32_t present = boxes_.present(below, second);
   InterruptionCheck::ask();
   for (std::size_t child = first * fan; child < end; ++child) {
-    const std::size_t place = child - first * fan;
+    const std::size_t index = child - first * fan;
     std::uint32_t others = present;
-    if (first == second) others &= ~std::uint32_t{0} << place;
-    if ((resting_first >> place & 1U) != 0) others &= ~resting_second;
+    if (first == second) others &= ~std::uint32_t{0} << index;
+    if ((resting_first >> index & 1U) != 0) others &= ~resting_second;
     if (others == 0) continue;
     std::uint32_t near = boxes_.near(below, child, second, others);
     size_ += static_cast<std::uint64_t>(std::popcount(others ^ near));

@@ -6,7 +6,7 @@
 // the next.
 //
 // If there are few blocks, the boxes above them group blocks near along the chain. Otherwise they group
-// blocks near in space, because a long, tightly packed chain returns to the same place again and again.
+// blocks near in space, because a long, tightly packed chain returns to the same region again and again.
 // Blocks are sorted again when the family has grown.
 //
 // A pair that is disjoint during only a part of the step is split at the start of the step and stays split. A
@@ -84,7 +84,7 @@ class MovingBoxes {
 
   /// Returns a side of a block's box at control point `k` along `axis`, the upper side if `upper`.
   [[nodiscard]] double side(std::size_t block, int k, int axis, bool upper) const {
-    return sides_of_blocks_[block * sides_of_box() + place(k, axis, upper)];
+    return sides_of_blocks_[block * sides_of_box() + index(k, axis, upper)];
   }
   [[nodiscard]] int control_count() const { return controls_; }
 
@@ -99,7 +99,7 @@ class MovingBoxes {
   [[nodiscard]] std::size_t sides_of_box() const {
     return 2 * static_cast<std::size_t>(Dimension) * static_cast<std::size_t>(controls_);
   }
-  [[nodiscard]] static constexpr std::size_t place(int k, int axis, bool upper) {
+  [[nodiscard]] static constexpr std::size_t index(int k, int axis, bool upper) {
     return 2 * static_cast<std::size_t>(k * Dimension + axis) + (upper ? 1 : 0);
   }
   [[nodiscard]] static Bits near_bits(const double* box, const double* group, int controls, Bits asked);

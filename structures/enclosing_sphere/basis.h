@@ -176,9 +176,9 @@ class BasisOfBalls {
 
 /// Erases a bead from a basis and keeps the order of the others. The code has no branches, because they would
 /// be unpredictable.
-[[gnu::always_inline]] inline void erase_place(Basis& basis, std::size_t place) {
+[[gnu::always_inline]] inline void erase_bead_at(Basis& basis, std::size_t index) {
   for (std::size_t i = 0; i + 1 < Basis::max_size; ++i)
-    basis.beads[i] = basis.beads[i + (i >= place ? 1U : 0U)];
+    basis.beads[i] = basis.beads[i + (i >= index ? 1U : 0U)];
   --basis.size;
 }
 

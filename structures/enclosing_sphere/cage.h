@@ -26,19 +26,19 @@ template <int Dimension>
   return sphere;
 }
 
-/// Four places in an array of rows. An array of four pointers would make g++ 12 compute the addresses in a
+/// Four indices in an array of rows. An array of four pointers would make g++ 12 compute the addresses in a
 /// vector and extract them one by one.
-using FourPlaces = std::array<std::uint32_t, Lanes::width>;
+using FourIndices = std::array<std::uint32_t, Lanes::width>;
 
-/// Stores four rows of four numbers: row i receives lane i of each vector. If places coincide, the last row
+/// Stores four rows of four numbers: row i receives lane i of each vector. If indices coincide, the last row
 /// stays.
 template <class OfFourDoubles>
 [[gnu::always_inline]] inline void store_rows(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d,
-                                              OfFourDoubles* rows, const FourPlaces& places) {
+                                              OfFourDoubles* rows, const FourIndices& indices) {
   static_assert(sizeof(OfFourDoubles) == sizeof(Lanes::Vector));
   using Row = double __attribute__((vector_size(32), aligned(8), may_alias));
   const auto put = [&](std::size_t lane, Lanes::Vector numbers) __attribute__((always_inline)) {
-    *reinterpret_cast<Row*>(rows + places[lane]) = numbers;
+    *reinterpret_cast<Row*>(rows + indices[lane]) = numbers;
   };
   const Lanes::Vector ab_even = __builtin_shufflevector(a.v, b.v, 0, 4, 2, 6);
   const Lanes::Vector ab_odd = __builtin_shufflevector(a.v, b.v, 1, 5, 3, 7);
@@ -60,11 +60,11 @@ struct FourBalls {
   Lanes radius;
 
   FourBalls() = default;
-  [[gnu::always_inline]] FourBalls(const BallRow<Dimension>* rows, const FourPlaces& places) {
-    const Vector a = Lanes::load(rows[places[0]].center.data()),
-                 b = Lanes::load(rows[places[1]].center.data()),
-                 c = Lanes::load(rows[places[2]].center.data()),
-                 d = Lanes::load(rows[places[3]].center.data());
+  [[gnu::always_inline]] FourBalls(const BallRow<Dimension>* rows, const FourIndices& indices) {
+    const Vector a = Lanes::load(rows[indices[0]].center.data()),
+                 b = Lanes::load(rows[indices[1]].center.data()),
+                 c = Lanes::load(rows[indices[2]].center.data()),
+                 d = Lanes::load(rows[indices[3]].center.data());
     const Vector ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6);
     const Vector ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
     const Vector cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6);
@@ -79,9 +79,9 @@ struct FourBalls {
       radius.v = third;
     }
   }
-  /// Stores each lane into its row. If places coincide, the last lane stays.
-  [[gnu::always_inline]] void store(BallRow<Dimension>* rows, const FourPlaces& places) const {
-    store_rows(center[0], center[1], Dimension == 3 ? center[Dimension - 1] : radius, radius, rows, places);
+  /// Stores each lane into its row. If indices coincide, the last lane stays.
+  [[gnu::always_inline]] void store(BallRow<Dimension>* rows, const FourIndices& indices) const {
+    store_rows(center[0], center[1], Dimension == 3 ? center[Dimension - 1] : radius, radius, rows, indices);
   }
 };
 

@@ -88,8 +88,8 @@ class ExactSearch {
   }
   Basis basis_among(std::span<const BeadId> beads) const {
     Basis basis;
-    for (const std::size_t place : exact_basis_among<Dimension>(wholes(beads)))
-      basis.beads[basis.size++] = beads[place];
+    for (const std::size_t index : exact_basis_among<Dimension>(wholes(beads)))
+      basis.beads[basis.size++] = beads[index];
     basis.sort();
     return basis;
   }
@@ -294,16 +294,16 @@ Sphere TouchingSphere<Dimension, Number>::rounded(int unit) const requires(std::
 template <int Dimension>
 std::vector<std::size_t> exact_basis_among(std::span<const IntegerBall<Dimension>> balls) {
   const unsigned subsets = 1U << balls.size();
-  std::vector<std::size_t> places;
+  std::vector<std::size_t> indices;
   std::vector<IntegerBall<Dimension>> basis;
   for (int size = 1; size <= Dimension + 1; ++size) {
     for (unsigned subset = 1; subset < subsets; ++subset) {
       if (std::popcount(subset) != size) continue;
-      places.clear();
+      indices.clear();
       basis.clear();
       for (std::size_t i = 0; i < balls.size(); ++i) {
         if ((subset >> i & 1U) == 0) continue;
-        places.push_back(i);
+        indices.push_back(i);
         basis.push_back(balls[i]);
       }
       const auto sphere = ExactSphere<Dimension>::touching(basis);
@@ -311,7 +311,7 @@ std::vector<std::size_t> exact_basis_among(std::span<const IntegerBall<Dimension
       bool encloses = true;
       for (std::size_t i = 0; encloses && i < balls.size(); ++i)
         encloses = (subset >> i & 1U) != 0 || sphere->holds(balls[i]);
-      if (encloses) return places;
+      if (encloses) return indices;
     }
   }
   throw std::logic_error("balls without a minimum enclosing sphere");
@@ -326,7 +326,7 @@ Sphere exact_sphere_of(const Basis& basis, const Balls<Dimension>& balls) {
   auto sphere = ExactSphere<Dimension>::touching(members);
   if (!sphere) {
     std::vector<IntegerBall<Dimension>> proper;
-    for (const std::size_t place : exact_basis_among<Dimension>(members)) proper.push_back(members[place]);
+    for (const std::size_t index : exact_basis_among<Dimension>(members)) proper.push_back(members[index]);
     sphere = ExactSphere<Dimension>::touching(proper);
   }
   return sphere->rounded(unit);

@@ -71,8 +71,8 @@ class TouchingSphere {
 template <int Dimension>
 using ExactSphere = TouchingSphere<Dimension, Integer>;
 
-/// Returns the basis of a few balls that are known to have one: the first, by size, then by places, of the
-/// proper bases that hold all others. The result lists places in `balls`, ascending.
+/// Returns the basis of a few balls that are known to have one: the first, by size, then by indices, of the
+/// proper bases that hold all others. The result lists indices in `balls`, ascending.
 template <int Dimension>
 [[nodiscard]] std::vector<std::size_t> exact_basis_among(std::span<const IntegerBall<Dimension>> balls);
 

@@ -12,8 +12,8 @@ Basis proper_part(const Basis& basis, const IntegerBalls<Dimension>& whole) {
   const auto sphere = ExactSphere<Dimension>::touching(balls);
   if (sphere && sphere->is_proper()) return basis;
   Basis part;
-  for (const std::size_t place : exact_basis_among<Dimension>(balls))
-    part.beads[part.size++] = basis.beads[place];
+  for (const std::size_t index : exact_basis_among<Dimension>(balls))
+    part.beads[part.size++] = basis.beads[index];
   return part;
 }
 

@@ -71,11 +71,11 @@ bool next_basis(const Balls<Form::Dimension>& balls, Basis& basis, const typenam
                 const Find& find_escaped) {
   if (basis.size > 1 && !(sphere.least > 0)) {
     if (!(sphere.least < -1e-9)) return false;  // a correct basis must not be changed
-    std::size_t place = 0;
+    std::size_t index = 0;
     visit_size<Form::Dimension>(basis.size, [&](auto m) {
-      if constexpr (m > 0) place = lightest<m>(balls, basis);
+      if constexpr (m > 0) index = lightest<m>(balls, basis);
     });
-    erase_place(basis, place);
+    erase_bead_at(basis, index);
     return true;
   }
   const BeadId escaped = find_escaped();

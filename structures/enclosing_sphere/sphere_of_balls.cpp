@@ -8,8 +8,8 @@ namespace {
 
 constexpr double slack = 1e-12;  // relative to the squared radius; the result is verified later
 
-Basis without_place(Basis basis, std::size_t place) {
-  erase_place(basis, place);
+Basis without_bead_at(Basis basis, std::size_t index) {
+  erase_bead_at(basis, index);
   return basis;
 }
 
@@ -30,9 +30,9 @@ bool holds_all(const Balls<Dimension>& balls, const BasisSphere<double, Dimensio
   return inside(escaped) && std::all_of(basis.begin(), basis.end(), inside);
 }
 
-/// Returns the place in a full basis of the ball that is likely to leave.
+/// Returns the index in a full basis of the ball that is likely to leave.
 template <int Dimension>
-std::size_t place_to_leave(const Balls<Dimension>& balls, const Basis& basis, BeadId escaped) {
+std::size_t index_to_leave(const Balls<Dimension>& balls, const Basis& basis, BeadId escaped) {
   Basis guess = basis;
   if (!pivot_points(balls, guess, escaped)) return 0;
   for (std::size_t i = 0; i < basis.size; ++i)
@@ -44,7 +44,8 @@ std::size_t place_to_leave(const Balls<Dimension>& balls, const Basis& basis, Be
 
 template <int Dimension>
 bool pivot_balls(const Balls<Dimension>& balls, Basis& basis, BeadId escaped) {
-  Basis next = basis.size <= Dimension ? basis : without_place(basis, place_to_leave(balls, basis, escaped));
+  Basis next =
+      basis.size <= Dimension ? basis : without_bead_at(basis, index_to_leave(balls, basis, escaped));
   insert_bead(next, escaped);
   while (true) {
     const auto sphere = sphere_of_basis(balls, next);
@@ -53,12 +54,12 @@ bool pivot_balls(const Balls<Dimension>& balls, Basis& basis, BeadId escaped) {
       basis = next;
       return true;
     }
-    std::size_t place = 0;
+    std::size_t index = 0;
     visit_size<Dimension>(next.size, [&](auto m) {
-      if constexpr (m > 0) place = detail::lightest<m>(balls, next);
+      if constexpr (m > 0) index = detail::lightest<m>(balls, next);
     });
-    if (next.beads[place] == escaped || next.size == 1) break;
-    erase_place(next, place);
+    if (next.beads[index] == escaped || next.size == 1) break;
+    erase_bead_at(next, index);
   }
   const unsigned subsets = 1U << basis.size;
   for (int size = Dimension; size >= 0; --size) {

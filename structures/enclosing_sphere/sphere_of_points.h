@@ -322,7 +322,7 @@ template <bool bounds = true, int Dimension>
   return {balls.center[0], 0, 0, 0, 1, false};
 }
 
-/// One round of the pivot: returns the place of the bead that leaves, or the basis' size if none does.
+/// One round of the pivot: returns the index of the bead that leaves, or the basis' size if none does.
 template <std::size_t M, int Dimension>
 [[gnu::always_inline]] inline std::size_t left_behind(const Balls<Dimension>& balls, const Basis& basis,
                                                       const Point<Dimension>& p) {
@@ -352,10 +352,10 @@ template <std::size_t M, int Dimension>
       w0 -= w[i];
     }
     std::size_t left = M + 1;
-    const auto look = [&](std::size_t place, double weight, double pull) {
+    const auto look = [&](std::size_t index, double weight, double pull) {
       const bool sooner = (pull > 0) & (weight < stop * pull);
       stop = sooner ? weight / pull : stop;
-      left = sooner ? place : left;
+      left = sooner ? index : left;
     };
     look(0, y0, w0);
     for (std::size_t i = 0; i < M; ++i) look(i + 1, y[i], w[i]);
@@ -363,7 +363,7 @@ template <std::size_t M, int Dimension>
   }
 }
 
-/// Returns the place of the bead of least weight.
+/// Returns the index of the bead of least weight.
 template <std::size_t M, int Dimension>
 [[nodiscard]] std::size_t lightest(const Balls<Dimension>& balls, const Basis& basis) {
   const Span<double, Dimension, M> span(basis_balls<M>(balls, basis));
@@ -371,13 +371,13 @@ template <std::size_t M, int Dimension>
   (void)span.circumcenter(y);
   double least = 1;
   for (const double weight : y) least -= weight;
-  std::size_t place = 0;
+  std::size_t index = 0;
   for (std::size_t i = 0; i < M; ++i) {
     if (!(y[i] < least)) continue;
     least = y[i];
-    place = i + 1;
+    index = i + 1;
   }
-  return place;
+  return index;
 }
 
 }  // namespace detail
@@ -405,7 +405,7 @@ template <int Dimension>
         basis.size, [&](auto m)
                         __attribute__((always_inline)) { left = detail::left_behind<m>(balls, basis, p); });
     if (left == basis.size) break;
-    erase_place(basis, left);
+    erase_bead_at(basis, left);
   }
   if (basis.size == Dimension + 1) return false;
   insert_bead(basis, escaped);

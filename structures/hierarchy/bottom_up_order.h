@@ -17,10 +17,10 @@ class BottomUpOrder {
 
   /// Nodes of one height, from subtrees whose groups are stored consecutively.
   struct Group {
-    std::uint32_t first, end;  ///< places in the order
+    std::uint32_t first, end;  ///< indices in the order
   };
   struct Run {
-    std::uint32_t first, end;  ///< places of groups
+    std::uint32_t first, end;  ///< indices of groups
   };
 
   [[nodiscard]] std::span<const NodeId> nodes(const Group& group) const {

@@ -119,7 +119,7 @@ class BoxHierarchy final : public EditableBase {
   std::unique_ptr<SupportTables<Dimension>> tables_;
   std::unique_ptr<Contests> contests_;
   std::vector<BeadId> supports_;        // reported, at node * side_count() + side
-  std::vector<std::uint32_t> changed_;  // places in supports_ that may differ from the contests' winners
+  std::vector<std::uint32_t> changed_;  // indices in supports_ that may differ from the contests' winners
   bool follows_certificates_ = false;
   std::vector<BeadId> risen_;  // beads that may have more certificates than when they were last counted
 };

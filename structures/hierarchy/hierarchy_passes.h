@@ -34,11 +34,11 @@ Cage<Form::Dimension> trusted_cage(const Balls<Form::Dimension>& balls, Basis ba
   while (true) {
     const typename Form::Sphere sphere = sphere_of_basis<Form>(balls, basis);
     if (sphere.least > 0 || basis.size == 1) return {sphere.center, sphere.radius};
-    std::size_t place = 0;
+    std::size_t index = 0;
     visit_size<Form::Dimension>(basis.size, [&](auto m) {
-      if constexpr (m > 0) place = lightest<m>(balls, basis);
+      if constexpr (m > 0) index = lightest<m>(balls, basis);
     });
-    erase_place(basis, place);
+    erase_bead_at(basis, index);
   }
 }
 
@@ -232,34 +232,34 @@ class NodeWrapper {
   // Stores the spheres of the nodes' bases as their cages, four at a time among bases of one size.
   template <bool with_bounds = true>
   [[KDS_LANES_TARGETS]] void spheres_of(const NodeId* nodes, std::size_t count, Bounds* bounds) const {
-    std::array<std::array<std::uint8_t, nodes_at_a_time>, Basis::max_size> places;
+    std::array<std::array<std::uint8_t, nodes_at_a_time>, Basis::max_size> indices;
     std::uint64_t counts_of_sizes = 0;  // 16 bits per size: no branch, and no store to wait for
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t m = bases[nodes[i]].size - 1U;
-      places[m][counts_of_sizes >> 16 * m & 0xffff] = static_cast<std::uint8_t>(i);
+      indices[m][counts_of_sizes >> 16 * m & 0xffff] = static_cast<std::uint8_t>(i);
       counts_of_sizes += std::uint64_t{1} << 16 * m;
     }
     std::array<std::size_t, Basis::max_size> of_size;
     for (std::size_t m = 0; m < Basis::max_size; ++m) of_size[m] = counts_of_sizes >> 16 * m & 0xffff;
     for (std::size_t i = 0; i < of_size[0]; ++i) {
-      const NodeId node = nodes[places[0][i]];
+      const NodeId node = nodes[indices[0][i]];
       const Sphere sphere = Form::sphere(basis_balls<0>(balls, bases[node]));
       cages[node] = {sphere.center, sphere.radius};
-      bounds[places[0][i]] = {sphere.inner, sphere.outer, sphere.least, sphere.certain ? 1.0 : 0.0};
+      bounds[indices[0][i]] = {sphere.inner, sphere.outer, sphere.least, sphere.certain ? 1.0 : 0.0};
     }
-    spheres_of_size<with_bounds, 1>(nodes, places[1].data(), of_size[1], bounds);
-    spheres_of_size<with_bounds, 2>(nodes, places[2].data(), of_size[2], bounds);
+    spheres_of_size<with_bounds, 1>(nodes, indices[1].data(), of_size[1], bounds);
+    spheres_of_size<with_bounds, 2>(nodes, indices[2].data(), of_size[2], bounds);
     if constexpr (Dimension == 3)
-      spheres_of_size<with_bounds, 3>(nodes, places[3].data(), of_size[3], bounds);
+      spheres_of_size<with_bounds, 3>(nodes, indices[3].data(), of_size[3], bounds);
   }
   template <bool with_bounds, std::size_t M>
-  [[gnu::always_inline]] void spheres_of_size(const NodeId* nodes, const std::uint8_t* places,
+  [[gnu::always_inline]] void spheres_of_size(const NodeId* nodes, const std::uint8_t* indices,
                                               std::size_t count, Bounds* bounds) const {
     for (std::size_t i = 0; i < count; i += Lanes::width) {
       BasisBalls<Lanes, Dimension, M> members;
-      FourPlaces four, beside;
+      FourIndices four, beside;
       for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
-        beside[lane] = places[std::min(i + lane, count - 1)];
+        beside[lane] = indices[std::min(i + lane, count - 1)];
         four[lane] = nodes[beside[lane]];
       }
       gather(balls.rows(), bases, four, members);
@@ -275,7 +275,7 @@ class NodeWrapper {
         store_rows(sphere.inner, sphere.outer, sphere.least, certain, bounds, beside);
       } else {
         for (std::size_t lane = 0; lane < Lanes::width && i + lane < count; ++lane)
-          bounds[places[i + lane]].least = sphere.least.v[lane];
+          bounds[indices[i + lane]].least = sphere.least.v[lane];
       }
     }
   }
@@ -389,14 +389,14 @@ class NodeWrapper {
     }
     return few;
   }
-  // Finds for each sphere the bead of `few[place]` that sticks out farthest, or no_bead.
-  [[KDS_SCAN_TARGETS]] void escaped_of_few(const Few* few, const std::uint8_t* place, const NodeId* nodes,
+  // Finds for each sphere the bead of `few[index]` that sticks out farthest, or no_bead.
+  [[KDS_SCAN_TARGETS]] void escaped_of_few(const Few* few, const std::uint8_t* index, const NodeId* nodes,
                                            std::size_t count, const Bounds* bounds, BeadId* escaped) const {
     const auto measure_of = [&](std::size_t i) __attribute__((always_inline)) {
       auto measure = Form::measure(balls, sphere_by(nodes[i], bounds[i]));
       for (std::size_t axis = 0; axis < Dimension; ++axis)
-        measure.centers[axis] = few[place[i]].centers[axis].data();
-      if constexpr (!Form::of_points) measure.radii = few[place[i]].radii.data();
+        measure.centers[axis] = few[index[i]].centers[axis].data();
+      if constexpr (!Form::of_points) measure.radii = few[index[i]].radii.data();
       return measure;
     };
     std::array<double, nodes_at_a_time> farthest;
@@ -409,7 +409,7 @@ class NodeWrapper {
       escaped[i] = no_bead;
       if (!(farthest[i] > bounds[i].outer) || !(bounds[i].least > 0)) continue;
       const BeadId found = find_value(measure_of(i), 0, 7, farthest[i]);
-      if (found != no_bead) escaped[i] = few[place[i]].ids[found];
+      if (found != no_bead) escaped[i] = few[index[i]].ids[found];
     }
   }
 
@@ -419,15 +419,15 @@ class NodeWrapper {
     std::array<Bounds, nodes_at_a_time> bounds;
     std::array<BeadId, nodes_at_a_time> escaped;
     std::array<NodeId, nodes_at_a_time> waiting;
-    std::array<std::uint8_t, nodes_at_a_time> place;
+    std::array<std::uint8_t, nodes_at_a_time> index;
     for (std::size_t i = 0; i < count; ++i) {
       few[i] = few_of(nodes[i]);
       waiting[i] = nodes[i];
-      place[i] = static_cast<std::uint8_t>(i);
+      index[i] = static_cast<std::uint8_t>(i);
     }
     for (int round = 0; count > 0 && round < 8; ++round) {
       spheres_of(waiting.data(), count, bounds.data());
-      escaped_of_few(few.data(), place.data(), waiting.data(), count, bounds.data(), escaped.data());
+      escaped_of_few(few.data(), index.data(), waiting.data(), count, bounds.data(), escaped.data());
       std::size_t left = 0;
       for (std::size_t i = 0; i < count; ++i) {
         Basis& basis = bases[waiting[i]];
@@ -435,7 +435,7 @@ class NodeWrapper {
           continue;
         ++counts.pivots;
         waiting[left] = waiting[i];
-        place[left++] = place[i];
+        index[left++] = index[i];
       }
       count = left;
     }

@@ -63,7 +63,8 @@ template <int Dimension, std::size_t M>
 /// Loads the balls of the bases of four nodes, with M + 1 balls each.
 template <int Dimension, std::size_t M>
 [[gnu::always_inline]] inline void gather(const BallRow<Dimension>* rows, const Basis* bases,
-                                          const FourPlaces& nodes, BasisBalls<Lanes, Dimension, M>& members) {
+                                          const FourIndices& nodes,
+                                          BasisBalls<Lanes, Dimension, M>& members) {
   for (std::size_t j = 0; j <= M; ++j)
     set_ball(members, j,
              FourBalls<Dimension>(rows, {bases[nodes[0]].beads[j], bases[nodes[1]].beads[j],
@@ -79,7 +80,7 @@ template <bool of_points, int Dimension>
                                              Cage<Dimension>* cages, std::uint8_t* loose, NodeId* left) {
   std::size_t lefts = 0;
   for (std::size_t i = 0; i < count; i += Lanes::width) {
-    FourPlaces first, last, wrapped;
+    FourIndices first, last, wrapped;
     bool both = true;
     for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
       const NodeId node = nodes[std::min(i + lane, count - 1)];

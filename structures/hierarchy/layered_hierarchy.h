@@ -45,7 +45,7 @@ class LayeredHierarchy {
   class Merges {
    public:
     struct Four {
-      FourPlaces node, left, right;
+      FourIndices node, left, right;
     };
     void append(NodeId node, std::uint32_t left, std::uint32_t right);
     [[nodiscard]] std::span<const Four> fours() const { return fours_; }

@@ -56,16 +56,16 @@ void NodeCertificates<Dimension>::hold(NodeId id, CertificateHandle handle, unsi
     ++by.never_failing;
     return;
   }
-  std::uint32_t place = 0;
+  std::uint32_t index = 0;
   if (free_.empty()) {
-    place = static_cast<std::uint32_t>(held_.size());
+    index = static_cast<std::uint32_t>(held_.size());
     held_.emplace_back();
   } else {
-    place = free_.back();
+    index = free_.back();
     free_.pop_back();
   }
-  held_[place] = {handle, by.first, static_cast<std::uint8_t>(table)};
-  by.first = place;
+  held_[index] = {handle, by.first, static_cast<std::uint8_t>(table)};
+  by.first = index;
 }
 
 /// Returns the first failure of a radical certificate, if the path of the sphere proves it.
@@ -161,9 +161,9 @@ std::optional<BeadId> NodeCertificates<Dimension>::watch_enqueued_of_one(bool ze
 template <int Dimension>
 double NodeCertificates<Dimension>::certified_until(NodeId id) {
   double until = 1;
-  for (std::uint32_t place = held_by_[id].first; place != none; place = held_[place].next) {
-    tables_.visit(held_[place].table, [&](auto& table) {
-      until = std::min(until, table.time(slot_of(held_[place].handle)).upper);
+  for (std::uint32_t index = held_by_[id].first; index != none; index = held_[index].next) {
+    tables_.visit(held_[index].table, [&](auto& table) {
+      until = std::min(until, table.time(slot_of(held_[index].handle)).upper);
     });
   }
   return until;
@@ -175,9 +175,9 @@ void NodeCertificates<Dimension>::drop(NodeId id) {
   HeldBy& by = held_by_[id];
   owner_.statistics.certificates.alive -= by.never_failing;
   by.never_failing = 0;
-  for (std::uint32_t place = by.first; place != none; place = held_[place].next) {
-    tables_.visit(held_[place].table, [&](auto& table) { table.drop(held_[place].handle); });
-    free_.push_back(place);
+  for (std::uint32_t index = by.first; index != none; index = held_[index].next) {
+    tables_.visit(held_[index].table, [&](auto& table) { table.drop(held_[index].handle); });
+    free_.push_back(index);
   }
   by.first = none;
 }
@@ -195,8 +195,8 @@ typename NodeCertificates<Dimension>::Failed NodeCertificates<Dimension>::take_f
     failed.bead = bead_of(certificate, bases[failed.node]);
     signs_.present.emplace(certificate);
   });
-  for (std::uint32_t place = held_by_[failed.node].first; place != none; place = held_[place].next) {
-    HeldCertificate& held = held_[place];
+  for (std::uint32_t index = held_by_[failed.node].first; index != none; index = held_[index].next) {
+    HeldCertificate& held = held_[index];
     if (held.table == table && held.handle == static_cast<CertificateHandle>(slot))
       held.handle = CertificateHandle::violated;  // removed already
   }

@@ -146,8 +146,8 @@ unsigned NodeProofs<Dimension>::take_out_staying(const Basis& basis, const BeadR
   if (never_again) std::erase(beyond, risen);
   if (!beyond.empty()) take_out_dipping(paths_, basis, *chord, rest, risen, beyond);
   unsigned stays = chord->stays;
-  for (std::size_t place = 0; place < basis.size; ++place)
-    if (basis.beads[place] == risen) stays |= (never_again ? ~0U : chord->rises) & (1U << place);
+  for (std::size_t index = 0; index < basis.size; ++index)
+    if (basis.beads[index] == risen) stays |= (never_again ? ~0U : chord->rises) & (1U << index);
   const std::size_t unproved =
       beyond.size() + static_cast<std::size_t>(std::popcount(all_of(basis) & ~stays));
   return unproved < few ? stays : stays | look_closely(basis, 1, beyond);
@@ -209,8 +209,8 @@ unsigned NodeProofs<Dimension>::proved_bases(std::span<const Basis> bases, BeadI
   for (std::size_t i = 0; i < bases.size(); ++i) {
     const SphereChord<Dimension>& chord = chords[i];
     unsigned stay = chord.stays;
-    for (std::size_t place = 0; place < bases[i].size; ++place)
-      if (bases[i].beads[place] == newcomer) stay |= 1U << place;
+    for (std::size_t index = 0; index < bases[i].size; ++index)
+      if (bases[i].beads[index] == newcomer) stay |= 1U << index;
     if (chord.proved && stay == all_of(bases[i])) proved |= 1U << i;
   }
   return proved;

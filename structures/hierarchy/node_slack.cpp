@@ -186,9 +186,9 @@ template <int D, bool equal>
     for (; member != basis.end() && *member - b < Lanes::width; ++member)
       reach = Lanes::choose(one[*member - b], Lanes(-HUGE_VAL), reach);
     if (range.last - b < Lanes::width - 1) {
-      constexpr Lanes::Vector place{0, 1, 2, 3};
+      constexpr Lanes::Vector lane{0, 1, 2, 3};
       reach =
-          Lanes::choose(Lanes(place) > Lanes(static_cast<double>(range.last - b)), Lanes(-HUGE_VAL), reach);
+          Lanes::choose(Lanes(lane) > Lanes(static_cast<double>(range.last - b)), Lanes(-HUGE_VAL), reach);
     }
     most = Lanes::max(most, reach);
   }

@@ -72,16 +72,16 @@ std::optional<Basis> BasisRepair<Dimension>::proved_next_basis(const Basis& old,
     insert_bead(next[0], bead);
     return proofs_.proved_bases({next.data(), 1}, bead) == 0 ? std::nullopt : std::optional(next[0]);
   }
-  for (std::size_t place = 0; place < full; ++place) {
-    next[place] = old;
-    erase_place(next[place], place);
-    insert_bead(next[place], bead);
+  for (std::size_t index = 0; index < full; ++index) {
+    next[index] = old;
+    erase_bead_at(next[index], index);
+    insert_bead(next[index], bead);
   }
   const unsigned proved = proofs_.proved_bases(next, no_bead);
-  for (std::size_t place = 0; place < full; ++place) {
-    if ((proved >> place & 1U) != 0 &&
-        is_inside(next[place], old.beads[place], orientation_of(next[place], signs_), signs_))
-      return next[place];
+  for (std::size_t index = 0; index < full; ++index) {
+    if ((proved >> index & 1U) != 0 &&
+        is_inside(next[index], old.beads[index], orientation_of(next[index], signs_), signs_))
+      return next[index];
   }
   return std::nullopt;
 }
@@ -93,9 +93,9 @@ Basis BasisRepair<Dimension>::next_basis(const Basis& old, BeadId bead, bool fai
   std::size_t count = old.size;
   const bool escaped = bead != no_bead && !old.contains(bead);
   if (escaped) {
-    std::size_t place = count++;
-    for (; place > 0 && all[place - 1] > bead; --place) all[place] = all[place - 1];
-    all[place] = bead;
+    std::size_t index = count++;
+    for (; index > 0 && all[index - 1] > bead; --index) all[index] = all[index - 1];
+    all[index] = bead;
   }
   const auto among = std::span(all).first(count);
   std::optional<Basis> next;

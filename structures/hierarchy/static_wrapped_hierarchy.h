@@ -55,7 +55,7 @@ struct WrapCounts {
 struct Frontiers {
   static constexpr std::uint32_t bead = 0x80000000U;
   std::vector<std::vector<std::uint32_t>> of_run;
-  std::vector<BottomUpOrder::Group> of_node;  ///< places in the run's list; empty if unknown
+  std::vector<BottomUpOrder::Group> of_node;  ///< indices in the run's list; empty if unknown
 };
 
 template <int Dimension>

@@ -78,11 +78,11 @@ Circle common(const Circle& circle, const Circle& other) {
   return both;
 }
 
-std::size_t place_of(const Circle& circle, BeadId bead) {
+std::size_t index_of(const Circle& circle, BeadId bead) {
   return static_cast<std::size_t>(std::find(circle.begin(), circle.end(), bead) - circle.begin());
 }
 
-/// Returns the corner `steps` places further around the circle.
+/// Returns the corner `steps` corners further around the circle.
 BeadId further(const Circle& circle, std::size_t from, std::size_t steps) {
   return circle[(from + steps) % circle.size()];
 }
@@ -148,19 +148,19 @@ void ConvexHull::after_batch() {
   // If all corners meet in a line or a point, the corners that stay may come out in another order. In this
   // case all but one leave and enter again.
   if (staying != common(corners_, now)) staying.resize(1);
-  const std::size_t start = staying.empty() ? 0 : place_of(now, staying.front());
+  const std::size_t start = staying.empty() ? 0 : index_of(now, staying.front());
   staying = sorted(std::move(staying));
 
   for (const BeadId b : Circle(corners_)) {
     if (is_in(staying, b)) continue;
-    const std::size_t i = place_of(corners_, b), others = corners_.size() - 1;
+    const std::size_t i = index_of(corners_, b), others = corners_.size() - 1;
     change_corners({leave, 3, {b, further(corners_, i, others), further(corners_, i, 1)}});
   }
   for (std::size_t k = 0; k < now.size(); ++k) {
     const BeadId b = further(now, start, k);
     if (is_in(staying, b)) continue;
     const BeadId before = corners_.empty() ? b : further(now, start, k - 1);
-    const BeadId after = corners_.empty() ? b : further(corners_, place_of(corners_, before), 1);
+    const BeadId after = corners_.empty() ? b : further(corners_, index_of(corners_, before), 1);
     change_corners({enter, 3, {b, before, after}});
   }
 }
@@ -177,7 +177,7 @@ void ConvexHull::apply(const Change& change) {
     present().require(bead, false);
     return present().require(before, false);
   }
-  const std::size_t i = place_of(corners_, bead);
+  const std::size_t i = index_of(corners_, bead);
   const bool is_corner = i < corners_.size();
   if (is_corner != (change.kind == leave))
     throw std::invalid_argument(is_corner ? "the bead is a corner of the hull already"
@@ -191,7 +191,7 @@ void ConvexHull::apply(const Change& change) {
   } else if (corners_.empty()) {
     corners_ = {bead};
   } else {
-    const std::size_t k = place_of(corners_, before);
+    const std::size_t k = index_of(corners_, before);
     if (k == corners_.size() || further(corners_, k, 1) != after)
       throw std::invalid_argument("these are not consecutive corners of the hull");
     corners_.insert(corners_.begin() + static_cast<std::ptrdiff_t>(k) + 1, bead);

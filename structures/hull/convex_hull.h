@@ -8,9 +8,9 @@
 // and two if all beads lie on one line. A corner that enters or leaves is recorded after all events at that
 // time.
 //
-// A bead that is inserted or jumps walks along both halves to its place, with a few certificates for each
-// corner on the way. A bead that is erased or changes course costs its own certificates. If the bead is in a
-// half, it also costs the certificates of its neighbours there and of the beads under its edges.
+// A bead that is inserted or jumps walks along both halves to where it belongs, with a few certificates for
+// each corner on the way. A bead that is erased or changes course costs its own certificates. If the bead is
+// in a half, it also costs the certificates of its neighbours there and of the beads under its edges.
 
 #include <cstdint>
 #include <optional>
@@ -29,8 +29,8 @@ class ConvexHull final : public EditableBase {
  public:
   /// Ids of `enter` and `leave`: the corner, then the corners before and after it, counterclockwise; the
   /// corner itself in their place if it is alone. Ids of `interchange`, two beads of a half of the hull that
-  /// trade places along an axis: the bead that was first, then the other. Ids of an edit: the bead; the
-  /// changes of corners follow as separate changes.
+  /// swap along an axis: the bead that was first, then the other. Ids of an edit: the bead; the changes of
+  /// corners follow as separate changes.
   enum Kind : std::uint8_t { enter, leave, interchange, inserts, erases, changes };
 
   ConvexHull(Simulator& simulator, const MotionRef<2>& motion);

@@ -25,7 +25,7 @@ void HalfHull::start() {
     bead.after_left = bead.before_right = {};
     bead.turn = CertificateHandle::violated;
     bead.under.clear();
-    bead.place_under = not_under;
+    bead.index_under = not_under;
     if (bead.present) (bead.in_chain ? unheld_ : displaced_).push_back(b);
   }
   hold_all();
@@ -77,7 +77,7 @@ void HalfHull::give_up(BeadId b) {
       loosen(left);
     }
     if (right != no_bead) loosen(right);
-  } else if (beads_[b].place_under != not_under) {  // otherwise it is displaced already
+  } else if (beads_[b].index_under != not_under) {  // otherwise it is displaced already
     take_away(b);
     displace(b);
   }
@@ -91,7 +91,7 @@ void HalfHull::hold_all() {
     const BeadId b = waiting.back();
     waiting.pop_back();
     if (beads_[b].in_chain != in_chain) continue;  // it has moved into or out of the chain meanwhile
-    in_chain ? hold(b) : place(b);
+    in_chain ? hold(b) : put(b);
   }
 }
 
@@ -111,8 +111,8 @@ void HalfHull::hold(BeadId v) {
   if (ordered == Ordered::after) remove(beads_[right].right == no_bead && v != first_ ? right : v);
 }
 
-/// Finds the place of a bead, and puts it under an edge or into the chain.
-void HalfHull::place(BeadId b) {
+/// Finds where a bead belongs, and puts it under an edge or into the chain.
+void HalfHull::put(BeadId b) {
   if (first_ == no_bead) return put_in(b, no_bead);
   Bead& bead = beads_[b];
   BeadId left = bead.left != no_bead && beads_[bead.left].in_chain ? bead.left : first_;
@@ -145,7 +145,7 @@ void HalfHull::place(BeadId b) {
 void HalfHull::put_under(BeadId b, BeadId left) {
   Bead& bead = beads_[b];
   bead.left = left;
-  bead.place_under = static_cast<std::uint32_t>(beads_[left].under.size());
+  bead.index_under = static_cast<std::uint32_t>(beads_[left].under.size());
   beads_[left].under.push_back(b);
 }
 
@@ -227,8 +227,8 @@ void HalfHull::loosen(BeadId v) {
 /// Removes a bead from under its edge.
 void HalfHull::take_away(BeadId b) {
   std::vector<BeadId>& under = beads_[beads_[b].left].under;
-  beads_[under.back()].place_under = beads_[b].place_under;
-  under[beads_[b].place_under] = under.back();
+  beads_[under.back()].index_under = beads_[b].index_under;
+  under[beads_[b].index_under] = under.back();
   under.pop_back();
 }
 
@@ -239,7 +239,7 @@ void HalfHull::displace(BeadId b) {
 
 /// Drops all certificates of the bead.
 void HalfHull::release(BeadId b) {
-  beads_[b].place_under = not_under;
+  beads_[b].index_under = not_under;
   certificates_.drop(beads_[b].after_left);
   certificates_.drop(beads_[b].before_right);
   certificates_.drop(beads_[b].turn);

@@ -172,11 +172,11 @@ class HalfHull {
     CertificateHandle turn =
         CertificateHandle::violated;  // in the chain: at it; otherwise: not beyond its edge
     std::vector<BeadId> under;        // beads under the edge that begins at it
-    std::uint32_t place_under = not_under;
+    std::uint32_t index_under = not_under;
   };
 
   void hold(BeadId vertex);
-  void place(BeadId bead);
+  void put(BeadId bead);
   void put_under(BeadId bead, BeadId left);
   void put_in(BeadId bead, BeadId after);
   void take_out(BeadId vertex);

@@ -85,7 +85,7 @@ void BeadPaths<Dimension>::set(const Curves<Dimension>& curves, bool leave_out_r
   degree_ = curves.own_degree();
   beads_ = curves.bead_count();
   radii_are_left_out_ = leave_out_radii;
-  for (std::size_t c = 0; c < place(degree_ + 1, 0); ++c) columns_[c].resize(beads_ + padding);
+  for (std::size_t c = 0; c < index(degree_ + 1, 0); ++c) columns_[c].resize(beads_ + padding);
   extent_ = 0;
   equal_radii_ = true;
   if (beads_ == 0) return;
@@ -108,7 +108,7 @@ void BeadPaths<Dimension>::set_coordinates(const FixedCurves<Dimension, K>& curv
   constexpr std::size_t count = (K + 1) * Dimension;
   std::array<double*, count> to;
   for (std::size_t c = 0; c < count; ++c)
-    to[c] = columns_[place(static_cast<int>(c / Dimension), static_cast<int>(c % Dimension))].data();
+    to[c] = columns_[index(static_cast<int>(c / Dimension), static_cast<int>(c % Dimension))].data();
   std::array<double, count> low, high;
   low.fill(HUGE_VAL);
   high.fill(-HUGE_VAL);
@@ -141,7 +141,7 @@ void BeadPaths<Dimension>::set_coordinates(const FixedCurves<Dimension, K>& curv
 template <int Dimension>
 void BeadPaths<Dimension>::set_radii(const Curves<Dimension>& curves) {
   for (int k = 0; k <= degree_; ++k) {
-    double* const to = columns_[place(k, Dimension)].data();
+    double* const to = columns_[index(k, Dimension)].data();
     double low = curves.radius(0, k), high = low;
     for (BeadId b = 0; b < beads_; ++b) {
       to[b] = curves.radius(b, k);

@@ -27,7 +27,7 @@ class BeadPaths {
   [[nodiscard]] bool equal_radii() const { return equal_radii_; }
   [[nodiscard]] bool radii_are_left_out() const { return radii_are_left_out_; }
   /// Returns the k-th control points along an axis, or of the radius if axis = Dimension.
-  [[nodiscard]] const double* column(int k, int axis) const { return columns_[place(k, axis)].data(); }
+  [[nodiscard]] const double* column(int k, int axis) const { return columns_[index(k, axis)].data(); }
   /// Sets one flag per bead, and some beyond the last: during the whole step, neither this bead nor the next
   /// one holds the other.
   void find_apart_from_next(std::vector<std::uint8_t>& apart) const;
@@ -35,7 +35,7 @@ class BeadPaths {
   [[nodiscard]] double extent() const { return extent_; }
 
  private:
-  static std::size_t place(int k, int axis) { return static_cast<std::size_t>(k * (Dimension + 1) + axis); }
+  static std::size_t index(int k, int axis) { return static_cast<std::size_t>(k * (Dimension + 1) + axis); }
 
   template <int K>
   void set_coordinates(const FixedCurves<Dimension, K>& curves);

@@ -28,14 +28,14 @@ class BeadWord {
     const Lanes::Mask in_runs = bits_ << Lanes::Mask{0, 16, 32, 48};
     return static_cast<std::uint64_t>((in_runs[0] | in_runs[1]) | (in_runs[2] | in_runs[3]));
   }
-  [[nodiscard]] static constexpr std::uint64_t bit_of(BeadId place) {
-    return 1ULL << (16 * (place % 4) + place / 4);
+  [[nodiscard]] static constexpr std::uint64_t bit_of(BeadId index) {
+    return 1ULL << (16 * (index % 4) + index / 4);
   }
   /// Returns the bits of the first `count` beads.
   [[nodiscard]] static std::uint64_t first(BeadId count) {
     static constexpr auto words = [] {
       std::array<std::uint64_t, size + 1> word{};
-      for (BeadId place = 0; place < size; ++place) word[place + 1] = word[place] | bit_of(place);
+      for (BeadId index = 0; index < size; ++index) word[index + 1] = word[index] | bit_of(index);
       return word;
     }();
     return words[count];
@@ -96,12 +96,12 @@ template <int D, int K, bool equal, class Visit>
     // scan would be unpredictable.
     std::uint64_t bits = outside.bits() & BeadWord::first(last - first + 1);
     for (const BeadId member : basis) {
-      const BeadId place = member - first;  // wraps around if the member lies before
-      bits &= ~(place < BeadWord::size ? BeadWord::bit_of(place) : 0);
+      const BeadId index = member - first;  // wraps around if the member lies before
+      bits &= ~(index < BeadWord::size ? BeadWord::bit_of(index) : 0);
     }
-    for (BeadId place = 0; bits != 0; ++place) {
-      const std::uint64_t bit = BeadWord::bit_of(place);
-      if ((bits & bit) != 0) visit(first + place);
+    for (BeadId index = 0; bits != 0; ++index) {
+      const std::uint64_t bit = BeadWord::bit_of(index);
+      if ((bits & bit) != 0) visit(first + index);
       bits &= ~bit;
     }
   }

@@ -187,7 +187,7 @@ template <std::size_t Size>
   return root(dot(v, v));
 }
 
-/// The beads of four bases, place by place.
+/// The beads of four bases, bead by bead.
 template <std::size_t Size>
 using BeadLanes = std::array<std::array<BeadId, Lanes::width>, Size>;
 

@@ -107,15 +107,15 @@ void find_gaps_at_times(const BeadPaths<D>& paths, const detail::BeadLanes<M + 1
   Vec<D> of_bead;
   Lanes radius_of_bead, size(0.0), size_with_bead(0.0);
   for (int axis = 0; axis <= D; ++axis) {
-    const auto place = static_cast<std::size_t>(axis);
+    const auto row = static_cast<std::size_t>(axis);
     const double *const from = paths.column(0, axis), *const to = paths.column(1, axis);
     const auto at_time = [&](BeadId b, Lanes & longest) __attribute__((always_inline)) {
       const Lanes first(from[b] - from[beads[0][0]]), last(to[b] - to[beads[0][0]]);
       longest = Lanes::max(longest, Lanes::max(abs(first), abs(last)));
       return (one - time) * first + time * last;
     };
-    for (std::size_t i = 0; i < M; ++i) (axis < D ? d[i][place] : s[i]) = at_time(beads[i + 1][0], size);
-    (axis < D ? of_bead[place] : radius_of_bead) = at_time(bead, size_with_bead);
+    for (std::size_t i = 0; i < M; ++i) (axis < D ? d[i][row] : s[i]) = at_time(beads[i + 1][0], size);
+    (axis < D ? of_bead[row] : radius_of_bead) = at_time(bead, size_with_bead);
   }
   size = size * Lanes(detail::root_of[3]);  // no coordinate curve is longer
   const detail::End<D, M> end = detail::end_of<false, D, M>(d, s);

@@ -123,7 +123,7 @@ void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads
   std::array<Lanes, M> sa, sb, sc;
   Lanes size(0.0);
   for (int axis = 0; axis < D + (equal ? 0 : 1); ++axis) {
-    const auto place = static_cast<std::size_t>(axis);
+    const auto row = static_cast<std::size_t>(axis);
     const double *from = paths.column(0, axis), *to = paths.column(1, axis);
     const Lanes base_from = gather(from, beads[0]), base_to = gather(to, beads[0]);
     for (std::size_t i = 0; i < M; ++i) {
@@ -131,9 +131,9 @@ void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads
                                    gather(to, beads[i + 1]) - base_to};
       size = Lanes::max(size, Lanes::max(abs(control[0]), abs(control[1])));
       cut(control, period);
-      (axis < D ? a[i][place] : sa[i]) = control[0];
-      (axis < D ? b[i][place] : sb[i]) = control[1];
-      (axis < D ? c[i][place] : sc[i]) = control[1] - control[0];
+      (axis < D ? a[i][row] : sa[i]) = control[0];
+      (axis < D ? b[i][row] : sb[i]) = control[1];
+      (axis < D ? c[i][row] : sc[i]) = control[1] - control[0];
     }
   }
   size = size * Lanes(root_of[3]);  // no coordinate curve is longer

@@ -36,7 +36,7 @@ template <int D, std::size_t M, int K>
   std::array<std::array<Lanes, M>, 2> s_at;
   Lanes size(0.0);
   for (int axis = 0; axis <= D; ++axis) {
-    const auto place = static_cast<std::size_t>(axis);
+    const auto row = static_cast<std::size_t>(axis);
     std::array<std::array<Lanes, K + 1>, M> control;
     for (std::size_t k = 0; k <= K; ++k) {
       const double* column = paths.column(static_cast<int>(k), axis);
@@ -48,10 +48,10 @@ template <int D, std::size_t M, int K>
     }
     for (std::size_t i = 0; i < M; ++i) {
       cut(control[i], period);
-      auto& curve = axis < D ? d[i][place] : s[i];
+      auto& curve = axis < D ? d[i][row] : s[i];
       for (std::size_t k = 0; k <= K; ++k)
         curve.scaled[k] = control[i][k] * Lanes(static_cast<double>(binomial(K, static_cast<int>(k))));
-      for (std::size_t e = 0; e < 2; ++e) (axis < D ? d_at[e][i][place] : s_at[e][i]) = control[i][e * K];
+      for (std::size_t e = 0; e < 2; ++e) (axis < D ? d_at[e][i][row] : s_at[e][i]) = control[i][e * K];
     }
   }
   size = size * Lanes(detail::root_of[3]);  // no coordinate curve is longer

@@ -66,7 +66,7 @@ void find_motion_in_lanes(const BeadPaths<D>& paths, const BeadLanes<M + 1>& bea
   std::array<std::array<Lanes, M>, 2> s_at;
   Lanes size(0.0);
   for (int axis = 0; axis <= D; ++axis) {
-    const auto place = static_cast<std::size_t>(axis);
+    const auto row = static_cast<std::size_t>(axis);
     for (std::size_t i = 0; i < M; ++i) {
       std::array<Lanes, 2> control;
       for (std::size_t e = 0; e < 2; ++e) {
@@ -75,8 +75,8 @@ void find_motion_in_lanes(const BeadPaths<D>& paths, const BeadLanes<M + 1>& bea
         size = Lanes::max(size, abs(control[e]));
       }
       cut(control, period);
-      (axis < D ? d[i][place] : s[i]).scaled = control;
-      for (std::size_t e = 0; e < 2; ++e) (axis < D ? d_at[e][i][place] : s_at[e][i]) = control[e];
+      (axis < D ? d[i][row] : s[i]).scaled = control;
+      for (std::size_t e = 0; e < 2; ++e) (axis < D ? d_at[e][i][row] : s_at[e][i]) = control[e];
     }
   }
   size = size * Lanes(detail::root_of[3]);  // no coordinate curve is longer

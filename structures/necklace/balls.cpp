@@ -15,7 +15,7 @@ namespace {
 using Row = Lanes::Vector;
 using Bits = Lanes::Mask;
 
-/// Puts the radius in the place of the weight.
+/// Replaces the weight by the radius.
 [[gnu::always_inline]] inline Row with_radius(const Row& point, const Row& radius) {
   return __builtin_shufflevector(point, radius, 0, 1, 2, 7);
 }

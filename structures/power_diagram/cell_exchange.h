@@ -21,9 +21,9 @@ class CellExchange {
   CellExchange(State& state, FacetCertificates<Dimension>& facets, HiddenCertificates<Dimension>& hidden)
       : state_(state), facets_(facets), hidden_(hidden) {}
 
-  /// Returns cells that fill the place of `hole`. The cells are taken from the static triangulation of
-  /// `beads` at `time`; `beads` must include all beads around the hole. Returns an empty vector if this
-  /// triangulation lacks one of the facets that bound the hole.
+  /// Returns cells that fill `hole`. The cells are taken from the static triangulation of `beads` at `time`;
+  /// `beads` must include all beads around the hole. Returns an empty vector if this triangulation lacks one
+  /// of the facets that bound the hole.
   [[nodiscard]] std::vector<Beads> fill_of(std::span<const CellId> hole, std::vector<BeadId> beads,
                                            const Dyadic& time) const;
   /// Returns whether the cells `made` fit into the hole with all finite cells positive.

@@ -23,7 +23,7 @@ std::vector<std::array<BeadId, 2>> edges_around(const DiagramState<2>& state, Ce
   do {
     const auto edge = *hull_face<2>(state.beads_of(cell));
     edges.push_back(edge);
-    cell = state.neighbor(cell, state.place_of(cell, edge[0]));  // shares the edge's second bead
+    cell = state.neighbor(cell, state.vertex_index(cell, edge[0]));  // shares the edge's second bead
   } while (cell != start);
   return edges;
 }
@@ -51,7 +51,8 @@ std::vector<std::array<BeadId, 3>> faces_around(const DiagramState<3>& state, Ce
     auto face = *hull_face<3>(state.beads_of(cell));
     std::rotate(face.begin(), std::find(face.begin(), face.end(), vertex), face.end());
     faces.push_back(face);
-    cell = state.neighbor(cell, state.place_of(cell, face[1]));  // shares the edge to the face's third bead
+    cell =
+        state.neighbor(cell, state.vertex_index(cell, face[1]));  // shares the edge to the face's third bead
   } while (cell != start);
   return faces;
 }

@@ -48,7 +48,7 @@ bool DiagramEditor<Dimension>::is_flat_without(BeadId bead) const {
   int looked_at = 0;
   for (CellId cell = 0; cell < state_.triangulation.cells().size() && looked_at < most_cells; ++cell) {
     if (!state_.triangulation.is_live(cell) || state_.is_infinite(cell) ||
-        state_.place_of(cell, bead) <= Dimension)
+        state_.vertex_index(cell, bead) <= Dimension)
       continue;
     Beads beads = state_.beads_of(cell);
     std::sort(beads.begin(), beads.end());
@@ -245,7 +245,7 @@ auto DiagramEditor<Dimension>::fill_without(BeadId bead, std::span<const CellId>
   if (!made.empty()) return made;
   // The beads of the hole may lie in one plane; together with the beads beyond they do not.
   for (const CellId cell : hole) {
-    if (const BeadId b = state_.apex(cell, state_.place_of(cell, bead)); b != infinite_bead)
+    if (const BeadId b = state_.apex(cell, state_.vertex_index(cell, bead)); b != infinite_bead)
       beads.push_back(b);
   }
   return exchange_.fill_of(hole, beads, time);

@@ -6,7 +6,7 @@
 //            cells that join the bead to the facets around them (Bowyer-Watson); if there are none, the bead
 //            is hidden. Beads inside the replaced cells become hidden.
 //   erase    Builds the static triangulation of the other beads of the cells around the bead and of the
-//            beads hidden there. Its cells that fill the same place replace the cells around the bead. These
+//            beads hidden there. Its cells that fill the same region replace the cells around the bead. These
 //            are cells of the whole diagram too, and hidden beads become visible if they are vertices there.
 //   change   Makes the certificates that name the bead anew. If the bead jumps, it is erased and inserted.
 //            If many beads change at once, or if the others alone would have no diagram, all certificates are
@@ -74,7 +74,7 @@ class DiagramEditor {
   /// Removes the bead together with the cells around it, whose hidden beads are displaced.
   void take_out(BeadId bead, std::span<const CellId> hole);
   void take_out_hidden(BeadId bead);
-  /// Returns cells that fill the bead's place, as they are at `time` without the bead.
+  /// Returns cells that fill the hole that the bead leaves, as they are at `time` without the bead.
   [[nodiscard]] std::vector<Beads> fill_without(BeadId bead, std::span<const CellId> hole,
                                                 const Dyadic& time) const;
   [[nodiscard]] std::vector<ExactPosition> positions_of_released(const Dyadic& time) const;

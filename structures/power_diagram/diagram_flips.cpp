@@ -52,7 +52,8 @@ void DiagramFlips<Dimension>::repair(CellId cell, int facet) {
   int in_all = 0;  // a vertex of the facet without such a neighbour
   for (int k = 0; k <= Dimension; ++k) {
     if (k == facet) continue;
-    if (state_.neighbor(cell, k) == state_.neighbor(other, state_.place_of(other, state_.vertex(cell, k)))) {
+    if (state_.neighbor(cell, k) ==
+        state_.neighbor(other, state_.vertex_index(other, state_.vertex(cell, k)))) {
       ++met;
       across_from_face = k;
     } else {
@@ -107,7 +108,7 @@ template <int Dimension>
 bool DiagramFlips<Dimension>::stands_already(std::span<const BeadId> face, CellId a, CellId b) const {
   // Start from a finite bead, because the infinite vertex may have many cells.
   const BeadId bead = face[0] == infinite_bead ? face[1] : face[0];
-  return state_.triangulation.stand_together(bead, state_.place_of(a, bead) <= Dimension ? a : b, face);
+  return state_.triangulation.stand_together(bead, state_.vertex_index(a, bead) <= Dimension ? a : b, face);
 }
 
 template <int Dimension>
@@ -186,7 +187,7 @@ void DiagramFlips<Dimension>::flip_to_facet(CellId cell, int facet,
   hidden_.rehouse(made[0]);
 }
 
-/// 1-4 (1-3): a hidden bead becomes visible and gets cells in the place of `cell`, which is its host or an
+/// 1-4 (1-3): a hidden bead becomes visible and gets cells instead of `cell`, which is its host or an
 /// infinite cell beside its host.
 template <int Dimension>
 void DiagramFlips<Dimension>::show(BeadId bead, CellId cell) {
@@ -244,7 +245,7 @@ void DiagramFlips<Dimension>::apply(const Change& change) {
   const BeadId e = id[Dimension + 1];
   const auto cell = state_.triangulation.find_cell(beads);
   if (!cell) throw std::invalid_argument("the diagram has no such cell");
-  const int facet = state_.place_of(*cell, d);
+  const int facet = state_.vertex_index(*cell, d);
   if (state_.apex(*cell, facet) != e) throw std::invalid_argument("the facet has another apex");
   if (state_.triangulation.is_edge(d, e)) throw std::invalid_argument("the beads are joined already");
   state_.triangulation.flip_facet(*cell, facet);
@@ -260,7 +261,7 @@ void DiagramFlips<Dimension>::apply_to_facet(const Change& change) requires(Dime
     throw std::invalid_argument("the edge has other cells");
   }
   if (triangulation.is_facet(id[0], id[1], id[2])) throw std::invalid_argument("the facet stands already");
-  state_.triangulation.flip_edge(*cell, state_.place_of(*cell, id[3]), state_.place_of(*cell, id[4]));
+  state_.triangulation.flip_edge(*cell, state_.vertex_index(*cell, id[3]), state_.vertex_index(*cell, id[4]));
 }
 
 /// The hosts of hidden beads are not tracked during a replay.
@@ -285,7 +286,7 @@ void DiagramFlips<Dimension>::apply_to_hidden(const Change& change) {
       part = state_.triangulation.find_cell(State::with(cell, i, bead));
       if (!part) throw std::invalid_argument("bead " + std::to_string(bead) + " has other cells");
     }
-    state_.triangulation.flip_out(*part, state_.place_of(*part, bead));
+    state_.triangulation.flip_out(*part, state_.vertex_index(*part, bead));
     state_.hidden.hide(bead);
   }
 }

@@ -64,7 +64,7 @@ template <int Dimension>
 void DiagramRebuilder<Dimension>::after_batch() {
   const bool wrong = state_.doubt == Doubt::wrong || is_wrong_just_after(state_);
   std::vector<CellId> cells;  // the cells that may be wrong; empty if they are unknown
-  if (state_.known_places) cells.swap(state_.touched);
+  if (state_.known_cells) cells.swap(state_.touched);
   state_.clear_doubt();
   if (wrong && !repair(std::move(cells))) rebuild_at_first_time_that_works();
 }

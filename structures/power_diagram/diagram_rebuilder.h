@@ -46,9 +46,9 @@ class DiagramRebuilder {
   void assign_logged(std::span<const Beads> cells);
 
  private:
-  // Binary places of a rebuild's time. Up to the finest logged grid, the log holds the time, because its
-  // numerator fits into a Change. Beyond this grid, the log holds all cells removed and added, and the
-  // number of places doubles up to the finest grid. The finest grid suffices for doubles of all exponents
+  // Bits after the point of a rebuild's time. Up to the finest logged grid, the log holds the time, because
+  // its numerator fits into a Change. Beyond this grid, the log holds all cells removed and added, and the
+  // number of bits doubles up to the finest grid. The finest grid suffices for doubles of all exponents
   // (2^-1074 to 2^1024): roots can be as close as 2^-2098 of a step in lengths, and 2^-10490 in power tests,
   // which have degree 5.
   static constexpr unsigned coarsest_grid = 8, finest_logged_grid = 200, finest_grid = 12800;

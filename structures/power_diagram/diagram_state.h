@@ -69,11 +69,11 @@ struct DiagramState {
   /// The certificate that fails now; a default value outside events.
   Identity present;
   Doubt doubt = Doubt::none;
-  /// Cells, some of them already removed, that changed at this moment. If `known_places` is true, functions
+  /// Cells, some of them already removed, that changed at this moment. If `known_cells` is true, functions
   /// can have turned negative only at these cells.
   std::vector<CellId> touched;
   std::uint64_t touched_moment = 0;
-  bool known_places = true;
+  bool known_cells = true;
   /// No certificate vanished in this step after this time, and no cell was flat after it. -1: none did in the
   /// whole step.
   double vanished_until = -1;
@@ -81,7 +81,7 @@ struct DiagramState {
   /// Marks the diagram as doubtful. If `more` is `wrong`, the faulty cells are unknown; if it is `unclear`,
   /// they are among the touched cells.
   void suspect(Doubt more) {
-    if (more == Doubt::wrong) known_places = false;
+    if (more == Doubt::wrong) known_cells = false;
     suspect_touched(more);
   }
   void suspect_touched(Doubt more) {
@@ -95,7 +95,7 @@ struct DiagramState {
   void clear_doubt() {
     doubt = Doubt::none;
     owner.needs_after_batch = false;
-    known_places = true;
+    known_cells = true;
     touched.clear();
   }
   /// Notes that these cells change, or are made, at the present moment.
@@ -123,12 +123,13 @@ struct DiagramState {
   [[nodiscard]] BeadId vertex(CellId cell, int i) const {
     return beads_of(cell)[static_cast<std::size_t>(i)];
   }
-  /// Returns the place of `bead` in the cell, or Dimension + 1 if the bead is not a vertex.
-  [[nodiscard]] int place_of(CellId cell, BeadId bead) const {
+  /// Returns the index of `bead` among the vertices of the cell, or Dimension + 1 if the bead is not a
+  /// vertex.
+  [[nodiscard]] int vertex_index(CellId cell, BeadId bead) const {
     const Beads& v = beads_of(cell);
     return static_cast<int>(std::find(v.begin(), v.end(), bead) - v.begin());
   }
-  [[nodiscard]] bool is_infinite(CellId cell) const { return place_of(cell, infinite_bead) <= Dimension; }
+  [[nodiscard]] bool is_infinite(CellId cell) const { return vertex_index(cell, infinite_bead) <= Dimension; }
   [[nodiscard]] CellId neighbor(CellId cell, int i) const { return cell_of(triangulation.beyond(cell, i)); }
   /// Returns facet i of the cell as a facet of the cell beyond it.
   [[nodiscard]] std::pair<CellId, int> across(CellId cell, int i) const {

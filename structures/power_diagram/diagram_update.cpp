@@ -56,7 +56,7 @@ class Reinsertion final : public StaticUpdate<Dimension> {
   Choice choice_;
 };
 
-/// The finite beads of a failed certificate; unused places hold infinite_bead.
+/// The finite beads of a failed certificate; unused entries hold infinite_bead.
 template <int Dimension>
 using Suspects = std::array<BeadId, Dimension + 2>;
 

@@ -251,7 +251,7 @@ class FacetCertificates {
 
   /// A certificate that does not hold just after now.
   struct Violated {
-    std::array<BeadId, Dimension + 2> beads;  ///< ascending; no_bead in the last place if `of_cell`
+    std::array<BeadId, Dimension + 2> beads;  ///< ascending; no_bead last if `of_cell`
     bool of_cell;                             ///< the orientation of `cell`
     CellId cell;
     int facet;

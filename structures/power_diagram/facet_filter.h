@@ -102,46 +102,47 @@ template <int Dimension>
 inline constexpr auto facet_orders = [] {
   std::array<std::uint8_t, 16> orders{};
   for (unsigned facets = 0; facets < orders.size(); ++facets) {
-    unsigned place = 0;
+    unsigned index = 0;
     for (unsigned i = 0; i < 4; ++i) {
       if ((facets >> i & 1U) == 0) continue;
-      orders[facets] = static_cast<std::uint8_t>(orders[facets] | i << (2 * place));
-      ++place;
+      orders[facets] = static_cast<std::uint8_t>(orders[facets] | i << (2 * index));
+      ++index;
     }
   }
   return orders;
 }();
-[[nodiscard]] inline int facet_at(unsigned facets, int place) {
-  return static_cast<int>(facet_orders[facets] >> (2 * place) & 3U);
+[[nodiscard]] inline int facet_at(unsigned facets, int index) {
+  return static_cast<int>(facet_orders[facets] >> (2 * index) & 3U);
 }
 
-/// The inverse: maps a set of facets and a set of places in their order to the set of facets at these places.
-inline constexpr auto facets_at_places = [] {
+/// The inverse: maps a set of facets and a set of indices in their order to the set of facets at these
+/// indices.
+inline constexpr auto facets_at_indices = [] {
   std::array<std::array<std::uint8_t, 16>, 16> facets{};
   for (unsigned wanted = 0; wanted < facets.size(); ++wanted) {
-    for (unsigned places = 0; places < facets.size(); ++places) {
-      unsigned place = 0;
+    for (unsigned indices = 0; indices < facets.size(); ++indices) {
+      unsigned index = 0;
       for (unsigned i = 0; i < 4; ++i) {
         if ((wanted >> i & 1U) == 0) continue;
-        facets[wanted][places] =
-            static_cast<std::uint8_t>(facets[wanted][places] | (places >> place & 1U) << i);
-        ++place;
+        facets[wanted][indices] =
+            static_cast<std::uint8_t>(facets[wanted][indices] | (indices >> index & 1U) << i);
+        ++index;
       }
     }
   }
   return facets;
 }();
 
-/// Converts what is found at places of wanted facets into bits of the facets themselves, and keeps the bits
+/// Converts what is found at indices of wanted facets into bits of the facets themselves, and keeps the bits
 /// that concern the cell.
 template <int Dimension>
-[[nodiscard]] unsigned with_facets_at_places(unsigned wanted, unsigned found) {
+[[nodiscard]] unsigned with_facets_at_indices(unsigned wanted, unsigned found) {
   constexpr unsigned of_each_part = 0x01010101U;
   unsigned facets = 0;
   const int parts = found >> bits_of_part == 0 ? 0 : positive_parts;
   for (int part = 0; part <= parts; ++part) {
     const int shift = part * bits_of_part;
-    facets |= unsigned{facets_at_places[wanted][found >> shift & all_facets<Dimension>]} << shift;
+    facets |= unsigned{facets_at_indices[wanted][found >> shift & all_facets<Dimension>]} << shift;
   }
   return facets | (found & ~(all_facets<Dimension> * of_each_part));
 }
@@ -160,7 +161,7 @@ void put_in_lane(const TriangulationCell<Dimension>& cell, unsigned wanted,
                  std::array<BeadId, 2 * (static_cast<std::size_t>(Dimension) + 1)>& beads) {
   for (std::size_t i = 0; i <= Dimension; ++i) {
     beads[i] = cell.vertex[i];
-    // Branch-free, because the set of wanted facets is unpredictable. The places after the wanted facets are
+    // Branch-free, because the set of wanted facets is unpredictable. The indices after the wanted facets are
     // ignored.
     beads[Dimension + 1 + i] = cell.apex[static_cast<std::size_t>(facet_at(wanted, static_cast<int>(i)))];
   }
@@ -253,7 +254,7 @@ class FacetFilter {
     for (std::size_t lane = 0; lane < batch.waiting; ++lane) {
       count_ += count_of<Dimension>(positive[lane] & all);
       found(batch.cells[lane], batch.wanted[lane],
-            with_facets_at_places<Dimension>(batch.wanted[lane], positive[lane]));
+            with_facets_at_indices<Dimension>(batch.wanted[lane], positive[lane]));
     }
     batch.waiting = 0;
   }

@@ -130,7 +130,7 @@ void HiddenCertificates<Dimension>::rehouse(CellId near) {
 template <int Dimension>
 CellId HiddenCertificates<Dimension>::walk_to(BeadId bead, CellId cell, int came_from) {
   if (state_.is_infinite(cell)) {
-    cell = state_.neighbor(cell, state_.place_of(cell, infinite_bead));
+    cell = state_.neighbor(cell, state_.vertex_index(cell, infinite_bead));
     came_from = -1;
   }
   const std::size_t most_steps = state_.triangulation.cells().size();
@@ -209,7 +209,7 @@ auto HiddenCertificates<Dimension>::take_failure(unsigned table, std::uint32_t s
     handles_[failed.bead][static_cast<std::size_t>(index_of(place))] = CertificateHandle::violated;
   }
   if (state_.doubt != Doubt::wrong) return failed;
-  // This failure is not handled at its place, so a repair of other cells would not suffice.
+  // This failure is not handled where it occurs, so a repair of other cells would not suffice.
   state_.suspect(Doubt::wrong);
   return std::nullopt;
 }

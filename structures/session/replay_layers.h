@@ -16,7 +16,7 @@
 
 namespace kds {
 
-/// The ids of an element. Unused places hold no_bead.
+/// The ids of an element. Unused entries hold no_bead.
 using ReplayElement = std::array<BeadId, 5>;
 
 struct ReplayLayer {
@@ -60,7 +60,7 @@ struct ReplayNode {
 /// The layers of a structure. Layers change at events. A rebuild at a frame, which the structure's statistics
 /// count, changes layers too.
 ///
-///   cages     node, then the beads of the node's basis; unused places last
+///   cages     node, then the beads of the node's basis; unused entries last
 ///   edges     the two beads of an edge, ascending
 ///   hidden    a bead without a cell in the power diagram
 ///   contacts  the two beads of a pair in contact, ascending

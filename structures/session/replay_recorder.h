@@ -29,7 +29,7 @@ class ReplayRecorder final : public EventListener {
  public:
   /// All events of a structure in their order; every column but `ids` has one number for each event.
   struct Events {
-    std::vector<std::uint32_t> order;  ///< place among the events of all structures
+    std::vector<std::uint32_t> order;  ///< index among the events of all structures
     std::vector<std::uint32_t> step;
     std::vector<double> lower, upper;  ///< canonical bracket of the time u in the step
     std::vector<std::uint8_t> kind;    ///< index into Structure::kinds

@@ -25,9 +25,9 @@ void StructureRegistry::add(StructureSpec spec) {
     throw std::logic_error("there is a structure '" + spec.name + "' already: give one of them another name");
   if (!spec.make) throw std::logic_error("structure '" + spec.name + "' does not say how it is made");
   const auto key = [](const StructureSpec& s) { return std::tie(s.order, s.name); };
-  const auto place = std::find_if(specs_.begin(), specs_.end(),
-                                  [&](const StructureSpec& other) { return key(spec) < key(other); });
-  specs_.insert(place, std::move(spec));
+  const auto at = std::find_if(specs_.begin(), specs_.end(),
+                               [&](const StructureSpec& other) { return key(spec) < key(other); });
+  specs_.insert(at, std::move(spec));
 }
 
 const StructureSpec* StructureRegistry::find(std::string_view name) const {

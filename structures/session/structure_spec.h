@@ -31,7 +31,7 @@ struct DumpFile {
 
 /// An element of a structure's state at a frame. The state is a set of elements, so two frames can be
 /// compared.
-using CombinatorialElement = std::array<BeadId, 6>;  ///< unused places hold no_bead
+using CombinatorialElement = std::array<BeadId, 6>;  ///< unused entries hold no_bead
 struct CombinatorialElements {
   /// The first `place_ids` ids of an element are its place, the others its content: for example a hierarchy's
   /// node and the basis of this node. Places are unique.

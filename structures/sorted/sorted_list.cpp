@@ -59,7 +59,7 @@ void SortedList<D>::edit(std::uint8_t kind, BeadId bead) {
 }
 
 template <int D>
-std::size_t SortedList<D>::place_for(BeadId bead) {
+std::size_t SortedList<D>::index_for(BeadId bead) {
   const auto comes_first = [&](BeadId other) { return sign_just_after({{other, bead}}) >= 0; };
   return static_cast<std::size_t>(std::partition_point(order_.begin(), order_.end(), comes_first) -
                                   order_.begin());
@@ -67,7 +67,7 @@ std::size_t SortedList<D>::place_for(BeadId bead) {
 
 template <int D>
 void SortedList<D>::add(BeadId bead) {
-  const std::size_t i = place_for(bead), pairs = place_count();
+  const std::size_t i = index_for(bead), pairs = place_count();
   record(inserts, {bead, i == 0 ? no_bead : order_[i - 1]});
   put_in(i, bead);
   if (order_.size() < 2) return;

@@ -1,8 +1,8 @@
 #pragma once
 // Beads sorted along the first axis, kept sorted while they move. The sorted list is the smallest complete
 // kinetic structure; read it first, together with its .cpp. Each pair of neighbours has one certificate; when
-// it fails, the two beads trade places. Inserting, erasing or redirecting a bead costs a few certificates and
-// a shift of the list.
+// it fails, the two beads swap. Inserting, erasing or redirecting a bead costs a few certificates and a shift
+// of the list.
 
 #include <cstddef>
 #include <cstdint>
@@ -41,8 +41,8 @@ class SortedList final : public CertifiedPlaces<Precedes, EditableBase> {
   void follow(std::span<const BeadId>) override { certify_all(); }
   void add(BeadId bead);
   void remove(BeadId bead);
-  /// Returns the place in the order where an absent bead belongs just after now.
-  [[nodiscard]] std::size_t place_for(BeadId bead);
+  /// Returns the index in the order where an absent bead belongs just after now.
+  [[nodiscard]] std::size_t index_for(BeadId bead);
   void put_in(std::size_t i, BeadId bead);
   std::size_t take_out(BeadId bead);
 

@@ -35,11 +35,11 @@ struct alignas(Dimension == 3 ? 64 : 4) TriangulationCell {
   /// Data that the triangulation's owner stores for each facet. 0 in a new cell; flips leave it unchanged.
   std::array<std::uint32_t, static_cast<std::size_t>(Dimension) + 1> note{};
 
-  /// Returns the place of the bead, or Dimension + 1 if the bead is not a vertex.
-  [[nodiscard]] int place_of(BeadId bead) const {
-    int place = 0;
-    while (place <= Dimension && vertex[static_cast<std::size_t>(place)] != bead) ++place;
-    return place;
+  /// Returns the index of the bead among the vertices, or Dimension + 1 if the bead is not a vertex.
+  [[nodiscard]] int vertex_index(BeadId bead) const {
+    int index = 0;
+    while (index <= Dimension && vertex[static_cast<std::size_t>(index)] != bead) ++index;
+    return index;
   }
 };
 

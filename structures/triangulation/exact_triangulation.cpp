@@ -132,24 +132,24 @@ struct Geometry : Rationals {
 };
 
 // Returns the exponent of two in the denominator.
-mp_bitcnt_t binary_places(const Rational& x) { return mpz_scan1(mpq_denref(x.get_mpq_t()), 0); }
+mp_bitcnt_t bits_of_fraction(const Rational& x) { return mpz_scan1(mpq_denref(x.get_mpq_t()), 0); }
 
 // Returns the exponent of the power of two by which lengths are multiplied. Dyadic numbers then become
 // integers, for which CGAL's rationals need no common divisors. The scaling does not change the
 // triangulation.
-mp_bitcnt_t places_of(std::span<const ExactBead> beads) {
-  mp_bitcnt_t places = 0;
+mp_bitcnt_t bits_of(std::span<const ExactBead> beads) {
+  mp_bitcnt_t bits = 0;
   for (const ExactBead& b : beads) {
-    for (const Rational& x : b.center) places = std::max(places, binary_places(x));
-    places = std::max(places, (binary_places(b.weight) + 1) / 2);
+    for (const Rational& x : b.center) bits = std::max(bits, bits_of_fraction(x));
+    bits = std::max(bits, (bits_of_fraction(b.weight) + 1) / 2);
   }
-  return places;
+  return bits;
 }
 
-Geometry::FT to_cgal(const Rational& x, mp_bitcnt_t places) {
+Geometry::FT to_cgal(const Rational& x, mp_bitcnt_t bits) {
   using Exact = Geometry::FT::ET;
   Rational shifted;
-  mpq_mul_2exp(shifted.get_mpq_t(), x.get_mpq_t(), places);
+  mpq_mul_2exp(shifted.get_mpq_t(), x.get_mpq_t(), bits);
   return Geometry::FT(Exact(shifted.get_mpq_t()));
 }
 
@@ -170,12 +170,12 @@ StaticTriangulation<Dimension> static_triangulation(std::span<const ExactBead> b
   using Cgal = CgalTriangulation<Geometry, Dimension>;
   using Triangulation = typename Cgal::Type;
   std::vector<std::pair<typename Triangulation::Weighted_point, BeadId>> points;
-  const mp_bitcnt_t places = places_of(beads);
-  const auto length = [places](const Rational& x) { return to_cgal(x, places); };
+  const mp_bitcnt_t bits = bits_of(beads);
+  const auto length = [bits](const Rational& x) { return to_cgal(x, bits); };
   for (const ExactBead& b : beads) {
     points.emplace_back(typename Triangulation::Weighted_point(
                             Cgal::point(length(b.center[0]), length(b.center[1]), length(b.center[2])),
-                            to_cgal(b.weight, 2 * places)),
+                            to_cgal(b.weight, 2 * bits)),
                         static_cast<BeadId>(points.size()));
   }
   Triangulation triangulation;

@@ -77,12 +77,12 @@ template <std::size_t N, class Use>
 /// outside. Returns nothing for a finite cell.
 template <int Dimension>
 [[nodiscard]] std::optional<std::array<BeadId, Dimension>> hull_face(const CellBeads<Dimension>& v) {
-  const auto place = static_cast<std::size_t>(std::find(v.begin(), v.end(), infinite_bead) - v.begin());
-  if (place > Dimension) return std::nullopt;
+  const auto index = static_cast<std::size_t>(std::find(v.begin(), v.end(), infinite_bead) - v.begin());
+  if (index > Dimension) return std::nullopt;
   std::array<BeadId, Dimension> face{};
   std::copy(v.begin(), v.end() - 1, face.begin());
-  if (place != Dimension) {
-    face[place] = v[Dimension];
+  if (index != Dimension) {
+    face[index] = v[Dimension];
     std::swap(face[0], face[1]);  // a second exchange restores the orientation
   }
   return face;

@@ -189,7 +189,8 @@ bool RegularTriangulation<Dimension>::stand_together(BeadId bead, CellId cell,
   bool found = false;
   for (std::size_t k = 0; k < around_.size() && !found; ++k) {
     const Cell& c = cells_[around_[k]];
-    found = std::all_of(beads.begin(), beads.end(), [&c](BeadId b) { return c.place_of(b) <= Dimension; });
+    found =
+        std::all_of(beads.begin(), beads.end(), [&c](BeadId b) { return c.vertex_index(b) <= Dimension; });
     for (std::size_t i = 0; i <= Dimension; ++i) {
       if (c.vertex[i] == bead) continue;
       const CellId next = cell_of(c.beyond[i]);

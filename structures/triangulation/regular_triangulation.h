@@ -112,9 +112,10 @@ class RegularTriangulation {
   /// Returns whether one of the cells around `bead`, a vertex of `cell`, has all of `beads`. Takes time
   /// linear in the number of these cells and reads only the mirror.
   [[nodiscard]] bool stand_together(BeadId bead, CellId cell, std::span<const BeadId> beads) const;
-  /// Returns whether the given cells, positively oriented, fill the place of the cells `old`. The facets of
-  /// the given cells must match each other in pairs, or match the facets around the old cells, from opposite
-  /// sides. The beads of the given cells must be beads of the old cells or beads that are not vertices.
+  /// Returns whether the given cells, positively oriented, fill the same region as the cells `old`. The
+  /// facets of the given cells must match each other in pairs, or match the facets around the old cells, from
+  /// opposite sides. The beads of the given cells must be beads of the old cells or beads that are not
+  /// vertices.
   [[nodiscard]] bool fits(std::span<const CellId> old, std::span<const Beads> oriented_cells) const;
   /// Replaces the old cells by the given cells. Beads that lose all their cells stop being vertices. Returns
   /// the new cells in the given order. Takes time n log n in both numbers of cells. Throws std::logic_error,
@@ -178,7 +179,7 @@ class RegularTriangulation {
   // Flips.
   [[nodiscard]] CellId new_cell();
   void free_cell(CellId id);
-  /// Gives `cell` the vertices of an old cell, with another bead in place i.
+  /// Gives `cell` the vertices of an old cell, with another bead as vertex i.
   void exchange(CellId cell, const Cell& old, int i, BeadId bead);
   /// Makes facet i of `cell` border on the cell that was beyond facet k of an old cell.
   void border(CellId cell, int i, const Cell& old, int k);

@@ -231,7 +231,7 @@ auto RegularTriangulation<Dimension>::sample_mirror(const Eigen::Matrix3Xd& cent
   for (std::size_t k = 0; k < count; ++k) {
     const auto id = static_cast<CellId>((k * cells_.size() + first) / count);
     const Cell& cell = cells_[id];
-    if (!is_live(id) || cell.place_of(infinite_bead) <= Dimension) continue;
+    if (!is_live(id) || cell.vertex_index(infinite_bead) <= Dimension) continue;
     for (const BeadId apex : cell.apex) {
       if (apex == infinite_bead) continue;
       ++sample.tested;

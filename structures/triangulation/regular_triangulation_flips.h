@@ -1,6 +1,6 @@
 #pragma once
 // Part of RegularTriangulation: flips. Flips use only the mirror; CGAL's structure is updated when it is next
-// used. A cell that exchanges one vertex keeps the places of its other vertices, which determine the
+// used. A cell that exchanges one vertex keeps the indices of its other vertices, which determine the
 // neighbour across each new facet.
 
 #include "structures/triangulation/regular_triangulation_cgal.h"
@@ -81,20 +81,20 @@ std::array<CellId, static_cast<std::size_t>(Dimension)> RegularTriangulation<Dim
   add_cells(here.vertex[static_cast<std::size_t>(i)], Dimension - 1);
   add_cells(apex, Dimension - 1);
   std::array<CellId, static_cast<std::size_t>(Dimension)> made{cell, other};
-  std::array<int, static_cast<std::size_t>(Dimension)> place{};  // places of the facet's vertices
+  std::array<int, static_cast<std::size_t>(Dimension)> index{};  // indices of the facet's vertices
   for (int k = 0, n = 0; k <= Dimension; ++k) {
-    if (k != i) place[static_cast<std::size_t>(n++)] = k;
+    if (k != i) index[static_cast<std::size_t>(n++)] = k;
   }
   if constexpr (Dimension == 3) {
     made[2] = new_cell();
   } else {
-    for (const int k : place) add_cells(here.vertex[static_cast<std::size_t>(k)], -1);
+    for (const int k : index) add_cells(here.vertex[static_cast<std::size_t>(k)], -1);
   }
-  for (std::size_t n = 0; n < made.size(); ++n) exchange(made[n], here, place[n], apex);
+  for (std::size_t n = 0; n < made.size(); ++n) exchange(made[n], here, index[n], apex);
   for (std::size_t n = 0; n < made.size(); ++n) {
-    border(made[n], place[n], here, place[n]);
-    border(made[n], i, there, there.place_of(here.vertex[static_cast<std::size_t>(place[n])]));
-    for (std::size_t m = 0; m < n; ++m) join(made[n], place[m], made[m], place[n]);
+    border(made[n], index[n], here, index[n]);
+    border(made[n], i, there, there.vertex_index(here.vertex[static_cast<std::size_t>(index[n])]));
+    for (std::size_t m = 0; m < n; ++m) join(made[n], index[m], made[m], index[n]);
   }
   return made;
 }
@@ -104,14 +104,14 @@ std::array<CellId, 2> RegularTriangulation<Dimension>::flip_edge(CellId cell, in
                                                                  int j) requires(Dimension == 3) {
   const Cell here = cells_[cell];
   const std::array<int, 2> end{i, j};
-  std::array<int, 2> place{};  // places of the other vertices; the other cells are across from these
+  std::array<int, 2> index{};  // indices of the other vertices; the other cells are across from these
   for (int k = 0, n = 0; k < 4; ++k) {
-    if (k != i && k != j) place[static_cast<std::size_t>(n++)] = k;
+    if (k != i && k != j) index[static_cast<std::size_t>(n++)] = k;
   }
-  const auto beside = [&](std::size_t n) { return cell_of(here.beyond[static_cast<std::size_t>(place[n])]); };
+  const auto beside = [&](std::size_t n) { return cell_of(here.beyond[static_cast<std::size_t>(index[n])]); };
   const std::array<CellId, 2> made{beside(0), beside(1)};
   const std::array<Cell, 2> there{cells_[made[0]], cells_[made[1]]};
-  const BeadId apex = here.apex[static_cast<std::size_t>(place[0])];
+  const BeadId apex = here.apex[static_cast<std::size_t>(index[0])];
   free_cell(cell);
   for (std::size_t n = 0; n < 2; ++n) {
     add_cells(here.vertex[static_cast<std::size_t>(end[n])], -2);
@@ -120,7 +120,7 @@ std::array<CellId, 2> RegularTriangulation<Dimension>::flip_edge(CellId cell, in
   for (std::size_t n = 0; n < 2; ++n) {
     border(made[n], end[n], here, end[n]);
     const BeadId gone = here.vertex[static_cast<std::size_t>(end[n])];
-    for (std::size_t m = 0; m < 2; ++m) border(made[n], place[m], there[m], there[m].place_of(gone));
+    for (std::size_t m = 0; m < 2; ++m) border(made[n], index[m], there[m], there[m].vertex_index(gone));
   }
   join(made[0], j, made[1], i);
   return made;
@@ -167,7 +167,7 @@ CellId RegularTriangulation<Dimension>::flip_out(CellId cell, int i) {
     if (k == i) continue;
     add_cells(here.vertex[static_cast<std::size_t>(k)], 1 - Dimension);
     const CellId beside = cell_of(here.beyond[static_cast<std::size_t>(k)]);
-    border(cell, k, cells_[beside], cells_[beside].place_of(gone));
+    border(cell, k, cells_[beside], cells_[beside].vertex_index(gone));
     free_cell(beside);
   }
   return cell;

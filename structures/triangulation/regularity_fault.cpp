@@ -70,11 +70,11 @@ class FourAtSnapshot {
 
   explicit FourAtSnapshot(const Snapshot<Dimension>& snapshot) : snapshot_(snapshot) {}
 
-  /// Calls `failed(place, sign)`, now or later, if the certificate of these beads is not positive.
+  /// Calls `failed(tag, sign)`, now or later, if the certificate of these beads is not positive.
   template <class Failed>
-  void test(const Beads& beads, std::uint32_t place, Failed failed) {
+  void test(const Beads& beads, std::uint32_t tag, Failed failed) {
     tuples_[count_] = beads;
-    places_[count_] = place;
+    tags_[count_] = tag;
     if (++count_ == Lanes::width) flush(failed);
   }
   template <class Failed>
@@ -87,7 +87,7 @@ class FourAtSnapshot {
       for (std::size_t lane = 0; lane < count_; ++lane) {
         if (positive[lane] != 0) continue;
         const int sign = snapshot_sign(Certificate(tuples_[lane], 1), snapshot_);
-        if (sign <= 0) failed(places_[lane], sign);
+        if (sign <= 0) failed(tags_[lane], sign);
       }
     }
     count_ = 0;
@@ -96,7 +96,7 @@ class FourAtSnapshot {
  private:
   const Snapshot<Dimension>& snapshot_;
   std::array<Beads, Lanes::width> tuples_{};
-  std::array<std::uint32_t, Lanes::width> places_{};
+  std::array<std::uint32_t, Lanes::width> tags_{};
   std::size_t count_ = 0;
 };
 

@@ -142,10 +142,10 @@ template <std::size_t Size>
 bool is_odd_permutation(std::array<BeadId, Size> a, const std::array<BeadId, Size>& b) {
   bool is_odd = false;
   for (std::size_t i = 0; i < Size; ++i) {
-    const std::size_t place = static_cast<std::size_t>(std::find(a.begin() + i, a.end(), b[i]) - a.begin());
-    if (place == Size) return false;
-    if (place == i) continue;
-    std::swap(a[i], a[place]);
+    const std::size_t index = static_cast<std::size_t>(std::find(a.begin() + i, a.end(), b[i]) - a.begin());
+    if (index == Size) return false;
+    if (index == i) continue;
+    std::swap(a[i], a[index]);
     is_odd = !is_odd;
   }
   return is_odd;

@@ -49,8 +49,8 @@ Integer power_of_ten(unsigned long exponent) {
 }
 
 /// Returns a function with the root p 10^-places + sign 10^-more.
-Scaled near(std::int64_t p, unsigned long places, unsigned long more, int sign) {
-  return linear(Integer(p) * power_of_ten(more - places) + Integer(sign), power_of_ten(more));
+Scaled near(std::int64_t p, unsigned long digits, unsigned long more, int sign) {
+  return linear(Integer(p) * power_of_ten(more - digits) + Integer(sign), power_of_ten(more));
 }
 
 TEST(RoundedTime, IsNarrowedUntilTwelveDigitsAreCertain) {
@@ -134,8 +134,8 @@ TEST(RoundedTime, IsTheNearestNumberOfTwelveDigits) {
 }
 
 /// Returns the canonical bracket of a rational time, computed by its definition.
-TimeBracket bracket_of(const Rational& time, unsigned places) {
-  const double cell = std::ldexp(1.0, -static_cast<int>(places));
+TimeBracket bracket_of(const Rational& time, unsigned bits) {
+  const double cell = std::ldexp(1.0, -static_cast<int>(bits));
   const Rational scaled = time / Rational(cell);
   Integer whole;
   mpz_fdiv_q(whole.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
@@ -163,14 +163,14 @@ TEST(CanonicalBracket, IsDefinedByTheTimeAlone) {
       while (!(time < Rational(upper))) upper = std::nextafter(upper, 2);
       if (lower < 0 || upper > 1) continue;
       const Root root(function, lower, upper);
-      for (const unsigned places : {8U, event_places, 44U})
-        EXPECT_EQ(canonical_bracket(root.now(), places), bracket_of(time, places)) << lower << ' ' << upper;
+      for (const unsigned bits : {8U, event_bits, 44U})
+        EXPECT_EQ(canonical_bracket(root.now(), bits), bracket_of(time, bits)) << lower << ' ' << upper;
       EXPECT_EQ(root.now().lower(), lower);
       EXPECT_EQ(root.now().upper(), upper);
     }
     const double u = time.get_d();
     if (Rational(u) == time) {
-      EXPECT_EQ(canonical_bracket(Instant(u)), bracket_of(time, event_places)) << u;
+      EXPECT_EQ(canonical_bracket(Instant(u)), bracket_of(time, event_bits)) << u;
     }
   }
   EXPECT_EQ(canonical_bracket(Instant(0)), (TimeBracket{0, 0}));
@@ -186,7 +186,7 @@ TEST(CanonicalBracket, ChoosesAmongManyRoots) {
   for (std::uint16_t k = 0; k < 3; ++k)
     for (const double reach : {0.0, 0.1, 0.2})
       EXPECT_EQ(canonical_bracket(Instant(FailureTime{reach, 1 - reach, k, false}, source, slot)),
-                bracket_of(roots[k], event_places));
+                bracket_of(roots[k], event_bits));
 }
 
 // A replayed time has no function. If the grid cuts its bracket, the bracket stays as the log has it.

@@ -12,7 +12,7 @@
 
 namespace kds::test {
 
-/// Returns the identity with these beads in their order; unused places are filled.
+/// Returns the identity with these beads in their order; unused entries are filled.
 [[nodiscard]] inline Identity identity_with(std::uint32_t type, std::initializer_list<BeadId> beads) {
   Identity identity{type, {}};
   identity.beads.fill(no_bead);

@@ -16,10 +16,10 @@ namespace {
 constexpr double kHeadLine = 18;  // pixels from line to line
 
 // Positions of the names of a key: across and down from the upper left corner, in pixels.
-std::vector<std::pair<double, double>> places_of(const std::vector<std::string>& names, double width,
-                                                 bool below_title) {
+std::vector<std::pair<double, double>> positions_of(const std::vector<std::string>& names, double width,
+                                                    bool below_title) {
   constexpr double letter = 6.9, mark = 28, left = 10;
-  std::vector<std::pair<double, double>> places;
+  std::vector<std::pair<double, double>> positions;
   double x = left, y = 10 + (below_title ? kHeadLine : 0);
   for (const std::string& name : names) {
     const double length = letter * static_cast<double>(name.size()) + mark;
@@ -27,10 +27,10 @@ std::vector<std::pair<double, double>> places_of(const std::vector<std::string>&
       x = left;
       y += kHeadLine;
     }
-    places.emplace_back(x, y);
+    positions.emplace_back(x, y);
     x += length;
   }
-  return places;
+  return positions;
 }
 
 std::string key_name(const std::string& name) { return shortened(name, 72); }
@@ -44,7 +44,7 @@ DrawingSize narrow(double height) { return {360, height, 64, 32, 26, 48, false, 
 DrawingSize paper(double height, const std::string& title, const std::vector<std::string>& names) {
   DrawingSize size{560, height, 64, 32, 26, 48, true, 0, false};
   if (names.size() > 1)
-    size.head = places_of(names, size.width, !title.empty()).back().second + kHeadLine / 2;
+    size.head = positions_of(names, size.width, !title.empty()).back().second + kHeadLine / 2;
   else if (!title.empty())
     size.head = kHeadLine;
   size.height += size.head;
@@ -61,10 +61,11 @@ std::string paper_head(const DrawingSize& size, const std::string& title,
   if (!title.empty())
     script += fmt::format("set label {} {}\n", gnuplot_text(shortened(title, 78)), at(2, 10));
   if (names.size() < 2) return script;
-  const auto places = places_of(names, size.width, !title.empty());
+  const auto positions = positions_of(names, size.width, !title.empty());
   for (std::size_t s = 0; s < names.size(); ++s)
-    script += fmt::format("set label {} {} offset 0.9,0 point pointtype 7 pointsize 0.8 linecolor {}\n",
-                          gnuplot_text(key_name(names[s])), at(places[s].first, places[s].second), colour(s));
+    script +=
+        fmt::format("set label {} {} offset 0.9,0 point pointtype 7 pointsize 0.8 linecolor {}\n",
+                    gnuplot_text(key_name(names[s])), at(positions[s].first, positions[s].second), colour(s));
   return script;
 }
 

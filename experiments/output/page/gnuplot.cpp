@@ -130,11 +130,11 @@ namespace {
 // Returns the number after `word`, with spaces skipped.
 template <class Number>
 Number number_after(std::string_view line, std::string_view word) {
-  std::size_t place = line.find(word);
-  if (place != std::string_view::npos) place = line.find_first_not_of(' ', place + word.size());
+  std::size_t offset = line.find(word);
+  if (offset != std::string_view::npos) offset = line.find_first_not_of(' ', offset + word.size());
   Number number{};
-  if (place == std::string_view::npos ||
-      std::from_chars(line.data() + place, line.data() + line.size(), number).ec != std::errc())
+  if (offset == std::string_view::npos ||
+      std::from_chars(line.data() + offset, line.data() + line.size(), number).ec != std::errc())
     fail(fmt::format("expected a number after {} in {}", word, one_line(line)));
   return number;
 }
@@ -145,14 +145,14 @@ std::string title(const std::string& text) { return "<title>" + html_escaped_lin
 // K). Other colours belong to nothing that is drawn.
 std::string in_page_colours(std::string_view line) {
   std::string result;
-  for (std::size_t place = 0;;) {
-    const std::size_t start = line.find("rgb(", place), end = line.find(')', start);
-    if (end == std::string_view::npos) return result += line.substr(place);
+  for (std::size_t offset = 0;;) {
+    const std::size_t start = line.find("rgb(", offset), end = line.find(')', start);
+    if (end == std::string_view::npos) return result += line.substr(offset);
     const std::string_view colour = line.substr(start, end - start);
     const auto code = number_after<std::size_t>(colour, colour.substr(0, colour.rfind(',') + 1));
-    result += line.substr(place, start - place);
+    result += line.substr(offset, start - offset);
     result += fmt::format("var(--{})", page_colours[code < page_colours.size() ? code : 0]);
-    place = end + 1;
+    offset = end + 1;
   }
 }
 

@@ -28,8 +28,8 @@ double mark_size(std::size_t series, std::size_t all) {
   return kMarkSize + std::min(0.2, 0.5 / static_cast<double>(all)) * static_cast<double>(all - 1 - series);
 }
 
-// Returns the texts under the pointer: the values of all curves at each x. If there are more x than places,
-// not more than `most`.
+// Returns the texts under the pointer: the values of all curves at each x. If there are more x than texts
+// fit, not more than `most`.
 std::map<double, std::string> values_of(const LinePlot& plot, const std::vector<double>& xs,
                                         std::size_t most) {
   std::map<double, std::string> values;
@@ -37,8 +37,8 @@ std::map<double, std::string> values_of(const LinePlot& plot, const std::vector<
     values[xs[k]] = plot.x_label + " " + tick_label(xs[k]);
   for (const Curve& curve : plot.curves)
     for (const auto& [x, y] : curve.points)
-      if (const auto place = values.find(x); place != values.end())
-        place->second += "\n" + (curve.name.empty() ? plot.y_label : curve.name) + ": " + tick_label(y);
+      if (const auto position = values.find(x); position != values.end())
+        position->second += "\n" + (curve.name.empty() ? plot.y_label : curve.name) + ": " + tick_label(y);
   return values;
 }
 
@@ -375,13 +375,13 @@ Drawing draw(const HeatPlot& plot, const DrawingSize& size) {
   return drawing;
 }
 
-// Returns the ticks of an axis of a map, with the names of the places.
+// Returns the ticks of an axis of a map, with the names of the positions.
 std::string named_ticks(char axis, const MapPlot& plot, int most) {
   const double apart = std::max(1.0, tick_step({plot.from, plot.to}, most));
   std::vector<std::string> ticks;
-  for (double place = std::ceil(plot.from / apart) * apart; place <= plot.to; place += apart)
-    ticks.push_back(gnuplot_text(plot.name_of(static_cast<std::size_t>(place))) +
-                    fmt::format(" {:.17g}", place));
+  for (double position = std::ceil(plot.from / apart) * apart; position <= plot.to; position += apart)
+    ticks.push_back(gnuplot_text(plot.name_of(static_cast<std::size_t>(position))) +
+                    fmt::format(" {:.17g}", position));
   return fmt::format("set {}tics ({})\n", axis, fmt::join(ticks, ","));
 }
 

@@ -88,7 +88,7 @@ struct MirrorPlot {
   std::vector<Row> rows;
 };
 
-/// Rectangles that fill a map. Colours show the values; a place with value 0 stays empty.
+/// Rectangles that fill a map. Colours show the values; a rectangle with value 0 is not drawn.
 struct HeatPlot {
   std::string x_label, y_label;
   std::string value_label;                  ///< for the colour scale
@@ -97,8 +97,8 @@ struct HeatPlot {
   std::function<std::string(std::size_t column, std::size_t row)> text;  ///< shown under the pointer
 };
 
-/// Squares of equal size within a square map. Colours show the values; a place without a value stays empty.
-/// Squares are drawn two pixels wide or wider, so neighbours may overlap on a small screen.
+/// Squares of equal size within a square map. Colours show the values; a square without a value stays
+/// empty. Squares are drawn two pixels wide or wider, so neighbours may overlap on a small screen.
 struct MapPlot {
   struct Square {
     double x, y;  ///< centre
@@ -110,8 +110,8 @@ struct MapPlot {
   double from = 0, to = 1;  ///< range of each axis
   double side = 1;          ///< the side of one square
   std::vector<Square> squares;
-  /// Short name of a whole place of the axes, for the ticks. Null: ticks are numbers.
-  std::function<std::string(std::size_t place)> name_of = {};
+  /// Short name of a whole position of the axes, for the ticks. Null: ticks are numbers.
+  std::function<std::string(std::size_t position)> name_of = {};
 };
 
 /// Rows of spans over one axis, one row below the other. They show when each of several things goes on.
@@ -148,7 +148,7 @@ struct RowsPlot {
   std::vector<Row> rows;
 };
 
-/// If there are more columns than places, neighbouring columns are combined and their mean is shown.
+/// If there are more columns than a plot shows, neighbouring columns are combined and their mean is shown.
 [[nodiscard]] std::string svg_plot(const RowsPlot& plot);
 
 }  // namespace kds

@@ -69,12 +69,12 @@ std::string in_percent(const Field& field) { return fmt::format("{:.3g}%", 100 *
 Field text_or_nothing(const std::string& text) { return text.empty() ? Field() : Field(text); }
 
 std::vector<std::size_t> TableOfCells::columns_for(Shown reader) const {
-  std::vector<std::size_t> places;
+  std::vector<std::size_t> indices;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const Shown shown = columns_[c].shown;
-    if (!columns_[c].heading.empty() && (shown == Shown::everywhere || shown == reader)) places.push_back(c);
+    if (!columns_[c].heading.empty() && (shown == Shown::everywhere || shown == reader)) indices.push_back(c);
   }
-  return places;
+  return indices;
 }
 
 std::string TableOfCells::shown(const TableCell& cell, std::size_t column) const {
@@ -97,8 +97,8 @@ Json TableOfCells::json() const {
       }
       const std::string_view object = std::string_view(key).substr(0, dot + 1);
       const bool has_values = std::ranges::any_of(columns_, [&](const ColumnNames& other) {
-        const auto place = static_cast<std::size_t>(&other - columns_.data());
-        return other.key.starts_with(object) && !cells[place].is_empty();
+        const auto index = static_cast<std::size_t>(&other - columns_.data());
+        return other.key.starts_with(object) && !cells[index].is_empty();
       });
       Json& member = row[object.substr(0, dot)];
       if (has_values) member[last_name(key)] = value;

@@ -19,7 +19,7 @@ using test::uniform;
 template <class S>
 class Tolerances : public testing::Test {
  protected:
-  static constexpr std::size_t beads = bead_places<S>;
+  static constexpr std::size_t beads = bead_arity<S>;
   using M = BezierMotion<3, 1>;
 
   static S certificate() {

@@ -33,7 +33,7 @@ struct InCylinder {
   static constexpr auto formula(const MotionView auto& view, const std::array<BeadId, 1>& b) {
     const auto axis = view.constant(&Constants::axis);
     const auto radius = view.constant(&Constants::radius);
-    const auto off = cross(view.difference(b[0], view.place(&Constants::foot)), axis);
+    const auto off = cross(view.difference(b[0], view.bead(&Constants::foot)), axis);
     return radius * radius * dot(axis, axis) - dot(off, off);
   }
 };

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/events/event_places.h"
+#include "experiments/events/event_distribution.h"
 
 namespace kds::events_csv_test {
 namespace {

@@ -39,7 +39,7 @@ TEST(HtmlReport, BeginsWithWhatWasFound) {
 
 TEST(HtmlReport, SentencesNameResidues) {
   RunReport report = test::sample_report();
-  report.structures[1].places.by_bead = {1, 0, 5};
+  report.structures[1].distribution.by_bead = {1, 0, 5};
   report.approach = ClosestApproach{{0, 2}, 7, 0.5, {1, 2}};
   EXPECT_THAT(html_report(report), HasSubstr("(10.00 per step), most often at bead 2 (5).</li>"));
   EXPECT_THAT(html_report(report), HasSubstr("<dd>bead 0 and bead 2 come nearest, to 2,"));
@@ -85,11 +85,11 @@ TEST(HtmlReport, MapsOfEventsAndContacts) {
   report.beads = 3;
   EXPECT_THAT(html_report(report), Not(HasSubstr("Contact map")));
   EXPECT_THAT(html_report(report), Not(HasSubstr("Over time along the chain")));
-  PlacesOfEvents& places = report.structures[1].places;
-  places.by_bead = {2, 0, 5};
-  places.grid.beads_per_block = 2;
-  places.grid.edges = {{10, {}}, {11, {}}, {14, {}}};
-  places.grid.counts = {{2, 0}, {0, 5}};
+  EventDistribution& distribution = report.structures[1].distribution;
+  distribution.by_bead = {2, 0, 5};
+  distribution.grid.beads_per_block = 2;
+  distribution.grid.edges = {{10, {}}, {11, {}}, {14, {}}};
+  distribution.grid.counts = {{2, 0}, {0, 5}};
   report.contact_pairs = {{0, 2, 0.5}, {1, 2, 0}};
   report.bead_names = {"N of ALA 59 in chain A", "CA of ALA 59 in chain A", "C of ALA 59 in chain A"};
   const std::string html = html_report(report);
@@ -147,7 +147,7 @@ TEST(HtmlReport, SaysHowItWasMadeAndLinksItsData) {
 TEST(HtmlReport, PlacesAndDisplacementsWhereTheyAreKnown) {
   RunReport report = test::sample_report();
   EXPECT_THAT(html_report(report), Not(HasSubstr("Along the chain")));
-  report.structures[0].places.by_bead = {1, 0, 5};
+  report.structures[0].distribution.by_bead = {1, 0, 5};
   for (const double x : {0.0, 1.0, 4.0}) {
     Eigen::Matrix3Xd frame = Eigen::Matrix3Xd::Zero(3, 2);
     frame(0, 1) = x;

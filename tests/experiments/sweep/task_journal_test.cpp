@@ -49,7 +49,7 @@ TEST(TaskJournal, CountsAttemptsAndResults) {
   states.forgive();
   EXPECT_EQ(states.of(3).status(), TaskStatus::open);
   EXPECT_EQ(states.of(1).status(), TaskStatus::done);
-  EXPECT_EQ(line_of(states.read(states.of(1).place)), R"({"result":{"a":1}})");
+  EXPECT_EQ(line_of(states.read(states.of(1).span)), R"({"result":{"a":1}})");
   EXPECT_EQ(states.damaged(), 0U);
   EXPECT_TRUE(states.of_other_versions().empty());
 }
@@ -71,7 +71,7 @@ TEST(TaskJournal, FailureCountsWhateverTheOrderOfJournals) {
     if (round % 2 == 1) add_crashes();
     const TaskStates states(scratch.path());
     EXPECT_EQ(states.of(1).status(), TaskStatus::failed);
-    EXPECT_EQ(line_of(states.read(states.of(1).place)), R"({"code":2})");
+    EXPECT_EQ(line_of(states.read(states.of(1).span)), R"({"code":2})");
   }
 }
 

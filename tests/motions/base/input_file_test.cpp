@@ -128,12 +128,12 @@ TEST(InputFile, SeeksInPlainAndPackedFiles) {
          {std::size_t{0}, std::size_t{70001}, std::size_t{39999}, text.size() - 3}) {
       std::array<char, 5> got{};
       file.seek(place);
-      EXPECT_EQ(file.place(), place);
+      EXPECT_EQ(file.offset(), place);
       const std::size_t count = file.read(got.data(), got.size());
       EXPECT_EQ(std::string_view(got.data(), count), std::string_view(text).substr(place, 5));
     }
     file.seek(text.size() + 7);
-    EXPECT_EQ(file.place(), text.size());
+    EXPECT_EQ(file.offset(), text.size());
   }
 }
 
@@ -167,7 +167,7 @@ TEST(InputFile, SeekingBackALittleUnpacksNothingAgain) {
     const std::size_t size = 1 + random() % got.size();
     ASSERT_TRUE(file.read_at(place, got.data(), size));
     ASSERT_EQ(std::string_view(got).substr(0, size), std::string_view(text).substr(place, size)) << place;
-    ASSERT_EQ(file.place(), place + size);
+    ASSERT_EQ(file.offset(), place + size);
     furthest = std::max(furthest, place + size);
   }
   EXPECT_EQ(InputFile::restarts(), restarts);

@@ -63,7 +63,7 @@ TEST(LineReader, GoesBackToALine) {
     LineReader reader(path);
     std::vector<std::uint64_t> places;
     std::string_view line;
-    do places.push_back(reader.place());
+    do places.push_back(reader.offset());
     while (reader.next(line));
     for (const std::size_t number : {1U, 2U, 30000U, 29999U, 15000U, 15001U, 1U}) {
       reader.seek(places[number - 1], number);

@@ -38,7 +38,7 @@ TEST(RecordedFormula, WritesDownEachStepInItsOrder) {
   EXPECT_EQ(formula.steps()[8].number, 3);
 }
 
-/// Tracks which step's value each place holds: the operands of a step must still be in their places.
+/// Tracks which step's value each slot holds: the operands of a step must still be in their slots.
 TEST(RecordedFormula, NoValueIsOverwrittenThatIsStillNeeded) {
   RecordedFormula formula;
   const View view(formula);
@@ -52,13 +52,13 @@ TEST(RecordedFormula, NoValueIsOverwrittenThatIsStillNeeded) {
   auto z = -(x - y) * y;
   z += x * x;
   z += times(5, y) * x;
-  const RecordedFormula written = formula;  // operands are steps here, not places
+  const RecordedFormula written = formula;  // operands are steps here, not slots
   const std::uint16_t last = z.step;
   EXPECT_THROW(z += decltype(z){}, std::logic_error);
   formula.finish(last);
 
-  EXPECT_LT(formula.places(), formula.steps().size());
-  std::vector<std::size_t> lies(formula.places(), SIZE_MAX);
+  EXPECT_LT(formula.slots(), formula.steps().size());
+  std::vector<std::size_t> lies(formula.slots(), SIZE_MAX);
   for (std::size_t i = 0; i < formula.steps().size(); ++i) {
     const FormulaStep& step = formula.steps()[i];
     const FormulaStep& as_written = written.steps()[i];
@@ -66,12 +66,12 @@ TEST(RecordedFormula, NoValueIsOverwrittenThatIsStillNeeded) {
       EXPECT_EQ(lies[step.a], as_written.a) << i;
       if (step.kind == Kind::sum || step.kind == Kind::difference || step.kind == Kind::product) {
         EXPECT_EQ(lies[step.b], as_written.b) << i;
-        EXPECT_NE(step.place, step.b) << i;
+        EXPECT_NE(step.slot, step.b) << i;
       }
       const bool in_place = step.kind != Kind::product && step.kind != Kind::elevated;
-      EXPECT_TRUE(in_place || step.place != step.a) << i;
+      EXPECT_TRUE(in_place || step.slot != step.a) << i;
     }
-    lies[step.place] = i;
+    lies[step.slot] = i;
   }
   EXPECT_EQ(lies[formula.result()], last);
 }
@@ -82,7 +82,7 @@ TEST(RecordedFormula, HoldsSixtyFiveThousandSteps) {
   for (int i = 1; i < 65536; ++i) step = formula.add(Kind::negative, step);
   EXPECT_THROW(formula.add(Kind::negative, step), std::length_error);
   formula.finish(step);
-  EXPECT_EQ(formula.places(), 1U);
+  EXPECT_EQ(formula.slots(), 1U);
 }
 
 }  // namespace

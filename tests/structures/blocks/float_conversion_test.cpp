@@ -53,7 +53,7 @@ Pair touching_pair(Random& random) {
 }
 
 /// Returns the coordinates of all beads in the conversion, rounded to floats; one row per axis.
-std::array<std::vector<float>, 3> places_in(const FloatConversion<3>& conversion, const Balls<3>& balls) {
+std::array<std::vector<float>, 3> floats_in(const FloatConversion<3>& conversion, const Balls<3>& balls) {
   std::array<std::vector<double>, 3> copies;
   std::array<double*, 3> doubles{};
   std::array<const double*, 3> coordinates{};
@@ -62,13 +62,13 @@ std::array<std::vector<float>, 3> places_in(const FloatConversion<3>& conversion
     std::copy_n(balls.coordinates(axis), balls.size(), copies[axis].begin());
     coordinates[axis] = doubles[axis] = copies[axis].data();
   }
-  if (conversion.axes) place_along_axes(conversion, coordinates, doubles, copies[0].size());
-  std::array<std::vector<float>, 3> places;
+  if (conversion.axes) turn_to_axes(conversion, coordinates, doubles, copies[0].size());
+  std::array<std::vector<float>, 3> floats;
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (BeadId b = 0; b < balls.size(); ++b)
-      places[axis].push_back(static_cast<float>(
+      floats[axis].push_back(static_cast<float>(
           conversion.axes ? copies[axis][b] : copies[axis][b] * conversion.scale - conversion.shift[axis]));
-  return places;
+  return floats;
 }
 
 TEST(FloatConversion, BallsThatTouchAreNearInFloats) {
@@ -80,12 +80,12 @@ TEST(FloatConversion, BallsThatTouchAreNearInFloats) {
     std::optional<Axes<3>> axes;
     if (k % 2 == 1) axes = random_axes<3>(random);
     const FloatConversion<3> conversion = fit_float_conversion(scene_box(balls), 0, axes);
-    const auto places = places_in(conversion, balls);
+    const auto floats = floats_in(conversion, balls);
     const auto r = static_cast<float>(conversion.float_radius(pair.radii[0]));
     const auto s = static_cast<float>(conversion.float_radius(pair.radii[1]));
     float square = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float f = places[axis][0], g = places[axis][1];
+      const float f = floats[axis][0], g = floats[axis][1];
       ASSERT_LE(std::abs(f), conversion.bound);
       ASSERT_LE(f - r, g + s);
       ASSERT_LE(g - s, f + r);
@@ -109,7 +109,7 @@ TEST(FloatConversion, CoordinatesErrByLessThanClaimed) {
     if (k % 2 == 1) axes = random_axes<3>(random);
     const FloatConversion<3> conversion = fit_float_conversion(scene_box(balls), 0, axes);
     ASSERT_GE(conversion.bound, 0x1p-30);
-    const auto places = places_in(conversion, balls);
+    const auto floats = floats_in(conversion, balls);
     for (BeadId b = 0; b < balls.size(); ++b) {
       std::array<Rational, 3> exact;
       for (std::size_t axis = 0; axis < 3; ++axis)
@@ -121,7 +121,7 @@ TEST(FloatConversion, CoordinatesErrByLessThanClaimed) {
           along = 0;
           for (std::size_t j = 0; j < 3; ++j) along += Rational((*axes)[axis][j]) * exact[j];
         }
-        const float f = places[axis][b];
+        const float f = floats[axis][b];
         ASSERT_LE(abs(Rational(f) - along),
                   Rational(0x1p-24) * Rational(1 + 0x1p-19) * Rational(conversion.bound))
             << scene.name;

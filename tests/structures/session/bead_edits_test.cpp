@@ -43,11 +43,11 @@ struct Structures {
 };
 
 template <class M>
-void set_curve(M& motion, BeadId b, Random& random, Places places) {
+void set_curve(M& motion, BeadId b, Random& random, Positions positions) {
   for (int k = 0; k <= M::degree; ++k) {
     for (int axis = 0; axis < M::dimension; ++axis)
-      motion.set_coordinate(b, k, axis, draw_place(random, places));
-    const double radius = places == Places::grid ? 0.5 : 0.125 * (1 + b % 3);
+      motion.set_coordinate(b, k, axis, draw_coordinate(random, positions));
+    const double radius = positions == Positions::grid ? 0.5 : 0.125 * (1 + b % 3);
     motion.set_radius(b, k, radius);
     motion.set_weight(b, k, radius * radius);
   }
@@ -112,7 +112,7 @@ TEST(BeadEdits, ErasedBeadsComeBackWhereTheyAreThen) {
 TEST(BeadEdits, AreReplayed) {
   Random random(7);
   Space motion(12);
-  for (BeadId b = 0; b < 12; ++b) set_curve(motion, b, random, Places::generic);
+  for (BeadId b = 0; b < 12; ++b) set_curve(motion, b, random, Positions::generic);
   Simulator simulator;
   Structures<3> structures(simulator, motion, 12);
   History history;
@@ -149,7 +149,7 @@ TEST(BeadEdits, AreReplayed) {
 TEST(BeadEdits, BadCallsAreRefusedAndChangeNothing) {
   Random random(3);
   BezierMotion<2, 1> motion(6);
-  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Places::generic);
+  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Positions::generic);
   Simulator simulator;
   Structures<2> structures(simulator, motion, 6);
   const std::array<BeadId, 1> third{3}, unknown{6};
@@ -181,7 +181,7 @@ TEST(BeadEdits, BadCallsAreRefusedAndChangeNothing) {
 TEST(BeadEdits, AreRefusedByStructuresThatCannotFollow) {
   Random random(3);
   BezierMotion<2, 1> motion(6);
-  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Places::generic);
+  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Positions::generic);
   Simulator simulator;
   const std::vector<BeadRange> necklace{{0, 5}};
   SortedList<2> sorted(simulator, motion);
@@ -278,13 +278,13 @@ TEST(BeadEdits, AllStructuresAreAskedBeforeAnyChanges) {
 TEST(BeadEdits, ABeadNamedTwiceChangesOnce) {
   Random random(3);
   Plane motion(6);
-  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Places::generic);
+  for (BeadId b = 0; b < 6; ++b) set_curve(motion, b, random, Positions::generic);
   Simulator simulator(AuditMode::events);
   Structures<2> structures(simulator, motion, 6);
   simulator.build();
   simulator.enter_step();
   simulator.change_motion(std::array<BeadId, 4>{3, 3, 1, 3},
-                          [&] { set_curve(motion, 3, random, Places::generic); });
+                          [&] { set_curve(motion, 3, random, Positions::generic); });
   EXPECT_EQ(structures.sorted.statistics.events_by_kind[SortedList<2>::changes], 2U);
   EXPECT_EQ(structures.power.statistics.events_by_kind[PowerDiagram<2>::changes], 2U);
   EXPECT_EQ(structures.contacts.statistics.events_by_kind[Contacts<2>::changes], 2U);

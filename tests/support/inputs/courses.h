@@ -10,13 +10,13 @@
 
 namespace kds::test {
 
-enum class Places {
+enum class Positions {
   generic,  ///< in [-2, 2], with few enough bits that sums are exact
   grid      ///< whole numbers from a small range: many ties
 };
 
-inline double draw_place(Random& random, Places places) {
-  return places == Places::grid ? pick(random, -2, 2) : 0x1p-16 * pick(random, -(1 << 17), 1 << 17);
+inline double draw_coordinate(Random& random, Positions positions) {
+  return positions == Positions::grid ? pick(random, -2, 2) : 0x1p-16 * pick(random, -(1 << 17), 1 << 17);
 }
 
 /// Bends the bead's linear course at u: the position at u stays, the end of the course changes.

@@ -1,4 +1,4 @@
-#include "experiments/events/event_places.h"
+#include "experiments/events/event_distribution.h"
 
 #include <fmt/format.h>
 
@@ -49,7 +49,7 @@ EventGrid::EventGrid(const Scene& scene, std::size_t grids) {
   edges.push_back(scene.stamp(scene.step_count()));
 }
 
-EventPlaces::EventPlaces(const KineticRun& run, const Scene& scene)
+EventDistributions::EventDistributions(const KineticRun& run, const Scene& scene)
     : tree_(scene.necklaces()), levels_(tree_.node_count(), 0) {
   std::size_t level_count = 0;
   for (NodeId node = 0; node < tree_.node_count(); ++node) {
@@ -58,27 +58,28 @@ EventPlaces::EventPlaces(const KineticRun& run, const Scene& scene)
     level_count = std::max(level_count, levels_[node] + 1);
   }
   for (const KineticStructure* structure : run.structures()) {
-    PlacesOfEvents& places = places_.emplace_back();
-    places.by_bead.resize(scene.bead_count(), 0);
-    places.grid = EventGrid(scene, run.structures().size());
+    EventDistribution& distribution = distributions_.emplace_back();
+    distribution.by_bead.resize(scene.bead_count(), 0);
+    distribution.grid = EventGrid(scene, run.structures().size());
     for (const EventKind& kind : structure->kinds())
       for (const IdRole& role : kind.roles)
-        if (role.of == IdRole::Of::node) places.by_level.resize(level_count, 0);
+        if (role.of == IdRole::Of::node) distribution.by_level.resize(level_count, 0);
   }
 }
 
-void EventPlaces::on_event(const Event& event) {
+void EventDistributions::on_event(const Event& event) {
   const EventKind& kind = event.kind;
   if (!kind.external || kind.counted_apart) return;
-  PlacesOfEvents& places = places_[event.structure_index];
+  EventDistribution& distribution = distributions_[event.structure_index];
   event.for_roles([&](const IdRole& role, std::span<const BeadId> ids) {
     if (role.of == IdRole::Of::node) {
-      if (const auto node = tree_.find({ids.front(), ids.back()})) ++places.by_level[levels_[*node]];
+      if (const auto node = tree_.find({ids.front(), ids.back()})) ++distribution.by_level[levels_[*node]];
     } else if (role.of == IdRole::Of::beads) {
       for (const BeadId bead : ids) {
-        if (bead >= places.by_bead.size()) continue;
-        ++places.by_bead[bead];
-        ++places.grid.counts[event.step / places.grid.steps_per_bin][bead / places.grid.beads_per_block];
+        if (bead >= distribution.by_bead.size()) continue;
+        ++distribution.by_bead[bead];
+        ++distribution.grid
+              .counts[event.step / distribution.grid.steps_per_bin][bead / distribution.grid.beads_per_block];
       }
     }
   });

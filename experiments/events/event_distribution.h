@@ -1,5 +1,5 @@
 #pragma once
-// Counts events by time and place: in bins of neighbouring steps, along the chain, and next to the
+// Counts events by time and by bead: in bins of neighbouring steps, along the chain, and next to the
 // displacements of beads from frame to frame.
 
 #include <Eigen/Core>
@@ -74,11 +74,11 @@ class Displacements {
   std::vector<Bin> bins_;
 };
 
-/// Counts events by time and place at once. Bins of neighbouring steps are the columns, blocks of
+/// Counts events by time and by bead at once. Bins of neighbouring steps are the columns, blocks of
 /// neighbouring beads are the rows. An event counts once for each of its beads, as in
-/// `PlacesOfEvents::by_bead`.
+/// `EventDistribution::by_bead`.
 struct EventGrid {
-  /// Bound the size of the page. More than two grids share the places of two.
+  /// Bound the size of the page. More than two grids share the cells of two.
   static constexpr std::size_t most_bins = 36, most_blocks = 24;
 
   std::size_t steps_per_bin = 1, beads_per_block = 1;  ///< the last bin and the last block may have fewer
@@ -90,8 +90,8 @@ struct EventGrid {
   EventGrid(const Scene& scene, std::size_t grids);
 };
 
-/// The places of a structure's external events: along the chain, and by depth in its tree.
-struct PlacesOfEvents {
+/// How a structure's external events are distributed along the chain, and by depth in its tree.
+struct EventDistribution {
   /// Number of events that name each bead. A node's event names the beads of its new basis. An event counts
   /// at each of its beads.
   std::vector<std::uint64_t> by_bead;
@@ -102,17 +102,17 @@ struct PlacesOfEvents {
 };
 
 /// Listens to all events of a run.
-class EventPlaces final : public EventListener {
+class EventDistributions final : public EventListener {
  public:
-  EventPlaces(const KineticRun& run, const Scene& scene);
+  EventDistributions(const KineticRun& run, const Scene& scene);
   void on_event(const Event& event) override;
   /// In the order of the run's structures.
-  [[nodiscard]] const std::vector<PlacesOfEvents>& places() const { return places_; }
+  [[nodiscard]] const std::vector<EventDistribution>& distributions() const { return distributions_; }
 
  private:
   NecklaceTree tree_;
   std::vector<std::size_t> levels_;  ///< levels of the tree's nodes
-  std::vector<PlacesOfEvents> places_;
+  std::vector<EventDistribution> distributions_;
 };
 
 /// Returns "bead 54, N of ALA 59 in chain A", or "bead 54" if `name` is empty.

@@ -11,7 +11,7 @@
 #include "tests/support/judges/searched_constants.h"
 #include "tests/support/rounds.h"
 
-namespace kds::constant_places_test {
+namespace kds::constant_beads_test {
 namespace {
 
 using test::difference;
@@ -34,7 +34,7 @@ struct LeftOf {
   [[nodiscard]] bool side() const { return left; }
   template <MotionView View>
   [[nodiscard]] static constexpr auto formula(const View& view, const std::array<BeadId, 1>& b) {
-    const auto at = view.position(b[0]), other = view.position(view.place(&Constants::other));
+    const auto at = view.position(b[0]), other = view.position(view.bead(&Constants::other));
     return other[0] * at[1] - other[1] * at[0];
   }
 };
@@ -117,12 +117,12 @@ void expect_above_as_judged(int rounds, int exponent_of_foot, int exponent_of_no
   }
 }
 
-TEST(ConstantPlaces, PlanesThatMoveAndTurnAreAsJudged) {
+TEST(ConstantBeads, PlanesThatMoveAndTurnAreAsJudged) {
   expect_above_as_judged<BezierMotion<3, 1>>(test::rounds(10), 0, 0, 0);
   expect_above_as_judged<BezierMotion<3, 3>>(test::rounds(3), 0, 0, 0);
 }
 
-TEST(ConstantPlaces, HugeAndTinyOnesAreAsJudged) {
+TEST(ConstantBeads, HugeAndTinyOnesAreAsJudged) {
   expect_above_as_judged<BezierMotion<3, 1>>(1, 0, 300, 0);
   expect_above_as_judged<BezierMotion<3, 1>>(1, 0, -300, 0);
   expect_above_as_judged<BezierMotion<3, 1>>(1, -300, 0, 0);
@@ -130,7 +130,7 @@ TEST(ConstantPlaces, HugeAndTinyOnesAreAsJudged) {
   expect_above_as_judged<BezierMotion<3, 1>>(1, -300, -300, -300);
 }
 
-TEST(ConstantPlaces, ABeadThatTouchesAPlaneStaysAbove) {
+TEST(ConstantBeads, ABeadThatTouchesAPlaneStaysAbove) {
   BezierMotion<3, 3> motion(1);  // its height is (1 - 2u)^2
   const std::array<double, 4> height{1, -1.0 / 3, -1.0 / 3, 1};
   for (int k = 0; k < 4; ++k) motion.set_coordinate(0, k, 2, 3 * height[static_cast<std::size_t>(k)]);
@@ -161,7 +161,7 @@ TEST(ConstantPlaces, ABeadThatTouchesAPlaneStaysAbove) {
   expect_all_along(*search, Above{{0}}, {0, 0, 0, 0});
 }
 
-TEST(ConstantPlaces, AllArePositiveWhereEachIs) {
+TEST(ConstantBeads, AllArePositiveWhereEachIs) {
   Random random(2114);
   const auto motion = test::random_motion<BezierMotion<3, 1>>(random, 20, MotionKind::generic);
   const auto search = search_over<Above>(MotionRef<3>(motion));
@@ -202,12 +202,12 @@ void expect_left_of_as_judged(int rounds) {
   }
 }
 
-TEST(ConstantPlaces, BeadsOfOnesChoiceAndPositionsAreAsJudged) {
+TEST(ConstantBeads, BeadsOfOnesChoiceAndPositionsAreAsJudged) {
   expect_left_of_as_judged<BezierMotion<2, 1>>(test::rounds(10));
   expect_left_of_as_judged<BezierMotion<2, 3>>(test::rounds(3));
 }
 
-TEST(ConstantPlaces, PositionsNeedNoConstants) {
+TEST(ConstantBeads, PositionsNeedNoConstants) {
   Random random(2113);
   for (const MotionKind kind : test::all_motion_kinds) {
     const auto motion = test::random_motion<BezierMotion<2, 3>>(random, 3, kind);
@@ -216,7 +216,7 @@ TEST(ConstantPlaces, PositionsNeedNoConstants) {
   }
 }
 
-TEST(ConstantPlaces, ABeadThatIsNoneIsRefused) {
+TEST(ConstantBeads, ABeadThatIsNoneIsRefused) {
   const BezierMotion<2, 1> motion(3);
   const auto search = search_over<LeftOf>(MotionRef<2>(motion));
   try {
@@ -228,4 +228,4 @@ TEST(ConstantPlaces, ABeadThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace kds::constant_places_test
+}  // namespace kds::constant_beads_test
