@@ -12,8 +12,8 @@
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
+#include "experiments/run/page_of_run.h"
 #include "experiments/run/run_options.h"
-#include "experiments/run/run_view.h"
 
 namespace kds {
 
@@ -117,7 +117,7 @@ int compare_command(const Arguments& arguments) {
   if (options.view) {
     const RunOptions run = first_run(options, comparison);
     const Scene scene = load_scene(run, [](const std::string&) {});
-    write_run_view(run, scene, *options.view, command.add_replay(*options.view), command.progress());
+    write_page_of_run(run, scene, *options.view, command.add_replay(*options.view), command.progress());
   }
 
   Json json;

@@ -15,8 +15,8 @@
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
 #include "experiments/run/load_scene.h"
+#include "experiments/run/page_of_run.h"
 #include "experiments/run/radius_hint.h"
-#include "experiments/run/run_view.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
@@ -220,8 +220,8 @@ int contacts_command(const Arguments& arguments) {
   const std::unique_ptr<ContactsReport>& report = found.report;
   const ContactsFigures& figures = found.figures;
   if (options.view)
-    write_run_view(run_to_show(task, scene, *report), scene, *options.view, command.add_replay(*options.view),
-                   command.progress());
+    write_page_of_run(run_to_show(task, scene, *report), scene, *options.view,
+                      command.add_replay(*options.view), command.progress());
 
   Json json;
   json["input"] = input_json(task,

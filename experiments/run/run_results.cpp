@@ -15,9 +15,9 @@ namespace kds {
 
 void RunResults::begin(const Scene& scene, KineticRun& run, const RunOptions& options) {
   const bool certified = options.certify;
-  if (view_path_) {
+  if (page_path_) {
     ViewRequest request;
-    request.page = view_path_;
+    request.page = page_path_;
     view_.emplace(request, replay_labels(options, "run"), scene, run);
   }
   if (events_path_) {
@@ -99,7 +99,7 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
                                                static_cast<double>(report.last_frame->number));
     std::vector<std::string> data{"summary.json", "events.csv"};
     data.insert(data.end(), contacts_files_.begin(), contacts_files_.end());
-    write_page(*files_, html_report(report, data, replay_beside(*destinations_.out, view_path_)),
+    write_page(*files_, html_report(report, data, replay_beside(*destinations_.out, page_path_)),
                destinations_.paper);
   }
   AtomicFiles json_file;
@@ -111,7 +111,7 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
   if (json_on_stdout) print_to_stdout(json);
   if (table_on_stdout) print_to_stdout(table);
   if (files_ && table_on_stdout) print_report_path(*destinations_.out);
-  if (view_path_ && table_on_stdout) print_to_stdout("replay " + view_path_->string() + "\n");
+  if (page_path_ && table_on_stdout) print_to_stdout("replay " + page_path_->string() + "\n");
 }
 
 }  // namespace kds

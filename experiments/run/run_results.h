@@ -29,7 +29,7 @@ class RunResults {
                       std::optional<std::filesystem::path> view = std::nullopt)
       : destinations_(std::move(destinations)),
         events_path_(std::move(events)),
-        view_path_(std::move(view)) {}
+        page_path_(std::move(view)) {}
 
   /// Starts the output files of a run with these options once the input is accepted. The files listen to the
   /// run, which must not run after this object is destroyed. The scene must remain until `end_run`. In a
@@ -52,7 +52,7 @@ class RunResults {
 
  private:
   Destinations destinations_;
-  std::optional<std::filesystem::path> events_path_, view_path_;
+  std::optional<std::filesystem::path> events_path_, page_path_;
   std::optional<AtomicFiles> files_;
   const Scene* scene_ = nullptr;
   std::optional<EventsCsv> events_;

@@ -155,7 +155,7 @@ class Run:
         return _plots.events(self, ax)
 
     def view(self, path=None, verbose=False):
-        """Returns a page that shows the run, a :class:`kds.View`. Notebooks show it in a frame.
+        """Returns a page that shows the run, a :class:`kds.View`. Notebooks embed it.
 
         ``path`` is the file that the page is written to (default: no file). ``kds.run(..., view=path)`` writes the page
         while it runs; otherwise this function runs the structures again, on one thread. Raises InputError if the input

@@ -13,7 +13,7 @@ namespace kds {
 
 /// Runs the structures of `options` over the scene and writes the replay page to `page`, a file that appears
 /// with `files`. Calls `progress` with the number of steps done and the number of all.
-void write_run_view(const RunOptions& options, const Scene& scene, const std::filesystem::path& page,
-                    AtomicFiles& files, const std::function<void(std::size_t, std::size_t)>& progress);
+void write_page_of_run(const RunOptions& options, const Scene& scene, const std::filesystem::path& page,
+                       AtomicFiles& files, const std::function<void(std::size_t, std::size_t)>& progress);
 
 }  // namespace kds

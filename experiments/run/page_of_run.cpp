@@ -1,4 +1,4 @@
-#include "experiments/run/run_view.h"
+#include "experiments/run/page_of_run.h"
 
 #include "experiments/run/load_scene.h"
 #include "experiments/run/replay_labels.h"
@@ -9,8 +9,8 @@
 
 namespace kds {
 
-void write_run_view(const RunOptions& options, const Scene& scene, const std::filesystem::path& page,
-                    AtomicFiles& files, const std::function<void(std::size_t, std::size_t)>& progress) {
+void write_page_of_run(const RunOptions& options, const Scene& scene, const std::filesystem::path& page,
+                       AtomicFiles& files, const std::function<void(std::size_t, std::size_t)>& progress) {
   const auto run = open_run(options, scene, AuditMode::none);
   ReplayRecorder recorder(*run);
   run->listen(recorder);
