@@ -7,7 +7,7 @@
 #include "experiments/events/event_distribution.h"
 #include "experiments/events/frame_axis.h"
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/paper.h"
+#include "experiments/output/page/print.h"
 #include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/program/spread_columns.h"
@@ -260,7 +260,7 @@ void CollideResults::deliver(const CollideReport& report, const Json& json, cons
     page.data = {"collide.json", "collide.csv", "pairs.csv", "frames.csv"};
     write_page(*files_,
                collide_page(report, input, contacts_->empty() ? "" : contacts_->plot(), *course_, page),
-               destinations_.paper);
+               destinations_.print);
   }
   AtomicFiles json_file;
   if (destinations_.json && !json_on_stdout) write_to(json_file.open(*destinations_.json));

@@ -413,7 +413,7 @@ template <class Options>
                  of_output(flag_option("--paper",
                                        "with --out, also write the tables as LaTeX and the plots as SVG and "
                                        "PDF (default: no)",
-                                       &Destinations::paper)));
+                                       &Destinations::print)));
   return {std::move(options)};
 }
 

@@ -8,7 +8,7 @@
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/html_page.h"
-#include "experiments/output/page/paper.h"
+#include "experiments/output/page/print.h"
 #include "experiments/output/text.h"
 #include "motions/base/input_error.h"
 
@@ -116,7 +116,7 @@ void TableCommand::check_destinations(TakenPaths taken) {
 void TableCommand::check_destinations(TakenPaths taken, const std::vector<std::string>& files) {
   taken.write(destinations_);
   taken.require_directory(destinations_.replace);
-  const auto& [out, json, quiet, paper, replace] = destinations_;
+  const auto& [out, json, quiet, print, replace] = destinations_;
   if (json && *json != "-") ensure_writable_file(*json, "--json");
   if (std::ranges::find(files, kReport) != files.end()) check_page(destinations_);
   if (out) files_ = std::make_unique<AtomicFiles>(*out, "--out", replace);
@@ -167,7 +167,7 @@ void TableCommand::deliver(Json json, const Csvs& csvs, const std::string& table
 
 void TableCommand::deliver_text(const std::string& json, const Json& settings, const Csvs& csvs,
                                 const std::string& table, const PageOf& page_of) const {
-  const auto& [out, json_path, quiet, paper, replace] = destinations_;
+  const auto& [out, json_path, quiet, print, replace] = destinations_;
   const bool json_on_stdout = json_path == "-";
   if (files_) {
     std::vector<std::string> data{name_ + ".json"};
@@ -177,7 +177,7 @@ void TableCommand::deliver_text(const std::string& json, const Json& settings, c
       data.push_back(name);
     }
     files_->check();
-    if (page_of) write_page(*files_, page_of(page(settings, std::move(data))), paper);
+    if (page_of) write_page(*files_, page_of(page(settings, std::move(data))), print);
   }
   AtomicFiles json_file;
   if (json_path && !json_on_stdout) json_file.write(*json_path, json);

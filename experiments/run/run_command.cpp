@@ -1,7 +1,7 @@
 #include "experiments/program/commands.h"
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/paper.h"
+#include "experiments/output/page/print.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/table_command.h"

@@ -6,7 +6,7 @@
 
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/html_page.h"
-#include "experiments/output/page/paper.h"
+#include "experiments/output/page/print.h"
 #include "experiments/run/html_report.h"
 #include "experiments/run/replay_labels.h"
 #include "structures/session/event_writers.h"
@@ -100,7 +100,7 @@ void RunResults::deliver(RunReport report, const std::string& json, const std::s
     std::vector<std::string> data{"summary.json", "events.csv"};
     data.insert(data.end(), contacts_files_.begin(), contacts_files_.end());
     write_page(*files_, html_report(report, data, replay_beside(*destinations_.out, page_path_)),
-               destinations_.paper);
+               destinations_.print);
   }
   AtomicFiles json_file;
   if (destinations_.json && !json_on_stdout) json_file.write(*destinations_.json, json);

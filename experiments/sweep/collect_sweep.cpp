@@ -9,7 +9,7 @@
 #include <unordered_map>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/paper.h"
+#include "experiments/output/page/print.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
 #include "experiments/sweep/pooled_figures.h"

@@ -41,7 +41,7 @@ bool is_wide(const DrawingSize& size) { return size.width > 500; }
 DrawingSize wide(double height) { return {860, height, 64, 32, 26, 48}; }
 DrawingSize narrow(double height) { return {360, height, 64, 32, 26, 48, false, 0, false}; }
 
-DrawingSize paper(double height, const std::string& title, const std::vector<std::string>& names) {
+DrawingSize print_size(double height, const std::string& title, const std::vector<std::string>& names) {
   DrawingSize size{560, height, 64, 32, 26, 48, true, 0, false};
   if (names.size() > 1)
     size.head = positions_of(names, size.width, !title.empty()).back().second + kHeadLine / 2;
@@ -52,7 +52,7 @@ DrawingSize paper(double height, const std::string& title, const std::vector<std
   return size;
 }
 
-std::string paper_head(const DrawingSize& size, const std::string& title,
+std::string print_head(const DrawingSize& size, const std::string& title,
                        const std::vector<std::string>& names) {
   const auto at = [&](double x, double y) {
     return fmt::format("at screen {:.6f}, screen {:.6f} left", x / size.width, 1 - y / size.height);
@@ -170,7 +170,7 @@ std::string set_ticks(char axis, const std::vector<double>& values) {
   return fmt::format("set {}tics ({})\n", axis, fmt::join(ticks, ","));
 }
 
-int x_ticks(const DrawingSize& size) { return size.for_paper ? 6 : is_wide(size) ? 8 : 4; }
+int x_ticks(const DrawingSize& size) { return size.for_print ? 6 : is_wide(size) ? 8 : 4; }
 
 double tick_step(const Range& range, int most) {
   const double wanted = (range.most - range.least) / most;

@@ -1,6 +1,6 @@
 #pragma once
 // Common parts of plots. A drawing is a gnuplot script with round ticks on its axes. Each plot is drawn once
-// for wide pages, once for narrow pages and, if asked for, once for a paper.
+// for wide pages, once for narrow pages and, if asked for, once for print.
 
 #include <cmath>
 #include <cstddef>
@@ -23,12 +23,12 @@ struct Drawing {
 [[nodiscard]] bool is_wide(const DrawingSize& size);
 [[nodiscard]] DrawingSize wide(double height);
 [[nodiscard]] DrawingSize narrow(double height);
-/// A drawing for a paper, as wide as a column of text, with room for its head (`paper_head`).
-[[nodiscard]] DrawingSize paper(double height, const std::string& title,
-                                const std::vector<std::string>& names);
-/// Returns the script of the title and of the key of names and colours above a paper's drawing. The key is
+/// A drawing for print, as wide as a column of text, with room for its head (`print_head`).
+[[nodiscard]] DrawingSize print_size(double height, const std::string& title,
+                                     const std::vector<std::string>& names);
+/// Returns the script of the title and of the key of names and colours above a drawing for print. The key is
 /// left out if there is at most one name.
-[[nodiscard]] std::string paper_head(const DrawingSize& size, const std::string& title,
+[[nodiscard]] std::string print_head(const DrawingSize& size, const std::string& title,
                                      const std::vector<std::string>& names);
 
 /// The two drawings of a plot. The page's style shows one of them.

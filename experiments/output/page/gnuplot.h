@@ -24,9 +24,9 @@ void require_gnuplot_pdf(std::string_view option);
 /// The size of a drawing and the margins around its axes, in pixels.
 struct DrawingSize {
   double width, height, left, right, top, bottom;
-  bool for_paper = false;
-  double head = 0;        ///< room above the top margin for title and key of a paper's drawing
-  bool has_texts = true;  ///< whether texts lie under the pointer: not on paper, nor on telephones
+  bool for_print = false;
+  double head = 0;        ///< room above the top margin for title and key of a drawing for print
+  bool has_texts = true;  ///< whether texts lie under the pointer: not in print, nor on telephones
 };
 
 /// The kind of element to which the texts of a drawing belong.
@@ -40,7 +40,7 @@ enum class TextsOf {
 inline constexpr std::array<std::string_view, 10> page_colours{"s0", "s1", "s2", "s3",   "s4",
                                                                "s5", "s6", "s7", "soft", "line"};
 inline constexpr std::size_t series_colours = 8;
-/// The values of these variables on light pages and on paper. Colour-blind readers can tell the colours of
+/// The values of these variables on light pages and in print. Colour-blind readers can tell the colours of
 /// the series apart.
 inline constexpr std::array<std::string_view, 10> light_colours{"#2563a8", "#c2600a", "#2b7a4b", "#8a3f8f",
                                                                 "#c0392b", "#5b6570", "#0b7f92", "#8a6d00",

@@ -10,7 +10,7 @@
 #include "experiments/output/output_files.h"
 #include "experiments/output/page/gnuplot.h"
 #include "experiments/output/page/latex.h"
-#include "experiments/output/page/paper.h"
+#include "experiments/output/page/print.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
 
@@ -200,13 +200,13 @@ std::string how_it_was_made(const Page& page) {
 
 std::string html_figure(const std::string& svg, const std::string& caption) {
   return fmt::format("<figure>\n{}<figcaption>{}</figcaption>\n</figure>\n{}", svg, caption,
-                     caption_for_paper(caption));
+                     caption_for_print(caption));
 }
 
 std::string html_section(const std::string& heading, const std::string& content) {
   return content.empty()
              ? ""
-             : fmt::format("{}<h2>{}</h2>\n{}", section_for_paper(heading), html_escaped(heading), content);
+             : fmt::format("{}<h2>{}</h2>\n{}", section_for_print(heading), html_escaped(heading), content);
 }
 
 namespace {
@@ -245,7 +245,7 @@ std::string html_table(const std::vector<std::string>& columns, const std::vecto
     }
     html += "</tr>\n";
   }
-  return html + "</tbody>\n</table></div>\n" + table_for_paper(latex_table(columns, rows, alignment));
+  return html + "</tbody>\n</table></div>\n" + table_for_print(latex_table(columns, rows, alignment));
 }
 
 std::string html_terms(const std::vector<std::pair<std::string, std::string>>& terms) {

@@ -33,7 +33,7 @@ struct Page {
   std::filesystem::path replay = {};
 };
 
-/// Returns the page with copies of its tables and plots for a paper, which write_page (paper.h) takes out.
+/// Returns the page with copies of its tables and plots for print, which write_page (print.h) takes out.
 [[nodiscard]] std::string html_page(const Page& page);
 
 [[nodiscard]] std::string html_figure(const std::string& svg, const std::string& caption);
@@ -45,7 +45,7 @@ struct HtmlRow {
   std::vector<std::string> cells;  ///< plain text; the first is the row's name; missing cells are empty
   bool detail = false;             ///< details the nearest row above that is not a detail
 };
-/// Returns a table, with its copy for a paper. The table scrolls sideways if the page is too narrow, and its
+/// Returns a table, with its copy for print. The table scrolls sideways if the page is too narrow, and its
 /// first column stays in place. `alignment` has '<' (left, text) or '>' (right) for each column, and its last
 /// character holds for all further columns. Text breaks into lines.
 [[nodiscard]] std::string html_table(const std::vector<std::string>& columns,

@@ -1,5 +1,5 @@
 #pragma once
-// LaTeX for papers: text with LaTeX's special characters escaped, and tables in the style of booktabs.
+// LaTeX for print: text with LaTeX's special characters escaped, and tables in the style of booktabs.
 
 #include <string>
 #include <string_view>

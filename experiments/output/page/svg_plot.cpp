@@ -12,7 +12,7 @@
 
 #include "experiments/output/page/drawing.h"
 #include "experiments/output/page/html_page.h"
-#include "experiments/output/page/paper.h"
+#include "experiments/output/page/print.h"
 #include "experiments/output/text.h"
 
 namespace kds {
@@ -386,7 +386,7 @@ std::string named_ticks(char axis, const MapPlot& plot, int most) {
 }
 
 Drawing draw(const MapPlot& plot, DrawingSize size) {
-  const double side = size.for_paper ? 440 : is_wide(size) ? 700 : 280;
+  const double side = size.for_print ? 440 : is_wide(size) ? 700 : 280;
   size.left = 68;
   size.right = size.width - size.left - side;
   size.height = side + size.top + size.bottom;
@@ -438,21 +438,21 @@ Drawing draw(const TimelinePlot& plot, DrawingSize size) {
   return drawing;
 }
 
-// Returns a plot's copy for a paper, as `draw_it` draws it for a size.
+// Returns a plot's copy for print, as `draw_it` draws it for a size.
 template <class Draw>
-std::string paper_copy(double height, const std::string& title, const std::vector<std::string>& names,
+std::string print_copy(double height, const std::string& title, const std::vector<std::string>& names,
                        const Draw& draw_it) {
-  Drawing drawing = draw_it(paper(height, title, names));
-  drawing.script = paper_head(drawing.size, title, names) + drawing.script;
-  return plot_for_paper(drawing);
+  Drawing drawing = draw_it(print_size(height, title, names));
+  drawing.script = print_head(drawing.size, title, names) + drawing.script;
+  return plot_for_print(drawing);
 }
 
-// Returns the key of a plot, the plot, which `draw_it` draws for a size, and its copy for a paper.
+// Returns the key of a plot, the plot, which `draw_it` draws for a size, and its copy for print.
 template <class Draw>
 std::string drawn_once(double height, const std::vector<std::string>& names, const std::string& label,
                        const Draw& draw_it) {
   return html_key(names) + drawn({{draw_it(wide(height)), draw_it(narrow(height))}}, {label}).front() +
-         paper_copy(height, "", names, draw_it);
+         print_copy(height, "", names, draw_it);
 }
 
 std::string label_of(const LinePlot& plot) { return plot.y_label + " by " + plot.x_label; }
@@ -539,7 +539,7 @@ std::string svg_plot(const PanelPlot& plot) {
     const auto draw_it = [&](const DrawingSize& size) { return draw(one.plot, size, names, is_log); };
     plots.push_back({draw_it(panel), draw_it(narrow(panel.height))});
     const bool key_says_title = own.size() > 1 && one.title == title_of(one.plot);
-    copies.push_back(paper_copy(panel.height, key_says_title ? "" : one.title, own,
+    copies.push_back(print_copy(panel.height, key_says_title ? "" : one.title, own,
                                 [&](const DrawingSize& size) { return draw(one.plot, size, own, is_log); }));
   }
   const bool has_titles_for_key = std::ranges::all_of(plot.panels, [](const PanelPlot::Panel& one) {

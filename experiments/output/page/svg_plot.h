@@ -2,7 +2,7 @@
 // Curves, points, bars and maps for a page, without scripts. Each plot is drawn twice, for wide and for
 // narrow pages, and the page's style shows one of the two. Colours follow the page, light or dark. Values
 // appear under the pointer on wide pages; telephones have no pointer. The page also carries a copy of each
-// plot for a paper (paper.h).
+// plot for print (print.h).
 
 #include <cstddef>
 #include <functional>

@@ -1,6 +1,6 @@
 #pragma once
 // A table whose columns are declared once. The table writes its rows as JSON, as CSV, as text for a terminal,
-// as HTML for a page and as LaTeX for a paper.
+// as HTML for a page and as LaTeX for print.
 //
 //   const Table<Row> table{{
 //       {.key = "seconds", .heading = "seconds", .value = [](const Row& r) { return Field(r.seconds); },
@@ -192,7 +192,7 @@ class Table {
     return text;
   }
   using Group = std::function<std::string(const Row&)>;
-  /// Returns an HTML table with its copy for a paper. If `group` is given, a line with the name of each group
+  /// Returns an HTML table with its copy for print. If `group` is given, a line with the name of each group
   /// precedes the group's rows.
   [[nodiscard]] std::string html(Rows rows, const Group& group = {}) const {
     return filled(rows).html(groups_of(rows, group));

@@ -1,4 +1,4 @@
-// LaTeX for papers: escaped text, captions and tables.
+// LaTeX for print: escaped text, captions and tables.
 
 #include "experiments/output/page/latex.h"
 

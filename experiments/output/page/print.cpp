@@ -1,4 +1,4 @@
-#include "experiments/output/page/paper.h"
+#include "experiments/output/page/print.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ namespace kds {
 
 namespace {
 
-constexpr std::string_view kFilesOfPapers = "paper-";
+constexpr std::string_view kPrintPrefix = "paper-";
 
 // A copy is kStart, a letter, the content and kEnd. The page stays well formed while it carries copies,
 // because kLess and kGreater stand for < and > of their content.
@@ -63,9 +63,9 @@ std::string light_colours_script() {
   return script;
 }
 
-class PaperFiles {
+class PrintFiles {
  public:
-  explicit PaperFiles(AtomicFiles& files) : files_(files) {}
+  explicit PrintFiles(AtomicFiles& files) : files_(files) {}
 
   // Writes the files of a copy. Returns the links to them, in HTML.
   std::string add(char kind, std::string_view content) {
@@ -91,7 +91,7 @@ class PaperFiles {
   void finish(std::string_view title) {
     flush();
     files_.write(
-        std::string(kFilesOfPapers) + "all.tex",
+        std::string(kPrintPrefix) + "all.tex",
         fmt::format(
             "% All tables and plots of report.html. To compile: pdflatex paper-all.tex\n"
             "\\documentclass{{article}}\n\\usepackage[T1]{{fontenc}}\n"
@@ -125,7 +125,7 @@ class PaperFiles {
   }
 
   std::string next_name(std::string_view what) {
-    const std::string plain = fmt::format("{}{}-{}", kFilesOfPapers, what, file_name_of(section_));
+    const std::string plain = fmt::format("{}{}-{}", kPrintPrefix, what, file_name_of(section_));
     for (std::size_t number = 1;; ++number) {
       std::string name = number == 1 ? plain : fmt::format("{}-{}", plain, number);
       if (std::ranges::find(names_, name) == names_.end()) return names_.emplace_back(std::move(name));
@@ -180,13 +180,13 @@ std::string_view between(std::string_view text, std::string_view before, std::st
 
 }  // namespace
 
-std::string table_for_paper(std::string_view latex) { return copy_of(of_table, latex); }
-std::string plot_for_paper(const Drawing& drawing) {
+std::string table_for_print(std::string_view latex) { return copy_of(of_table, latex); }
+std::string plot_for_print(const Drawing& drawing) {
   return copy_of(of_plot,
                  fmt::format("{:.0f} {:.0f}\n", drawing.size.width, drawing.size.height) + drawing.script);
 }
-std::string section_for_paper(std::string_view heading) { return copy_of(of_section, one_line(heading)); }
-std::string caption_for_paper(std::string_view html) { return copy_of(of_caption, html); }
+std::string section_for_print(std::string_view heading) { return copy_of(of_section, one_line(heading)); }
+std::string caption_for_print(std::string_view html) { return copy_of(of_caption, html); }
 
 namespace {
 
@@ -214,9 +214,9 @@ std::string without_copies(const std::string& page) {
   return take_copies(page, [](char, std::string_view) { return std::string(); });
 }
 
-void write_page(AtomicFiles& files, const std::string& page, bool paper) {
-  if (!paper) return files.write("report.html", without_copies(page));
-  PaperFiles copies(files);
+void write_page(AtomicFiles& files, const std::string& page, bool print) {
+  if (!print) return files.write("report.html", without_copies(page));
+  PrintFiles copies(files);
   const std::string html = take_copies(page, [&](char kind, std::string_view copy) {
     std::string content(copy);
     std::ranges::replace(content, kLess, '<');
@@ -229,7 +229,7 @@ void write_page(AtomicFiles& files, const std::string& page, bool paper) {
 
 void check_page(const Destinations& destinations) {
   if (destinations.out) require_gnuplot("--out");
-  if (!destinations.paper) return;
+  if (!destinations.print) return;
   if (!destinations.out)
     throw InputError("--paper writes its files beside report.html, expected --out DIR as well");
   require_gnuplot_pdf("--paper");

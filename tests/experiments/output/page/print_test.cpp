@@ -1,6 +1,6 @@
-// Files for a paper: what a page carries for them, and what write_page makes of it.
+// Files for print: what a page carries for them, and what write_page makes of it.
 
-#include "experiments/output/page/paper.h"
+#include "experiments/output/page/print.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
 
-namespace kds::paper_test {
+namespace kds::print_test {
 namespace {
 
 using test::content_of;
@@ -33,9 +33,9 @@ std::set<std::string> names_in(const std::filesystem::path& directory) {
   return names;
 }
 
-void write(const std::filesystem::path& directory, const std::string& page, bool paper) {
+void write(const std::filesystem::path& directory, const std::string& page, bool print) {
   AtomicFiles files(directory, "--out", true);
-  write_page(files, page, paper);
+  write_page(files, page, print);
   commit_together({&files});
 }
 
@@ -53,7 +53,7 @@ std::string small_page() {
   return html_page(page);
 }
 
-TEST(Paper, FilesStandBesideThePageThatLinksThem) {
+TEST(Print, FilesStandBesideThePageThatLinksThem) {
   const ScratchDirectory directory;
   const auto out = directory / "out";
   write(out, small_page(), true);
@@ -86,8 +86,8 @@ TEST(Paper, FilesStandBesideThePageThatLinksThem) {
   EXPECT_THAT(content_of((out / "paper-table-over-time-a-b.tex").string()), StartsWith("\\begin{tabular}"));
 }
 
-// A drawing for a paper stands alone: it has a size, colours of its own and its name, and needs no page.
-TEST(Paper, DrawingsStandAlone) {
+// A drawing for print stands alone: it has a size, colours of its own and its name, and needs no page.
+TEST(Print, DrawingsStandAlone) {
   const ScratchDirectory directory;
   const auto out = directory / "out";
   write(out, small_page(), true);
@@ -108,7 +108,7 @@ TEST(Paper, DrawingsStandAlone) {
   }
 }
 
-TEST(Paper, WithoutTheOptionThePageCarriesNothingOfIt) {
+TEST(Print, WithoutTheOptionThePageCarriesNothingOfIt) {
   const ScratchDirectory directory;
   const auto out = directory / "out";
   write(out, small_page(), true);
@@ -120,7 +120,7 @@ TEST(Paper, WithoutTheOptionThePageCarriesNothingOfIt) {
     EXPECT_THAT(page, Not(HasSubstr(part)));
 }
 
-TEST(Paper, NoTextOfAPageIsTakenForACopy) {
+TEST(Print, NoTextOfAPageIsTakenForACopy) {
   const ScratchDirectory directory;
   const auto out = directory / "out";
   Page page;
@@ -130,7 +130,7 @@ TEST(Paper, NoTextOfAPageIsTakenForACopy) {
   EXPECT_EQ(names_in(out), (std::set<std::string>{"paper-all.tex", "paper-table-p9.tex", "report.html"}));
 }
 
-TEST(Paper, TheOptionNeedsADirectory) {
+TEST(Print, TheOptionNeedsADirectory) {
   for (const char* command : {"run", "compare", "collide", "missed"}) {
     const test::ProgramRun run =
         test::run_program({command, test::data_file("proteins/1l2y.pdb"), "--paper", "--quiet"});
@@ -141,4 +141,4 @@ TEST(Paper, TheOptionNeedsADirectory) {
 }
 
 }  // namespace
-}  // namespace kds::paper_test
+}  // namespace kds::print_test
