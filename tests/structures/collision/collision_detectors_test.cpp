@@ -51,7 +51,7 @@ void expect_all_right(const CollisionScene& scene) {
     Random random(scene.radii.size());
     sequence.turn(random_axes<Dimension>(random));
     ASSERT_EQ(sequence.pairs(balls), expected) << "blocks in sequence, turned, " << with;
-    ASSERT_TRUE(balls.size() == 0 || sequence.frame().axes) << with;
+    ASSERT_TRUE(balls.size() == 0 || sequence.conversion().axes) << with;
     if (!turned_counts) turned_counts = sequence.counts();
     EXPECT_EQ(turned_counts->group_pairs, sequence.counts().group_pairs) << "turned, " << with;
     EXPECT_EQ(turned_counts->candidates, sequence.counts().candidates) << "turned, " << with;
@@ -218,7 +218,7 @@ void expect_turned(Eigen::Index side) {
   for (const double spread : {1.0, 0.999, 1.001}) {  // about half of the pairs meet, all meet, none meets
     const Balls<Dimension> balls(spread * scene.centers, scene.radii);
     EXPECT_EQ(tree.pairs(balls), cells.pairs(balls));
-    ASSERT_TRUE(tree.frame().axes);
+    ASSERT_TRUE(tree.conversion().axes);
     EXPECT_EQ(tree.order(), BlockOrder::sequence);
   }
   const auto turned = tree.counts();
@@ -244,7 +244,7 @@ void expect_turned(Eigen::Index side) {
   const CollisionScene straight = packed_chain<Dimension>(side, 0);
   const Balls<Dimension> along_axes(straight.centers, straight.radii);
   EXPECT_EQ(tree.pairs(along_axes), cells.pairs(along_axes));
-  EXPECT_FALSE(tree.frame().axes);
+  EXPECT_FALSE(tree.conversion().axes);
 }
 
 TEST(CollisionDetectors, BoxesAreTurnedToTheBonds) {
