@@ -106,8 +106,9 @@ void FileFrames::check_frame_counts() const {
   for (std::size_t f = 0; f < files_.size(); ++f) {
     if (all_[f] == all_[longest] || at_rest_[f]) continue;
     throw InputError(fmt::format(
-        "{}: {} frames, but {} has {}; necklaces of a run need equal frame counts (or one frame: at rest)",
-        files_[f].heads().front().file, all_[f], files_[longest].heads().front().file, all_[longest]));
+        "{}: {}, but {} has {}; necklaces of a run need equal frame counts (or one frame: at rest)",
+        files_[f].heads().front().file, counted(all_[f], "frame"), files_[longest].heads().front().file,
+        all_[longest]));
   }
 }
 
