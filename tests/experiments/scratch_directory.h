@@ -1,5 +1,5 @@
 #pragma once
-// A temporary directory that is removed after the test.
+// A temporary directory that is removed after the test, and files for it.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 namespace kds::test {
 
@@ -46,6 +47,13 @@ class ScratchDirectory {
 [[nodiscard]] inline std::string content_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Returns a frame of an XYZ file; each bead is given as "x y z".
+[[nodiscard]] inline std::string xyz(const std::vector<std::string>& beads) {
+  std::string frame = std::to_string(beads.size()) + "\nframe\n";
+  for (const std::string& bead : beads) frame += "C " + bead + "\n";
+  return frame;
 }
 
 }  // namespace kds::test

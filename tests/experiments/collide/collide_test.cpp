@@ -26,15 +26,6 @@ using testing::HasSubstr;
 using testing::IsSupersetOf;
 using testing::StartsWith;
 
-std::string refusal(const Arguments& arguments) {
-  try {
-    static_cast<void>(parse_collide_options(arguments));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 TEST(CollideOptions, DefaultsAndAll) {
   const CollideOptions plain = parse_collide_options({"a.pdb"});
   EXPECT_TRUE(plain.all_methods);
@@ -52,15 +43,6 @@ TEST(CollideOptions, DefaultsAndAll) {
   EXPECT_EQ(all.destinations.out, "there");
   EXPECT_EQ(all.destinations.json, "-");
   EXPECT_TRUE(all.destinations.quiet);
-}
-
-TEST(CollideOptions, RefusesWithTheOptionAndWhatItTakes) {
-  EXPECT_THAT(refusal({}), HasSubstr("kds collide needs at least one INPUT"));
-  EXPECT_THAT(refusal({"a.pdb", "--method", "magic"}), HasSubstr("--method: 'magic' is not one of brute, "));
-  EXPECT_THAT(refusal({"a.pdb", "--method", "brute,all"}), HasSubstr("or, alone, all"));
-  EXPECT_THAT(refusal({"a.pdb", "--method", "brute,brute"}), HasSubstr("brute is listed twice"));
-  EXPECT_THAT(refusal({"a.pdb", "--apart", "0"}), HasSubstr("--apart"));
-  EXPECT_THAT(refusal({"a.pdb", "--pairs", "some"}), HasSubstr("--pairs: 'some' is not one of all, within"));
 }
 
 // Writes a square of side 2 that opens. Beads of radius 1 at adjacent corners touch; beads at opposite
@@ -191,49 +173,6 @@ TEST(Collide, OfATrajectoryWithPlots) {
   for (const char* plot : {"by bead", "closest distance by ", "overlap by 0."})
     EXPECT_THAT(page, HasSubstr(plot));
   EXPECT_THAT(page, Not(HasSubstr("class=\"curve\"")));  // ten frames are drawn as marks, not as a line
-  // Another command must not overwrite the page.
-  const ProgramRun other = run_program({"update", data_file("trajectories/villin_hp36_300K.dcd"), "--frames",
-                                        ":3", "--out", (directory / "out").string()});
-  EXPECT_EQ(other.code, 2);
-  EXPECT_THAT(other.err, HasSubstr("holds files; --replace"));
-}
-
-TEST(Collide, BadInputIsOneLine) {
-  const ScratchDirectory directory;
-  const std::string a = opening_square(directory);
-  const std::string two = directory.file("two.xyz", "1\n\nC 0 0 0\n1\n\nC 0 0 0\n");
-  const std::string broken = directory.file("broken.xyz", "2\n\nC 0 0 0\nC 0 zero 0\n");
-  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
-      {{"collide"}, "INPUT"},
-      {{"collide", (directory / "none.xyz").string()}, "none.xyz"},
-      {{"collide", broken}, "broken.xyz"},
-      {{"collide", a, two, "--radius", "1"}, "frame counts"},
-      {{"collide", a, "--radius", "-1"}, "--radius"},
-      {{"collide", a, "--apart", "two"}, "--apart"},
-      {{"collide", a, "--within", "-1"}, "--within"},
-      {{"collide", a, "--within", "inf"}, "--within"},
-      {{"collide", a, "--method", "cubes"}, "--method"},
-      {{"collide", a, "--pairs", "between", "--radius", "1"}, "--pairs between"},
-      {{"collide", a, "--method", "power"}, "--method: 'power' is not one of brute"},
-      {{"collide", a, "--frames", "9:"}, "frame"},
-      {{"collide", data_file("kinetic/d3_n20_linear.txt")}, "expected a trajectory"},
-      {{"collide", a, "--json", a, "--radius", "1"}, "square.xyz"},
-  };
-  for (const auto& [arguments, word] : cases) {
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 2) << word;
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    EXPECT_THAT(run.err, HasSubstr(word));
-    EXPECT_EQ(run.out, "");
-  }
-}
-
-TEST(Collide, AFullDiskIsAnInternalFailure) {
-  const ScratchDirectory directory;
-  const ProgramRun run =
-      run_shell("\"$0\" collide \"$1\" --radius 1 > /dev/full", {opening_square(directory)});
-  EXPECT_EQ(run.code, 1);
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
 // A wrong method is detected: the error names the frame and both methods.
@@ -312,56 +251,6 @@ TEST(Collide, GroupsLeaveTheirPairs) {
   EXPECT_EQ(json["rows"][1]["method"], "cells");
   EXPECT_EQ(json["rows"][0]["pairs"], expected.size() - 1);
   EXPECT_FALSE(json["rows"][0]["closest"].is_null());
-  EXPECT_THAT(some.err,
-              HasSubstr("--groups: the methods wrapped, layered, auto look at all pairs and are left out; "
-                        "brute and cells are compared\n"));
-  const ProgramRun refused = run_program({"collide", kVillin, "--topology", kVillinPdb, "--frames", ":3",
-                                          "--method", "auto", "--groups", "ca", "all"});
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_EQ(refused.err,
-            "kds: --method auto: it looks at all pairs, not at --groups; expected brute or cells\n");
-  const ProgramRun none =
-      run_program({"collide", kVillin, "--topology", kVillinPdb, "--frames", ":3", "--groups", "ca", "//B"});
-  EXPECT_EQ(none.code, 2);
-  EXPECT_THAT(none.err, HasSubstr("--groups: '//B' chooses none of the beads that are read"));
-}
-
-TEST(Collide, TimesStandInAllResults) {
-  const ScratchDirectory directory;
-  const auto run = [&](const std::string& name, std::vector<std::string> more) {
-    std::vector<std::string> arguments{
-        "collide", opening_square(directory),  "--radius", "1", "--method", "brute",
-        "--out",   (directory / name).string()};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const ProgramRun done = run_program(arguments);
-    EXPECT_EQ(done.code, 0) << done.err;
-    return done.out;
-  };
-  EXPECT_THAT(run("timed", {"--dt", "2.5"}), HasSubstr("in frame 2 (5 ps), distance -0.5"));
-  EXPECT_THAT(lines_of(directory / "timed/pairs.csv"),
-              ElementsAre("frame,i,j,distance,name_i,name_j,picoseconds", "0,0,3,0,\"\",\"\",0",
-                          "2,0,3,-0.5,\"\",\"\",5"));
-  const std::vector<std::string> frames = lines_of(directory / "timed/frames.csv");
-  EXPECT_EQ(frames[0], "frame,collide,pairs,i,j,distance,picoseconds");
-  EXPECT_EQ(frames[1], "0,true,1,0,3,0,0");
-  EXPECT_EQ(frames[3], "2,true,1,0,3,-0.5,5");
-  EXPECT_THAT(lines_of(directory / "timed/collide.csv")[0], testing::EndsWith(",picoseconds"));
-  EXPECT_THAT(lines_of(directory / "timed/collide.csv")[1], testing::EndsWith(",5"));
-  const Json timed = Json::parse(content_of(directory / "timed/collide.json"));
-  EXPECT_EQ(timed["input"]["picoseconds"], Json({0.0, 5.0}));
-  EXPECT_EQ(timed["rows"][0]["closest"]["picoseconds"], 5);
-  EXPECT_EQ(timed["frames"][1]["picoseconds"], 2.5);
-  EXPECT_THAT(content_of(directory / "timed/report.html"),
-              HasSubstr("closest distance by time in picoseconds"));
-
-  EXPECT_THAT(run("plain", {}), HasSubstr("in frame 2, distance -0.5"));
-  EXPECT_EQ(lines_of(directory / "plain/pairs.csv")[0], "frame,i,j,distance,name_i,name_j");
-  EXPECT_EQ(lines_of(directory / "plain/frames.csv")[0], "frame,collide,pairs,i,j,distance");
-  const Json plain = Json::parse(content_of(directory / "plain/collide.json"));
-  EXPECT_FALSE(plain["input"].contains("picoseconds"));
-  EXPECT_FALSE(plain["rows"][0]["closest"].contains("picoseconds"));
-  EXPECT_FALSE(plain["frames"][1].contains("picoseconds"));
-  EXPECT_THAT(content_of(directory / "plain/report.html"), HasSubstr("closest distance by frame"));
 }
 
 TEST(Collide, MethodsThatDisagreeAreAnInternalFailure) {

@@ -3,11 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "experiments/collide/missed_command.h"
-#include "motions/base/input_error.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
@@ -19,15 +17,6 @@ using Json = nlohmann::ordered_json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-std::string refusal(const Arguments& arguments) {
-  try {
-    static_cast<void>(parse_missed_options(arguments));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(MissedOptions, DefaultsAndAll) {
   const MissedTask plain = parse_missed_options({"a.pdb"}).task;
@@ -45,21 +34,6 @@ TEST(MissedOptions, DefaultsAndAll) {
   EXPECT_EQ(all.destinations.out, "there");
   EXPECT_EQ(all.destinations.json, "-");
   EXPECT_TRUE(all.destinations.quiet);
-}
-
-TEST(MissedOptions, RefusesWithTheOptionAndWhatItTakes) {
-  EXPECT_THAT(refusal({}), HasSubstr("kds missed needs at least one INPUT"));
-  EXPECT_THAT(refusal({"a.pdb", "--strides", "0"}), HasSubstr("--strides: '0' is not a whole number from 1"));
-  EXPECT_THAT(refusal({"a.pdb", "--strides", "2,2"}), HasSubstr("--strides: 2 is listed twice"));
-  EXPECT_THAT(refusal({"a.pdb", "--factors", "0"}), HasSubstr("--factors: '0' is not a number above 0"));
-  EXPECT_THAT(refusal({"a.pdb", "--factors", "nan"}), HasSubstr("--factors: 'nan'"));
-  EXPECT_THAT(refusal({"a.pdb", "--factors", "1,1.0"}), HasSubstr("--factors: 1 is listed twice"));
-  EXPECT_THAT(refusal({"a.pdb", "--factors", "2", "--cutoff", "8"}),
-              HasSubstr("expected one of the two options"));
-  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "8,8"}), HasSubstr("--cutoff: 8 is listed twice"));
-  EXPECT_THAT(refusal({"a.pdb", "--surface"}), HasSubstr("expected --cutoff LENGTH as well"));
-  EXPECT_THAT(refusal({"a.pdb", "--motion", "lifted"}),
-              HasSubstr("--motion: 'lifted' is not one of linear, hermite"));
 }
 
 // A bead moves past a bead at rest from x = -9 to 9, comes back for frames 2 and 3, and leaves.
@@ -156,21 +130,6 @@ TEST(Missed, SharesOfManyStepsHaveIntervals) {
   EXPECT_LT(rows[1]["missed_fraction_upper"], 2 * share);
 }
 
-TEST(Missed, RefusesInputsWithoutStepsOrBalls) {
-  const Passing passing;
-  ProgramRun run = passing.run({"--strides", "1,5"});
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("--strides: 5 looks at one of the 5 frames of"));
-  run = run_program({"missed", passing.rests, "--radius", "1"});
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("a run needs at least two frames, this input has 1"));
-  run = run_program({"missed", data_file("kinetic/d3_n20_linear.txt")});
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("expected a trajectory"));
-  run = passing.run({"--factors", "1e6", "--radius", "1e305"});
-  EXPECT_EQ(run.code, 2);
-}
-
 TEST(Missed, WritesFilesAndAPage) {
   const Passing passing;
   const std::string out = (passing.directory / "report").string();
@@ -185,10 +144,6 @@ TEST(Missed, WritesFilesAndAPage) {
   const std::string page = content_of(passing.directory / "report/report.html");
   expect_sound(page);
   EXPECT_THAT(page, HasSubstr("<svg"));
-  // Another command must not overwrite the page unasked.
-  run = run_program({"collide", passing.rests, "--radius", "1", "--out", out});
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("holds files; --replace"));
 }
 
 }  // namespace

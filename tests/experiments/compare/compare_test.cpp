@@ -9,7 +9,6 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -19,7 +18,6 @@
 #include "experiments/compare/compare_report.h"
 #include "experiments/compare/compare_runs.h"
 #include "experiments/output/text.h"
-#include "motions/base/input_error.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
@@ -33,15 +31,6 @@ using Json = nlohmann::ordered_json;
 
 const std::string kDcd = data_file("trajectories/villin_hp36_300K.dcd");
 const std::string kPdb = data_file("trajectories/villin_hp36_300K.pdb");
-
-std::string refusal(const Arguments& arguments) {
-  try {
-    static_cast<void>(parse_compare_options(arguments));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(CompareOptions, DefaultsAndAll) {
   const CompareOptions plain = parse_compare_options({"a.dcd"});
@@ -59,14 +48,6 @@ TEST(CompareOptions, DefaultsAndAll) {
   EXPECT_EQ(all.out, "there");
   EXPECT_EQ(all.json, "-");
   EXPECT_TRUE(all.quiet);
-}
-
-TEST(CompareOptions, RefusesWithTheOptionAndWhatItTakes) {
-  EXPECT_THAT(refusal({}), HasSubstr("kds compare needs at least one INPUT"));
-  EXPECT_THAT(refusal({"a.dcd", "--structures", "tree"}), HasSubstr("--structures: 'tree' is not one of"));
-  EXPECT_THAT(refusal({"a.dcd", "--strides", "0"}), HasSubstr("--strides: '0'"));
-  EXPECT_THAT(refusal({"a.dcd", "--motions", "fast"}), HasSubstr("--motions: 'fast' is not one of"));
-  EXPECT_THAT(refusal({"a.dcd", "--motions", "linear,linear"}), HasSubstr("linear is listed twice"));
 }
 
 CombinatorialElement element(std::initializer_list<BeadId> ids) {
@@ -449,19 +430,6 @@ TEST(Compare, TellsInputsOfOneNameApart) {
   EXPECT_THAT(run_program({"compare", file, spelt}).err, HasSubstr("two.pdb is listed twice"));
 }
 
-TEST(Compare, NamesTheMotionOfAnInstanceItsOwn) {
-  const std::string instance = data_file("kinetic/d2_n20_degree2.txt");
-  const ProgramRun run =
-      run_program({"compare", instance, "--structures", "wrapped", "--rounds", "1", "--json", "-"});
-  ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_EQ(Json::parse(run.out)["rows"][0]["motion"], "own");
-  const ProgramRun table = run_program({"compare", instance, "--structures", "wrapped", "--rounds", "1"});
-  EXPECT_THAT(table.out, HasSubstr("d2_n20_degree2.txt, own motion"));
-  const ProgramRun alone = run_program({"run", instance, "--structures", "wrapped", "--json", "-"});
-  ASSERT_EQ(alone.code, 0) << alone.err;
-  EXPECT_EQ(Json::parse(alone.out)["settings"]["motion"], "own");
-}
-
 // A structure without events has no curve and no number of changes on the page.
 TEST(Compare, ThePageSaysThatLayeredHasNoEvents) {
   const ScratchDirectory scratch;
@@ -478,42 +446,6 @@ TEST(Compare, ThePageSaysThatLayeredHasNoEvents) {
   EXPECT_THAT(both, HasSubstr(" times. <strong>layered</strong> has no events.</p>"));
   EXPECT_THAT(both, testing::Not(HasSubstr("<li><strong>layered")));
   EXPECT_THAT(page_of("layered"), HasSubstr("<p><strong>layered</strong> has no events.</p>"));
-}
-
-TEST(Compare, RefusesBeforeAnythingHasRun) {
-  const auto refused = [](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "compare");
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 2) << run.out;
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    return run.err;
-  };
-  EXPECT_THAT(refused({kDcd, "--frames", ":9", "--strides", "1,9"}),
-              HasSubstr("--strides: 9 leaves one of the 9"));
-  EXPECT_THAT(refused({data_file("kinetic/d3_n20_linear.txt"), "--motions", "hermite"}),
-              HasSubstr("an instance file has its own motion"));
-  EXPECT_THAT(refused({data_file("kinetic/d3_n20_linear.txt"), "--strides", "2"}),
-              HasSubstr("--strides: 2 leaves one of the 2 frames"));
-  EXPECT_THAT(refused({kDcd, "--structures", "boxes", "--directions", "4"}),
-              HasSubstr("boxes: 4 directions (beads in space); expected --directions 3 or 7 or 13"));
-  EXPECT_THAT(refused({kDcd, "--directions", "7"}), HasSubstr("boxes, which is not among the structures"));
-  EXPECT_THAT(refused({kDcd, "--motions", "lifted"}), HasSubstr("lifted"));
-  EXPECT_THAT(refused({kDcd, "--apart", "3"}), HasSubstr("--apart"));
-  EXPECT_THAT(refused({kDcd, "nowhere.dcd"}), HasSubstr("nowhere.dcd: no such file"));
-  // With several inputs the line names the one at fault.
-  const std::string plane = data_file("kinetic/d2_n20_linear.txt"),
-                    space = data_file("kinetic/d3_n20_linear.txt");
-  EXPECT_THAT(refused({plane, space, "--structures", "hull"}),
-              HasSubstr("d3_n20_linear.txt: --structures hull"));
-  EXPECT_THAT(refused({plane, space, "--structures", "boxes", "--directions", "7"}),
-              HasSubstr("d2_n20_linear.txt: --structures boxes: 7 directions"));
-}
-
-TEST(Compare, HelpNamesAllStructuresAndInputs) {
-  const std::string help = std::regex_replace(run_program({"compare", "--help"}).out, std::regex("\\s+"),
-                                              " ");  // without line breaks
-  EXPECT_THAT(help, HasSubstr("wrapped, boxes, layered, power"));
-  EXPECT_THAT(help, HasSubstr("or an instance file"));
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -17,7 +16,6 @@
 #include "experiments/contacts/contacts_command.h"
 #include "experiments/contacts/follow_contacts.h"
 #include "experiments/run/load_scene.h"
-#include "motions/base/input_error.h"
 #include "motions/readers/read_trajectory.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
@@ -30,15 +28,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-std::string refusal(const Arguments& arguments) {
-  try {
-    static_cast<void>(parse_contacts_options(arguments));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(ContactsOptions, DefaultsAndAll) {
   const ContactsTask plain = parse_contacts_options({"a.pdb", "--cutoff", "8"}).task;
@@ -59,19 +48,6 @@ TEST(ContactsOptions, DefaultsAndAll) {
   EXPECT_THAT(all.strides, ElementsAre(1, 8));
   EXPECT_EQ(all.intermittency, 0U);
   EXPECT_EQ(all.motion, FrameMotion::hermite);
-}
-
-TEST(ContactsOptions, RefusesWithTheOptionAndWhatItTakes) {
-  EXPECT_THAT(refusal({"a.pdb"}), HasSubstr("kds contacts needs --cutoff LENGTH"));
-  EXPECT_THAT(refusal({"--cutoff", "8"}), HasSubstr("kds contacts needs at least one INPUT"));
-  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "6:4.5"}), HasSubstr("expected the smaller length first, 4.5:6"));
-  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "1:2:3"}), HasSubstr("--cutoff: '1:2:3' has 3 lengths"));
-  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "-1"}), HasSubstr("--cutoff: '-1' is not a number"));
-  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "0"}), HasSubstr("expected a length above 0, or --surface"));
-  EXPECT_EQ(refusal({"a.pdb", "--cutoff", "0", "--surface"}), "accepted");
-  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "8", "--gap", "-1"}), HasSubstr("--gap: '-1' is not a number"));
-  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "8", "--by", "atom"}),
-              HasSubstr("--by: 'atom' is not one of bead"));
 }
 
 // A bead rests. The other is in contact within 2 from 0.25 to 0.75, and from 1.5 on: its places are the
@@ -253,54 +229,6 @@ TEST(ContactsCommand, EqualLengthsAreOneStepOfSurvival) {
   ASSERT_EQ(survivals[0].size(), survivals[1].size());
   for (std::size_t k = 0; k < survivals[0].size(); ++k)
     EXPECT_EQ(survivals[0][k]["survival"], survivals[1][k]["survival"]);
-}
-
-TEST(ContactsCommand, WithoutContactsSaysWhatToTry) {
-  const ProgramRun run = Passing().run({"1e-3", "--groups", "all", "all"});
-  EXPECT_EQ(run.code, 0) << run.err;
-  const ScratchDirectory directory;
-  const std::string path = directory.file("two.xyz", "2\n\nC 0 0 0\nC 5 0 0\n2\n\nC 0 0 0\nC 5 0 1\n");
-  const ProgramRun none = run_program({"contacts", path, "--cutoff", "1", "--apart", "1"});
-  EXPECT_EQ(none.code, 0);
-  EXPECT_THAT(none.err, HasSubstr("there are no contacts within --cutoff 1"));
-  const ProgramRun no_pairs = run_program({"contacts", path, "--cutoff", "9", "--apart", "2", "--json", "-"});
-  EXPECT_EQ(no_pairs.code, 0);
-  EXPECT_THAT(no_pairs.err, HasSubstr("none of 2 beads are a pair; --apart is 2"));
-  EXPECT_EQ(Json::parse(no_pairs.out)["all"]["occupancy"], nullptr);
-  EXPECT_EQ(Json::parse(no_pairs.out)["all"]["pairs_asked"], 0);
-  const ProgramRun hint = run_program({"contacts", data_file("trajectories/villin_hp36_300K.dcd"),
-                                       "--topology", data_file("trajectories/villin_hp36_300K.pdb"),
-                                       "--select", "ca", "--cutoff", "0.5", "--frames", ":3"});
-  EXPECT_EQ(hint.code, 0);
-  EXPECT_THAT(hint.err, HasSubstr("worth trying is --cutoff 7.74, within which half of the beads"));
-}
-
-TEST(ContactsCommand, RefusesInputsThatItCannotUse) {
-  const ScratchDirectory directory;
-  const std::string one = directory.file("one.xyz", "2\n\nC 0 0 0\nC 1 0 0\n");
-  const std::string two = directory.file("two.xyz", "2\n\nC 0 0 0\nC 1 0 0\n2\n\nC 0 0 0\nC 1 0 1\n");
-  const auto error = [](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"contacts", "--cutoff", "2"});
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 2) << run.err;
-    return run.err;
-  };
-  EXPECT_THAT(error({two, "--by", "residue"}),
-              HasSubstr("--by residue: two.xyz names no residue of bead 0; expected --by bead"));
-  EXPECT_THAT(error({two, "--by", "chain"}), HasSubstr("has one chain, expected two or more"));
-  EXPECT_THAT(error({two, two, "--by", "chain", "--apart", "4"}),
-              HasSubstr("--apart: it chooses pairs within a chain"));
-  EXPECT_THAT(error({two, "--strides", "2"}), HasSubstr("--strides: 2 looks at one of the 2 frames"));
-  static_cast<void>(error({one}));
-  // Frames 2 and 3 have one time.
-  const auto frame = [](int time) {
-    return "title t= " + std::to_string(time) +
-           "\n1\n    1ALA     CA    1   0.000   0.000   0.000\n   9 9 9\n";
-  };
-  const std::string still = directory.file("still.gro", frame(0) + frame(1) + frame(1));
-  EXPECT_THAT(
-      error({still, still, "--by", "bead"}),
-      HasSubstr("still.gro, still.gro: the time does not advance from frame 1, 1 ps, to frame 2, 1 ps"));
 }
 
 TEST(ContactsCommand, FilesAndPage) {
@@ -582,11 +510,6 @@ TEST(ContactsCommand, AContactBetweenFramesMayNotExist) {
       run_program({"contacts", rests, moves, "--cutoff", "5", "--frames", "::2", "--certify", "--json", "-"});
   EXPECT_EQ(Json::parse(near.out)["stride"]["contacts"]["sure"], 1);
   EXPECT_EQ(Json::parse(near.out)["stride"]["time"]["least"], 0.0);
-}
-
-TEST(ContactsCommand, CertifyNeedsAStride) {
-  EXPECT_THAT(refusal({"a.pdb", "--cutoff", "8", "--certify"}),
-              HasSubstr("--certify: the command leaves out no frame; expected --frames FIRST:LAST:STRIDE"));
 }
 
 }  // namespace

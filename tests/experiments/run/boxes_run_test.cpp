@@ -1,9 +1,8 @@
-// Tests `kds run --structures boxes` as a process: events, dumps, logs, replays and refusals.
+// Tests `kds run --structures boxes` as a process: events, dumps, logs and replays.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -70,31 +69,6 @@ TEST(BoxesRun, KernelsAndReplaysGoTheSameWay) {
     ASSERT_EQ(exact.code, 0) << exact.err;
     EXPECT_EQ(Json::parse(exact.out)["fingerprint"], Json::parse(filtered.out)["fingerprint"]);
   }
-}
-
-TEST(BoxesRun, RefusesInOneLine) {
-  const auto refused = [](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "run");
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 2) << run.out;
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    return run.err;
-  };
-  const std::string plane = data_file("kinetic/d2_n20_linear.txt"),
-                    space = data_file("kinetic/d3_n20_linear.txt");
-  EXPECT_THAT(refused({space, "--structures", "boxes", "--directions", "4"}),
-              HasSubstr("boxes: 4 directions (beads in space); expected --directions 3 or 7 or 13"));
-  EXPECT_THAT(refused({plane, "--structures", "boxes", "--directions", "13"}),
-              HasSubstr("boxes: 13 directions (beads in the plane); expected --directions 2 or 4"));
-  EXPECT_THAT(refused({space, "--structures", "boxes", "--directions", "14"}), HasSubstr("--directions"));
-  EXPECT_THAT(refused({space, "--directions", "7"}), HasSubstr("boxes, which is not among the structures"));
-  EXPECT_THAT(refused({data_file("kinetic/d1_n20_linear.txt"), "--structures", "boxes"}),
-              HasSubstr("boxes: needs points in the plane or in space"));
-  EXPECT_THAT(refused({data_file("kinetic/w3_n20_linear.txt"), "--structures", "boxes"}),
-              HasSubstr("weights that differ"));
-  EXPECT_THAT(refused({data_file("trajectories/villin_hp36_300K.dcd"), "--structures", "boxes", "--motion",
-                       "lifted"}),
-              HasSubstr("radii between frames are fictitious"));
 }
 
 }  // namespace

@@ -154,22 +154,6 @@ TEST(MotionTolerance, MakesEventsFewer) {
   EXPECT_LT(fewer_power * 3, power * 2);
 }
 
-TEST(MotionTolerance, Refusals) {
-  for (const auto& [more, reason] :
-       {std::pair(std::vector<std::string>{"--tolerance", "0.1", "--motion", "hermite"},
-                  "expected --motion linear"),
-        std::pair(std::vector<std::string>{"--tolerance", "0"}, "--tolerance: '0'"),
-        std::pair(std::vector<std::string>{"--tolerance", "r"}, "--tolerance: 'r' is neither a length"),
-        std::pair(std::vector<std::string>{"--tolerance", "0.2rr"}, "--tolerance: '0.2rr' is neither"),
-        std::pair(std::vector<std::string>{"--tolerance", "-1r"}, "as in 0.2r; expected a number above 0")}) {
-    Arguments arguments = arguments_with("0:41", more);
-    arguments.insert(arguments.begin(), "run");
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 2);
-    EXPECT_THAT(run.err, HasSubstr(reason));
-  }
-}
-
 TEST(CertifyStride, IsReported) {
   Arguments arguments = arguments_with("0:41:4", {"--certify", "--json", "-"});
   arguments.insert(arguments.begin(), "run");
@@ -291,14 +275,6 @@ TEST(CertifyStride, ALoggedRunIsCertifiedWhenItIsReplayed) {
   EXPECT_EQ(again["settings"], first["settings"]);
   EXPECT_EQ(again["stride"], first["stride"]);
   EXPECT_TRUE(first["stride"].is_object());
-}
-
-TEST(CertifyStride, NeedsAStride) {
-  Arguments arguments = arguments_with("0:41", {"--certify"});
-  arguments.insert(arguments.begin(), "run");
-  const ProgramRun run = run_program(arguments);
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("--certify: the run leaves out no frame"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Tests `kds run` with chord cages as a process: its files, its options and its refusals.
+// Tests `kds run` with chord cages as a process: its files and its options.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -8,7 +8,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -20,7 +19,6 @@
 namespace kds::test::chord_run_test {
 namespace {
 
-using testing::HasSubstr;
 using testing::StartsWith;
 using Json = nlohmann::ordered_json;
 
@@ -134,25 +132,6 @@ TEST(ChordRun, WritesLayeredSpheres) {
   const std::string text = content_of(scratch / "dump/frame-5.layered.csv");
   EXPECT_THAT(text, StartsWith("first,last,x,y,z,radius\n0,107,"));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);  // a header and three nodes
-}
-
-TEST(ChordRun, RefusesWhatHasNoEventsAndWhatDoesNotGoTogether) {
-  const ScratchDirectory scratch;
-  const auto refusal = [&](std::vector<std::string> more) {
-    const ProgramRun run = run_program(villin(std::move(more)));
-    EXPECT_EQ(run.code, 2);
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    return run.err;
-  };
-  const std::string log = scratch / "log";
-  EXPECT_THAT(refusal({"--between", "chord", "--log", log}), HasSubstr("--log: wrapped has chord cages"));
-  EXPECT_THAT(refusal({"--structures", "layered,power", "--log", log}), HasSubstr("--log: layered"));
-  EXPECT_THAT(refusal({"--between", "chord", "--audit", "events"}), HasSubstr("--audit events"));
-  EXPECT_THAT(refusal({"--structures", "power", "--between", "chord"}), HasSubstr("--between"));
-  EXPECT_THAT(refusal({"--tightness", "0.1"}), HasSubstr("--between chord"));
-  EXPECT_THAT(refusal({"--between", "chord", "--tightness", "0"}), HasSubstr("--tightness"));
-  EXPECT_THAT(refusal({"--between", "chords"}), HasSubstr("events, chord"));
-  EXPECT_THAT(refusal({"--structures", "layered", "--motion", "lifted"}), HasSubstr("radii"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Tests `kds run --structures contacts` as a process: its files, its options and its refusals.
+// Tests `kds run --structures contacts` as a process: its files and its options.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,14 +40,6 @@ std::string frames_at(const std::vector<std::string>& beads, const std::vector<d
     for (const std::string& bead : beads) frames += "C " + std::to_string(shift) + " " + bead + "\n";
   }
   return frames;
-}
-
-void expect_refused(std::vector<std::string> arguments, const std::string& reason) {
-  arguments.insert(arguments.begin(), "run");
-  const ProgramRun run = run_program(arguments);
-  EXPECT_EQ(run.code, 2) << run.out;
-  EXPECT_THAT(run.err, HasSubstr(reason));
-  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
 // Some balls meet an obstacle at rest and leave; one only touches it, at a frame.
@@ -114,52 +106,6 @@ TEST(ContactsRun, StartAndEndAreCounted) {
   EXPECT_THAT(other.out, testing::Not(HasSubstr("contacts at")));
 }
 
-// With the automatic radius the beads of a chain just touch. The message names a radius to try, and that
-// radius finds contacts.
-TEST(ContactsRun, NamesARadiusWhereThereAreNone) {
-  const std::vector<std::string> input{kDcd, "--topology", kPdb, "--frames", "0:3"};
-  const auto run = [&](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin() + 1, input.begin(), input.end());
-    return run_program(arguments);
-  };
-  const ProgramRun none = run({"run", "--structures", "contacts"});
-  EXPECT_EQ(none.code, 0);
-  const std::string before = "try --radius ", after = " --apart 5, at which";
-  const std::size_t from = none.err.find(before), to = none.err.find(after);
-  ASSERT_NE(from, std::string::npos) << none.err;
-  ASSERT_NE(to, std::string::npos) << none.err;
-  const std::string radius = none.err.substr(from + before.size(), to - from - before.size());
-  EXPECT_THAT(run({"trade", "--want", "contacts", "--rounds", "1", "--times", "2", "--without-exact"}).err,
-              HasSubstr(before + radius + after));
-  const ProgramRun some =
-      run({"run", "--structures", "contacts", "--radius", radius, "--apart", "5", "--json", "-"});
-  EXPECT_EQ(some.err, "");
-  EXPECT_GE(Json::parse(some.out)["structures"]["contacts"]["contacts"]["at_start"], 108 / 4);
-}
-
-// The share of missed contacts is requested by factors of a radius, so the advice names a factor.
-TEST(ContactsRun, WithoutContactsMissedNamesAFactor) {
-  const auto run = [](std::vector<std::string> more) {
-    std::vector<std::string> arguments{"missed", kDcd, "--topology", kPdb, "--frames", "0:4", "--quiet"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_program(arguments);
-  };
-  const std::string before = "try --factors ", after = " --apart 5, at which";
-  const auto advised = [&](const std::string& err) {
-    const std::size_t from = err.find(before), to = err.find(after);
-    EXPECT_TRUE(from < to && to != std::string::npos) << err;
-    return from < to ? err.substr(from + before.size(), to - from - before.size()) : "";
-  };
-  const std::string message = run({}).err, factor = advised(message);
-  EXPECT_THAT(message, HasSubstr("there are none with radii of 1 times --radius auto, 0.8"));
-  EXPECT_THAT(message, testing::Not(HasSubstr("--radius 2")));
-  // The advised factor refers to the automatic radius, whichever factors found no contacts.
-  EXPECT_EQ(advised(run({"--factors", "0.25,0.5"}).err), factor);
-  const ProgramRun some = run({"--factors", factor, "--apart", "5", "--json", "-"});
-  EXPECT_EQ(some.err, "");
-  EXPECT_GE(Json::parse(some.out)["rows"][0]["contacts"], 108 / 4);
-}
-
 /// Returns step, beads and kind of each event of a dump. Brackets of times may be narrowed by other events.
 std::vector<std::string> events_of_dump(const std::filesystem::path& csv) {
   std::vector<std::string> events;
@@ -218,17 +164,6 @@ TEST(ContactsRun, GroupsLeaveTheContactsOfTheirPairs) {
   }
 }
 
-TEST(ContactsRun, GroupsOfInputsWithoutNames) {
-  const std::vector<std::string> arguments{"run",    kDcd, "--frames",     "0:3",      "--radius", "1.9",
-                                           "--json", "-",  "--structures", "contacts", "--groups", "all"};
-  std::vector<std::string> all = arguments, some = arguments;
-  all.emplace_back("all");
-  some.emplace_back("ca");
-  EXPECT_EQ(run_program(all).code, 0);
-  some.erase(some.begin());
-  expect_refused(some, "does not name its atoms; give a file that does with --topology");
-}
-
 // Each pair of beads is within one of two groups or between them.
 TEST(ContactsRun, ContactsMissedOfGroups) {
   const auto contacts = [](std::vector<std::string> more) {
@@ -271,35 +206,6 @@ TEST(ContactsRun, PairsNearAlongTheChain) {
   EXPECT_EQ(total({}), total({"--apart", "2"}));
   EXPECT_GT(total({}), total({"--apart", "5"}));
   EXPECT_GT(total({"--apart", "5"}), total({"--apart", "30"}));
-}
-
-TEST(ContactsRun, Refusals) {
-  expect_refused({kDcd, "--apart", "5"}, "--apart: applies only to contacts");
-  expect_refused({kDcd, "--structures", "contacts", "--apart", "0"}, "--apart");
-  expect_refused({kDcd, "--structures", "closest,contacts", "--apart", "5"},
-                 "--apart: closest looks at all pairs of beads");
-  expect_refused({kDcd, "--structures", "contacts", "--apart", "two"}, "--apart");
-  const auto with_groups = [](const std::string& structures, const char* first, const char* second) {
-    return std::vector<std::string>{kDcd,           "--topology", kPdb,       "--frames", "0:3",
-                                    "--structures", structures,   "--groups", first,      second};
-  };
-  expect_refused(with_groups("power", "ca", "all"), "--groups: applies only to contacts");
-  expect_refused(with_groups("closest,contacts", "ca", "all"), "--groups: closest looks at all pairs");
-  expect_refused(with_groups("contacts", "ca", "//B"),
-                 "--groups: '//B' chooses none of the beads that are read: 108 beads (N, CA, C), from N of ");
-  expect_refused(with_groups("contacts", "cb", "ca"), "--groups: 'cb' is not one of backbone, ca");
-  expect_refused({data_file("kinetic/d3_n20_linear.txt"), "--groups", "ca", "ca"},
-                 "--groups: has no meaning for an instance file");
-  expect_refused({kDcd, "--structures", "contacts", "--motion", "lifted"}, "fictitious");
-  expect_refused({data_file("kinetic/d3_n20_linear.txt"), "--structures", "contacts"}, "no radii");
-  expect_refused({data_file("kinetic/d1_n20_linear.txt"), "--structures", "contacts"}, "1 coordinate");
-  const ScratchDirectory directory;
-  std::vector<std::string> beads;
-  for (int b = 0; b < 15000; ++b) beads.push_back(std::to_string(b) + " 0");
-  const std::string many = directory.file("many.xyz", frames_at(beads, {0, 1}));
-  expect_refused(
-      {many, "--structures", "contacts", "--radius", "1", "--kernel", "exact"},
-      "--structures contacts: kernel exact looks at all 112477501 pairs of beads, more than 100000000");
 }
 
 // The maps of the page are compared with sums over contacts.csv and events.csv.
@@ -392,16 +298,6 @@ TEST(ContactsRun, CertifiesACutoff) {
   EXPECT_EQ(counts({"--radius", "1", "--cutoff", "8"}), balls);
   EXPECT_GT(balls["sure"], 0);
   EXPECT_LT(balls["sure"], balls["possible"]);
-}
-
-TEST(ContactsRun, RefusesACutoffWithoutUse) {
-  expect_refused({kDcd, "--topology", kPdb, "--cutoff", "8", "--structures", "sorted"},
-                 "--cutoff: applies only to contacts, which is not among the structures");
-  expect_refused({kDcd, "--cutoff", "0", "--structures", "contacts"},
-                 "expected a length above 0, or --surface");
-  expect_refused({kDcd, "--surface", "--structures", "contacts"},
-                 "--surface: measures --cutoff between surfaces; expected --cutoff LENGTH as well");
-  expect_refused({kDcd, "--cutoff", "-1"}, "--cutoff: '-1' is not a number");
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "tests/experiments/expect_refused.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
@@ -85,34 +84,6 @@ TEST(DamagedInputs, AllInputsEndWithTheDamagedOne) {
     ASSERT_EQ(beside.code, 0) << beside.err;
     EXPECT_EQ(Json::parse(beside.out)["input"]["frames"], 3);
   }
-  expect_refused({"run", whole, damaged}, {"damaged.xyz:24: expected a coordinate"});
-  expect_refused({"run", whole, three}, {"3 frames, but", "6"});
-  expect_refused({"run", scratch.file("two.xyz", frames_at(4, 2)), whole, truncated}, {"2 frames, but", "3"});
-}
-
-// A file that has lost all frames but one is no necklace at rest.
-TEST(DamagedInputs, DamageBehindTheFirstFrame) {
-  const ScratchDirectory scratch;
-  const std::string whole = scratch.file("whole.xyz", frames_at(0, 6));
-  const std::string damaged = scratch.file("damaged.xyz", damaged_behind(2, 1)),
-                    truncated = scratch.file("truncated.xyz", truncated_behind(2, 1)),
-                    worse = scratch.file("worse.xyz", damaged_behind(2, 0));
-  for (const Strings& inputs :
-       {Strings{whole, damaged, "--until-damage"}, {damaged, whole, "--until-damage"}, {whole, truncated}}) {
-    SCOPED_TRACE(inputs[1]);
-    const ProgramRun run = run_with(kCollide, inputs);
-    ASSERT_EQ(run.code, 0) << run.err;
-    EXPECT_THAT(run.err, Not(HasSubstr("rests")));
-    EXPECT_EQ(Json::parse(run.out)["input"]["frames"], 1);
-    const ProgramRun steps = run_with(kRun, inputs);
-    EXPECT_EQ(steps.code, 2) << steps.err;
-    EXPECT_THAT(steps.err, HasSubstr("frames are missing after frame 0, so later frames of"));
-  }
-  for (const Strings& inputs : {Strings{whole, worse}, {worse, whole}})
-    expect_refused({"run", inputs[0], inputs[1], "--until-damage"}, {"worse.xyz:6: expected a coordinate"});
-  for (const std::string& obstacle : {damaged, truncated})
-    expect_refused({"run", whole, "--obstacle", obstacle, "--until-damage", "--quiet"},
-                   {"--obstacle", "several frames, expected one"});
 }
 
 std::string dump_at(double y, double scale, int frames) {

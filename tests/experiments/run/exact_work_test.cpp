@@ -12,7 +12,6 @@
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_scene.h"
 #include "tests/experiments/run_program.h"
-#include "tests/experiments/scratch_directory.h"
 
 namespace kds::test::exact_work_test {
 namespace {
@@ -47,37 +46,6 @@ TEST(ExactWorkOfRuns, IsTheSameEachTimeAndLimitsTheRun) {
     EXPECT_THAT(ended.err, HasSubstr("--work " + std::to_string(limit)));
     EXPECT_THAT(ended.err, HasSubstr("step 0 leads from frame 0 to frame 1"));
     EXPECT_THAT(ended.err, HasSubstr("of beads "));
-  }
-}
-
-// The limit is reached before the first step begins.
-TEST(ExactWorkOfRuns, IsLimitedWhereTheFirstFrameIsBuilt) {
-  const ProgramRun run = run_program({"run", data_file("trajectories/villin_hp36_300K.dcd"), "--frames",
-                                      "0:2", "--structures", "wrapped", "--kernel", "exact", "--work", "10"});
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("--work 10: exact arithmetic takes more"));
-  EXPECT_THAT(run.err, HasSubstr("of beads "));
-}
-
-TEST(ExactWorkOfRuns, ThatEndAtTheirLimitLeaveEarlierResults) {
-  const ScratchDirectory scratch;
-  const std::string log = (scratch / "run.kdslog").string(), out = (scratch / "out").string();
-  const std::vector<std::string> arguments{"run",   kWild, "--structures", "power", "--quiet",
-                                           "--log", log,   "--out",        out};
-  ASSERT_EQ(run_program(arguments).code, 0);
-  const std::string events = content_of(log), summary = content_of(out + "/summary.json");
-  auto with_limit = arguments;
-  with_limit.insert(with_limit.end(), {"--work", "1000", "--replace"});
-  EXPECT_EQ(run_program(with_limit).code, 2);
-  EXPECT_EQ(content_of(log), events);
-  EXPECT_EQ(content_of(out + "/summary.json"), summary);
-}
-
-TEST(ExactWorkOfRuns, RefusesLimitsThatAreNoNumbers) {
-  for (const std::string limit : {"", "-1", "many", "1e9"}) {
-    const ProgramRun run = run_program({"run", kWild, "--work", limit});
-    EXPECT_EQ(run.code, 2);
-    EXPECT_THAT(run.err, HasSubstr("--work"));
   }
 }
 

@@ -1,6 +1,6 @@
 // Runs with levers on difficult inputs, which were found by attacking the levers.
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -12,7 +12,6 @@ namespace kds::levers_run_test {
 namespace {
 
 using namespace test;
-using testing::HasSubstr;
 
 using Beads = std::vector<std::array<double, 3>>;
 
@@ -89,31 +88,6 @@ TEST(LeversRun, ATolerancePutsNobodyOutOfAPlane) {
       EXPECT_LE(row["error"]["displacement"].get<double>(), 0.5 * 0.3 * (1 + 1e-9)) << row["setting"];
     }
   }
-}
-
-TEST(LeversRun, NoResultReplacesWhatARunIsReadFrom) {
-  const ScratchDirectory directory;
-  const std::string content = xyz({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}},
-                                   {{0, 0, 0.5}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 2}}});
-  const std::string file = directory.file("a.xyz", content), log = (directory / "log").string();
-  expect_runs(file, {"--log", log});
-  for (const char* option : {"--events", "--json"}) {
-    const ProgramRun replay = run_program({"replay", log, option, file});
-    EXPECT_EQ(replay.code, 2);
-    EXPECT_THAT(replay.err, HasSubstr("is the file of an input"));
-  }
-  // Two names of one file that does not exist yet.
-  const ProgramRun twice =
-      run_shell("cd \"$1\" && \"$0\" run a.xyz --events ./b.csv --log b.csv", {directory.path().string()});
-  EXPECT_EQ(twice.code, 2);
-  EXPECT_THAT(twice.err, HasSubstr("is the file of"));
-  const std::string dump = (directory / "dump").string();
-  const ProgramRun inside =
-      run_program({"run", file, "--dump", dump, "--events", dump + "/frame-0.power.csv"});
-  EXPECT_EQ(inside.code, 2);
-  EXPECT_THAT(inside.err, HasSubstr("lies in the directory of --dump"));
-  std::ifstream stream(file);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), content);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Inputs with one frame: topologies that are given as inputs, and obstacles.
+// Inputs with one frame are obstacles.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/experiments/expect_refused.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
@@ -18,66 +17,6 @@ using Json = nlohmann::ordered_json;
 
 const std::string kVillin = data_file("trajectories/villin_hp36_300K.dcd");
 const std::string kVillinPdb = data_file("trajectories/villin_hp36_300K.pdb");
-const std::string kModels = data_file("trajectories/1l2y.dcd");
-
-TEST(Obstacle, TopologiesGivenAsInputsAreRefused) {
-  for (const char* command : {"run", "collide", "missed", "info", "update"}) {
-    expect_refused({command, kVillinPdb, kVillin, "--frames", ":3"},
-                   {"villin_hp36_300K.pdb", "one frame", "--topology", "--obstacle"});
-    expect_refused({command, kVillin, kVillinPdb, "--frames", ":3"}, {"villin_hp36_300K.pdb", "--topology"});
-    expect_refused({command, kVillin, kVillinPdb, "--topology", kVillinPdb, "--frames", ":3"},
-                   {"villin_hp36_300K.pdb", "expected one of the two", "--obstacle"});
-  }
-}
-
-// A file with several models that names the atoms of a DCD is not a second necklace.
-TEST(Obstacle, ModelsGivenAsInputsAreRefused) {
-  for (const char* command : {"run", "collide", "info", "update"})
-    expect_refused({command, data_file("proteins/1l2y.pdb"), kModels}, {"1l2y.pdb", "--topology"});
-}
-
-TEST(Obstacle, HasAChainOfItsOwn) {
-  expect_refused({"run", kVillin, "--topology", kVillinPdb, "--obstacle", kVillinPdb, "--chain", "/B"},
-                 {"villin_hp36_300K.pdb", "no chain", "B"});
-  expect_refused({"run", kVillin, "--obstacle", kVillinPdb, "--chain", "A/B/C"}, {"--chain", "A/B/C"});
-}
-
-// A DCD with all atoms, beside a structure from which fewer beads are selected.
-TEST(Obstacle, AtomsAreCountedToo) {
-  const ScratchDirectory directory;
-  const std::string models = content_of(data_file("proteins/1l2y.pdb"));
-  const std::size_t end = models.find("ENDMDL");
-  const std::string first = directory.file("first.pdb", models.substr(0, end) + "ENDMDL\nEND\n");
-  expect_refused({"run", first, kModels, "--frames", ":3"},
-                 {"first.pdb", "one frame and the atoms of", "--topology"});
-  // A structure that names the atoms of a trajectory of models.
-  expect_refused({"run", data_file("proteins/1l2y.pdb"), first, "--frames", ":3"},
-                 {"first.pdb", "--obstacle"});
-}
-
-// Frames that the only input does not hold are not replaced by its one frame.
-TEST(Obstacle, LoneInputsOfOneFrameRefuseOtherFrames) {
-  const ScratchDirectory directory;
-  const std::string wall = directory.file("wall.xyz", "2\n\nC 0 0 0\nC 2 0 0\n");
-  for (const char* command : {"collide", "info"}) {
-    expect_refused({command, wall, "--frames", "5:9"}, {"--frames", "frame 5", "wall.xyz holds 1 frame"});
-    expect_refused({command, wall, "--frames", ":200"}, {"--frames", "frame 199", "wall.xyz holds 1 frame"});
-    for (const char* range : {":1", "::3", "0:1:2"})
-      EXPECT_EQ(run_program({command, wall, "--frames", range, "--quiet"}).code, 0) << range;
-  }
-}
-
-// --frames selects one frame of a file that moves.
-TEST(Obstacle, IsNoLongerFileOfWhichOneFrameIsRead) {
-  const ScratchDirectory directory;
-  const std::string frame = "2\n\nC 0 0 0\nC 2 0 0\n";
-  const std::string three = directory.file("three.xyz", frame + frame + frame);
-  const std::string six = directory.file("six.xyz", frame + frame + frame + frame + frame + frame);
-  for (const char* command : {"run", "collide", "missed", "trade"})
-    for (const char* range : {"2:", "::4"})
-      expect_refused({command, three, six, "--radius", "1", "--frames", range},
-                     {"three.xyz: 1 frame", "six.xyz has", "equal frame counts"});
-}
 
 TEST(Obstacle, IsANecklaceAtRest) {
   const ScratchDirectory directory;
@@ -113,14 +52,6 @@ TEST(Obstacle, IsReplayed) {
   ASSERT_EQ(run.code, 0) << run.err;
   const ProgramRun replay = run_program({"replay", log, "--quiet"});
   EXPECT_EQ(replay.code, 0) << replay.err;
-}
-
-TEST(Obstacle, Refuses) {
-  expect_refused({"run", kVillin, "--obstacle", kVillin, "--frames", ":3"},
-                 {"--obstacle", "several frames, expected one"});
-  expect_refused({"run", kVillin, "--obstacle", "no-such-file.pdb"}, {"no-such-file.pdb"});
-  expect_refused({"run", data_file("kinetic/d1_n20_linear.txt"), "--obstacle", kVillinPdb},
-                 {"--obstacle", "instance"});
 }
 
 }  // namespace

@@ -1,10 +1,8 @@
-// Tests `kds run --structures box,hull,closest` as a process: events, dumps, logs, replays and refusals.
+// Tests `kds run --structures box,hull,closest` as a process: events, dumps, logs and replays.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -52,37 +50,6 @@ TEST(PointSetsRun, ABeadThatComesOutOfASquareAndGoesBack) {
   EXPECT_THAT(content_of(scratch / "log"), HasSubstr("0 hull enter 0.5 0.5 4 1 2\n"));
   EXPECT_THAT(content_of(scratch / "events.csv"), HasSubstr(",hull,enter,1,"));
   EXPECT_EQ(run_program({"replay", scratch / "log", "--quiet"}).code, 0);
-}
-
-TEST(PointSetsRun, KernelsAndReplaysGoTheSameWay) {
-  const ScratchDirectory scratch;
-  std::vector<std::string> names{"degenerate_d2_n64_swap", "d2_n50_degree3", "degenerate_d2_n64_gridrand"};
-  names.resize(rounds(3U));
-  for (const std::string& name : names) {
-    SCOPED_TRACE(name);
-    std::vector<std::string> arguments{"run",          data_file("kinetic/" + name + ".txt"),
-                                       "--structures", "box,hull,closest,power",
-                                       "--json",       "-",
-                                       "--log",        scratch / "log"};
-    const ProgramRun filtered = run_program(arguments);
-    ASSERT_EQ(filtered.code, 0) << filtered.err;
-    EXPECT_EQ(run_program({"replay", scratch / "log", "--quiet"}).code, 0);
-    arguments.insert(arguments.end(), {"--kernel", "exact"});
-    const ProgramRun exact = run_program(arguments);
-    ASSERT_EQ(exact.code, 0) << exact.err;
-    EXPECT_EQ(Json::parse(exact.out)["fingerprint"], Json::parse(filtered.out)["fingerprint"]);
-  }
-}
-
-TEST(PointSetsRun, HullsAreInThePlane) {
-  const ProgramRun run = run_program({"run", data_file("kinetic/d3_n20_linear.txt"), "--structures", "hull"});
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("hull: needs points in the plane, this input has 3 coordinates"));
-  const ProgramRun line =
-      run_program({"run", data_file("kinetic/d1_n20_linear.txt"), "--structures", "closest"});
-  EXPECT_EQ(line.code, 2);
-  EXPECT_THAT(line.err, HasSubstr("closest: needs points in the plane or in space"));
-  EXPECT_EQ(std::count(line.err.begin(), line.err.end(), '\n'), 1);
 }
 
 TEST(PointSetsRun, AreComparedFromFrameToFrame) {

@@ -1,4 +1,4 @@
-// Tests the program as a process: full disks, signals, closed streams, memory.
+// Tests the program as a process: memory, and runs that are stopped.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "tests/experiments/expect_refused.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 
@@ -18,62 +17,6 @@ namespace kds::test::program_process_test {
 namespace {
 
 using testing::HasSubstr;
-
-const std::string kSmall = data_file("kinetic/d1_n20_linear.txt");
-
-TEST(Program, StandardOutputThatIsAFileIsNoOtherOutput) {
-  const ScratchDirectory directory;
-  const std::string file = (directory / "both").string();
-  const ProgramRun run =
-      run_shell("\"$0\" run \"$1\" --quiet --json - --log \"$2\" > \"$2\"", {kSmall, file});
-  EXPECT_EQ(run.code, 2);
-  EXPECT_THAT(run.err, HasSubstr("/both: is the file of --json -"));
-  EXPECT_EQ(run_shell("\"$0\" run \"$1\" --quiet --json - --log \"$2\" | cat > \"$3\"",
-                      {kSmall, file, (directory / "other").string()})
-                .code,
-            0);
-}
-
-TEST(Program, AFullOutputIsAFailureWithTheSystemsReason) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  const ScratchDirectory directory;
-  const std::string log = (directory / "events.log").string(), model = (directory / "model.xyz").string();
-  ASSERT_EQ(run_program({"run", kSmall, "--log", log, "--quiet"}).code, 0);
-  std::filesystem::create_symlink("/dev/full", model);
-  const auto expect_full = [](const ProgramRun& run) {
-    EXPECT_EQ(run.code, 1);
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("No space left on device"));
-  };
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"run", kSmall, "--quiet", "--json", "/dev/full"},
-        {"run", kSmall, "--quiet", "--log", "/dev/full"},
-        {"run", data_file("kinetic/d1_n200_linear.txt"), "--quiet", "--log", "/dev/full"},
-        {"replay", log, "--quiet", "--json", "/dev/full"},
-        {"info", kSmall, "--quiet", "--json", "/dev/full"},
-        {"generate", "helix", "--beads", "10", "--quiet", "-o", model}})
-    expect_full(run_program(arguments));
-  for (const char* line :
-       {"\"$0\" --help", "\"$0\" help run", "\"$0\" run \"$1\"", "\"$0\" run \"$1\" --json -",
-        "\"$0\" info \"$1\"", "\"$0\" replay \"$2\"", "\"$0\" replay \"$2\" --json -"})
-    expect_full(run_shell(std::string(line) + " > /dev/full", {kSmall, log}));
-}
-
-// A file size limit of 4 KB acts like a full disk, with another error.
-TEST(Program, ADiskThatFillsUpLeavesNoHalfResults) {
-  const ScratchDirectory directory;
-  const std::string out = (directory / "out/below").string();
-  const auto expect_full = [&](const std::string& arguments) {
-    const ProgramRun run =
-        run_shell("ulimit -f 8; \"$0\" " + arguments, {data_file("kinetic/d3_n100_linear.txt"), out});
-    EXPECT_EQ(run.code, 1) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("cannot write: File too large"));
-    EXPECT_EQ(directory.entries(), 0U) << arguments;
-  };
-  expect_full("run \"$1\" --quiet --dump \"$2\"");
-  expect_full("generate helix --beads 1000 --quiet -o \"${2%/out/below}/m.xyz\"");
-  expect_full("stability --quiet --subjects orientation,power_test --cases 1 --out \"$2\"");
-}
 
 // Many frames need no more memory than a third of them. Both runs are cut into parts.
 TEST(Program, MemoryDoesNotGrowWithTheFrames) {
@@ -133,26 +76,6 @@ TEST(Program, MemoryDoesNotGrowInOtherCommands) {
   const std::vector<long> few = peaks(500), many = peaks(3000);
   for (std::size_t c = 0; c < commands.size(); ++c)
     EXPECT_LT(many[c], few[c] + few[c] / 8) << testing::PrintToString(commands[c]) << few[c];
-}
-
-TEST(Program, StandardStreamsMayBeClosed) {
-  const ScratchDirectory directory;
-  const std::string log = (directory / "events.log").string();
-  EXPECT_EQ(run_shell("\"$0\" run nowhere.pdb 2>&-").code, 2);
-  EXPECT_EQ(run_shell("\"$0\" run \"$1\" >&-", {kSmall}).code, 1);
-  EXPECT_EQ(run_shell("\"$0\" run \"$1\" >&- 2>&-", {kSmall}).code, 1);
-  EXPECT_EQ(run_shell("\"$0\" run \"$1\" --quiet --log \"$2\" <&- >&- 2>&-", {kSmall, log}).code, 0);
-  EXPECT_TRUE(content_of(log).starts_with("kds event log"));
-}
-
-TEST(Program, AFileThatMayNotGrowIsAFailureWithoutATrace) {
-  const ScratchDirectory directory;
-  const std::string log = (directory / "events.log").string();
-  const ProgramRun run = run_shell("ulimit -f 8; \"$0\" run \"$1\" --quiet --log \"$2\"",
-                                   {data_file("kinetic/d1_n200_linear.txt"), log});
-  EXPECT_EQ(run.code, 1);
-  EXPECT_THAT(run.err, HasSubstr("events.log: cannot write: File too large"));
-  EXPECT_EQ(directory.entries(), 0U);
 }
 
 // On one thread, the dump of the first frame is written at once.

@@ -12,40 +12,6 @@ namespace {
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
-TEST(Table, ComparesStructuresFigureByFigure) {
-  const std::string table = comparison_table(test::sample_report());
-  EXPECT_THAT(table, HasSubstr("input     chain.pdb\n"));
-  EXPECT_THAT(table, HasSubstr("36 beads, 4 frames, dimension 3, radius 1.5\n"));
-  EXPECT_THAT(table, HasSubstr("motion linear, kernel filtered\n"));
-  EXPECT_THAT(table, ContainsRegex("\n +wrapped +power\n"));
-  EXPECT_THAT(table, ContainsRegex("\nevents +6 +30\n"));
-  EXPECT_THAT(table, ContainsRegex("\n  enter +3 +-\n"));
-  EXPECT_THAT(table, ContainsRegex("\n  2-3 +- +17\n"));
-  EXPECT_THAT(table, ContainsRegex("\n  wander .internal. +- +5\n"));
-  EXPECT_THAT(table, ContainsRegex("\nevents per step +2.000 +10.00\n"));
-  EXPECT_THAT(table, ContainsRegex("\ncertificates created +1,234,567 +0\n"));
-  EXPECT_THAT(table, ContainsRegex(
-                         "\nfailure times settled by\n  double, all coefficients positive +1,000,000 +40\n"));
-  EXPECT_THAT(table, ContainsRegex("\n  integers +- +2\n"));
-  EXPECT_THAT(table, ContainsRegex("\nbits of the longest integer +54 +-\n"));
-  EXPECT_THAT(table, ContainsRegex("\n  kinetic / static +0.250 +-\n"));
-  EXPECT_THAT(table, ContainsRegex("\nrebuilds +0 +1\n"));
-  EXPECT_TRUE(table.ends_with("\nfingerprint 0000000000abcdef\n"));
-}
-
-TEST(Table, NamesFramesByTheirNumberInTheFile) {
-  RunReport report = test::sample_report();
-  report.first_frame = FrameStamp{0, std::nullopt};
-  report.last_frame = FrameStamp{3, std::nullopt};
-  EXPECT_THAT(comparison_table(report), HasSubstr("36 beads, 4 frames, dimension 3"));
-  report.first_frame = FrameStamp{100, std::nullopt};
-  report.last_frame = FrameStamp{130, std::nullopt};
-  EXPECT_THAT(comparison_table(report), HasSubstr("36 beads, 4 frames (100 to 130), dimension 3"));
-  report.first_frame->picoseconds = 2;
-  report.last_frame->picoseconds = 2.6;
-  EXPECT_THAT(comparison_table(report), HasSubstr("4 frames (100 to 130, 2 to 2.6 ps), dimension 3"));
-}
-
 TEST(Table, ColumnsAreAligned) {
   bool inside = false;
   std::size_t width = 0, rows = 0;
@@ -61,12 +27,6 @@ TEST(Table, ColumnsAreAligned) {
     }
   }
   EXPECT_GT(rows, 15U);
-}
-
-TEST(Table, LeavesOutEmptySettings) {
-  RunReport report = test::sample_report();
-  report.settings = {{"motion", "linear"}, {"topology", ""}, {"chain", ""}, {"radius", "auto"}};
-  EXPECT_THAT(comparison_table(report), HasSubstr("\nsettings  motion linear, radius auto\n"));
 }
 
 TEST(Table, AStageWithoutALabelKeepsItsName) {

@@ -149,49 +149,5 @@ TEST(ThreadsAndFiles, AreIndependent) {
   }
 }
 
-TEST_F(Threads, AreOneForRunsThatCannotBeCut) {
-  const std::vector<std::string> base{"run",     "--radius", "1",   "--structures",
-                                      "wrapped", "--frames", "0:5", "--threads"};
-  for (const auto& [options, reason] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{"2", "--between", "chord"}, "wrapped"}, {{"2", "--work", "1000000"}, "exact work"}}) {
-    std::vector<std::string> arguments = base;
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const ProgramRun done = run(arguments);
-    EXPECT_EQ(done.code, 0);
-    EXPECT_THAT(done.err, HasSubstr("--threads 2: the run is not cut"));
-    EXPECT_THAT(done.err, HasSubstr(reason));
-  }
-  std::vector<std::string> one = base;
-  one.insert(one.end(), {"1", "--between", "chord"});
-  EXPECT_THAT(run(one).err, Not(HasSubstr("--threads")));
-  one[base.size()] = "0";
-  EXPECT_EQ(run(one).code, 2);
-}
-
-// A short run takes fewer threads than asked for, and says how many.
-TEST_F(Threads, HintsAtThreadsThatShortRunsDoNotTake) {
-  const ProgramRun done = run({"run", "--radius", "1", "--structures", "wrapped", "--frames", "0:2100",
-                               "--threads", "64", "--json", "-", "--quiet"});
-  ASSERT_EQ(done.code, 0) << done.err;
-  const std::string taken = Json::parse(done.out).at("engine").at("threads").dump();
-  EXPECT_EQ(taken, "4");
-  EXPECT_THAT(done.err, HasSubstr("--threads 64: the run takes " + taken +
-                                  ", because 5 threads need at least 2,500 steps and it has 2,099"));
-  for (const std::vector<std::string>& command : {std::vector<std::string>{"contacts", "--cutoff", "2"},
-                                                  {"compare", "--structures", "wrapped", "--rounds", "1"},
-                                                  {"trade", "--want", "contacts", "--rounds", "1"}}) {
-    std::vector<std::string> arguments = command;
-    arguments.insert(arguments.end(), {"--radius", "1", "--frames", "0:9", "--quiet", "--threads", "2"});
-    const ProgramRun few = run(arguments);
-    EXPECT_EQ(few.code, 0) << few.err;
-    EXPECT_THAT(
-        few.err,
-        HasSubstr("--threads 2: the run takes 1, because 2 threads need at least 1,000 steps and it has 8"))
-        << command.front();
-    arguments.resize(arguments.size() - 2);
-    EXPECT_THAT(run(arguments).err, Not(HasSubstr("--threads"))) << command.front();
-  }
-}
-
 }  // namespace
 }  // namespace kds::test::threads_test

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "experiments/scenes/generate_command.h"
-#include "motions/base/input_error.h"
 #include "motions/readers/read_trajectory.h"
 #include "motions/readers/write_trajectory.h"
 #include "tests/experiments/run_program.h"
@@ -20,19 +19,6 @@ namespace {
 using models::ShapeMotion;
 using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
-
-std::string refusal(Arguments arguments) {
-  try {
-    static_cast<void>(parse_generate_options(arguments));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
-std::string refusal(const std::string& model, const std::string& option, const std::string& value) {
-  return refusal({model, "--beads", "10", "-o", "a.xyz", option, value});
-}
 
 TEST(GenerateOptions, DefaultsAreTheModels) {
   const GenerateOptions options = parse_generate_options({"random-chain", "--beads", "100", "-o", "c.xyz"});
@@ -91,38 +77,6 @@ TEST(GenerateOptions, WhatItTellsGivesTheSameAgain) {
   }
 }
 
-TEST(GenerateOptions, RefusesWithTheOptionAndWhatItTakes) {
-  EXPECT_THAT(refusal({}), HasSubstr("one MODEL, one of spline"));
-  EXPECT_THAT(refusal({"helix", "grill", "--beads", "9", "-o", "a.xyz"}), HasSubstr("one MODEL"));
-  EXPECT_THAT(refusal({"snake", "--beads", "9", "-o", "a.xyz"}), HasSubstr("'snake' is not one of spline"));
-  EXPECT_THAT(refusal({"helix", "-o", "a.xyz"}), HasSubstr("--beads"));
-  EXPECT_THAT(refusal({"helix", "--beads", "9"}), HasSubstr("-o"));
-  EXPECT_THAT(refusal({"helix", "--beads", "9", "-o"}), HasSubstr("-o needs a value"));
-  EXPECT_THAT(refusal({"helix", "--beads", "9", "-o", "-"}), HasSubstr("-o needs a path"));
-  EXPECT_THAT(refusal({"helix", "--beads", "9", "-o", "a.dcd"}), HasSubstr("expected .xyz, .pdb or .ent"));
-  EXPECT_THAT(refusal({"helix", "--beads", "1", "-o", "a.xyz"}), HasSubstr("--beads: '1'"));
-  EXPECT_THAT(refusal({"helix", "--beads", "-3", "-o", "a.xyz"}), HasSubstr("--beads: '-3'"));
-  EXPECT_THAT(refusal({"helix", "--beads", "10000000", "-o", "a.xyz"}), HasSubstr("positions"));
-  EXPECT_THAT(refusal("helix", "--frames", "0"), HasSubstr("--frames: '0'"));
-  EXPECT_THAT(refusal("helix", "--seed", "1.5"), HasSubstr("--seed: '1.5'"));
-  EXPECT_THAT(refusal("helix", "--motion", "fly"), HasSubstr("rest, rotate, wander"));
-  EXPECT_THAT(refusal("helix", "--step", "-0.1"), HasSubstr("--step: '-0.1'"));
-  EXPECT_THAT(refusal("helix", "--step", "nan"), HasSubstr("--step: 'nan'"));
-  EXPECT_THAT(refusal("random-chain", "--step", "2.5"), HasSubstr("at most 2"));
-  EXPECT_THAT(refusal("helix", "--bond", "0.5"), HasSubstr("--bond: '0.5' is not a number above 0.5"));
-  EXPECT_THAT(refusal("helix", "--bond", "1.01"), HasSubstr("--bond"));
-  EXPECT_THAT(refusal("scaling-helix", "--pitch", "0"), HasSubstr("--pitch"));
-  EXPECT_THAT(refusal("grid", "--dimension", "4"), HasSubstr("--dimension"));
-  EXPECT_THAT(refusal("random-chain", "--fill", "0.9"), HasSubstr("--fill"));
-  EXPECT_THAT(refusal("spiral", "--rolled", "0:1:0"), HasSubstr("FROM:TO"));
-  EXPECT_THAT(refusal("spiral", "--rolled", "0:"), HasSubstr("--rolled: ''"));
-  EXPECT_THAT(refusal("spiral", "--rolled", "0:1.5"), HasSubstr("--rolled: '1.5'"));
-  EXPECT_THAT(refusal("spiral", "--distance", "1"),
-              HasSubstr("--distance: has no meaning for the model spiral"));
-  EXPECT_THAT(refusal("spiral", "--step", "1"), HasSubstr("--step: has no meaning for the model spiral"));
-  EXPECT_THAT(refusal("grill", "--turns", "1"), HasSubstr("--turns: has no meaning for the model grill"));
-}
-
 // --help states how many beads the bends of a grill or a spline need.
 TEST(Generate, ShortGrillsAndSplinesMeet) {
   const ScratchDirectory directory;
@@ -167,19 +121,6 @@ TEST(Generate, WritesWhatTheModelIs) {
   EXPECT_EQ(directory.entries(), 2U);
 }
 
-TEST(Generate, TellsThatANecklaceIsNotProper) {
-  const ScratchDirectory directory;
-  const ProgramRun run = run_program({"generate", "spiral", "--beads", "300", "--turns", "7", "--frames", "3",
-                                      "-o", (directory / "s.xyz").string(), "--json", "-"});
-  EXPECT_EQ(run.code, 0) << run.err;
-  const Json summary = Json::parse(run.out);
-  EXPECT_EQ(summary["proper"], false);
-  EXPECT_EQ(summary["rows"][1]["condition"], "disjoint");
-  EXPECT_EQ(summary["rows"][1]["first_frame"], 2);
-  EXPECT_EQ(summary["rows"][1]["frames"], 1);
-  EXPECT_GT(summary["rows"][1]["violations"], 10);
-}
-
 TEST(Generate, RunReadsWhatItWrote) {
   const ScratchDirectory directory;
   for (const char* ending : {".xyz", ".pdb"}) {
@@ -203,36 +144,6 @@ TEST(Generate, RunReadsWhatItWrote) {
       EXPECT_EQ(report["input"]["frames"], 3);
     }
   }
-}
-
-TEST(Generate, LeavesNothingWhereItRefuses) {
-  const ScratchDirectory directory;
-  const std::string pdb = (directory / "big.pdb").string(), xyz = (directory / "x.xyz").string();
-  const auto expect_refused = [&](const std::vector<std::string>& arguments, const std::string& word) {
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 2) << run.err;
-    EXPECT_EQ(run.out, "");
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    EXPECT_THAT(run.err, HasSubstr(word));
-    EXPECT_EQ(directory.entries(), 0U);
-  };
-  expect_refused({"generate", "helix", "--beads", "10000", "--frames", "1", "-o", pdb}, "10000 beads");
-  expect_refused({"generate", "spline", "--beads", "9999", "--frames", "1", "-o", pdb},
-                 "big.pdb: frame 0, bead");
-  expect_refused({"generate", "helix", "--beads", "10", "-o", xyz, "--json", xyz}, "--json");
-  expect_refused({"generate", "helix", "--beads", "10", "-o", (directory / "no/x.xyz").string()},
-                 "no directory");
-  expect_refused({"generate", "grid", "--beads", "10", "--bond", "0.51", "-o", xyz}, "--bond");
-}
-
-TEST(Generate, TellsInFilesToo) {
-  const ScratchDirectory directory;
-  const std::string out = (directory / "out").string();
-  const ProgramRun run = run_program({"generate", "helix", "--beads", "640", "--frames", "2", "-o",
-                                      (directory / "h.xyz").string(), "--out", out, "--quiet"});
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_EQ(Json::parse(content_of(directory / "out/generate.json"))["proper"], true);
-  EXPECT_THAT(content_of(directory / "out/generate.csv"), HasSubstr("disjoint,0,0,,true\n"));
 }
 
 }  // namespace

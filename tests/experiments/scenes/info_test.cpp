@@ -1,6 +1,5 @@
 // Tests `kds info`: its options and its output.
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,19 +15,9 @@
 namespace kds::test::info_test {
 namespace {
 
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
-
-std::string refusal(const Arguments& arguments) {
-  try {
-    static_cast<void>(parse_info_options(arguments));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(InfoOptions, TakesTheInputOptionsOfRunAndItsOwn) {
   const InfoOptions plain = parse_info_options({"a.pdb"});
@@ -57,17 +46,6 @@ TEST(InfoOptions, TakesTheUnitsOfLammps) {
   EXPECT_FALSE(parse_info_options({"a.dump"}).reading.units);
   EXPECT_EQ(parse_info_options({"a.dump", "--units", "nano"}).reading.units, LammpsUnits::nano);
   EXPECT_EQ(parse_info_options({"a.dump", "--units", "real"}).reading.units, LammpsUnits::real);
-  EXPECT_THAT(refusal({"a.dump", "--units", "si"}),
-              AllOf(HasSubstr("--units"), HasSubstr("'si'"), HasSubstr("nano")));
-}
-
-TEST(InfoOptions, RefusesWithTheOptionAndWhatItTakes) {
-  EXPECT_THAT(refusal({}), HasSubstr("kds info needs at least one INPUT"));
-  EXPECT_THAT(refusal({"a.pdb", "--rho", "0.5"}), HasSubstr("--rho: '0.5' is not a number from 1"));
-  EXPECT_THAT(refusal({"a.pdb", "--rho", "inf"}), HasSubstr("--rho"));
-  EXPECT_THAT(refusal({"a.pdb", "--list", "-1"}), HasSubstr("--list"));
-  EXPECT_THAT(refusal({"a.pdb", "--kernel", "fast"}), HasSubstr("unknown option '--kernel'"));
-  EXPECT_THAT(refusal({"a.pdb", "--radius", "round"}), HasSubstr("--radius"));
 }
 
 Trajectory necklace(const std::string& file, std::vector<Eigen::Matrix3Xd> frames) {
@@ -134,24 +112,6 @@ TEST(SceneInfo, InfinityIsNullInJson) {
   EXPECT_EQ(Json::parse(json.dump()), json);
 }
 
-TEST(Info, CountsResidues) {
-  const ScratchDirectory directory;
-  std::string text;
-  for (int number = 1; number <= 4; ++number)
-    for (const char* name : {"N", "CA", "C"})
-      if (number != 3 || name[0] != 'N')
-        text += fmt::format("ATOM      1  {:<3} ALA A{:4}    {:8.3f}{:8.3f}{:8.3f}\n", name, number,
-                            4.5 * number, 1.0 * static_cast<double>(text.size()), 0.0);
-  const ProgramRun run = run_program({"info", directory.file("a.pdb", text), "--json", "-"});
-  EXPECT_THAT(run.err, HasSubstr("chain A: 3 of 4 residues read; 1 without N, CA and C: ALA 3"));
-  const Json info = Json::parse(run.out);
-  EXPECT_EQ(info["necklaces"][0]["residues"], 4);
-  EXPECT_EQ(info["necklaces"][0]["residues_read"], 3);
-  EXPECT_THAT(run_program({"info", directory.file("a.pdb", text)}).out, HasSubstr(", 3 of 4 residues"));
-  const std::string xyz = directory.file("a.xyz", "2\n\nC 0 0 0\nC 1 0 0\n");
-  EXPECT_EQ(Json::parse(run_program({"info", xyz, "--json", "-"}).out)["necklaces"][0]["residues"], nullptr);
-}
-
 TEST(Info, OfAFile) {
   const ScratchDirectory directory;
   const std::string json = (directory / "i.json").string();
@@ -178,16 +138,6 @@ TEST(Info, OfAFile) {
   EXPECT_THAT(content_of(directory / "out/info.csv"), HasSubstr("connected,1,1,0,false\n"));
 }
 
-TEST(Info, OfATrajectoryThatIsProper) {
-  const ProgramRun run =
-      run_program({"info", data_file("trajectories/villin_hp36_300K.dcd"), "--topology",
-                   data_file("trajectories/villin_hp36_300K.pdb"), "--radius", "0.84", "--json", "-"});
-  EXPECT_EQ(run.code, 0) << run.err;
-  const Json info = Json::parse(run.out);
-  EXPECT_EQ(info["input"]["frames"], 1000);
-  EXPECT_EQ(info["proper"], true);
-}
-
 TEST(Info, FindsNoGapThatTheAutomaticRadiusLeft) {
   const std::vector<std::string> input{data_file("trajectories/random100_400K_first200.dcd"), "--frames",
                                        "::9"};
@@ -198,37 +148,6 @@ TEST(Info, FindsNoGapThatTheAutomaticRadiusLeft) {
   EXPECT_EQ(told["rows"][0]["condition"], "connected");
   EXPECT_EQ(told["rows"][0]["violations"], 0);
   EXPECT_EQ(told["input"]["radius_max"], ran["input"]["radius_max"]);
-}
-
-TEST(Info, OfAnInstance) {
-  const ProgramRun run = run_program({"info", data_file("kinetic/w3_n20_degree2_visible.txt")});
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("20 moving points, dimension 3, degree 2, weighted"));
-  EXPECT_EQ(run_program({"info", data_file("kinetic/d1_n20_linear.txt"), "--radius", "1"}).code, 2);
-  const Json json =
-      Json::parse(run_program({"info", data_file("kinetic/d1_n20_linear.txt"), "--json", "-"}).out);
-  for (const char* member : {"command", "input", "settings", "rows", "warnings", "machine", "version"})
-    EXPECT_TRUE(json.contains(member)) << member;
-  EXPECT_TRUE(json["settings"].is_object());
-}
-
-TEST(Info, RefusesBeforeItReads) {
-  const ScratchDirectory directory;
-  const std::string input = directory.file("a.xyz", "2\n\nX 0 0 0\nX 1 0 0\n");
-  const std::string before = content_of(input);
-  for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{"info", input, "--json", input},
-                                             {"info", "missing.xyz"},
-                                             {"info", input, "--topology", "missing.pdb"},
-                                             {"info", input, "--out", input},
-                                             {"info", directory.path().string()}}) {
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 2) << testing::PrintToString(arguments);
-    EXPECT_EQ(run.out, "");
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-  }
-  EXPECT_EQ(content_of(input), before);
-  EXPECT_EQ(run_program({"info", input, "--quiet"}).out, "");
 }
 
 }  // namespace

@@ -27,7 +27,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 using Json = nlohmann::ordered_json;
 
 std::vector<StabilityRow> rows_of(const Arguments& arguments) {
@@ -272,15 +271,6 @@ TEST(Stability, TheSameSeedGivesTheSameRowsWhateverElseRuns) {
 
 // Tests of options.
 
-std::string refusal(const Arguments& arguments) {
-  try {
-    static_cast<void>(parse_stability_options(arguments));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 TEST(StabilityOptions, Defaults) {
   const StabilityOptions options = parse_stability_options({});
   EXPECT_TRUE(options.subjects.empty() && options.extremes.empty());
@@ -297,19 +287,6 @@ TEST(StabilityOptions, TakesNamesAndFamilies) {
   EXPECT_TRUE(options.wants(extreme("ties:end")));
   EXPECT_FALSE(options.wants(extreme("ties:start")));
   EXPECT_TRUE(options.quiet);
-}
-
-TEST(StabilityOptions, RefusesWhatIsWrong) {
-  EXPECT_THAT(refusal({"--subjects", "heap"}), HasSubstr("--subjects: 'heap' is not one of precedes, "));
-  EXPECT_THAT(refusal({"--extremes", "scale,"}), HasSubstr("--extremes: '' is not one of scale, scale:2^"));
-  EXPECT_THAT(refusal({"--extremes", "ties,ties"}), HasSubstr("listed twice"));
-  for (const char* wrong : {"0", "-1", "many", "1e3", "99999999999", " 1"})
-    EXPECT_THAT(refusal({"--cases", wrong}), HasSubstr("--cases: '")) << wrong;
-  EXPECT_THAT(refusal({"--seed", "-1"}), HasSubstr("--seed"));
-  EXPECT_THAT(refusal({"--out", "-"}), HasSubstr("--out"));
-  EXPECT_THAT(refusal({"trajectory.pdb"}), HasSubstr("unexpected argument"));
-  EXPECT_THAT(refusal({"--kernel", "fast"}), HasSubstr("unknown option '--kernel'"));
-  EXPECT_THROW(rows_of({"--subjects", "precedes", "--extremes", "basis:flat"}), InputError);
 }
 
 // Tests of reports.
@@ -351,15 +328,6 @@ namespace outside {
 using test::run_program;
 using test::ScratchDirectory;
 
-TEST(StabilityProgram, PrintsATable) {
-  const auto run = run_program({"stability", "--cases", "2", "--subjects", "precedes,sorted"});
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_EQ(run.err, "");
-  for (const char* subject : {"\nprecedes ", "\nsorted "}) EXPECT_THAT(run.out, HasSubstr(subject));
-  EXPECT_THAT(run.out, HasSubstr("; filtered differs from exact in 0; 0 of "));
-  EXPECT_THAT(run.out, Not(HasSubstr("DOES NOT HOLD")));
-}
-
 TEST(StabilityProgram, WritesRowsToFiles) {
   const ScratchDirectory directory;
   const std::string out = (directory / "made" / "here").string();
@@ -393,40 +361,6 @@ TEST(StabilityProgram, WritesRowsToFiles) {
   EXPECT_EQ(lines.size(), json["rows"].size() + 2);  // the header, and the empty text after the last newline
   for (std::size_t i = 1; i + 1 < lines.size(); ++i)
     EXPECT_EQ(split(lines[i], ',').size(), split(lines[0], ',').size());
-}
-
-TEST(StabilityProgram, RefusesWrongUsageInOneLine) {
-  const ScratchDirectory directory;
-  const std::string taken = directory.file("taken", "precious");
-  const std::string out = (directory / "out").string();
-  for (const std::vector<std::string>& wrong :
-       std::vector<std::vector<std::string>>{{"--subjects", "nobody"},
-                                             {"--extremes", "nothing"},
-                                             {"--cases", "0"},
-                                             {"--out", taken},
-                                             {"--json", (directory / "no/such").string()},
-                                             {"--out", out, "--json", out + "/stability.csv"},
-                                             {"--quiet", "--quiet"},
-                                             {"--json"},
-                                             {"--subjects", "sorted", "--extremes", "beads:coplanar"}}) {
-    std::vector<std::string> arguments{"stability"};
-    arguments.insert(arguments.end(), wrong.begin(), wrong.end());
-    const auto run = run_program(arguments);
-    EXPECT_EQ(run.code, 2) << testing::PrintToString(wrong) << run.err;
-    EXPECT_EQ(run.out, "");
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
-    EXPECT_TRUE(run.err.starts_with("kds: ")) << run.err;
-  }
-  EXPECT_EQ(test::content_of(taken), "precious");
-}
-
-TEST(StabilityProgram, HelpNamesEveryOption) {
-  const auto run = run_program({"stability", "--help"});
-  EXPECT_EQ(run.code, 0);
-  for (const char* option :
-       {"--subjects", "--extremes", "--cases", "--seed", "--out", "--json", "--quiet", "--help"})
-    EXPECT_THAT(run.out, HasSubstr(std::string("\n  ") + option)) << option;
-  EXPECT_THAT(run_program({"--help"}).out, HasSubstr("stability"));
 }
 
 }  // namespace outside

@@ -15,7 +15,6 @@
 #include "experiments/trade/measure_trade.h"
 #include "experiments/trade/trade_report.h"
 #include "motions/readers/read_trajectory.h"
-#include "tests/experiments/expect_refused.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
@@ -307,9 +306,6 @@ TEST(Trade, GroupsChoosePairsOfContacts) {
   EXPECT_EQ(trade["settings"]["groups"], "//A/-60 45-/N");
   EXPECT_NE(all["rows"].dump().find("\"ca\""), std::string::npos);
   EXPECT_EQ(trade["rows"].dump().find("\"ca\""), std::string::npos);
-  std::vector<std::string> refused{"trade", input[0], input[1], input[2], "--want", "cages"};
-  refused.insert(refused.end(), groups.begin(), groups.end());
-  expect_refused(refused, {"--groups: applies only to contacts", "--want"});
 }
 
 TEST(Trade, LeavesOutWhatCannotBeCertifiedAndSaysSo) {
@@ -441,79 +437,10 @@ TEST(TradeCommand, WritesRowsAndAPage) {
   EXPECT_THAT(page, HasSubstr("<code>kds run</code>"));
 }
 
-TEST(TradeCommand, LeavesOutTheExactKernelWhereItTakesLongAndSaysSo) {
-  const ScratchDirectory directory;
-  std::string frame = "600\nchain\n";
-  for (int b = 0; b < 600; ++b) frame += fmt::format("C {} {} 0\n", b, b % 3);
-  std::string flat_no_more = "C 0 0 1";
-  frame.replace(frame.find("C 0 0 0"), flat_no_more.size(), flat_no_more);
-  const std::string file = directory.file("chain.xyz", frame + frame);
-  const ProgramRun run =
-      run_program({"trade", file, "--rounds", "1", "--times", "1", "--want", "cages", "--json", "-"});
-  ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_THAT(run.err, HasSubstr("`--kernel exact` is left out: 600 beads in 2 frames"));
-  EXPECT_THAT(run.out, testing::Not(HasSubstr("\"kernel\": \"exact\"")));
-}
-
-std::string square_of(double height) {
-  return fmt::format("6\nframe\nC 0 0 0\nC 2 0 {}\nC 2 2 0\nC 0 2 0\nC 0.5 1 {}\nC 1.5 1 0\n", height,
-                     height / 2);
-}
-
-// Every second frame, and therefore every stride, lies in a plane.
-TEST(TradeCommand, LeavesOutWhatDoesNotFitTheFrames) {
-  const ScratchDirectory directory;
-  std::string frames;
-  for (int frame = 0; frame < 9; ++frame) frames += square_of(frame % 2 == 0 ? 0 : 0.25);
-  const std::string file = directory.file("flat.xyz", frames);
-  const ProgramRun run = run_program(
-      {"trade", file, "--rounds", "1", "--times", "4", "--want", "cages,scenes", "--json", "-", "--quiet"});
-  ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_THAT(run.err,
-              HasSubstr("`wrapped --frames ::2` is left out: the frames at stride 2 lie in a plane"));
-  const ProgramRun some = run_program({"trade", file, "--rounds", "1", "--times", "4", "--want", "cages",
-                                       "--json", "-", "--quiet", "--frames", "2:"});
-  EXPECT_THAT(some.err, HasSubstr("`wrapped --frames 2::2` is left out"));
-  const auto json = nlohmann::json::parse(run.out);
-  std::size_t strides = 0;
-  for (const auto& row : json["rows"]) strides += row["setting"].contains("stride") ? 1 : 0;
-  EXPECT_EQ(strides, 0U);
-  EXPECT_GT(json["rows"].size(), 12U);
-}
-
-TEST(TradeCommand, NamesFileAndWayOutWhereTheExactRunDoesNotFit) {
-  const ScratchDirectory directory;
-  const std::string two =
-      directory.file("two.xyz", xyz({"0 0 0", "1 0 0"}) + xyz({"0 0 1", "1 0 0"}) + xyz({"0 0 0", "1 1 0"}));
-  expect_refused({"trade", two}, {"two.xyz", "at least 4 beads", "expected --want contacts,cages"});
-  expect_refused({"trade", two, "--want", "diagram"}, {"two.xyz", "--want diagram", "at least 4 beads"});
-  expect_refused({"trade", two, "--frames", "::20"}, {"--frames 0::20", "two.xyz", "1 frame"});
-  for (const auto& [want, option] : {std::pair("contacts", "--cutoff"), std::pair("cages", "--apart"),
-                                     std::pair("diagram,cages", "--apart")})
-    expect_refused({"trade", two, "--want", want, option, "3"}, {option, "--want"});
-}
-
 TEST(Recommendation, SaysHowToGetContacts) {
   const TradeRow exact{Want::contacts, {.structure = "contacts"}, {}, {}, true};
   EXPECT_THAT(recommendation(std::vector{exact}),
               testing::AllOf(HasSubstr("--radius"), HasSubstr("--apart")));
-}
-
-TEST(TradeCommand, RefusesWhatItDoesNotKnow) {
-  const std::string trajectory = data_file("trajectories/villin_hp36_300K.dcd");
-  const auto expect_refused = [&](std::vector<std::string> options, const char* why) {
-    options.insert(options.begin(), {"trade", trajectory});
-    const ProgramRun run = run_program(options);
-    EXPECT_EQ(run.code, 2);
-    EXPECT_THAT(run.err, HasSubstr(why));
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1);
-  };
-  expect_refused({"--want", "speed"}, "--want");
-  expect_refused({"--want", "cages,cages"}, "listed twice");
-  expect_refused({"--times", "0"}, "--times");
-  expect_refused({"--cutoff", "0"}, "--cutoff");
-  EXPECT_EQ(run_program({"trade"}).code, 2);
-  EXPECT_EQ(run_program({"trade", data_file("kinetic/d3_n20_linear.txt")}).code, 2);
 }
 
 }  // namespace

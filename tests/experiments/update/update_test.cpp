@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "experiments/update/compare_updates.h"
@@ -21,15 +20,6 @@ using Json = nlohmann::ordered_json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::string refusal(const Arguments& arguments) {
-  try {
-    static_cast<void>(parse_update_options(arguments));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 TEST(UpdateOptions, DefaultsAndAll) {
   const UpdateOptions plain = parse_update_options({"a.dcd"});
   EXPECT_EQ(plain.techniques.size(), kTechniques.size());
@@ -46,17 +36,6 @@ TEST(UpdateOptions, DefaultsAndAll) {
   EXPECT_EQ(all.out, "there");
   EXPECT_EQ(all.json, "-");
   EXPECT_TRUE(all.quiet);
-}
-
-TEST(UpdateOptions, RefusesWithTheOptionAndWhatItTakes) {
-  EXPECT_THAT(refusal({}), HasSubstr("kds update needs at least one INPUT"));
-  EXPECT_THAT(refusal({"a.dcd", "--techniques", "flip"}), HasSubstr("--techniques: 'flip' is not one of"));
-  EXPECT_THAT(refusal({"a.dcd", "--techniques", "greedy,greedy"}), HasSubstr("greedy is listed twice"));
-  EXPECT_THAT(refusal({"a.dcd", "--strides", "1,0"}), HasSubstr("--strides: '0'"));
-  EXPECT_THAT(refusal({"a.dcd", "--strides", "2,2"}), HasSubstr("2 is listed twice"));
-  EXPECT_THAT(refusal({"a.dcd", "--rounds", "0"}), HasSubstr("--rounds"));
-  EXPECT_THAT(refusal({"a.dcd", "--audit", "events"}),
-              HasSubstr("--audit: 'events' is not one of none, frames"));
 }
 
 TEST(UpdateAudit, OnlyADiagramWithAFaultFails) {
@@ -216,22 +195,6 @@ TEST(Update, PlanarTrajectoriesInThePlane) {
     // At most two triangles per bead.
     EXPECT_LT(row["cells"], row["steps"].get<double>() * 200);
     EXPECT_GT(row["cells"], row["steps"].get<double>() * 100);
-  }
-}
-
-TEST(Update, RefusesBeforeItReads) {
-  const ScratchDirectory directory;
-  const std::string input = directory.file("a.xyz", "2\n\nX 0 0 0\nX 1 0 0\n2\n\nX 0 0 0\nX 1 0 0\n");
-  for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{"update", input},  // two beads
-                                             {"update", input, "--json", input},
-                                             {"update", input, "--strides", "2"},
-                                             {"update", "missing.xyz"},
-                                             {"update", data_file("kinetic/d3_n20_linear.txt")}}) {
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 2) << testing::PrintToString(arguments);
-    EXPECT_EQ(run.out, "");
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   }
 }
 

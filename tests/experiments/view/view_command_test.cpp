@@ -1,5 +1,5 @@
-// `kds view`, and --view of run and replay, as a process: the state at every frame is that of --dump, the
-// files for other viewers hold the same state, and bad options are refused.
+// `kds view`, and --view of run and replay, as a process: the state at every frame is that of --dump, and
+// the files for other viewers hold the same state.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,6 @@
 
 #include "experiments/view/replay_template.h"
 #include "tests/experiments/csv_cells.h"
-#include "tests/experiments/expect_refused.h"
 #include "tests/experiments/replay_data.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
@@ -153,8 +152,6 @@ TEST(View, TakesAStrideToStayBelowMaxMb) {
   EXPECT_EQ(data.words("frames")[1], stride);
   EXPECT_TRUE(std::filesystem::exists(vtk + "/beads-" + std::to_string(stride) + ".vtp"));
   EXPECT_FALSE(std::filesystem::exists(vtk + "/beads-1.vtp"));
-  expect_refused(with(arguments, {"--max-mb", "0.001"}),
-                 {"--max-mb 0.001: the page of 2 frames", "expected at least --max-mb "});
 }
 
 TEST(View, RoundsRelativeToRadiiWithoutAUnit) {
@@ -256,25 +253,6 @@ TEST(View, IsLinkedFromReports) {
   EXPECT_THAT(content_of(report + "/report.html"), HasSubstr("<a href=\"../a%20run%20%231.html\">"));
 }
 
-TEST(View, RefusesBadOptions) {
-  const ScratchDirectory scratch;
-  const std::string page = scratch / "a.html";
-  const std::vector<std::string> view{"view", kVillin, "--frames", "0:9"};
-  expect_refused(view, {"expected -o FILE, --vtk DIR or --script FILE"});
-  expect_refused(with(view, {"-o", kVillin}), {"-o", "is the file of an input"});
-  expect_refused(with(view, {"-o", page, "--at", "3"}), {"--at", "--script"});
-  expect_refused(with(view, {"--script", scratch / "a.py"}), {"--script", ".pml", ".bild"});
-  expect_refused(with(view, {"--script", scratch / "a.pml", "--at", "12"}),
-                 {"--at 12", "the nearest is --at 8"});
-  expect_refused(with(view, {"-o", page, "--quantum", "0"}), {"--quantum"});
-  expect_refused(with(view, {"-o", page, "--quantum", "1e-12"}), {"--quantum 1e-12", "at least --quantum "});
-  expect_refused(with(view, {"-o", page, "--max-mb", "-1"}), {"--max-mb"});
-  expect_refused(with(view, {"-o", page, "--dump", "x"}), {"unknown option '--dump'"});
-  expect_refused({"view", data_file("kinetic/d1_n20_linear.txt"), "-o", page}, {"in the plane or in space"});
-  expect_refused({"run", kVillin, "--view", kVillin}, {"--view", "is the file of an input"});
-  EXPECT_EQ(scratch.entries(), 0U);
-}
-
 TEST(View, ShowsTheContactsThatKdsContactsFollows) {
   const ScratchDirectory scratch;
   const std::string out = scratch / "out", page = scratch / "replay.html";
@@ -342,8 +320,6 @@ TEST(View, ShowsTheFirstRunOfAComparison) {
     EXPECT_EQ(rows[s]["structure"], data.meta["structures"][s]["name"]);
     EXPECT_EQ(rows[s]["events"], data.meta["structures"][s]["events"]);
   }
-  expect_refused({"compare", kVillin, "--view", kVillin}, {"--view"});
-  expect_refused({"contacts", kVillin, "--cutoff", "8", "--view", kVillin}, {"--view"});
 }
 
 }  // namespace
