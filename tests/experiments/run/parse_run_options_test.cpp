@@ -49,7 +49,8 @@ TEST(RunOptions, TakesEveryOption) {
 }
 
 TEST(RunOptions, TakesEveryNamedValue) {
-  for (const auto& [name, motion] : {std::pair("hermite", FrameMotion::hermite), {"lifted", FrameMotion::lifted}})
+  for (const auto& [name, motion] :
+       {std::pair("hermite", FrameMotion::hermite), {"lifted", FrameMotion::lifted}})
     EXPECT_EQ(parse_run_options({"a", "--motion", name}).motion, motion);
   EXPECT_EQ(parse_run_options({"--kernel", "exact", "a"}).kernel, Kernel::exact);
   EXPECT_EQ(parse_run_options({"--kernel=filtered", "a"}).kernel, Kernel::filtered);

@@ -16,8 +16,8 @@
 #include "motions/base/interruption.h"
 #include "motions/frames/trajectory.h"
 #include "structures/contacts/contacts.h"
-#include "tests/support/inputs/random.h"
 #include "tests/support/inputs/moving_beads.h"
+#include "tests/support/inputs/random.h"
 #include "tests/support/rounds.h"
 
 namespace kds::parallel_run_test {
