@@ -124,7 +124,7 @@ TEST(FileFrames, OnlyFilesOfOneFrameAreAtRest) {
   const auto one = test::write_file("one.xyz", xyz_frames(random, 1, 4, false));
   for (const FrameRange& range : {FrameRange{2, std::nullopt, 1}, {0, std::nullopt, 4}}) {
     const ReadOptions options{.frames = range};
-    test::expect_refused([&] { (void)open({three, six}, options); }, {"three.xyz: 1 frames", "six.xyz has"});
+    test::expect_refused([&] { (void)open({three, six}, options); }, {"three.xyz: 1 frame", "six.xyz has"});
     EXPECT_GT(open({one, six}, options).survey.frame_count, 1U);
   }
   const ReadOptions of_one{.frames = {2, 3, 1}};
