@@ -33,7 +33,7 @@ struct TimeBracket {
   friend bool operator==(const TimeBracket&, const TimeBracket&) = default;
 };
 
-/// Brackets of events end at multiples of 2^-event_places. Searches leave brackets of up to 2^-24. The finer
+/// Brackets of events end at multiples of 2^-event_bits. Searches leave brackets of up to 2^-24. The finer
 /// the grid is, the more often a number of the grid lies in such a bracket, which takes exact work: for 3% of
 /// the flips of a power diagram with 24 bits, for all of them with 40.
 inline constexpr unsigned event_bits = 24;
