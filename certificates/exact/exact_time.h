@@ -70,7 +70,7 @@ struct ExactFailure {
 /// Returns a dyadic number strictly between two different times. a must be before b.
 [[nodiscard]] Dyadic dyadic_between(ExactTime& a, ExactTime& b);
 
-/// Returns the first multiple of 2^-bits after `time`.
+/// Returns the first multiple of 2^-bits after `time`. If `time` itself is a multiple, it becomes dyadic.
 [[nodiscard]] Dyadic next_on_grid(ExactTime& time, unsigned bits);
 
 }  // namespace kds

@@ -90,12 +90,11 @@ class ChordCages {
   /// If `keep_bases`, the bases of each step's start are kept too, provided that the hierarchy has bases.
   ChordCages(std::span<const BeadRange> necklaces, int degree, bool keep_bases = false);
 
-  // The functions below throw InputError if a radius exceeds the range of double.
-
   /// Builds the cages at the beads' positions at the start of the first step. Until the beads move, only
-  /// control point 0 has cages.
+  /// control point 0 has cages. Throws InputError if a radius exceeds the range of double.
   void build(const Curves<dimension>& curves);
   /// Computes the cages of a step. A step that begins at the end of the last one costs `degree` updates.
+  /// Throws like build().
   void move_to(const Curves<dimension>& curves);
 
   [[nodiscard]] const NecklaceTree& tree() const { return hierarchy_.tree(); }

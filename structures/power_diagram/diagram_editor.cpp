@@ -14,7 +14,7 @@ namespace kds {
 
 namespace {
 
-constexpr unsigned finest_grid = 200;  // binary places of times at which edits look
+constexpr unsigned finest_grid = 200;  // binary digits of times at which edits look
 
 }  // namespace
 
@@ -73,7 +73,8 @@ bool DiagramEditor<Dimension>::stays_flat(std::span<const BeadId> beads) const {
 
 template <int Dimension>
 std::optional<Dyadic> DiagramEditor<Dimension>::rational_now() const {
-  // The kernels know the time of one event as a number or as a root. On the grid both become the number.
+  // One kernel may know a time as a dyadic number, the other as a root. If the time is on the grid,
+  // next_on_grid makes it a number.
   ExactTime& now = state_.simulator.now().exact();
   static_cast<void>(next_on_grid(now, finest_grid));
   return now.is_dyadic() ? std::optional(now.lower()) : std::nullopt;

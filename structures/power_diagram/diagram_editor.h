@@ -68,7 +68,7 @@ class DiagramEditor {
   /// Returns whether the other beads are too few for a diagram, or stay in one plane (on one line).
   [[nodiscard]] bool is_flat_without(BeadId bead) const;
   [[nodiscard]] bool stays_flat(std::span<const BeadId> beads) const;
-  /// Returns the present time if it is a multiple of 2^-200, or was set as a dyadic number.
+  /// Returns the present time if it is a multiple of 2^-200 or is already known as a dyadic number.
   [[nodiscard]] std::optional<Dyadic> rational_now() const;
   void put_in(BeadId bead, CellId from);
   /// Removes the bead together with the cells around it, whose hidden beads are displaced.

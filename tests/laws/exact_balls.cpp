@@ -139,8 +139,8 @@ int sign_of_determinant(std::vector<std::vector<Integer>> rows) {
   return before > 0 ? sign : -sign;
 }
 
-/// Points, followed by their height over the paraboloid: squared length less weight. Relative to the first
-/// bead of `beads`, one row for each other bead.
+/// Returns a row for each bead after the first, relative to the first: coordinates, then, if `lifted`,
+/// squared length minus weight.
 std::vector<std::vector<Integer>> rows_of(const ExactBalls& balls, const Beads& beads, bool lifted) {
   std::vector<std::vector<Integer>> rows;
   const auto& origin = balls.centers[beads.front()];
@@ -199,8 +199,8 @@ std::optional<std::string> not_regular(const ExactBalls& balls, const Beads& pre
         return fmt::format("bead {} lies beyond the hull at facet {}", b, facet);
   }
   if (cells.empty()) return std::nullopt;
-  // A bead without a cell must be hidden: it lies below no cell's power sphere, so some cell contains it and
-  // its power test there is not negative. The test above has seen to the latter.
+  // A bead without a cell must be hidden, so some cell must contain it. The loop above has shown that its
+  // power test there is not negative.
   for (const BeadId b : present) {
     if (std::find(used.begin(), used.end(), b) != used.end()) continue;
     const bool housed = std::any_of(cells.begin(), cells.end(), [&](const Beads& cell) {

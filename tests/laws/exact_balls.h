@@ -1,10 +1,11 @@
 #pragma once
-// Positions of all beads at one time, as whole numbers that are not the library's, and the definitions of
-// what structures must be, by brute force.
+// Exact positions of all beads at one time, in integers of the tests (second_numbers.h), and the structures
+// by brute force.
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 

@@ -40,7 +40,7 @@ Scene scene_through(const std::vector<Points>& frames) {
   return scene_through(std::move(matrices));
 }
 
-/// Returns radii for every second seed, most of them different, otherwise one for all.
+/// Returns one radius for each bead if `unequal`, otherwise one radius for all.
 std::vector<double> some_radii(Random& random, std::size_t beads, double unit, bool unequal) {
   std::vector<double> radii{unit};
   for (std::size_t b = 1; b < beads && unequal; ++b) radii.push_back(unit * 0.25 * pick(random, 2, 6));
@@ -110,7 +110,7 @@ Scene ties(std::uint64_t seed) {
   return scene_through(frames);
 }
 
-// Pairs of beads stay in one place. Beads that move together hide each other in turn.
+// Pairs of beads stay at one position. Beads that move together hide each other in turn.
 Scene twins(std::uint64_t seed) {
   Random random(seed);
   const auto beads = static_cast<std::size_t>(6 + 2 * pick(random, 0, 3));
@@ -267,7 +267,7 @@ Scene regular(std::uint64_t seed) {
   }
 }
 
-// Handmade scenes: few beads, in one plane or in one place at frames or between them.
+// Handmade scenes: few beads, coplanar or at one position, at frames or between them.
 Scene handmade(std::uint64_t seed) {
   const Points simplex{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const Points solid{{0, 0, 1}, {4, 0, 2}, {0, 5, 5}, {6, 7, 3}, {2, 3, 4}, {-3, 2, 7}};
@@ -320,7 +320,7 @@ Scene handmade(std::uint64_t seed) {
       {apart, together, swapped},
       {together, swapped},
       {together, together},
-      // Beads trade places along an edge of the hull.
+      // Beads swap positions along an edge of the hull.
       {{{1, 0, 1}, {1, 1, 0}, {1, 1, 1}, {1, 1, 0}, {1, 0, 1}, {0, 0, 0}},
        {{1, 0, 1}, {1, 1, 0}, {1, 1, 0}, {1, 0, 1}, {1, 1, 0}, {0, 1, 1}}},
       // Four beads bend through their plane, in which they lie on one circle: alone, and with others.

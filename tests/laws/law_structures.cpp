@@ -59,6 +59,7 @@ std::optional<std::string> fault_of_wrapped(const Judged& judged) {
   if (!judged.scene.equal_radii()) return std::nullopt;
   const auto nodes = judged.structure.replay_scheme().nodes;
   const auto layers = judged.structure.replay_elements(false);
+  if (layers[0].size() != nodes.size()) return "not every node has a basis";
   for (const ReplayElement& cage : layers[0]) {
     Beads basis(cage.begin() + 1, std::find(cage.begin() + 1, cage.end(), no_bead));
     if (const auto fault = not_smallest(judged.balls, nodes[cage[0]].beads, basis)) return fault;

@@ -11,7 +11,7 @@
 
 namespace kds::test {
 
-/// What a judge looks at: a structure of a run, and the exact balls at a time at which nothing fails.
+/// Input of a judge: a structure of a run, and the exact balls at a time at which nothing fails.
 struct Judged {
   const Scene& scene;
   const RunningStructure& structure;

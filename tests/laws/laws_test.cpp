@@ -2,7 +2,7 @@
 //
 //   1. Between all events the structure passes its audit, and brute force finds the same.
 //   2. The kernels filtered and exact have the same events at the same times, and the same dumps.
-//   3. A run cut into parts on several threads is the whole run.
+//   3. A run cut into parts on several threads gives the results of the uncut run.
 //   4. Replaying the events without certificates gives the same structure at each frame.
 //   5. After edits, the structure is the one built from the beads that are present, on their present curves.
 //      The kernels agree, and a replay gives the same structure.
@@ -33,7 +33,7 @@ namespace {
 
 using namespace test;
 
-/// Steps of integer arithmetic after which a run is given up. Integers alone take a second for each 10^8.
+/// Limb operations after which a run is given up. They take about a second for 10^8.
 constexpr std::uint64_t most_work = 40'000'000;
 
 /// Everything that two runs must have in common.
@@ -99,8 +99,8 @@ Beads all_beads(const Scene& scene) {
   return beads;
 }
 
-/// Calls `look` at each audit inside a step. It gets a time slightly later, because a structure may be
-/// degenerate at a single moment without an event.
+/// Calls `look` at each audit inside a step. `look` gets the balls at a slightly later time, because a
+/// structure may be degenerate at a single moment without an event.
 class Judge final : public KineticStructure {
  public:
   using Look = std::function<std::optional<std::string>(const ExactBalls&)>;
@@ -164,7 +164,8 @@ class Subject {
     return {{row_.name}, kernel, audits, row_.settings};
   }
 
-  /// Runs the scene. With audits, brute force judges as well; of many beads, or many events, a part.
+  /// Runs the scene. With audits, brute force judges too. With 12 or more beads it judges only every
+  /// n^2/16-th audit.
   [[nodiscard]] Outcome run(Kernel kernel, AuditMode audits) const {
     Outcome outcome;
     EventLog log;
@@ -247,6 +248,7 @@ class Subject {
     SCOPED_TRACE("law 5, edits");
     const bool bends = seed % 2 == 0;
     std::optional<std::uint64_t> filtered;
+    std::string ending;  // of the kernel filtered
     for (const Kernel kernel : {Kernel::filtered, Kernel::exact}) {
       Outcome outcome;
       EventLog log;
@@ -271,7 +273,9 @@ class Subject {
         if (bends || kernel == Kernel::exact) return;
         EXPECT_EQ(replayed(log.events, *filtered).state, state_now(run.running(0)));
       });
-      if (outcome.ending == "too much work") return;
+      if (!outcome.is_decided()) return;
+      if (kernel == Kernel::filtered) ending = outcome.ending;
+      EXPECT_EQ(outcome.ending, ending);  // empty, or the refusal of a step in which all beads stay flat
     }
   }
 
