@@ -114,6 +114,7 @@ StopSignals::StopSignals() {
 
 StopSignals::~StopSignals() {
   wait(0);  // takes signals that are still pending
+  if (stopped_) return;
   ::sigprocmask(SIG_SETMASK, &before_, nullptr);
 }
 

@@ -71,7 +71,8 @@ class TaskProcess {
 };
 
 /// Holds back the signals that ask a program to end (SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU), and
-/// SIGCHLD, while it exists.
+/// SIGCHLD, while it exists. Once a signal has asked, they stay held back: a second one, while the program
+/// ends, would take its exit code away.
 class StopSignals {
  public:
   StopSignals();

@@ -130,14 +130,17 @@ def kills():
 
 def signals():
     sweep = write_sweep(more=[{"command": "compare", "options": {"rounds": 1000}}])  # two endless tasks
-    stops = {signal.SIGTERM: 1, signal.SIGUSR1: 2}
+    stops = (signal.SIGTERM, signal.SIGUSR1)
     workers = {number: start(sweep, "-o", FOLDER / f"stopped{number}", "--jobs", 2) for number in stops}
-    time.sleep(1.5)
+    while not all((FOLDER / f"stopped{number}" / "plan.json").exists() for number in stops):
+        expect(all(worker.poll() is None for worker in workers.values()), "a worker ended before its signal")
+        time.sleep(0.1)
+    time.sleep(1)
     begin = time.time()
-    for number, times in stops.items():
-        for _ in range(times):
-            workers[number].send_signal(number)
-            time.sleep(0.1)
+    workers[signal.SIGTERM].send_signal(signal.SIGTERM)
+    while workers[signal.SIGUSR1].poll() is None and time.time() - begin < DEADLINE:
+        workers[signal.SIGUSR1].send_signal(signal.SIGUSR1)  # again and again, until it has ended
+        time.sleep(0.001)
     for number, worker in workers.items():
         code = worker.wait(DEADLINE)
         expect(code == 75, f"signal {number}: exit code {code}, expected 75")
