@@ -49,49 +49,27 @@ struct Due {
   std::uint32_t number = 0;
 };
 
-class OurQueue {
- public:
-  explicit OurQueue(std::size_t size) : handles_(size) {}
-  void push(Due due) {
-    handles_[due.number] = queue_.push([&](QueueHandle) { return due; });
+struct ByTime {
+  [[nodiscard]] static bool before(const Due& a, const Due& b) { return a.time < b.time; }
+  [[nodiscard]] static double earliest(const Due& due) { return due.time; }
+  [[nodiscard]] static double latest(const Due& due) { return due.time; }
+};
+struct OurQueue {
+  ByTime order;
+  EventQueue<Due, ByTime> queue{order};
+  QueueHandle push(const Due& due) {
+    return queue.push([&](QueueHandle) { return due; });
   }
-  void erase(std::uint32_t number) { queue_.erase(handles_[number]); }
-  Due pop() {
-    const Due due = queue_.top();
-    queue_.pop();
-    return due;
-  }
-
- private:
-  struct Order {
-    [[nodiscard]] static bool before(const Due& a, const Due& b) { return a.time < b.time; }
-    [[nodiscard]] static double earliest(const Due& due) { return due.time; }
-    [[nodiscard]] static double latest(const Due& due) { return due.time; }
-  };
-  Order order_;
-  EventQueue<Due, Order> queue_{order_};
-  std::vector<QueueHandle> handles_;
 };
 
-class BoostQueue {
- public:
-  explicit BoostQueue(std::size_t size) : handles_(size) {}
-  void push(Due due) { handles_[due.number] = queue_.push(due); }
-  void erase(std::uint32_t number) { queue_.erase(handles_[number]); }
-  Due pop() {
-    const Due due = queue_.top();
-    queue_.pop();
-    return due;
-  }
-
- private:
+struct BoostQueue {
   struct Later {
     bool operator()(const Due& a, const Due& b) const { return b.time < a.time; }
   };
-  using Queue = boost::heap::d_ary_heap<Due, boost::heap::arity<4>, boost::heap::mutable_<true>,
-                                        boost::heap::compare<Later>>;
-  Queue queue_;
-  std::vector<Queue::handle_type> handles_;
+  boost::heap::d_ary_heap<Due, boost::heap::arity<4>, boost::heap::mutable_<true>,
+                          boost::heap::compare<Later>>
+      queue;
+  auto push(const Due& due) { return queue.push(due); }
 };
 
 /// Runs as many events as a queue holds failures. At each event the first failure gets another time, and so
@@ -99,18 +77,23 @@ class BoostQueue {
 template <class Queue>
 std::uint64_t run_queue(std::size_t size) {
   models::Random random(1);
-  Queue queue(size);
-  for (std::uint32_t number = 0; number < size; ++number) queue.push({random.uniform(), number});
+  Queue failures;
+  std::vector<decltype(failures.push({}))> handles(size);
+  const auto push = [&](double time, std::uint32_t number) {
+    handles[number] = failures.push({time, number});
+  };
+  for (std::uint32_t number = 0; number < size; ++number) push(random.uniform(), number);
   std::uint64_t sum = 0;
   for (std::size_t event = 0; event < size; ++event) {
-    const Due first = queue.pop();
+    const Due first = failures.queue.top();
+    failures.queue.pop();
     sum = 31 * sum + first.number;
     const auto later = [&] { return first.time + (1 - first.time) * random.uniform(); };
-    queue.push({later(), first.number});
+    push(later(), first.number);
     for (int cancelled = 0; cancelled < 4; ++cancelled) {
       const auto number = static_cast<std::uint32_t>(random.uniform() * static_cast<double>(size));
-      queue.erase(number);
-      queue.push({later(), number});
+      failures.queue.erase(handles[number]);
+      push(later(), number);
     }
   }
   return sum;
