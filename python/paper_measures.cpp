@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "kds/stopwatch.h"
+#include "experiments/program/timing.h"
 #include "motions/base/input_error.h"
 #include "python/balls_given.h"
 #include "python/separating_families.h"
@@ -34,15 +34,6 @@ std::size_t index_of(const char* name, const std::string& word,
   if (found == known.end())
     throw InputError(fmt::format("{}: '{}' is not one of {}", name, word, fmt::join(known, ", ")));
   return static_cast<std::size_t>(found - known.begin());
-}
-
-/// Does the work once, or once in each round, and returns the times.
-template <class Work>
-std::vector<double> times_of(std::size_t rounds, const Work& work) {
-  std::vector<double> seconds;
-  if (rounds == 0) work();
-  while (seconds.size() < rounds) seconds.push_back(seconds_per_call<ProcessorClock>(work));
-  return seconds;
 }
 
 struct Family {
@@ -83,7 +74,9 @@ py::tuple separating_family(const Numbers& centers, const Numbers& radii,
     balls.in_dimension([&](auto dimension) {
       SphereTree<dimension> tree(kind, asked.necklaces);
       tree.build(Balls<dimension>(balls.centers, balls.radii));
-      seconds = times_of(rounds, [&] { family = search(tree, asked, which, static_cast<BeadId>(leaf)); });
+      const auto work = [&] { family = search(tree, asked, which, static_cast<BeadId>(leaf)); };
+      work();
+      seconds = seconds_in_turn(rounds, {[&] { return processor_seconds_per_call(work); }}).front();
     });
   }
   return py::make_tuple(family.pairs, family.tests ? py::object(py::int_(*family.tests)) : py::none(),
@@ -99,8 +92,9 @@ py::tuple closest_by_diagram(const Numbers& centers, const Numbers& radii,
   {
     const Watch watch;
     balls.in_dimension([&](auto dimension) {
-      seconds =
-          times_of(rounds, [&] { report = closest_pair<dimension>(balls.centers, balls.radii, neighbors); });
+      const auto work = [&] { report = closest_pair<dimension>(balls.centers, balls.radii, neighbors); };
+      work();
+      seconds = seconds_in_turn(rounds, {[&] { return processor_seconds_per_call(work); }}).front();
     });
   }
   py::object pair = py::none();
@@ -131,9 +125,9 @@ py::tuple trusted_hierarchy(const Numbers& before, const Numbers& after, const N
       StaticWrappedHierarchy<dimension> hierarchy(first.ranges({}));
       for (std::size_t round = 0; round < rounds; ++round) {
         hierarchy.build(from);
-        seconds.push_back(seconds_per_call<ProcessorClock>([&] { hierarchy.update(to, Update::trust); }));
+        seconds.push_back(processor_seconds_per_call([&] { hierarchy.update(to, Update::trust); }));
         hierarchy.build(from);
-        seconds.push_back(seconds_per_call<ProcessorClock>([&] {
+        seconds.push_back(processor_seconds_per_call([&] {
                             hierarchy.update(to);
                             hierarchy.update(from);
                           }) /

@@ -15,7 +15,7 @@ def separating_family(centers, radius, *, hierarchy="wrapped", rule="more beads"
     necklace are asked about if they are ``apart`` or more along it, with ``between`` only beads of different necklaces.
 
     Returns the number of pairs, the number of pairs of nodes that were compared (None for ``explicit``), and the time of the
-    search in each of ``rounds`` repetitions.
+    search in each of ``rounds`` repetitions (in one if it takes more than a second).
 
     >>> import kds
     >>> chain = kds.generate("random-chain", beads=100, frames=1)[0]
@@ -32,7 +32,7 @@ def closest_by_diagram(centers, radius, *, necklaces=(), rounds=0):
     """Finds the closest pair of beads that are no neighbours, by the power diagram (Theorem 3.5).
 
     Returns the pair as :func:`kds.closest_pair` does, the numbers of pairs that were examined by the rule that names them, a
-    dictionary, and the time in each of ``rounds`` repetitions.
+    dictionary, and the time in each of ``rounds`` repetitions (in one if it takes more than a second).
 
     >>> import kds
     >>> pair, examined, times = kds.closest_by_diagram([[0, 0, 0], [2, 0, 0], [3, 2, 0], [1.5, 3.5, 0]], 1)
