@@ -72,14 +72,6 @@ inline constexpr double clear_distance = 2.002;
 /// in all stages.
 [[nodiscard]] Shape facing_spiral(const Shape& spiral, double distance, double bond = usual_bond);
 
-/// Returns points for which the layered hierarchy is sqrt(h) times as large as the wrapped one (Lemma 2.5 of
-/// Agarwal et al.), which shows that the bound sqrt(h + 1) of Theorem 2.3 is almost tight.
-///
-/// There are 2^h points in sequence order, 1 <= h <= 24, on the unit circle in the plane z = 0. The sphere of
-/// all points has radius 1. In the layered hierarchy, the sphere of any 2^l consecutive points that form a
-/// node of the balanced tree has radius l / sqrt(h). Coordinates are rounded once, from `long double`.
-[[nodiscard]] Eigen::Matrix3Xd tightness_points(int h);
-
 /// Returns a chain in which each bead lies in a random direction from the bead before. Nonadjacent beads are
 /// at least `clear_distance` apart, and all centres lie in a cube of whose volume the beads fill the share
 /// `fill`. Dead ends are backtracked. Throws InputError if no room is found.

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "motions/models/shapes.h"
 #include "structures/hierarchy/layered_hierarchy.h"
 #include "tests/support/inputs/ball_sets.h"
 #include "tests/support/inputs/moving_beads.h"
@@ -85,9 +84,39 @@ TEST(Tightness, BoundsHoldOnProteinsAndTrajectories) {
   }
 }
 
+/// Returns points for which the layered hierarchy is sqrt(h) times as large as the wrapped one (Lemma 2.5 of
+/// Agarwal et al.), which shows that the bound sqrt(h + 1) of Theorem 2.3 is almost tight.
+///
+/// There are 2^h points in sequence order, 1 <= h <= 24, on the unit circle in the plane z = 0. The sphere of
+/// all points has radius 1. In the layered hierarchy, the sphere of any 2^l consecutive points that form a
+/// node of the balanced tree has radius l / sqrt(h). Coordinates are rounded once, from `long double`.
+Eigen::Matrix3Xd tightness_points(int h) {
+  // Works with angles: every point and every centre lies on a ray from the origin, so mirroring a point
+  // mirrors its angle.
+  std::vector<long double> angles{0};
+  long double ray = 0, distance = 1;  // for the centre O_l of the first 2^l points
+  const long double leg = 1 / std::sqrt(static_cast<long double>(h));
+  for (int l = 0; l + 1 < h; ++l) {
+    // O_(l+1) is at the right angle of the triangle O O_(l+1) O_l whose leg O_l O_(l+1) is 1 / sqrt(h).
+    const long double next = std::sqrt(distance * distance - leg * leg);
+    ray += std::acos(next / distance);
+    distance = next;
+    for (std::size_t i = 0, built = angles.size(); i < built; ++i) angles.push_back(2 * ray - angles[i]);
+  }
+  const auto half = static_cast<Eigen::Index>(angles.size());
+  Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Zero(3, 2 * half);
+  for (Eigen::Index p = 0; p < half; ++p) {
+    const long double angle = angles[static_cast<std::size_t>(p)];
+    points(0, p) = static_cast<double>(std::cos(angle));
+    points(1, p) = static_cast<double>(std::sin(angle));
+  }
+  points.rightCols(half) = -points.leftCols(half);
+  return points;
+}
+
 TEST(Tightness, PointsOfLemmaTwoFiveReachTheSquareRootOfTheHeight) {
   for (int h = 1; h <= 9; ++h) {
-    const Eigen::Matrix3Xd points = models::tightness_points(h);
+    const Eigen::Matrix3Xd points = tightness_points(h);
     ASSERT_EQ(points.cols(), 1 << h);
     const std::vector<double> radii(static_cast<std::size_t>(points.cols()), 0);
     const std::vector<BeadRange> necklace{{0, static_cast<BeadId>(points.cols() - 1)}};

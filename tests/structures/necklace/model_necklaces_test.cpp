@@ -114,46 +114,5 @@ TEST(ModelNecklaces, WanderingStaysProperBetweenFrames) {
   }
 }
 
-// The smallest ball around two balls, which computes the layered hierarchy node by node.
-struct Ball {
-  Eigen::Vector3d center;
-  double radius;
-};
-
-Ball around(const Ball& a, const Ball& b) {
-  const Eigen::Vector3d way = b.center - a.center;
-  const double distance = way.norm();
-  if (distance + b.radius <= a.radius) return a;
-  if (distance + a.radius <= b.radius) return b;
-  const double r = (distance + a.radius + b.radius) / 2;
-  return {a.center + way * ((r - a.radius) / distance), r};
-}
-
-TEST(TightnessPoints, MakeTheLayeredHierarchyAsWideAsLemma25Says) {
-  for (int h = 1; h <= 12; ++h) {
-    const Eigen::Matrix3Xd points = tightness_points(h);
-    ASSERT_EQ(points.cols(), Eigen::Index{1} << h);
-    std::vector<Ball> level;
-    for (Eigen::Index p = 0; p < points.cols(); ++p) {
-      EXPECT_NEAR(points.col(p).norm(), 1, 1e-14);
-      EXPECT_EQ(points(2, p), 0);
-      level.push_back({points.col(p), 0});
-    }
-    // The smallest circle around all points has radius 1: opposite points touch it.
-    const Eigen::Index half = points.cols() / 2;
-    for (Eigen::Index p = 0; p < half; ++p) EXPECT_EQ(points.col(p), -points.col(half + p));
-    for (int l = 1; l <= h; ++l) {
-      std::vector<Ball> above;
-      for (std::size_t i = 0; i < level.size(); i += 2) {
-        above.push_back(around(level[i], level[i + 1]));
-        EXPECT_NEAR(above.back().radius, l / std::sqrt(h), 1e-12) << h << " " << l;
-      }
-      level = above;
-    }
-    EXPECT_NEAR(level[0].radius, std::sqrt(h), 1e-12);
-    EXPECT_NEAR(level[0].center.norm(), 0, 1e-7);
-  }
-}
-
 }  // namespace
 }  // namespace kds::models::model_necklaces_test
