@@ -54,16 +54,19 @@ std::string program_help() {
   std::string text =
       "kds: kinetic data structures for deforming necklaces\n\n"
       "usage: kds COMMAND [ARGUMENT]...\n\n";
-  for (const Command& command : kCommands)
-    text += fmt::format("  {:<10} {}\n", command.name, command.summary);
-  return text +
-         "\n"
-         "  help       print this text, or the options of a command: kds help run; kds help inputs\n"
-         "  --help     print the same: kds --help, kds run --help\n"
-         "  --version  print the version\n\n"
-         "exit codes: 0 success, 1 internal failure, failed audit or results that differ\n"
-         "            (replay, the methods of collide, stability), 2 wrong usage or input,\n"
-         "            75 an interrupted sweep, which the same command continues\n";
+  const auto add = [&](std::string_view name, std::string_view help) {
+    text += fmt::format("  {:<10} {}\n", name, wrapped(help, help_width(), 13));
+  };
+  for (const Command& command : kCommands) add(command.name, command.summary);
+  text += '\n';
+  add("help", "print this text, or the options of a command: kds help run; kds help inputs");
+  add("--help", "print the same: kds --help, kds run --help");
+  add("--version", "print the version");
+  constexpr std::string_view exit_codes =
+      "0 success, 1 internal failure, failed audit or results that differ (replay, the methods "
+      "of collide, stability), 2 wrong usage or input, 75 an interrupted sweep, which the same command "
+      "continues";
+  return text + "\nexit codes: " + wrapped(exit_codes, help_width(), 12) + '\n';
 }
 
 // Returns a suggestion if a word is not a command but the name of a structure.

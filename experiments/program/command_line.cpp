@@ -122,9 +122,6 @@ std::size_t help_width() {
   return size.ws_col == 0 ? without_terminal : std::max<std::size_t>(size.ws_col, least);
 }
 
-namespace {
-
-// Breaks a text between words. `indent` blanks begin each line but the first, which others have indented.
 std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
   std::string result;
   std::size_t column = indent;
@@ -138,8 +135,6 @@ std::string wrapped(std::string_view text, std::size_t width, std::size_t indent
   }
   return result;
 }
-
-}  // namespace
 
 std::string help_text(const CommandSpec& command, const std::vector<OptionSpec>& options, std::size_t width) {
   std::vector<OptionSpec> lines;

@@ -70,6 +70,8 @@ class ParsedArguments {
 /// Returns the width of the terminal (COLUMNS, or as the system tells it), or 100 if standard output is no
 /// terminal.
 [[nodiscard]] std::size_t help_width();
+/// Breaks a text between words. `indent` blanks begin each line but the first, which the caller indents.
+[[nodiscard]] std::string wrapped(std::string_view text, std::size_t width, std::size_t indent);
 /// Returns the help of a command, with lines of at most `width` characters where words allow it.
 [[nodiscard]] std::string help_text(const CommandSpec& command, const std::vector<OptionSpec>& options,
                                     std::size_t width = help_width());
