@@ -194,6 +194,11 @@ GenerateOptions parse_generate_options(const Arguments& arguments) {
     throw InputError(fmt::format("--frames: {} beads in {} frames are more than {} positions; give less",
                                  settings.beads, settings.frames, kMostPositions));
   options.settings = completed(*options.model, settings);
+  if (options.settings.motion == ShapeMotion::rest) {
+    if (settings.step)
+      throw InputError("--step: beads at rest do not move; expected --motion rotate or wander");
+    options.settings.step.reset();
+  }
   check_wandering(options.settings);
   check_file(options.file);
   return options;

@@ -34,16 +34,18 @@ TEST(GenerateOptions, DefaultsAreTheModels) {
   EXPECT_EQ(parse_generate_options({"helix", "--beads", "9", "-o", "c.PDB"}).settings.motion,
             ShapeMotion::rotate);
   EXPECT_TRUE(parse_generate_options({"helix", "--beads", "9", "-o", "c.PDB"}).is_pdb());
+  EXPECT_FALSE(
+      parse_generate_options({"helix", "--beads", "9", "--motion", "rest", "-o", "c.xyz"}).settings.step);
 }
 
 TEST(GenerateOptions, TakesEveryOption) {
   const GenerateOptions grid = parse_generate_options(
       {"grid",     "--beads",     "64",     "--frames", "3",      "--seed", "18446744073709551615",
-       "--motion", "rest",        "--step", "0.5",      "--bond", "0.9",    "--gap",
+       "--motion", "rotate",      "--step", "0.5",      "--bond", "0.9",    "--gap",
        "0.25",     "--dimension", "2",      "--jitter", "0.01",   "-o",     "g.ent",
        "--out",    "there",       "--json", "-",        "--quiet"});
   EXPECT_EQ(grid.settings.seed, ~std::uint64_t{0});
-  EXPECT_EQ(grid.settings.motion, ShapeMotion::rest);
+  EXPECT_EQ(grid.settings.motion, ShapeMotion::rotate);
   EXPECT_EQ(grid.settings.gap, 0.25);
   EXPECT_EQ(grid.settings.dimension, 2);
   EXPECT_EQ(grid.settings.jitter, 0.01);
