@@ -71,11 +71,6 @@ py::dict run_analysis(const py::object& progress, const Find& find) {
   return result;
 }
 
-void refuse_instance(const InputOptions& options) {
-  if (const auto instance = read_lone_instance(options))
-    throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
-}
-
 /// The columns of all intervals of a report.
 struct Intervals {
   std::vector<std::int64_t> first, second;

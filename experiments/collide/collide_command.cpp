@@ -126,8 +126,7 @@ int collide_command(const Arguments& arguments) {
   command.check_destinations(taken,
                              {"collide.json", "collide.csv", "pairs.csv", "frames.csv", "report.html"});
 
-  if (const auto instance = read_lone_instance(options))
-    throw InputError(instance->file + ": an instance file has points, no balls; expected a trajectory");
+  refuse_instance(options, "points, no balls");
   const auto warn = command.warn();
   CollideFrames frames(options, warn);
   const CollideTask task = collide_task(options, frames);

@@ -374,8 +374,7 @@ int missed_command(const Arguments& arguments) {
   TableCommand command("missed", arguments, options.destinations, "step");
   command.check_inputs_and_destinations(task);
 
-  if (const auto instance = read_lone_instance(task))
-    throw InputError(instance->file + ": an instance file has points, no balls; expected a trajectory");
+  refuse_instance(task, "points, no balls");
   const MissedReport report = count_missed(task, command.warn(), command.progress());
 
   const MissedInput& input = report.input;

@@ -189,8 +189,7 @@ ContactsOptions parse_contacts_options(const Arguments& arguments) {
 ContactsFound find_contacts(const ContactsTask& task,
                             const std::function<void(std::size_t, std::size_t)>& progress,
                             const std::function<void(const std::string&)>& warn) {
-  if (const auto instance = read_lone_instance(task))
-    throw InputError(instance->file + ": an instance file has points and one step; expected a trajectory");
+  refuse_instance(task, "points and one step");
   ContactsFound found;
   found.scene = std::make_unique<const Scene>(load_necklaces(options_of_input(task), task.motion, 1, warn));
   hint_at_threads(task.threads, found.scene->step_count(), found.scene->bead_count(), warn);

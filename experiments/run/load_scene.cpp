@@ -45,6 +45,11 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   return read_instance(*instance);
 }
 
+void refuse_instance(const InputOptions& options, std::string_view what) {
+  if (const auto instance = read_lone_instance(options))
+    throw InputError(fmt::format("{}: an instance file has {}; expected a trajectory", instance->file, what));
+}
+
 namespace {
 
 /// The atoms of an input, used to decide whether two inputs have the same atoms.

@@ -20,6 +20,8 @@ namespace kds {
 /// Reads the only input if it is an instance file, else returns nothing. Throws InputError if an instance
 /// file comes with other inputs, or with an option that has no meaning for it.
 [[nodiscard]] std::optional<Instance> read_lone_instance(const InputOptions& options);
+/// Throws InputError for an instance file, which has `what`.
+void refuse_instance(const InputOptions& options, std::string_view what = "no frames");
 
 /// Opens all inputs and then the obstacle, to be read frame by frame. Reads every `stride`-th frame of the
 /// frames that the options ask for. No input may be an instance file.

@@ -258,8 +258,7 @@ struct TradeSubject {
 };
 
 TradeSubject read_subject(const TradeOptions& options, const std::function<void(const std::string&)>& warn) {
-  if (const auto instance = read_lone_instance(options))
-    throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
+  refuse_instance(options);
   std::vector<Trajectory> necklaces = read_necklaces(options, warn);
   refuse_lone_frame(options, necklaces);
   std::vector<double> radii = bead_radii(options.radius, necklaces);

@@ -266,8 +266,7 @@ std::vector<UpdateRow> measure_updates(const UpdateOptions& options,
                                        const std::function<void(std::size_t, std::size_t)>& progress,
                                        const std::function<void(const std::string&)>& warn,
                                        const std::function<void(const Scene& all)>& look_at) {
-  if (const auto instance = read_lone_instance(options))
-    throw InputError(instance->file + ": an instance file has no frames; expected a trajectory");
+  refuse_instance(options);
   std::map<std::size_t, FrameSurvey> surveys;  // by stride
   const std::unique_ptr<FrameSource> all = open_frames(options, warn);
   surveys.emplace(1, survey_frames(*all, options.radius == "auto", warn));
