@@ -221,6 +221,11 @@ void bind_run(py::module_& module) {
       .def("stamps", &RunHandle::stamps)
       .def("bead_names", &RunHandle::bead_names)
       .def_property_readonly("apart", &RunHandle::apart)
+      .def_property_readonly("contact_distance",
+                             [](const RunHandle& run) {
+                               const kds::ContactDistance distance = run.contact_distance();
+                               return std::pair(distance.length, distance.between_surfaces);
+                             })
       .def_property_readonly("radii", [](const RunHandle& run) { return run.scene().radii(); })
       .def_property_readonly("bead_count", [](const RunHandle& run) { return run.scene().bead_count(); })
       .def_property_readonly("frame_count", [](const RunHandle& run) { return run.scene().frame_count(); })

@@ -99,6 +99,10 @@ class RunHandle {
   [[nodiscard]] std::string json();
 
   [[nodiscard]] const Scene& scene() const { return run_->scene(); }
+  /// Returns the distance at which beads are in contact. Balls that meet have no distance of their surfaces.
+  [[nodiscard]] ContactDistance contact_distance() const {
+    return options_.distances.first().value_or(ContactDistance{0, true});
+  }
   /// Returns how far apart along their chain the beads of a contact are at least.
   [[nodiscard]] BeadId apart() const { return options_.apart.value_or(StructureSettings().apart); }
   /// Returns a frame's number in the trajectory and its time in picoseconds. Fast at and near the present

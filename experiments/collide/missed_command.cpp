@@ -16,7 +16,6 @@
 #include "experiments/output/page/table.h"
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
-#include "experiments/program/contact_options.h"
 #include "experiments/program/mean_interval.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
@@ -99,8 +98,7 @@ std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, const
   options.structures = {"contacts"};
   options.motion = task.motion;
   options.apart = task.apart;
-  options.cutoff = rule.cutoff;
-  options.surface = task.surface;
+  if (rule.cutoff) options.distances = {{*rule.cutoff}, task.distances.between_surfaces};
   const auto run = open_run(options, scene, AuditMode::none);
   std::vector<std::size_t> spacings;
   for (const std::size_t stride : strides) spacings.push_back(stride * ticks_per_frame);
@@ -140,7 +138,7 @@ std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, const
 
 std::vector<MissedRule> rules_of(const MissedTask& task) {
   std::vector<MissedRule> rules;
-  for (const double cutoff : task.cutoffs) rules.push_back({1, cutoff});
+  for (const double cutoff : task.distances.lengths) rules.push_back({1, cutoff});
   if (rules.empty())
     for (const double factor : task.factors) rules.push_back({factor});
   return rules;
@@ -150,7 +148,7 @@ std::vector<MissedRule> rules_of(const MissedTask& task) {
 std::optional<std::string> hint_of(const MissedTask& task, const Scene& scene, const MissedRule& rule) {
   if (!task.reading.groups.empty()) return std::nullopt;  // the hint counts pairs of all beads
   if (!rule.cutoff) return task.radius == "auto" ? factor_hint(scene, rule.factor, task.apart) : std::nullopt;
-  const auto hint = cutoff_hint(scene, task.surface, task.apart);
+  const auto hint = cutoff_hint(scene, task.distances.between_surfaces, task.apart);
   return hint
              ? std::optional(fmt::format("there are no contacts within --cutoff {}; {}", *rule.cutoff, *hint))
              : std::nullopt;
@@ -188,41 +186,31 @@ constexpr CommandSpec kMissedCommand{
     "kds missed villin.dcd --topology villin.pdb --select ca --cutoff 6.5,8 --apart 3\n"
     "kds missed a.xyz b.xyz --radius 1.9 --strides 1,10,100 --json -"};
 
-std::vector<double> parse_reals(std::string_view option, const std::string& list, const RealRange& range) {
-  std::vector<double> values;
-  for (const std::string& text : split(list, ',')) values.push_back(parse_real(option, text, range));
-  std::sort(values.begin(), values.end());
-  if (const auto twice = std::adjacent_find(values.begin(), values.end()); twice != values.end())
-    throw InputError(fmt::format("{}: {} is listed twice", option, *twice));
-  return values;
-}
-
 // Returns the options that appear as settings in the JSON.
 const OptionList<MissedTask>& missed_task_options() {
   using O = MissedTask;
   static const auto list =
       OptionList<O>()
           .with(input_options().with({obstacle_option()}))
-          .with({of_output(list_option({"--strides", "LIST",
-                                        "examine every frame, every second, ... (default: 1,2,4,8,16,32,64, "
-                                        "as far as at least two frames remain)"},
-                                       &O::strides, parse_strides)),
-                 list_option({"--factors", "LIST",
-                              "multiply the radii by each factor, one run each. With --radius auto, contacts "
-                              "appear from 2.2 to 2.5 on (default: 1)"},
-                             &O::factors,
-                             [](const std::string& text) {
-                               return parse_reals("--factors", text, {0, 1e6, true});
-                             }),
-                 list_option({"--cutoff", "LIST",
-                              "two beads are in contact while their centres are at most this far apart; each "
-                              "length is one run (default: while their balls meet)"},
-                             &O::cutoffs,
-                             [](const std::string& text) {
-                               return parse_reals("--cutoff", text, {0, largest_cutoff});
-                             }),
-                 surface_option(&O::surface),
-                 apart_option("pairs of beads of one chain must be at least K apart along it; with factors "
+          .with({
+              of_output(list_option({"--strides", "LIST",
+                                     "examine every frame, every second, ... (default: 1,2,4,8,16,32,64, "
+                                     "as far as at least two frames remain)"},
+                                    &O::strides, parse_strides)),
+              list_option({"--factors", "LIST",
+                           "multiply the radii by each factor, one run each. With --radius auto, contacts "
+                           "appear from 2.2 to 2.5 on (default: 1)"},
+                          &O::factors,
+                          [](const std::string& text) {
+                            return parse_reals("--factors", text, {0, 1e6, true});
+                          }),
+          })
+          .with(
+              &O::distances,
+              contact_options("two beads are in contact while their centres are at most this far apart; each "
+                              "length is one run (default: while their balls meet)",
+                              ','))
+          .with({apart_option("pairs of beads of one chain must be at least K apart along it; with factors "
                               "above 2 take 5, or near neighbours are always in contact (default: 2)",
                               &O::apart)})
           .with(OptionList<InputOptions>({groups_option()}))
@@ -248,11 +236,10 @@ MissedOptions parse_missed_options(const Arguments& arguments) {
   const ParsedArguments parsed = read_arguments(with_inputs(kMissedCommand), list, arguments, options);
   take_inputs(parsed, kMissedCommand.name, options.task);
   const MissedTask& task = options.task;
-  if (!task.cutoffs.empty() && parsed.has("--factors"))
+  if (!task.distances.lengths.empty() && parsed.has("--factors"))
     throw InputError(
         "--factors and --cutoff: each says when two beads are in contact; expected one of the two options");
-  static_cast<void>(contact_distance_of(
-      task.cutoffs.empty() ? std::nullopt : std::optional(task.cutoffs.front()), task.surface));
+  task.distances.check();
   return options;
 }
 
@@ -322,7 +309,7 @@ std::string findings(std::span<const MissedRow> rows) {
 Table<MissedRow> missed_columns(const MissedTask& task) {
   using Row = MissedRow;
   Table<Row> table({{"factor", "radii times", [](const Row& r) { return Field(r.rule.factor); }}});
-  if (!task.cutoffs.empty())
+  if (!task.distances.lengths.empty())
     table = Table<Row>({{"cutoff", "cutoff", [](const Row& r) { return Field(r.rule.cutoff); }}});
   table.add({
       {"stride", "stride", [](const Row& r) { return Field(r.stride); }},

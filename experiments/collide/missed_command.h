@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/program/command_line.h"
+#include "experiments/program/contact_options.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option.h"
 #include "motions/base/bead.h"
@@ -15,8 +16,7 @@ namespace kds {
 struct MissedTask : InputOptions {
   FrameMotion motion = FrameMotion::linear;
   std::vector<double> factors{1};  ///< factors of the radii; each is a run unless there are cutoffs
-  std::vector<double> cutoffs;     ///< --cutoff; each is a run
-  bool surface = false;            ///< --surface
+  ContactDistances distances;      ///< --cutoff and --surface; each is a run
   /// Ascending. If empty, the strides are 1, 2, 4 ... 64, as far as at least two frames are examined.
   std::vector<std::size_t> strides;
   BeadId apart = 2;

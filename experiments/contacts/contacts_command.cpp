@@ -10,7 +10,6 @@
 #include "experiments/contacts/contacts_report.h"
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
-#include "experiments/program/contact_options.h"
 #include "experiments/program/option.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
@@ -33,45 +32,21 @@ constexpr CommandSpec kContactsCommand{
     "kds contacts villin.dcd --topology villin.pdb --cutoff 8 --select ca --out report\n"
     "kds contacts a.xyz --cutoff 4.5:6 --gap 2 --by bead --json -"};
 
-ContactCutoffs parse_cutoffs(const std::string& text) {
-  const std::vector<std::string> lengths = split(text, ':');
-  if (lengths.size() > 2)
-    throw InputError(
-        fmt::format("--cutoff: '{}' has {} lengths; expected one, or two as in 4.5:6", text, lengths.size()));
-  ContactCutoffs cutoffs;
-  cutoffs.inner = parse_real("--cutoff", lengths.front(), {0, largest_cutoff});
-  cutoffs.outer = parse_real("--cutoff", lengths.back(), {0, largest_cutoff});
-  if (cutoffs.outer < cutoffs.inner)
-    throw InputError(
-        fmt::format("--cutoff: '{}' ends contacts within the distance at which they begin; expected "
-                    "the smaller length first, {}:{}",
-                    text, lengths.back(), lengths.front()));
-  return cutoffs;
-}
-
-Option<ContactsTask> cutoff_option() {
-  auto option = value_option(
-      {"--cutoff", "LENGTH",
-       "two beads are in contact while their centres are at most this far apart (must be given; 8 is usual "
-       "between C-alpha atoms, 4.5 between heavy atoms). A:B are two cutoffs: a contact begins when the "
-       "least "
-       "distance of two beads of the pair falls to A, and ends when it exceeds B"},
-      &ContactsTask::cutoff, parse_cutoffs, [](const ContactCutoffs& cutoffs) {
-        return cutoffs.are_two() ? fmt::format("{}:{}", cutoffs.inner, cutoffs.outer)
-                                 : fmt::format("{}", cutoffs.inner);
-      });
-  return option;
-}
-
 // Returns the options that appear as settings in the JSON.
 const OptionList<ContactsTask>& contacts_task_options() {
   using O = ContactsTask;
   static const auto list =
       OptionList<O>()
           .with(input_options().with({obstacle_option()}))
+          .with(&O::distances,
+                contact_options(
+                    "two beads are in contact while their centres are at most this far apart (must be given; "
+                    "8 is usual between C-alpha atoms, 4.5 between heavy atoms). A:B are two cutoffs: a "
+                    "contact begins when the least distance of two beads of the pair falls to A, and ends "
+                    "when it exceeds B",
+                    ':'))
           .with(
-              {cutoff_option(), surface_option(&O::surface),
-               real_option(
+              {real_option(
                    {"--gap", "TIME",
                     "an absence shorter than this does not end a contact; in picoseconds if the frames have "
                     "times, otherwise in frames (default: 0)"},
@@ -108,13 +83,16 @@ const OptionList<ContactsTask>& contacts_task_options() {
 void warn_of_none(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
                   const TableCommand::Warn& warn) {
   if (report.pairs_asked == 0)
-    return warn(fmt::format("there are no contacts, because none of {} {}s are a pair; --apart is {}{}",
-                            report.elements.names.size(), name_of(report.by), report.apart,
-                            task.reading.groups.empty() ? "" : ", and --groups leaves out pairs"));
-  std::string line = fmt::format("there are no contacts within --cutoff {}", task.cutoff->inner);
+    return warn(
+        fmt::format("there are no contacts, because none of {} {}s are a pair; {} is {}{}",
+                    report.elements.names.size(), name_of(report.by), "--apart", report.apart,
+                    task.reading.groups.empty() ? "" : fmt::format(", and {} leaves out pairs", "--groups")));
+  std::string line =
+      fmt::format("there are no contacts within {} {}", "--cutoff", task.distances.lengths.front());
   // The hint looks at pairs of all beads.
   if (task.reading.groups.empty() && report.by != ContactElement::chain)
-    if (const auto hint = cutoff_hint(scene, task.surface, report.apart)) line += "; " + *hint;
+    if (const auto hint = cutoff_hint(scene, task.distances.between_surfaces, report.apart))
+      line += "; " + *hint;
   warn(line);
 }
 
@@ -122,7 +100,7 @@ void warn_of_none(const ContactsTask& task, const Scene& scene, const ContactsRe
 /// not computed for them.
 InputOptions options_of_input(const ContactsTask& task) {
   InputOptions options = task;
-  if (!task.surface && task.radius == "auto") options.radius = "1";
+  if (!task.distances.between_surfaces && task.radius == "auto") options.radius = "1";
   return options;
 }
 
@@ -152,8 +130,7 @@ RunOptions run_to_show(const ContactsTask& task, const Scene& scene, const Conta
   run.structures = {"contacts"};
   run.motion = task.motion;
   run.apart = beads_apart(scene, report);
-  run.cutoff = task.cutoff->inner;
-  run.surface = task.surface;
+  run.distances = {{task.distances.lengths.front()}, task.distances.between_surfaces};
   return run;
 }
 
@@ -176,12 +153,12 @@ ContactsOptions parse_contacts_options(const Arguments& arguments) {
   const ParsedArguments parsed = read_arguments(with_inputs(kContactsCommand), list, arguments, options);
   take_inputs(parsed, kContactsCommand.name, options.task);
   const ContactsTask& task = options.task;
-  if (!task.cutoff)
+  if (task.distances.lengths.empty())
     throw InputError(
         "kds contacts needs --cutoff LENGTH, the distance within which two beads are in contact, such as "
         "--cutoff 8 "
         "between C-alpha atoms or --cutoff 4.5 between heavy atoms");
-  check_contact_distance({task.cutoff->inner, task.surface});
+  task.distances.check();
   refuse_needless_certificate(task);
   return options;
 }

@@ -79,7 +79,7 @@ ContactRule rule_of(const ContactsTask& task, const ContactsReport& report) {
           .gap = task.gap,
           .clock = report.clock,
           .inner = 0,
-          .outer = task.cutoff->are_two() ? 1U : 0U};
+          .outer = task.has_two_cutoffs() ? 1U : 0U};
 }
 
 /// Returns the rule of contacts within the inner cutoff, without any gap.
@@ -166,7 +166,7 @@ void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report
   FrameContacts& frames = *report.frames;
   run.follow(inner_rule_of(task, report),
              [&](const ContactInterval& interval) { frames.add_inner(interval); });
-  if (task.cutoff->are_two())
+  if (task.has_two_cutoffs())
     run.follow(outer_rule, [&](const ContactInterval& interval) { frames.add_outer(interval); });
   run.follow(rule_of(task, report), [&](const ContactInterval& interval) {
     report.lifetimes.add(interval);
@@ -250,9 +250,8 @@ std::vector<double> ContactCourse::means() const {
 }
 
 CutoffRadii radii_of(const ContactsTask& task, const Scene& scene) {
-  const auto radii = [&](double length) { return contact_radii({length, task.surface}, scene.radii()); };
-  CutoffRadii of_cutoffs{radii(task.cutoff->inner), {}};
-  if (task.cutoff->are_two()) of_cutoffs.outer = radii(task.cutoff->outer);
+  CutoffRadii of_cutoffs{contact_radii(task.distances[0], scene.radii()), {}};
+  if (task.has_two_cutoffs()) of_cutoffs.outer = contact_radii(task.distances[1], scene.radii());
   return of_cutoffs;
 }
 
@@ -286,7 +285,7 @@ std::unique_ptr<ContactsReport> follow_contacts(
                                  name_of(report->by),
                                  report->by == ContactElement::chain ? ", or --by residue or bead" : ""));
   report->apart = report->by == ContactElement::chain ? 1 : task.apart.value_or(default_contacts_apart);
-  report->has_two_cutoffs = task.cutoff->are_two();
+  report->has_two_cutoffs = task.has_two_cutoffs();
   const FrameStamp first = scene.stamp(0);
   report->clock = first.picoseconds ? ContactClock::picoseconds : ContactClock::frames;
   report->pairs_asked = pairs_asked(scene, *report);

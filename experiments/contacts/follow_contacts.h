@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/program/contact_options.h"
 #include "experiments/program/input_options.h"
 #include "motions/base/bead_groups.h"
 #include "motions/scene/scene.h"
@@ -19,15 +20,9 @@
 
 namespace kds {
 
-/// A contact begins within `inner` and ends outside `outer`; both are equal if there is one cutoff.
-struct ContactCutoffs {
-  double inner = 0, outer = 0;
-  [[nodiscard]] bool are_two() const { return inner < outer; }
-};
-
 struct ContactsTask : InputOptions {
-  std::optional<ContactCutoffs> cutoff;  ///< has a value after parsing
-  bool surface = false;
+  /// One or two. A contact begins within the first (inner) distance and ends outside the last (outer) one.
+  ContactDistances distances;
   std::optional<BeadId> apart;       ///< empty if not given
   double gap = 0;                    ///< in picoseconds if the frames have times, otherwise in frames
   std::optional<ContactElement> by;  ///< empty if not given
@@ -36,6 +31,8 @@ struct ContactsTask : InputOptions {
   FrameMotion motion = FrameMotion::linear;
   bool certify = false;
   std::optional<std::size_t> threads;  ///< empty for all cores
+
+  [[nodiscard]] bool has_two_cutoffs() const { return distances.lengths.size() == 2; }
 };
 
 inline constexpr BeadId default_contacts_apart = 3;

@@ -1,23 +1,55 @@
 #include "experiments/program/contact_options.h"
 
+#include <fmt/format.h>
+
+#include "experiments/output/text.h"
+#include "experiments/program/option_values.h"
 #include "motions/base/input_error.h"
 
 namespace kds {
 
-void check_contact_distance(const ContactDistance& distance) {
-  if (distance.length == 0 && !distance.between_surfaces)
+namespace {
+
+std::vector<double> parse_cutoff(const std::string& text, char separator) {
+  const RealRange range{0, 1e9};
+  if (separator == ',') return parse_reals("--cutoff", text, range);
+  const std::vector<std::string> parts = split(text, separator);
+  if (parts.size() > 2)
     throw InputError(
-        "--cutoff: centres that coincide are no contact; expected a length above 0, or --surface");
+        "--cutoff", fmt::format("'{}' has {} lengths; expected one, or two as in 4.5:6", text, parts.size()));
+  const double inner = parse_real("--cutoff", parts.front(), range);
+  const double outer = parse_real("--cutoff", parts.back(), range);
+  if (outer < inner)
+    throw InputError(
+        fmt::format("--cutoff: '{}' ends contacts within the distance at which they begin; expected the "
+                    "smaller length first, {}:{}",
+                    text, parts.back(), parts.front()));
+  return inner < outer ? std::vector{inner, outer} : std::vector{inner};
 }
 
-std::optional<ContactDistance> contact_distance_of(const std::optional<double>& cutoff,
-                                                   bool between_surfaces) {
-  if (!cutoff && between_surfaces)
-    throw InputError("--surface: measures --cutoff between surfaces; expected --cutoff LENGTH as well");
-  if (!cutoff) return std::nullopt;
-  const ContactDistance distance{*cutoff, between_surfaces};
-  check_contact_distance(distance);
-  return distance;
+}  // namespace
+
+void ContactDistances::check() const {
+  if (lengths.empty() && between_surfaces)
+    throw InputError(fmt::format("--surface: measures {} between surfaces; expected {} LENGTH as well",
+                                 "--cutoff", "--cutoff"));
+  if (!lengths.empty() && lengths.front() == 0 && !between_surfaces)
+    throw InputError(fmt::format(
+        "--cutoff: centres that coincide are no contact; expected a length above 0, or {}", "--surface"));
+}
+
+OptionList<ContactDistances> contact_options(const std::string& help, char separator) {
+  using D = ContactDistances;
+  auto cutoff = only_for({"contacts"},
+                         list_option({"--cutoff", separator == ',' ? "LIST" : "LENGTH", help}, &D::lengths,
+                                     [=](const std::string& text) { return parse_cutoff(text, separator); }));
+  if (separator != ',') {
+    cutoff.text = [](const D& d) { return fmt::format("{}", fmt::join(d.lengths, ":")); };
+    cutoff.json = nullptr;
+  }
+  return {
+      {cutoff, flag_option("--surface", "measure the cutoff between the surfaces of beads (default: centres)",
+                           &D::between_surfaces)}};
 }
 
 }  // namespace kds

@@ -1,29 +1,33 @@
 #pragma once
 // The options --cutoff and --surface of commands whose contacts have a distance of their own.
 
+#include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "experiments/program/option.h"
 #include "structures/contacts/contact_distance.h"
 
 namespace kds {
 
-/// The largest value of --cutoff.
-inline constexpr double largest_cutoff = 1e9;
+/// The values of --cutoff and --surface: a distance for each length.
+struct ContactDistances {
+  std::vector<double> lengths;  ///< ascending; empty without --cutoff
+  bool between_surfaces = false;
 
-/// Returns the option --surface.
-template <class Options>
-[[nodiscard]] Option<Options> surface_option(bool Options::*surface) {
-  return flag_option("--surface", "measure the cutoff between the surfaces of beads (default: centres)",
-                     surface);
-}
+  [[nodiscard]] ContactDistance operator[](std::size_t k) const { return {lengths[k], between_surfaces}; }
+  /// Returns the shortest distance, or nothing without --cutoff.
+  [[nodiscard]] std::optional<ContactDistance> first() const {
+    return lengths.empty() ? std::nullopt : std::optional((*this)[0]);
+  }
+  /// Throws InputError for --surface without --cutoff, and for a distance of 0 between centres, within which
+  /// there are no contacts.
+  void check() const;
+};
 
-/// Throws InputError if no contact can be within this distance: if it is 0 between centres.
-void check_contact_distance(const ContactDistance& distance);
-
-/// Returns the distance that --cutoff and --surface ask for, or nothing without --cutoff. Throws InputError
-/// if --surface comes without --cutoff, and as check_contact_distance does.
-[[nodiscard]] std::optional<ContactDistance> contact_distance_of(const std::optional<double>& cutoff,
-                                                                 bool between_surfaces);
+/// Returns the options --cutoff and --surface. --cutoff takes a length, or with the separator ':' one or two
+/// as in 4.5:6, or with ',' a list as in 6.5,8.
+[[nodiscard]] OptionList<ContactDistances> contact_options(const std::string& help, char separator = '\0');
 
 }  // namespace kds

@@ -115,6 +115,15 @@ double parse_real(std::string_view option, std::string_view text, const RealRang
                                range.least_excluded ? "above" : "from", range.least, range.most));
 }
 
+std::vector<double> parse_reals(std::string_view option, const std::string& list, const RealRange& range) {
+  std::vector<double> values;
+  for (const std::string& text : split(list, ',')) values.push_back(parse_real(option, text, range));
+  std::sort(values.begin(), values.end());
+  if (const auto twice = std::adjacent_find(values.begin(), values.end()); twice != values.end())
+    throw InputError(fmt::format("{}: {} is listed twice", option, *twice));
+  return values;
+}
+
 std::vector<std::string> parse_structures(const std::string& list) {
   const std::vector<std::string> names = split(list, ',');
   std::vector<std::string_view> known;

@@ -69,6 +69,10 @@ struct RealRange {
 };
 [[nodiscard]] double parse_real(std::string_view option, std::string_view text, const RealRange& range);
 
+/// Returns the numbers of a comma-separated list, ascending. Throws InputError also if one is listed twice.
+[[nodiscard]] std::vector<double> parse_reals(std::string_view option, const std::string& list,
+                                              const RealRange& range);
+
 /// Returns the names of structures in the order of the registry, whatever the order in `list`. A set of
 /// structures therefore always gives the same run. Throws InputError.
 [[nodiscard]] std::vector<std::string> parse_structures(const std::string& list);

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/program/contact_options.h"
 #include "experiments/program/input_options.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/run_scene.h"
@@ -102,7 +101,7 @@ PairsMet pairs_of(ContactSpan contacts) {
 void bound_contacts(const RunOptions& options, const Scene& scene, const std::optional<double>& tolerance,
                     StrideCertificate& certificate) {
   const FrameSurvey survey = survey_frames(*frames_of(options, options.reading.frames.stride), false);
-  const auto distance = contact_distance_of(options.cutoff, options.surface);
+  const auto distance = options.distances.first();
   const std::vector<double> own = distance ? contact_radii(*distance, scene.radii()) : scene.radii();
   RadiiWithin radii = certified_radii(certificate.deviation, own);
   const auto found = contacts_met(options, survey, own, tolerance);

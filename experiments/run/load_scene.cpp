@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "experiments/output/text.h"
-#include "experiments/program/contact_options.h"
 #include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
 #include "motions/readers/bead_name.h"
@@ -274,7 +273,7 @@ KineticRunOptions kinetic_run_options(const RunOptions& options, const Scene& sc
   kinetic.settings.between = options.between.value_or(kinetic.settings.between);
   kinetic.settings.tightness = options.tightness;
   kinetic.settings.directions = options.directions;
-  kinetic.settings.contact_distance = contact_distance_of(options.cutoff, options.surface);
+  kinetic.settings.contact_distance = options.distances.first();
   kinetic.settings.groups = scene.bead_groups();
   if (kinetic.structures.empty()) kinetic.structures = default_structures(scene);
   if (std::ranges::count(kinetic.structures, "closest") > 0) {

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "certificates/exact/exact_work.h"
-#include "experiments/program/contact_options.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option_values.h"
 #include "experiments/run/certify_stride.h"
@@ -161,14 +160,10 @@ const OptionList<RunOptions>& motion_and_structure_options() {
                   apart_option(
                       "contacts: pairs of beads of one chain must be at least K apart along it (default: 2)",
                       &O::apart)),
-              only_for(
-                  {"contacts"},
-                  real_option({"--cutoff", "LENGTH",
-                               "contacts: two beads are in contact while their centres are at most this far "
-                               "apart (default: while their balls meet)"},
-                              &O::cutoff, {0, largest_cutoff})),
-              surface_option(&O::surface),
           })
+          .with(&O::distances,
+                contact_options("contacts: two beads are in contact while their centres are at most this far "
+                                "apart (default: while their balls meet)"))
           .with(OptionList<InputOptions>({only_for({"contacts"}, groups_option())}))
           .with({
               only_for({"boxes"}, directions_option(&O::directions)),
@@ -212,7 +207,7 @@ RunOptions parse_run_options(const Arguments& arguments) {
   const ParsedArguments parsed =
       read_arguments(with_inputs(kRunCommand, true), run_options(), arguments, options);
   take_inputs(parsed, kRunCommand.name, options);
-  static_cast<void>(contact_distance_of(options.cutoff, options.surface));  // refuses a distance of 0
+  options.distances.check();
   refuse_needless_certificate(options);
   return options;
 }

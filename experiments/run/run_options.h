@@ -13,6 +13,7 @@
 
 #include "certificates/base/kernel.h"
 #include "experiments/output/output_files.h"
+#include "experiments/program/contact_options.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option.h"
 #include "kds/kinetic_structure.h"
@@ -41,8 +42,7 @@ struct RunOptions : InputOptions, Destinations {
   AuditMode audit = AuditMode::none;
   NodeSelection nodes;                          ///< --levels, --nodes
   std::optional<BeadId> apart;                  ///< --apart; empty if not given
-  std::optional<double> cutoff;                 ///< --cutoff; empty if not given
-  bool surface = false;                         ///< --surface
+  ContactDistances distances;                   ///< --cutoff and --surface
   std::optional<Between> between;               ///< --between; empty if not given
   std::optional<double> tightness;              ///< --tightness; empty if not given
   std::optional<int> directions;                ///< --directions; empty if not given

@@ -96,17 +96,18 @@ std::optional<double> deviation_of_run(const RunOptions& options, const Scene& s
 
 /// Returns a hint if the cutoff or the automatic radius leaves a run without contacts.
 std::optional<std::string> hint_of(const RunOptions& options, const Scene& scene, const RunReport& report) {
-  if (!options.cutoff && options.radius != "auto") return std::nullopt;
+  const auto distance = options.distances.first();
+  if (!distance && options.radius != "auto") return std::nullopt;
   if (!options.reading.groups.empty()) return std::nullopt;  // the hint counts pairs of all beads
   const auto has_none = [](const StructureReport& structure) {
     return structure.name == "contacts" && structure.events_total == 0 && structure.contacts_at_start == 0U;
   };
   if (std::ranges::none_of(report.structures, has_none)) return std::nullopt;
   const BeadId apart = options.apart.value_or(StructureSettings().apart);
-  if (!options.cutoff) return radius_hint(scene, apart);
-  const auto hint = cutoff_hint(scene, options.surface, apart);
-  return hint ? std::optional(
-                    fmt::format("contacts: there are none within --cutoff {}; {}", *options.cutoff, *hint))
+  if (!distance) return radius_hint(scene, apart);
+  const auto hint = cutoff_hint(scene, distance->between_surfaces, apart);
+  return hint ? std::optional(fmt::format("contacts: there are none within {} {}; {}", "--cutoff",
+                                          distance->length, *hint))
               : std::nullopt;
 }
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from . import _kds, _plots
 from ._inputs import open_input
-from ._options import INPUT, InputError, arguments, call, check_names, flag, number, takes, warn
+from ._options import INPUT, InputError, arguments, call, check_names, cutoff_text, flag, number, takes, warn
 from ._tables import Result, table, table_of_rows
 
 
@@ -91,12 +91,6 @@ class Contacts(Result):
         return _plots.survival(self, ax)
 
 
-def cutoff_text(cutoff):
-    """Returns one or two lengths as the program takes them."""
-    lengths = cutoff if np.ndim(cutoff) > 0 else [cutoff]
-    return ":".join(repr(number("cutoff", length, "a length in angstrom, or a pair of lengths")) for length in lengths)
-
-
 @takes("contacts")
 def contacts(source, *, cutoff, verbose=False, **options):
     """Measures how long contacts last, exactly for the paths between frames, and as frames alone show them.
@@ -114,7 +108,7 @@ def contacts(source, *, cutoff, verbose=False, **options):
     if options.get("gap") is not None:
         options["gap"] = number("gap", options["gap"], "a length of time from 0")
     options["surface"] = flag("surface", options.get("surface", False))
-    return Contacts(_analyse(contacts, source, {"cutoff": cutoff_text(cutoff), **options}, verbose))
+    return Contacts(_analyse(contacts, source, {"cutoff": cutoff_text(cutoff, 2), **options}, verbose))
 
 
 class Comparison(Result):

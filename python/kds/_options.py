@@ -129,6 +129,15 @@ def _text(value):
     return str(value)
 
 
+def cutoff_text(cutoff, most=1):
+    """Returns the text of one length, or of `most`, as the program takes them."""
+    lengths = list(cutoff) if np.ndim(cutoff) > 0 else [cutoff]
+    if most == 1 and np.ndim(cutoff) > 0:
+        raise InputError(f"cutoff: is {cutoff}; expected one length; kds.contacts takes two")
+    expected = "a length from 0" if most == 1 else "a length in angstrom, or a pair of lengths"
+    return ":".join(_text(number("cutoff", length, expected)) for length in lengths)
+
+
 def takes(command, without=()):
     """Decorates a function that takes ``**options``: gives it the arguments and the help of a command of the program,
     which is the only list of its options. The function itself refuses the arguments `without`."""

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _kds, _plots
 from ._inputs import open_input
-from ._options import OF_FILES, OF_THE_INPUT, InputError, arguments, call, check_names, flag, number, takes, warn, wholes
+from ._options import OF_FILES, OF_THE_INPUT, InputError, arguments, call, check_names, cutoff_text, flag, takes, warn, wholes
 from ._structure import Clock, Structure
 from ._tables import events_table, indented
 from ._view import RecordedPage, view_of_new_run
@@ -25,10 +25,7 @@ def more_options(only):
 
 def run_arguments(cutoff, surface, options):
     """Returns the arguments of the program for the options of a run."""
-    if np.ndim(cutoff) > 0:
-        raise InputError(f"cutoff: is {cutoff}; expected one length; kds.contacts takes two")
-    if cutoff is not None:
-        number("cutoff", cutoff, "a length from 0")
+    cutoff = None if cutoff is None else cutoff_text(cutoff)
     return arguments({"cutoff": cutoff, "surface": flag("surface", surface), **options})
 
 
@@ -175,7 +172,7 @@ class Run:
         return view_of_new_run(write, path)
 
     def _contacts(self, **options):
-        from ._analyses import Contacts, cutoff_text, find
+        from ._analyses import Contacts, find
 
         options = {name: value for name, value in options.items() if value is not None}
         for name in OF_THE_INPUT:
@@ -188,11 +185,11 @@ class Run:
         if "surface" in options:
             options["surface"] = flag("surface", options["surface"])
         if "cutoff" in options:
-            options["cutoff"] = cutoff_text(options["cutoff"])
+            options["cutoff"] = cutoff_text(options["cutoff"], 2)
         else:
-            cutoff = self._options.get("cutoff")
-            options["cutoff"] = cutoff_text(cutoff or 0)
-            options.setdefault("surface", self._options.get("surface", False) or cutoff is None)
+            length, between_surfaces = self._core.contact_distance
+            options["cutoff"] = cutoff_text(length)
+            options.setdefault("surface", between_surfaces)
         if options.get("by") != "chain":
             options.setdefault("apart", self._core.apart)
         own = arguments({**{name: self._options.get(name) for name in ("motion", "threads", *OF_FILES)}, **options})

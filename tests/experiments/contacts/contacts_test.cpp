@@ -31,17 +31,15 @@ using testing::HasSubstr;
 
 TEST(ContactsOptions, DefaultsAndAll) {
   const ContactsTask plain = parse_contacts_options({"a.pdb", "--cutoff", "8"}).task;
-  EXPECT_EQ(plain.cutoff->inner, 8);
-  EXPECT_EQ(plain.cutoff->outer, 8);
+  EXPECT_THAT(plain.distances.lengths, ElementsAre(8));
   EXPECT_EQ(plain.gap, 0);
-  EXPECT_FALSE(plain.surface || plain.by || plain.apart);
+  EXPECT_FALSE(plain.distances.between_surfaces || plain.by || plain.apart);
   const ContactsTask all = parse_contacts_options({"a.xyz", "--cutoff", "4.5:6", "--surface", "--apart", "5",
                                                    "--gap", "1.5", "--by", "chain", "--strides", "8,1",
                                                    "--intermittency", "0", "--motion", "hermite"})
                                .task;
-  EXPECT_EQ(all.cutoff->inner, 4.5);
-  EXPECT_EQ(all.cutoff->outer, 6);
-  EXPECT_TRUE(all.surface);
+  EXPECT_THAT(all.distances.lengths, ElementsAre(4.5, 6));
+  EXPECT_TRUE(all.distances.between_surfaces);
   EXPECT_EQ(all.apart, 5U);
   EXPECT_EQ(all.gap, 1.5);
   EXPECT_EQ(all.by, ContactElement::chain);
