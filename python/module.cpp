@@ -1,13 +1,9 @@
 // The extension module kds._kds. Its functions and classes are those that the Python package kds builds on;
 // the package documents them.
 
-#include <fmt/format.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
 #include <exception>
 #include <functional>
 #include <map>
@@ -19,17 +15,11 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/collide/collide_command.h"
-#include "experiments/compare/compare_command.h"
-#include "experiments/contacts/contacts_command.h"
 #include "experiments/output/result_json.h"
+#include "experiments/output/text.h"
+#include "experiments/program/commands.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option_values.h"
-#include "experiments/run/run_options.h"
-#include "experiments/scenes/generate_command.h"
-#include "experiments/scenes/info_command.h"
-#include "experiments/trade/trade_command.h"
-#include "experiments/update/update_command.h"
 #include "kds/kinetic_structure.h"
 #include "motions/base/input_error.h"
 #include "motions/readers/bead_name.h"
@@ -51,46 +41,6 @@ using kds::python::FramesInMemory;
 using kds::python::RunHandle;
 using kds::python::Watch;
 
-/// Phrases of the program that begin a word, and what Python says.
-constexpr std::array<std::array<std::string_view, 2>, 4> phrases{{
-    {"--frames FIRST:LAST:STRIDE with a stride", "step"},
-    {"--frames", "start, stop, step"},
-    {"coordinates in angstrom", "units='nm' for an array, or coordinates in angstrom"},
-    {"kds info", "kds.conditions"},
-}};
-
-/// Returns a sentence of the program in words of Python: an option becomes the argument of the same name, and
-/// a command the function.
-std::string in_python(std::string_view sentence) {
-  sentence = sentence.substr(0, sentence.find('\n'));
-  std::string text;
-  for (std::size_t i = 0; i < sentence.size(); ++i) {
-    const bool starts_word =
-        i == 0 || std::string_view(" (,;'").find(sentence[i - 1]) != std::string_view::npos;
-    const std::string_view rest = sentence.substr(i);
-    const auto* const phrase = std::find_if(phrases.begin(), phrases.end(), [&](const auto& known) {
-      return starts_word && rest.starts_with(known[0]);
-    });
-    if (phrase != phrases.end()) {
-      text += (*phrase)[1];
-      i += (*phrase)[0].size() - 1;
-    } else if (starts_word && rest.size() > 2 && rest.starts_with("--") && std::isalpha(rest[2]) != 0) {
-      for (i += 2; i < sentence.size() && (std::isalnum(sentence[i]) != 0 || sentence[i] == '-'); ++i)
-        text += sentence[i] == '-' ? '_' : sentence[i];
-      --i;
-    } else if (starts_word && rest.size() > 4 && rest.starts_with("kds ") && std::islower(rest[4]) != 0) {
-      text += "kds.";
-      i += 3;
-    } else {
-      text += sentence[i];
-    }
-  }
-  const std::size_t see = text.find("(see kds."), help = text.find(" help)");
-  if (see != std::string::npos && help != std::string::npos && see < help)
-    text = fmt::format("{}(see help({}))", text.substr(0, see), text.substr(see + 5, help - see - 5));
-  return text;
-}
-
 void translate_exceptions(py::module_& module) {
   static const py::exception<kds::InputError> input_error(module, "InputError", PyExc_ValueError);
   static const py::exception<kds::AuditError> audit_error(module, "AuditError", PyExc_RuntimeError);
@@ -98,36 +48,28 @@ void translate_exceptions(py::module_& module) {
     try {
       std::rethrow_exception(std::move(thrown));
     } catch (const kds::InputError& error) {
-      PyErr_SetString(input_error.ptr(), in_python(error.what()).c_str());
+      PyErr_SetString(input_error.ptr(), kds::one_line(error.what()).c_str());
     } catch (const kds::AuditError& error) {
-      PyErr_SetString(audit_error.ptr(), in_python(error.what()).c_str());
+      PyErr_SetString(audit_error.ptr(), kds::one_line(error.what()).c_str());
     } catch (const std::invalid_argument& error) {  // such as a bead that a structure does not have
-      PyErr_SetString(input_error.ptr(), in_python(error.what()).c_str());
+      PyErr_SetString(input_error.ptr(), kds::one_line(error.what()).c_str());
     }
   });
 }
 
 /// Returns the options of a command of the program, as its help lists them: name, help, whether it is a flag.
 std::vector<std::tuple<std::string, std::string, bool>> options_of(const std::string& command) {
-  using Parse = void (*)(const kds::Arguments&);
-  static const std::map<std::string, Parse, std::less<>> parsers{
-      {"run", [](const kds::Arguments& given) { static_cast<void>(kds::parse_run_options(given)); }},
-      {"contacts",
-       [](const kds::Arguments& given) { static_cast<void>(kds::parse_contacts_options(given)); }},
-      {"compare", [](const kds::Arguments& given) { static_cast<void>(kds::parse_compare_options(given)); }},
-      {"update", [](const kds::Arguments& given) { static_cast<void>(kds::parse_update_options(given)); }},
-      {"collide", [](const kds::Arguments& given) { static_cast<void>(kds::parse_collide_options(given)); }},
-      {"trade", [](const kds::Arguments& given) { static_cast<void>(kds::measure_trade_of(given, {}, {})); }},
-      {"info", [](const kds::Arguments& given) { static_cast<void>(kds::parse_info_options(given)); }},
-      {"generate",
-       [](const kds::Arguments& given) { static_cast<void>(kds::parse_generate_options(given)); }},
-  };
+  using Run = int (*)(const kds::Arguments&);
+  static const std::map<std::string, Run, std::less<>> commands{
+      {"run", kds::run_command},       {"contacts", kds::contacts_command}, {"compare", kds::compare_command},
+      {"update", kds::update_command}, {"collide", kds::collide_command},   {"trade", kds::trade_command},
+      {"info", kds::info_command},     {"generate", kds::generate_command}};
   std::vector<std::tuple<std::string, std::string, bool>> all;
   try {
-    parsers.at(command)({"--help"});
+    commands.at(command)({"--help"});
   } catch (const kds::HelpRequest& help) {
     for (const kds::OptionSpec& option : help.options)
-      all.emplace_back(in_python(option.name), in_python(option.help), option.value.empty());
+      all.emplace_back(kds::argument(option.name), option.help, option.value.empty());
   }
   return all;
 }
@@ -209,12 +151,7 @@ void bind_run(py::module_& module) {
       .def("take_events", &RunHandle::take_events)
       .def("keep_events", &RunHandle::keep_events)
       .def("structures", &RunHandle::structures)
-      .def("warnings",
-           [](RunHandle& run) {
-             std::vector<std::string> lines;
-             for (const std::string& line : run.warnings()) lines.push_back(in_python(line));
-             return lines;
-           })
+      .def("warnings", &RunHandle::warnings)
       .def("table", &RunHandle::table, py::arg("progress") = py::none())
       .def("json", &RunHandle::json)
       .def("stamp", &RunHandle::stamp)
@@ -242,6 +179,7 @@ void bind_run(py::module_& module) {
 }  // namespace
 
 PYBIND11_MODULE(_kds, module) {
+  kds::set_interface(kds::Interface::python);
   translate_exceptions(module);
   kds::python::add_memory_reader();
   bind_frames(module);
@@ -250,10 +188,8 @@ PYBIND11_MODULE(_kds, module) {
     return kds::text_of(
         kds::BeadName{std::move(atom), std::move(residue), std::move(number), std::move(chain)});
   });
-  module.def("in_python", [](const std::string& sentence) { return in_python(sentence); });
   module.def("nanometres_doubt", [](const kds::python::Numbers& chain) {  // beads in rows
-    return in_python(
-        kds::nanometres_doubt(Eigen::Map<const Eigen::Matrix3Xd>(chain.data(), 3, chain.size() / 3)));
+    return kds::nanometres_doubt(Eigen::Map<const Eigen::Matrix3Xd>(chain.data(), 3, chain.size() / 3));
   });
   module.def("options_of", options_of);
   module.def("suggestion", [](std::string_view word, const std::vector<std::string>& names) {

@@ -36,8 +36,8 @@ void check_view(const RunOptions& options) {
   if (!options.view) return;
   TakenPaths paths;
   paths.read(options);
-  paths.write("--view", *options.view);
-  ensure_writable_file(*options.view, "--view");
+  paths.write("view", *options.view);
+  ensure_writable_file(*options.view, "view");
 }
 
 py::array_t<std::int64_t> array_of_pairs(const std::vector<BeadPair>& pairs) {
@@ -140,8 +140,8 @@ std::unique_ptr<ParallelRun> RunHandle::open_parts() {
   if (!only_.empty()) {
     if (options_.threads.value_or(1) > 1)
       warnings_.push_back(
-          fmt::format("--threads {}: the run is not cut and takes one thread, because only leaves beads out",
-                      *options_.threads));
+          fmt::format("{} {}: the run is not cut and takes one thread, because only leaves beads out",
+                      "--threads"_arg, *options_.threads));
     return nullptr;
   }
   auto parts = open_parallel_run(options_, *scene_, options_.audit, {},

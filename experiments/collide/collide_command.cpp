@@ -46,7 +46,7 @@ std::vector<std::string> parse_methods(const std::string& list) {
       refuse_unknown("--method", name, std::vector<std::string_view>(all.begin(), all.end()),
                      fmt::format("one of {} or, alone, all", fmt::join(all, ", ")));
     if (std::count(names.begin(), names.end(), name) > 1)
-      throw InputError(fmt::format("--method: {} is listed twice", name));
+      throw InputError("--method", fmt::format("{} is listed twice", name));
   }
   std::vector<std::string> ordered;
   for (const std::string& name : all)
@@ -82,8 +82,9 @@ const OptionList<CollideOptions>& collide_options() {
                              "longest (default: 3 if methods are compared, else 1)"},
                             &O::rounds, 1, 1000)})
           .with(OptionList<InputOptions>({groups_option(
-              "one bead of a pair must be in SEL1 and the other in SEL2, each as --select takes it, among "
-              "the beads that are read; only brute and cells take it (default: all pairs)")}))
+              fmt::format("one bead of a pair must be in SEL1 and the other in SEL2, each as {} takes it, "
+                          "among the beads that are read; only brute and cells take it (default: all pairs)",
+                          "--select"_arg))}))
           .with(&O::destinations,
                 destination_options("write collide.json, collide.csv, pairs.csv, frames.csv and report.html "
                                     "to DIR (default: none)"));
@@ -104,7 +105,7 @@ CollideOptions parse_collide_options(const Arguments& arguments) {
 
 CollideTask collide_task(const CollideOptions& options, const CollideFrames& frames) {
   if (options.pairs == WhichPairs::between && frames.necklaces().size() < 2)
-    throw InputError("--pairs between: expected two necklaces or more, found one");
+    throw InputError("--pairs"_arg + " between: expected two necklaces or more, found one");
   CollideTask task;
   for (const Method& method : collision_methods())
     if (std::find(options.methods.begin(), options.methods.end(), method.name) != options.methods.end())

@@ -204,12 +204,13 @@ class Comparison {
           without_groups.push_back(method->name);
           continue;
         }
-        refusal = fmt::format("it looks at all pairs, not at --groups; expected {}", names_with_groups());
+        refusal =
+            fmt::format("it looks at all pairs, not at {}; expected {}", "--groups"_arg, names_with_groups());
       }
       if (refusal) {
         if (!task_.leave_out_refusing)
-          throw InputError(fmt::format("--method {}: {}", method->name, *refusal));
-        warn(fmt::format("--method {} is left out: {}", method->name, *refusal));
+          throw InputError(fmt::format("{} {}: {}", "--method"_arg, method->name, *refusal));
+        warn(fmt::format("{} {} is left out: {}", "--method"_arg, method->name, *refusal));
         continue;
       }
       Rounds& rounds = methods_.emplace_back();
@@ -222,8 +223,8 @@ class Comparison {
       row.method = method->name;
     }
     if (!without_groups.empty())
-      warn(fmt::format("--groups: the methods {} look at all pairs and are left out; {} are compared",
-                       fmt::join(without_groups, ", "), names_with_groups(" and ")));
+      warn(fmt::format("{}: the methods {} look at all pairs and are left out; {} are compared",
+                       "--groups"_arg, fmt::join(without_groups, ", "), names_with_groups(" and ")));
   }
 
   std::vector<Detection> detect(const Balls<Dimension>& balls, const FrameStamp& stamp) {

@@ -14,6 +14,7 @@
 #include "experiments/run/load_scene.h"
 #include "experiments/run/page_of_run.h"
 #include "experiments/run/run_options.h"
+#include "motions/base/input_error.h"
 
 namespace kds {
 
@@ -48,7 +49,7 @@ std::vector<FrameMotion> parse_motions(const std::string& list) {
   for (const std::string& name : split(list, ',')) {
     motions.push_back(choice_of<FrameMotion>("--motions", name, frame_motion_names));
     if (std::count(motions.begin(), motions.end(), motions.back()) > 1)
-      throw InputError(fmt::format("--motions: {} is listed twice", name));
+      throw InputError("--motions", fmt::format("{} is listed twice", name));
   }
   std::sort(motions.begin(), motions.end());
   return motions;

@@ -72,12 +72,12 @@ class InputNames {
       for (std::size_t other = 0; other < i; ++other)
         if (are_one_file(other, i) && chain_of(other) == chain_of(i))
           throw InputError(fmt::format(
-              "{} is listed twice; expected different files, or other chains of one file (--chain A/B)",
-              name(i)));
+              "{} is listed twice; expected different files, or other chains of one file ({} A/B)", name(i),
+              "--chain"_arg));
   }
 
   [[nodiscard]] std::string name(std::size_t input) const {
-    return options_.inputs[input].string() + chain_if_shared(input);
+    return input_name(options_, input) + chain_if_shared(input);
   }
   [[nodiscard]] std::string short_name(std::size_t input) const {
     const std::filesystem::path file = options_.inputs[input].filename();
@@ -117,11 +117,11 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const In
       static_cast<void>(open_run(run, scene, AuditMode::none));
     } catch (const InputError& error) {
       if (options.inputs.size() == 1) throw;
-      throw InputError(fmt::format("{}: {}", run.inputs.front().string(), error.what()));
+      throw InputError(fmt::format("{}: {}", input_name(run, 0), error.what()));
     }
     if (motion != options.motions.front()) continue;
     const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
-    found = {run.inputs.front().string(),
+    found = {input_name(run, 0),
              names.name(input),
              names.short_name(input),
              scene.bead_count(),
@@ -137,8 +137,8 @@ ComparedInput look_at(const CompareOptions& options, std::size_t input, const In
       found.bead_names.push_back(scene.bead_name(bead));
   }
   if (strided(found.frames, options.strides.back()) < 2)
-    throw InputError(fmt::format("--strides: {} leaves one of the {} frames of {}; expected two or more",
-                                 options.strides.back(), found.frames, found.file));
+    throw InputError("--strides", fmt::format("{} leaves one of the {} frames of {}; expected two or more",
+                                              options.strides.back(), found.frames, found.file));
   hint_at_threads(options.threads, strided(found.frames, options.strides.front()) - 1, found.beads, warn,
                   options.inputs.size() > 1 ? found.short_name + ": " : "");
   return found;
@@ -355,8 +355,9 @@ std::optional<double> CompareRow::responsiveness() const { return per(costs.seco
 
 std::string size_text(const ComparedInput& input) {
   return fmt::format("{} beads, {} frames {}", with_thousands(input.beads), with_thousands(input.frames),
-                     input.frame_picoseconds ? fmt::format("{:.4g} ps apart", *input.frame_picoseconds)
-                                             : "at times that the file does not tell (--dt gives them)");
+                     input.frame_picoseconds
+                         ? fmt::format("{:.4g} ps apart", *input.frame_picoseconds)
+                         : fmt::format("at times that the file does not tell ({} gives them)", "--dt"_arg));
 }
 
 namespace {
@@ -423,7 +424,8 @@ Comparison compare_runs(const CompareOptions& options,
                         const std::function<void(std::size_t, std::size_t)>& progress, const Warn& warn) {
   for (const auto& input : options.inputs)
     if (is_instance_file(input) && options.motions != std::vector{FrameMotion::linear})
-      throw InputError(input.string() + ": an instance file has its own motion; expected no --motions");
+      throw InputError(input.string() +
+                       fmt::format(": an instance file has its own motion; expected no {}", "--motions"_arg));
   const InputNames names(options);
   Comparison comparison;
   std::size_t done = 0, total = 0;

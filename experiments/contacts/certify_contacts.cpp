@@ -156,13 +156,6 @@ BeadGroups without_empty_balls(BeadGroups groups, const std::vector<std::uint8_t
 
 }  // namespace
 
-void refuse_needless_certificate(const ContactsTask& task) {
-  if (task.certify && task.reading.frames.stride == 1)
-    throw InputError(
-        "--certify: the command leaves out no frame; expected --frames FIRST:LAST:STRIDE with a stride above "
-        "1");
-}
-
 ContactsCertificate certify_contacts(const ContactsTask& task, const Scene& scene,
                                      const ContactsReport& report,
                                      const std::function<void(std::size_t, std::size_t)>& progress) {

@@ -52,9 +52,6 @@ struct ContactsCertificate {
   std::vector<std::uint8_t> is_found;    ///< whether a contact of the run lies in the possible one
 };
 
-/// Throws InputError if the task asks for --certify and leaves out no frame.
-void refuse_needless_certificate(const ContactsTask& task);
-
 /// Bounds the contacts of a report that follow_contacts returned. Reads all frames and runs the contacts
 /// three more times. Throws InputError for faults of the input.
 [[nodiscard]] ContactsCertificate certify_contacts(

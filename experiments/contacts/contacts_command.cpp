@@ -13,6 +13,7 @@
 #include "experiments/program/option.h"
 #include "experiments/program/option_values.h"
 #include "experiments/program/table_command.h"
+#include "experiments/run/certify_stride.h"
 #include "experiments/run/load_scene.h"
 #include "experiments/run/page_of_run.h"
 #include "experiments/run/radius_hint.h"
@@ -73,8 +74,9 @@ const OptionList<ContactsTask>& contacts_task_options() {
                                 "motion of beads between frames: linear or hermite (default: linear)"},
                                &O::motion, std::span(frame_motion_names).first(2)),
                  flag_option("--certify",
-                             "with a stride in --frames: read all frames too, and report which contacts are "
-                             "sure, and bounds of the time in contact",
+                             fmt::format("with a stride in {}: read all frames too, and report which "
+                                         "contacts are sure, and bounds of the time in contact",
+                                         frames_argument()),
                              &O::certify),
                  threads_option(&O::threads)});
   return list;
@@ -83,12 +85,12 @@ const OptionList<ContactsTask>& contacts_task_options() {
 void warn_of_none(const ContactsTask& task, const Scene& scene, const ContactsReport& report,
                   const TableCommand::Warn& warn) {
   if (report.pairs_asked == 0)
-    return warn(
-        fmt::format("there are no contacts, because none of {} {}s are a pair; {} is {}{}",
-                    report.elements.names.size(), name_of(report.by), "--apart", report.apart,
-                    task.reading.groups.empty() ? "" : fmt::format(", and {} leaves out pairs", "--groups")));
+    return warn(fmt::format(
+        "there are no contacts, because none of {} {}s are a pair; {} is {}{}", report.elements.names.size(),
+        name_of(report.by), "--apart"_arg, report.apart,
+        task.reading.groups.empty() ? "" : fmt::format(", and {} leaves out pairs", "--groups"_arg)));
   std::string line =
-      fmt::format("there are no contacts within {} {}", "--cutoff", task.distances.lengths.front());
+      fmt::format("there are no contacts within {} {}", "--cutoff"_arg, task.distances.lengths.front());
   // The hint looks at pairs of all beads.
   if (task.reading.groups.empty() && report.by != ContactElement::chain)
     if (const auto hint = cutoff_hint(scene, task.distances.between_surfaces, report.apart))
@@ -159,7 +161,7 @@ ContactsOptions parse_contacts_options(const Arguments& arguments) {
         "--cutoff 8 "
         "between C-alpha atoms or --cutoff 4.5 between heavy atoms");
   task.distances.check();
-  refuse_needless_certificate(task);
+  if (task.certify) refuse_needless_certificate(task);
   return options;
 }
 

@@ -9,6 +9,7 @@
 #include "experiments/events/event_distribution.h"
 #include "experiments/output/text.h"
 #include "experiments/run/run_report.h"
+#include "motions/base/input_error.h"
 #include "motions/base/text_input.h"
 
 namespace kds {
@@ -381,8 +382,8 @@ std::string contacts_text(const ContactsReport& report, const ContactsFigures& f
     text += fmt::format("{}: {}\n", label, line);
   text += "\n" + pair_columns(report, figures).text(rows);
   if (figures.pairs.size() > most)
-    text += fmt::format("... {} more pairs; --out DIR writes all of them\n",
-                        with_thousands(figures.pairs.size() - most));
+    text += fmt::format("... {} more pairs; {} all of them\n", with_thousands(figures.pairs.size() - most),
+                        words("--out DIR writes", "rows has"));
   return text;
 }
 

@@ -152,8 +152,9 @@ void check_times_ascend(const ContactsTask& task, const Scene& scene) {
     if (!before.picoseconds || !now.picoseconds || *before.picoseconds < *now.picoseconds) continue;
     throw InputError(
         fmt::format("{}: the time does not advance from frame {}, {} ps, to frame {}, {} ps; lengths of time "
-                    "need ascending times, expected --dt PS or other --frames",
-                    file_names(task), before.number, *before.picoseconds, now.number, *now.picoseconds));
+                    "need ascending times, expected {} PS or other {}",
+                    file_names(task), before.number, *before.picoseconds, now.number, *now.picoseconds,
+                    "--dt"_arg, frames_argument()));
   }
 }
 
@@ -207,8 +208,9 @@ std::vector<std::size_t> strides_that_fit(const std::vector<std::size_t>& given,
   const auto too_long = [&](std::size_t stride) { return (frames - 1) / stride < 1; };
   if (!given.empty()) {
     if (too_long(given.back()))
-      throw InputError(fmt::format("--strides: {} looks at one of the {} frames of {}; expected two or more",
-                                   given.back(), frames, input.inputs.front().string()));
+      throw InputError("--strides",
+                       fmt::format("{} looks at one of the {} frames of {}; expected two or more",
+                                   given.back(), frames, input_name(input, 0)));
     return given;
   }
   std::vector<std::size_t> strides;
@@ -274,16 +276,19 @@ std::unique_ptr<ContactsReport> follow_contacts(
   const std::optional<BeadId> nameless = bead_without_residue(scene);
   report->by = task.by.value_or(nameless ? ContactElement::bead : ContactElement::residue);
   if (report->by == ContactElement::residue && nameless)
-    throw InputError(
-        fmt::format("--by residue: {} names no residue of bead {}; expected --by bead, or --topology FILE",
-                    file_names(task), *nameless));
+    throw InputError(fmt::format(
+        "{} residue: {} names no residue of bead {}; expected {} bead, or {}", "--by"_arg, file_names(task),
+        *nameless, "--by"_arg,
+        words("--topology FILE",
+              "an AtomGroup or mdtraj Trajectory, or the topology of a file, which name residues")));
   if (report->by == ContactElement::chain && task.apart)
-    throw InputError("--apart: it chooses pairs within a chain, which --by chain does not count");
+    throw InputError(
+        "--apart", fmt::format("it chooses pairs within a chain, which {} chain does not count", "--by"_arg));
   report->elements = elements_of(scene, report->by);
   if (report->elements.names.size() < 2)
-    throw InputError(fmt::format("{}: has one {}, expected two or more{}", file_names(task),
-                                 name_of(report->by),
-                                 report->by == ContactElement::chain ? ", or --by residue or bead" : ""));
+    throw InputError(fmt::format(
+        "{}: has one {}, expected two or more{}", file_names(task), name_of(report->by),
+        report->by == ContactElement::chain ? fmt::format(", or {} residue or bead", "--by"_arg) : ""));
   report->apart = report->by == ContactElement::chain ? 1 : task.apart.value_or(default_contacts_apart);
   report->has_two_cutoffs = task.has_two_cutoffs();
   const FrameStamp first = scene.stamp(0);

@@ -16,17 +16,22 @@
 namespace kds {
 namespace {
 
-constexpr OptionSpec kHelp{"--help", "", "print this and exit"};
+const OptionSpec kHelp{"--help", "", "print this and exit"};
 
-std::string usage_hint(const CommandSpec& command) { return fmt::format(" (see {} --help)", command.name); }
+std::string usage_hint(const CommandSpec& command) {
+  std::string function(command.name == "kds info" ? "kds.conditions" : command.name);
+  std::replace(function.begin(), function.end(), ' ', '.');
+  return std::string(
+      words(fmt::format(" (see {} --help)", command.name), fmt::format(" (see help({}))", function)));
+}
 
 std::string left_column(const OptionSpec& option) {
   return option.value.empty() ? std::string(option.name) : fmt::format("{} {}", option.name, option.value);
 }
 
 std::string needs_values(const OptionSpec& option) {
-  if (option.count == 1) return fmt::format("{} needs a value", option.name);
-  return fmt::format("{} needs {} values, {}", option.name, option.count, option.value);
+  if (option.count == 1) return fmt::format("{} needs a value", argument(option.name));
+  return fmt::format("{} needs {} values, {}", argument(option.name), option.count, option.value);
 }
 
 // Rewrites a CLI11 error, which names C++ types and counts, into a message that says what to do.
@@ -43,7 +48,7 @@ std::string explain(const CLI::ParseError& error, const CLI::App& parser,
   for (const OptionSpec& option : options)
     for (const std::string& argument : arguments)
       if (option.value.empty() && argument.starts_with(std::string(option.name) + "="))
-        return fmt::format("{} takes no value", option.name);
+        return fmt::format("{} takes no value", kds::argument(option.name));
   for (const OptionSpec& option : options) {
     if (option.value.empty()) continue;
     for (std::size_t k = 0; k < arguments.size(); ++k) {
@@ -100,7 +105,8 @@ ParsedArguments parse_arguments(const CommandSpec& command, const std::vector<Op
     std::vector<std::string> values = parser.get_option(std::string(option.name))->results();
     const std::size_t times = values.size() / option.count;
     if (values.empty()) continue;
-    if (times > 1) throw InputError(fmt::format("{} is given {} times; give it once", option.name, times));
+    if (times > 1)
+      throw InputError(fmt::format("{} is given {} times; give it once", argument(option.name), times));
     if (option.value.empty()) values = {""};
     for (const std::string& value : values) {
       if (value.starts_with("--"))  // a forgotten value: the next option was read as the value

@@ -17,7 +17,7 @@ using Arguments = std::vector<std::string>;  ///< without the names of the progr
 struct OptionSpec {
   std::string_view name;   ///< with its dashes
   std::string_view value;  ///< placeholder of the value in the help text; empty for a flag
-  std::string_view help;   ///< one line, with the default value
+  std::string help;        ///< one line, with the default value
   std::size_t count = 1;   ///< number of values, unless the option is a flag
   bool of_inputs = false;  ///< whether `kds help inputs` explains it, in place of the command's own help
 };

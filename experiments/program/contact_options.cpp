@@ -20,10 +20,10 @@ std::vector<double> parse_cutoff(const std::string& text, char separator) {
   const double inner = parse_real("--cutoff", parts.front(), range);
   const double outer = parse_real("--cutoff", parts.back(), range);
   if (outer < inner)
-    throw InputError(
-        fmt::format("--cutoff: '{}' ends contacts within the distance at which they begin; expected the "
-                    "smaller length first, {}:{}",
-                    text, parts.back(), parts.front()));
+    throw InputError("--cutoff",
+                     fmt::format("'{}' ends contacts within the distance at which they begin; expected the "
+                                 "smaller length first, {}:{}",
+                                 text, parts.back(), parts.front()));
   return inner < outer ? std::vector{inner, outer} : std::vector{inner};
 }
 
@@ -31,11 +31,12 @@ std::vector<double> parse_cutoff(const std::string& text, char separator) {
 
 void ContactDistances::check() const {
   if (lengths.empty() && between_surfaces)
-    throw InputError(fmt::format("--surface: measures {} between surfaces; expected {} LENGTH as well",
-                                 "--cutoff", "--cutoff"));
+    throw InputError("--surface", fmt::format("measures {} between surfaces; expected {} LENGTH as well",
+                                              "--cutoff"_arg, "--cutoff"_arg));
   if (!lengths.empty() && lengths.front() == 0 && !between_surfaces)
-    throw InputError(fmt::format(
-        "--cutoff: centres that coincide are no contact; expected a length above 0, or {}", "--surface"));
+    throw InputError("--cutoff",
+                     fmt::format("centres that coincide are no contact; expected a length above 0, or {}",
+                                 "--surface"_arg));
 }
 
 OptionList<ContactDistances> contact_options(const std::string& help, char separator) {

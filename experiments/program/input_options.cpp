@@ -22,7 +22,8 @@ namespace {
 std::string parse_radius(const std::string& rule) {
   if (rule == "auto" || rule == "element" || rule == "element:fit") return rule;
   if (constexpr std::string_view prefix = "file:"; rule.starts_with(prefix)) {
-    if (rule.size() == prefix.size()) throw InputError("--radius: file: needs a path, as in file:radii.txt");
+    if (rule.size() == prefix.size())
+      throw InputError("--radius", "file: needs a path, as in file:radii.txt");
     return rule;
   }
   double number = 0;
@@ -34,8 +35,8 @@ std::string parse_radius(const std::string& rule) {
   constexpr std::array<std::string_view, 7> van_der_waals{"vdw",   "vdwaals",  "van-der-waals", "vanderwaals",
                                                           "bondi", "elements", "atomic"};
   throw InputError(
-      fmt::format("--radius: '{}' is not auto, a positive number, element, element:fit or file:PATH{}", rule,
-                  suggestion(nearest_name(rule, van_der_waals) ? "element" : rule, names)));
+      "--radius", fmt::format("'{}' is not auto, a positive number, element, element:fit or file:PATH{}",
+                              rule, suggestion(nearest_name(rule, van_der_waals) ? "element" : rule, names)));
 }
 
 // The user cannot ask for `automatic`.
@@ -78,16 +79,17 @@ std::string topologies_text(const InputOptions& options, bool absolute) {
 void check_chains(const std::string& chains, std::size_t inputs, bool obstacle) {
   const std::vector<std::string> lists = split(chains, '/');
   if (lists.size() > 1 && lists.size() != inputs && !(obstacle && lists.size() == inputs + 1))
-    throw InputError(fmt::format("--chain: '{}' is for {} INPUTs, but {} {} given", chains, lists.size(),
-                                 inputs, inputs == 1 ? "is" : "are"));
+    throw InputError("--chain", fmt::format("'{}' is for {} INPUTs, given {} {}", chains, lists.size(),
+                                            inputs, inputs == 1 ? "is" : "are"));
   for (const std::string& list : lists) {
     if (list.empty() && lists.size() > 1) continue;  // this input keeps its default chain
     const std::vector<std::string> names = split(list, ',');
     for (const std::string& name : names) {
       if (name.empty())
-        throw InputError(fmt::format("--chain: '{}' leaves a name empty; expected names as in A,B", chains));
+        throw InputError("--chain",
+                         fmt::format("'{}' leaves a name empty; expected names as in A,B", chains));
       if (std::count(names.begin(), names.end(), name) > 1)
-        throw InputError(fmt::format("--chain: {} is listed twice in '{}'", name, list));
+        throw InputError("--chain", fmt::format("{} is listed twice in '{}'", name, list));
     }
   }
 }
@@ -215,13 +217,14 @@ std::string inputs_help() {
 const Option<InputOptions>& obstacle_option() {
   static const Option<InputOptions> option =
       path_option({"--obstacle", "FILE",
-                   "file with a necklace of one frame that does not move. In --chain its list comes last, "
-                   "after a / (default: none)"},
+                   fmt::format("file with a necklace of one frame that does not move. In {} its list comes "
+                               "last, after a / (default: none)",
+                               "--chain"_arg)},
                   &InputOptions::obstacle);
   return option;
 }
 
-Option<InputOptions> groups_option(std::string_view help) {
+Option<InputOptions> groups_option(const std::string& help) {
   Option<InputOptions> groups({"--groups", "SEL1 SEL2", help, 2});
   groups.read_values = [](InputOptions& o, const std::vector<std::string>& texts) {
     for (const std::string& text : texts) o.reading.groups.push_back(parse_selection("--groups", text));
@@ -247,9 +250,10 @@ void take_inputs(const ParsedArguments& parsed, std::string_view command, InputO
 
 void check_input_lists(const InputOptions& options) {
   if (!options.topologies.empty() && options.topologies.size() != options.inputs.size())
-    throw InputError(fmt::format(
-        "--topology: lists {} files for {} {}; expected one file for all, or one for each",
-        options.topologies.size(), options.inputs.size(), options.inputs.size() == 1 ? "INPUT" : "INPUTs"));
+    throw InputError("--topology",
+                     fmt::format("lists {} files for {} {}; expected one file for all, or one for each",
+                                 options.topologies.size(), options.inputs.size(),
+                                 options.inputs.size() == 1 ? "INPUT" : "INPUTs"));
   if (options.reading.chain)
     check_chains(*options.reading.chain, options.inputs.size(), options.obstacle.has_value());
 }
@@ -273,6 +277,11 @@ ReadOptions reading_of(const InputOptions& options, std::size_t input) {
 std::string name_of(const FrameRange& frames) {
   return fmt::format("{}:{}:{}", frames.first, frames.last ? std::to_string(*frames.last) : "",
                      frames.stride);
+}
+
+std::string input_name(const InputOptions& options, std::size_t input) {
+  const std::filesystem::path& path = options.inputs[input];
+  return options.reading.format == "memory" ? path.filename().string() : path.string();
 }
 
 std::string file_names(const InputOptions& options) {

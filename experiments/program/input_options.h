@@ -14,6 +14,7 @@
 #include "experiments/output/result_json.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/option.h"
+#include "motions/base/input_error.h"
 #include "motions/frames/frame_stamp.h"
 #include "motions/readers/read_trajectory.h"
 
@@ -39,10 +40,11 @@ struct InputOptions {
 /// Returns the option --obstacle, for commands that put all inputs on one clock.
 [[nodiscard]] const Option<InputOptions>& obstacle_option();
 /// Returns the option --groups, for commands that look at pairs of beads. `help` must outlive the option.
-[[nodiscard]] Option<InputOptions> groups_option(std::string_view help =
-                                                     "contacts: one bead of a pair must be in SEL1 and the "
-                                                     "other in SEL2, each as --select takes it, among "
-                                                     "the beads that are read (default: all pairs)");
+[[nodiscard]] Option<InputOptions> groups_option(
+    const std::string& help =
+        fmt::format("contacts: one bead of a pair must be in SEL1 and the other in SEL2, each as {} takes "
+                    "it, among the beads that are read (default: all pairs)",
+                    "--select"_arg));
 inline constexpr std::string_view kInputOperand = "INPUT...";
 /// Adds the operand INPUT... to a command. Its help lists the formats of the reader registry, and instance
 /// files if the command takes them.
@@ -63,6 +65,8 @@ void check_input_lists(const InputOptions& options);
 /// Returns FIRST:LAST:STRIDE, as --frames takes it.
 [[nodiscard]] std::string name_of(const FrameRange& frames);
 
+/// Returns the path of an input as it was given, or the label of frames in memory.
+[[nodiscard]] std::string input_name(const InputOptions& options, std::size_t input);
 /// Returns the file names of the inputs without their folders, separated by commas.
 [[nodiscard]] std::string file_names(const InputOptions& options);
 /// Returns the paths of the inputs and of the obstacle.

@@ -373,7 +373,7 @@ template <class Options, class Member>
 
 /// Returns a flag that sets a member to true.
 template <class Options>
-[[nodiscard]] Option<Options> flag_option(std::string_view name, std::string_view help,
+[[nodiscard]] Option<Options> flag_option(std::string_view name, const std::string& help,
                                           bool Options::*member) {
   return {{name, "", help},
           [=](Options& options, const std::string&) { options.*member = true; },
@@ -393,9 +393,9 @@ template <class Options>
 /// Returns the options --out, --replace, --json and --quiet with their help, for a command that writes no
 /// page.
 [[nodiscard]] inline OptionList<Destinations> data_options(
-    std::string_view out,
-    std::string_view json = "write the rows to FILE; - is standard output (default: none)",
-    std::string_view quiet = "print no table and no progress bar") {
+    const std::string& out,
+    const std::string& json = "write the rows to FILE; - is standard output (default: none)",
+    const std::string& quiet = "print no table and no progress bar") {
   return {{of_output(path_option({"--out", "DIR", out}, &Destinations::out)),
            replace_option(&Destinations::replace),
            of_output(text_option({"--json", "FILE", json}, &Destinations::json)),
@@ -405,9 +405,9 @@ template <class Options>
 /// Returns the options --out, --paper, --replace, --json and --quiet with their help, for a command that
 /// writes a page.
 [[nodiscard]] inline OptionList<Destinations> destination_options(
-    std::string_view out,
-    std::string_view json = "write the rows to FILE; - is standard output (default: none)",
-    std::string_view quiet = "print no table and no progress bar") {
+    const std::string& out,
+    const std::string& json = "write the rows to FILE; - is standard output (default: none)",
+    const std::string& quiet = "print no table and no progress bar") {
   std::vector<Option<Destinations>> options = data_options(out, json, quiet).all();
   options.insert(options.begin() + 1,
                  of_output(flag_option("--paper",
@@ -434,7 +434,7 @@ template <class Options>
 }
 /// Returns the option --apart: the least distance along the chain between the two beads of a pair.
 template <class Options, class Member>
-[[nodiscard]] Option<Options> apart_option(std::string_view help, Member Options::*apart) {
+[[nodiscard]] Option<Options> apart_option(const std::string& help, Member Options::*apart) {
   return whole_option({"--apart", "K", help}, apart, 1, 1'000'000'000);
 }
 

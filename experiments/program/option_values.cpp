@@ -61,16 +61,16 @@ void refuse_unknown(std::string_view option, std::string_view word, std::span<co
                     std::string_view expected) {
   const std::string known =
       expected.empty() ? fmt::format("one of {}", fmt::join(names, ", ")) : std::string(expected);
-  throw InputError(fmt::format("{}: '{}' is not {}{}", option, word, known, suggestion(word, names)));
+  throw InputError(option, fmt::format("'{}' is not {}{}", word, known, suggestion(word, names)));
 }
 
 void require_use_of(std::string_view option, const std::vector<std::string_view>& uses,
                     const std::vector<std::string>& words, std::string_view where) {
   if (std::find_first_of(uses.begin(), uses.end(), words.begin(), words.end()) != uses.end()) return;
   if (uses.size() == 1)
-    throw InputError(fmt::format("{}: applies only to {}, which is not {}", option, uses.front(), where));
-  throw InputError(fmt::format("{}: applies only to {} and {}, none of which is {}", option,
-                               fmt::join(uses.begin(), uses.end() - 1, ", "), uses.back(), where));
+    throw InputError(option, fmt::format("applies only to {}, which is not {}", uses.front(), where));
+  throw InputError(option, fmt::format("applies only to {} and {}, none of which is {}",
+                                       fmt::join(uses.begin(), uses.end() - 1, ", "), uses.back(), where));
 }
 
 std::size_t index_among(std::string_view option, std::string_view word,
@@ -82,8 +82,8 @@ std::size_t index_among(std::string_view option, std::string_view word,
 
 std::filesystem::path parse_path(std::string_view option, const std::string& text) {
   if (text == "-")
-    throw InputError(
-        fmt::format("{} needs a path; - is for --json only, and standard input is not read", option));
+    throw InputError(fmt::format("{} needs a path; - is for {} only, and standard input is not read",
+                                 argument(option), "--json"_arg));
   return text;
 }
 
@@ -91,7 +91,7 @@ std::uint64_t parse_whole_number(std::string_view option, std::string_view text,
                                  std::uint64_t most) {
   const auto number = number_in<std::uint64_t>(text);
   if (number && *number >= least && *number <= most) return *number;
-  throw InputError(fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, least, most));
+  throw InputError(option, fmt::format("'{}' is not a whole number from {} to {}", text, least, most));
 }
 
 std::pair<std::uint64_t, std::uint64_t> parse_range(std::string_view option, std::string_view text,
@@ -103,16 +103,17 @@ std::pair<std::uint64_t, std::uint64_t> parse_range(std::string_view option, std
     const auto last = to.empty() ? std::optional<std::uint64_t>(most) : number_in<std::uint64_t>(to);
     if (first && last && *first < *last && *last <= most) return {*first, *last};
   }
-  throw InputError(fmt::format("{}: '{}' is not FIRST:LAST, whole numbers with FIRST below LAST, at most {}",
-                               option, text, most));
+  throw InputError(
+      option,
+      fmt::format("'{}' is not FIRST:LAST, whole numbers with FIRST below LAST, at most {}", text, most));
 }
 
 double parse_real(std::string_view option, std::string_view text, const RealRange& range) {
   const auto number = number_in<double>(text);
   const bool enough = number && (range.least_excluded ? *number > range.least : *number >= range.least);
   if (enough && *number <= range.most) return *number == 0 ? 0 : *number;  // also turns -0 into 0
-  throw InputError(fmt::format("{}: '{}' is not a number {} {}, at most {}", option, text,
-                               range.least_excluded ? "above" : "from", range.least, range.most));
+  throw InputError(option, fmt::format("'{}' is not a number {} {}, at most {}", text,
+                                       range.least_excluded ? "above" : "from", range.least, range.most));
 }
 
 std::vector<double> parse_reals(std::string_view option, const std::string& list, const RealRange& range) {
@@ -120,7 +121,7 @@ std::vector<double> parse_reals(std::string_view option, const std::string& list
   for (const std::string& text : split(list, ',')) values.push_back(parse_real(option, text, range));
   std::sort(values.begin(), values.end());
   if (const auto twice = std::adjacent_find(values.begin(), values.end()); twice != values.end())
-    throw InputError(fmt::format("{}: {} is listed twice", option, *twice));
+    throw InputError(option, fmt::format("{} is listed twice", *twice));
   return values;
 }
 
@@ -136,7 +137,7 @@ std::vector<std::string> parse_structures(const std::string& list) {
     if (std::find(known.begin(), known.end(), name) == known.end())
       refuse_unknown("--structures", name, known);
     if (std::count(names.begin(), names.end(), name) > 1)
-      throw InputError(fmt::format("--structures: {} is listed twice", name));
+      throw InputError("--structures", fmt::format("{} is listed twice", name));
   }
   return ordered;
 }
@@ -147,7 +148,7 @@ std::vector<std::size_t> parse_strides(const std::string& list) {
     strides.push_back(parse_whole_number("--strides", text, 1, 1'000'000'000));
   std::sort(strides.begin(), strides.end());
   if (const auto twice = std::adjacent_find(strides.begin(), strides.end()); twice != strides.end())
-    throw InputError(fmt::format("--strides: {} is listed twice", *twice));
+    throw InputError("--strides", fmt::format("{} is listed twice", *twice));
   return strides;
 }
 

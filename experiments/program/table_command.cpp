@@ -32,12 +32,12 @@ std::array<fs::path, 2> places_of(const fs::path& place) {
 
 void TakenPaths::read(const InputOptions& options) {
   for (const fs::path& input : options.inputs) add("an input", input);
-  if (options.reading.topology) add("--topology", *options.reading.topology);
+  if (options.reading.topology) add("--topology"_arg, *options.reading.topology);
   for (const fs::path& topology : options.topologies)
-    if (!topology.empty()) add("--topology", topology);
-  if (options.obstacle) add("--obstacle", *options.obstacle);
+    if (!topology.empty()) add("--topology"_arg, topology);
+  if (options.obstacle) add("--obstacle"_arg, *options.obstacle);
   constexpr std::string_view file = "file:";
-  if (options.radius.starts_with(file)) add("--radius", options.radius.substr(file.size()));
+  if (options.radius.starts_with(file)) add("--radius"_arg, options.radius.substr(file.size()));
 }
 
 void TakenPaths::write_json(const std::string& destination) {

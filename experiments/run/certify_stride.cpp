@@ -122,15 +122,15 @@ RadiiWithin certified_radii(const StrideDeviation& deviation, std::span<const do
   try {
     return radii_within(deviation, radii);
   } catch (const InputError& error) {
-    throw InputError(std::string("--certify: ") + error.what());
+    throw InputError("--certify", error.what());
   }
 }
 
-void refuse_needless_certificate(const RunOptions& options) {
-  if (options.certify && options.reading.frames.stride == 1 && !options.tolerance)
-    throw InputError(
-        "--certify: the run leaves out no frame; expected --frames FIRST:LAST:STRIDE with a stride above 1, "
-        "or --tolerance");
+void refuse_needless_certificate(const InputOptions& input, std::string_view otherwise) {
+  if (input.reading.frames.stride == 1)
+    throw InputError("--certify",
+                     fmt::format("the run leaves out no frame; expected {} above 1{}",
+                                 words("--frames FIRST:LAST:STRIDE with a stride", "step"), otherwise));
 }
 
 StrideCertificate certify_stride(const RunOptions& options, const Scene& scene) {

@@ -112,7 +112,8 @@ struct StrideCertificate {
 /// deviation is too large.
 [[nodiscard]] RadiiWithin certified_radii(const StrideDeviation& deviation, std::span<const double> radii);
 
-/// Throws InputError if --certify has nothing to certify.
-void refuse_needless_certificate(const RunOptions& options);
+/// Throws InputError if --certify has nothing to certify, because all frames are read. `otherwise` ends the
+/// message.
+void refuse_needless_certificate(const InputOptions& input, std::string_view otherwise = "");
 
 }  // namespace kds

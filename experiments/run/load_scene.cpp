@@ -27,14 +27,14 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   const std::string file = instance->string();
   if (options.inputs.size() > 1)
     throw InputError(file + ": an instance file runs alone, without further inputs");
-  const auto refuse = [&](bool given, const char* option) {
-    if (given) throw InputError(fmt::format("{}: has no meaning for an instance file ({})", option, file));
+  const auto refuse = [&](bool given, std::string_view option) {
+    if (given) throw InputError(option, fmt::format("has no meaning for an instance file ({})", file));
   };
   const ReadOptions& reading = options.reading;
   refuse(reading.topology.has_value() || !options.topologies.empty(), "--topology");
   refuse(reading.chain.has_value(), "--chain");
   refuse(reading.selection != Selection::automatic, "--select");
-  refuse(reading.frames.first != 0 || reading.frames.last || reading.frames.stride != 1, "--frames");
+  refuse(reading.frames.first != 0 || reading.frames.last || reading.frames.stride != 1, frames_argument());
   refuse(reading.format.has_value(), "--format");
   refuse(!reading.groups.empty(), "--groups");
   refuse(reading.time_step.has_value(), "--dt");
@@ -90,9 +90,9 @@ void check_models_are_no_topology(const std::vector<InputAtoms>& inputs, const I
       if (inputs[i].one_frame || !other.names.empty() || !takes_topology(other.file) ||
           !has_atoms_of(inputs[i], other, reading_of(options, i)))
         continue;
-      throw InputError(
-          fmt::format("{}: has the atoms of {}, which has no names; expected --topology {} in its place",
-                      inputs[i].file.string(), other.file.string(), inputs[i].file.string()));
+      throw InputError(fmt::format("{}: has the atoms of {}, which has no names; expected {} {} in its place",
+                                   inputs[i].file.string(), other.file.string(), "--topology"_arg,
+                                   inputs[i].file.string()));
     }
   }
 }
@@ -110,15 +110,14 @@ void check_inputs_of_one_frame(const std::vector<InputAtoms>& inputs, const Inpu
       const std::string file = one.file.string(), moving = other.file.string();
       const bool may_name =
           takes_topology(other.file) && !options.reading.topology && options.topologies.empty();
-      throw InputError(
-          fmt::format("{}: has one frame and the atoms of {}; {} (--obstacle {} makes it a necklace at rest)",
-                      file, moving,
-                      may_name ? fmt::format("expected --topology {}, which names them", file)
-                               : "expected one of the two",
-                      file));
+      throw InputError(fmt::format(
+          "{}: has one frame and the atoms of {}; {} ({} {} makes it a necklace at rest)", file, moving,
+          may_name ? fmt::format("expected {} {}, which names them", "--topology"_arg, file)
+                   : "expected one of the two",
+          "--obstacle"_arg, file));
     }
-    warn(fmt::format("{}: has one frame and rests while {} moves (--obstacle avoids this warning)",
-                     one.file.string(), moves->file.string()));
+    warn(fmt::format("{}: has one frame and rests while {} moves ({} avoids this warning)", one.file.string(),
+                     moves->file.string(), "--obstacle"_arg));
   }
 }
 
@@ -129,7 +128,8 @@ void check_range_of_one_frame(const std::vector<NecklaceStream>& files, const Fr
                                        [](const NecklaceStream& file) { return file.holds_one_frame(); });
   const std::size_t last = range.last.value_or(range.first + 1) - 1;  // the last frame asked for
   if (!all_at_rest || last == 0) return;
-  throw InputError(fmt::format("--frames: frame {} is asked for, {} holds 1 frame",
+  throw InputError(frames_argument(),
+                   fmt::format("frame {} is asked for, {} holds 1 frame",
                                range.first > 0 ? range.first : last, files.front().heads().front().file));
 }
 
@@ -159,8 +159,8 @@ void check_groups_have_beads(const std::vector<Selection>& groups,
     std::vector<std::string> names;
     for (const NecklaceBeads& necklace : necklaces)
       names.insert(names.end(), necklace.names.begin(), necklace.names.end());
-    throw InputError(fmt::format("--groups: {} chooses none of the beads that are read: {}",
-                                 in_quotes(groups[k].text()), described(names)));
+    throw InputError("--groups", fmt::format("{} chooses none of the beads that are read: {}",
+                                             in_quotes(groups[k].text()), described(names)));
   }
 }
 
@@ -188,10 +188,10 @@ std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
   check_inputs_of_one_frame(atoms, options, warn);
   check_range_of_one_frame(files, options.reading.frames);
   if (takes_side_chains(files, options.reading.selection) && options.radius == "auto")
-    warn(fmt::format(
-        "--select {} with --radius auto: consecutive atoms need not be bonded, and the radius is half of "
-        "their longest distance; --radius element takes van der Waals radii",
-        options.reading.selection.text()));
+    warn(
+        fmt::format("{} {} with {} auto: consecutive atoms need not be bonded, and the radius is half of "
+                    "their longest distance; {} element takes van der Waals radii",
+                    "--select"_arg, options.reading.selection.text(), "--radius"_arg, "--radius"_arg));
   if (options.obstacle) {
     ReadOptions reading = reading_of(options, options.inputs.size());
     reading.topology = std::nullopt;
@@ -200,8 +200,8 @@ std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
     reading.time_step = std::nullopt;  // it has no time of its own
     NecklaceStream& obstacle = files.emplace_back(*options.obstacle, reading);
     if (!obstacle.holds_one_frame())
-      throw InputError(
-          fmt::format("--obstacle: {} has several frames, expected one", options.obstacle->string()));
+      throw InputError("--obstacle",
+                       fmt::format("{} has several frames, expected one", options.obstacle->string()));
   }
   auto frames = std::make_unique<FileFrames>(std::move(files), options.obstacle.has_value());
   check_groups_have_beads(options.reading.groups, frames->necklaces());
@@ -226,11 +226,11 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
   const InputOptions& input = options;
   if (std::optional<Instance> instance = read_lone_instance(input)) {
     if (options.motion != FrameMotion::linear)
-      throw InputError(
-          fmt::format("--motion: has no meaning for an instance file ({})", options.inputs.front().string()));
+      throw InputError("--motion", fmt::format("has no meaning for an instance file ({})",
+                                               options.inputs.front().string()));
     if (options.tolerance)
-      throw InputError(fmt::format("--tolerance: has no meaning for an instance file ({})",
-                                   options.inputs.front().string()));
+      throw InputError("--tolerance", fmt::format("has no meaning for an instance file ({})",
+                                                  options.inputs.front().string()));
     return Scene(std::move(*instance));
   }
   return load_necklaces(input, options.motion, 1, warn, options.tolerance);
@@ -240,16 +240,17 @@ namespace {
 
 // Throws InputError if --log, --events or --audit events is given for chord cages, which have no events.
 void refuse_events_of_chords(const RunOptions& options, const KineticRunOptions& kinetic) {
-  const char* const asked = options.log                           ? "--log"
+  const std::string asked = options.log                           ? "--log"
                             : options.events                      ? "--events"
-                            : kinetic.audits == AuditMode::events ? "--audit events"
-                                                                  : nullptr;
-  if (asked == nullptr) return;
+                            : kinetic.audits == AuditMode::events ? "--audit"_arg + " events"
+                                                                  : "";
+  if (asked.empty()) return;
   for (const std::string& name : kinetic.structures) {
     const StructureSpec* const spec = structure_registry().find(name);
     if (spec == nullptr || spec->has_events(kinetic.settings)) continue;
-    throw InputError(fmt::format("{}: {} has chord cages, which have no events; expected {}", asked, name,
-                                 name == "wrapped" ? "--between events" : "--structures without it"));
+    throw InputError(
+        fmt::format("{}: {} has chord cages, which have no events; expected {}", asked, name,
+                    name == "wrapped" ? "--between"_arg + " events" : "--structures"_arg + " without it"));
   }
 }
 
@@ -261,8 +262,8 @@ void refuse_nodes_behind_the_beads(const RunOptions& options, const Scene& scene
   const auto [first, last] = *options.nodes.beads;
   const std::size_t beads = scene.bead_count();
   if (last == std::numeric_limits<BeadId>::max() || last < beads || first >= beads) return;
-  throw InputError(fmt::format("--nodes {}:{}: expected beads of the input, which has {} beads", first,
-                               std::uint64_t{last} + 1, beads));
+  throw InputError(fmt::format("{} {}:{}: expected beads of the input, which has {} beads", "--nodes"_arg,
+                               first, std::uint64_t{last} + 1, beads));
 }
 
 }  // namespace
@@ -278,27 +279,28 @@ KineticRunOptions kinetic_run_options(const RunOptions& options, const Scene& sc
   if (kinetic.structures.empty()) kinetic.structures = default_structures(scene);
   if (std::ranges::count(kinetic.structures, "closest") > 0) {
     if (options.apart)
-      throw InputError(
-          "--apart: closest looks at all pairs of beads; run it without --apart, or let kds collide --apart "
-          "find the closest pair of each frame");
+      throw InputError("--apart", fmt::format("closest looks at all pairs of beads; run it without {}, or "
+                                              "let {} find the closest pair of each frame",
+                                              "--apart"_arg, words("kds collide --apart", "kds.collide")));
     if (!options.reading.groups.empty())
-      throw InputError("--groups: closest looks at all pairs of beads; run it without --groups");
+      throw InputError("--groups",
+                       fmt::format("closest looks at all pairs of beads; run it without {}", "--groups"_arg));
   }
   motion_and_structure_options().refuse_needless(
       kinetic.structures, "among the structures",
       [&](const Option<RunOptions>& option) { return !option.text(options).empty(); });
   if (options.tightness && kinetic.settings.between != Between::chord)
-    throw InputError("--tightness: applies only to chord cages of wrapped; expected --between chord");
+    throw InputError("--tightness", fmt::format("applies only to chord cages of wrapped; expected {} chord",
+                                                "--between"_arg));
   refuse_events_of_chords(options, kinetic);
   refuse_nodes_behind_the_beads(options, scene);
   if (options.nodes.restricts()) {
     const NecklaceTree tree(scene.necklaces());
     const std::vector<std::uint8_t> kept = select_nodes(tree, options.nodes);
     if (std::find(kept.begin(), kept.end(), 1) == kept.end())
-      throw InputError(
-          fmt::format("--levels, --nodes: no node is left of {}; expected levels and beads of the input, "
-                      "which has {} beads",
-                      tree.node_count(), scene.bead_count()));
+      throw InputError(fmt::format(
+          "{}, {}: no node is left of {}; expected levels and beads of the input, which has {} beads",
+          "--levels"_arg, "--nodes"_arg, tree.node_count(), scene.bead_count()));
   }
   return kinetic;
 }
@@ -312,8 +314,9 @@ std::unique_ptr<Run> open(const Scene& scene, const Arguments&... arguments) {
     return std::make_unique<Run>(scene, arguments...);
   } catch (const StructureRefusal& refusal) {
     if (scene.is_lifted())
-      throw InputError(fmt::format("--motion lifted: {}; expected --structures power", refusal.what()));
-    throw InputError(fmt::format("--structures {}", refusal.what()));
+      throw InputError(fmt::format("{} lifted: {}; expected {} power", "--motion"_arg, refusal.what(),
+                                   "--structures"_arg));
+    throw InputError(fmt::format("{} {}", "--structures"_arg, refusal.what()));
   }
 }
 
@@ -331,10 +334,11 @@ std::unique_ptr<ParallelRun> open_parallel_run(const RunOptions& options, const 
   auto run = open<ParallelRun>(scene, kinetic_run_options(options, scene, audits), parallel);
   if (options.work) run->limit_work(*options.work);
   const std::optional<std::string> reason =
-      is_recorded ? std::optional<std::string>("--view records the structures as it goes on") : run->uncut();
+      is_recorded ? std::optional<std::string>("--view"_arg + " records the structures as it goes on")
+                  : run->uncut();
   if (options.threads.value_or(1) > 1 && reason)
-    warn(fmt::format("--threads {}: the run is not cut and takes one thread, because {}", *options.threads,
-                     *reason));
+    warn(fmt::format("{} {}: the run is not cut and takes one thread, because {}", "--threads"_arg,
+                     *options.threads, *reason));
   if (!reason) hint_at_threads(options.threads, scene.step_count(), scene.bead_count(), warn);
   return run;
 }
@@ -344,10 +348,9 @@ void hint_at_threads(std::optional<std::size_t> threads, std::size_t steps, std:
   if (!threads) return;
   const std::size_t taken = threads_worth(steps, beads, *threads);
   if (taken < *threads)
-    warn(fmt::format(
-        "{}--threads {}: the run takes {}, because {} threads need at least {} steps and it has {}", subject,
-        *threads, taken, taken + 1, with_thousands((taken + 1) * least_steps_of_thread(beads)),
-        with_thousands(steps)));
+    warn(fmt::format("{}{} {}: the run takes {}, because {} threads need at least {} steps and it has {}",
+                     subject, "--threads"_arg, *threads, taken, taken + 1,
+                     with_thousands((taken + 1) * least_steps_of_thread(beads)), with_thousands(steps)));
 }
 
 }  // namespace kds

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "motions/base/input_error.h"
 #include "structures/collision/balls_meet.h"
 #include "structures/collision/distance_queries.h"
 
@@ -65,7 +66,7 @@ std::optional<Advice> advice_in(const Scene& scene, BeadId apart) {
   const Balls<Dimension> balls(scene.centers(0), scene.radii());
   const BeadId farther = std::max(apart, few);
   std::vector<double> half = half_distances_known(scene, balls, farther);
-  std::string option = farther > apart ? fmt::format(" --apart {}", farther) : "";
+  std::string option = farther > apart ? fmt::format(" {} {}", "--apart"_arg, farther) : "";
   if (half.empty() && farther > apart) {
     half = half_distances_known(scene, balls, apart);
     option.clear();
@@ -89,18 +90,19 @@ std::optional<std::string> radius_hint(const Scene& scene, BeadId apart) {
   const std::optional<Advice> advice = advice_for(scene, apart);
   if (!advice) return std::nullopt;
   return fmt::format(
-      "contacts: there are none, because beads of a chain just touch with --radius auto, {:.3g}; try "
-      "--radius {:.3g}{}, {}",
-      scene.radii().front(), to_three_digits(advice->radius), advice->apart, half_touch);
+      "contacts: there are none, because beads of a chain just touch with {} auto, {:.3g}; try {} {:.3g}{}, "
+      "{}",
+      "--radius"_arg, scene.radii().front(), "--radius"_arg, to_three_digits(advice->radius), advice->apart,
+      half_touch);
 }
 
 std::optional<std::string> factor_hint(const Scene& scene, double factor, BeadId apart) {
   const std::optional<Advice> advice = advice_for(scene, apart);
   if (!advice) return std::nullopt;
   const double radius = scene.radii().front() / factor;
-  return fmt::format(
-      "contacts: there are none with radii of {:g} times --radius auto, {:.3g}; try --factors {:.3g}{}, {}",
-      factor, radius, to_three_digits(advice->radius / radius), advice->apart, half_touch);
+  return fmt::format("contacts: there are none with radii of {:g} times {} auto, {:.3g}; try {} {:.3g}{}, {}",
+                     factor, "--radius"_arg, radius, "--factors"_arg,
+                     to_three_digits(advice->radius / radius), advice->apart, half_touch);
 }
 
 std::optional<std::string> cutoff_hint(const Scene& scene, bool between_surfaces, BeadId apart) {
@@ -110,10 +112,9 @@ std::optional<std::string> cutoff_hint(const Scene& scene, bool between_surfaces
   if (!advice) return std::nullopt;
   const double cutoff = 2 * (advice->radius - (between_surfaces ? scene.radii().front() : 0));
   return fmt::format(
-      "worth trying is --cutoff {:.3g}, within which half of the beads have another in the first frame that "
-      "is at "
+      "worth trying is {} {:.3g}, within which half of the beads have another in the first frame that is at "
       "least {} beads along the chain",
-      to_three_digits(cutoff), farther);
+      "--cutoff"_arg, to_three_digits(cutoff), farther);
 }
 
 }  // namespace kds

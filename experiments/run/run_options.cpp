@@ -78,8 +78,8 @@ Option<RunOptions> nodes_option() {
 
 MotionTolerance parse_tolerance(const std::string& text, FrameMotion motion) {
   if (motion != FrameMotion::linear)
-    throw InputError(
-        fmt::format("--tolerance: beads go straight on; expected --motion linear, not {}", name_of(motion)));
+    throw InputError("--tolerance", fmt::format("beads go straight on; expected {} linear, not {}",
+                                                "--motion"_arg, name_of(motion)));
   MotionTolerance tolerance;
   tolerance.of_radius = text.ends_with('r');
   try {
@@ -87,10 +87,10 @@ MotionTolerance parse_tolerance(const std::string& text, FrameMotion motion) {
         "--tolerance", std::string_view(text).substr(0, text.size() - (tolerance.of_radius ? 1 : 0)),
         {0, 1e300, true});
   } catch (const InputError&) {
-    throw InputError(fmt::format(
-        "--tolerance: '{}' is neither a length, as in 0.4, nor a multiple of the smallest radius, as "
-        "in 0.2r; expected a number above 0, at most 1e300",
-        text));
+    throw InputError("--tolerance",
+                     fmt::format("'{}' is neither a length, as in 0.4, nor a multiple of the smallest "
+                                 "radius, as in 0.2r; expected a number above 0, at most 1e300",
+                                 text));
   }
   return tolerance;
 }
@@ -152,8 +152,9 @@ const OptionList<RunOptions>& motion_and_structure_options() {
                                  "(default: events)"},
                                 &O::between, between_names)),
               real_option({"--tightness", "EPS",
-                           "with --between chord: keep radii within 1 + EPS times the smallest, splitting a "
-                           "node's step where needed (default: none)"},
+                           fmt::format("with {} chord: keep radii within 1 + EPS times the smallest, "
+                                       "splitting a node's step where needed (default: none)",
+                                       "--between"_arg)},
                           &O::tightness, {1e-6, 1}),
               only_for(
                   {"contacts"},
@@ -178,8 +179,9 @@ const OptionList<RunOptions>& run_options() {
       motion_and_structure_options()
           .with({
               flag_option("--certify",
-                          "with a stride in --frames, or with --tolerance: read all frames too, and report "
-                          "the largest possible error of the run",
+                          fmt::format("with a stride in {}, or with {}: read all frames too, and report the "
+                                      "largest possible error of the run",
+                                      frames_argument(), "--tolerance"_arg),
                           &O::certify),
               choice_option({"--audit", "WHEN",
                              "check against structures built from scratch: none, frames (at all frames) or "
@@ -208,7 +210,8 @@ RunOptions parse_run_options(const Arguments& arguments) {
       read_arguments(with_inputs(kRunCommand, true), run_options(), arguments, options);
   take_inputs(parsed, kRunCommand.name, options);
   options.distances.check();
-  refuse_needless_certificate(options);
+  if (options.certify && !options.tolerance)
+    refuse_needless_certificate(options, ", or " + "--tolerance"_arg);
   return options;
 }
 

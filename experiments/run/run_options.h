@@ -67,11 +67,11 @@ struct RunOptions : InputOptions, Destinations {
 /// Returns the options that say what is run: inputs, motion and structures.
 [[nodiscard]] const OptionList<RunOptions>& motion_and_structure_options();
 
-/// Returns the option --view. `help` must remain valid as long as the option.
+/// Returns the option --view.
 template <class Options>
 [[nodiscard]] Option<Options> view_option(
     std::optional<std::filesystem::path> Options::*view,
-    std::string_view help =
+    const std::string& help =
         "write the run as a page that shows it in a browser to FILE; kds view has more "
         "options (default: none)") {
   return of_output(path_option({"--view", "FILE", help}, view));

@@ -39,10 +39,10 @@ class WorkWatcher {
     next_ = 2 * work.done();
     const std::size_t step = std::min(simulator_.step(), scene_.step_count() - 1);
     warn_(fmt::format(
-        "step {} (from frame {} to frame {}) has taken {} limb operations of exact arithmetic "
-        "at one time near u = {}, now on {}; --work LIMIT ends a run that takes too many",
+        "step {} (from frame {} to frame {}) has taken {} limb operations of exact arithmetic at one time "
+        "near u = {}, now on {}; {} LIMIT ends a run that takes too many",
         step, scene_.frame_number(step), scene_.frame_number(step + 1), with_thousands(work.done() - before_),
-        simulator_.now().lower(), simulator_.name_of_work(work.subject())));
+        simulator_.now().lower(), simulator_.name_of_work(work.subject()), "--work"_arg));
   }
 
  private:
@@ -61,8 +61,8 @@ void with_limit(KineticRun& run, const RunOptions& options, Work work) {
     work();
   } catch (const WorkLimitReached& limit) {
     throw InputError(
-        fmt::format("--work {}: exact arithmetic takes more limb operations than that, the last on {}",
-                    options.work.value_or(0), run.simulator().name_of_work(limit.subject())));
+        fmt::format("{} {}: exact arithmetic takes more limb operations than that, the last on {}",
+                    "--work"_arg, options.work.value_or(0), run.simulator().name_of_work(limit.subject())));
   }
 }
 
@@ -106,7 +106,7 @@ std::optional<std::string> hint_of(const RunOptions& options, const Scene& scene
   const BeadId apart = options.apart.value_or(StructureSettings().apart);
   if (!distance) return radius_hint(scene, apart);
   const auto hint = cutoff_hint(scene, distance->between_surfaces, apart);
-  return hint ? std::optional(fmt::format("contacts: there are none within {} {}; {}", "--cutoff",
+  return hint ? std::optional(fmt::format("contacts: there are none within {} {}; {}", "--cutoff"_arg,
                                           distance->length, *hint))
               : std::nullopt;
 }

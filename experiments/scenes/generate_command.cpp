@@ -31,7 +31,7 @@ constexpr std::uint64_t kMostBeads = 10'000'000, kMostFrames = 1'000'000, kMostP
 
 models::Span parse_span(std::string_view option, const std::string& text, const RealRange& range) {
   const std::vector<std::string> ends = split(text, ':');
-  if (ends.size() > 2) throw InputError(fmt::format("{}: '{}' is not a number or FROM:TO", option, text));
+  if (ends.size() > 2) throw InputError(option, fmt::format("'{}' is not a number or FROM:TO", text));
   return {parse_real(option, ends.front(), range), parse_real(option, ends.back(), range)};
 }
 
@@ -52,7 +52,7 @@ Option<GenerateOptions> of_models(Setting setting, const Option<Settings>& of_se
   Option<O> option = OptionList<O>().with(&O::settings, OptionList<Settings>{{of_settings}}).all().front();
   option.read = [setting, name = option.spec.name, read = option.read](O& o, const std::string& text) {
     if (!o.model->takes(setting))
-      throw InputError(fmt::format("{}: has no meaning for the model {}", name, o.model->name));
+      throw InputError(name, fmt::format("has no meaning for the model {}", o.model->name));
     read(o, text);
   };
   option.text = [setting, show = option.text](const O& o) {
@@ -159,7 +159,7 @@ const models::Model& model_of(const ParsedArguments& parsed) {
   if (parsed.operands().size() != 1)
     throw InputError(fmt::format("kds generate needs one MODEL, {}", command().operand_help));
   const models::Model* model = models::find_model(parsed.operands().front());
-  if (model == nullptr) refuse_unknown("MODEL", parsed.operands().front(), model_names());
+  if (model == nullptr) refuse_unknown(words("MODEL", "model"), parsed.operands().front(), model_names());
   return *model;
 }
 
@@ -174,9 +174,10 @@ void check_file(const std::filesystem::path& file) {
 void check_wandering(const Settings& settings) {
   constexpr double most = 2;
   if (settings.motion == ShapeMotion::wander && *settings.step > most)
-    throw InputError(fmt::format(
-        "--step: {} is too large; expected at most {}, as far as beads that keep their bonds can wander",
-        *settings.step, most));
+    throw InputError(
+        "--step",
+        fmt::format("{} is too large; expected at most {}, as far as beads that keep their bonds can wander",
+                    *settings.step, most));
 }
 
 }  // namespace
@@ -187,16 +188,17 @@ GenerateOptions parse_generate_options(const Arguments& arguments) {
   const ParsedArguments parsed = parse_arguments(command(), generate_options().specs(), arguments);
   GenerateOptions options;
   options.model = &model_of(parsed);
-  if (!parsed.has("--beads")) throw InputError("--beads: give the number of beads");
+  if (!parsed.has("--beads")) throw InputError("--beads", "give the number of beads");
   generate_options().read(parsed, options);
   const Settings& settings = options.settings;
   if (settings.beads * settings.frames > kMostPositions)
-    throw InputError(fmt::format("--frames: {} beads in {} frames are more than {} positions; give less",
-                                 settings.beads, settings.frames, kMostPositions));
+    throw InputError("--frames", fmt::format("{} beads in {} frames are more than {} positions; give less",
+                                             settings.beads, settings.frames, kMostPositions));
   options.settings = completed(*options.model, settings);
   if (options.settings.motion == ShapeMotion::rest) {
     if (settings.step)
-      throw InputError("--step: beads at rest do not move; expected --motion rotate or wander");
+      throw InputError(
+          "--step", fmt::format("beads at rest do not move; expected {} rotate or wander", "--motion"_arg));
     options.settings.step.reset();
   }
   check_wandering(options.settings);

@@ -66,7 +66,8 @@ InfoOptions parse_info_options(const Arguments& arguments) {
       read_arguments(with_inputs(kInfoCommand, true), info_options(), arguments, options);
   take_inputs(parsed, kInfoCommand.name, options);
   if (options.beads && (parsed.has("--rho") || parsed.has("--list")))
-    throw InputError("--beads: lists no conditions; expected no --rho and no --list");
+    throw InputError("--beads",
+                     fmt::format("lists no conditions; expected no {} and no {}", "--rho"_arg, "--list"_arg));
   return options;
 }
 
@@ -108,7 +109,7 @@ const Table<BeadRow>& bead_columns() {
 // An instance file has weighted points rather than balls in a chain, so there are no conditions to check.
 void describe(const Instance& instance, bool beads, const TableCommand& command) {
   if (beads)
-    throw InputError(fmt::format("--beads: has no meaning for an instance file ({})", instance.file));
+    throw InputError("--beads", fmt::format("has no meaning for an instance file ({})", instance.file));
   Json json;
   json["input"] = {{"files", std::vector{instance.file}},
                    {"beads", instance.point_count()},

@@ -71,11 +71,11 @@ std::string without(Want want, const FinestData& finest, const TradeSetting& exa
   std::vector<std::string_view> others;
   for (const Want other : task.wants)
     if (other != want) others.push_back(name_of(other));
-  return fmt::format(
-      "{}: `{}`, the exact run of --want {}, is not possible: {}{}", finest.file(), words_of(exact),
-      name_of(want), reason,
-      others.empty() ? std::string()
-                     : fmt::format("; expected --want {}, which works without it", fmt::join(others, ",")));
+  return fmt::format("{}: `{}`, the exact run of {} {}, is not possible: {}{}", finest.file(),
+                     words_of(exact), "--want"_arg, name_of(want), reason,
+                     others.empty() ? std::string()
+                                    : fmt::format("; expected {} {}, which works without it", "--want"_arg,
+                                                  fmt::join(others, ",")));
 }
 
 /// Scenes have no errors: they are different tasks rather than different answers to one task.

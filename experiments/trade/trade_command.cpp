@@ -65,7 +65,7 @@ std::vector<Want> parse_wants(const std::string& list) {
   for (const std::string& word : split(list, ',')) {
     wants.push_back(choice_of<Want>("--want", word, want_names));
     if (std::count(wants.begin(), wants.end(), wants.back()) > 1)
-      throw InputError(fmt::format("--want: {} is listed twice", word));
+      throw InputError("--want", fmt::format("{} is listed twice", word));
   }
   std::sort(wants.begin(), wants.end());
   return wants;
@@ -74,7 +74,9 @@ std::vector<Want> parse_wants(const std::string& list) {
 Option<TradeTask> without_exact_option() {
   Option<TradeTask> option(
       {"--without-exact", "",
-       "leave out --kernel exact, which is a hundred to thousands of times slower and has the same events"},
+       fmt::format(
+           "leave out {} exact, which is a hundred to thousands of times slower and has the same events",
+           "--kernel"_arg)},
       [](TradeTask& task, const std::string&) { task.exact_kernel = false; },
       [](const TradeTask& task) { return task.exact_kernel ? "" : "yes"; }, nullptr,
       [](const TradeTask& task) { return Json(task.exact_kernel); });
@@ -126,11 +128,12 @@ const OptionList<TradeOptions>& trade_options() {
       OptionList<O>()
           .with(input_options())
           .with(&O::task, task_options())
-          .with(OptionList<InputOptions>(
-              {only_for({"contacts", "events", "scenes"},
-                        groups_option("contacts: one bead of a pair must be in SEL1 and the other in SEL2, "
-                                      "each as --select takes it, among the beads that are read; leaves out "
-                                      "settings with --select ca (default: all pairs)"))}))
+          .with(OptionList<InputOptions>({only_for(
+              {"contacts", "events", "scenes"},
+              groups_option(fmt::format(
+                  "contacts: one bead of a pair must be in SEL1 and the other in SEL2, each as {} takes it, "
+                  "among the beads that are read; leaves out settings with {} ca (default: all pairs)",
+                  "--select"_arg, "--select"_arg)))}))
           .with(destination_options("write trade.json, trade.csv and report.html to DIR (default: none)",
                                     "write the rows to FILE; - is standard output (default: none)",
                                     "print no table and no progress bar; the bar counts runs: one of each "
@@ -147,7 +150,7 @@ TradeOptions parse_trade_options(const Arguments& arguments) {
   take_inputs(parsed, kTradeCommand.name, options);
   std::vector<std::string> wants;
   for (const Want want : options.task.wants) wants.emplace_back(name_of(want));
-  trade_options().refuse_needless(wants, "in --want",
+  trade_options().refuse_needless(wants, fmt::format("in {}", "--want"_arg),
                                   [&](const auto& option) { return parsed.has(option.spec.name); });
   return options;
 }
@@ -162,9 +165,9 @@ bool leave_out_exact_kernel(const FinestData& finest, const TradeTask& task,
   if (beads <= most_beads && beads * frames <= most) return !asked_for;
   if (!asked_for) return true;
   warn(
-      fmt::format("`--kernel exact` is left out: {} beads in {} frames would take too long; expected no more "
-                  "than {} beads, and no more than {} times frames",
-                  beads, frames, most_beads, most));
+      fmt::format("`{} exact` is left out: {} beads in {} frames would take too long; expected no more than "
+                  "{} beads, and no more than {} times frames",
+                  "--kernel"_arg, beads, frames, most_beads, most));
   return true;
 }
 
@@ -247,8 +250,8 @@ void refuse_lone_frame(const TradeOptions& options, const std::vector<Trajectory
   const bool lone = std::all_of(necklaces.begin(), necklaces.end(),
                                 [](const Trajectory& necklace) { return necklace.frames.size() < 2; });
   if (!all && lone)
-    throw InputError(fmt::format("--frames {}: leaves 1 frame of {}; expected a range of two or more",
-                                 name_of(frames), necklaces.front().file));
+    throw InputError(fmt::format("{} {}: leaves 1 frame of {}; expected a range of two or more",
+                                 frames_argument(), name_of(frames), necklaces.front().file));
 }
 
 // The input, and the measurements that the options ask for.

@@ -194,9 +194,10 @@ std::vector<UpdateRow> compare_updates(const SceneAtStride& scene_at, const Upda
   all.require_weights();
   for (const std::size_t stride : options.strides)
     if (stride >= all.frame_count())
-      throw InputError(fmt::format(
-          "--strides: {} leaves one of the {} frames{}; expected two or more", stride, all.frame_count(),
-          options.inputs.empty() ? "" : fmt::format(" of {}", options.inputs.front().string())));
+      throw InputError(
+          "--strides",
+          fmt::format("{} leaves one of the {} frames{}; expected two or more", stride, all.frame_count(),
+                      options.inputs.empty() ? "" : fmt::format(" of {}", input_name(options, 0))));
   std::vector<UpdateRow> rows;
   std::size_t done = 0;
   for (const std::size_t stride : options.strides) {

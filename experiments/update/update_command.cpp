@@ -48,7 +48,7 @@ std::vector<std::string> parse_techniques(const std::string& list) {
     if (std::find(kTechniques.begin(), kTechniques.end(), name) == kTechniques.end())
       refuse_unknown("--techniques", name, kTechniques);
     if (std::count(names.begin(), names.end(), name) > 1)
-      throw InputError(fmt::format("--techniques: {} is listed twice", name));
+      throw InputError("--techniques", fmt::format("{} is listed twice", name));
   }
   std::vector<std::string> ordered;
   for (const std::string_view name : kTechniques) {

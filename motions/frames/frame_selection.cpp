@@ -31,9 +31,9 @@ DamagedFrame::DamagedFrame(const std::string& file, std::size_t frame, std::uint
 FrameRange parse_frame_range(std::string_view text) {
   const auto refuse = [&](std::string_view why) {
     return InputError(
-        fmt::format("--frames: {} in {}, expected FIRST:LAST:STRIDE (whole numbers from 0, each may "
-                    "be left out)",
-                    why, in_quotes(text)));
+        frames_argument(),
+        fmt::format("{} in {}, expected FIRST:LAST:STRIDE (whole numbers from 0, each may be left out)", why,
+                    in_quotes(text)));
   };
   std::vector<std::string_view> parts;
   for (std::string_view rest = text;;) {
@@ -57,14 +57,15 @@ FrameRange parse_frame_range(std::string_view text) {
 }
 
 std::string warning_of(const DamagedFrame& damage) {
-  return fmt::format("{}; frames up to {} are read (--until-damage)", damage.what(), damage.frame() - 1);
+  return fmt::format("{}; frames up to {} are read ({})", damage.what(), damage.frame() - 1,
+                     "--until-damage"_arg);
 }
 
 FramesAsked select_frames(const std::string& file, const FrameRange& range, const FramesHeld& held,
                           bool until_damage, std::vector<std::string>& warnings) {
-  if (range.stride == 0) throw InputError("--frames: the stride must be at least 1");
+  if (range.stride == 0) throw InputError(frames_argument(), "the stride must be at least 1");
   if (range.last && *range.last <= range.first)
-    throw InputError(fmt::format("--frames: no frame lies in {}:{}", range.first, *range.last));
+    throw InputError(frames_argument(), fmt::format("no frame lies in {}:{}", range.first, *range.last));
   const std::size_t last = range.last.value_or(held.whole);
   const bool meets_damage = held.damage && (!range.last || last > held.whole);
   if (meets_damage) {
@@ -80,11 +81,11 @@ FramesAsked select_frames(const std::string& file, const FrameRange& range, cons
   if (held.whole == 1 && !held.ends_inside && !held.damage)
     return {0, 1, 1, false, true};  // whatever the range
   if (range.first >= held.whole)
-    throw InputError(fmt::format("--frames: frame {} is asked for, {} holds {}", range.first, file,
-                                 counted(held.whole, "frame")));
+    throw InputError(frames_argument(), fmt::format("frame {} is asked for, {} holds {}", range.first, file,
+                                                    counted(held.whole, "frame")));
   if (last > held.whole && !(held.damage && until_damage))
-    throw InputError(fmt::format("--frames: frames up to {} are asked for, {} holds {}", last - 1, file,
-                                 counted(held.whole, "frame")));
+    throw InputError(frames_argument(), fmt::format("frames up to {} are asked for, {} holds {}", last - 1,
+                                                    file, counted(held.whole, "frame")));
   const std::size_t end = std::min(last, held.whole);
   const FramesAsked frames{range.first, range.stride, 1 + (end - 1 - range.first) / range.stride,
                            held.ends_inside || meets_damage};

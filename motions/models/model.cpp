@@ -88,7 +88,7 @@ std::vector<Trajectory> make_grill(const Settings& s) { return moved("grill", gr
 
 std::vector<Trajectory> make_grid(const Settings& s) {
   if (!(*s.bond > (1 + *s.gap) / 2))
-    throw InputError("--bond: too short to join the rows of a grid; expected more than (1 + gap) / 2");
+    throw InputError("--bond", "too short to join the rows of a grid; expected more than (1 + gap) / 2");
   Random random(s.seed);
   Shape grid = packed_grid(s.beads, *s.dimension, *s.gap, *s.bond);
   if (*s.jitter > 0) grid = jittered(std::move(grid), *s.jitter, random, *s.dimension);

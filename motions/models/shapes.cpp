@@ -221,8 +221,9 @@ Shape random_chain(std::size_t beads, double fill, Random& random, double bond) 
     }
     if (tries > 0) continue;
     if (++dead_ends > 100 + beads)
-      throw InputError(fmt::format("--fill: found no chain of {} beads that fill {} of their cube; give less",
-                                   beads, fill));
+      throw InputError(
+          "--fill",
+          fmt::format("found no chain of {} beads that fill {} of their cube; give less", beads, fill));
     for (std::size_t back = 0; back < steps_back && chain.size() > 1; ++back) {
       chain.pop_back();
       occupied.remove(chain.back());

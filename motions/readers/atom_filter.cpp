@@ -27,7 +27,7 @@ struct GivenText {
 };
 
 InputError malformed(const GivenText& given, std::string_view what) {
-  return InputError(fmt::format("{}: {} {}; expected a selection as in {}", given.option,
+  return InputError(fmt::format("{}: {} {}; expected a selection as in {}", argument(given.option),
                                 in_quotes(given.text), what, selection_example));
 }
 
@@ -249,7 +249,8 @@ struct AtomFilter::Rules {
   explicit Rules(GivenText its_given) : given(std::move(its_given)) {
     const SelectionTexts parts = texts_of(given);
     if (!parts.model.empty() && parts.model != "*" && parts.model != "0")
-      throw malformed(given, fmt::format("names model {}, which --frames chooses", in_quotes(parts.model)));
+      throw malformed(
+          given, fmt::format("names model {}, which {} chooses", in_quotes(parts.model), frames_argument()));
     chains = parse_list(given, parts.chains);
     residue_names = parse_list(given, parts.residue_names);
     const auto range = parse_range(parts.numbers);
@@ -311,7 +312,7 @@ struct AtomFilter::Rules {
       const std::optional<double>& value = condition.is_occupancy ? atom.occupancy : atom.b_factor;
       if (!value)
         throw InputError(fmt::format("{}: {} compares {}, which {} does not give for {} of {} {}",
-                                     given.option, in_quotes(given.text),
+                                     argument(given.option), in_quotes(given.text),
                                      condition.is_occupancy ? "occupancies (q)" : "B factors (b)", file,
                                      atom.name, residue.name, residue.number));
       return condition.holds_for(*value);

@@ -33,8 +33,8 @@ struct ChosenAtoms {
 };
 
 InputError needs_names(const char* option, const std::string& file, const char* what) {
-  return InputError(fmt::format("{}: {} does not name its {}; give a file that does with --topology ({})",
-                                option, file, what, reader_registry().topology_endings()));
+  return InputError(option, fmt::format("{} does not name its {}; give a file that does with {} ({})", file,
+                                        what, "--topology"_arg, reader_registry().topology_endings()));
 }
 
 // Whether the ids are those from 1 to the number of atoms, in any order.
@@ -132,10 +132,10 @@ ChosenAtoms choose_atoms(const std::string& file, const ReadOptions& options, co
     chosen.indices = wanted;
   else if (!ids.empty())
     throw InputError(fmt::format(
-        "{}: expected the {} selected from {}, found no atom with the id {} (bead {}, {}); --topology with a "
-        "file of the {} alone names them in their order",
+        "{}: expected the {} selected from {}, found no atom with the id {} (bead {}, {}); {} with a file of "
+        "the {} alone names them in their order",
         file, counted(atom_count, "atom"), options.topology->string(), topology.selected[missing] + 1,
-        missing, topology.bead_names[missing], counted(atom_count, "atom")));
+        missing, topology.bead_names[missing], "--topology"_arg, counted(atom_count, "atom")));
   chosen.bead_count = bead_count;
   chosen.bonds = has_all ? std::move(topology.bonds) : without_guides(topology.bonds);
   if (has_all) warnings.insert(warnings.end(), topology.warnings.begin(), topology.warnings.end());
@@ -159,11 +159,11 @@ void take_own_elements(const AtomFrames& frames, const ChosenAtoms& atoms, Frame
     }
     opened.element_radii.clear();
     if (opened.element_lack.empty())
-      opened.element_lack =
-          radii.empty()
-              ? fmt::format("{} names no elements, which a file given by --topology may do", opened.file)
-              : fmt::format("{} does not tell the element of atom {} (bead {})", opened.file,
-                            atoms.indices[i], i);
+      opened.element_lack = radii.empty()
+                                ? fmt::format("{} names no elements, which a file given by {} may do",
+                                              opened.file, "--topology"_arg)
+                                : fmt::format("{} does not tell the element of atom {} (bead {})",
+                                              opened.file, atoms.indices[i], i);
     return;
   }
 }

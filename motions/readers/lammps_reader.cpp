@@ -207,13 +207,13 @@ class LammpsFrames final : public AtomFrames {
   // All frames have the units of frame 0, or those of --units if frame 0 names none.
   void check_units(std::size_t k, std::string_view units) const {
     if (first_.units.empty() && !units_asked_)
-      fail(k, fmt::format("expected no units, as frame 0 names none, found {} (--units {} names those of all "
-                          "frames)",
-                          in_quotes(units), fmt::join(lammps_units_names, "|")));
+      fail(k,
+           fmt::format("expected no units, as frame 0 names none, found {} ({} {} names those of all frames)",
+                       in_quotes(units), "--units"_arg, fmt::join(lammps_units_names, "|")));
     const std::string_view expected = first_.units.empty() ? name_of(*units_asked_) : first_.units;
     if (units != expected)
       fail(k, fmt::format("expected units {} as {}, found {}", expected,
-                          first_.units.empty() ? "--units says" : "in frame 0", units));
+                          first_.units.empty() ? "--units"_arg + " says" : "in frame 0", units));
   }
 
   // Reads a box: xlo xhi; with tilt xlo_bound xhi_bound xy; or, in a general box, a vector and a coordinate
@@ -254,17 +254,17 @@ class LammpsFrames final : public AtomFrames {
     if (known != lammps_units_names.end()) {
       const auto own = static_cast<LammpsUnits>(known - lammps_units_names.begin());
       if (asked && *asked != own)
-        notes_.push_back(
-            fmt::format("units are {} (--units), though the file says {}", name_of(*asked), first_.units));
+        notes_.push_back(fmt::format("units are {} ({}), though the file says {}", name_of(*asked),
+                                     "--units"_arg, first_.units));
       if (!asked) units = own;
     } else if (!first_.units.empty() && !asked) {
-      throw InputError(
-          fmt::format("{}: units {} are not read, expected {}; --units lj reads the numbers as they are",
-                      lines_.name(), in_quotes(first_.units), fmt::join(lammps_units_names, ", ")));
+      throw InputError(fmt::format(
+          "{}: units {} are not read, expected {}; {} lj reads the numbers as they are", lines_.name(),
+          in_quotes(first_.units), fmt::join(lammps_units_names, ", "), "--units"_arg));
     }
     if (!units) {
-      notes_.push_back(fmt::format("the file names no units; lengths are taken as angstrom{} (--units {})",
-                                   first_.time ? ", and times are left unread" : "",
+      notes_.push_back(fmt::format("the file names no units; lengths are taken as angstrom{} ({} {})",
+                                   first_.time ? ", and times are left unread" : "", "--units"_arg,
                                    fmt::join(lammps_units_names, "|")));
       return;
     }

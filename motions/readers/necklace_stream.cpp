@@ -39,12 +39,13 @@ void refuse_trajectory_as_topology(const std::filesystem::path& path, const std:
   const ReaderSpec* const reader =
       path_takes_topology ? &reader_of(topology) : reader_registry().find_by_ending(topology);
   if (reader == nullptr || reader->topology || !reader->takes_topology) return;
-  throw InputError(fmt::format(
-      "--topology: {} names no atoms; {}", topology.string(),
-      path_takes_topology
-          ? fmt::format("expected the file with the atoms of {} ({})", path.string(),
-                        reader_registry().topology_endings())
-          : fmt::format("the trajectory comes first: {} --topology {}", topology.string(), path.string())));
+  throw InputError(
+      "--topology",
+      fmt::format("{} names no atoms; {}", topology.string(),
+                  path_takes_topology ? fmt::format("expected the file with the atoms of {} ({})",
+                                                    path.string(), reader_registry().topology_endings())
+                                      : fmt::format("the trajectory comes first: {} {} {}", topology.string(),
+                                                    "--topology"_arg, path.string())));
 }
 
 // Warns if the file has the ending of another format than that of its reader.
@@ -62,17 +63,18 @@ FramesOpened open_frames(const std::filesystem::path& path, const ReadOptions& o
   const ReaderSpec& reader = reader_of(path, options.format);
   if (options.topology) refuse_trajectory_as_topology(path, *options.topology, reader.takes_topology);
   if (!reader.open)
-    throw InputError(
-        fmt::format("{0}: {1} files have no frames; give the trajectory ({2}) with --topology {0}",
-                    path.string(), reader.name, reader_registry().trajectory_endings()));
+    throw InputError(fmt::format("{0}: {1} files have no frames; give the trajectory ({2}) with {3} {0}",
+                                 path.string(), reader.name, reader_registry().trajectory_endings(),
+                                 "--topology"_arg));
   FramesOpened opened = reader.open(path, options);
   if (options.topology && !reader.takes_topology)
-    opened.warnings.push_back(
-        fmt::format("{}: --topology is left unread, this file names its atoms itself", opened.file));
+    opened.warnings.push_back(fmt::format("{}: {} is left unread, this file names its atoms itself",
+                                          opened.file, "--topology"_arg));
   if (options.units && reader.name != "lammps")
     opened.warnings.push_back(
-        fmt::format("{}: --units is left unread, as only LAMMPS dumps take it", opened.file));
-  if (!options.format) warn_of_ending(path, reader, " (--format overrides)", opened.warnings);
+        fmt::format("{}: {} is left unread, as only LAMMPS dumps take it", opened.file, "--units"_arg));
+  if (!options.format)
+    warn_of_ending(path, reader, fmt::format(" ({} overrides)", "--format"_arg), opened.warnings);
   if (options.topology && reader.takes_topology)
     warn_of_ending(*options.topology, reader_of(*options.topology), "", opened.warnings);
   return opened;
@@ -101,7 +103,8 @@ std::vector<T> of_chain(const std::vector<T>& of_beads, std::size_t first, std::
 std::uint8_t groups_without_names(const std::string& file, const std::vector<Selection>& groups) {
   for (const Selection& group : groups)
     if (group.needs_names())
-      throw InputError(fmt::format("--groups: {} does not name its atoms; expected a file that does", file));
+      throw InputError("--groups",
+                       fmt::format("{} does not name its atoms; expected a file that does", file));
   return static_cast<std::uint8_t>((1U << groups.size()) - 1);
 }
 
@@ -386,7 +389,8 @@ bool NecklaceStream::next(FrameRead& frame) {
     return read(frame);
   } catch (const InputError& error) {
     if (!until_damage_ || !last_read_) throw;
-    damage_ = fmt::format("{}; frames up to {} are read (--until-damage)", error.what(), *last_read_);
+    damage_ =
+        fmt::format("{}; frames up to {} are read ({})", error.what(), *last_read_, "--until-damage"_arg);
     ended_ = true;
     return false;
   }
@@ -449,11 +453,11 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
     lines = opened_.warnings;
     if (!damage_.empty()) lines.push_back(damage_);
     if (has_times_)
-      lines.push_back(
-          fmt::format("{}: has times of its own, which --dt {} replaces", opened_.file, *time_step_));
+      lines.push_back(fmt::format("{}: has times of its own, which {} {} replaces", opened_.file, "--dt"_arg,
+                                  *time_step_));
     if (times_disordered_ > 0)
-      lines.push_back(fmt::format("{} ({}; --dt PS replaces times)", first_disordered_,
-                                  counted(times_disordered_, "frame")));
+      lines.push_back(fmt::format("{} ({}; {} PS replaces times)", first_disordered_,
+                                  counted(times_disordered_, "frame"), "--dt"_arg));
     if (cells_unused_ > 0)
       lines.push_back(fmt::format("{} ({})", first_doubt_, counted(cells_unused_, "frame")));
     if (frames_with_cell_ > 0 && frames_without_cell_ > 0)

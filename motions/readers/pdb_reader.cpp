@@ -133,9 +133,9 @@ class StructureFrames final : public FrameReader {
     frame.cell_doubt = ignores_cell_ ? std::string() : read.cell.doubt;
     if (frame.cell && names_of(selected.guides) != guide_names_)
       throw InputError(
-          fmt::format("{}: frame {}: the residues that --select leaves out are not those of frame {}, so the "
-                      "chain cannot be made whole across the periodic cell; --select ca reads all residues",
-                      file_, k, asked_[0]));
+          fmt::format("{}: frame {}: the residues that {} leaves out are not those of frame {}, so the chain "
+                      "cannot be made whole across the periodic cell; {} ca reads all residues",
+                      file_, k, "--select"_arg, asked_[0], "--select"_arg));
     return true;
   }
 

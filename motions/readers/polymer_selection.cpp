@@ -433,8 +433,8 @@ std::string atoms_of(const Selection& selection) {
 
 // For a molecule whose label is the name of a chain.
 std::string advice_to_rename(const PolymerPart& molecule) {
-  return fmt::format("molecule {0} cannot be named by --chain, because a chain has the name {0}: rename it",
-                     molecule.label);
+  return fmt::format("molecule {0} cannot be named by {1}, because a chain has the name {0}: rename it",
+                     molecule.label, "--chain"_arg);
 }
 
 // Adds notes about residues of a part that are left out or doubtful.
@@ -475,7 +475,7 @@ void add_notes(const Parts& parts, const PolymerPart& part, const PartRead& read
         hidden.push_back(advice_to_rename(*molecule));
       }
     }
-    if (!labels.empty()) line += fmt::format("; --chain {} reads one each", fmt::join(labels, ","));
+    if (!labels.empty()) line += fmt::format("; {} {} reads one each", "--chain"_arg, fmt::join(labels, ","));
     for (const std::string& advice : hidden) line += "; " + advice;
     notes.push_back(line);
   }
@@ -505,19 +505,18 @@ std::optional<std::string> describe_unread(const Parts& parts, const PolymerPart
   if (!readable.empty()) {
     const std::string label = shown(readable.front()->label);
     const std::string both =
-        parts.can_be_named(read) ? fmt::format(" or --chain {},{}", shown(read.label), label) : "";
-    line +=
-        fmt::format("; --chain {}{} reads {}", label, both, readable.size() == 1 ? "it" : "them likewise");
+        parts.can_be_named(read) ? fmt::format(" or {} {},{}", "--chain"_arg, shown(read.label), label) : "";
+    line += fmt::format("; {} {}{} reads {}", "--chain"_arg, label, both,
+                        readable.size() == 1 ? "it" : "them likewise");
   }
   for (const PolymerPart* part : hidden) line += fmt::format("; {}", advice_to_rename(*part));
   return line;
 }
 
 InputError no_polymer_in(const std::string& file, const Parts& parts) {
-  return InputError(
-      fmt::format("{}: no chain of amino acids or nucleotides in this file, which holds {}; "
-                  "--select all reads them",
-                  file, parts.contents()));
+  return InputError(fmt::format(
+      "{}: no chain of amino acids or nucleotides in this file, which holds {}; {} all reads them", file,
+      parts.contents(), "--select"_arg));
 }
 
 std::vector<const PolymerPart*> parts_asked_for(const std::string& file, const Parts& parts,
@@ -541,16 +540,16 @@ std::vector<const PolymerPart*> parts_asked_for(const std::string& file, const P
           for (const PolymerPart* molecule : molecules)
             if (parts.can_be_named(*molecule)) expected.push_back(molecule->label);
       }
-      throw InputError(fmt::format("--chain: {} has no chain {}; expected {}", file, in_quotes(name),
-                                   joined(expected, expected.size())));
+      throw InputError("--chain", fmt::format("{} has no chain {}; expected {}", file, in_quotes(name),
+                                              joined(expected, expected.size())));
     }
     if (std::find(wanted.begin(), wanted.end(), part) != wanted.end())
-      throw InputError(fmt::format("--chain: {} is listed twice for {}", in_quotes(name), file));
+      throw InputError("--chain", fmt::format("{} is listed twice for {}", in_quotes(name), file));
     for (const PolymerPart* other : wanted)
       if (other->chain == part->chain && (!other->molecule || !part->molecule))
-        throw InputError(fmt::format("--chain: molecule {} of {} is part of chain {}, which is listed too",
-                                     part->molecule ? part->label : other->label, file,
-                                     in_quotes(part->chain)));
+        throw InputError("--chain", fmt::format("molecule {} of {} is part of chain {}, which is listed too",
+                                                part->molecule ? part->label : other->label, file,
+                                                in_quotes(part->chain)));
     wanted.push_back(part);
     if (comma == std::string_view::npos) return wanted;
     rest.remove_prefix(comma + 1);
@@ -585,7 +584,8 @@ std::string advice_on_selection(const StructureModel& model, const std::string& 
     return fmt::format("; {0} is the name of a residue, not of a chain: ({0}) chooses it", names);
   const bool named = any_residue([](const StructureResidue& residue) { return !residue.chain.empty(); });
   if (!named && text.starts_with("//") && !text.starts_with("//*"))
-    return "; no chain has a name here: //*/ allows any, and --chain 1 takes the first molecule";
+    return fmt::format("; no chain has a name here: //*/ allows any, and {} 1 takes the first molecule",
+                       "--chain"_arg);
   return "";
 }
 
@@ -595,14 +595,16 @@ InputError nothing_selected(const std::string& file, const StructureModel& model
   const StructureResidue& middle = model.residues[model.residues.size() / 2];
   std::vector<std::string> atoms;
   for (const StructureAtom& atom : middle.atoms) atoms.push_back(atom.name);
-  return InputError(fmt::format(
-      "--select: {} selects no atom of {}{}, which has the chains {}; residues {} to {} ({}); {} has the "
-      "atoms {}{}",
-      in_quotes(selection.text()), file, list ? fmt::format(" in --chain {}", *list) : "",
-      first_few(model, most, [](const StructureResidue& residue) { return shown(residue.chain); }),
-      name_of(model.residues.front()), name_of(model.residues.back()),
-      first_few(model, most, [](const StructureResidue& residue) { return residue.name; }), name_of(middle),
-      joined(atoms, most), advice_on_selection(model, selection.text())));
+  return InputError(
+      "--select",
+      fmt::format(
+          "{} selects no atom of {}{}, which has the chains {}; residues {} to {} ({}); {} has the atoms "
+          "{}{}",
+          in_quotes(selection.text()), file, list ? fmt::format(" in {} {}", "--chain"_arg, *list) : "",
+          first_few(model, most, [](const StructureResidue& residue) { return shown(residue.chain); }),
+          name_of(model.residues.front()), name_of(model.residues.back()),
+          first_few(model, most, [](const StructureResidue& residue) { return residue.name; }),
+          name_of(middle), joined(atoms, most), advice_on_selection(model, selection.text())));
 }
 
 // Explains why a chain that was asked for has no beads.
@@ -612,14 +614,15 @@ InputError no_beads(const std::string& file, const Parts& parts, const PolymerPa
       std::any_of(part.polymer.begin(), part.polymer.end(),
                   [](const StructureResidue* residue) { return first_named(*residue, "P") != nullptr; });
   const std::string names = atoms_of(selection);
-  return InputError(fmt::format(
-      "--select: chain {} of {} does not hold {} in any residue of a polymer; {}--select all reads its {}",
-      in_quotes(part.label.empty() ? " " : part.label), file,
-      selection == Selection::heavy          ? "an atom heavier than hydrogen"
-      : names.find(',') == std::string::npos ? "an atom " + names
-                                             : names,
-      has_p && selection != Selection::p ? "--select p reads its P atoms, " : "",
-      counted(parts.candidates(part, Selection::all).size(), "residue")));
+  return InputError(
+      "--select",
+      fmt::format("chain {} of {} does not hold {} in any residue of a polymer; {}{} all reads its {}",
+                  in_quotes(part.label.empty() ? " " : part.label), file,
+                  selection == Selection::heavy          ? "an atom heavier than hydrogen"
+                  : names.find(',') == std::string::npos ? "an atom " + names
+                                                         : names,
+                  has_p && selection != Selection::p ? "--select"_arg + " p reads its P atoms, " : "",
+                  "--select"_arg, counted(parts.candidates(part, Selection::all).size(), "residue")));
 }
 
 // Returns whether the atom's name is that of an atom of a backbone.

@@ -43,8 +43,8 @@ std::vector<Trajectory> read_trajectories(const std::filesystem::path& path, con
 Trajectory read_trajectory(const std::filesystem::path& path, const ReadOptions& options) {
   std::vector<Trajectory> necklaces = read_trajectories(path, options);
   if (necklaces.size() > 1)
-    throw InputError(fmt::format("--chain: expected one chain of {}, found {}", path.string(),
-                                 in_quotes(options.chain.value_or(""))));
+    throw InputError("--chain", fmt::format("expected one chain of {}, found {}", path.string(),
+                                            in_quotes(options.chain.value_or(""))));
   return std::move(necklaces.front());
 }
 

@@ -110,7 +110,7 @@ const ReaderSpec* ReaderRegistry::find(const std::filesystem::path& path,
   if (format) {
     for (const ReaderSpec& reader : readers_)
       if (reader.name == *format) return &reader;
-    throw InputError(fmt::format("--format: expected {}, found {}", listed(names()), in_quotes(*format)));
+    throw InputError("--format", fmt::format("expected {}, found {}", listed(names()), in_quotes(*format)));
   }
   const ReaderSpec* const by_ending = find_by_ending(path);
   const std::string start = first_bytes(path);
@@ -157,8 +157,8 @@ std::string ReaderRegistry::topology_endings() const {
 Topology read_topology(const std::filesystem::path& path, const ReadOptions& options) {
   const ReaderSpec* const reader = reader_registry().find(path);
   if (reader == nullptr || !reader->topology)
-    throw InputError(fmt::format("--topology: {} names no atoms; expected {}", path.string(),
-                                 reader_registry().topology_endings()));
+    throw InputError("--topology", fmt::format("{} names no atoms; expected {}", path.string(),
+                                               reader_registry().topology_endings()));
   return reader->topology(path, options);
 }
 

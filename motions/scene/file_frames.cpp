@@ -116,8 +116,8 @@ std::vector<std::string> FileFrames::warnings() const {
   std::vector<std::string> lines;
   if (!early_end_.empty()) lines.push_back(early_end_);
   if (times_differ_ > 0)
-    lines.push_back(
-        fmt::format("{} ({}; --dt PS replaces times)", first_difference_, counted(times_differ_, "frame")));
+    lines.push_back(fmt::format("{} ({}; {} PS replaces times)", first_difference_,
+                                counted(times_differ_, "frame"), "--dt"_arg));
   add_nearer_images(lines);
   for (const NecklaceStream& file : files_)
     for (std::size_t n = 0; n < file.heads().size(); ++n)

@@ -68,12 +68,15 @@ void LongestBond::add(const Eigen::Ref<const Eigen::Matrix3Xd>& frame,
 
 double LongestBond::radius() const {
   if (!(longest_ > 0))
-    throw InputError(fmt::format("--radius: auto is half the longest bond, and here {}; give --radius NUMBER",
-                                 any_ ? "no bond is longer than 0" : "no two consecutive beads are bonded"));
+    throw InputError("--radius",
+                     fmt::format("auto is half the longest bond, and here {}; give {} NUMBER",
+                                 any_ ? "no bond is longer than 0" : "no two consecutive beads are bonded",
+                                 "--radius"_arg));
   if (!std::isfinite(longest_))
     throw InputError(
-        "--radius: auto is half the longest bond, which is too large for a double here; give --radius "
-        "NUMBER");
+        "--radius",
+        fmt::format("auto is half the longest bond, which is too large for a double here; give {} NUMBER",
+                    "--radius"_arg));
   return radius_;
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "motions/base/input_error.h"
+
 namespace kds {
 
 std::string nanometres_doubt(const Eigen::Ref<const Eigen::Matrix3Xd>& chain,
@@ -28,9 +30,10 @@ std::string nanometres_doubt(const Eigen::Ref<const Eigen::Matrix3Xd>& chain,
   const bool is_straight = turns[turns.size() / 2] > 1.95 * median;
   if ((!atoms && !residues) || is_straight) return "";
   return fmt::format(
-      "the median bond is {:.3g} angstrom, which fits {} in nanometres; expected coordinates in angstrom, 10 "
+      "the median bond is {:.3g} angstrom, which fits {} in nanometres; expected {}coordinates in angstrom, "
+      "10 "
       "times as large",
-      median, atoms ? "bonded atoms" : "C-alpha atoms");
+      median, atoms ? "bonded atoms" : "C-alpha atoms", words("", "units='nm' for an array, or "));
 }
 
 }  // namespace kds

@@ -19,9 +19,11 @@ std::vector<double> element_radii(const std::string& policy, Necklaces necklaces
   std::vector<double> radii;
   for (const NecklaceBeads& necklace : necklaces) {
     if (necklace.element_radii.size() != necklace.count)
-      throw InputError(fmt::format(
-          "--radius: {} needs the elements of all beads: {}; give --radius auto or a number", policy,
-          necklace.element_lack.empty() ? necklace.file + " names no elements" : necklace.element_lack));
+      throw InputError("--radius",
+                       fmt::format("{} needs the elements of all beads: {}; give {} auto or a number", policy,
+                                   necklace.element_lack.empty() ? necklace.file + " names no elements"
+                                                                 : necklace.element_lack,
+                                   "--radius"_arg));
     radii.insert(radii.end(), necklace.element_radii.begin(), necklace.element_radii.end());
   }
   return radii;
@@ -75,9 +77,10 @@ bool adjacent(const Ball& a, const Ball& b) {
     return fmt::format("bead {} of {}", ball.bead, necklaces[ball.necklace].file);
   };
   const bool in_order = std::pair(a.necklace, a.bead) < std::pair(b.necklace, b.bead);
-  throw InputError(fmt::format(
-      "--radius: element:fit cannot separate {} and {}, which are at one position in the first frame",
-      name(in_order ? a : b), name(in_order ? b : a)));
+  throw InputError(
+      "--radius",
+      fmt::format("element:fit cannot separate {} and {}, which are at one position in the first frame",
+                  name(in_order ? a : b), name(in_order ? b : a)));
 }
 
 // Returns the radii times one factor, at most 1, such that in the first frame no two beads touch except
@@ -113,10 +116,12 @@ std::vector<double> radii_by(const std::string& policy, Necklaces necklaces, con
   if (policy.starts_with(from_file)) return radii_from_file(policy.substr(from_file.size()), beads);
   const auto radius = parse_double(policy);
   if (!radius)
-    throw InputError(fmt::format(
-        "--radius: expected auto, a number, element, element:fit or file:PATH, found {}", in_quotes(policy)));
+    throw InputError("--radius",
+                     fmt::format("expected auto, a number, element, element:fit or file:PATH, found {}",
+                                 in_quotes(policy)));
   if (!std::isfinite(*radius) || *radius <= 0)
-    throw InputError(fmt::format("--radius: expected a positive finite number, found {}", in_quotes(policy)));
+    throw InputError("--radius",
+                     fmt::format("expected a positive finite number, found {}", in_quotes(policy)));
   return std::vector<double>(beads, *radius);
 }
 
@@ -127,9 +132,10 @@ std::vector<double> bead_radii(const std::string& policy, std::span<const Neckla
   std::vector<double> radii = radii_by(policy, necklaces, survey);
   for (const double radius : radii)
     if (!std::isfinite(radius * radius))
-      throw InputError(fmt::format(
-          "--radius: {} gives {}, whose square (the weight) is too large for a double; give a smaller one",
-          policy, radius));
+      throw InputError(
+          "--radius",
+          fmt::format("{} gives {}, whose square (the weight) is too large for a double; give a smaller one",
+                      policy, radius));
   return radii;
 }
 

@@ -1,7 +1,5 @@
 """The program's commands besides ``kds run``, as functions."""
 
-import re
-
 import numpy as np
 
 from . import _kds, _plots
@@ -22,18 +20,8 @@ def _analyse(command, source, options, verbose, unit="step", more=()):
 
 def find(function, opened, given, known=(), verbose=False, unit="step"):
     """Returns what an analysis of an input finds, and issues its warnings except the known ones."""
-    try:
-        found = call(function, opened.arguments + given, verbose=verbose, unit=unit)
-    except InputError as error:
-        if opened.memory is None or "or topology FILE" not in str(error):
-            raise
-        sentence = str(error).replace("or topology FILE", "or an AtomGroup or mdtraj Trajectory, which name residues")
-        raise InputError(sentence) from None
-    if opened.memory is not None:
-        path = opened.memory.path  # memory/NUMBER/LABEL
-        for text in ("json", "table"):
-            found[text] = found[text].replace(path, path.split("/", 2)[2])
-    warn([line for line in map(_kds.in_python, found["warnings"]) if line not in known])
+    found = call(function, opened.arguments + given, verbose=verbose, unit=unit)
+    warn([line for line in found["warnings"] if line not in known])
     return found
 
 
@@ -59,7 +47,6 @@ class Contacts(Result):
 
     def __init__(self, found):
         super().__init__(found)
-        self.table = re.sub(r"; --out DIR writes all of them", "; rows has all of them", self.table)
         self.names = found["names"]
         self.all = self.json["all"]
         self.unit = self.json["unit"]
@@ -242,10 +229,6 @@ def generate(model, *, beads=None, frames=None, **options):
     check_names(generate, options)
     if str(model).startswith("-"):
         raise InputError(f"model: '{model}' is no model; help(kds.generate) has examples")
-    try:
-        given = arguments({"beads": beads, "frames": frames, **options})
-        necklaces = _kds.generate([str(model), *given, "-o", "necklace.xyz"])
-    except InputError as error:
-        sentence = str(error).replace("start, stop, step:", "frames:", 1).replace("MODEL:", "model:", 1)
-        raise InputError(sentence) from None
+    given = arguments({"beads": beads, "frames": frames, **options})
+    necklaces = _kds.generate([str(model), *given, "-o", "necklace.xyz"])
     return necklaces[0] if len(necklaces) == 1 else necklaces

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kds/stopwatch.h"
+#include "motions/base/input_error.h"
 #include "motions/numbers/exact_number.h"
 #include "structures/chord_cages/chord_hierarchy.h"
 #include "structures/collision/box_tree.h"
@@ -281,9 +282,9 @@ template <int Dimension>
 void check_directions(int directions) {
   const auto counts = box_direction_counts<Dimension>();
   if (std::find(counts.begin(), counts.end(), directions) == counts.end())
-    throw StructureRefusal("boxes", fmt::format("{} directions ({}); expected --directions {}", directions,
+    throw StructureRefusal("boxes", fmt::format("{} directions ({}); expected {} {}", directions,
                                                 Dimension == 2 ? "beads in the plane" : "beads in space",
-                                                fmt::join(counts, " or ")));
+                                                "--directions"_arg, fmt::join(counts, " or ")));
 }
 
 }  // namespace

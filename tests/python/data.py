@@ -6,12 +6,11 @@ KDS_PROGRAM is the path of the program and KDS_DATA that of the folder data. PYT
 import csv
 import json
 import os
+import re
 import subprocess
 import tempfile
 
 import numpy as np
-
-from kds._kds import in_python
 
 PROGRAM = os.environ["KDS_PROGRAM"]
 DATA = os.environ["KDS_DATA"]
@@ -30,10 +29,13 @@ def program(*arguments):
 
 
 def program_warnings(*arguments):
-    """Returns the warnings that a command of the program prints, in words of Python."""
+    """Returns the warnings that a command of the program prints, with the names of Python's arguments."""
     run = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=True)
     start = "kds: warning: "
-    return [in_python(line[len(start):]) for line in run.stderr.splitlines() if line.startswith(start)]
+    def name(match):
+        return "start, stop, step" if match[1] == "frames" else match[1].replace("-", "_")
+
+    return [re.sub(r"--([a-z-]+)", name, line[len(start):]) for line in run.stderr.splitlines() if line.startswith(start)]
 
 
 def program_events(*arguments):
