@@ -10,7 +10,12 @@ endmacro()
 room(motions base numbers curves views frames readers scene models)
 room(certificates base exact types filters formulas search)
 list(APPEND order kds)
-room(structures sorted tournament box hull closest necklace enclosing_sphere moving_sphere hierarchy chord_cages triangulation power_diagram blocks collision contacts session)
+room(structures sorted tournament box hull closest necklace enclosing_sphere moving_sphere hierarchy chord_cages triangulation power_diagram blocks collision contacts)
+# A folder that no other structure includes needs no place in the list.
+file(GLOB others RELATIVE "${ROOT}" LIST_DIRECTORIES ON "${ROOT}/structures/*")
+list(FILTER others EXCLUDE REGEX "[.]txt$|/session$")
+list(REMOVE_ITEM others ${order})
+list(APPEND order ${others} structures/session)
 room(experiments output output/page program events view run scenes update compare contacts collide trade stability bench sweep)
 list(APPEND order experiments)  # main.cpp
 list(APPEND order python)

@@ -21,6 +21,7 @@
 #include "experiments/program/commands.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/option_values.h"
+#include "experiments/run/run_options.h"
 #include "motions/base/floating_point_scope.h"
 #include "motions/base/input_error.h"
 #include "motions/numbers/lanes.h"
@@ -59,7 +60,7 @@ std::string program_help() {
   };
   for (const Command& command : kCommands) add(command.name, command.summary);
   text += '\n';
-  add("help", "print this text, or the options of a command: kds help run; kds help inputs");
+  add("help", "print this text, or more: kds help run (any command), kds help inputs, kds help structures");
   add("--help", "print the same: kds --help, kds run --help");
   add("--version", "print the version");
   constexpr std::string_view exit_codes =
@@ -104,13 +105,14 @@ const Command& command_of(const std::string& name) {
       fmt::format("unknown {} '{}'{} (see kds --help)", is_option ? "option" : "command", name, advice));
 }
 
-// Handles `kds help`, `kds help COMMAND` and `kds help inputs`.
+// Handles `kds help`, `kds help COMMAND`, `kds help inputs` and `kds help structures`.
 int help(const Arguments& of) {
   if (of.size() > 1)
     throw InputError(fmt::format("kds help takes one command, not {} (see kds --help)", of.size()));
   const std::string name = of.empty() ? "help" : of.front();
   if (name == "help" || name == "--help" || name == "-h") throw HelpRequest{program_help()};
   if (name == "inputs") throw HelpRequest{inputs_help()};
+  if (name == "structures") throw HelpRequest{structures_table()};
   if (name.starts_with('-'))
     throw InputError(fmt::format("kds help takes a command, not the option '{}' (see kds --help)", name));
   return command_of(name).run({"--help"});

@@ -15,11 +15,21 @@
 namespace kds {
 
 std::string structures_help() {
-  std::vector<std::string> names;
-  for (const StructureSpec& spec : structure_registry().all()) names.push_back(spec.name);
   return fmt::format(
       "comma list of {} (default: wrapped,power; with an instance file: sorted in 1D, otherwise power)",
-      fmt::join(names, ", "));
+      words("structures (see kds help structures)", "kds.structure_names()"));
+}
+
+std::string structures_table(std::size_t width) {
+  std::string text = wrapped(
+      "Structures that --structures names. Net changes are what kds compare counts between two frames.\n",
+      width, 0);
+  for (const StructureSpec& spec : structure_registry().all())
+    text += fmt::format(
+        "\n  {:<10} {}", spec.name,
+        wrapped(spec.about + (spec.net_changes.empty() ? "" : "; net changes: " + spec.net_changes), width,
+                13));
+  return text + '\n';
 }
 
 namespace {

@@ -61,8 +61,10 @@ struct RunOptions : InputOptions, Destinations {
 /// same options.
 [[nodiscard]] OptionList<Destinations> run_destination_options();
 
-/// Returns the help of --structures, with the names of all structures.
+/// Returns the help of --structures.
 [[nodiscard]] std::string structures_help();
+/// Returns `kds help structures`, with lines of at most `width` characters.
+[[nodiscard]] std::string structures_table(std::size_t width = help_width());
 
 /// Returns the options that say what is run: inputs, motion and structures.
 [[nodiscard]] const OptionList<RunOptions>& motion_and_structure_options();

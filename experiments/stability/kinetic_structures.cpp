@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "experiments/program/timing.h"
@@ -12,6 +13,7 @@
 #include "kds/event_log.h"
 #include "motions/base/input_error.h"
 #include "structures/session/kinetic_run.h"
+#include "structures/session/structure_spec.h"
 
 namespace kds {
 namespace {
@@ -183,6 +185,15 @@ std::vector<StabilitySubject> kinetic_structures() {
   // Curves take minutes in integer arithmetic, because their functions have degree 36.
   for (const int dimension : {2, 3})
     subjects.push_back(structure_subject("wrapped", Of::balls, dimension, 1, 6));
+  // All other structures, on points in the dimensions that they accept.
+  std::set<std::string> names;
+  for (const StabilitySubject& subject : subjects)
+    names.insert(subject.name.substr(0, subject.name.find(':')));
+  for (const StructureSpec& spec : structure_registry().all())
+    for (const int dimension : {1, 2, 3})
+      if (!names.contains(spec.name) && !spec.refusal(Scene(BeadCurves(dimension, 1, 2).instance(spec.name))))
+        for (const int degree : {1, 3})
+          subjects.push_back(structure_subject(spec.name, Of::points, dimension, degree, 6));
   return subjects;
 }
 

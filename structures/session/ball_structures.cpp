@@ -37,7 +37,7 @@ class PowerInRun final : public RunningStructure {
   void count_certificates(std::span<const BeadId> changed) override { diagram_.count_certificates(changed); }
   [[nodiscard]] std::vector<DumpFile> dump(std::size_t frame) const override {
     const auto at_frame = diagram_.at_frame(frame == 0);
-    return {dump_cells(at_frame.cells), dump_hidden(at_frame.hidden)};
+    return {dump_cells(at_frame.cells), {"hidden.csv", bead_lines(at_frame.hidden)}};
   }
   [[nodiscard]] std::optional<CombinatorialElements> elements(std::size_t frame) const override {
     CombinatorialElements elements{Dimension + 1, {}};
@@ -157,39 +157,39 @@ void check_exact_pairs(const PairsAsked& asked) {
 
 }  // namespace
 
-StructureSpec power_structure() {
-  StructureSpec spec;
-  spec.name = "power";
-  spec.order = 30;
-  spec.by_default = [](const Scene& scene) { return scene.dimension() > 1; };
-  spec.refusal = [](const Scene& scene) -> std::optional<std::string> {
-    scene.require_weights();
-    if (scene.dimension() < 2) return needs_plane_or_space(scene);
-    return std::nullopt;
-  };
-  spec.make = make_of_motion<PowerInRun, 2>();
-  return spec;
-}
-
-StructureSpec contacts_structure() {
-  StructureSpec spec;
-  spec.name = "contacts";
-  spec.order = 40;
-  spec.refusal = [](const Scene& scene) -> std::optional<std::string> {
-    if (scene.is_lifted()) return fictitious_radii;
-    if (scene.dimension() < 2) return needs_plane_or_space(scene);
-    if (!scene.has_radii())
-      return "the points of an instance have no radii, and contacts are of balls; expected a trajectory";
-    return std::nullopt;
-  };
-  spec.make = make_of_motion<2>([]<int D>(
-                                    Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
-                                    const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
-    const PairsAsked asked{scene.necklaces(), true, settings.apart, true, settings.groups, scene.at_rest()};
-    if (simulator.kernel() == Kernel::exact) check_exact_pairs(asked);
-    return std::make_unique<ContactsInRun<D>>(simulator, scene, ref, asked, settings.contact_distance);
-  });
-  return spec;
+void add_ball_structures(StructureRegistry& registry) {
+  registry.add(
+      {.name = "power",
+       .about = "power diagram in the plane or in space, stored as its dual, the regular triangulation",
+       .net_changes = "cells",
+       .order = 30,
+       .by_default = [](const Scene& scene) { return scene.dimension() > 1; },
+       .refusal = [](const Scene& scene) -> std::optional<std::string> {
+         scene.require_weights();
+         if (scene.dimension() < 2) return needs_plane_or_space(scene);
+         return std::nullopt;
+       },
+       .make = make_of_motion<PowerInRun, 2>()});
+  registry.add(
+      {.name = "contacts",
+       .about = "pairs of beads whose closed balls meet",
+       .net_changes = "pairs in contact",
+       .order = 40,
+       .refusal = [](const Scene& scene) -> std::optional<std::string> {
+         if (scene.is_lifted()) return fictitious_radii;
+         if (scene.dimension() < 2) return needs_plane_or_space(scene);
+         if (!scene.has_radii())
+           return "the points of an instance have no radii, and contacts are of balls; expected a trajectory";
+         return std::nullopt;
+       },
+       .make = make_of_motion<2>([]<int D>(
+                                     Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
+                                     const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
+         const PairsAsked asked{scene.necklaces(), true,           settings.apart, true,
+                                settings.groups,   scene.at_rest()};
+         if (simulator.kernel() == Kernel::exact) check_exact_pairs(asked);
+         return std::make_unique<ContactsInRun<D>>(simulator, scene, ref, asked, settings.contact_distance);
+       })});
 }
 
 }  // namespace kds

@@ -289,51 +289,48 @@ void check_directions(int directions) {
 
 }  // namespace
 
-StructureSpec boxes_structure() {
-  StructureSpec spec;
-  spec.name = "boxes";
-  spec.order = 22;
-  spec.refusal = refusal_of_spheres;
-  spec.make =
-      make_of_motion<2>([]<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
-                                  const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
-        const int directions = settings.directions.value_or(D);
-        check_directions<D>(directions);
-        return std::make_unique<BoxesInRun<D>>(simulator, scene, ref, settings.nodes, directions);
-      });
-  return spec;
-}
-
-StructureSpec layered_structure() {
-  StructureSpec spec;
-  spec.name = "layered";
-  spec.order = 25;
-  spec.refusal = refusal_of_spheres;
-  spec.has_events = [](const StructureSettings&) { return false; };
-  spec.make =
-      make_of_motion<2>([]<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
-                                  const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
-        return std::make_unique<LayeredInRun<D>>(simulator, scene, ref, settings.nodes, std::nullopt);
-      });
-  return spec;
-}
-
-StructureSpec wrapped_structure() {
-  StructureSpec spec;
-  spec.name = "wrapped";
-  spec.order = 20;
-  spec.by_default = [](const Scene& scene) { return scene.has_radii(); };
-  spec.refusal = refusal_of_spheres;
-  spec.has_events = [](const StructureSettings& settings) { return settings.between == Between::events; };
-  spec.make =
-      make_of_motion<2>([]<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
-                                  const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
-        if (settings.between == Between::chord)
-          return std::make_unique<WrappedChordsInRun<D>>(simulator, scene, ref, settings.nodes,
-                                                         settings.tightness);
-        return std::make_unique<WrappedInRun<D>>(simulator, scene, ref, settings.nodes);
-      });
-  return spec;
+void add_hierarchy_structures(StructureRegistry& registry) {
+  registry.add(
+      {.name = "wrapped",
+       .about = "smallest sphere around the beads under each node of a balanced tree over each necklace",
+       .net_changes = "bases of nodes",
+       .order = 20,
+       .by_default = [](const Scene& scene) { return scene.has_radii(); },
+       .refusal = refusal_of_spheres,
+       .has_events = [](const StructureSettings& settings) { return settings.between == Between::events; },
+       .make = make_of_motion<2>(
+           []<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
+                     const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
+             if (settings.between == Between::chord)
+               return std::make_unique<WrappedChordsInRun<D>>(simulator, scene, ref, settings.nodes,
+                                                              settings.tightness);
+             return std::make_unique<WrappedInRun<D>>(simulator, scene, ref, settings.nodes);
+           })});
+  registry.add({.name = "boxes",
+                .about = "axis-aligned box, or k-DOP, around the balls under each node of that tree",
+                .net_changes = "supports of nodes",
+                .order = 22,
+                .refusal = refusal_of_spheres,
+                .make = make_of_motion<2>(
+                    []<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
+                              const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
+                      const int directions = settings.directions.value_or(D);
+                      check_directions<D>(directions);
+                      return std::make_unique<BoxesInRun<D>>(simulator, scene, ref, settings.nodes,
+                                                             directions);
+                    })});
+  registry.add(
+      {.name = "layered",
+       .about =
+           "at each node of that tree the smallest sphere around the two children's spheres, without events",
+       .order = 25,
+       .refusal = refusal_of_spheres,
+       .has_events = [](const StructureSettings&) { return false; },
+       .make = make_of_motion<2>(
+           []<int D>(Simulator& simulator, const Scene& scene, const MotionRef<D>& ref,
+                     const StructureSettings& settings) -> std::unique_ptr<RunningStructure> {
+             return std::make_unique<LayeredInRun<D>>(simulator, scene, ref, settings.nodes, std::nullopt);
+           })});
 }
 
 }  // namespace kds

@@ -5,13 +5,13 @@
 
 namespace kds {
 
-namespace {
-
 std::string bead_lines(std::span<const BeadId> beads) {
   std::string text = "bead\n";
   for (const BeadId b : beads) text += fmt::format("{}\n", b);
   return text;
 }
+
+namespace {
 
 template <class Cell>
 std::string cell_lines(std::string_view header, std::span<const Cell> cells) {
@@ -54,22 +54,6 @@ DumpFile dump_layered(std::span<const NodeSphere> nodes) {
 DumpFile dump_cells(std::span<const CellBeads<2>> cells) { return {"power.csv", cell_lines("a,b,c", cells)}; }
 DumpFile dump_cells(std::span<const CellBeads<3>> cells) {
   return {"power.csv", cell_lines("a,b,c,d", cells)};
-}
-
-DumpFile dump_hidden(std::span<const BeadId> hidden) { return {"hidden.csv", bead_lines(hidden)}; }
-DumpFile dump_sorted(std::span<const BeadId> order) { return {"sorted.csv", bead_lines(order)}; }
-
-DumpFile dump_box(std::span<const BeadId> ends) {
-  std::string text = "axis,min,max\n";
-  for (std::size_t e = 0; e + 1 < ends.size(); e += 2)
-    text += fmt::format("{},{},{}\n", "xyz"[e / 2], ends[e], ends[e + 1]);
-  return {"box.csv", std::move(text)};
-}
-
-DumpFile dump_hull(std::span<const BeadId> corners) { return {"hull.csv", bead_lines(corners)}; }
-
-DumpFile dump_closest(const std::optional<std::array<BeadId, 2>>& pair) {
-  return {"closest.csv", pair ? fmt::format("i,j\n{},{}\n", (*pair)[0], (*pair)[1]) : "i,j\n"};
 }
 
 }  // namespace kds

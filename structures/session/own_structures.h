@@ -37,15 +37,11 @@ inline constexpr const char* fictitious_radii =
   return std::nullopt;
 }
 
-[[nodiscard]] StructureSpec sorted_structure();
-[[nodiscard]] StructureSpec box_structure();
-[[nodiscard]] StructureSpec hull_structure();
-[[nodiscard]] StructureSpec closest_structure();
-[[nodiscard]] StructureSpec boxes_structure();
-[[nodiscard]] StructureSpec layered_structure();
-[[nodiscard]] StructureSpec wrapped_structure();
-[[nodiscard]] StructureSpec power_structure();
-[[nodiscard]] StructureSpec contacts_structure();
+// Add the specifications of one file each: point_structures.cpp, hierarchy_structures.cpp,
+// ball_structures.cpp.
+void add_point_structures(StructureRegistry& registry);
+void add_hierarchy_structures(StructureRegistry& registry);
+void add_ball_structures(StructureRegistry& registry);
 
 /// Returns a specification's `make`, which calls make(simulator, scene, motion, settings) for motions of at
 /// least LeastDimension dimensions. The specification must refuse scenes of fewer dimensions beforehand.
@@ -92,10 +88,6 @@ struct BoxesNode {
 [[nodiscard]] DumpFile dump_layered(std::span<const NodeSphere> nodes);   ///< first,last,x,y,z,radius
 [[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<2>> cells);   ///< a,b,c
 [[nodiscard]] DumpFile dump_cells(std::span<const CellBeads<3>> cells);   ///< a,b,c,d
-[[nodiscard]] DumpFile dump_hidden(std::span<const BeadId> hidden);       ///< bead
-[[nodiscard]] DumpFile dump_sorted(std::span<const BeadId> order);        ///< bead
-[[nodiscard]] DumpFile dump_box(std::span<const BeadId> ends);            ///< axis,min,max
-[[nodiscard]] DumpFile dump_hull(std::span<const BeadId> corners);        ///< bead
-[[nodiscard]] DumpFile dump_closest(const std::optional<std::array<BeadId, 2>>& pair);  ///< i,j
+[[nodiscard]] std::string bead_lines(std::span<const BeadId> beads);      ///< bead
 
 }  // namespace kds

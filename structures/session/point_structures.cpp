@@ -1,6 +1,10 @@
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kds/stopwatch.h"
@@ -80,6 +84,14 @@ auto make_of_points(Dump dump, Elements elements, Build build) {
   });
 }
 
+/// Lines axis,min,max.
+DumpFile dump_box(std::span<const BeadId> ends) {
+  std::string text = "axis,min,max\n";
+  for (std::size_t e = 0; e + 1 < ends.size(); e += 2)
+    text += fmt::format("{},{},{}\n", "xyz"[e / 2], ends[e], ends[e + 1]);
+  return {"box.csv", std::move(text)};
+}
+
 using Centers = Eigen::Matrix3Xd;
 
 template <int>
@@ -87,70 +99,69 @@ using ConvexHullIn = ConvexHull;
 
 }  // namespace
 
-StructureSpec sorted_structure() {
-  StructureSpec spec;
-  spec.name = "sorted";
-  spec.order = 10;
-  spec.by_default = [](const Scene& scene) { return scene.dimension() == 1; };
-  spec.make = make_of_points<SortedList, 1>(
-      [](const auto& list) { return dump_sorted(list.order()); },
-      [](const auto& list) { return elements_in_order(list.order()); },
-      [](const auto&, const Centers& centers) { return order_by_sorting(centers); });
-  return spec;
-}
-
-StructureSpec box_structure() {
-  StructureSpec spec;
-  spec.name = "box";
-  spec.order = 12;
-  spec.make = make_of_points<EnclosingBox, 1>(
-      [](const auto& box) { return dump_box(box.ends()); },
-      [](const auto& box) { return elements_in_order(box.ends()); },
-      [](const auto&, const Centers& centers) { return box_by_scanning(centers); });
-  return spec;
-}
-
-StructureSpec hull_structure() {
-  StructureSpec spec;
-  spec.name = "hull";
-  spec.order = 14;
-  spec.refusal = [](const Scene& scene) -> std::optional<std::string> {
-    if (scene.dimension() == 2) return std::nullopt;
-    return "needs points in the plane, this input has " + std::to_string(scene.dimension()) +
-           (scene.dimension() == 1 ? " coordinate" : " coordinates");
-  };
-  spec.make = make_of_points<ConvexHullIn, 2, 2>(
-      [](const ConvexHull& hull) { return dump_hull(hull.corners()); },
-      [](const ConvexHull& hull) {
-        CombinatorialElements elements{1, {}};
-        for (const BeadId bead : hull.corners()) elements.add({bead});
-        return elements;
-      },
-      [](const ConvexHull&, const Centers& centers) { return hull_by_cgal(centers); });
-  return spec;
-}
-
-StructureSpec closest_structure() {
-  StructureSpec spec;
-  spec.name = "closest";
-  spec.order = 16;
-  spec.refusal = [](const Scene& scene) -> std::optional<std::string> {
-    if (scene.dimension() < 2) return needs_plane_or_space(scene);
-    return std::nullopt;
-  };
-  spec.make = make_of_points<KineticClosestPair, 2>(
-      [](const auto& closest) { return dump_closest(closest.pair()); },
-      [](const auto& closest) {
-        CombinatorialElements elements{1, {}};
-        if (const auto& pair = closest.pair()) elements.add({0}, *pair);
-        return elements;
-      },
-      // One edge of the Delaunay triangulation joins the closest pair.
-      []<int D>(const KineticClosestPair<D>&, const Centers& centers) {
-        const std::vector<double> no_weights(static_cast<std::size_t>(centers.cols()), 0);
-        return triangulation_by_cgal<D>(centers, no_weights);
-      });
-  return spec;
+void add_point_structures(StructureRegistry& registry) {
+  registry.add({.name = "sorted",
+                .about = "order of the beads along the first axis",
+                .net_changes = "ranks",
+                .order = 10,
+                .by_default = [](const Scene& scene) { return scene.dimension() == 1; },
+                .make = make_of_points<SortedList, 1>(
+                    [](const auto& list) {
+                      return DumpFile{"sorted.csv", bead_lines(list.order())};
+                    },
+                    [](const auto& list) { return elements_in_order(list.order()); },
+                    [](const auto&, const Centers& centers) { return order_by_sorting(centers); })});
+  registry.add({.name = "box",
+                .about = "smallest axis-aligned box around the centres: the bead at each of its ends",
+                .net_changes = "ends with another bead",
+                .order = 12,
+                .make = make_of_points<EnclosingBox, 1>(
+                    [](const auto& box) { return dump_box(box.ends()); },
+                    [](const auto& box) { return elements_in_order(box.ends()); },
+                    [](const auto&, const Centers& centers) { return box_by_scanning(centers); })});
+  registry.add({.name = "hull",
+                .about = "convex hull of the centres, in the plane",
+                .net_changes = "corners",
+                .order = 14,
+                .refusal = [](const Scene& scene) -> std::optional<std::string> {
+                  if (scene.dimension() == 2) return std::nullopt;
+                  return "needs points in the plane, this input has " + std::to_string(scene.dimension()) +
+                         (scene.dimension() == 1 ? " coordinate" : " coordinates");
+                },
+                .make = make_of_points<ConvexHullIn, 2, 2>(
+                    [](const ConvexHull& hull) {
+                      return DumpFile{"hull.csv", bead_lines(hull.corners())};
+                    },
+                    [](const ConvexHull& hull) {
+                      CombinatorialElements elements{1, {}};
+                      for (const BeadId bead : hull.corners()) elements.add({bead});
+                      return elements;
+                    },
+                    [](const ConvexHull&, const Centers& centers) { return hull_by_cgal(centers); })});
+  registry.add({.name = "closest",
+                .about = "closest pair of centres, in the plane or in space",
+                .net_changes = "the pair",
+                .order = 16,
+                .refusal = [](const Scene& scene) -> std::optional<std::string> {
+                  if (scene.dimension() < 2) return needs_plane_or_space(scene);
+                  return std::nullopt;
+                },
+                .make = make_of_points<KineticClosestPair, 2>(
+                    [](const auto& closest) {
+                      const auto& pair = closest.pair();
+                      return DumpFile{"closest.csv",
+                                      pair ? fmt::format("i,j\n{},{}\n", (*pair)[0], (*pair)[1]) : "i,j\n"};
+                    },
+                    [](const auto& closest) {
+                      CombinatorialElements elements{1, {}};
+                      if (const auto& pair = closest.pair()) elements.add({0}, *pair);
+                      return elements;
+                    },
+                    // One edge of the Delaunay triangulation joins the closest pair.
+                    []<int D>(const KineticClosestPair<D>&, const Centers& centers) {
+                      const std::vector<double> no_weights(static_cast<std::size_t>(centers.cols()), 0);
+                      return triangulation_by_cgal<D>(centers, no_weights);
+                    })});
 }
 
 }  // namespace kds

@@ -39,15 +39,9 @@ const StructureSpec* StructureRegistry::find(std::string_view name) const {
 StructureRegistry& structure_registry() {
   static StructureRegistry registry = [] {
     StructureRegistry own;
-    own.add(sorted_structure());
-    own.add(box_structure());
-    own.add(hull_structure());
-    own.add(closest_structure());
-    own.add(wrapped_structure());
-    own.add(layered_structure());
-    own.add(boxes_structure());
-    own.add(power_structure());
-    own.add(contacts_structure());
+    add_point_structures(own);
+    add_hierarchy_structures(own);
+    add_ball_structures(own);
     return own;
   }();
   return registry;

@@ -130,6 +130,8 @@ struct StructureSettings {
 
 struct StructureSpec {
   std::string name;
+  std::string about = {};        ///< what is maintained, for `kds help structures`
+  std::string net_changes = {};  ///< what its elements are, if it has any
   /// Determines the order of structures, both in acting at one time and in reports: ascending, then by name.
   /// The framework's own structures have 10 to 40.
   int order = 100;
