@@ -141,8 +141,8 @@ class AutoDetector {
   std::vector<BeadPair> pairs_;
   std::vector<double> strays_;
   std::vector<std::uint32_t> far_blocks_;
-  std::optional<DistanceQueries<Dimension>>
-      distances_;  // has a tree of its own, because tree_ holds the beads of a frame
+  // Has a tree of its own, because tree_ holds the beads of a frame.
+  std::optional<DistanceQueries<Dimension>> distances_;
   Counts counts_;
 };
 

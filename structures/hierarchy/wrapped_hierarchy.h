@@ -78,8 +78,8 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   /// From the next step on, follows how many certificates name each bead, at any time.
   void follow_certificates();
   /// Updates statistics.certificates.per_bead_max, the largest number of certificates on one bead. Counts at
-  /// the starts of steps only, unless certificates are followed. The certificates that slack spares are not
-  /// counted.
+  /// the starts of steps only, unless certificates are followed. Certificates that slack makes needless are
+  /// not counted.
   void count_certificates();
   void fail(unsigned table, std::uint32_t slot) override;
   void apply(const Change& change) override;

@@ -358,7 +358,7 @@ void DiagramEditor<Dimension>::apply(const Change& change) {
   const bool fit =
       all ? RegularTriangulation<Dimension>().fits({}, made) : state_.triangulation.fits(hole, made);
   if (!(hole.empty() && made.empty()) && !fit)
-    throw std::invalid_argument("the cells do not fill the place of those cleared");
+    throw std::invalid_argument("the new cells do not fill the hole");
   if (!repair) state_.present_beads.set_absent(bead, change.kind == Events::erases);
   if (all) {
     rebuilder_.assign_logged(made);

@@ -83,7 +83,7 @@ class Runner:
         self.environment = dict(os.environ, KDS_PROGRAM=os.path.abspath(program), LC_ALL="C.UTF-8")
 
     def lines_of(self, mark, output):
-        text = output.decode(errors="backslashreplace").replace(self.folder, "PLACE")
+        text = output.decode(errors="backslashreplace").replace(self.folder, "FOLDER")
         for pattern, replacement in NORMALISED:
             text = pattern.sub(replacement, text)
         lines = text.split("\n")
@@ -112,11 +112,11 @@ class Runner:
                              if refused and before.get(name) != after.get(name))
 
 
-def check(program, data, place, path, write):
+def check(program, data, folder, path, write):
     """Returns the number of entries that differ."""
     with open(path, encoding="utf-8") as file:
         entries, comments_at_end = entries_of(file.read())
-    runner = Runner(program, data, os.path.join(os.path.abspath(place), os.path.splitext(os.path.basename(path))[0]))
+    runner = Runner(program, data, os.path.join(os.path.abspath(folder), os.path.splitext(os.path.basename(path))[0]))
     differ, text = 0, []
     for comments, command, expected in entries:
         found, changed = runner.run(command)
@@ -139,11 +139,11 @@ def check(program, data, place, path, write):
 
 
 def main():
-    program, data, place, *paths = sys.argv[1:]
+    program, data, folder, *paths = sys.argv[1:]
     write = os.environ.get("KDS_WRITE_GOLDEN") == "1"
     failed = 0
     for path in paths:
-        differ, count = check(program, data, place, path, write)
+        differ, count = check(program, data, folder, path, write)
         failed += differ
         print(f"{path}: {count} entries, {differ} differ")
     if failed and not write:

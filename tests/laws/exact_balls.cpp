@@ -198,7 +198,7 @@ std::optional<std::string> not_regular(const ExactBalls& balls, const Beads& pre
       if (side * orientation(balls, with(facet, b)) < 0)
         return fmt::format("bead {} lies beyond the hull at facet {}", b, facet);
   }
-  if (cells.empty()) return std::nullopt;
+  if (cells.empty()) return "no cells";
   // A bead without a cell must be hidden, so some cell must contain it. The loop above has shown that its
   // power test there is not negative.
   for (const BeadId b : present) {

@@ -88,18 +88,18 @@ std::string LawStructure::title() const {
 
 const std::vector<LawStructure>& law_structures() {
   static const std::vector<LawStructure> rows{
-      {"sorted", {}, false, fault_of_sorted},
-      {"box", {}, true, fault_of_box},
-      {"hull", {}, true, fault_of_hull},
-      {"closest", {}, true, fault_of_closest},
-      {"wrapped", {}, false, fault_of_wrapped},
-      {"wrapped", {.between = Between::chord}},
-      {"layered"},
-      {"boxes", {}, true, fault_of_boxes},
-      {"boxes", {.directions = 4}, true, fault_of_boxes},
-      {"boxes", {.directions = 7}, true, fault_of_boxes},
-      {"power", {}, false, fault_of_power},
-      {"contacts", {}, true, fault_of_contacts},
+      {"sorted", {}, Edits::beads, false, fault_of_sorted},
+      {"box", {}, Edits::beads, true, fault_of_box},
+      {"hull", {}, Edits::beads, true, fault_of_hull},
+      {"closest", {}, Edits::beads, true, fault_of_closest},
+      {"wrapped", {}, Edits::courses, false, fault_of_wrapped},
+      {"wrapped", {.between = Between::chord}, Edits::courses},
+      {"layered", {}, Edits::none},
+      {"boxes", {}, Edits::beads, true, fault_of_boxes},
+      {"boxes", {.directions = 4}, Edits::beads, true, fault_of_boxes},
+      {"boxes", {.directions = 7}, Edits::beads, true, fault_of_boxes},
+      {"power", {}, Edits::beads, false, fault_of_power},
+      {"contacts", {}, Edits::beads, true, fault_of_contacts},
   };
   return rows;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // The structures that must obey the laws, one row each. A new structure needs one row here.
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -19,9 +20,13 @@ struct Judged {
   const Beads& present;
 };
 
+/// What may be edited while time runs: nothing, the beads' courses, or these and which beads are present.
+enum class Edits : std::uint8_t { none, courses, beads };
+
 struct LawStructure {
   std::string name;  ///< of the structure specification
   StructureSettings settings = {};
+  Edits edits = Edits::beads;
   /// Whether the beads' positions determine the structure, also if they tie.
   bool is_unique = false;
   /// Explains why the structure is not what its definition says, or returns nothing.

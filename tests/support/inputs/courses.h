@@ -29,20 +29,6 @@ void bend(M& motion, BeadId b, double u, Random& random) {
   }
 }
 
-/// Loads the next step: each bead gets the course that `set(bead)` sets, moved to start at the bead's present
-/// position.
-template <class M, class Set>
-void carry_on(M& motion, Set set) {
-  for (BeadId b = 0; b < motion.bead_count(); ++b) {
-    std::array<double, M::dimension> from{};
-    for (int axis = 0; axis < M::dimension; ++axis)
-      from[static_cast<std::size_t>(axis)] = motion.coordinate(b, M::degree, axis);
-    set(b);
-    for (int axis = 0; axis < M::dimension; ++axis)
-      motion.set_coordinate(b, 0, axis, from[static_cast<std::size_t>(axis)]);
-  }
-}
-
 template <class Call>
 void expect_edit_refused(Call call, const char* why) {
   try {
