@@ -79,7 +79,7 @@ std::string topologies_text(const InputOptions& options, bool absolute) {
 void check_chains(const std::string& chains, std::size_t inputs, bool obstacle) {
   const std::vector<std::string> lists = split(chains, '/');
   if (lists.size() > 1 && lists.size() != inputs && !(obstacle && lists.size() == inputs + 1))
-    throw InputError("--chain", fmt::format("'{}' is for {} INPUTs, given {} {}", chains, lists.size(),
+    throw InputError("--chain", fmt::format("'{}' is for {} INPUTs, but {} {} given", chains, lists.size(),
                                             inputs, inputs == 1 ? "is" : "are"));
   for (const std::string& list : lists) {
     if (list.empty() && lists.size() > 1) continue;  // this input keeps its default chain

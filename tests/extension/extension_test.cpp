@@ -38,7 +38,7 @@ TEST(Extension, AMotionDrivesStructuresOfOursAndOfOthers) {
 }
 
 TEST(Extension, NamesAreTakenOnce) {
-  EXPECT_THROW(kds::structure_registry().add({.name = "power"}), std::logic_error);
+  EXPECT_THROW(kds::structure_registry().add({.name = "power", .make = {}}), std::logic_error);
   EXPECT_THROW(kds::reader_registry().add({"mine", {".dcd"}, false, {}}), std::logic_error);
 }
 

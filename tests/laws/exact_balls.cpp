@@ -167,6 +167,25 @@ Beads with(Beads beads, BeadId more) {
 
 }  // namespace
 
+namespace {
+
+/// Explains which centres, one more than the dimension, do not lie in one line or plane.
+std::optional<std::string> not_flat(const ExactBalls& balls, const Beads& present) {
+  const std::size_t corners = balls.centers[0].size() + 1;
+  if (present.size() < corners) return std::nullopt;
+  std::vector<bool> chosen(present.size(), false);
+  std::fill_n(chosen.begin(), corners, true);
+  do {
+    Beads simplex;
+    for (std::size_t i = 0; i < present.size(); ++i)
+      if (chosen[i]) simplex.push_back(present[i]);
+    if (orientation(balls, simplex) != 0) return fmt::format("no cells, but {} are not flat", simplex);
+  } while (std::prev_permutation(chosen.begin(), chosen.end()));
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<std::string> not_regular(const ExactBalls& balls, const Beads& present,
                                        const std::vector<Beads>& cells) {
   std::map<Beads, Beads> apices;  // of each facet
@@ -198,7 +217,7 @@ std::optional<std::string> not_regular(const ExactBalls& balls, const Beads& pre
       if (side * orientation(balls, with(facet, b)) < 0)
         return fmt::format("bead {} lies beyond the hull at facet {}", b, facet);
   }
-  if (cells.empty()) return "no cells";
+  if (cells.empty()) return not_flat(balls, present);
   // A bead without a cell must be hidden, so some cell must contain it. The loop above has shown that its
   // power test there is not negative.
   for (const BeadId b : present) {

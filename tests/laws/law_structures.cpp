@@ -93,7 +93,7 @@ const std::vector<LawStructure>& law_structures() {
       {"hull", {}, Edits::beads, true, fault_of_hull},
       {"closest", {}, Edits::beads, true, fault_of_closest},
       {"wrapped", {}, Edits::courses, false, fault_of_wrapped},
-      {"wrapped", {.between = Between::chord}, Edits::courses},
+      {"wrapped", {.between = Between::chord}, Edits::none},
       {"layered", {}, Edits::none},
       {"boxes", {}, Edits::beads, true, fault_of_boxes},
       {"boxes", {.directions = 4}, Edits::beads, true, fault_of_boxes},
