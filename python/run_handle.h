@@ -44,7 +44,7 @@ class RunHandle {
   /// it is in memory. Warnings are kept for `warnings`. Throws InputError also if the page of --view could
   /// not be written later.
   RunHandle(const Arguments& arguments, const PythonOptions& more, std::shared_ptr<FramesInMemory> memory);
-  /// A run over frames that are pushed. `arguments` have no input.
+  /// A run over frames that the caller pushes. `arguments` must not name an input.
   RunHandle(const Arguments& arguments, const PythonOptions& more, PushedFrames frames);
   RunHandle(const RunHandle&) = delete;
   RunHandle& operator=(const RunHandle&) = delete;

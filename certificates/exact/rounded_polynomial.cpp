@@ -9,7 +9,7 @@ namespace kds {
 namespace {
 
 constexpr double unit_roundoff = 0x1p-53;
-constexpr double inflation = 1 + 0x1p-20;  // covers terms in u^2 and the rounding of the comparisons
+constexpr double inflation = 1 + 0x1p-20;  // for terms in unit_roundoff^2, and rounded comparisons
 constexpr double first_error = 4 * unit_roundoff;
 constexpr double least_size = 0x1p-800;
 constexpr int most_halvings = 52;  // so that the ends of parts are doubles
@@ -38,7 +38,7 @@ RoundedPolynomial::RoundedPolynomial(const ExactPolynomial& exact) {
     const long shift = std::max(exponent[k] - largest, -1000L);
     whole_.c[k] = std::ldexp(whole_.c[k], static_cast<int>(shift)) /
                   static_cast<double>(binomial(static_cast<int>(count) - 1, static_cast<int>(k)));
-    // A smaller coefficient still has an error of less than 4u times this size.
+    // A smaller coefficient still has an error below 4 unit_roundoff times this size.
     whole_.m[k] = std::max(std::abs(whole_.c[k]), least_size);
   }
 }

@@ -143,7 +143,7 @@ requires(!channels_of<Function>.weights && !channels_of<Function>.radii)  //
   constexpr int degree = M::degree;
   all_positive = false;
   if (!((2 * degree) * (upper - lower) + (4 * degree + 4) * 0x1p-53 <= 0x1p-25)) return;
-  const BeadsOf<Function> arguments = argument_numbers<Function>(like);  // constants for the compiler
+  const BeadsOf<Function> arguments = argument_numbers<Function>(like);  // known at compile time
   const LanesMomentView<M, bead_arity<Function>> view(motion, tuples, upper);
   const Lanes value = sides * Function::formula(view, arguments).scaled[0];
   const auto& bound = detail::moment_bound<Function, M::dimension>;

@@ -23,13 +23,14 @@ struct MeanInterval {
 /// Returns nothing for fewer than two measurements.
 [[nodiscard]] std::optional<MeanInterval> mean_of_independent(std::span<const double> values);
 
-/// Returns the same mean with an interval that stays above 0, for a quantity that is never negative, such as
-/// a count. An interval of mean +- e becomes mean exp(-e / mean) to mean exp(e / mean): it is symmetric for
-/// the logarithm of the mean (delta method), and nearly the given one if e is small. For few and skewed
-/// values it holds the mean more often than the given one. With mean_of_independent it holds the mean in 90
-/// to 98% of all samples of values whose standard deviation is below their mean; if they spread more, less
-/// often. Returns nothing if there is no interval, if the mean is not above 0, if the interval has no width,
-/// because equal values do not tell their spread, or if an end is not finite.
+/// Returns the same mean with an interval above 0, for a quantity that is never negative, such as a count. An
+/// interval of mean +- e becomes mean exp(-e / mean) to mean exp(e / mean). The new interval is symmetric for
+/// the logarithm of the mean (delta method) and close to the given one if e is small. If the values are few
+/// and skewed, its coverage is better. Together with mean_of_independent its coverage is 90 to 98% if the
+/// standard deviation of the values is below their mean, and lower otherwise. Returns nothing in these cases:
+/// - there is no interval, or an end of the new one is not finite;
+/// - the mean is not above 0;
+/// - the interval has no width (the spread of equal values is unknown).
 [[nodiscard]] std::optional<MeanInterval> above_zero(const std::optional<MeanInterval>& interval);
 
 /// The least number of values for which mean_over_time gives an interval.
@@ -39,10 +40,10 @@ inline constexpr std::size_t least_series = 50;
 /// interval comes from 16 batch means (Conway, 1963) and an autoregressive process of order 1 through them,
 /// whose correlation is corrected for its bias (Marriott and Pope, 1954). Student's quantile is that of the
 /// number of independent batches, so the interval is very wide if the series is hardly longer than its
-/// correlation time. Together with above_zero it holds the mean in 90 to 98% of all series of the kinds in
-/// coverage_test.cpp, down to two correlation times; in more if values swing around the mean. It holds the
-/// mean less often if noise hides a motion that is as slow as the series is long, and a series that drifts
-/// has no such mean. Returns nothing for fewer than `least_series` values. O(n) time.
+/// correlation time. Together with above_zero the coverage is 90 to 98% for the series in coverage_test.cpp,
+/// if they are at least two correlation times long. The coverage is higher if values swing around the mean,
+/// and lower if noise hides a motion that is as slow as the series is long. A series that drifts has no such
+/// mean. Returns nothing for fewer than `least_series` values. O(n) time.
 [[nodiscard]] std::optional<MeanInterval> mean_over_time(std::span<const double> series);
 
 /// Returns sum(above) / sum(below) of two series over the same steps, with the interval of mean_over_time for

@@ -27,8 +27,9 @@ constexpr std::array<std::string_view, 19> waters{"SOL",  "WAT", "TIP3", "TIP4",
                                                   "TP3M", "T3P", "T4P",  "SPC",  "SPCE", "OPC", "OPC3",
                                                   "TP4",  "W",   "WF",   "PW",   "HOH"};
 
-// Returns whether the name is one of AMBER's for a nucleotide: D or R, or neither, a base, and 5, 3 or N at
-// the end of a strand.
+// Returns whether AMBER gives this name to a nucleotide. Such a name has up to three letters: D or R, which
+// may be missing; the base; and 5, 3 or N at an end of a strand. Without the last letter the name must begin
+// with R, because gemmi knows the others.
 bool is_amber_nucleotide(std::string_view name) {
   if (name.size() > 1 && (name.back() == '5' || name.back() == '3' || name.back() == 'N')) {
     name.remove_suffix(1);

@@ -37,7 +37,7 @@ struct Avx512 {
   }
 
   using Floats = float __attribute__((vector_size(64)));
-  /// Shuffles group g into the four lanes that its bits stand for.
+  /// The bounds of the four groups of a block. Lanes 4g to 4g + 3 have those of group g.
   template <int Dimension>
   struct SpreadGroups {
     std::array<Floats, static_cast<std::size_t>(Dimension)> low, high;

@@ -134,7 +134,7 @@ class OutsideCount {
   }
 
  private:
-  EightFlags sum_{};  // negative counts
+  EightFlags sum_{};  // minus the count of each lane, because a set flag is -1
 };
 
 /// Finds how far out the farthest bead is, over several runs: squared distance for points, excess for balls.

@@ -45,7 +45,7 @@ template <std::size_t M>
 struct LinearSimplex {
   std::array<Lanes, M> gain;
   Lanes gain_of_first, volume;
-  Lanes off_hull;  // times the volume
+  Lanes off_hull;  // the part Q of the distance of z' from the hull, times the volume
 };
 
 template <int D, std::size_t M>
@@ -152,7 +152,7 @@ void find_linear_chords(const BeadPaths<D>& paths, const BeadLanes<M + 1>& beads
   const Lanes l = Lanes::max(size, Lanes::max(length[0], length[1]));
   const Lanes rounding = Lanes(linear_margin) * l;
 
-  // Distance of z' from the weighted combination of the balls, at the ends and between.
+  // Bounds the distance of z' from the point sum w_i c_i, at the ends and between.
   Lanes heaviest(1.0), apart_at_ends(0.0);
   for (const End<D, M>& e : end)
     for (const Lanes& w : e.weight) heaviest = Lanes::max(heaviest, abs(w));

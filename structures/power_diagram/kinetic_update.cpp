@@ -94,7 +94,7 @@ void MovingDiagram<Dimension>::load(const Eigen::Matrix3Xd& centers, std::span<c
         moved[axis] += machine_->motion.coordinate(b, 1, axis) - machine_->motion.coordinate(b, 0, axis);
     }
   }
-  // Any vector is correct; the mean lowers the weights least between frames.
+  // Any drift gives a correct motion. With the mean of the displacements, weights sink least between frames.
   if (motion_ == UpdateMotion::lifted) {
     typename LiftedMotion<Dimension>::Vector drift{};
     for (int axis = 0; axis < Dimension; ++axis) {

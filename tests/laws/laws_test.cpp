@@ -294,7 +294,7 @@ class Subject {
       });
       if (!outcome.is_decided()) return;
       if (kernel == Kernel::filtered) ending = outcome.ending;
-      EXPECT_EQ(outcome.ending, ending);  // empty, or the refusal of a step in which all beads stay flat
+      EXPECT_EQ(outcome.ending, ending);  // empty, or the refusal of a step whose beads are always coplanar
     }
   }
 

@@ -351,7 +351,7 @@ TEST(Compare, InputsArePooledWithATopologyForEach) {
   const Json json = Json::parse(run.out);
   const Json &row = json["rows"][0], &pooled = json["pooled"][0];
   EXPECT_EQ(pooled["inputs"], 2);
-  // Two equal inputs do not tell their spread.
+  // Two equal inputs give a mean without an interval.
   EXPECT_DOUBLE_EQ(pooled["events_per_step"], row["events_per_step"]);
   EXPECT_EQ(pooled["events_per_step_lower"], nullptr);
   EXPECT_EQ(pooled["events_per_step_upper"], nullptr);

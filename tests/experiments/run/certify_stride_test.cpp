@@ -210,8 +210,8 @@ bool meet(const Listed& a, const Listed& b) {
   return a.pair == b.pair && a.begin <= b.end + 1e-9 && b.begin <= a.end + 1e-9;
 }
 
-// Each sure contact overlaps in time a contact of the run of all frames, and each contact of that run
-// overlaps a contact in one of the two files.
+// The run of all frames has the true contacts. Each sure contact overlaps a true one in time. Each true
+// contact overlaps one that is found or listed as possible.
 TEST(CertifyStride, ListsWhichContactsAreSureAndWhichThereMayBe) {
   const ScratchDirectory scratch;
   const auto listed = [&](const std::string& name, const std::string& frames, std::vector<std::string> more) {

@@ -100,7 +100,7 @@ TEST(Misread, MasslessSitesByMass) {
                                  "left out, as they are no heavy atoms: DN of ALA 1,")));
   EXPECT_THAT(refusal_of_elements(with_topology(data("drude_lone_pairs.psf"), Selection::all, "drude.dcd")),
               HasSubstr("drude_lone_pairs.psf does not tell the element of DN of ALA 1 in chain PROA"));
-  // A file without masses says nothing about sites.
+  // If all masses are 0, no atom is left out as a massless site.
   std::string text = test::read_bytes(corpus("psf/namd.psf"));
   for (const char* mass : {" 14.007", " 1.008", " 12.011"})
     for (std::size_t place = 0; (place = text.find(mass)) != std::string::npos;)
