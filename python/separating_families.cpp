@@ -131,7 +131,7 @@ class ExplicitFamily {
   std::span<const TreeSphere<Dimension>> spheres_;
   BeadId least_apart_;
   std::vector<double> radius_;  // R of each depth
-  std::vector<double> reach_;   // of centres, at each depth
+  std::vector<double> reach_;   // for each depth: no pair lies below nodes whose centres are farther apart
   std::uint64_t size_ = 0;
 };
 

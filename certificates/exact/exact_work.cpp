@@ -10,7 +10,7 @@ namespace kds {
 
 namespace {
 
-constexpr std::uint64_t a_millisecond = 1U << 20U;  // of limb operations, roughly
+constexpr std::uint64_t a_millisecond = 1U << 20U;  // limb operations that take about a millisecond
 
 }  // namespace
 

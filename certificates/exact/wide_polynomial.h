@@ -135,8 +135,8 @@ class WidePolynomial {
 [[nodiscard]] Variations exact_variations(const WidePolynomial& polynomial, const Dyadic& lower,
                                           const Dyadic& upper);
 
-/// Does the same if 128 bits do not decide. Starts with numbers of `bits` bits, and sets `bits` to the
-/// number that decided.
+/// Like exact_variations, for cases that 128 bits do not decide. Starts with numbers of `bits` bits, and sets
+/// `bits` to the number that decided.
 [[nodiscard]] Variations variations_closely(const WidePolynomial& polynomial, const Dyadic& lower,
                                             const Dyadic& upper, std::size_t& bits);
 

@@ -139,9 +139,9 @@ class WideIsolation {
     return {std::move(left), std::move(right)};
   }
 
-  // Does the same for a part of one scale, without roots at `lower`. Halves the polynomial restricted to that
-  // part, and takes twice as many bits if signs stay unknown. Later parts are put off if they would have to
-  // be examined again.
+  // Visits the roots of a part of one scale that has no root at `lower`. Halves the polynomial restricted to
+  // that part, and takes twice as many bits if signs stay unknown. Later parts are put off if they would have
+  // to be examined again.
   void visit_closely(Halves seen, Part part) {
     if (is_past(part) && puts_off(part)) return;
     const Variations variations = seen.variations(part.sign_at_lower, part.sign_at_upper);

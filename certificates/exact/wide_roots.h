@@ -29,9 +29,10 @@ struct RootsAround {
 /// Records an interval found elsewhere: it has one root, at which the polynomial changes sign.
 void keep_root(const WidePolynomial& polynomial, const RootInterval& root);
 
-/// Narrows the interval of a root at which the polynomial changes sign; the sign at the lower end must be
-/// known. `digits` says how many binary digits the next step, guessed from the values at both ends, should
-/// gain: 1 at first, then as the previous step left it. Later visits of the root find it narrowed.
+/// Narrows the interval of a root at which the polynomial changes sign. The sign at the lower end must be
+/// known. The next step guesses a part of the interval from the values at both ends; root.digits says how
+/// many binary digits it should gain: 1 at first, then the number that the previous step has set. The
+/// narrowed interval is stored with the polynomial, for later visits of the root.
 void narrow_root(const WidePolynomial& polynomial, RootInterval& root);
 
 /// Returns the only root in [lower, upper], at which the polynomial changes sign, as narrow as it is known.

@@ -188,7 +188,7 @@ class RowSizes {
         weights_small_ & (largest_ <= FloatLanes(0x1p10F)) & (scale >= FloatLanes(0x1p-40F));
     return proved ? scale.v : FloatLanes(__builtin_nanf("")).v;
   }
-  /// Returns the same for a function without a lift: the product alone.
+  /// Like error_scale, but without the factor M: for a function without a lift.
   [[nodiscard, gnu::always_inline]] FloatLanes error_scale_without_lift() const {
     const typename FloatLanes::Mask proved =
         (largest_ <= FloatLanes(0x1p10F)) & (product_ >= FloatLanes(0x1p-60F));

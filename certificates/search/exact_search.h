@@ -35,7 +35,7 @@ namespace kds {
 /// Returns the first failure of a polynomial with integer coefficients.
 [[nodiscard]] Failure exact_first_failure(const ExactPolynomial& function, const Instant& now,
                                           StageCounts& stages, TouchPolicy touches = TouchPolicy::ignored);
-/// Does the same, trying doubles first.
+/// Like exact_first_failure, but tries doubles first.
 [[nodiscard]] Failure rounded_first_failure(const ExactPolynomial& function, const Instant& now,
                                             KnownAtStart known, StageCounts& stages, TouchPolicy touches);
 

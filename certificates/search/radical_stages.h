@@ -55,7 +55,7 @@ class RadicalInDouble {
   [[nodiscard]] virtual const BoundedPolynomial& norm() const = 0;
   /// Returns 1 or -1 if that is certainly the sign on all of [lower, upper], else 0.
   [[nodiscard]] virtual int certain_sign_on(double lower, double upper) const = 0;
-  /// Returns the same for a known sign of the norm, or 0.
+  /// Like certain_sign_on, but uses a known sign of the norm; `norm_sign` is 0 if it is unknown.
   [[nodiscard]] virtual int sign_by_norm(int norm_sign, double lower, double upper) const = 0;
   /// Returns the norm's sign where the certificate holds, if opposite signs of A and B on all of [lower,
   /// upper] determine it, else 0. At an isolating failure time the norm changes its sign, so just after it

@@ -27,7 +27,7 @@ namespace {
 
 // Beads of a protein closer than this along the chain are always in contact.
 constexpr BeadId along_chain = 5;
-constexpr std::size_t warm_frames = 4;  // in which the detectors make their lists
+constexpr std::size_t warm_frames = 4;  // frames before the timed ones, in which detectors make their lists
 // For chains in order, the depth of Bullet's trees grows with their length: more beads take minutes.
 constexpr std::size_t most_beads_of_trees = 20000;
 

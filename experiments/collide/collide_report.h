@@ -41,7 +41,7 @@ class ClosestCourse {
  private:
   std::size_t frames_, width_, added_ = 0;
   std::vector<FrameStamp> frames_shown_;  // one per point
-  std::vector<double> distances_;         // likewise
+  std::vector<double> distances_;         // one per point
   std::size_t bin_of_last_ = 0;
 };
 

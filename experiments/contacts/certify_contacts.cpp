@@ -140,9 +140,9 @@ class ContactBounder {
 
   ContactsCertificate& certificate_;
   std::vector<NumberedInterval> all_;
-  std::array<std::size_t, 4> counts_{};                   // by Source: intervals so far
-  std::array<std::vector<NumberedInterval>, 4> of_pair_;  // by Source
-  std::vector<std::uint8_t> is_certain_;  // by interval of enlarged balls: whether a true contact lies in it
+  std::array<std::size_t, 4> counts_{};                   // number of intervals so far, by Source
+  std::array<std::vector<NumberedInterval>, 4> of_pair_;  // the present pair's intervals, by Source
+  std::vector<std::uint8_t> is_certain_;  // for each interval of enlarged balls: a true contact lies in it
 };
 
 /// Returns `groups` without the beads that have no ball.

@@ -30,7 +30,7 @@ class ContactOccupancy final : public ContactsCsv {
  private:
   void add(const Event& event, std::string_view kind) override;
 
-  std::map<std::pair<BeadId, BeadId>, double> lengths_;  // of the contacts that have ended
+  std::map<std::pair<BeadId, BeadId>, double> lengths_;  // sums over a pair's contacts that have ended
   std::map<std::pair<BeadId, BeadId>, double> open_;     // frames at which the others began
 };
 

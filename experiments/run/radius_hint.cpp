@@ -106,7 +106,7 @@ std::optional<std::string> factor_hint(const Scene& scene, double factor, BeadId
 }
 
 std::optional<std::string> cutoff_hint(const Scene& scene, bool between_surfaces, BeadId apart) {
-  constexpr BeadId few = 5;  // as for radii
+  constexpr BeadId few = 5;  // the least distance along the chain, as in radius_hint
   const BeadId farther = std::max(apart, few);
   const std::optional<Advice> advice = advice_for(scene, farther);
   if (!advice) return std::nullopt;

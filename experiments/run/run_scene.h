@@ -31,8 +31,8 @@ void watch_exact_work(Simulator& simulator, const Scene& scene,
                       const std::function<void(const std::string&)>& warn,
                       std::uint64_t extraordinary = extraordinary_work);
 
-/// Does the same in each part of a run. Call it before the run. `warn` is called on the threads of the run,
-/// by one thread at a time.
+/// Watches the exact work in each part of a run. Call it before the run. `warn` is called on the threads of
+/// the run, by one thread at a time.
 void watch_exact_work(ParallelRun& run, const std::function<void(const std::string&)>& warn);
 
 /// Moves the counts of each step out of the structures, so that memory does not grow with the number of

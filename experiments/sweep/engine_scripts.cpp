@@ -11,7 +11,7 @@ namespace kds {
 
 namespace {
 
-constexpr std::size_t kSecondsToStop = 120;  // from the time budget to the time limit
+constexpr std::size_t kSecondsToStop = 120;  // the time limit minus the time budget
 
 // Returns how many units hold this amount.
 std::uint64_t in_units(std::uint64_t amount, std::uint64_t unit) { return (amount + unit - 1) / unit; }

@@ -29,8 +29,8 @@ double set_one_by_one(const double* center, double weight, double* point) {
   __builtin_memcpy(point, &row, sizeof row);
 }
 
-/// Sets rows in space for all beads except the last, because a row reads one number more. Returns whether all
-/// numbers are finite.
+/// Sets the control points of linear motion in space. Reads one double behind the centres of `beads` beads,
+/// so the caller leaves the last bead out. Returns whether all numbers are finite.
 [[KDS_LANES_TARGETS]] bool set_rows(const double* start, const double* end, const double* radii,
                                     std::size_t beads, double* points, double* own_radii) {
   Lanes::Mask wrong{};

@@ -340,7 +340,7 @@ class NetcdfFrames final : public AtomFrames {
   NetcdfFile file_;
   InputFile input_;
   std::size_t atoms_ = 0;
-  std::uint64_t frames_ = 0;  // by the header, if it counts them, else by the size of the file
+  std::uint64_t frames_ = 0;  // number by the header, if it has one, else by the file's size
   bool is_counted_ = true;
   NetcdfSeries coordinates_;
   std::optional<NetcdfSeries> time_, lengths_, angles_;

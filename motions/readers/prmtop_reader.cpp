@@ -100,7 +100,7 @@ class Prmtop {
     return fields;
   }
 
-  // Does the same for names, which must not be blank: a line that lost one would shift the names after it.
+  // Like `texts`, and throws InputError if a name is blank: a line that lost one shifts the names after it.
   const std::vector<std::string>& names(const std::string& name, std::size_t count) {
     const std::vector<std::string>& fields = texts(name, count);
     const auto blank = std::find(fields.begin(), fields.end(), "");

@@ -47,9 +47,9 @@ class ReaderRegistry {
   [[nodiscard]] std::vector<std::string> names_with_frames() const;
   /// Returns ".pdb, .ent, ... or .xyz" of the formats that have frames, for messages.
   [[nodiscard]] std::string endings() const;
-  /// Returns the same of the formats that take a topology.
+  /// Like `endings`, for the formats that take a topology.
   [[nodiscard]] std::string trajectory_endings() const;
-  /// Returns the same of the formats that name atoms.
+  /// Like `endings`, for the formats that name atoms.
   [[nodiscard]] std::string topology_endings() const;
 
   static constexpr std::size_t bytes_seen = 4096;

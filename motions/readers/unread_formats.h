@@ -9,7 +9,7 @@ namespace kds {
 /// Throws InputError if `start`, the first bytes of the file, shows such a format. The message names the
 /// format and the program that converts it.
 void refuse_unread_content(const std::filesystem::path& path, std::string_view start);
-/// Does the same by the file's ending.
+/// Throws InputError if the file's ending is that of such a format.
 void refuse_unread_ending(const std::filesystem::path& path);
 
 }  // namespace kds

@@ -25,7 +25,7 @@ namespace kds {
 [[nodiscard]] std::vector<double> bead_radii(const std::string& policy,
                                              std::span<const NecklaceBeads> necklaces,
                                              const FrameSurvey& survey);
-/// Does the same for necklaces in memory. The necklaces may have different numbers of frames.
+/// Returns the radii of necklaces in memory. The necklaces may have different numbers of frames.
 [[nodiscard]] std::vector<double> bead_radii(const std::string& policy,
                                              std::span<const Trajectory> necklaces);
 

@@ -28,8 +28,8 @@ class MotionAhead {
   /// Examines the start of a step of a linear motion. Beads that were not examined in the step before
   /// count as turned. If the number of beads has changed, all of them count as turned.
   void look_at(const Curves<DimensionValue>& curves) { look_at(curves, 1); }
-  /// Does the same for a few beads, to estimate the share that went straight on. Takes little memory, but
-  /// other queries are not allowed afterwards.
+  /// Examines at most sixteen beads, to estimate the share that went straight on. Takes little memory, but
+  /// only share_straight may be called afterwards.
   void look_at_some(const Curves<DimensionValue>& curves) { look_at(curves, 1 + curves.bead_count() / 16); }
 
   /// Returns the share of beads that went straight on, among those examined last.

@@ -219,7 +219,7 @@ class TrackedView {
   /// Returns a rounded difference or sum of two inputs, times the scale. Sums are exact if they are
   /// subnormal, and scaling is exact except for underflow.
   [[nodiscard]] TrackedDouble scaled(double rounded) const { return from_rounded(rounded * scale_); }
-  /// Returns the same times the square of the scale, which may not be representable as a double.
+  /// Like `scaled`, but times the square of the scale. This square may not be representable as a double.
   [[nodiscard]] TrackedDouble scaled_twice(double rounded) const {
     return from_rounded(rounded * scale_ * scale_);
   }

@@ -50,7 +50,7 @@ class TightCages {
  private:
   struct Parts {
     NodeId node;
-    std::size_t first, end;  // in parts_
+    std::size_t first, end;  // the node's range of indices in parts_
   };
 
   void bisect(NodeId node, const BeadRange& range, const CagePiece<Dimension>& whole,

@@ -46,10 +46,13 @@ struct SeparatingFamily {
   std::vector<Pair> pairs;
 };
 
-/// Returns a fault of a family, or none. Checks that each sphere of a pair holds its beads, (S1), and (S2),
-/// where each pair of beads is covered once only and no colliding pair is covered. The check is exact and
-/// follows the definitions; it shares no code with the search for families. `colliding` is ascending. Takes
-/// time linear in the number of beads of all spheres and pairs, times log n.
+/// Returns a fault of a family, or none. Checks these conditions:
+/// - each sphere of a pair contains its beads;
+/// - (S1) and (S2) hold;
+/// - each pair of beads is covered at most once, and no colliding pair is covered.
+///
+/// The check is exact and follows the definitions. It shares no code with the search for families.
+/// `colliding` is ascending. Takes O(m log n) time for m beads in all spheres and pairs.
 template <int Dimension>
 [[nodiscard]] std::optional<std::string> family_fault(const SeparatingFamily& family,
                                                       std::span<const BeadPair> colliding,

@@ -91,13 +91,13 @@ class FrameContacts {
   struct Seen {
     Run plain, bridged, outer;
     std::size_t inner = none;    // first sample of `outer` within the inner cutoff
-    std::size_t pending = none;  // that of the outer run that is not known yet
+    std::size_t pending = none;  // like `inner`, for an outer run whose end is not known yet
   };
   /// A pair. Its entries of `seen_` begin at `index`.
   struct Pair {
     std::size_t index = 0;
     bool is_inside = false;  // an inner interval belongs to the next outer one
-    ContactMoment begin;     // of the first such interval
+    ContactMoment begin;     // beginning of the first such interval
   };
 
   [[nodiscard]] static Run samples_in(const ContactInterval& interval, std::size_t spacing);

@@ -33,7 +33,7 @@ template <int Dimension>
 [[nodiscard]] Basis proper_part(const Basis& basis, const IntegerBalls<Dimension>& whole);
 
 /// Returns whether doubles with error bounds prove that a basis has no superfluous bead and that its sphere
-/// holds a range of beads. That sphere is then the smallest one around the range. False means nothing.
+/// holds a range of beads. That sphere is then the smallest one around the range. False proves nothing.
 template <int Dimension>
 [[nodiscard]] bool is_surely_basis_of(const Basis& basis, const BeadRange& range,
                                       const RoundedPositions<Dimension>& positions);

@@ -117,7 +117,7 @@ template <bool bounds = true, class N, int Dimension, std::size_t M>
     const N whole = M == 2 ? Is::sqrt(span.determinant) : Is::abs(span.determinant);
     volume = N(0.99) * whole * strongest / product - N(4.0) * norm / near;
   }
-  constexpr std::array<double, 4> least_singular{0, 1, 0.7071, 0.6666};  // at unit volume
+  constexpr std::array<double, 4> least_singular{0, 1, 0.7071, 0.6666};  // of M unit vectors of volume 1
   const N sigma = N(least_singular[M]) * volume;
   const N rounding = N(u) * (N(2.0) * size + N(64.0) * most);
   const N left = M < Dimension ? rounding : N(0.0);

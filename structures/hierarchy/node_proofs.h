@@ -58,9 +58,9 @@ class NodeProofs {
   [[nodiscard]] std::span<const BeadId> beyond() const { return beyond_; }
   /// Returns whether doubles prove the basis proper for its balls at the start.
   [[nodiscard]] bool is_proper_at_start(const Basis& basis) const;
-  /// Removes from `beyond` further beads of a candidate that are proved to stay inside by more than the chord
-  /// alone. If no chord is proved, fills `beyond` first. Returns a bit for each bead of the basis that is
-  /// proved to stay in it.
+  /// Tries finer proofs for the beads of a candidate node than its chord alone. Removes the beads that are
+  /// proved to stay inside from `beyond`; if no chord is proved, `beyond` first becomes all beads outside the
+  /// basis. In the result, bit i says that bead i of the basis is proved to stay in the basis.
   [[nodiscard]] unsigned take_out_staying(const Basis& basis, const BeadRange& range,
                                           const SphereChord<Dimension>& chord, std::vector<BeadId>& beyond);
 

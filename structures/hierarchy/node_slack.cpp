@@ -20,8 +20,8 @@ using detail::margin;
 using detail::up;
 using detail::Vec;
 
-/// Bounds of the slack of four spheres: `most`, and (reach - farthest) / pace. `farthest` is the farthest
-/// point, from the centre, of the balls outside the basis.
+/// Two bounds of the slack of a sphere, for four spheres: `most`, and (reach - farthest) / pace. `farthest`
+/// is the largest distance from the centre to a point of the balls outside the basis.
 template <int D>
 struct Room {
   Vec<D> center;

@@ -107,10 +107,10 @@ template <int N, std::size_t Size>
   return lowest / root(square);
 }
 
-/// The shares to cut off before and then after.
+/// The shares of the step to cut off: first those before the period, then those after it.
 struct PeriodLanes {
   Lanes from, to;
-  Lanes sure;  // as a share of the part
+  Lanes sure;  // as a share of the period
   bool whole;  // nothing is cut off
 
   /// Takes up to four periods; the last one fills the remaining lanes.

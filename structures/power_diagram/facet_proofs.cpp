@@ -102,7 +102,7 @@ std::span<const FacetId> FacetProofs<Dimension>::hull_not_proved_ahead() {
              (positive[lane] >> (part * bits_of_part) & positive_throughout<Dimension>) == 0)
         ++part;
       if (part > positive_parts) {
-        on_hull_[doubts++] = facet;  // in place of one that was read already
+        on_hull_[doubts++] = facet;  // overwrites a facet that this loop has read
       } else {
         lookahead_.proved(cell_of(facet), index_of(facet),
                           static_cast<int>(MotionAhead<Dimension>::steps) >> part);

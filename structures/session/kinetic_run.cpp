@@ -286,7 +286,7 @@ bool KineticRun::next_event() {
     if (!within_) {
       const std::uint64_t before = changes_made();
       enter();
-      if (changes_made() != before) return true;  // at the frame itself
+      if (changes_made() != before) return true;  // a change at the frame is the next event
     }
     if (simulator().run_next()) return true;
     leave();

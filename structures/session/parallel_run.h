@@ -153,7 +153,7 @@ class ParallelRun {
   ParallelOptions parallel_;
   std::unique_ptr<KineticRun> own_;     // the run itself if uncut, otherwise the model of its structures
   std::unique_ptr<KineticRun> joined_;  // null if uncut
-  std::vector<Joined*> structures_;     // of `joined_`
+  std::vector<Joined*> structures_;     // the structures of `joined_`
   std::vector<std::function<void(KineticRun&)>> additions_;
   bool is_decided_ = false;  // whether the run is cut
   std::optional<std::string> uncut_;
@@ -162,7 +162,7 @@ class ParallelRun {
   std::function<void(KineticRun&)> prepare_;
   Observe observe_;
   std::vector<std::unique_ptr<FrameObserver>> observers_;
-  FrameObserver* observer_ = nullptr;  // of the part that is shown
+  FrameObserver* observer_ = nullptr;  // the observer of the part that is shown
   Around around_;
   std::unique_ptr<Worker> truth_;  // whose structures are at the end of the last part that was joined
   std::vector<double> static_seconds_;

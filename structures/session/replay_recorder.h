@@ -92,7 +92,7 @@ class ReplayRecorder final : public EventListener {
   KineticRun& run_;
   std::vector<Structure> structures_;
   std::vector<std::vector<Elements>> now_;  // for each structure and layer
-  std::vector<std::uint64_t> rebuilds_;     // of each structure, at the last look
+  std::vector<std::uint64_t> rebuilds_;     // number of each structure's rebuilds, when it was last read
   std::vector<ReplayEdit> edits_;
   std::uint32_t order_ = 0;
   bool begun_ = false;

@@ -185,7 +185,7 @@ TEST(Coverage, OfMeansOfReplicas) {
   };
   for (const Replicas& kind : kinds)
     for (const int seeds : {3, 8}) {
-      if (kind.claim == Coverage::beyond_the_claim && seeds == 3) continue;  // in 90.5%
+      if (kind.claim == Coverage::beyond_the_claim && seeds == 3) continue;  // the coverage is 90.5%
       expect_coverage(
           "mean over replicas", fmt::format("{}, {} of them", kind.data, seeds), kind.mean,
           [&](Random& random) {

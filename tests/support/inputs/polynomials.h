@@ -71,7 +71,7 @@ inline Scaled random_quadratic(Random& random) {
       const Integer s = Integer(1) << shift;
       return quadratic(q * q * s, -2 * p * q * s, p * p * s - pick(random, 1, 3));
     }
-    case 1: {  // as above, but without a real root
+    case 1: {  // (q u - p)^2 q' + 2^-shift, which has no real root
       const Integer q = pick(random, 2, 50);
       const Integer p = pick(random, 0, static_cast<int>(q.get_si()));
       const Integer s = Integer(1) << static_cast<unsigned>(pick(random, 0, 100));
