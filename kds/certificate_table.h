@@ -364,7 +364,7 @@ class CertificateTable final : public FailureSource {
   std::vector<std::uint32_t> places_;
   std::vector<KnownAtStart> births_;
   std::vector<Failure> failures_;
-  std::vector<std::uint8_t> known_;  // a flag for each
+  std::vector<std::uint8_t> known_;  // for each entry: whether failures_ has its failure already
   bool any_known_ = false;
   std::size_t waiting_count_ = 0;
   std::vector<SearchedCertificate> settled_;  // already searched, from enqueue_one_of_many

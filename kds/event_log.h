@@ -162,7 +162,7 @@ class Fingerprint {
     hash_.add(step);
   }
 
-  std::uint64_t sum_ = 0;  // of the steps before `step_`
+  std::uint64_t sum_ = 0;  // sum of the hashes of the steps before `step_`
   bool in_step_ = false;
   std::uint32_t step_ = 0;
   WordHash hash_;

@@ -189,7 +189,7 @@ void Simulator::change_motion(std::span<const BeadId> beads, const std::function
     followers[s]->release(beads);
   }
   watch_.charge(Stopwatch::stopped);
-  std::exception_ptr refused;  // structures continue with the curves set so far
+  std::exception_ptr refused;  // rethrown after the structures have taken up the curves set so far
   try {
     set_curves();
   } catch (...) {

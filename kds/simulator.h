@@ -28,7 +28,7 @@ class Simulator {
  public:
   explicit Simulator(AuditMode audits = AuditMode::none, Kernel kernel = Kernel::filtered)
       : queue_(order_), audits_(audits), kernel_(kernel) {
-    watch_.add_lane();  // for the listeners
+    watch_.add_lane();  // measures the time of the listeners
   }
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;

@@ -111,7 +111,7 @@ class WidePolynomial {
   mutable std::optional<std::vector<Integer>> whole_;
   mutable std::vector<BallNumber> formed_;  // formed with `formed_bits_` bits
   mutable std::size_t formed_bits_ = 0;
-  mutable std::map<std::size_t, std::vector<BallNumber>> balls_;  // by precision
+  mutable std::map<std::size_t, std::vector<BallNumber>> balls_;  // coefficients, by their number of bits
   mutable std::optional<std::vector<Residue>> residues_;
   mutable Found found_;
 };

@@ -197,7 +197,7 @@ class RowSizes {
 
  private:
   FloatLanes product_{1.0F}, largest_{0.0F};
-  typename FloatLanes::Mask weights_small_ = product_ > largest_;  // true so far
+  typename FloatLanes::Mask weights_small_ = product_ > largest_;  // starts as true in all lanes
 };
 
 }  // namespace detail

@@ -34,7 +34,7 @@ template <class Certificate, Motion M, int Degree>
 [[gnu::always_inline]] inline void evaluate_in_line(
     const M& motion, const typename LanesView<M, bead_arity<Certificate>>::Tuples& tuples, const Lanes& sides,
     const LanesBound<Degree>& bound, ScaledLanes<Degree>& lanes, const BeadsOf<Certificate>& like = {}) {
-  const BeadsOf<Certificate> arguments = argument_numbers<Certificate>(like);  // constants for the compiler
+  const BeadsOf<Certificate> arguments = argument_numbers<Certificate>(like);  // known at compile time
   const LanesView<M, bead_arity<Certificate>, channels_of<Certificate>> view(motion, tuples);
   const auto function = Certificate::formula(view, arguments);
 

@@ -345,7 +345,7 @@ std::unique_ptr<CertificateSearch<Certificate>> filtered_search(const MotionRef<
   if constexpr (Dimension > 1 && channels_of<Certificate>.weights && !channels_of<Certificate>.radii) {
     if (motion.is_lifted()) return in_lanes(std::type_identity<LiftedCurves<Dimension>>{});
   }
-  const int degree = motion.degree();  // for lifted motion: centres move linearly
+  const int degree = motion.degree();  // 1 for lifted motion, whose centres move linearly
   if constexpr (most >= 1) {
     if (degree == 1) return in_lanes(std::type_identity<FixedCurves<Dimension, 1>>{});
   }

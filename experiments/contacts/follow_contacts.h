@@ -68,7 +68,9 @@ class ContactCourse {
 
  private:
   std::size_t steps_, width_;
-  std::vector<double> partial_, begun_;  // of each bin: time in it; contacts that cover all bins from it on
+  std::vector<double> partial_;  // for each bin: the time in contact of those that begin or end in it
+  std::vector<double>
+      begun_;  // for each bin: how many contacts begin to cover whole bins, minus those that end
 };
 
 struct ContactsReport {

@@ -52,7 +52,7 @@ class ClosestApproachOfRun final : public EventListener {
  private:
   KineticRun& run_;
   std::size_t structure_;
-  std::vector<std::array<BeadId, 2>> pairs_;  // in the step; the last one is the current pair
+  std::vector<std::array<BeadId, 2>> pairs_;  // closest pairs of the step; the last one is current
   std::optional<ClosestApproach> least_;
 };
 

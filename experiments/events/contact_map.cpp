@@ -41,7 +41,7 @@ std::string contact_map(const std::string& label, const std::vector<std::string>
     }
     if (squares.size() <= most_squares) break;
   }
-  constexpr std::size_t most_letters = 8;  // of a name at a tick
+  constexpr std::size_t most_letters = 8;  // letters of a name beside a tick
   const bool are_short =
       std::ranges::all_of(names, [](const std::string& name) { return name.size() <= most_letters; });
   const auto side = static_cast<double>(block);

@@ -54,7 +54,7 @@ std::optional<MeanInterval> mean_over_time(std::span<const double> series) {
   }
   const double found = squares > 0 ? products / squares : 0;
   const double correlation = std::clamp(found + (1 + 4 * found) / count, 0.0, most_correlated);
-  const double in_one = (1 + correlation) / (1 - correlation);  // batches that tell as much as one
+  const double in_one = (1 + correlation) / (1 - correlation);  // batches worth an independent one
   const double variance = squares / (count - std::min(in_one, count - 1));
   const double freedom = std::max(count / in_one - 1, 1.0);
   const double error = student_95(freedom) * std::sqrt(variance * in_one / count);

@@ -411,7 +411,7 @@ MirrorPlot rows_by_kind(const StructureReport& structure) {
   const auto& kinds = structure.events_by_kind;
   for (auto kind = kinds.begin(); kind != kinds.end(); ++kind) {
     const auto is_opposite = [&](const auto& other) { return other.first == opposite_of(kind->first); };
-    if (std::any_of(kinds.begin(), kind, is_opposite)) continue;  // in a row above
+    if (std::any_of(kinds.begin(), kind, is_opposite)) continue;  // shown in a row above
     MirrorPlot::Row row{{structure.label_of(kind->first), static_cast<double>(kind->second)}};
     if (const auto other = std::find_if(kind, kinds.end(), is_opposite); other != kinds.end())
       row.left = {structure.label_of(other->first), static_cast<double>(other->second)};
@@ -470,7 +470,7 @@ class ShortNames {
 
  private:
   const RunReport& report_;
-  std::vector<std::string> atoms_, residues_;  // by bead
+  std::vector<std::string> atoms_, residues_;  // names, for each bead
   bool are_distinct_ = false;
 };
 

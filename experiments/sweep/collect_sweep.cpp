@@ -137,7 +137,7 @@ class Listing {
 std::vector<std::pair<std::uint32_t, std::uint32_t>> tasks_by_group(const SweepPlan& plan,
                                                                     const TaskStates& states,
                                                                     const std::vector<std::string>& names) {
-  std::unordered_map<std::uint64_t, std::uint32_t> groups;  // by the hash of their names
+  std::unordered_map<std::uint64_t, std::uint32_t> groups;  // groups, by the hash of their names
   std::vector<std::pair<std::uint32_t, std::uint32_t>> tasks;
   for (std::size_t k = 0; k < plan.tasks().size(); ++k) {
     const SweepTask& task = plan.tasks()[k];

@@ -142,7 +142,7 @@ bool InputFiles::has_changed(const std::string& path) {
   try {
     now.hash = hash_of_content(path, stopped_);
   } catch (const SweepStopped&) {
-    return true;  // unknown; the sweep ends anyway
+    return true;  // the answer no longer matters: the sweep ends
   }
   if (now.hash == then.hash) then = now;
   return now.hash != then.hash;

@@ -21,7 +21,7 @@ bool is_left_out(std::string_view name) { return std::ranges::find(kLeftOut, nam
 void flatten(const Json& json, const std::string& prefix, RowFields& fields) {
   for (const auto& [name, value] : *json.members()) {
     if (is_left_out(name) || value.items() != nullptr || value.is_null()) continue;
-    if (name == "input" && value.members() == nullptr) continue;  // the task says it
+    if (name == "input" && value.members() == nullptr) continue;  // the task names its input
     if (value.members() != nullptr)
       flatten(value, prefix + name + ".", fields);
     else

@@ -29,8 +29,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kContinueLater = 75;        // EX_TEMPFAIL
-constexpr std::size_t kMostWarnings = 3;  // of one kind
-constexpr std::size_t kBatches = 100;     // of a script
+constexpr std::size_t kMostWarnings = 3;  // warnings of one kind
+constexpr std::size_t kBatches = 100;     // batches of a script
 
 constexpr CommandSpec kSweepCommand{
     "kds sweep",

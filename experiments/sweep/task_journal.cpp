@@ -92,7 +92,7 @@ void TaskStates::count(RecordKind kind, TaskName name, std::string_view json, co
   if (kind == RecordKind::fail) task.settled = TaskStatus::failed;
   if (kind != RecordKind::done) return;
   task.settled = TaskStatus::done;
-  constexpr std::size_t times = 100;  // warnings follow two times
+  constexpr std::size_t times = 100;  // characters that hold the two times at the start of the record
   task.warned = json.substr(0, times).find(R"("warnings":)") != std::string_view::npos;
   if (json.starts_with(kSeconds))
     task.seconds = std::strtof(std::string(json.substr(kSeconds.size(), times)).c_str(), nullptr);

@@ -29,7 +29,7 @@ class TextHash {
   }
 
  private:
-  static constexpr std::uint32_t end_of_text = 256;  // no byte
+  static constexpr std::uint32_t end_of_text = 256;  // above every byte
   WordHash hash_;
 };
 

@@ -86,7 +86,7 @@ Scene FinestData::scene(const TradeSetting& setting, std::vector<double> radii) 
   for (Trajectory& necklace : some) {
     if (setting.projected)
       for (Eigen::Matrix3Xd& frame : necklace.frames) frame.row(2).setZero();
-    if (necklace.frames.size() == 1) continue;  // at rest
+    if (necklace.frames.size() == 1) continue;  // the necklace is at rest
     if (setting.tolerance > 0)
       necklace.frames = straightened(std::move(necklace.frames), length_of_tolerance(setting, own));
     necklace = every_nth(necklace, setting.stride);

@@ -106,7 +106,7 @@ class InputFile::Members {
     while (done < size && !ended_) {
       if (!inside_) begin_member();
       if (ended_) break;
-      if (!inside_ || (left() == 0 && !fill())) {  // cut off
+      if (!inside_ || (left() == 0 && !fill())) {  // the file is truncated
         if (done > 0) break;
         fail_cut();
       }
@@ -177,7 +177,7 @@ class InputFile::Members {
   std::vector<char> bytes_;
   std::size_t begin_ = 0, end_ = 0;  // the part of `bytes_` that is not yet unpacked
   std::uint64_t filled_ = 0;         // bytes of the file read so far
-  bool inside_ = false;              // a member
+  bool inside_ = false;              // inside a gzip member
   bool ended_ = false;
 };
 

@@ -79,7 +79,7 @@ FramesAsked select_frames(const std::string& file, const FrameRange& range, cons
   }
   if (held.whole == 0) throw InputError(fmt::format("{}: the file holds no frame", file));
   if (held.whole == 1 && !held.ends_inside && !held.damage)
-    return {0, 1, 1, false, true};  // whatever the range
+    return {0, 1, 1, false, true};  // a file of a single frame ignores the range
   if (range.first >= held.whole)
     throw InputError(frames_argument(), fmt::format("frame {} is asked for, {} holds {}", range.first, file,
                                                     counted(held.whole, "frame")));

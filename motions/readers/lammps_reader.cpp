@@ -30,7 +30,7 @@ struct DumpHeader {
   std::optional<double> time;
   std::optional<DumpBox> box;
   std::string units;    // empty if the frame does not name them
-  std::string columns;  // names
+  std::string columns;  // names of the columns
 };
 
 class LammpsFrames final : public AtomFrames {

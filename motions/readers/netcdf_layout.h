@@ -65,7 +65,7 @@ class NetcdfLayout {
   std::string file_;
   std::uint64_t file_size_ = 0;
   std::string header_;
-  std::size_t offset_ = 0;  // in the header
+  std::size_t offset_ = 0;  // position in the header, in bytes
   std::uint64_t version_ = 0;
   std::optional<std::uint64_t> records_claimed_;
   std::uint64_t record_size_ = 0;

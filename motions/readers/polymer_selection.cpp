@@ -388,7 +388,7 @@ PartRead read_part(const Parts& parts, const PolymerPart& part, const AtomChoice
     return SelectedAtom{&atom, element_of(residue, atom).name(),
                         text_of({atom.name, residue.name, residue.number, part.label})};
   };
-  const StructureResidue* last = nullptr;  // read
+  const StructureResidue* last = nullptr;  // the residue that was read last
   for (const StructureResidue* residue : candidates) {
     if (last != nullptr && selection == Selection::atoms && is_alternate_of(*residue, *last)) continue;
     const std::vector<const StructureAtom*> atoms = choice.atoms_of(*residue);

@@ -164,7 +164,7 @@ class PsfFile {
 
   void read_atoms(const PsfForm& form, std::size_t atoms) {
     std::string_view line;
-    std::set<std::string, std::less<>> names;  // of the atoms of the last residue
+    std::set<std::string, std::less<>> names;  // names of the atoms of the last residue
     for (std::size_t i = 0; i < atoms; ++i) {
       if (!lines_.next(line))
         throw InputError(fmt::format("{}: the file ends after atom {} of {}", lines_.name(), i, atoms));

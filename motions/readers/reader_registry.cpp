@@ -79,7 +79,7 @@ std::string ReaderRegistry::first_bytes(const std::filesystem::path& path) {
       if (got == 0) break;
       size += got;
     }
-  } catch (const CutFile&) {  // the reader reports it
+  } catch (const CutFile&) {  // the reader reports the truncated file
   }
   bytes.resize(size);
   if (constexpr std::string_view mark = "\xef\xbb\xbf"; bytes.starts_with(mark)) bytes.erase(0, mark.size());

@@ -287,7 +287,7 @@ class XyzFrames final : public AtomFrames {
     if (!columns.named && (i == 0 || fields.size() > 4 || numbers_ > 3)) {
       const std::size_t numbers = numbers_after(fields);
       if (i == 0) numbers_ = numbers;
-      const bool is_cut = lines_.cut() && numbers < numbers_;  // behind the coordinates
+      const bool is_cut = lines_.cut() && numbers < numbers_;  // the file ends inside this line
       if (numbers >= 3 && numbers != numbers_ && !is_cut)
         fail(fmt::format("expected {} after the symbol as in the frame's first atom, found {}",
                          counted(numbers_, "number"), numbers));
@@ -333,8 +333,8 @@ class XyzFrames final : public AtomFrames {
   bool may_have_cell_ = false;
   std::size_t next_ = 0;  // frame that the next line begins
   std::optional<std::size_t> first_frame_;
-  std::size_t numbers_ = 0;                 // after the symbol of the frame's first atom
-  std::vector<std::string> symbols_, ids_;  // in the first frame
+  std::size_t numbers_ = 0;                 // how many follow the symbol of the frame's first atom
+  std::vector<std::string> symbols_, ids_;  // the atoms' symbols and ids in the first frame
   Eigen::Matrix3Xd positions_;              // for all atoms
 };
 

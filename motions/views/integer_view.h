@@ -52,7 +52,7 @@ struct WholeScale {
 template <Motion M>
 [[nodiscard]] WholeScale whole_scale(const M& motion, std::span<const BeadId> beads,
                                      Channels channels = all_channels) {
-  WholeScale scale;  // below every double
+  WholeScale scale;  // its exponent is below those of all doubles
   int top = -4096;
   each_control(motion, beads, channels, [&](double value, int power) {
     const SplitDouble parts = split(value);

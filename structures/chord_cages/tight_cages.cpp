@@ -247,7 +247,7 @@ template <bool of_points, int D, std::size_t M>
     balls.radius[j].v = members.radius.v;
   }
   const std::array<Lanes, M + 1> weights = weights_of<of_points>(balls);
-  Lanes least = weights[0], of_start(0.0), of_end(0.0), mixed(0.0);  // variances
+  Lanes least = weights[0], of_start(0.0), of_end(0.0), mixed(0.0);  // of_start, of_end and mixed: variances
   Numbers start_mean, end_mean;
   start_mean.fill(Lanes(0.0));
   end_mean.fill(Lanes(0.0));

@@ -45,7 +45,8 @@ class PairResiduals {
 
   std::vector<Pair> pairs_;
   double pair_count_ = 0, contacts_ = 0, growth_ = 0;
-  double left_ = 0, products_ = 0, risks_ = 0;  // sums over pairs of squares and products
+  // Sums over the pairs: left^2, left times at_risk, and at_risk^2.
+  double left_ = 0, products_ = 0, risks_ = 0;
 };
 
 Estimate with_band(double survival, double variance, double quantile) {

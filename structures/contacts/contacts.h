@@ -168,7 +168,7 @@ class Contacts final : public EditableBase {
   MovingFamily<Dimension> family_;
   CertificateTable<Contact> disjoint_, overlapping_;
   ContactSet contacts_;
-  PairsOfBlocks pairs_;  // in the step
+  PairsOfBlocks pairs_;  // pairs of beads that may meet in the present step
   std::vector<Happens> at_once_;
   CertificatesPerBead per_bead_;  // all zero between steps
 };

@@ -112,7 +112,7 @@ void NodeCertificates<Dimension>::enqueue(NodeId id, const Basis& basis, BeadId 
 
 template <int Dimension>
 void NodeCertificates<Dimension>::enqueue_basis(NodeId id, const Basis& basis, unsigned stays) {
-  if (basis.size < 2 || (radii_ == Radii::equal && basis.size == 2)) return;  // they never part
+  if (basis.size < 2 || (radii_ == Radii::equal && basis.size == 2)) return;  // the basis never shrinks
   for (std::size_t i = 0; i < basis.size; ++i) {
     if ((stays >> i & 1U) == 0) enqueue(id, without(basis, basis.beads[i]), basis.beads[i], false, 0);
   }

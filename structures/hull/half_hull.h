@@ -165,13 +165,14 @@ class HalfHull {
   struct Bead {
     bool present = true;
     bool in_chain = false;
-    BeadId left = no_bead;    // in the chain: the bead before it; otherwise: the left end of its edge
-    BeadId right = no_bead;   // in the chain: the bead after it
-    OrderHandles after_left;  // in the chain: its order with the bead after it; otherwise: with the left end
+    // A bead of the chain has neighbours in the chain. Any other bead has the edge above or below it.
+    BeadId left = no_bead;    // the left neighbour, or the left end of the edge
+    BeadId right = no_bead;   // the right neighbour
+    OrderHandles after_left;  // the order with the right neighbour, or with the left end
     OrderHandles before_right;
     CertificateHandle turn =
-        CertificateHandle::violated;  // in the chain: at it; otherwise: not beyond its edge
-    std::vector<BeadId> under;        // beads under the edge that begins at it
+        CertificateHandle::violated;  // the chain turns properly at the bead, or it is not beyond its edge
+    std::vector<BeadId> under;        // beads under the edge that begins at this bead
     std::uint32_t index_under = not_under;
   };
 

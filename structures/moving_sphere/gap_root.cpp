@@ -282,7 +282,7 @@ struct Crossing {
     double from = part.from, to = part.to;
     double gap_from = gaps.at_end[0][lane], gap_to = gaps.at_end[1][lane];
     double loss = gaps.loss_at_ends[lane];
-    if (!(guess.root > 0 && guess.root < 1)) {  // the chord's root, with its error
+    if (!(guess.root > 0 && guess.root < 1)) {  // guess the root of the sphere's chord instead
       const double c0 = gaps.square[0][lane], c1 = gaps.square[1][lane], c2 = gaps.square[2][lane];
       guess.root = c0 / (-c1 + std::copysign(std::sqrt(std::max(c1 * c1 - c0 * c2, 0.0)), c0));
       if (!(guess.root >= 0 && guess.root <= 1)) return std::nullopt;

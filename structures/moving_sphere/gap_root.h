@@ -36,8 +36,8 @@ namespace kds {
 struct SphereGaps {
   using Four = std::array<double, 4>;
 
-  std::array<Four, 2> at_end;      // for the chord
-  Four loss_at_ends, least;        // and its least value
+  std::array<Four, 2> at_end;      // rho' - s_b - |p| at both ends
+  Four loss_at_ends, least;        // error of at_end; a lower bound of the gap
   Four slowest, fastest;           // slopes, per period
   std::array<Four, 3> square;      // coefficients of (rho' - s)^2 - |p|^2, by powers
   Four loss, apart;                // apart: a lower bound of |c_b - x|

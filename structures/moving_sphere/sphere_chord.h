@@ -95,7 +95,7 @@ class ChordCache {
   }
 
  private:
-  static constexpr double none = -1;  // no time
+  static constexpr double none = -1;  // as from_: no chord is cached
 
   Basis basis_;
   double from_ = none, sure_ = 0;

@@ -87,7 +87,7 @@ template <bool looks_at_start>
 template <int D>
 bool all_radii_are(double radius, const Curves<D>& curves) {
   const std::size_t beads = curves.bead_count(), each = static_cast<std::size_t>(curves.own_degree()) + 1;
-  if (beads > 1 && curves.radii(1) != curves.radii(0) + each) return false;  // stored elsewhere
+  if (beads > 1 && curves.radii(1) != curves.radii(0) + each) return false;  // radii are not one array
   return beads > 0 && all_are(radius, curves.radii(0), beads * each);
 }
 

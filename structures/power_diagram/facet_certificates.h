@@ -37,7 +37,7 @@ struct FacetHandle {
            ((static_cast<std::uint32_t>(handle) - first_name) & mask);
   }
   [[nodiscard]] static constexpr FacetHandle of(std::uint32_t note) {
-    const std::uint32_t low = note & mask;  // violated, zero, never, then the slots
+    const std::uint32_t low = note & mask;  // 0 to 2: violated, zero, never; then the slots
     return {static_cast<CertificateHandle>(low < names ? first_name + low : low - names),
             static_cast<About>(note >> 30U)};
   }

@@ -29,7 +29,7 @@ inline constexpr unsigned all_facets = (2U << Dimension) - 1;
 /// assume an instruction for it.
 template <int Dimension>
 [[nodiscard]] constexpr unsigned count_of(unsigned facets) {
-  constexpr std::uint64_t counts = 0x4332322132212110;  // one digit for each set
+  constexpr std::uint64_t counts = 0x4332322132212110;  // hexadecimal digit k counts the bits of k
   return static_cast<unsigned>(counts >> (4 * (facets & all_facets<Dimension>)) & 0xfU);
 }
 

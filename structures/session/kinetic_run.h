@@ -245,13 +245,13 @@ class KineticRun {
   std::uint64_t most_work_ = ExactWork::no_limit, watch_every_ = 0;
   std::function<void()> work_watcher_;
   std::unique_ptr<SceneMotion> scene_motion_;  // null if the user sets the motion
-  std::optional<SceneMotion::Ref> ref_;        // to either
+  std::optional<SceneMotion::Ref> ref_;        // the motion in use: the user's or scene_motion_
   std::unique_ptr<Simulator> simulator_;
   std::vector<std::unique_ptr<RunningStructure>> running_;
   std::vector<KineticStructure*> kinetic_;
   bool built_ = false, loaded_ = false, within_ = false, finished_ = false;
   std::vector<Edit> edits_;
-  std::vector<Bend> bends_;  // in this step or the previous one
+  std::vector<Bend> bends_;  // changes of course in this step or the previous one
 };
 
 template <std::derived_from<KineticStructure> Structure, class... Arguments>

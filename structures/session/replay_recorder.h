@@ -76,7 +76,7 @@ class ReplayRecorder final : public EventListener {
   [[nodiscard]] std::vector<ReplayElement> elements(std::size_t structure, std::size_t layer) const;
 
  private:
-  using Elements = std::unordered_map<std::uint64_t, ReplayElement>;  // by place
+  using Elements = std::unordered_map<std::uint64_t, ReplayElement>;  // elements, by their place
   struct LayerChange {
     std::vector<ReplayElement> removed, added;
   };
