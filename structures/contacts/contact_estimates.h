@@ -19,7 +19,7 @@
 // differ in a short run. Pairs are taken as independent and drawn from one population. For the same pairs in
 // another run the interval is too wide.
 //
-// docs/findings.md has a table of how often these intervals hold the truth.
+// docs/findings.md has a table of how often these intervals contain the true value.
 
 #include <cstdint>
 #include <optional>

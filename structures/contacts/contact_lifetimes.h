@@ -91,7 +91,7 @@ class ContactLifetimes {
   /// The length of a contact whose beginning was seen.
   struct Life {
     double length = 0;
-    std::uint32_t pair = 0;  // in the order in which pairs came
+    std::uint32_t pair = 0;  // pairs are numbered as they are added
     bool is_censored = false;
   };
   struct Pair {

@@ -290,8 +290,8 @@ struct Crossing {
     }
     double root = part.from + guess.root * length, error = guess.error * length;
     while (++looks <= most_looks) {
-      // A certain sign needs slightly more than the rounding error. The wider of two valid brackets is
-      // preferred, because it says more about the time just after.
+      // A certain sign needs a distance slightly larger than the rounding error. If two brackets are valid,
+      // the wider one is taken, because its signs also hold for a longer time after the root.
       const double before = to - from, least = std::max(3 * loss / slope, 0x1p-33);
       const bool sharp = 4 * error < 0.49 * narrow;
       const double near = std::max(sharp ? error : std::max(0.49 * narrow, 0.0625 * error), least);

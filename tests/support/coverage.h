@@ -1,5 +1,5 @@
 #pragma once
-// Counts how often a 95% interval holds the truth, over data that are generated with a known truth.
+// Counts how often a 95% interval contains the true value, over data that are generated with a known truth.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,13 +13,13 @@ namespace kds::test {
 
 inline constexpr int coverage_runs = 400;
 
-/// The share of intervals that must hold the truth: 90 to 98%; 90% or more, for data whose spread the
+/// The share of intervals that must contain the true value: 90 to 98%; 90% or more, for data whose spread the
 /// interval overestimates; less than 90%, for data that the interval's header excludes.
 enum class Coverage { as_claimed, may_be_more, beyond_the_claim };
 
 /// Calls interval_of(random) for each run. The function generates data and returns the ends of their interval
 /// as an optional pair, or nothing. Prints a row of a table: the kind of interval, the data, the share of
-/// intervals that hold `truth`, and the share of runs without an interval. Expects the share that `claim`
+/// intervals that contain `truth`, and the share of runs without an interval. Expects the share that `claim`
 /// says.
 template <class IntervalOf>
 void expect_coverage(std::string_view kind, std::string_view data, double truth,

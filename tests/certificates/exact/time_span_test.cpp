@@ -72,7 +72,7 @@ Scaled scaled_of(const sturm::Polynomial& powers) {
   return scaled;
 }
 
-/// Compares on the clock: the roots of both polynomials as readings.
+/// Compares two times by Sturm's theorem: both polynomials are rewritten in the time of the clock.
 int judged(const Time& earlier, const StepClock& b, const Time& later, const StepClock& e, double length) {
   const Rational long_step = Rational(b.end) - Rational(b.begin), step = Rational(e.end) - Rational(e.begin);
   const Rational start(b.begin), from = Rational(e.begin) - Rational(length);

@@ -1,5 +1,5 @@
-// Prints for each interval of the program how often it holds the truth, over generated data that are like
-// those of runs, and expects that it does so as often as it claims.
+// Prints for each interval of the program how often it contains the true value, over generated data that are
+// like those of runs, and expects that it does so as often as it claims.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

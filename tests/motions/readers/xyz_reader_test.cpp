@@ -407,7 +407,7 @@ TEST(ReadTrajectory, ReadsUntilDamage) {
   EXPECT_EQ(before.frames.size(), 2U);
   ASSERT_EQ(before.warnings.size(), 1U);
   EXPECT_NE(before.warnings[0].find("frames up to 1 are read (--until-damage)"), std::string::npos);
-  // The first frame cannot be missed.
+  // Nothing can be read if the first frame is damaged.
   const auto all_bad = test::write_file("b.xyz", bad + frame);
   test::expect_refused([&] { (void)read_trajectory(all_bad, {.until_damage = true}); }, {"b.xyz:4:", "one"});
 }

@@ -1,5 +1,5 @@
-// How often 95% intervals of contact figures hold the truth: contacts of known rates, generated and measured
-// many times. Prints a table, which docs/findings.md quotes.
+// How often 95% intervals of contact figures contain the true value: contacts of known rates, generated and
+// measured many times. Prints a table, which docs/findings.md quotes.
 
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ std::string fixed(double number) {
   return std::to_string(tenths / 10) + '.' + std::to_string(tenths % 10);
 }
 
-/// Counts the intervals that hold the truth. Prints their shares as a line of a table.
+/// Counts the intervals that contain the true value. Prints their shares as a line of a table.
 class Coverage {
  public:
   void add(const std::string& figure, const Estimate& estimate, double truth) {

@@ -29,8 +29,8 @@ using Curved = BezierMotion<2, 3>;
 template <Motion M>
 using HullRig = Rig<ConvexHull, M>;
 
-/// Returns the corners that CGAL finds with exact numbers, counterclockwise from the least bead. The least
-/// bead stands for beads at one corner.
+/// Returns the corners that CGAL finds with exact numbers, counterclockwise from the least bead. If several
+/// beads lie at one corner, the least of them stands for all.
 std::vector<BeadId> corners_by_cgal(const ExactPoints& at) {
   using Geometry = CGAL::Simple_cartesian<CGAL::Gmpq>;
   std::vector<Geometry::Point_2> points, corners;
