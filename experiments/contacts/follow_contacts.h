@@ -69,8 +69,8 @@ class ContactCourse {
  private:
   std::size_t steps_, width_;
   std::vector<double> partial_;  // for each bin: the time in contact of those that begin or end in it
-  std::vector<double>
-      begun_;  // for each bin: how many contacts begin to cover whole bins, minus those that end
+  // For each bin: how many contacts begin to cover whole bins there, minus those that stop covering them.
+  std::vector<double> begun_;
 };
 
 struct ContactsReport {
