@@ -1,8 +1,9 @@
 #pragma once
-// An exact polynomial rounded to double. The coefficients are known exactly, and each is rounded by itself. A
-// function that would vanish but for the rounding of its beads' coordinates therefore keeps full relative
-// precision. This class finds the descents of such a function without integers of the length that exact roots
-// have. The work is bounded; if a result cannot be proved, the class says so.
+// An exact polynomial rounded to double. The coefficients are known exactly, and each is rounded by itself.
+// Some functions would vanish if coordinates were real numbers and differ from zero only because coordinates
+// are rounded. Such a function keeps full relative precision here. This class finds the descents of such a
+// function without integers of the length that exact roots have. The work is bounded; if a result cannot be
+// proved, the class says so.
 //
 // The error analysis, with u = 2^-53:
 //

@@ -19,7 +19,7 @@ struct BeadName {
 [[nodiscard]] std::string text_of(const BeadName& name);
 /// Returns the residue as text: "ALA 12", and "ALA 12 in chain A" if `with_chain` and the chain has a name.
 [[nodiscard]] std::string residue_text(const BeadName& name, bool with_chain);
-/// Parses such a text. Returns nothing if the text is not a bead name; an empty text is not.
+/// Parses the text of text_of. Returns nothing if the text is empty or no bead name.
 [[nodiscard]] std::optional<BeadName> bead_name_of(std::string_view text);
 
 }  // namespace kds

@@ -11,8 +11,8 @@
 // continuously: its image follows through all frames from the first one asked for, so that a stride finds the
 // images that the whole file has. A warning names other chains with a nearer image.
 //
-// A cell is used no more from the frame on in which a chain is longer than the cell, unless bonds were joined
-// across its walls before: such a cell is not that of the coordinates.
+// If a chain is longer than the cell in some frame, the cell cannot be that of the coordinates. It is not
+// used from that frame on, unless bonds have been joined across its walls before.
 
 #include <cstddef>
 #include <filesystem>

@@ -1,8 +1,8 @@
 #pragma once
 // AMBER NetCDF trajectories and restart files in the classic formats CDF-1, CDF-2 and CDF-5. libnetcdf reads
-// the attributes. It returns zeros without an error where a file ends early, and no frame that the header
-// does not count. Values are therefore read here, after the sizes in the header are compared with the file's
-// size.
+// the attributes. If a file ends early, it returns zeros without an error; if the header counts too few
+// frames, it does not return the others. Values are therefore read here, after the sizes in the header are
+// compared with the file's size.
 
 #include <filesystem>
 #include <memory>

@@ -26,7 +26,7 @@
 
 namespace kds {
 
-/// An estimate with the ends of its 95% interval. A part that the data do not tell is missing.
+/// An estimate with the ends of its 95% interval. A part that does not follow from the data is missing.
 struct Estimate {
   std::optional<double> value = {}, lower = {}, upper = {};
 

@@ -7,13 +7,13 @@
 //
 // - Rate of beginning: beginnings seen / time out of contact. Rate of end: ends seen / time in contact.
 //   Residence: time in contact / ends seen, which is the mean life of the contacts that begin in a long run.
-//   The mean length of the intervals as they are is no such estimate, because the run cuts open ones.
+//   The mean length of the intervals would be too small, because the run cuts open ones.
 // - Figures of all pairs: sums over all pairs that were asked for, also those that never meet.
 // - Survival function: the share S(t) of the contacts that begin which last longer than t. It is the
 //   product-limit estimate of Kaplan and Meier (1958) over contacts whose beginning was seen. Contacts that
 //   are open at the last frame are censored. Contacts that are open at the first frame are left out, because
-//   their age is unknown: with the rest of their life they would enter as too short, and as censored they
-//   would be censored at their death.
+//   their age is unknown. The rest of their life is shorter than their life. To count them as censored when
+//   they end would also be wrong, because censoring must not depend on when a contact ends.
 // - Band of S(t), for each t alone: S^exp(+-q sqrt(V) / log S), where V is the variance of log S
 //   with contacts grouped by pair (Ying and Wei, 1994): V = n / (n - 1) * sum over pairs of (sum of r over
 //   the pair's contacts)^2, and q is Student's quantile with n - 1 degrees of freedom. A contact that ends at

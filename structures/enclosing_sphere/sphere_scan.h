@@ -1,7 +1,7 @@
 #pragma once
 // Scans consecutive beads against a sphere, eight at a time: how far the farthest sticks out, and how many
-// are not certainly inside. Basis beads always count among the latter, so a sphere holds all beads if the
-// count equals the basis' size. Every operation is rounded as written and the result does not depend on the
+// are not certainly inside. Basis beads are always counted, so a sphere contains all beads if the count
+// equals the size of the basis. Every operation is rounded as written and the result does not depend on the
 // order of beads, so all machines give the same bits.
 
 #include <algorithm>

@@ -36,8 +36,8 @@ void wrap_groups(NodeWrapper<Form>& wrapper, const BottomUpOrder& order,
       wrapper.wrap_pairs(pairs.data(), pairs.size(), start);
       continue;
     }
-    // Nodes that need neither bases nor cages below do not wait for them, so groups of several heights are
-    // merged. Bead counts of nodes of one height differ by less than a factor of two.
+    // With old bases, a node does not depend on the nodes below, so groups of several heights are merged.
+    // Bead counts of nodes of one height differ by less than a factor of two.
     if (start == Start::old_bases && 2 * beads(g) <= most_in_block)
       while (g + together < groups.size() && 2 * beads(g + together) <= most_in_block) ++together;
     const auto nodes = nodes_of(order, groups, g, together);

@@ -12,9 +12,9 @@
 // the chain is the upper hull, and its beads are the corners.
 //
 // When a certificate fails, a bead of the chain leaves it, or a bead moves to the next edge or into the
-// chain. The certificates around are then created anew. This ends, however many certificates fail at one
-// time: each step either removes a pair of beads in the chain that are in the wrong order, and no step
-// creates such a pair, or it increases the function between such pairs.
+// chain. The certificates around are then created anew. The repair ends even if many certificates fail
+// at one time: each step either removes a pair of beads in the chain that are in the wrong order, or it
+// increases the function between such pairs. No step creates such a pair.
 //
 // Beads that stay together count as one, represented by the least of them. The others may lie under an edge
 // at this bead, or under the bead itself if it is the whole chain.

@@ -39,8 +39,8 @@ void DiagramEditor<Dimension>::require_release(std::span<const BeadId> beads) co
     require_cells();
 }
 
-/// The other beads do not stay flat if the beads of some cell without `bead` do not. The first such cell
-/// nearly always shows this.
+/// Returns whether all beads except `bead` stay in one plane (on one line). A cell without `bead` whose beads
+/// span space shows that they do not; nearly always the first such cell suffices.
 template <int Dimension>
 bool DiagramEditor<Dimension>::is_flat_without(BeadId bead) const {
   if (state_.present_beads.count() <= Dimension + 1) return true;

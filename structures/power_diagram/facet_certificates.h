@@ -48,8 +48,8 @@ struct FacetHandle {
 };
 
 /// Search results at one moment, stored by certificate. A rebuild builds the diagram at several times until
-/// one is correct, and most facets are the same each time. If their functions would be zero but for the
-/// rounding of coordinates, each search needs exact integers, so reusing its result pays.
+/// one is correct, and most facets are the same each time. If their functions differ from
+/// zero only because coordinates are rounded, each search needs exact integers, so reusing its result pays.
 class KnownFailures {
  public:
   template <NamedCertificate Certificate>

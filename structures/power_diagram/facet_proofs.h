@@ -208,9 +208,9 @@ class FacetProofs {
     return proved;
   }
 
-  /// Returns for each of at most four new cells what the filters find: facets whose power test is positive
-  /// over the whole step, as it is for most facets to older cells, and over some steps ahead if looking ahead
-  /// pays.
+  /// Returns what the filters find for each of at most four new cells: the facets whose power test is
+  /// positive over the whole step, which most facets to older cells are. If looking ahead pays, also those
+  /// whose power test is positive over some steps ahead.
   [[nodiscard]] std::array<unsigned, few_cells> found_around(std::span<const CellId> cells);
   /// Stores what found_around has found for these facets of a cell.
   void proved_around(CellId cell, unsigned facets, unsigned found) {

@@ -58,8 +58,8 @@ class RunningStructure {
     static_cast<void>(frame);
     return std::nullopt;
   }
-  /// Returns whether a run of the structure may be cut at frames, because `state` tells all that later events
-  /// depend on.
+  /// Returns whether a run of the structure may be cut at frames, because `state` has everything that later
+  /// events depend on.
   [[nodiscard]] virtual bool can_be_cut() const { return false; }
   /// Returns numbers that determine, with the motion, all later events and their order. Called at a frame
   /// just reached; at the first frame, the structure has just been built. Returns nothing if more than
@@ -83,8 +83,8 @@ class RunningStructure {
     static_cast<void>(built);
     return {};
   }
-  /// Appends what a change that was just made does to the layers. Returns false if the change does not tell;
-  /// `replay_elements` then must be read again.
+  /// Appends what a change that was just made does to the layers. Returns false if the change alone
+  /// does not determine this; `replay_elements` must then be read again.
   [[nodiscard]] virtual bool replay_edits(const Change& change, std::vector<ReplayEdit>& edits) const {
     static_cast<void>(change);
     static_cast<void>(edits);

@@ -244,9 +244,10 @@ std::vector<double> squares(const std::vector<double>& radii) {
 }
 
 /// A counterexample to the theorem as printed. Bead 2 contains bead 3, the chain is broken after bead 3, and
-/// bead 5 is apart; the power cell of 5 ends where the cell of the small bead 3 begins. The closest pair, 2
-/// and 5, contains no end of the necklace, has no common neighbour and is no edge, so the printed theorem
-/// misses it: 3 and 4 are neighbours that do not meet.
+/// bead 5 is apart; the power cell of 5 ends where the cell of the small bead 3 begins. The closest pair is
+/// 2 and 5. Neither bead is an end of the necklace, the two have no common neighbour, and no edge joins them.
+/// The theorem as printed therefore misses this pair, because it does not expect neighbours that are apart,
+/// such as 3 and 4.
 TEST(ClosestPair, BesideABreakTheTheoremNeedsMore) {
   Balls balls;
   balls.centers = {{-80, 3, 0}, {-40, 0, 0},  {0, 0, 0},  {0.1875, 0, 0},
