@@ -26,8 +26,8 @@ struct ResultRow {
 /// Returns the rows of a command's result.
 [[nodiscard]] std::vector<ResultRow> rows_of_result(const Json& result);
 
-/// Returns the text that tells a row from the others of its task: its texts and keys such as `stride`, but
-/// none of `others`.
+/// Returns the text that distinguishes a row from the others of its task: its texts and keys such as
+/// `stride`, but none of `others`.
 [[nodiscard]] std::string identity_of(const ResultRow& row, const std::vector<std::string>& others = {});
 /// Returns whether a field belongs to the identity of its row.
 [[nodiscard]] bool is_identity(const std::string& name, const Json& value);

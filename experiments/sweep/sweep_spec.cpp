@@ -75,7 +75,7 @@ void add_inputs(const SweptCommand& command, const Json& item, const fs::path& f
 }
 
 // Inputs that are the same files with different options get these options in their names, so that tables and
-// pools tell them apart.
+// pools distinguish them.
 void tell_apart(std::vector<SweepInput>& inputs) {
   std::map<std::string, std::size_t> named;
   for (const SweepInput& input : inputs) ++named[input.name];

@@ -65,7 +65,7 @@ struct FramesOpened {
   std::string file;                   ///< name, for messages
   std::vector<ChainRead> chains;      ///< the chains of the beads, in order; empty: one chain without a name
   std::vector<double> element_radii;  ///< van der Waals radius of each bead; empty if elements are unknown
-  std::string element_lack;           ///< which file does not tell which element, if elements are unknown
+  std::string element_lack;           ///< a message that says why elements are unknown, if any are
   std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty if the file has no residues
   BeadGroups bead_groups;               ///< empty if no groups are asked for or the file does not name atoms
   std::vector<std::string> warnings;    ///< one line each

@@ -30,7 +30,7 @@ struct NecklaceBeads {
   std::size_t count = 0;
   std::vector<std::string> names = {};     ///< empty if the beads have no names
   std::vector<double> element_radii = {};  ///< van der Waals radii; empty if elements are unknown
-  std::string element_lack = {};           ///< which file does not tell which element, if unknown
+  std::string element_lack = {};           ///< a message that says why elements are unknown, if any are
   /// b: beads b and b+1 are joined across a chain break or are not bonded at all; in ascending order.
   std::vector<std::size_t> breaks = {};
   BeadGroups groups = {};  ///< empty unless asked for

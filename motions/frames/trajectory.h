@@ -22,7 +22,7 @@ struct Trajectory {
   std::vector<std::size_t> frame_numbers;  ///< 0-based index of each frame in the file
   std::vector<double> times;          ///< one a frame, in picoseconds; empty unless all frames have a time
   std::vector<double> element_radii;  ///< van der Waals radius of each bead; empty where elements are unknown
-  std::string element_lack;           ///< which file does not tell which element, if elements are unknown
+  std::string element_lack;           ///< a message that says why elements are unknown, if any are
   std::vector<std::string> bead_names;  ///< "CA of ALA 12 in chain A"; empty where residues are unknown
   BeadGroups bead_groups;               ///< empty unless asked for
   std::size_t residues = 0;             ///< in the file's chain, without waters and ligands; 0 if unknown

@@ -39,7 +39,7 @@ struct DcdLayout {
   std::string times_note;    ///< a message that the unit of time is guessed or unknown; empty if it is known
   std::int32_t version = 0;  ///< CHARMM's version number, which other programs copy
   std::string title;         ///< all lines of the title
-  std::string title_note;    ///< a message that the record of the title tells a wrong size; else empty
+  std::string title_note;    ///< a message if the record of the title has a wrong size; else empty
   std::uint64_t frames_begin = 0;  ///< offset in the file
   std::uint64_t file_size = 0;     ///< size after unpacking
   bool cut = false;                ///< the gzipped file is truncated after these bytes

@@ -20,7 +20,7 @@ struct Topology {
   std::vector<ChainRead> chains;      ///< the chains of the beads
   std::vector<std::string> warnings;  ///< about parts left out or guessed, one line each
   std::vector<double> element_radii;  ///< one per bead; empty if elements are unknown
-  std::string element_lack;           ///< which file does not tell which element, if elements are unknown
+  std::string element_lack;           ///< a message that says why elements are unknown, if any are
   std::vector<std::string> bead_names;
   BeadGroups bead_groups;  ///< empty if no groups are asked for
   bool chain_like = true;  ///< consecutive beads are meant to be bonded

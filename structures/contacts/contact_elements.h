@@ -27,8 +27,8 @@ struct ContactElements {
 };
 
 /// A residue is a run of neighbouring beads of one necklace whose names have the same residue. A chain is a
-/// necklace. Names of residues tell the chain if there are several necklaces. Throws InputError if residues
-/// are asked for and a bead has none.
+/// necklace. Names of residues include the chain if there are several necklaces. Throws InputError if
+/// residues are asked for and a bead has none.
 [[nodiscard]] ContactElements elements_of(const Scene& scene, ContactElement kind);
 
 }  // namespace kds

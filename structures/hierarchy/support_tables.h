@@ -38,7 +38,7 @@ class SupportTables {
           return needed ? std::optional(TouchPolicy::ignored) : std::nullopt;
         }) {}
 
-  // These functions act like those of CertificateTable with these names. A handle here tells the table in its
+  // These functions act like those of CertificateTable with these names. A handle here has the table in its
   // lowest bit and the slot in the others.
 
   [[nodiscard]] CertificateHandle watch(const Reach& reach, std::uint32_t place, KnownAtStart known) {

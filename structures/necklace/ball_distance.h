@@ -100,7 +100,7 @@ struct ExactSum {
 [[nodiscard]] int compare_lengths(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double factor,
                                   const Eigen::Vector3d& c, const Eigen::Vector3d& d);
 
-/// Returns the sign of (|a - b| - r) - (|c - d| - s) exactly. The sign tells which two balls are farther
+/// Returns the sign of (|a - b| - r) - (|c - d| - s) exactly. The sign says which two balls are farther
 /// apart if r and s are the sums of their radii. All arguments are finite.
 [[nodiscard]] int compare_gaps(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const ExactSum& r,
                                const Eigen::Vector3d& c, const Eigen::Vector3d& d, const ExactSum& s);

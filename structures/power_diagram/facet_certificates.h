@@ -184,7 +184,7 @@ class FacetCertificates {
   void forget_ends() { proofs_.forget_ends(); }
 
   /// Returns the two beads opposite a facet as one number. All facets whose certificates have one function
-  /// have the same D + 2 beads, so these two beads tell the facets apart.
+  /// have the same D + 2 beads, so these two beads distinguish the facets.
   [[nodiscard]] std::uint64_t tie_of(FacetId facet) const {
     const auto [low, high] = std::minmax(
         {state_.vertex(cell_of(facet), index_of(facet)), state_.apex(cell_of(facet), index_of(facet))});

@@ -57,7 +57,7 @@ class ReplayData {
     }
   }
 
-  /// Returns a block's bytes after decompression. Checks that the page tells their number.
+  /// Returns a block's bytes after decompression. Checks the number of bytes that the page states.
   [[nodiscard]] std::string block(const std::string& name) const {
     const std::string packed = from_base64(texts_.at(name));
     std::string bytes(meta["blocks"].at(name).get<std::size_t>(), '\0');

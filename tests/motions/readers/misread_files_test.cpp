@@ -264,7 +264,7 @@ TEST(Misread, TitlesOfDcdFiles) {
             EXPECT_EQ(read.frames[k], read_trajectory(test::write_file("b.dcd", bytes)).frames[k]);
           EXPECT_THAT(read.warnings, Contains(HasSubstr(fmt::format("tells {} bytes", told))));
         }
-      // Titles that tell no size, and sizes below 0.
+      // Titles without a size, and sizes below 0.
       refuse("a.dcd", with_title(164, 3, 99), {"a.dcd", "the title"});
       refuse("a.dcd", with_title(-5, 1, -7), {"a.dcd", "a record of -5 bytes"});
       std::string negative;

@@ -470,7 +470,7 @@ TEST(Prmtop, CutAnywhere) {
   }
 }
 
-// Topologies with bonds tell which residues outside polymers are bonded.
+// If a topology has bonds, they decide which residues outside polymers are bonded.
 TEST(Prmtop, BondsBetweenResiduesOutsidePolymers) {
   const ReadOptions every{.selection = *Selection::parse("//*")};
   const auto gaps = [&](std::vector<std::pair<int, int>> links) {

@@ -96,7 +96,7 @@ TEST(ContactLifetimes, FiguresOfAllPairsCountThoseThatNeverMeet) {
   const double factor = std::exp(4.302653 * std::sqrt(variance));  // qt(0.975, 2)
   expect_near(all.end_rate, 3 / 19.0, 3 / 19.0 / factor, 3 / 19.0 * factor);
   EXPECT_DOUBLE_EQ(*all.residence.lower, 1 / *all.end_rate.upper);
-  // Equal pairs do not tell how much pairs differ: the interval is that of constant rates.
+  // Equal pairs do not show how much pairs differ, so the interval is that of constant rates.
   const LifetimeFigures equal = lifetimes({interval(0, 1, 1, 3), interval(0, 2, 4, 6)}).all(10, 2);
   expect_near(equal.end_rate, 0.5, 0.242209 / 4, 7.224688 / 4);  // qchisq(0.025, 4) / 2, qchisq(0.975, 6) / 2
   const LifetimeFigures none = ContactLifetimes().all(10, 3);

@@ -114,8 +114,8 @@ TEST_P(RandomFlips, ForthAndBack) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomFlips, testing::Range(0U, 12U));
 
-// Removes a bead and puts it back, cell by cell. CGAL's triangulation without the bead tells how to fill its
-// place.
+// Removes a bead and puts it back, cell by cell. CGAL's triangulation without the bead has the
+// cells that fill its place.
 TEST(RegularTriangulation, ReplacesCells) {
   constexpr BeadId beads = 40;
   const Cloud cloud(beads);
