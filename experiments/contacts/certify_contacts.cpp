@@ -88,7 +88,7 @@ class ContactBounder {
     add(source, interval, step_moment(interval.begin.step, interval.begin.lower),
         step_moment(interval.end.step, interval.end.upper), interval.length());
   }
-  /// Adds a frame within an interval of the inner cutoff, if a frame lies in it.
+  /// If a frame lies in an interval within the inner cutoff, adds the time of this frame.
   void add_frame(const ContactInterval& interval) {
     if (const auto frame = frame_within(interval)) add(Source::frame, interval, {*frame, 0}, {*frame, 0}, 0);
   }

@@ -72,7 +72,7 @@ template <class C>
     if (failure.kind == Failure::Kind::never || failure.kind == Failure::Kind::zero) break;
     if (failure.kind == Failure::Kind::later) {
       now = Instant(failure.time, source, slot);
-      // Both values must work.
+      // The search must give the same answers without and with this knowledge.
       known = answers.size() % 3 == 0 ? KnownAtStart::unknown : KnownAtStart::at_own_root;
     }
     slot = 1 - slot;

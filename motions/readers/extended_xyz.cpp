@@ -282,8 +282,8 @@ bool is_near(std::string_view key, std::string_view name) {
   return edit_distance(key, name) <= 1 || singular(key) == singular(name);
 }
 
-// Names the keys that the file has in place of the expected keys. A word as short as pbc has many neighbours,
-// so the value must suit it as well.
+// Returns messages about keys of the file that are probably misspelt names of the expected keys. Many words
+// are one letter away from pbc, so for pbc the value must be suitable as well.
 std::string misspelt_keys(const std::vector<Pair>& pairs) {
   std::string text;
   for (const std::string_view name : {"Lattice", "Properties", "pbc"}) {

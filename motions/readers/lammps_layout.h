@@ -21,8 +21,9 @@ struct DumpColumns {
   std::string note;  ///< which columns are the positions, if several could be, or if flags unwrap them
 };
 
-/// Reads the names after ITEM: ATOMS. Unwrapped coordinates are preferred to wrapped ones, and then those
-/// that need no box to those that are scaled by it. Returns nothing if no three columns are coordinates.
+/// Reads the names after ITEM: ATOMS. Unwrapped coordinates are preferred to wrapped ones, and among
+/// these, lengths are preferred to coordinates scaled by the box. Returns nothing if no three columns are
+/// coordinates.
 [[nodiscard]] std::optional<DumpColumns> read_dump_columns(std::string_view names);
 
 /// The simulation box of a frame, in the units of the file.

@@ -66,7 +66,8 @@ class BeadBlocks {
   void unite(std::size_t level, std::size_t node) {
     loops_.unite(levels_[level].data(), node, node + 1, levels_[level + 1].data());
   }
-  /// Return upper bounds of the distance of a bead from where it was filled in, over all beads and per block.
+  /// Return upper bounds of the distance that a bead has moved since its block was last filled: the largest
+  /// over all beads, and the largest of each block.
   [[nodiscard]] double strayed(const Balls<Dimension>& balls);
   [[nodiscard]] std::span<const double> strayed_by_block(const Balls<Dimension>& balls);
 

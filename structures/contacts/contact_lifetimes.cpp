@@ -18,7 +18,7 @@ class PairResiduals {
     contacts_ += 1;
     pair_count_ = contacts_ * contacts_ / risks_;
   }
-  /// Moves to the next length, at which G grows.
+  /// Moves to the next length at which contacts end. G grows there by `by`.
   void grow(double by) { growth_ += by; }
   /// Takes a contact of this length from those at risk. `drop` is 1 / (Y - d), or 0 if it is censored.
   void leave(std::uint32_t pair, double drop) { change(pair, growth_ - drop, -1); }

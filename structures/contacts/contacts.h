@@ -118,7 +118,7 @@ class Contacts final : public EditableBase {
   /// Kinds of events. The ids are the two beads, ascending, or the edited bead.
   enum Kind : std::uint8_t { begin, end, touch, inserts, erases, changes };
 
-  /// Balls have these radii, one for each bead, or those of the motion if there are none.
+  /// `radii` has one radius for each bead. If it is empty, balls have the radii of the motion.
   Contacts(Simulator& simulator, const MotionRef<Dimension>& motion, PairsAsked asked,
            std::vector<double> radii = {});
 

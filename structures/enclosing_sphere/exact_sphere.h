@@ -7,7 +7,7 @@
 // only where doubles cannot decide.
 //
 // The formulas also accept doubles with error bounds (rounding_error.h). An uncertain sign then counts as
-// negative, so "yes" is proved and "no" means nothing.
+// negative, so "yes" is proved and "no" proves nothing.
 
 #include <array>
 #include <concepts>

@@ -50,8 +50,8 @@ struct WrapCounts {
   }
 };
 
-/// The frontier of each node, where its last cascade ended and the next one starts. A list per run of the
-/// order holds nodes, and beads numbered from 2^31 on.
+/// The frontier of each node: the nodes and beads at which its last cascade ended and the next one starts.
+/// There is one list for each run of the order. In the lists, bead b has the number 2^31 + b.
 struct Frontiers {
   static constexpr std::uint32_t bead = 0x80000000U;
   std::vector<std::vector<std::uint32_t>> of_run;

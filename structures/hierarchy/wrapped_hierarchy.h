@@ -63,7 +63,7 @@ class WrappedHierarchy final : public KineticStructure, public CourseFollower {
   [[nodiscard]] std::span<const EventKind> kinds() const override;
 
   [[nodiscard]] const NecklaceTree& tree() const { return tree_; }
-  /// Returns whether the node is kept in this step. Nothing else is known of other nodes. Throws
+  /// Returns whether the node is kept in this step. The bases of other nodes are out of date. Throws
   /// std::invalid_argument if there is no such node.
   [[nodiscard]] bool keeps(NodeId node) const;
   /// Throws std::invalid_argument if there is no such node.

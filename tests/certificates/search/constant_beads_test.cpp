@@ -20,8 +20,8 @@ using test::product;
 using test::Random;
 using test::RationalCurve;
 
-/// In the plane, seen from the origin, a bead is to the left of another bead, which is the same for all
-/// certificates.
+/// In the plane, seen from the origin, a bead is to the left of the bead `other`. All certificates have the
+/// same `other`.
 struct LeftOf {
   static constexpr CertificateType type{1003, "left_of"};
   static constexpr bool uses_positions = true;

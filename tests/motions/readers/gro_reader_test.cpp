@@ -144,7 +144,7 @@ TEST(GroReader, MoleculesAreToldApart) {
   EXPECT_EQ(molecules_of(GroText().residues(1, 9).residues(1, 9).residues(3, 5)), 3U);
   EXPECT_EQ(bead_counts(GroText().residues(1, 9).residues(1, 4).text(), "1,2"),
             (std::vector<std::size_t>{27, 12}));
-  // Insertion codes are not in the file: 52, 52, 53.
+  // GRO files have no insertion codes, so a residue number may repeat: 52, 52, 53.
   EXPECT_EQ(molecules_of(GroText().residues(51, 52).residue(52, "GLY").residues(53, 54)), 1U);
   // Numbers overflow at 100000.
   EXPECT_EQ(molecules_of(GroText().residues(99998, 100003)), 1U);

@@ -165,7 +165,7 @@ TEST(ContactIntervals, TwoCutoffsOfElementsAreOfTheLeastDistance) {
   EXPECT_THAT(lines(followed(steps, {{0, 1, 2}, 2, 3})), ElementsAre("0 1 from 0.5 to 1.75"));
 }
 
-// Ball 1 leaves ball 0 when ball 2, which is of the element of ball 1, comes.
+// At the time at which ball 1 leaves ball 0, ball 2 touches ball 0. Balls 1 and 2 are one element.
 TEST(ContactIntervals, AnAbsenceOfLengthZeroEndsNothing) {
   const auto steps = through({{{0, 0, 0}, {0, 0, 0}, {0, 4, 0}}, {{0, 0, 0}, {4, 0, 0}, {0, 0, 0}}});
   EXPECT_THAT(lines(followed(steps, {{0, 1, 1}})), ElementsAre("0 1 from 0 (open) to 1 (open)"));

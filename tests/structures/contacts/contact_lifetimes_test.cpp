@@ -78,7 +78,7 @@ TEST(ContactLifetimes, EndsOfIntervalsThatTheRunDoesNotShow) {
   expect_near(pairs[1].begin_rate, 0, 0, 2.995732 / 6);
 }
 
-// Three of ten pairs meet. Weights of pairs in a ratio are those of the linearized ratio.
+// Three of ten pairs meet. The expected variances are those of the linearized ratios.
 TEST(ContactLifetimes, FiguresOfAllPairsCountThoseThatNeverMeet) {
   const auto lives = lifetimes(
       {interval(0, 1, 1, 3), interval(0, 1, 4, 5), interval(0, 2, 2, 8), interval(0, 3, 0, 10, true, true)});
