@@ -1,9 +1,9 @@
 #pragma once
 // Measures time: wall time charged to lanes, and the time of some work.
 //
-// Reading a clock takes time, which falls into what is measured: about 30 ns for wall time, and 0.3 to 2 us
-// for processor time, for which the system is asked. Measurements here leave out this time, as found by
-// reading the clock many times. What remains is the variation of a reading, about a tenth of it.
+// Reading a clock takes time: about 30 ns for wall time, and 0.3 to 2 us for processor time, which needs a
+// system call. This time would be part of each measurement. It is found by reading the clock many times and
+// then subtracted. The remaining error is the variation of a reading, about a tenth of its time.
 
 #include <algorithm>
 #include <array>

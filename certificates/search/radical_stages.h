@@ -67,8 +67,8 @@ class RadicalInDouble {
   [[nodiscard]] virtual int certain_norm_at(double u) const = 0;
 };
 
-/// Returns the failure that doubles prove for a certificate, or nothing. If `known` is at_own_root, the
-/// bracket of `now` has no other root of the function, so the certificate still holds at its upper end.
+/// Returns the failure that doubles prove for a certificate, or nothing. If `known` is at_own_root and
+/// the bracket of `now` is isolating, the certificate still holds at the bracket's upper end.
 [[nodiscard]] std::optional<Failure> proved_failure(const RadicalInDouble& certificate, const Instant& now,
                                                     KnownAtStart known);
 

@@ -52,7 +52,7 @@ inline constexpr std::string_view kInputOperand = "INPUT...";
 
 /// Takes the inputs from the operands of `command` (such as `kds run`) after its options have been read.
 /// Throws InputError if there are no inputs, or if the number of --chain lists does not fit the number of
-/// inputs. The same holds for the files of --topology. Opens no file.
+/// inputs. Topologies are checked in the same way. Opens no file.
 void take_inputs(const ParsedArguments& parsed, std::string_view command, InputOptions& options);
 
 /// Throws InputError if --topology or --chain list more or fewer items than there are inputs.

@@ -35,7 +35,7 @@ enum class TaskStatus : std::uint8_t { open, done, failed, crashed };
 /// An attempt that leaves no result is repeated until there are this many.
 inline constexpr std::uint32_t most_attempts = 2;
 
-/// Where the JSON of a record stands.
+/// The position of the JSON of a record: the journal, the first byte and the length.
 struct RecordSpan {
   std::uint32_t journal = 0, length = 0;  ///< length 0: no record
   std::uint64_t offset = 0;

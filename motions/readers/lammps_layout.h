@@ -21,9 +21,9 @@ struct DumpColumns {
   std::string note;  ///< which columns are the positions, if several could be, or if flags unwrap them
 };
 
-/// Reads the names after ITEM: ATOMS. Unwrapped coordinates are preferred to wrapped ones, and among
-/// these, lengths are preferred to coordinates scaled by the box. Returns nothing if no three columns are
-/// coordinates.
+/// Reads the names after ITEM: ATOMS. If there are several kinds of coordinates, takes the first
+/// of these: xu yu zu, xsu ysu zsu (scaled by the box), x y z, xs ys zs. Returns nothing if no three columns
+/// are coordinates.
 [[nodiscard]] std::optional<DumpColumns> read_dump_columns(std::string_view names);
 
 /// The simulation box of a frame, in the units of the file.

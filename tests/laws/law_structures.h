@@ -20,7 +20,8 @@ struct Judged {
   const Beads& present;
 };
 
-/// What may be edited while time runs: nothing, the beads' courses, or these and which beads are present.
+/// The edits that are allowed while time runs: none; changes of course; or changes of course, insertions and
+/// erasures.
 enum class Edits : std::uint8_t { none, courses, beads };
 
 struct LawStructure {

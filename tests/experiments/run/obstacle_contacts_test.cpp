@@ -17,9 +17,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
 
-// A bead passes a wall of four beads from x = -9 to 9, comes back to x = 0 and leaves. Within 1.5 it meets
-// three of them on each of its two ways. Of the wall, beads 0 and 3, and 1 and 3, are within 1.5 too and not
-// neighbours.
+// A bead passes a wall of four beads from x = -9 to 9, comes back to x = 0 and leaves. On each of
+// its two ways it comes within 1.5 of three beads of the wall. Two pairs of beads of the wall, 0 and 3, and
+// 1 and 3, are within 1.5 of each other and not neighbours.
 struct Wall {
   ScratchDirectory directory;
   std::string passes =
