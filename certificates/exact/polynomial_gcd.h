@@ -15,13 +15,13 @@ namespace kds {
 
 /// Returns true only if the polynomials have no common factor. Leading coefficients must not be zero.
 [[nodiscard]] bool certainly_coprime(const std::vector<Integer>& a, const std::vector<Integer>& b);
-/// Overload for images modulo the first prime, whose leading coefficients may be zero.
+/// Same test for polynomials already reduced modulo the first prime. Their leading coefficients may be zero.
 [[nodiscard]] bool certainly_coprime(std::vector<Residue> a, std::vector<Residue> b);
 
 /// Returns true only if the polynomial has no factor twice. The polynomial's degree must be at least 1 and
 /// its leading coefficient not zero.
 [[nodiscard]] bool certainly_square_free(const std::vector<Integer>& p);
-/// Overload for an image modulo the first prime, whose leading coefficient may be zero.
+/// Same test for a polynomial already reduced modulo the first prime. Its leading coefficient may be zero.
 [[nodiscard]] bool certainly_square_free(std::vector<Residue> p);
 
 /// Modulo the first prime.

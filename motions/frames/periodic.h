@@ -64,7 +64,8 @@ struct ImageBeside {
   double distance = 0;                              ///< least distance of two beads, for the nearest image
   double present = 0;  ///< least distance of two beads, for the chain at its present position
 
-  /// Chains are moved, or reported across files, only if the image is much nearer.
+  /// Returns true if the image is so much nearer that the chain should be moved to it, or, if the other
+  /// chains are in other files, that a warning should name it.
   [[nodiscard]] bool is_much_nearer() const {
     constexpr double much = 1.5;
     return distance * much < present;

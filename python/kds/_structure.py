@@ -28,7 +28,7 @@ class Clock:
 class Structure:
     """A structure of a run. ``frame`` is the number of a frame in the trajectory; None means where the run stands.
 
-    Calls with frames in ascending order cost no more than one run in total. A call with a frame before that of the last
+    Calls with frames in ascending order cost no more than one run in total. Asking for an earlier frame than the last
     call repeats the run from its start.
     """
 

@@ -14,8 +14,8 @@ namespace kds {
 
 namespace {
 
-// The hull of beads at fixed positions. Both halves from the first to the last bead, strictly convex. If
-// beads coincide, only the least is used.
+// The hull of beads at fixed positions. Stores the lower and upper half, each from the first to the last bead
+// along the axis, strictly convex. If beads coincide, only the least is used.
 struct StaticHull {
   std::vector<BeadId> lower, upper;
 
