@@ -1,6 +1,6 @@
 #pragma once
 // Steps whose events are known: from a log, or from simulators that run other steps of the same run. Such
-// steps have no certificates and no queue. The main loop is in simulator.h.
+// steps have no certificates and no queue. The main loop is run_events in simulator.cpp.
 
 #include <cstddef>
 #include <cstdint>

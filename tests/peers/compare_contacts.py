@@ -1,7 +1,7 @@
 """Compares the frame-based figures of `kds contacts` with MDAnalysis and mdtraj on the same frames.
 
 Usage: compare_contacts.py KDS DATA. Exit code 77 (skipped) if a package is not installed.
-- mdtraj's compute_contacts tells which residues are in contact at each frame: number, length and occupancy.
+- mdtraj's compute_contacts finds which residues are in contact at each frame: number, length and occupancy.
 - MDAnalysis' correct_intermittency bridges absences, and its autocorrelation is the survival probability.
 """
 import json
