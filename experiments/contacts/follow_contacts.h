@@ -68,9 +68,9 @@ class ContactCourse {
 
  private:
   std::size_t steps_, width_;
-  std::vector<double> partial_;  // for each bin: the time in contact of those that begin or end in it
-  // For each bin: how many contacts begin to cover whole bins there, minus those that stop covering them.
-  std::vector<double> begun_;
+  // For each bin: the time in it of contacts that begin or end in it; and how many contacts begin to cover
+  // whole bins there, minus those that stop covering them.
+  std::vector<double> partial_, begun_;
 };
 
 struct ContactsReport {
