@@ -195,8 +195,8 @@ GenerateOptions parse_generate_options(const Arguments& arguments) {
     throw InputError("--frames", fmt::format("{} beads in {} frames are more than {} positions; give less",
                                              settings.beads, settings.frames, kMostPositions));
   options.settings = completed(*options.model, settings);
-  if (options.settings.motion == ShapeMotion::rest) {
-    if (settings.step)
+  if (settings.motion == ShapeMotion::rest) {
+    if (parsed.has("--step"))
       throw InputError(
           "--step", fmt::format("beads at rest do not move; expected {} rotate or wander", "--motion"_arg));
     options.settings.step.reset();
