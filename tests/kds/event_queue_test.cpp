@@ -53,17 +53,6 @@ class EventQueueTest : public testing::Test {
 using Queues = testing::Types<EventQueue<Key, Order>, LinearQueue<Key, Order>>;
 TYPED_TEST_SUITE(EventQueueTest, Queues);
 
-TYPED_TEST(EventQueueTest, StartsEmpty) {
-  EXPECT_TRUE(this->queue.empty());
-  EXPECT_EQ(this->queue.size(), 0U);
-}
-
-TYPED_TEST(EventQueueTest, PopsInOrder) {
-  for (const int value : {5, 1, 4, 1, 5, 9, 2, 6, 5, 3, 5, 8, 9, 7, 9}) this->push(value);
-  EXPECT_EQ(this->queue.size(), 15U);
-  EXPECT_THAT(this->pop_all(), testing::ElementsAre(1, 1, 2, 3, 4, 5, 5, 5, 5, 6, 7, 8, 9, 9, 9));
-}
-
 TYPED_TEST(EventQueueTest, TellsTheHandleToTheKeyThatIsMade) {
   QueueHandle told = 77;
   const QueueHandle handle = this->queue.push([&](QueueHandle h) {
@@ -72,39 +61,6 @@ TYPED_TEST(EventQueueTest, TellsTheHandleToTheKeyThatIsMade) {
   });
   EXPECT_EQ(told, handle);
   EXPECT_EQ(this->queue.top_handle(), handle);
-}
-
-TYPED_TEST(EventQueueTest, FindsEveryEntryByItsHandle) {
-  std::map<QueueHandle, int> held;
-  for (int value = 100; value-- > 0;) {
-    held[this->push(value)] = value;
-    for (const auto& [handle, expected] : held) ASSERT_EQ(this->queue.at(handle).value, expected);
-  }
-  EXPECT_EQ(held.size(), 100U);  // all handles differ
-}
-
-TYPED_TEST(EventQueueTest, ErasesAnyEntry) {
-  for (std::size_t erased = 0; erased < 30; ++erased) {
-    std::vector<QueueHandle> handles;
-    for (int i = 0; i < 30; ++i) handles.push_back(this->push(7 * i % 30));
-    this->queue.erase(handles[erased]);
-    std::vector<int> expected;
-    for (int i = 0; i < 30; ++i) {
-      if (i != 7 * static_cast<int>(erased) % 30) expected.push_back(i);
-    }
-    ASSERT_EQ(this->pop_all(), expected);
-  }
-}
-
-// Erasing fills the hole with an entry from another branch, which may have to rise instead of sink.
-TYPED_TEST(EventQueueTest, ErasingLetsTheFillerRise) {
-  std::vector<QueueHandle> handles;
-  // A 4-ary heap, level by level: the keys below 10 are large, and the last entry, 4, is in a distant branch.
-  for (const int value : {0, 10, 1, 2, 3, 20, 21, 22, 23, 30, 31, 32, 33, 40, 41, 42, 43, 50, 51, 52, 4})
-    handles.push_back(this->push(value));
-  this->queue.erase(handles[5]);
-  EXPECT_THAT(this->pop_all(), testing::ElementsAre(0, 1, 2, 3, 4, 10, 21, 22, 23, 30, 31, 32, 33, 40, 41, 42,
-                                                    43, 50, 51, 52));
 }
 
 TYPED_TEST(EventQueueTest, UsesHandlesAgain) {
@@ -131,21 +87,6 @@ TYPED_TEST(EventQueueTest, ClearForgetsAllAndFreesHandles) {
   this->push(3);
   this->push(2);
   EXPECT_THAT(this->pop_all(), testing::ElementsAre(2, 3));
-}
-
-TYPED_TEST(EventQueueTest, KeepsEntriesOfEqualKeys) {
-  std::set<QueueHandle> left;
-  for (int i = 0; i < 50; ++i) left.insert(this->push(4));
-  for (int i = 0; i < 20; ++i) {
-    const QueueHandle handle = *std::next(left.begin(), 7 * i % static_cast<int>(left.size()));
-    this->queue.erase(handle);
-    left.erase(handle);
-  }
-  while (!this->queue.empty()) {
-    EXPECT_EQ(left.erase(this->queue.top_handle()), 1U);
-    this->queue.pop();
-  }
-  EXPECT_TRUE(left.empty());
 }
 
 // FailureOrder narrows brackets inside the queue in the same way: keys change in place, but their order
@@ -277,35 +218,6 @@ TEST(EventQueueErrors, ClearMendsWhatAnOrderThatThrewLeft) {
   for (int value = 1000; value-- > 0;) queue.push([&](QueueHandle) { return Key{value}; });
   for (int value = 0; value < 1000; ++value, queue.pop()) ASSERT_EQ(queue.top().value, value);
   EXPECT_TRUE(queue.empty());
-}
-
-struct Fetching : Order {
-  std::map<int, std::vector<unsigned>> told;
-  void fetch(const Key& key, unsigned bins_ahead) { told[key.value].push_back(bins_ahead); }
-};
-
-// In a long queue each failure is announced when its bin is two bins, one bin and no bin ahead.
-TEST(EventQueueFetch, AnnouncesWhatComesNear) {
-  Fetching order;
-  EventQueue<Key, Fetching> queue(order);
-  for (int value = 10000; value-- > 0;) queue.push([&](QueueHandle) { return Key{value}; });
-  std::size_t most_ahead = 0;
-  for (int value = 0; value < 10000; ++value, queue.pop()) {
-    ASSERT_EQ(queue.top().value, value);
-    if (value >= 100) {  // the first bins are near from the start
-      ASSERT_EQ(order.told[value], (std::vector<unsigned>{2, 1, 0})) << value;
-    }
-    most_ahead = std::max(most_ahead, order.told.size() - static_cast<std::size_t>(value));
-  }
-  EXPECT_LT(most_ahead, 100U);
-}
-
-TEST(EventQueueFetch, LeavesAFewAlone) {
-  Fetching order;
-  EventQueue<Key, Fetching> queue(order);
-  for (int value = 0; value < 1000; ++value) queue.push([&](QueueHandle) { return Key{value}; });
-  for (int value = 0; value < 1000; ++value, queue.pop()) ASSERT_EQ(queue.top().value, value);
-  EXPECT_TRUE(order.told.empty());
 }
 
 }  // namespace
