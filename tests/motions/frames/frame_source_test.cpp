@@ -6,21 +6,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "motions/base/input_error.h"
+#include "tests/motions/test_files.h"
 
 namespace kds::frame_source_test {
 namespace {
-
-using testing::HasSubstr;
-
-std::string refusal_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was refused";
-}
 
 Trajectory necklace(const std::string& file, Eigen::Index beads, std::size_t frames) {
   Trajectory made;
@@ -74,20 +63,19 @@ TEST(MemoryFrames, ReadTheCallersArrayInPlace) {
 
 TEST(MemoryFrames, RefuseFramesThatDoNotFit) {
   std::vector<Trajectory> unequal{necklace("long", 2, 3), necklace("short", 2, 2)};
-  EXPECT_THAT(refusal_of([&] { MemoryFrames frames(unequal); }),
-              HasSubstr("short: 2 frames, but long has 3"));
+  test::expect_refused([&] { MemoryFrames frames(unequal); }, {"short: 2 frames, but long has 3"});
   std::vector<Trajectory> changing{necklace("changing", 2, 3)};
   changing[0].frames[2] = Eigen::Matrix3Xd::Zero(3, 1);
-  EXPECT_THAT(refusal_of([&] { MemoryFrames frames(changing); }),
-              HasSubstr("changing: frame 14: 1 bead, expected 2"));
+  test::expect_refused([&] { MemoryFrames frames(changing); }, {"changing: frame 14: 1 bead, expected 2"});
   std::vector<Trajectory> infinite{necklace("a", 2, 3), necklace("b", 3, 3)};
   infinite[1].frames[1](2, 1) = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(refusal_of([&] { MemoryFrames frames(infinite); }), HasSubstr("b: frame 12, bead 1: expected"));
+  test::expect_refused([&] { MemoryFrames frames(infinite); }, {"b: frame 12, bead 1: expected"});
   const std::array<double, 5> five{};
-  EXPECT_THAT(refusal_of([&] {
-                MemoryFrames frames({{.count = 1}}, five, {{}, {}});
-              }),
-              HasSubstr("2 frames of 1 bead: expected 6 coordinates, found 5"));
+  test::expect_refused(
+      [&] {
+        MemoryFrames frames({{.count = 1}}, five, {{}, {}});
+      },
+      {"2 frames of 1 bead: expected 6 coordinates, found 5"});
 }
 
 TEST(FrameQueue, HandsOutEachFrameOnce) {
@@ -103,10 +91,9 @@ TEST(FrameQueue, HandsOutEachFrameOnce) {
   EXPECT_EQ(frame.positions.col(0), Eigen::Vector3d(2, 2, 0));
   EXPECT_EQ(frame.stamp.number, 2U);
   EXPECT_EQ(frame.stamp.picoseconds, 0.5);
-  EXPECT_THAT(refusal_of([&] { queue.seek(2); }),
-              HasSubstr("frame 2 is gone: only pushed frames from frame 3 on are kept"));
-  EXPECT_THAT(refusal_of([&] { queue.seek(5); }),
-              HasSubstr("frame 5 is not pushed yet: 4 frames pushed so far"));
+  test::expect_refused([&] { queue.seek(2); },
+                       {"frame 2 is gone: only pushed frames from frame 3 on are kept"});
+  test::expect_refused([&] { queue.seek(5); }, {"frame 5 is not pushed yet: 4 frames pushed so far"});
   queue.end();
   EXPECT_FALSE(queue.is_open());
   EXPECT_TRUE(queue.next(frame));
@@ -117,12 +104,13 @@ TEST(FrameQueue, HandsOutEachFrameOnce) {
 TEST(FrameQueue, IgnoresAFrameThatItRefuses) {
   FrameQueue queue({{.count = 2}}, 1);
   queue.push(std::array<double, 2>{1, 2});
-  EXPECT_THAT(refusal_of([&] { queue.push(std::array<double, 3>{}); }),
-              HasSubstr("frame 1: expected 1 coordinate of 2 beads, 2 numbers, found 3"));
-  EXPECT_THAT(refusal_of([&] {
-                queue.push(std::array<double, 2>{0, std::numeric_limits<double>::quiet_NaN()});
-              }),
-              HasSubstr("frame 1, bead 1: expected finite coordinates"));
+  test::expect_refused([&] { queue.push(std::array<double, 3>{}); },
+                       {"frame 1: expected 1 coordinate of 2 beads, 2 numbers, found 3"});
+  test::expect_refused(
+      [&] {
+        queue.push(std::array<double, 2>{0, std::numeric_limits<double>::quiet_NaN()});
+      },
+      {"frame 1, bead 1: expected finite coordinates"});
   queue.push(std::array<double, 2>{3, 4});
   FrameRead frame;
   ASSERT_TRUE(queue.next(frame));

@@ -24,6 +24,8 @@ TEST(ChainBreaks, LongerThanOneAndAHalfMedians) {
   EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 11, 12, 13, 23, 24})), (Breaks{1, 4}));
   EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 11, 12, 13, 23, 24}), {1}), Breaks{4});
   EXPECT_EQ(find_chain_breaks(on_a_line({0, 1, 11, 21, 31}), {1, 2, 3}), Breaks{});
+  for (const std::vector<double>& few : {std::vector<double>{}, {0}, {0, 100}, {1, 1, 1, 1}, {1, 1, 1, 1, 2}})
+    EXPECT_EQ(find_chain_breaks(on_a_line(few)), Breaks{});
 }
 
 /// The definition, word for word.
@@ -58,17 +60,6 @@ TEST(ChainBreaks, BondsOfAllRatiosAndSizes) {
   }
   EXPECT_GT(whole, 100);
   EXPECT_GT(broken, 100);
-}
-
-TEST(ChainBreaks, NeedThreeBeads) {
-  EXPECT_EQ(find_chain_breaks(on_a_line({})), Breaks{});
-  EXPECT_EQ(find_chain_breaks(on_a_line({0})), Breaks{});
-  EXPECT_EQ(find_chain_breaks(on_a_line({0, 100})), Breaks{});
-}
-
-TEST(ChainBreaks, BeadsInOnePlace) {
-  EXPECT_EQ(find_chain_breaks(on_a_line({1, 1, 1, 1})), Breaks{});
-  EXPECT_EQ(find_chain_breaks(on_a_line({1, 1, 1, 1, 2})), Breaks{});
 }
 
 TEST(ChainBreaks, Description) {

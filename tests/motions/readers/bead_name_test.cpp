@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "motions/readers/read_trajectory.h"
-
 namespace kds::bead_name_test {
 namespace {
 
@@ -24,17 +22,6 @@ TEST(BeadName, GoesToTextAndBack) {
 TEST(BeadName, OtherTextsAreNone) {
   for (const char* text : {"", "CA", "CA of ALA in chain A", " in chain A of ALA 12", "CA of ALA 12"})
     EXPECT_FALSE(bead_name_of(text)) << text;
-}
-
-TEST(BeadName, OfAllBeadsOfAFile) {
-  const Trajectory villin = read_trajectory(KDS_DATA_DIR "/trajectories/villin_hp36_300K.pdb");
-  ASSERT_EQ(villin.bead_names.size(), 108U);
-  for (const std::string& name : villin.bead_names) {
-    const auto parts = bead_name_of(name);
-    ASSERT_TRUE(parts) << name;
-    EXPECT_EQ(parts->chain, "A");
-    EXPECT_EQ(text_of(*parts), name);
-  }
 }
 
 }  // namespace

@@ -309,29 +309,5 @@ TEST(BondPaths, MoleculesOfOneChain) {
   EXPECT_THAT(both.warnings, Contains(HasSubstr("molecule of 6 beads: moved to its periodic image nearest")));
 }
 
-TEST(BondPaths, SelectionsThatWereMeant) {
-  const auto refuse = [](const std::string& gro, std::string_view selection,
-                         std::initializer_list<std::string_view> parts) {
-    test::expect_refused(
-        [&] {
-          static_cast<void>(
-              read_trajectories(test::write_file("a.gro", gro), {.selection = *Selection::parse(selection)}));
-        },
-        parts);
-  };
-  const std::string gro =
-      "made by a test\n    3\n    1ALA     BB    1   0.000   0.000   0.000\n"
-      "    2GLY     BB    2   0.350   0.000   0.000\n    3POPC   PO4    3   1.000   1.000   1.000\n"
-      "   5.00000   5.00000   5.00000\n";
-  refuse(gro, "//1//BB",
-         {"no chain has a name here: //*/ allows any, and --chain 1 takes the first molecule"});
-  refuse(gro, "POPC/PO4", {"names of residues stand in brackets: (POPC)/PO4"});
-  refuse(gro, "POPC/3", {"POPC is the name of a residue, not of a chain: (POPC) chooses it"});
-  EXPECT_EQ(read_trajectories(test::write_file("a.gro", gro), {.selection = *Selection::parse("(POPC)/PO4")})
-                .front()
-                .bead_count(),
-            1U);
-}
-
 }  // namespace
 }  // namespace kds::bond_paths_test

@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <zlib.h>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <limits>
@@ -10,8 +8,7 @@
 #include <random>
 
 #include "motions/frames/periodic.h"
-#include "motions/readers/read_trajectory.h"
-#include "tests/motions/test_files.h"
+#include "tests/motions/reader_files.h"
 #include "tests/support/inputs/cells.h"
 
 namespace kds::dcd_reader_test {
@@ -19,14 +16,8 @@ namespace {
 
 using test::DcdMaker;
 
-Trajectory read(const std::string& bytes, const ReadOptions& options = {}) {
-  return read_trajectory(test::write_file("a.dcd", bytes), options);
-}
-
-void refuse(const std::string& bytes, std::initializer_list<std::string_view> parts,
-            const ReadOptions& options = {}) {
-  test::expect_refused([&] { (void)read(bytes, options); }, parts);
-}
+constexpr test::FileReader read{"a.dcd"};
+constexpr test::FileRefusal refuse{"a.dcd"};
 
 void expect_frames(const Trajectory& trajectory, const DcdMaker& maker) {
   ASSERT_EQ(trajectory.frames.size(), maker.frames.size());
@@ -153,63 +144,6 @@ TEST(DcdReader, HeadersThatLie) {
                        {"no-such-file.dcd", "cannot open"});
   std::filesystem::create_directories(test::temporary("folder.dcd"));
   test::expect_refused([] { (void)read_trajectory(test::temporary("folder.dcd")); }, {"folder.dcd"});
-}
-
-TEST(DcdReader, FileThatEndsInsideAFrame) {
-  const DcdMaker maker = DcdMaker::chain(20, 4);
-  const std::string cut = maker.bytes().substr(0, maker.bytes().size() - 50);
-  refuse(cut, {"frames up to 3 are asked for", "holds 3 frames"}, {.frames = up_to(4)});
-  for (const FrameRange& range : {FrameRange{}, up_to(3)}) {
-    const Trajectory whole = read(cut, {.frames = range});
-    EXPECT_EQ(whole.frames.size(), 3U);
-    ASSERT_EQ(whole.warnings.size(), 1U);
-    EXPECT_NE(whole.warnings[0].find("inside frame 3 (after " + std::to_string(cut.size()) + " bytes)"),
-              std::string::npos);
-  }
-}
-
-TEST(DcdReader, CutAnywhere) {
-  DcdMaker maker = DcdMaker::chain(4, 3);
-  maker.cell = true;
-  maker.free_atoms = {1, 2, 4};
-  const std::string bytes = maker.bytes();
-  const std::size_t header = maker.header().size();
-  const std::size_t first = maker.frame(0).size();
-  for (std::size_t size = 0; size < bytes.size(); ++size) {
-    const std::size_t second = header + first + maker.frame(1).size();
-    const bool at_frame_end = size == header + first || size == second;
-    try {
-      const Trajectory trajectory = read(bytes.substr(0, size));
-      EXPECT_GE(size, header + first);
-      EXPECT_EQ(trajectory.frames.size(), size < second ? 1U : 2U);
-      const auto& warnings = trajectory.warnings;
-      const bool is_told = std::any_of(warnings.begin(), warnings.end(), [](const std::string& line) {
-        return line.find("the file ends inside frame") != std::string::npos;
-      });
-      EXPECT_EQ(is_told, !at_frame_end) << size;
-    } catch (const InputError&) {
-      EXPECT_LT(size, header + first);
-    }
-    // Whole frames that are selected by number can be read from every file that contains them.
-    if (size > header + first) {
-      EXPECT_EQ(read(bytes.substr(0, size), {.frames = up_to(1)}).frames.size(), 1U) << size;
-    }
-  }
-}
-
-TEST(DcdReader, CellInCosinesOrDegrees) {
-  for (const bool degrees : {false, true}) {
-    DcdMaker maker = DcdMaker::chain(3, 2);
-    maker.cell = true;
-    maker.cell_values = {20, degrees ? 90.0 : 0.0, 20, degrees ? 90.0 : 0.0, degrees ? 90.0 : 0.0, 20};
-    maker.frames[0] = {{{19, 0, 0}, {0.5F, 0, 0}, {2, 0, 0}}};
-    maker.frames[1] = {{{0.25F, 0, 0}, {1.75F, 0, 0}, {3.25F, 0, 0}}};
-    const Trajectory trajectory = read(maker.bytes());
-    EXPECT_EQ(trajectory.frames[0](0, 1), 20.5);
-    EXPECT_EQ(trajectory.frames[0](0, 2), 22);
-    EXPECT_EQ(trajectory.frames[1](0, 0), 20.25);  // the image closest to the previous position
-    EXPECT_TRUE(trajectory.breaks.empty());
-  }
 }
 
 // A chain that crosses the walls of a cell. If the cell is read correctly, bonds have length 3.
@@ -345,19 +279,12 @@ TEST(DcdReader, FormOfCellsIsThatOfTheFile) {
 }
 
 TEST(DcdReader, GzippedFiles) {
-  const auto gzipped = [](const std::string& bytes) {
-    const auto path = test::temporary("a.dcd.gz");
-    const gzFile out = gzopen(path.c_str(), "wb");
-    gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size()));
-    gzclose(out);
-    return path;
-  };
   std::mt19937 random(3);
   DcdMaker maker = DcdMaker::chain(50, 60);
   for (auto& frame : maker.frames)
     for (auto& atom : frame) atom[2] = static_cast<float>(random() % 1000) / 1000;
   maker.cell = true;
-  const auto path = gzipped(maker.bytes());
+  const auto path = test::write_gzipped("a.dcd.gz", maker.bytes());
   expect_frames(read_trajectory(path), maker);
   EXPECT_EQ(read_trajectory(path, {.frames = {10, 40, 7}}).frame_numbers,
             (std::vector<std::size_t>{10, 17, 24, 31, 38}));
@@ -376,7 +303,7 @@ TEST(DcdReader, GzippedFiles) {
   for (auto& frame : maker.frames)
     for (std::size_t i = 0; i < frame.size(); ++i)
       if (i != 1 && i != 2 && i != 6) frame[i] = maker.frames[0][i];
-  expect_frames(read_trajectory(gzipped(maker.bytes())), maker);
+  expect_frames(read_trajectory(test::write_gzipped("a.dcd.gz", maker.bytes())), maker);
 }
 
 TEST(DcdReader, TimesOfLammps) {
@@ -411,15 +338,6 @@ TEST(DcdReader, TimesOfLammps) {
   }
 }
 
-TEST(DcdReader, CellsThatAreNone) {
-  for (const double length : {0.0, 1.0, -5.0, std::numeric_limits<double>::quiet_NaN()}) {
-    DcdMaker maker = DcdMaker::chain(5, 2);
-    maker.cell = true;
-    maker.cell_values = {length, 0, 20, 0, 0, 20};
-    expect_frames(read(maker.bytes()), maker);
-  }
-}
-
 TEST(DcdReader, TellsTheTimesOfFramesWhereTheHeaderHasThem) {
   DcdMaker maker = DcdMaker::chain(4, 7);
   const auto times = [&](std::int32_t first, std::int32_t steps, double length) {
@@ -449,14 +367,6 @@ TEST(DcdReader, TellsTheTimesOfFramesWhereTheHeaderHasThem) {
       EXPECT_TRUE(times(0, 1, 1e30).empty());
     }
   EXPECT_TRUE(read_trajectory(test::data_file("trajectories/villin_hp36_300K.dcd")).times.empty());
-}
-
-TEST(DcdReader, ResiduesNeedATopology) {
-  const std::string bytes = DcdMaker::chain(6, 2).bytes();
-  EXPECT_EQ(read(bytes, {.selection = Selection::all}).bead_count(), 6U);
-  refuse(bytes, {"--select", "--topology"}, {.selection = Selection::backbone});
-  refuse(bytes, {"--select", "--topology"}, {.selection = Selection::ca});
-  refuse(bytes, {"--chain", "--topology"}, {.chain = "A"});
 }
 
 TEST(DcdReader, TopologyPicksAtoms) {

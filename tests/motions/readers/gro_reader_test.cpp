@@ -5,8 +5,7 @@
 
 #include <random>
 
-#include "motions/readers/read_trajectory.h"
-#include "tests/motions/test_files.h"
+#include "tests/motions/reader_files.h"
 #include "tests/support/inputs/gro_text.h"
 #include "tests/support/rounds.h"
 
@@ -24,9 +23,7 @@ std::filesystem::path test_data(std::string_view name) {
   return test::data_file("../tests/motions/readers/data") / name;
 }
 
-Trajectory read(std::string_view text, const ReadOptions& options = {}) {
-  return read_trajectory(test::write_file("a.gro", text), options);
-}
+constexpr test::FileReader read{"a.gro"};
 
 std::vector<std::size_t> bead_counts(std::string_view text, const std::string& chains) {
   std::vector<std::size_t> counts;
@@ -196,28 +193,6 @@ TEST(GroReader, ElementsFollowFromNames) {
   EXPECT_GT(trajectory.element_radii[6], 0);
 }
 
-// Every cut but those at the end of the file leaves the frames before.
-TEST(GroReader, TruncatedFilesGiveTheFramesBefore) {
-  for (const char* box : {"   3.00000   4.00000   5.00000", "3.0 4.0 5.0 0.0 0.0 0.5 0.0 0.0 0.0"}) {
-    GroText file{.box = box};
-    const std::string frame = file.residues(1, 2).text();
-    const std::string text = frame + frame + frame;
-    for (std::size_t size = 2 * frame.size(); size < text.size() - 1; ++size) {
-      const Trajectory trajectory = read(text.substr(0, size));
-      EXPECT_EQ(trajectory.frames.size(), 2U) << size;
-      if (size > 2 * frame.size()) {
-        EXPECT_THAT(trajectory.warnings,
-                    Contains(HasSubstr(fmt::format("ends inside frame 2 (after {} bytes)", size))));
-      }
-    }
-    EXPECT_EQ(read(text.substr(0, text.size() - 1)).frames.size(), 3U);
-    EXPECT_EQ(read(text + "\n  \n\n").frames.size(), 3U);
-    // A box of three numbers may be whole.
-    for (std::size_t size = 1; size < frame.find(box) + 11; ++size)
-      test::expect_refused([&] { static_cast<void>(read(frame.substr(0, size))); }, {"a.gro"});
-  }
-}
-
 TEST(GroReader, BoxWithoutLineEnd) {
   GroText file{.box = "3.00000 4.00000 5.00000 0.00000 0.00000 0.50000 0.00000 0.00000 0.00000"};
   const std::string text = file.residues(1, 2).text();
@@ -235,69 +210,6 @@ TEST(GroReader, BoxWithoutLineEnd) {
   const std::string integers = file.text();
   test::expect_refused([&] { static_cast<void>(read(integers.substr(0, integers.size() - 1))); },
                        {"expected a line end"});
-}
-
-TEST(GroReader, DamageIsRefusedWithFrameByteAndLine) {
-  const std::string frame = GroText().residues(1, 2).text();
-  const auto refuse = [&](std::size_t line, const std::string& text, std::size_t lines_on,
-                          std::initializer_list<std::string_view> parts) {
-    std::string damaged = frame;
-    std::size_t begin = 0;
-    for (; line > 0; --line) begin = damaged.find('\n', begin) + 1;
-    damaged.replace(begin, damaged.find('\n', begin) - begin, text);
-    test::expect_refused([&] { static_cast<void>(read(frame + damaged + frame)); }, parts);
-    for (; lines_on > 0; --lines_on) begin = damaged.find('\n', begin) + 1;
-    const std::string place = fmt::format("frame 1, byte {}", frame.size() + begin);
-    test::expect_refused([&] { static_cast<void>(read(frame + damaged + frame)); }, {"a.gro", place});
-    const Trajectory before = read(frame + damaged + frame, {.until_damage = true});
-    EXPECT_EQ(before.frames.size(), 1U);
-    EXPECT_TRUE(before.truncated);
-  };
-  refuse(1, "six", 0, {"line 11: expected the number of atoms, found 'six'"});
-  refuse(2, "    1ALA      N    1   0 0 0", 0,
-         {"expected atom 1 of 6 with names in columns 1 to 20, then three decimal numbers"});
-  refuse(3, "    1ALA     CA    2  0.150   0.000   0.000", 0,
-         {"atom 2 of 6 with its numbers in the columns of atom 1"});
-  refuse(1, "    5", 6, {"expected a box of 3 or 9 numbers after 5 atoms"});
-  refuse(1, "    7", 7, {"atom 7 of 7"});
-  refuse(1, "99999999999999999999999", 0, {"expected the number of atoms"});
-  refuse(3, "    1ALA     CA    2   0.150  10000.000   0.000", 0, {"atom 2 of 6"});
-  refuse(3, "    1ALA     CA    2   0.150", 0, {"atom 2 of 6"});
-  refuse(8, "3.0 4.0", 0, {"expected a box of 3 or 9 numbers"});
-  refuse(8, "3.0 4.0 x", 0, {"expected a box of 3 or 9 numbers"});
-  // A number that counting does not parse.
-  std::string damaged = frame;
-  damaged.replace(damaged.find("0.150"), 5, "0.1_0");
-  test::expect_refused([&] { static_cast<void>(read(frame + damaged)); },
-                       {"frame 1", "three coordinates of atom 2"});
-  test::expect_refused([&] { static_cast<void>(read("title\n123456789012\n")); }, {"a.gro", "frame 0"});
-  test::expect_refused([&] { static_cast<void>(read("a\nb\nc\n")); }, {"second line of a GRO file"});
-}
-
-TEST(GroReader, MutationsAreReadOrRefused) {
-  GroText file;
-  file.title = "x t= 1.0";
-  const std::string text = file.residues(1, 2).text() + file.text();
-  for (std::size_t place = 0; place < text.size(); place += test::step_of_places)
-    for (const char c : {' ', '.', '\n', '9', '-', 'x', '\0', '\xff'}) {
-      std::string mutated = text;
-      mutated[place] = c;
-      try {
-        const Trajectory trajectory = read(mutated);
-        for (const Eigen::Matrix3Xd& frame : trajectory.frames) EXPECT_TRUE(frame.allFinite());
-      } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), Not(HasSubstr("\n")));
-      }
-    }
-}
-
-TEST(GroReader, FormatIsToldByContent) {
-  const std::string text = GroText().residues(1, 3).text();
-  EXPECT_TRUE(looks_like_gro(text));
-  EXPECT_FALSE(looks_like_gro("3\n5\nC 0.0 0.0 0.0\nC 1.0 0.0 0.0\n"));
-  EXPECT_FALSE(looks_like_gro(test::pdb_residue(1)));
-  EXPECT_FALSE(looks_like_gro(""));
-  EXPECT_EQ(read_trajectory(test::write_file("a.txt", text)).bead_count(), 9U);
 }
 
 TEST(GroReader, NamesTheAtomsOfATrajectory) {

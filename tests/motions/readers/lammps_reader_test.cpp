@@ -1,17 +1,16 @@
 #include "motions/readers/lammps_reader.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
-
 #include <cmath>
 
 #include "motions/readers/dcd_reader.h"
-#include "motions/readers/read_trajectory.h"
-#include "tests/motions/test_files.h"
+#include "tests/motions/reader_files.h"
 #include "tests/support/inputs/cells.h"
 
 namespace kds::lammps_reader_test {
 namespace {
+
+using test::read_frame;
 
 constexpr std::string_view cube = "ITEM: BOX BOUNDS pp pp pp\n-5 15\n0 30\n0 40\n";
 
@@ -30,22 +29,11 @@ std::unique_ptr<AtomFrames> open(std::string_view text,
   return open_lammps(test::write_file("a.lammpstrj", text), options);
 }
 
-FrameRead read_frame(AtomFrames& file, std::size_t k) {
-  std::vector<std::size_t> atoms(file.atom_count());
-  for (std::size_t i = 0; i < atoms.size(); ++i) atoms[i] = i;
-  FrameRead frame;
-  file.read(k, atoms, frame);
-  return frame;
-}
-
 Eigen::Vector3d first_atom(std::string_view text, const ReadOptions& options = {.units = LammpsUnits::real}) {
   return read_frame(*open(text, options), 0).positions.col(0);
 }
 
-void refuse(std::string_view text, std::initializer_list<std::string_view> parts,
-            const ReadOptions& options = {}) {
-  test::expect_refused([&] { (void)read_trajectory(test::write_file("a.lammpstrj", text), options); }, parts);
-}
+constexpr test::FileRefusal refuse{"a.lammpstrj"};
 
 TEST(LammpsReader, SortsAtomsById) {
   const auto file = open(two_frames);
@@ -179,100 +167,17 @@ TEST(LammpsReader, ElementsHaveRadii) {
   EXPECT_TRUE(open(two_frames)->element_radii(warnings).empty());
 }
 
-TEST(LammpsReader, RefusesDamagedFrames) {
-  const std::string columns = "id type x y z ";
-  const std::string frame = dump(0, 2, cube, columns, "1 1 0 0 0 \n2 1 0 0 0 \n");
-  const std::string at = "a.lammpstrj: frame 1, byte ";
-  const auto second = [&](std::string_view rows, std::size_t atoms = 2) {
-    return frame + dump(1, atoms, cube, columns, rows);
-  };
-  const std::string twice = second("1 1 0 0 0 \n1 1 0 0 0 \n");
-  refuse(twice,
-         {at + std::to_string(twice.rfind("1 1 0")) + ":", "each id once, found 1 twice", "(line 22)"});
-  refuse(second("1 1 0 0 0 \n3 1 0 0 0 \n"), {at, "ids of frame 0, found 3"});
-  refuse(second("1 1 0 0 0 \nx 1 0 0 0 \n"), {at, "id of an atom, found 'x'"});
-  refuse(second("1 1 0 0 z \n2 1 0 0 0 \n"), {at, "'z'"});
-  refuse(second("1 1 0 0 \n2 1 0 0 0 \n"), {at, "expected 5 columns, found 4"});
-  refuse(second("1 1 0 0 0 \n", 1), {at, "expected 2 atoms as in frame 0, found 1"});
-  refuse(second("1 1 0 0 0 \n") + frame, {at, "expected 2 atoms, found 1"});
-  refuse(second("1 1 0 0 0 \n2 1 0 0 0 \n3 1 0 0 0 \n"),
-         {"frame 2, byte", "expected a line ITEM:, found '3 1 0"});
-  refuse(frame + dump(1, 2, cube, "id x y z", "1 0 0 0\n2 0 0 0\n"),
-         {at, "the columns 'id type x y z' as in frame 0"});
-  refuse(frame + "ITEM: TIMESTEP\nx\n", {at, "'x'"});
-  refuse(frame +
-             dump(1, 2, "ITEM: BOX BOUNDS pp pp pp\n0 10\n0 10 3\n0 10\n", columns, "1 1 0 0 0\n2 1 0 0 0\n"),
-         {at, "expected 2 numbers", "'0 10 3'"});
-  EXPECT_EQ(read_trajectory(test::write_file("a.lammpstrj", second("1 1 0 0 0 \n1 1 0 0 0 \n")),
-                            {.until_damage = true})
-                .frames.size(),
-            1U);
-}
-
-TEST(LammpsReader, Refuses) {
-  refuse("", {"a.lammpstrj", "no frame"});
-  refuse("2\n\nC 0 0 0\n", {"a.lammpstrj: frame 0, byte 0:", "expected a line ITEM:, found '2'"},
-         {.format = "lammps"});
-  refuse(dump(0, 1, cube, "id type x y", "1 1 0 0\n"), {"expected columns x y z", "'id type x y'"});
-  refuse(dump(0, 1, "", "id xs ys zs", "1 0 0 0\n"), {"BOX BOUNDS"});
-  refuse(dump(0, 0, cube, "id x y z", ""), {"at least 1 atom"});
-  refuse("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n1\n", {"found 'NUMBER OF ENTRIES'"});
-  refuse(dump(0, 1, "ITEM: BOX BOUNDS pp\n0 1\n0 1\n0 1\n", "id x y z", "1 0 0 0\n"), {"for each axis"});
-  refuse(dump(0, 1, cube, "id x y z", "1 nan 0 0\n"), {"frame 0", "nan"});
-  refuse(two_frames, {"--select"}, {.selection = Selection::ca});
-}
-
-TEST(LammpsReader, CutAnywhere) {
-  const std::size_t first = two_frames.find("ITEM: TIMESTEP", 1);
-  for (std::size_t size = first + 1; size < two_frames.size(); ++size) {
-    const auto file = open(two_frames.substr(0, size));
-    ASSERT_EQ(file->held().whole, 1U) << size;
-    ASSERT_TRUE(file->held().ends_inside) << size;
-    ASSERT_EQ(file->held().end, size);
-    ASSERT_FALSE(file->held().damage);
-    ASSERT_EQ(read_frame(*file, 0).positions(0, 2), 3);
-  }
-  EXPECT_FALSE(open(two_frames.substr(0, first))->held().ends_inside);
-  for (std::size_t size = 1; size < first; ++size)
-    refuse(two_frames.substr(0, size), {"a.lammpstrj", "ends inside frame 0"});
-}
-
-TEST(LammpsReader, SurvivesEveryChangedByte) {
-  int read = 0;
-  for (std::size_t place = 0; place < two_frames.size(); ++place)
-    for (const char c : {'\0', '\n', ' ', '-', '9', 'e', '\xFF'}) {
-      std::string changed = two_frames;
-      changed[place] = c;
-      if (test::succeeds_or_refuses([&] {
-            const auto file = open(changed);
-            for (std::size_t k = 0; k < file->held().whole; ++k) (void)read_frame(*file, k);
-          }))
-        ++read;
-    }
-  EXPECT_GT(read, 100);
-}
-
 TEST(LammpsReader, ReadsGzippedFilesInAnyOrder) {
-  const auto path = test::temporary("a.dump.gz");
-  const gzFile out = gzopen(path.c_str(), "wb");
   std::string text;
   for (int k = 0; k < 4000; ++k)
     text += dump(k, 2, "ITEM: BOX BOUNDS ff ff ff\n0 10\n0 10\n0 10\n", "id x y z",
                  "2 1 0 0\n1 0 " + std::to_string(k) + " 0\n");
-  gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
-  gzclose(out);
+  const auto path = test::write_gzipped("a.dump.gz", text);
   const auto file = open_lammps(path, {.units = LammpsUnits::lj});
   ASSERT_EQ(file->held().whole, 4000U);
   for (const std::size_t k : {0U, 1U, 3999U, 2U, 2000U, 1999U})
     EXPECT_EQ(read_frame(*file, k).positions(1, 0), static_cast<double>(k));
   EXPECT_EQ(read_trajectory(path, {.frames = {100, 400, 100}}).frames[1](1, 0), 200);
-}
-
-TEST(LammpsReader, RecognisesTheContent) {
-  EXPECT_TRUE(looks_like_lammps(two_frames));
-  EXPECT_TRUE(looks_like_lammps("ITEM: UNITS\nreal\n"));
-  EXPECT_FALSE(looks_like_lammps("3\nITEM\n"));
-  EXPECT_EQ(read_trajectory(test::write_file("a.trajectory", two_frames)).frames.size(), 2U);
 }
 
 TEST(LammpsReader, ReadsAFileOfMdtraj) {
@@ -288,13 +193,6 @@ TEST(LammpsReader, ReadsAFileOfMdtraj) {
   EXPECT_TRUE(cell->isApprox(*test::cell_from_angles({40, 50, 60}, {80, 75, 65}), 1e-6));
 }
 
-TEST(LammpsReader, OtherFormatsLeaveUnitsUnread) {
-  const auto path = test::write_file("a.xyz", "1\n\nC 0 0 0\n");
-  const std::vector<std::string> warnings = read_trajectory(path, {.units = LammpsUnits::nano}).warnings;
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("--units is left unread"), std::string::npos);
-}
-
 // Damage that is found when the file is opened, and damage that is found when the frame is read.
 TEST(LammpsReader, FramesLeftOutAsDamagedAreMissing) {
   const std::string columns = "id x y z";
@@ -305,19 +203,6 @@ TEST(LammpsReader, FramesLeftOutAsDamagedAreMissing) {
     EXPECT_TRUE(read_trajectory(path, {.until_damage = true}).truncated);
     EXPECT_FALSE(read_trajectory(path, {.frames = {0, 1, 1}, .until_damage = true}).truncated);
   }
-}
-
-// Lengths of the frames before would be in other units.
-TEST(LammpsReader, UnitsMustStandInTheFirstFrame) {
-  const std::string frame = dump(0, 1, cube, "id x y z", "1 0 0 0\n");
-  const std::string later = frame + "ITEM: UNITS\nnano\n" + frame;
-  refuse(later,
-         {"frame 1, byte", "expected no units, as frame 0 names none, found 'nano' (--units ", "(line 12)"});
-  refuse(later, {"expected units real as --units says, found nano"}, {.units = LammpsUnits::real});
-  EXPECT_EQ(
-      read_trajectory(test::write_file("a.lammpstrj", later), {.units = LammpsUnits::nano}).frames.size(),
-      2U);
-  refuse("ITEM: UNITS\nreal\n" + later, {"expected units real as in frame 0, found nano"});
 }
 
 }  // namespace

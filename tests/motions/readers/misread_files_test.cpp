@@ -87,9 +87,6 @@ TEST(Misread, AtomicNumbersThatAreNone) {
                                Not(HasSubstr("--topology")), Not(HasSubstr("peptide.dcd"))));
     EXPECT_THAT(with_topology(file, Selection::heavy).warnings, Contains(HasSubstr("1 massless site")));
   }
-  refuse("a.dcd", test::read_bytes(data("peptide.dcd")), {"no section MASS"},
-         {.topology =
-              test::write_file("t.prmtop", replaced(test::read_bytes(prmtop), "FLAG MASS", "FLAG MAS "))});
 }
 
 TEST(Misread, MasslessSitesByMass) {
@@ -145,86 +142,6 @@ TEST(Misread, MasslessSitesByName) {
     if (!one.element.empty()) continue;
     check("a.gro", test::GroText().residue(1, "ALA", {"N", "CA", "C", one.name}).text());
   }
-}
-
-// Lines with a column too few or too many would be read one column off.
-TEST(Misread, LinesOfPsfFiles) {
-  refuse("a.dcd", test::read_bytes(data("peptide.dcd")),
-         {"namd_blank_segid.psf:7", "expected atom 1 of 42 in 9, 11 or 13 columns", "found 8 columns: '"},
-         {.topology = data("namd_blank_segid.psf"), .selection = Selection::all});
-  const auto psf = [](const std::string& form, const std::string& line) {
-    return test::write_file(
-        "t.psf", fmt::format("PSF {}\n\n       1 !NTITLE\n x\n\n       1 !NATOM\n{}\n\n", form, line));
-  };
-  const ReadOptions all{.selection = Selection::all};
-  for (const std::string line :
-       {"1 1 ALA CA NH1 0.1 12.011 0", "1 P1 1 ALA CA NH1 0.1 12.011", "1 P1 1 A LA CA NH1 0.1 12.011 0",
-        "1 P1 1 ALA CA 22 5 0.1 12.011 0", "1 1 ALA CA NH1 0.1 12.011 0 0.0 -0.3E-2",
-        "1 P1 1 ALA CA NH1 0.1 12.011 0 1", "1 P1 1 ALA CA NH1 0.1 12.011 0 0.0 x",
-        "1 P1 1 ALA CA NH1 0.1 12.011 0.5"})
-    for (const char* form : {"NAMD", "", "EXT", "EXT CHEQ XPLOR"})
-      test::expect_refused([&] { static_cast<void>(read_topology(psf(form, line), all)); },
-                           {"t.psf:7: expected atom 1 of 1 in 9, 11 or 13 columns", " columns: '1 "});
-  for (const std::string rest : {"", " 0.00 -0.3E-2", " 0.00 -0.3E-2 -1.13 1.3"}) {
-    const std::string line = "1 P1 1 ALA CA NH1 0.1 12.011 -1" + rest;
-    EXPECT_EQ(read_topology(psf("NAMD", line), all).bead_names.at(0), "CA of ALA 1 in chain P1") << rest;
-  }
-  // Columns of fixed width, the type blank: the mass would be taken for the charge.
-  const auto columns = [](const std::string& type, const std::string& more) {
-    return fmt::format("{:>8} {:<4} {:<4} {:<4} {:<4} {:>4} {:14.6f}{:14.6f}{:>8}{}", 1, "P1", 1, "ALA", "CA",
-                       type, 0.1, 12.011, 0, more);
-  };
-  EXPECT_EQ(read_topology(psf("", columns("22", "")), all).element_radii.at(0), 1.7);
-  for (const char* more : {"", "   0.00000     -0.301140E-02", " 0 0"})
-    test::expect_refused([&] { static_cast<void>(read_topology(psf("", columns("", more)), all)); },
-                         {"t.psf:7", "columns: '"});
-}
-
-TEST(Misread, LinesOfPrmtopFiles) {
-  const std::string text = test::read_bytes(corpus("prmtop/atomic_number_minus1.prmtop"));
-  const auto damaged = [&](std::string_view from, std::string_view to,
-                           std::initializer_list<std::string_view> parts) {
-    refuse("a.dcd", test::read_bytes(data("peptide.dcd")), parts,
-           {.topology = test::write_file("t.prmtop", replaced(text, from, to))});
-  };
-  damaged("C   O   N   HN  CA  CB  C   O   N ", "C   N   HN  CA  CB  C   O   N ", {"t.prmtop:", "is blank"});
-  damaged("N   HN  \nCA  CB", "N   HN  H2  \nCA  CB",
-          {"t.prmtop:13: expected at most 20 values of 4 characters"});
-  damaged("ALA GLY SER", "ALA     SER", {"value 2 of section RESIDUE_LABEL is blank"});
-  damaged("       6       8       7      -1       6       6\n",
-          "       6       8       7      -1       6       6       6\n",
-          {"expected at most 10 values of 8 characters"});
-  damaged("       1       7      13", "       7      13      19", {"RESIDUE_POINTER"});
-  damaged("      -1      -1       8", "      -1       8",
-          {"expected a number as value 40 of section ATOMIC_NUMBER, found ''"});
-}
-
-TEST(Misread, LinesOfXyzFiles) {
-  const std::string start = "3\n\nN 0 0 0 0.1 0.2 0.3\nC 1.5 0 0 0.1 0.2 0.3\n";
-  EXPECT_EQ(read_trajectory(test::write_file("a.xyz", start + "C 3 0 0 0.1 0.2 0.3\n")).bead_count(), 3U);
-  for (const std::string line : {"C 3 0 0.1 0.2 0.3", "C 3 0 0 0 0.1 0.2 0.3", "C 3 0 0 0.1 0.2", "C 3 0 0"})
-    refuse("a.xyz", start + line + "\n",
-           {"a.xyz:5: expected 6 numbers after the symbol as in the frame's first atom"});
-  refuse("a.xyz", "2\n\nN 0 0 0\nC 1 2 3 4\n", {"a.xyz:4: expected 3 numbers after the symbol", "found 4"});
-  // Words may follow some of the lines.
-  EXPECT_EQ(read_trajectory(test::write_file("b.xyz", "2\n\nN 0 0 0 fixed 1\nC 1.5 0 0\n")).bead_count(), 2U);
-}
-
-TEST(Misread, LinesOfGroFiles) {
-  const std::string text = test::GroText().residues(1, 3).text();
-  EXPECT_EQ(read_trajectory(test::write_file("a.gro", text)).bead_count(), 9U);
-  // Names that are a column too wide or too narrow, in all lines.
-  for (const auto& [from, to] : {std::pair("ALA  ", "ALA   "), {"ALA  ", "ALA "}, {"ALA  ", "ALAXXX"}}) {
-    std::string shifted = text;
-    for (std::size_t place = 0; (place = shifted.find(from, place)) != std::string::npos; ++place)
-      shifted.replace(place, 5, to);
-    refuse("a.gro", shifted,
-           {"expected atom 1 of 9 with names in columns 1 to 20, then three decimal numbers"});
-  }
-  for (const char* box : {"1000.000001000.000001000.00000", "10.00000-5.00000 10.00000", "3.0 4.05.0",
-                          "5.0 5.0 5.0 0.0 0.0-1.0 0.0 0.0 0.0", "99999.0000099999.0000099999.00000"})
-    refuse("a.gro", replaced(text, "   3.00000   4.00000   5.00000", box),
-           {"expected a box of 3 or 9 numbers after 9 atoms, not numbers that touch, found '"});
 }
 
 TEST(Misread, TitlesOfDcdFiles) {
@@ -303,51 +220,6 @@ TEST(Misread, NetcdfHeadersThatCountNoFrames) {
   std::string bytes = test::NetcdfMaker::chain(3, 2).bytes();
   bytes.replace(bytes.find("coordinates") + 12 + 4, 4, "\xFF\xFF\xFF\xFB");
   refuse("a.nc", bytes, {"expected the number of one of 3 dimensions", "found -5"});
-}
-
-TEST(Misread, FormatsThatAreNotRead) {
-  test::expect_refused([] { static_cast<void>(read_trajectory(data("tinker.xyz"))); },
-                       {"tinker.xyz: this is Tinker XYZ, which is not read", "obabel -itxyz"});
-  const std::string atoms =
-      "     1  O3   1.5 0.0 -2.0   1 2 3\n     2  H  2.5 0.0 0.0   2 1\n     3  H  3.5 0.0 0.0   2 1\n";
-  struct Case {
-    std::string file, text;
-    std::vector<std::string_view> parts;
-  };
-  for (const Case& one :
-       {Case{"a.xyz", "3\n" + atoms, {"Tinker XYZ"}},
-        Case{"a.xyz", "     3  water\n" + atoms + "     3  water\n" + atoms, {"Tinker XYZ"}},
-        Case{"a.arc", "3\n 18.6 18.6 18.6 90.0 90.0 90.0\n" + atoms, {"Tinker XYZ"}},
-        Case{"a.txt", "3 title\n" + atoms, {"Tinker XYZ"}}, Case{"a.arc", "?\n", {".arc files (Tinker)"}},
-        Case{"a.pdb", "<!DOCTYPE html>\n<html>404", {"an HTML page", "download"}},
-        Case{"a.dcd", "version https://git-lfs.github.com/spec/v1\n", {"Git LFS", "git lfs pull"}},
-        Case{"a.xyz", "BZh91AY", {"bzip2", "unpack it"}},
-        Case{"a.dat", "@<TRIPOS>MOLECULE\n", {"MOL2", "obabel"}},
-        Case{"a.xtc", std::string("\0\0\0\x0D\0\0\0\x0CVERSION 2022", 20), {"TPR"}},
-        Case{"a.dat", "\x89HDF\r\n\x1A\n", {"HDF5", "mdconvert"}}, Case{"a.gsd", "?", {".gsd files (HOOMD)"}},
-        Case{"a.npy", "?", {"NumPy", "Python module"}}, Case{"a.coor", "?", {"NAMD"}},
-        Case{"a.cor", "?", {"CHARMM"}}, Case{"a.cpt", "?", {"GROMACS", "trjconv"}}}) {
-    SCOPED_TRACE(one.file + ": " + one.text);
-    for (const std::string_view part : one.parts)
-      refuse(one.file, one.text, {one.file, part, "supported: .pdb"});
-  }
-  // A comment of XYZ that looks like an atom of Tinker.
-  EXPECT_EQ(read_trajectory(test::write_file("b.xyz", "2\n1 C 0 0 0 1\nC 0 0 0\nC 1.5 0 0\n")).bead_count(),
-            2U);
-}
-
-TEST(Misread, CifFilesOfOtherKinds) {
-  for (const auto& [text, part] :
-       {std::pair("data_x\nloop_\n_atom_site_label\n_atom_site_fract_x\nC1 0.1\n",
-                  "a small-molecule CIF, which is not read"),
-        {"data_x\n_cell_length_a 5\nloop_\n_atom_site_fract_x\n_atom_site_fract_y\n0.1 0.2\n",
-         "a small-molecule CIF"},
-        {"data_x\n_atom_site_label C1\n", "a small-molecule CIF"},
-        {"data_x\nloop_\n_refln.index_h\n1\n", "structure factors"},
-        {"data_x\nloop_\n_chem_comp_atom.atom_id\nCA\n", "chemical components"},
-        {"data_x\nloop_\n_atom_site.label_atom_id\n_atom_site.fract_x\nC1 0.1\n",
-         "no column _atom_site.Cartn_x; this is a small-molecule"}})
-    refuse("a.cif", text, {"a.cif", part});
 }
 
 TEST(Misread, FilesThatLackElements) {

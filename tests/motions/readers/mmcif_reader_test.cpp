@@ -2,21 +2,14 @@
 #include <gtest/gtest.h>
 
 #include "motions/base/text_input.h"
-#include "motions/readers/read_trajectory.h"
-#include "tests/motions/test_files.h"
+#include "tests/motions/reader_files.h"
 #include "tests/support/rounds.h"
 
 namespace kds::mmcif_reader_test {
 namespace {
 
-Trajectory read(std::string_view text, const ReadOptions& options = {}) {
-  return read_trajectory(test::write_file("a.cif", text), options);
-}
-
-void refuse(std::string_view text, std::initializer_list<std::string_view> parts,
-            const ReadOptions& options = {}) {
-  test::expect_refused([&] { (void)read(text, options); }, parts);
-}
+constexpr test::FileReader read{"a.cif"};
+constexpr test::FileRefusal refuse{"a.cif"};
 
 constexpr std::string_view head =
     "data_X\n# a comment\n_cell.length_a 10\nloop_\n_entity.id\n_entity.type\n1 polymer\n2 'non-polymer'\n3 "
@@ -41,14 +34,6 @@ std::string residue(int number, int model = 1, const std::string& x = "1.25") {
 }
 
 std::string file(const std::string& atoms) { return std::string(head) + atoms; }
-
-TEST(MmcifReader, Reads) {
-  const Trajectory trajectory = read(file(residue(1) + residue(2)));
-  EXPECT_EQ(trajectory.bead_count(), 6U);
-  EXPECT_EQ(trajectory.frames[0](0, 0), 1.25);
-  EXPECT_EQ(trajectory.frames[0](1, 0), 0.5);
-  EXPECT_EQ(trajectory.element_radii.size(), 6U);
-}
 
 // Columns that the reader does not need may be missing; a missing column that it needs is named in the error.
 TEST(MmcifReader, ReadsFilesWithoutTheColumnsThatAreNotNeeded) {
@@ -215,39 +200,6 @@ TEST(MmcifReader, AsTopology) {
   EXPECT_EQ(trajectory.frames[0](0, 4), 9);
 }
 
-TEST(MmcifReader, NumbersThatAreNone) {
-  const std::string lines = std::to_string(std::count(head.begin(), head.end(), '\n') + 2);
-  for (const std::string text : {"?", ".", "1x", "+-1", "++1", "1.5()", "1.5(", "1.5(x)", "1.5(2)3", "(2)",
-                                 "nan", "inf", "1e999", "'1.5'"})
-    refuse(file(atom("N", "1") + atom("CA", text) + atom("C", "1")),
-           {"a.cif:" + lines + ": expected a number for _atom_site.Cartn_x, found " + in_quotes(text)});
-  // Rows may span several lines, values may be text fields, and comments and other items may stand in
-  // between.
-  refuse(
-      "data_X\nloop_\n_atom_site.label_atom_id _atom_site.label_comp_id\n# a comment\n_atom_site.Cartn_x\n"
-      "_atom_site.Cartn_y _atom_site.Cartn_z\nCA ALA 1 2 3 # more\n'C\"' \"A 'B\"\n4 5\n6\nN\n;ALA\n;\n7\n8 "
-      "y9\n",
-      {"a.cif:15: expected a number for _atom_site.Cartn_z, found 'y9'"});
-  refuse(
-      "data_X\n_atom_site.Label_Atom_ID CA\n_atom_site.label_comp_id ALA\n_atom_site.cartn_x 1\n"
-      "_atom_site.CARTN_Y 2x\n_atom_site.Cartn_z 3\n",
-      {"a.cif:5: expected a number for _atom_site.CARTN_Y, found '2x'"});
-  for (const auto& [text, value] :
-       {std::pair("+1.5", 1.5), {"1.5(3)", 1.5}, {"-15e-1", -1.5}, {".5", 0.5}, {"2.", 2}})
-    EXPECT_EQ(read(file(residue(1, 1, text))).frames[0](0, 0), value) << text;
-}
-
-TEST(MmcifReader, TagsGivenTwice) {
-  const std::string text = file(residue(1));
-  std::string twice = text;
-  twice.replace(twice.find("_atom_site.occupancy"), 20, "_atom_site.CARTN_X");
-  refuse(twice, {"a.cif: data block 'X' has the tag '_atom_site.cartn_x' twice"});
-  refuse(
-      "data_X\n_atom_site.Label_Atom_ID CA\n_atom_site.label_comp_id ALA\n_atom_site.cartn_x 1\n"
-      "_atom_site.CARTN_Y 2\n_atom_site.Cartn_z 3\n_atom_site.Cartn_x 7\n",
-      {"a.cif: data block 'X' has the tag '_atom_site.cartn_x' twice"});
-}
-
 // All line endings give the same result, also within comments and text fields.
 TEST(MmcifReader, LineEndsOfEveryKind) {
   const std::string comment = "# 1 2 3\n", field = "_a.b\n;one\n# ;two\n;\n";
@@ -293,42 +245,6 @@ TEST(MmcifReader, CellsOfSimulationBoxes) {
     EXPECT_EQ(moved("90", group), std::pair(false, false)) << group;
   for (const char* gamma : {"270", "-90", "450", "180", "0", "90x"})
     EXPECT_EQ(moved(gamma, "'P 1'"), std::pair(false, true)) << gamma;
-}
-
-TEST(MmcifReader, SyntaxOfCif) {
-  const std::string quoted = "data_X\n_a.b 'it's quoted' _a.c \"x\"\n_a.d\n;text\nloop_\n;\n";
-  refuse(quoted, {"a.cif", "no atom"});
-  refuse("", {"a.cif:1:", "data_"});
-  refuse("HEADER\n", {"a.cif: no ATOM or HETATM line"});
-  refuse("data_X\n_a.b\n", {"a.cif:2:", "'_a.b' has no value"});
-  refuse("data_X\n_a.b 'open\n'", {"a.cif:2:", "unterminated 'string'", "_a.b 'open"});
-  refuse("data_X\n_a.b\n;open\n", {"a.cif:4:", "unterminated text field"});
-  refuse("data_X\nvalue\n", {"a.cif:2:", "expected", "'value'"});
-  refuse("data_X\nloop_\n1 2\n", {"a.cif:3:", "tags"});
-  refuse("data_X\nloop_ _a.b _a.c\n1 2 3\n",
-         {"a.cif:2:", "the loop of '_a.b' ends inside a row (3 values, 2 a row)"});
-  refuse("data_X\nsave_frame\n", {"a.cif:3:"});
-  refuse("data_X\nloop_\n_a.b\n_a.c\n1 \xC3\x84\n", {"a.cif:2:", "line 5", "only in quotes"});
-}
-
-// The name of a file may be what the parser complains of.
-TEST(MmcifReader, FilesNamedAsErrorsAre) {
-  for (const std::string name : {"Wrong number of values.cif", "parse error.cif", ":.cif"}) {
-    for (const std::string_view text :
-         {"data_a\n_a.b x y\n", "data_a\n_a.b \"x\n", "data_a\nloop_\n_a.b _a.c\n1\n"})
-      test::expect_refused([&] { (void)read_trajectory(test::write_file(name, text), {}); }, {name + ":2:"});
-  }
-}
-
-TEST(MmcifReader, CutFileOfTheRealWorld) {
-  const std::string text = test::read_bytes(test::data_file("proteins/6wqa.cif"));
-  for (std::size_t size = 0; size < text.size(); size += text.size() / test::rounds(40U)) {
-    const auto path = test::write_file("a.cif", std::string_view(text).substr(0, size));
-    try {
-      EXPECT_GT(read_trajectory(path).bead_count(), 0U);
-    } catch (const InputError&) {
-    }
-  }
 }
 
 }  // namespace

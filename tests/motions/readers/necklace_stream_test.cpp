@@ -117,19 +117,6 @@ TEST(NecklaceStream, TellsWhereACellDoesNotSuitTheBonds) {
                                                               HasSubstr("(3 frames)"))));
 }
 
-TEST(NecklaceStream, RefusesATrajectoryAsTopology) {
-  const auto structure = test::write_file("a.pdb", test::pdb_residue(1));
-  const auto frames = test::write_file("a.dcd", "");
-  test::expect_refused([&] { NecklaceStream(structure, {.topology = frames}); },
-                       {"--topology:", "a.dcd names no atoms; the trajectory comes first: " +
-                                           frames.string() + " --topology " + structure.string()});
-  test::expect_refused([&] { NecklaceStream(frames, {.topology = frames}); },
-                       {"--topology:", "names no atoms; expected the file with the atoms of"});
-  // If a structure has another structure as its topology, the topology is ignored.
-  const NecklaceStream stream(structure, {.topology = structure});
-  EXPECT_THAT(stream.warnings(0), ElementsAre(HasSubstr("--topology is left unread")));
-}
-
 // Returns a frame with a chain along x whose bead 0 is at x = `begin`, in a cell of length `cell` (0: no
 // cell).
 std::string xyz_frame(double begin, int beads, double cell, double gap_after_1 = 0) {
@@ -206,41 +193,10 @@ TEST(NecklaceStream, TellsOfBreaksInLaterFrames) {
   }
 }
 
-TEST(NecklaceStream, TellsOfFramesWithoutTheCellOfOthers) {
-  const std::string with = xyz_frame(0, 3, 10), without = xyz_frame(0, 3, 0);
-  EXPECT_THAT(
-      read_xyz(with + with + without).warnings,
-      ElementsAre(HasSubstr("a.xyz: frame 0 has a periodic cell, frame 2 has none and stays as it is (2 "
-                            "frames with and 1 without a cell)")));
-  EXPECT_TRUE(read_xyz(with + with).warnings.empty());
-  EXPECT_TRUE(read_xyz(without + without).warnings.empty());
-}
-
 // A difference between two distances that print alike is not reported.
 TEST(NecklaceStream, TellsOfNoImageThatIsNearerByRoundingOnly) {
   EXPECT_TRUE(read(models({10.001}, 2, false), "A,B")[1].warnings.empty());
   EXPECT_FALSE(read(models({10.1}, 2, false), "A,B")[1].warnings.empty());
-}
-
-TEST(NecklaceStream, KnowsFilesOfOneFrame) {
-  NecklaceStream one(test::write_file("one.pdb", test::pdb_residue(1)), {});
-  EXPECT_TRUE(one.holds_one_frame());
-  NecklaceStream two(test::write_file("two.xyz", "1\n\nC 0 0 0\n1\n\nC 1 0 0\n"), {});
-  EXPECT_FALSE(two.holds_one_frame());
-  FrameRead frame;
-  ASSERT_TRUE(two.next(frame));
-  EXPECT_EQ(frame.stamp.number, 0U);
-}
-
-TEST(NecklaceStream, WarnsOfTimesThatDoNotAscend) {
-  const auto warns = [](const std::string& line) { return testing::Contains(HasSubstr(line)); };
-  const auto path = test::write_file("a.gro", test::gro_with_times({0, 2, 2, 1, 3, 2.5}));
-  EXPECT_THAT(read_trajectory(path).warnings,
-              warns("frame 2 has the time 2 ps, which is not later than the 2 ps of frame 1 (3 frames"));
-  EXPECT_THAT(read_trajectory(path, {.frames = {1, 4, 2}}).warnings,
-              warns("frame 3 has the time 1 ps, which is not later than the 2 ps of frame 1 (1 frame"));
-  for (const ReadOptions& ascending : {ReadOptions{.frames = {0, 3, 2}}, ReadOptions{.time_step = 1}})
-    EXPECT_THAT(read_trajectory(path, ascending).warnings, testing::Not(warns("not later")));
 }
 
 // Frames without a time must not shift the times of later frames.

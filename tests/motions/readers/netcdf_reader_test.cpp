@@ -1,13 +1,10 @@
 #include "motions/readers/netcdf_reader.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
-
 #include <numbers>
 
 #include "motions/readers/dcd_reader.h"
-#include "motions/readers/read_trajectory.h"
-#include "tests/motions/test_files.h"
+#include "tests/motions/reader_files.h"
 #include "tests/support/inputs/cells.h"
 #include "tests/support/inputs/netcdf_maker.h"
 #include "tests/support/rounds.h"
@@ -16,22 +13,13 @@ namespace kds::netcdf_reader_test {
 namespace {
 
 using test::NetcdfMaker;
+using test::read_frame;
 
 std::unique_ptr<AtomFrames> open(std::string_view bytes) {
   return open_netcdf(test::write_file("a.nc", bytes), {});
 }
 
-FrameRead read_frame(AtomFrames& file, std::size_t k) {
-  std::vector<std::size_t> atoms(file.atom_count());
-  for (std::size_t i = 0; i < atoms.size(); ++i) atoms[i] = i;
-  FrameRead frame;
-  file.read(k, atoms, frame);
-  return frame;
-}
-
-void refuse(std::string_view bytes, std::initializer_list<std::string_view> parts) {
-  test::expect_refused([&] { (void)read_trajectory(test::write_file("a.nc", bytes)); }, parts);
-}
+constexpr test::FileRefusal refuse{"a.nc"};
 
 void expect_frames(AtomFrames& file, const NetcdfMaker& maker) {
   ASSERT_EQ(file.held().whole, maker.frames.size());
@@ -151,45 +139,24 @@ TEST(NetcdfReader, ReadsFilesWithoutTimes) {
   EXPECT_EQ(read_frame(*file, 1).positions(1, 2), 0.25);
 }
 
-// libnetcdf would return zeros for the bytes that are not there.
-TEST(NetcdfReader, CutAnywhere) {
+// libnetcdf would return zeros for the bytes that are not there. reader_fuzz_test.cpp cuts the last frame.
+TEST(NetcdfReader, CutFiles) {
   for (const int version : {1, 2, 5})
     for (const bool streamed : {false, true}) {
       NetcdfMaker maker = NetcdfMaker::chain(4, 3);
       maker.version = version;
       maker.streamed = streamed;
-      maker.cell = {30, 40, 50, 90, 90, 90};
-      const std::string bytes = maker.bytes();
-      for (std::size_t cut = 1; cut < maker.frame_bytes(); ++cut) {
-        const auto file = open(bytes.substr(0, bytes.size() - cut));
-        ASSERT_EQ(file->held().whole, 2U);
-        ASSERT_TRUE(file->held().ends_inside);
-        ASSERT_EQ(file->held().end, bytes.size() - cut);
-        ASSERT_EQ(read_frame(*file, 1).positions(1, 3), 0.25);
-      }
-      const auto file = open(bytes.substr(0, bytes.size() - maker.frame_bytes()));
+      const auto file = open(maker.bytes().substr(0, maker.bytes().size() - maker.frame_bytes()));
       EXPECT_EQ(file->held().whole, 2U);
       EXPECT_EQ(file->held().ends_inside, !streamed);  // only the header tells that a frame is missing
     }
   NetcdfMaker maker = NetcdfMaker::chain(4, 3);
-  const std::string bytes = maker.bytes();
-  for (std::size_t size = 0; size < bytes.size() - 3 * maker.frame_bytes(); ++size)
-    refuse(bytes.substr(0, size), {"a.nc"});
-  refuse(bytes.substr(0, 100), {"ends inside its NetCDF header"});
+  refuse(maker.bytes().substr(0, 100), {"ends inside its NetCDF header"});
+  maker.fixed_frames = true;
+  EXPECT_EQ(open(maker.bytes().substr(0, maker.bytes().size() - 1))->held().whole, 2U);
   maker.restart = true;
   maker.frames.resize(1);
   refuse(maker.bytes().substr(0, maker.bytes().size() - 1), {"a.nc", "ends inside frame 0"});
-  maker = NetcdfMaker::chain(4, 3);
-  maker.fixed_frames = true;
-  EXPECT_EQ(open(maker.bytes().substr(0, maker.bytes().size() - 1))->held().whole, 2U);
-}
-
-TEST(NetcdfReader, WarnsOfACutFile) {
-  const std::string bytes = NetcdfMaker::chain(4, 3).bytes();
-  const Trajectory trajectory = read_trajectory(test::write_file("a.nc", bytes.substr(0, bytes.size() - 5)));
-  EXPECT_EQ(trajectory.frames.size(), 2U);
-  ASSERT_EQ(trajectory.warnings.size(), 1U);
-  EXPECT_NE(trajectory.warnings[0].find("ends inside frame 2"), std::string::npos);
 }
 
 TEST(NetcdfReader, ComparesTheHeaderWithTheFile) {
@@ -263,20 +230,8 @@ TEST(NetcdfReader, Refuses) {
 }
 
 TEST(NetcdfReader, RefusesGzippedFiles) {
-  const auto path = test::temporary("a.nc.gz");
-  const std::string bytes = NetcdfMaker::chain(4, 2).bytes();
-  const gzFile out = gzopen(path.c_str(), "wb");
-  gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size()));
-  gzclose(out);
+  const auto path = test::write_gzipped("a.nc.gz", NetcdfMaker::chain(4, 2).bytes());
   test::expect_refused([&] { (void)read_trajectory(path); }, {"a.nc.gz", "gunzip"});
-}
-
-TEST(NetcdfReader, RecognisesTheContent) {
-  const std::string bytes = NetcdfMaker::chain(4, 2).bytes();
-  EXPECT_TRUE(looks_like_netcdf(bytes));
-  EXPECT_FALSE(looks_like_netcdf("CDF"));
-  EXPECT_FALSE(looks_like_netcdf("CDF\x04"));
-  EXPECT_EQ(read_trajectory(test::write_file("a.trajectory", bytes)).frames.size(), 2U);
 }
 
 // Files that mdtraj, MDAnalysis (with a scale factor) and netCDF4 wrote, and the coordinates that they read.
@@ -296,29 +251,6 @@ TEST(NetcdfReader, ReadsTheFilesOfOtherPrograms) {
   EXPECT_EQ(frame.cell, test::cell_from_angles({40, 50, 60}, {80, 75, 65}));
   EXPECT_EQ(read_frame(*open_netcdf(test::data_file(folder + "mdanalysis.nc"), {}), 2).stamp.picoseconds,
             1.0);
-}
-
-// Every byte of the header and of a frame is changed: the file is read or refused.
-TEST(NetcdfReader, SurvivesEveryChangedByte) {
-  for (const int version : {1, 2, 5}) {
-    NetcdfMaker maker = NetcdfMaker::chain(2, 2);
-    maker.version = version;
-    maker.cell = {30, 40, 50, 90, 90, 90};
-    maker.scale = 1.5;
-    const std::string bytes = maker.bytes();
-    int read = 0;
-    for (std::size_t place = 0; place < bytes.size(); place += test::step_of_places)
-      for (const char c : {'\0', '\1', '\x7F', '\x80', '\xFF', static_cast<char>(bytes[place] ^ 1)}) {
-        std::string changed = bytes;
-        changed[place] = c;
-        if (test::succeeds_or_refuses([&] {
-              const auto file = open(changed);
-              for (std::size_t k = 0; k < file->held().whole; ++k) (void)read_frame(*file, k);
-            }))
-          ++read;
-      }
-    EXPECT_GT(read, test::rounds(100));
-  }
 }
 
 }  // namespace

@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <set>
 
-#include "motions/readers/read_trajectory.h"
-#include "tests/motions/test_files.h"
+#include "tests/motions/reader_files.h"
 
 namespace kds::pdb_kinds_test {
 namespace {
@@ -19,14 +18,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-Trajectory read(std::string_view text, const ReadOptions& options = {}) {
-  return read_trajectory(test::write_file("a.pdb", text), options);
-}
-
-void refuse(std::string_view text, std::initializer_list<std::string_view> parts,
-            const ReadOptions& options = {}) {
-  test::expect_refused([&] { (void)read(text, options); }, parts);
-}
+constexpr test::FileReader read{"a.pdb"};
+constexpr test::FileRefusal refuse{"a.pdb"};
 
 // The x coordinate of a residue follows its position in the file, whatever its number is.
 struct Residue {
@@ -128,17 +121,7 @@ TEST(PdbKinds, LinesThatLookLikeAtomsAreCounted) {
                                                     "no such records are not read (line 5 first)")))
         << start;
   }
-  std::string indented;
-  for (const std::string& line : lines_of(whole)) indented += " " + line + "\n";
-  refuse(indented, {"no ATOM or HETATM line", "12 lines that begin like ATOM"});
   EXPECT_THAT(read("REMARK ATOM lines follow\nTITLE     ATOM\n" + whole).warnings, IsEmpty());
-  refuse("REMARK\ndata_X\nloop_\n" + whole, {"a.pdb:2:", "mmCIF", ".cif"});
-  std::string tabbed = whole;
-  tabbed[12] = '\t';
-  refuse(tabbed, {"a.pdb:1:", "tab"});
-  std::string old_line_ends = whole;
-  std::replace(old_line_ends.begin(), old_line_ends.end(), '\n', '\r');
-  refuse(old_line_ends, {"a.pdb:1:", "LF"});
 }
 
 TEST(PdbKinds, PiecesOfAChainBetweenTer) {
@@ -387,30 +370,6 @@ TEST(PdbKinds, ChainNamesOfTwoLetters) {
   }
 }
 
-TEST(PdbKinds, NumbersThatOverflowTheirColumns) {
-  const std::string line = pdb_line({.name = "N", .element = "N"});
-  const auto with = [&](std::size_t column, const std::string& text) {
-    std::string changed = line;
-    changed.replace(column - 1, std::string::npos, text + "  1.00  0.00           N\n");
-    return File().add(1, 1).text + changed;
-  };
-  for (const char* coordinates :
-       {"10000.123   1.000   2.000", "-1000.123-100.000   2.000", "10000.1231234.5671234.567",
-        "   1.00010000.123   2.000", "   1.000   2.00010000.123", "   1.000   2.000-1000.123",
-        "100000.1231234.5671234.567", "-1000.1231234.567   2.000"})
-    refuse(with(31, coordinates), {"a.pdb:4:"});
-  refuse(with(29, "-10000.123   1.000   2.000"), {"a.pdb:4:", "column 30"});
-  refuse(with(31, "   1.000   2.000   3.0001000.00"), {"a.pdb:4:", "occupancy"});
-  refuse(with(31, "   1.000   2.000   3.000******"), {"a.pdb:4:", "occupancy"});
-  refuse(with(31, "   1.000   2.000********"), {"a.pdb:4:", "columns 47 to 54"});
-  // Numbers that fill their columns, or have fewer or more decimals.
-  for (const char* coordinates :
-       {"1000.1231234.567-100.000", " 100.123-100.567-100.000100.00", "  100.00 2000.00  -10.00",
-        "100.1234 20.1234  3.1234", "   1.000   2.000   3.000 -0.416", "   1.000   2.000   3.000      ",
-        "   1.0     2.0     3.0  ", "99999.12    1.00    2.00"})
-    EXPECT_EQ(read(with(31, coordinates), {.selection = Selection::all}).bead_count(), 4U) << coordinates;
-}
-
 // The element in columns 77 and 78 is used. A C-alpha without an element is carbon.
 TEST(PdbKinds, ElementsThatTheFileGives) {
   const std::string chain = test::pdb_residue(1) + test::pdb_residue(2);
@@ -451,20 +410,6 @@ TEST(PdbKinds, AtomsOutsideTheModels) {
   EXPECT_EQ(read(one + "ENDMDL\n" + one + "ENDMDL\nEND\n").frames.size(), 2U);
   EXPECT_EQ(read(model + model + "END\n" + model, {.frames = {2, std::nullopt, 1}}).frame_numbers,
             std::vector<std::size_t>{2});
-}
-
-TEST(PdbKinds, BiologicalAssemblies) {
-  const std::string model = "MODEL        1\n" + File().add(1, 3).text + "ENDMDL\n";
-  for (const char* name : {"a.pdb1", "a.pdb2", "a.pdb12", "A.PDB1"}) {
-    const Trajectory one = read_trajectory(test::write_file(name, model));
-    EXPECT_THAT(one.warnings, IsEmpty());
-    const Trajectory copies = read_trajectory(test::write_file(name, model + model + model));
-    EXPECT_EQ(copies.frames.size(), 1U);
-    EXPECT_EQ(copies.bead_count(), 9U);
-    EXPECT_THAT(copies.warnings,
-                ElementsAre(HasSubstr("its 3 models are copies side by side, not frames; only the first")));
-  }
-  EXPECT_EQ(read_trajectory(test::write_file("a.pdbx", model + model)).frames.size(), 2U);
 }
 
 TEST(PdbKinds, FilesWithoutPolymer) {

@@ -1,9 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
-
-#include "motions/readers/read_trajectory.h"
-#include "tests/motions/test_files.h"
+#include "tests/motions/reader_files.h"
 
 namespace kds::pdb_reader_test {
 namespace {
@@ -11,14 +8,8 @@ namespace {
 using test::pdb_line;
 using test::pdb_residue;
 
-Trajectory read(std::string_view text, const ReadOptions& options = {}) {
-  return read_trajectory(test::write_file("a.pdb", text), options);
-}
-
-void refuse(std::string_view text, std::initializer_list<std::string_view> parts,
-            const ReadOptions& options = {}) {
-  test::expect_refused([&] { (void)read(text, options); }, parts);
-}
+constexpr test::FileReader read{"a.pdb"};
+constexpr test::FileRefusal refuse{"a.pdb"};
 
 std::string models(const std::vector<std::string>& texts) {
   std::string all;
@@ -155,12 +146,6 @@ TEST(PdbReader, InsertionCodesAreResidues) {
             2U);
 }
 
-TEST(PdbReader, ResiduesThatLackAnAtomAreSkipped) {
-  const std::string text = pdb_residue(1) + pdb_line({.name = "CA", .number = 2}) + pdb_residue(3);
-  EXPECT_EQ(read(text).bead_count(), 6U);
-  EXPECT_EQ(read(text, {.selection = Selection::ca}).bead_count(), 3U);
-}
-
 TEST(PdbReader, ModifiedResiduesInsideTheChainCount) {
   std::string odd;
   for (const char* name : {"N", "CA", "C"})
@@ -243,6 +228,7 @@ TEST(PdbReader, FramesMayBeParted) {
   EXPECT_EQ(read("MODEL 1\n" + one + "MODEL 2\n" + one).frames.size(), 2U);
   EXPECT_EQ(read("MODEL        1\n" + one + "ENDMDL\nMODEL        1\n" + one + "ENDMDL\n").frames.size(), 2U);
   EXPECT_EQ(read("REMARK 1\r\n" + one).frames.size(), 1U);
+  EXPECT_EQ(read("REMARK\r\r\n" + one).frames[0], read(one).frames[0]);
 }
 
 TEST(PdbReader, ModelsMustHaveTheSameAtoms) {
@@ -264,35 +250,9 @@ TEST(PdbReader, FileThatEndsInsideAModel) {
   }
 }
 
-TEST(PdbReader, Coordinates) {
-  std::string text = models({pdb_residue(1), pdb_residue(1)});
-  const std::size_t place = text.rfind("   4.500");
-  std::string bad = text;
-  refuse(bad.replace(place, 8, "     nan"), {"a.pdb: frame 1: bead 0 has x = nan"});
-  refuse(bad.replace(place, 8, "    -inf"), {"a.pdb: frame 1: bead 0 has x = -inf"});
-  refuse(bad.replace(place, 8, "********"), {"a.pdb:7:", "columns 31 to 38", "********"});
-  refuse(bad.replace(place, 8, "  1.0 .0"), {"a.pdb:7:"});
-  refuse(bad.replace(place, 8, "        "), {"a.pdb:7:"});
-  refuse(text.substr(0, 45) + "\n", {"a.pdb:2:", "column 54"});
-}
-
-TEST(PdbReader, FilesThatAreNone) {
-  refuse("", {"a.pdb", "no ATOM"});
-  refuse("hello\n", {"a.pdb", "no ATOM"});
-  refuse("REMARK only\nEND\n", {"a.pdb", "no ATOM"});
-  test::expect_refused([] { (void)read_trajectory("no-such-file.pdb"); },
-                       {"no-such-file.pdb", "cannot open"});
-  EXPECT_THROW((void)read_trajectory(test::data_file("trajectories/1l2y.dcd").replace_extension(".pdb")),
-               InputError);
-}
-
 TEST(PdbReader, CompressedFile) {
-  const auto path = test::temporary("a.PDB.gz");
   const std::string text = test::read_bytes(test::data_file("proteins/2f4k.pdb"));
-  const gzFile out = gzopen(path.c_str(), "wb");
-  gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
-  gzclose(out);
-  EXPECT_EQ(read_trajectory(path).bead_count(), 105U);
+  EXPECT_EQ(read_trajectory(test::write_gzipped("a.PDB.gz", text)).bead_count(), 105U);
 }
 
 TEST(PdbReader, OneBead) { EXPECT_EQ(read(pdb_line({}), {.selection = Selection::ca}).bead_count(), 1U); }
@@ -327,17 +287,6 @@ TEST(PdbReader, CellsOfCrystalsAreNoBoxes) {
     same.replace(same.find("P 1"), 3, group);
     EXPECT_EQ(read(same + models({frame(1), frame(1)}), ca).frames[1](0, 1), 11) << group;
   }
-}
-
-// An atom after a carriage return would be dropped silently.
-TEST(PdbReader, CarriageReturnsInsideALine) {
-  const std::string text = pdb_residue(1);
-  std::string one = text, all = text;
-  one[one.find('\n')] = '\r';
-  std::replace(all.begin(), all.end(), '\n', '\r');
-  for (const std::string& bad : {one, all, "REMARK\r" + text})
-    test::expect_refused([&] { (void)read(bad); }, {"a.pdb:1: a carriage return inside the line"});
-  EXPECT_EQ(read("REMARK\r\r\n" + text).frames[0], read(text).frames[0]);
 }
 
 TEST(PdbReader, TopologyIsForFilesWithoutNames) {

@@ -124,16 +124,6 @@ TEST(Selection, ResidueNumbers) {
   EXPECT_EQ(beads(inserted, "52.*/CA"), "A: CA52 CA52A CA52B");
   EXPECT_EQ(beads(inserted, "51-52A/CA"), "A: CA51 CA52 CA52A");
   EXPECT_EQ(beads(inserted, "52B-53/CA"), "A: CA52B CA53");
-  for (const char* wrong : {"A/x/CA", "A/1-x/CA", "A/-/CA", "A/1-2-3/CA", "A/1,2/CA", "A/99999999999/CA"})
-    test::expect_refused([&] { static_cast<void>(parsed(wrong)); },
-                         {"--select: ", "no number or range", "//A/10-40/CA,CB"});
-}
-
-TEST(Selection, MalformedSelectionsAreRefusedInOneLine) {
-  for (const char* wrong : {"//A/1/CA/x", "/2/A", "(ALA", "[C", "[Zz]", "[C]x", "//A*", "//A/1/C*A", ";q",
-                            ";q>", ";q>x", ";c>1", ";protein", ";", "CA[]", "//A[C]", "((ALA))"})
-    test::expect_refused([&] { static_cast<void>(parsed(wrong)); },
-                         {"--select: ", "expected a selection as in //A/10-40/CA,CB"});
 }
 
 TEST(Selection, ConditionsOnResiduesAndNumbers) {
@@ -316,14 +306,6 @@ TEST(Selection, NucleicAcidsByTheirPhosphorus) {
   EXPECT_EQ(beads(dna, "heavy"), beads(dna, "all"));
   // A protein that comes first is not asked for.
   EXPECT_EQ(beads(residue(1, 'B') + dna, "p"), "A: P2 P3 P4");
-}
-
-TEST(Selection, FilesWithoutNamesAreRefused) {
-  const auto xyz = test::write_file("a.xyz", "2\n\nC 0 0 0\nN 1.5 0 0\n");
-  for (const char* selection : {"heavy", "bb", "p", "ca", "//A"})
-    test::expect_refused([&] { static_cast<void>(read_trajectory(xyz, {.selection = parsed(selection)})); },
-                         {"--select", "does not name its atoms", "--topology"});
-  EXPECT_EQ(read_trajectory(xyz, {.selection = Selection::all}).bead_count(), 2U);
 }
 
 TEST(Selection, TopologiesAreSelectedFrom) {

@@ -162,25 +162,6 @@ TEST(Psf, BondsTellMoleculesApart) {
               Contains(HasSubstr("no section !NBOND: molecules are not distinguished")));
 }
 
-// Numbers of eight digits fill the columns of a standard file and touch.
-TEST(Psf, ListsOfBondsThatAreNoneAreRefused) {
-  const std::vector<Atom> atoms = joined({residue("1"), residue("2")});
-  const std::string text = psf(atoms, Form::standard, bonds_of(2, {{0, 1}}));
-  const auto refuse = [&](std::string damaged, std::string_view from, std::string_view to,
-                          std::string_view part) {
-    const std::size_t place = damaged.find(from, damaged.find("!NBOND") - 9);
-    ASSERT_NE(place, std::string::npos) << from;
-    damaged.replace(place, from.size(), to);
-    test::expect_refused([&] { static_cast<void>(read("a.psf", damaged, 8)); }, {"a.psf:", part});
-  };
-  refuse(text, "       5       6", "       5       9", "numbers of atoms from 1 to 8 in bond 4 of 7");
-  refuse(text, "       5       6", "       5       0", "found '0'");
-  refuse(text, "       5       6", "1234567812345678", "found '12345678'");
-  refuse(text, "       7 !NBOND", "       8 !NBOND", "the section !NBOND ends after bond 7 of 8");
-  refuse(text, "       7 !NBOND", "       6 !NBOND", "expected 6 bonds");
-  refuse(text, "       7 !NBOND", "       x !NBOND", "the number of bonds before !NBOND");
-}
-
 // A cut file is refused, warned of, or has lost nothing that is read.
 TEST(Psf, CutAnywhere) {
   const std::vector<Atom> atoms = joined({residue("1"), residue("2"), residue("3")});
@@ -203,43 +184,6 @@ TEST(Psf, CutAnywhere) {
     }
     EXPECT_EQ(read_whole, form == Form::namd ? 1 : 2) << "without the last line ends";
   }
-}
-
-TEST(Psf, DamageIsRefusedInOneLine) {
-  const std::string text = psf(joined({residue("1"), residue("2")}));
-  const auto refuse = [&](const std::string& damaged, std::initializer_list<std::string_view> parts) {
-    test::expect_refused([&] { static_cast<void>(read("a.psf", damaged, 8)); }, parts);
-  };
-  refuse(text.substr(0, text.find("       5 P1")), {"a.psf", "ends after atom 4 of 8"});
-  refuse("PSF\n\n", {"a.psf", "!NATOM"});
-  std::string wrong = text;
-  refuse(wrong.replace(wrong.find("14.007"), 6, "x4.007"), {"a.psf:7", "atom 1 of 8"});
-  wrong = text;
-  refuse(wrong.replace(wrong.find("       8 !NATOM"), 8, "99999999"), {"a.psf:"});
-  wrong = text;
-  refuse(wrong.replace(wrong.find("       8 !NATOM"), 8, "       x"),
-         {"a.psf:6", "number of atoms before !NATOM"});
-  test::expect_refused([&] { static_cast<void>(read("a.psf", text, 9)); }, {"9 atoms a frame", "names 8"});
-}
-
-TEST(Psf, AloneItIsRefused) {
-  const auto path = test::write_file("a.psf", psf(residue("1")));
-  test::expect_refused([&] { static_cast<void>(read_trajectory(path)); },
-                       {"a.psf: psf files have no frames", ".dcd", "--topology"});
-}
-
-TEST(Psf, MutationsAreReadOrRefused) {
-  const std::string text = psf(residue("1"), Form::extended);
-  for (std::size_t place = 0; place < text.size(); place += test::step_of_places)
-    for (const char c : {' ', '\n', '9', 'x', '\xff'}) {
-      std::string mutated = text;
-      mutated[place] = c;
-      try {
-        static_cast<void>(read("a.psf", mutated, 4));
-      } catch (const InputError& error) {
-        EXPECT_THAT(error.what(), testing::Not(HasSubstr("\n")));
-      }
-    }
 }
 
 // An AMBER topology of residues of the atoms N, H, CA, C, with the bonds of `links`.
@@ -331,42 +275,6 @@ TEST(Prmtop, BondsTellMoleculesApart) {
   EXPECT_THAT(one[0].warnings, Contains(HasSubstr("molecules are not distinguished")));
 }
 
-TEST(Prmtop, DamageIsRefusedInOneLine) {
-  const std::string text = Prmtop().text();
-  const auto refuse = [&](std::string_view from, const std::string& to,
-                          std::initializer_list<std::string_view> parts) {
-    std::string damaged = text;
-    const std::size_t place = damaged.find(from);
-    ASSERT_NE(place, std::string::npos) << from;
-    damaged.replace(place, from.size(), to);
-    test::expect_refused([&] { static_cast<void>(read("a.prmtop", damaged, 16)); }, parts);
-  };
-  refuse("%FLAG ATOM_NAME", "%FLAG ATOM_NAMES", {"a.prmtop: no section ATOM_NAME"});
-  refuse("%FLAG POINTERS", "%FLAG POINTER", {"a.prmtop", "POINTERS"});
-  refuse("%FORMAT(10I8)", "%FORMAT(10I)", {"a.prmtop:6", "a format as in %FORMAT(20a4)"});
-  refuse("      16", "      17", {"section ATOM_NAME holds 16 values, expected 17"});
-  refuse("      16", "99999999", {"section ATOM_NAME holds 16 values, expected 99999999"});
-  refuse("       1       5       9", "       1       9       5", {"RESIDUE_POINTER", "found 5"});
-  refuse("       1       5       9", "       1       5      99", {"RESIDUE_POINTER", "found 99"});
-  refuse("       9      12", "       9     480", {"BONDS_WITHOUT_HYDROGEN"});
-  refuse("       7       1", "       x       1", {"ATOMIC_NUMBER", "'x'"});
-  for (std::size_t size = 0; size < text.size(); size += 7)
-    test::expect_refused([&] { static_cast<void>(read("a.prmtop", text.substr(0, size), 17)); }, {""});
-}
-
-TEST(Prmtop, AloneItIsRefused) {
-  test::expect_refused(
-      [&] { static_cast<void>(read_trajectory(test::write_file("a.parm7", Prmtop().text()))); },
-      {"prmtop files have no frames", "--topology"});
-}
-
-TEST(TopologyFiles, FormatsAreToldByContent) {
-  EXPECT_TRUE(looks_like_psf(psf(residue("1"))));
-  EXPECT_FALSE(looks_like_psf("PSFX\n"));
-  EXPECT_TRUE(looks_like_prmtop(Prmtop().text()));
-  EXPECT_EQ(read("a.top", Prmtop().text(), 16)[0].bead_count(), 12U);
-}
-
 // Returns a LAMMPS dump or an extended XYZ file of one frame, whose atoms lie at x = id.
 std::string with_ids(bool is_dump, const std::vector<std::size_t>& ids,
                      const std::vector<std::string>& elements) {
@@ -438,18 +346,6 @@ TEST(TopologyFiles, WarnsOfElementsThatContradictTheTopology) {
   // LAMMPS writes C unless it is told the elements.
   EXPECT_EQ(warnings(true, std::vector<std::string>(elements.size(), "C")).find("another element"),
             std::string::npos);
-}
-
-TEST(TopologyFiles, WarnsOfAnEndingThatTheContentContradicts) {
-  const auto topology = test::write_file("t.gro", test::pdb_residue(1));
-  const auto xyz = test::write_file("a.xyz", "3\n\nN 0 0 0\nC 1.5 0 0\nC 3 0 0\n");
-  const auto warnings = read_trajectory(xyz, {.topology = topology}).warnings;
-  EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
-                          [](const std::string& line) {
-                            return line.find("t.gro: its content is that of the format pdb, not gro") !=
-                                   std::string::npos;
-                          }),
-            1);
 }
 
 // A cut file is refused, warned of, or has lost nothing that is read.

@@ -6,29 +6,17 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <numeric>
 #include <random>
 
-#include "tests/motions/test_files.h"
+#include "tests/motions/reader_files.h"
 #include "tests/support/inputs/gromacs_files.h"
 #include "tests/support/rounds.h"
 
 namespace kds::trr_reader_test {
 namespace {
 
+using test::read_frame;
 using test::TrrMaker;
-
-std::vector<std::size_t> all_atoms(const AtomFrames& frames) {
-  std::vector<std::size_t> atoms(frames.atom_count());
-  std::iota(atoms.begin(), atoms.end(), std::size_t{0});
-  return atoms;
-}
-
-FrameRead read(AtomFrames& frames, std::size_t k, std::span<const std::size_t> atoms) {
-  FrameRead frame;
-  frames.read(k, atoms, frame);
-  return frame;
-}
 
 TrrMaker some(std::size_t atoms, std::size_t frames) {
   std::mt19937 random(9);
@@ -55,7 +43,7 @@ TEST(TrrReader, ReadsAFileOfMdtraj) {
   ASSERT_EQ(frames->held().whole, 3U);
   ASSERT_EQ(frames->atom_count(), 9U);
   for (std::size_t k = 0; k < 3; ++k) {
-    const FrameRead frame = read(*frames, k, all_atoms(*frames));
+    const FrameRead frame = read_frame(*frames, k);
     std::array<float, 27> expected;
     std::memcpy(expected.data(), bytes.data() + k * sizeof expected, sizeof expected);
     for (Eigen::Index i = 0; i < 27; ++i)
@@ -80,7 +68,7 @@ TEST(TrrReader, ReadsEveryLayout) {
       ASSERT_EQ(frames->held().whole, 3U);
       EXPECT_EQ(frames->may_have_cell(), maker.has_box);
       for (std::size_t k = 0; k < 3; ++k) {
-        const FrameRead frame = read(*frames, k, all_atoms(*frames));
+        const FrameRead frame = read_frame(*frames, k);
         expect_positions(maker.frames[k], frame.positions);
         EXPECT_EQ(frame.cell.has_value(), maker.has_box);
         EXPECT_DOUBLE_EQ(frame.stamp.picoseconds.value(), static_cast<double>(k) * 0.3);
@@ -93,8 +81,8 @@ TEST(TrrReader, ReadsAnyAtomsInAnyOrder) {
   const auto frames = open_trr(test::write_file("a.trr", maker.bytes()), {});
   const auto& atoms = maker.frames[1];
   expect_positions({atoms[49], atoms[3], atoms[3], atoms[20]},
-                   read(*frames, 1, std::vector<std::size_t>{49, 3, 3, 20}).positions);
-  expect_positions({}, read(*frames, 1, {}).positions);
+                   read_frame(*frames, 1, std::vector<std::size_t>{49, 3, 3, 20}).positions);
+  expect_positions({}, read_frame(*frames, 1, {}).positions);
 }
 
 TEST(TrrReader, FramesWithoutPositionsAreLeftOut) {
@@ -103,31 +91,14 @@ TEST(TrrReader, FramesWithoutPositionsAreLeftOut) {
   maker.without_positions = {true, false, true, true, false};
   const auto frames = open_trr(test::write_file("a.trr", maker.bytes()), {});
   ASSERT_EQ(frames->held().whole, 2U);
-  expect_positions(maker.frames[1], read(*frames, 0, all_atoms(*frames)).positions);
-  expect_positions(maker.frames[4], read(*frames, 1, all_atoms(*frames)).positions);
+  expect_positions(maker.frames[1], read_frame(*frames, 0).positions);
+  expect_positions(maker.frames[4], read_frame(*frames, 1).positions);
   EXPECT_THAT(
       frames->notes(),
       testing::ElementsAre("3 frames without positions are left out; the others are numbered from 0"));
   maker.without_positions = {true, true, true, true, true};
   test::expect_refused([&] { (void)open_trr(test::write_file("a.trr", maker.bytes()), {}); },
                        {"a.trr: expected positions, found velocities or forces only in 5 frames"});
-}
-
-TEST(TrrReader, AFileCutInItsLastFrameHasTheFramesBefore) {
-  for (const int real : {4, 8}) {
-    TrrMaker maker = some(12, 3);
-    maker.real = real;
-    maker.has_velocities = true;
-    const std::string bytes = maker.bytes();
-    for (std::size_t size = bytes.size() / 3 * 2; ++size < bytes.size();) {
-      const auto frames = open_trr(test::write_file("a.trr", bytes.substr(0, size)), {});
-      const FramesHeld held = frames->held();
-      ASSERT_EQ(held.whole, 2U) << size;
-      ASSERT_TRUE(held.ends_inside) << size;
-      ASSERT_EQ(held.end, size);
-      ASSERT_FALSE(held.damage);
-    }
-  }
 }
 
 TEST(TrrReader, DamagedHeadersAreNamed) {
@@ -151,31 +122,6 @@ TEST(TrrReader, DamagedHeadersAreNamed) {
   expect_damage(48, -5, "expected a size of 0, found -5");
   expect_damage(64, 11, "expected 12 atoms, found 11");
   expect_damage(64, -12, "expected at least 1 atom, found -12");
-}
-
-TEST(TrrReader, EverySingleByteReadsOrIsRefused) {
-  for (const int real : {4, 8}) {
-    TrrMaker maker = some(3, 3);
-    maker.real = real;
-    maker.has_velocities = true;
-    const std::string bytes = maker.bytes();
-    for (std::size_t place = 0; place < bytes.size(); place += test::step_of_places)
-      for (const int change : {0x01, 0x80, 0xFF}) {
-        std::string mutated = bytes;
-        mutated[place] = static_cast<char>(mutated[place] ^ change);
-        (void)test::succeeds_or_refuses([&] {
-          const auto frames = open_trr(test::write_file("a.trr", mutated), {});
-          for (std::size_t k = 0; k < frames->held().whole; ++k) read(*frames, k, all_atoms(*frames));
-        });
-      }
-  }
-}
-
-TEST(TrrReader, IsRecognised) {
-  const std::string bytes = some(12, 1).bytes();
-  EXPECT_TRUE(looks_like_trr(bytes));
-  EXPECT_FALSE(looks_like_trr(bytes.substr(0, 20)));
-  EXPECT_FALSE(looks_like_trr(bytes.substr(4)));
 }
 
 }  // namespace

@@ -3,33 +3,20 @@
 #include "motions/readers/xtc_reader.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
-
 #include <cstring>
 #include <limits>
-#include <numeric>
 #include <random>
 
-#include "tests/motions/test_files.h"
+#include "tests/motions/reader_files.h"
 #include "tests/support/inputs/gromacs_files.h"
 #include "tests/support/rounds.h"
 
 namespace kds::xtc_reader_test {
 namespace {
 
+using test::all_atoms;
+using test::read_frame;
 using test::XtcMaker;
-
-std::vector<std::size_t> all_atoms(const AtomFrames& frames) {
-  std::vector<std::size_t> atoms(frames.atom_count());
-  std::iota(atoms.begin(), atoms.end(), std::size_t{0});
-  return atoms;
-}
-
-FrameRead read(AtomFrames& frames, std::size_t k, std::span<const std::size_t> atoms) {
-  FrameRead frame;
-  frames.read(k, atoms, frame);
-  return frame;
-}
 
 // Returns nanometres as the formats have them, in little-endian floats.
 std::vector<float> floats_of(const std::filesystem::path& path) {
@@ -69,7 +56,7 @@ void expect_frames_of(const XtcMaker& maker) {
   const std::vector<std::size_t> atoms = all_atoms(*frames);
   const float inverse = 1.0F / maker.precision;
   for (std::size_t k = 0; k < held.whole; ++k) {
-    const FrameRead frame = read(*frames, k, atoms);
+    const FrameRead frame = read_frame(*frames, k, atoms);
     ASSERT_EQ(static_cast<std::size_t>(frame.positions.cols()), atoms.size());
     for (std::size_t i = 0; i < atoms.size(); ++i)
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -90,7 +77,7 @@ TEST(XtcReader, ReadsFilesOfMdtraj) {
     ASSERT_EQ(expected.size(), 3 * atoms.size() * frames->held().whole);
     std::size_t place = 0;
     for (std::size_t k = 0; k < frames->held().whole; ++k) {
-      const FrameRead frame = read(*frames, k, atoms);
+      const FrameRead frame = read_frame(*frames, k, atoms);
       for (Eigen::Index i = 0; i < frame.positions.size(); ++i)
         ASSERT_EQ(frame.positions.data()[i], static_cast<double>(10.0F * expected[place++]));
       EXPECT_EQ(frame.stamp.number, k);
@@ -144,19 +131,19 @@ TEST(XtcReader, ReadsTheBoxByRows) {
   auto frames = open_xtc(test::write_file("a.xtc", maker.bytes()), {});
   Cell cell;
   cell << 50, 10, -10, 0, 40, 20, 0, 0, 30;
-  EXPECT_EQ(read(*frames, 1, {}).cell, cell);
+  EXPECT_EQ(read_frame(*frames, 1, {}).cell, cell);
   maker.box = {};
   frames = open_xtc(test::write_file("a.xtc", maker.bytes()), {});
-  EXPECT_FALSE(read(*frames, 1, {}).cell);
+  EXPECT_FALSE(read_frame(*frames, 1, {}).cell);
 }
 
 TEST(XtcReader, ReadsAnyAtomsInAnyOrder) {
   const XtcMaker maker = chain(100'000, 1, 12, 50'000);  // some blocks of the file
   const auto frames = open_xtc(test::write_file("a.xtc", maker.bytes()), {});
-  const FrameRead all = read(*frames, 0, all_atoms(*frames));
+  const FrameRead all = read_frame(*frames, 0);
   for (const std::vector<std::size_t>& atoms :
        {std::vector<std::size_t>{}, {0}, {3, 1, 1}, {40'000, 2}, {30'000}, {99'999, 0}, {99'998}}) {
-    const FrameRead some = read(*frames, 0, atoms);
+    const FrameRead some = read_frame(*frames, 0, atoms);
     ASSERT_EQ(static_cast<std::size_t>(some.positions.cols()), atoms.size());
     for (std::size_t i = 0; i < atoms.size(); ++i)
       EXPECT_EQ(some.positions.col(static_cast<Eigen::Index>(i)),
@@ -177,30 +164,11 @@ TEST(XtcReader, FramesBetweenNeedNoPositionsWithoutCell) {
 TEST(XtcReader, ReadsGzippedFiles) {
   const XtcMaker maker = chain(50, 4, 12, 500);
   const std::string bytes = maker.bytes();
-  const auto path = test::temporary("a.xtc.gz");
-  const gzFile out = gzopen(path.c_str(), "wb");
-  gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size()));
-  gzclose(out);
-  const auto packed = open_xtc(path, {}), plain = open_xtc(test::write_file("a.xtc", bytes), {});
+  const auto packed = open_xtc(test::write_gzipped("a.xtc.gz", bytes), {}),
+             plain = open_xtc(test::write_file("a.xtc", bytes), {});
   ASSERT_EQ(packed->held().whole, 4U);
   for (const std::size_t k : {3U, 0U})
-    EXPECT_EQ(read(*packed, k, all_atoms(*packed)).positions, read(*plain, k, all_atoms(*plain)).positions);
-}
-
-TEST(XtcReader, AFileCutInItsLastFrameHasTheFramesBefore) {
-  for (const std::size_t atoms : {5U, 40U}) {
-    const XtcMaker maker = chain(atoms, 3, 12, 500);
-    const std::string bytes = maker.bytes();
-    for (std::size_t size = bytes.size() - maker.frame_bytes(2).size(); ++size < bytes.size();) {
-      const auto frames = open_xtc(test::write_file("a.xtc", bytes.substr(0, size)), {});
-      const FramesHeld held = frames->held();
-      ASSERT_EQ(held.whole, 2U) << size;
-      ASSERT_TRUE(held.ends_inside) << size;
-      ASSERT_EQ(held.end, size);
-      ASSERT_FALSE(held.damage);
-      EXPECT_EQ(read(*frames, 1, all_atoms(*frames)).stamp.number, 1U);
-    }
-  }
+    EXPECT_EQ(read_frame(*packed, k).positions, read_frame(*plain, k).positions);
 }
 
 // Writes a number into frame 1 of three and expects the file to be damaged there.
@@ -258,7 +226,7 @@ TEST(XtcReader, DamagedCoordinatesAreNamed) {
     damaged[place] = static_cast<char>(damaged[place] ^ 0x55);
     const auto frames = open_xtc(test::write_file("a.xtc", damaged), {});
     try {
-      read(*frames, 0, all_atoms(*frames));
+      read_frame(*frames, 0);
     } catch (const DamagedFrame& damage) {
       const std::string what = damage.what();
       EXPECT_NE(what.find("a.xtc: frame 0, byte 92: expected "), std::string::npos) << what;
@@ -274,36 +242,10 @@ TEST(XtcReader, UnusedBytesAreDamage) {
   bytes.replace(88, 4, test::BigEndian().integer(size + 4).bytes());
   bytes += "\1\2\3\4";
   const auto frames = open_xtc(test::write_file("a.xtc", bytes), {});
-  test::expect_refused([&] { read(*frames, 0, all_atoms(*frames)); },
+  test::expect_refused([&] { read_frame(*frames, 0); },
                        {"frame 0, byte 92: expected coordinates in " + std::to_string(size + 4) +
                         " bytes, found them in " + std::to_string(size)});
-  EXPECT_EQ(read(*frames, 0, std::vector<std::size_t>{38}).positions.cols(), 1);
-}
-
-TEST(XtcReader, EverySingleByteReadsOrIsRefused) {
-  for (const std::size_t atoms : {4U, 14U})
-    for (const std::int32_t magic : {1995, 2023}) {
-      XtcMaker maker = chain(atoms, 3, 12, 60);
-      maker.magic = magic;
-      const std::string bytes = maker.bytes();
-      for (std::size_t place = 0; place < bytes.size(); place += test::step_of_places)
-        for (const int change : {0x01, 0x80, 0xFF}) {
-          std::string mutated = bytes;
-          mutated[place] = static_cast<char>(mutated[place] ^ change);
-          (void)test::succeeds_or_refuses([&] {
-            const auto frames = open_xtc(test::write_file("a.xtc", mutated), {});
-            for (std::size_t k = 0; k < frames->held().whole; ++k) read(*frames, k, all_atoms(*frames));
-          });
-        }
-    }
-}
-
-TEST(XtcReader, IsRecognised) {
-  const std::string bytes = chain(12, 1, 12, 60).bytes();
-  EXPECT_TRUE(looks_like_xtc(bytes));
-  EXPECT_FALSE(looks_like_xtc(bytes.substr(0, 55)));
-  EXPECT_FALSE(looks_like_xtc(bytes.substr(1)));
-  EXPECT_FALSE(looks_like_xtc(std::string(100, '\0')));
+  EXPECT_EQ(read_frame(*frames, 0, std::vector<std::size_t>{38}).positions.cols(), 1);
 }
 
 }  // namespace

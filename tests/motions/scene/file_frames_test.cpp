@@ -100,37 +100,6 @@ TEST(FileFrames, IsTheSceneOfAllFramesAtOnce) {
   }
 }
 
-TEST(FileFrames, RefusesUnlikeFrameCountsAndFramesThatAreNone) {
-  std::mt19937 random(18);
-  const auto three = test::write_file("three.xyz", xyz_frames(random, 3, 4, false));
-  const auto two = test::write_file("two.xyz", xyz_frames(random, 2, 4, false));
-  test::expect_refused([&] { (void)open({two, three}); }, {"two.xyz: 2 frames", "three.xyz has 3"});
-  const auto late = test::write_file("late.xyz", xyz_frames(random, 3, 1, false) + "1\nlate\nC 0 inf 0\n");
-  test::expect_refused([&] { (void)open({late}); }, {"late.xyz: frame 3: bead 0 has y = inf"});
-  const auto one = test::write_file("one.xyz", xyz_frames(random, 1, 4, false));
-  test::expect_refused(
-      [&] {
-        Streamed streamed = open({one});
-        const Scene scene(std::move(streamed.stream), streamed.survey, std::vector<double>(4, 1));
-      },
-      {"one.xyz", "at least two frames"});
-}
-
-// A range or a stride that selects one frame of a longer file does not put it to rest.
-TEST(FileFrames, OnlyFilesOfOneFrameAreAtRest) {
-  std::mt19937 random(20);
-  const auto three = test::write_file("three.xyz", xyz_frames(random, 3, 4, false));
-  const auto six = test::write_file("six.xyz", xyz_frames(random, 6, 4, false));
-  const auto one = test::write_file("one.xyz", xyz_frames(random, 1, 4, false));
-  for (const FrameRange& range : {FrameRange{2, std::nullopt, 1}, {0, std::nullopt, 4}}) {
-    const ReadOptions options{.frames = range};
-    test::expect_refused([&] { (void)open({three, six}, options); }, {"three.xyz: 1 frame", "six.xyz has"});
-    EXPECT_GT(open({one, six}, options).survey.frame_count, 1U);
-  }
-  const ReadOptions of_one{.frames = {2, 3, 1}};
-  EXPECT_EQ(open({three, six}, of_one).survey.frame_count, 1U);
-}
-
 TEST(FileFrames, TellsOfAFileThatLosesFramesMeanwhile) {
   std::mt19937 random(19);
   const std::string text = xyz_frames(random, 4000, 10, false);
@@ -139,79 +108,6 @@ TEST(FileFrames, TellsOfAFileThatLosesFramesMeanwhile) {
   const Scene scene(std::move(streamed.stream), streamed.survey, std::vector<double>(10, 1));
   std::filesystem::resize_file(path, text.find("10\nframe", text.size() / 2));
   test::expect_refused([&] { (void)scene.centers(3999); }, {"a.xyz: frame", "is gone"});
-}
-
-// Two files in one cell; the second chain is on the other side of a wall.
-TEST(FileFrames, TellsOfNearerImagesInOneCell) {
-  const auto warnings = [](double y, std::string_view lattice) {
-    const auto frame = [&](double height, std::string_view cell) {
-      return "2\nLattice=\"" + std::string(cell) + "\"\nC 1 " + std::to_string(height) + " 0\nC 2 " +
-             std::to_string(height) + " 0\n";
-    };
-    const auto first = test::write_file("first.xyz", frame(1, "20 20 20") + frame(1.5, "20 20 20"));
-    const auto other = test::write_file("other.xyz", frame(y, lattice) + frame(y, lattice));
-    std::vector<NecklaceStream> files;
-    for (const auto& path : {first, other}) files.emplace_back(path, ReadOptions());
-    std::vector<std::string> lines;
-    FileFrames frames(std::move(files));
-    (void)survey_frames(frames, false, [&](const std::string& line) { lines.push_back(line); });
-    return lines;
-  };
-  ASSERT_EQ(warnings(18, "20 20 20").size(), 1U);
-  EXPECT_NE(warnings(18, "20 20 20")[0].find("(3 away, not 17)"), std::string::npos);
-  EXPECT_TRUE(warnings(5, "20 20 20").empty());
-  EXPECT_TRUE(warnings(18, "21 20 20").empty());
-}
-
-// Each later necklace is compared with all earlier ones, not only with the first file.
-TEST(FileFrames, TellsOfNearerImagesOfAnyEarlierNecklace) {
-  const auto file = [](const std::string& name, double y, double box) {
-    const std::string frame = "2\nLattice=\"" + std::to_string(box) + " 40 40\"\nC 1 " + std::to_string(y) +
-                              " 0\nC 2 " + std::to_string(y) + " 0\n";
-    return test::write_file(name, frame + frame);
-  };
-  const auto first = file("first.xyz", 13, 40), low = file("low.xyz", 1, 40), high = file("high.xyz", 38, 40);
-  EXPECT_TRUE(open({first, low}).warnings.empty());
-  EXPECT_TRUE(open({first, high}).warnings.size() == 1U);  // 15 apart, not 25
-  const std::vector<std::string> warnings = open({first, low, high}).warnings;
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("high.xyz: has a periodic image much nearer to the necklaces before it (3 away, "
-                             "not 25)"),
-            std::string::npos)
-      << warnings[0];
-  // Necklaces with equal cells are compared, whatever cell the first file has.
-  const auto other = file("other.xyz", 13, 41);
-  EXPECT_EQ(open({other, low, high}).warnings.size(), 1U);
-  EXPECT_TRUE(open({other, low}).warnings.empty());
-}
-
-// A chain of a later file is reported even if another chain of that file needs no image.
-TEST(FileFrames, TellsOfNearerImagesOfEachChain) {
-  const auto models = [](const std::string& name, const std::vector<double>& heights) {
-    std::string text;
-    for (int k = 0; k < 2; ++k) {
-      text += "CRYST1   40.000   40.000   40.000  90.00  90.00  90.00 P 1\nMODEL        1\n";
-      for (std::size_t n = 0; n < heights.size(); ++n)
-        for (int atom = 0; atom < 3; ++atom)
-          text += test::pdb_line({.name = std::array{"N", "CA", "C"}[static_cast<std::size_t>(atom)],
-                                  .chain = static_cast<char>('A' + n),
-                                  .x = 1.4 * atom,
-                                  .y = heights[n]});
-      text += "ENDMDL\n";
-    }
-    return test::write_file(name, text);
-  };
-  std::vector<NecklaceStream> files;
-  files.emplace_back(models("a.pdb", {12, 2}), ReadOptions{.chain = "A,B"});
-  files.emplace_back(models("b.pdb", {19, 37}), ReadOptions{.chain = "A,B"});
-  std::vector<std::string> warnings;
-  FileFrames frames(std::move(files));
-  (void)survey_frames(frames, false, [&](const std::string& line) { warnings.push_back(line); });
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("b.pdb chain B: has a periodic image much nearer to the necklaces before it (5 "
-                             "away, not 18)"),
-            std::string::npos)
-      << warnings[0];
 }
 
 std::vector<std::optional<double>> times_of(const std::vector<std::filesystem::path>& paths,

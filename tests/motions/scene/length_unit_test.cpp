@@ -132,27 +132,5 @@ TEST(LengthUnit, BreaksAreNoBonds) {
   EXPECT_NE(nanometres_doubt(beads, breaks), "");
 }
 
-// An XYZ file does not name its unit.
-TEST(LengthUnit, OneWarningNamesTheFile) {
-  const Beads beads = protein("villin_hp36_300K.pdb", "ca");
-  const auto warnings_at = [&](double scale) {
-    std::string frame = fmt::format("{}\n\n", beads.cols());
-    for (const auto& bead : beads.colwise())
-      frame += fmt::format("C {} {} {}\n", scale * bead[0], scale * bead[1], scale * bead[2]);
-    std::vector<NecklaceStream> files;
-    for (const std::string name : {"a.xyz", "b.xyz"})
-      files.emplace_back(test::write_file(name, frame + frame), ReadOptions());
-    FileFrames frames(std::move(files));
-    std::vector<std::string> warnings;
-    (void)survey_frames(frames, false, [&](const std::string& line) { warnings.push_back(line); });
-    return warnings;
-  };
-  EXPECT_THAT(warnings_at(0.1),
-              testing::ElementsAre(
-                  testing::AllOf(testing::HasSubstr("a.xyz: the median bond is 0.386 angstrom"),
-                                 testing::EndsWith("expected coordinates in angstrom, 10 times as large"))));
-  EXPECT_THAT(warnings_at(1), testing::IsEmpty());
-}
-
 }  // namespace
 }  // namespace kds::length_unit_test

@@ -86,8 +86,6 @@ TEST(Radii, AutoNeedsABond) {
 TEST(Radii, Number) {
   EXPECT_EQ(radii("0.75", {necklace({{0, 1}})}), Radii(2, 0.75));
   EXPECT_EQ(radii("1e-3", {necklace({{0}}), necklace({{0}})}), Radii(2, 0.001));
-  for (const char* policy : {"0", "-1", "nan", "inf", "1e999", "1x", "", "Auto", "elements"})
-    refuse(policy, {necklace({{0, 1}})}, {"--radius"});
 }
 
 TEST(Radii, Element) {
@@ -137,24 +135,6 @@ TEST(Radii, FittedRadiiOfARealFile) {
                                   fitted[static_cast<std::size_t>(j)]);
   EXPECT_GT(least_gap, 0);
   EXPECT_LT(least_gap, 1e-9);
-}
-
-TEST(Radii, FromFile) {
-  const auto from = [](std::string_view text) { return "file:" + test::write_file("r.txt", text).string(); };
-  const std::vector<Trajectory> three{necklace({{0, 1, 2}})};
-  EXPECT_EQ(radii(from("1\n2.5\r\n0\n"), three), (Radii{1, 2.5, 0}));
-  EXPECT_EQ(radii(from("0.5"), three), Radii(3, 0.5));
-  EXPECT_EQ(radii(from("\xEF\xBB\xBF"
-                       "0.5"),
-                  three),
-            Radii(3, 0.5));
-  refuse(from("1\n2\n"), three, {"r.txt", "2 radii", "3 beads"});
-  refuse(from(""), three, {"r.txt", "0 radii"});
-  refuse(from("1\n-2\n3\n"), three, {"r.txt:2:", "'-2'"});
-  refuse(from("1\n2 2\n3\n"), three, {"r.txt:2:"});
-  refuse(from("1\n2\nnan\n"), three, {"r.txt:3:"});
-  refuse("file:no/such/file", three, {"no/such/file"});
-  refuse("file:", three, {"cannot open"});
 }
 
 TEST(VdwRadii, Table) {
