@@ -182,30 +182,6 @@ TEST(OutputFiles, AResultThatCannotTakeItsPlaceIsNotLost) {
   EXPECT_EQ(content_of(directory / "out.part/a.csv"), "new");
 }
 
-TEST(OutputFiles, WhatAKilledProgramLeftIsReplaced) {
-  const ScratchDirectory directory;
-  const fs::path folder = directory / "out", file = directory / "single";
-  EXPECT_EXIT(
-      {
-        AtomicFiles files(folder, "--out", false);
-        AtomicFiles single;
-        files.write("a.csv", "half");
-        single.open(file) << "half";
-        ::raise(SIGKILL);
-      },
-      testing::KilledBySignal(SIGKILL), "");
-  EXPECT_EQ(names_in(directory.path()), (std::set<std::string>{"out.part", "single.part"}));
-  testing::internal::CaptureStderr();
-  write_folder(folder, {"b.csv"}, "whole");
-  write(file, "whole");
-  const std::string note = testing::internal::GetCapturedStderr();
-  EXPECT_THAT(note,
-              AllOf(HasSubstr("out.part was left by a run that was stopped"), HasSubstr("single.part")));
-  EXPECT_EQ(names_in(directory.path()), (std::set<std::string>{"out", "single"}));
-  EXPECT_EQ(names_in(folder), (std::set<std::string>{".kds-results", "b.csv"}));
-  EXPECT_EQ(content_of(file), "whole");
-}
-
 TEST(OutputFiles, APlaceInUseIsRefused) {
   const ScratchDirectory directory;
   AtomicFiles files(directory / "out", "--out", false), single;

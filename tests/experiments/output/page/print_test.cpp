@@ -12,7 +12,6 @@
 
 #include "experiments/output/page/html_page.h"
 #include "experiments/output/page/svg_plot.h"
-#include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
 
@@ -128,16 +127,6 @@ TEST(Print, NoTextOfAPageIsTakenForACopy) {
   page.body = html_section("\x01p9\x02", html_table({"\x02"}, {{{"\x01s"}}}));
   write(out, html_page(page), true);
   EXPECT_EQ(names_in(out), (std::set<std::string>{"paper-all.tex", "paper-table-p9.tex", "report.html"}));
-}
-
-TEST(Print, TheOptionNeedsADirectory) {
-  for (const char* command : {"run", "compare", "collide", "missed"}) {
-    const test::ProgramRun run =
-        test::run_program({command, test::data_file("proteins/1l2y.pdb"), "--paper", "--quiet"});
-    EXPECT_EQ(run.code, 2) << command;
-    EXPECT_EQ(run.err, "kds: --paper writes its files beside report.html, expected --out DIR as well\n")
-        << command;
-  }
 }
 
 }  // namespace
