@@ -1,5 +1,5 @@
-// Random arguments of `kds generate`, `kds info`, `kds update` and `kds collide` give options, help, or a
-// single line of error.
+// Random arguments of `kds run`, `kds generate`, `kds info`, `kds update` and `kds collide` give options,
+// help, or a single line of error.
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 
 #include "experiments/collide/collide_command.h"
 #include "experiments/output/text.h"
+#include "experiments/run/run_options.h"
 #include "experiments/scenes/generate_command.h"
 #include "experiments/scenes/info_command.h"
 #include "experiments/update/update_command.h"
@@ -19,98 +20,19 @@
 namespace kds::parse_options_fuzz_test {
 namespace {
 
-const std::vector<std::string> kWords{"--beads",
-                                      "--frames",
-                                      "--seed",
-                                      "--motion",
-                                      "--step",
-                                      "--bond",
-                                      "--turns",
-                                      "--pitch",
-                                      "--gap",
-                                      "--dimension",
-                                      "--fill",
-                                      "--rolled",
-                                      "--jitter",
-                                      "--distance",
-                                      "-o",
-                                      "--out",
-                                      "--json",
-                                      "--quiet",
-                                      "--help",
-                                      "-h",
-                                      "--",
-                                      "-",
-                                      "",
-                                      "=",
-                                      "---",
-                                      "--quiet=",
-                                      "helix",
-                                      "spline",
-                                      "spiral",
-                                      "grid",
-                                      "two-spirals",
-                                      "random-chain",
-                                      "a.xyz",
-                                      "b.pdb",
-                                      "c.dcd",
-                                      ".xyz",
-                                      "a.xyz/",
-                                      "0",
-                                      "1",
-                                      "2",
-                                      "100",
-                                      "0.5",
-                                      "0.999",
-                                      "-0.5",
-                                      "1e400",
-                                      "-1e-400",
-                                      "nan",
-                                      "inf",
-                                      "0:1",
-                                      ":",
-                                      "0:1:2",
-                                      "1e3:",
-                                      "rest",
-                                      "rotate",
-                                      "wander",
-                                      "--topology",
-                                      "--select",
-                                      "--chain",
-                                      "--radius",
-                                      "--rho",
-                                      "--list",
-                                      "all",
-                                      "auto",
-                                      "element:fit",
-                                      "::2",
-                                      "18446744073709551616",
-                                      "-3",
-                                      "{}",
-                                      "[a,b]",
-                                      "\"",
-                                      "a b",
-                                      "\n",
-                                      "\xff\xfe",
-                                      "--beads=10",
-                                      "-oa.xyz",
-                                      "-o=a.xyz",
-                                      "--rho=2",
-                                      "%%",
-                                      "--techniques",
-                                      "--strides",
-                                      "--rounds",
-                                      "--audit",
-                                      "frames",
-                                      "kinetic,lifted",
-                                      "rebuild,",
-                                      "1,2,4",
-                                      "2,2",
-                                      "--method",
-                                      "--pairs",
-                                      "--apart",
-                                      "wrapped,brute",
-                                      "between"};
+const std::vector<std::string> kWords = split(
+    "--beads|--frames|--seed|--motion|--step|--bond|--turns|--pitch|--gap|--dimension|--fill|"
+    "--rolled|--jitter|--distance|-o|--out|--json|--quiet|--help|-h|--|-||=|---|--quiet=|helix|"
+    "spline|spiral|grid|two-spirals|random-chain|a.xyz|b.pdb|c.dcd|.xyz|a.xyz/|0|1|2|100|0.5|0.999|"
+    "-0.5|1e400|-1e-400|nan|inf|0:1|:|0:1:2|1e3:|rest|rotate|wander|--topology|--select|--chain|"
+    "--radius|--rho|--list|all|auto|element:fit|::2|18446744073709551616|-3|{}|[a,b]|\"|a b|\n|"
+    "\xff\xfe|--beads=10|-oa.xyz|-o=a.xyz|--rho=2|%%|--techniques|--strides|--rounds|--audit|frames|"
+    "kinetic,lifted|rebuild,|1,2,4|2,2|--method|--pairs|--apart|wrapped,brute|between|--structures|"
+    "--kernel|--levels|--nodes|--dump|--log|++|--=|power|wrapped|sorted|contacts|linear|hermite|"
+    "filtered|exact|backbone|ca|none|events|element|file:|file:r.txt|0:200|5:1:1|a.pdb|b.dcd|[|'x|"
+    "--kernel=|--kernel=exact|--json=-|--radius=1|-vvv|-1|/opt|18446744073709551616:|--config|"
+    "--groups",
+    '|');
 
 std::string random_word(std::mt19937& random) {
   std::string word = kWords[random() % kWords.size()];
@@ -118,6 +40,8 @@ std::string random_word(std::mt19937& random) {
     case 0:
       return word + kWords[random() % kWords.size()];
     case 1:
+      return word + "," + kWords[random() % kWords.size()];
+    case 2:
       for (char& c : word)
         if (random() % 4 == 0) c = static_cast<char>(1 + random() % 255);
       return word;
@@ -131,7 +55,7 @@ struct Outcomes {
 };
 
 template <class Parse>
-Outcomes fuzz(const std::vector<Arguments>& starts, Parse&& parse) {
+void fuzz(const std::vector<Arguments>& starts, Parse&& parse) {
   std::mt19937 random(20040614);
   Outcomes outcomes;
   for (int round = 0; round < test::rounds(6000); ++round) {
@@ -155,7 +79,11 @@ Outcomes fuzz(const std::vector<Arguments>& starts, Parse&& parse) {
   EXPECT_GT(outcomes.accepted, test::rounds(100U));
   EXPECT_GT(outcomes.refused, test::rounds(1000U));
   EXPECT_GT(outcomes.helped, test::rounds(100U));
-  return outcomes;
+}
+
+TEST(RunOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {
+  fuzz({{}, {"a.pdb"}, {"a.pdb", "--structures", "power,contacts", "b.dcd"}},
+       [](const Arguments& arguments) { EXPECT_FALSE(parse_run_options(arguments).inputs.empty()); });
 }
 
 TEST(GenerateOptionsFuzz, OnlyOptionsHelpOrOneRefusalComeOut) {

@@ -111,10 +111,6 @@ TEST(HtmlReport, MapsOfEventsAndContacts) {
   EXPECT_THAT(html_report(report), HasSubstr("N of ALA 59 in chain A and N of ALA 59 in chain B\n"));
 }
 
-TEST(HtmlReport, TablesFillThePage) {
-  EXPECT_THAT(html_report(test::sample_report()), HasSubstr("\ntable { width: 100%;"));
-}
-
 // The time of a single run is one sample: the table shows it, but the findings do not.
 TEST(HtmlReport, TimesOfSeveralRoundsHaveTheirSpread) {
   RunReport report = test::sample_report();
