@@ -3,11 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "tests/experiments/run_program.h"
+#include "tests/experiments/run_json.h"
 #include "tests/experiments/scratch_directory.h"
 
 namespace kds::test::boxes_run_test {
@@ -26,12 +25,11 @@ std::string three_beads() {
 
 TEST(BoxesRun, ABeadThatComesOutOfABoxAndGoesBack) {
   const ScratchDirectory scratch;
-  const std::string input = scratch.file("three.xyz", three_beads());
-  const ProgramRun run =
-      run_program({"run", input, "--structures", "boxes", "--radius", "1", "--audit", "events", "--json", "-",
-                   "--log", scratch / "log", "--dump", scratch / "dump", "--events", scratch / "events.csv"});
-  ASSERT_EQ(run.code, 0) << run.err;
-  const Json boxes = Json::parse(run.out)["structures"]["boxes"];
+  scratch.file("three.xyz", three_beads());
+  const Json boxes = run_json(
+      "run OUT/three.xyz --structures boxes --radius 1 --audit events --log OUT/log --dump OUT/dump "
+      "--events OUT/events.csv",
+      scratch.path())["structures"]["boxes"];
   EXPECT_EQ(boxes["events"]["support"], 2);
   EXPECT_EQ(boxes["events"]["total"], 2);
   EXPECT_EQ(boxes["audits"]["failed"], 0);
@@ -43,31 +41,24 @@ TEST(BoxesRun, ABeadThatComesOutOfABoxAndGoesBack) {
   EXPECT_THAT(content_of(scratch / "log"), HasSubstr("0 boxes support 0.5 0.5 "));
   EXPECT_THAT(content_of(scratch / "log"), HasSubstr(" 0 2 1 1 2\n"));
   EXPECT_THAT(content_of(scratch / "events.csv"), HasSubstr(",boxes,support,1,"));
-  EXPECT_EQ(run_program({"replay", scratch / "log", "--quiet"}).code, 0);
+  run_line("replay OUT/log --quiet", scratch.path());
 }
 
 TEST(BoxesRun, KernelsAndReplaysGoTheSameWay) {
   const ScratchDirectory scratch;
-  const std::vector<std::vector<std::string>> inputs{
-      {data_file("kinetic/d2_n50_degree3.txt"), "--directions", "4"},
-      {data_file("kinetic/degenerate_d3_n64_gridrand.txt"), "--directions", "13"},
-      {data_file("kinetic/degenerate_d3_n64_swap.txt"), "--directions", "7", "--levels", "0:2"},
-      {data_file("proteins/1l2y.pdb"), "--select", "all", "--radius", "element", "--frames", "0:2",
-       "--directions", "13"},
-      {data_file("trajectories/villin_hp36_300K.dcd"), "--frames", "0:4", "--motion", "hermite"}};
-  for (const auto& input : inputs) {
-    SCOPED_TRACE(input.front());
-    std::vector<std::string> arguments{"run", "--structures", "boxes",         "--json",
-                                       "-",   "--log",        scratch / "log", "--quiet"};
-    arguments.insert(arguments.begin() + 1, input.begin(), input.end());
-    const ProgramRun filtered = run_program(arguments);
-    ASSERT_EQ(filtered.code, 0) << filtered.err;
-    EXPECT_GT(Json::parse(filtered.out)["structures"]["boxes"]["events"]["total"], 0);
-    EXPECT_EQ(run_program({"replay", scratch / "log", "--quiet"}).code, 0);
-    arguments.insert(arguments.end(), {"--kernel", "exact"});
-    const ProgramRun exact = run_program(arguments);
-    ASSERT_EQ(exact.code, 0) << exact.err;
-    EXPECT_EQ(Json::parse(exact.out)["fingerprint"], Json::parse(filtered.out)["fingerprint"]);
+  for (const std::string input : {
+           "data/kinetic/d2_n50_degree3.txt --directions 4",
+           "data/kinetic/degenerate_d3_n64_gridrand.txt --directions 13",
+           "data/kinetic/degenerate_d3_n64_swap.txt --directions 7 --levels 0:2",
+           "data/proteins/1l2y.pdb --select all --radius element --frames 0:2 --directions 13",
+           "data/trajectories/villin_hp36_300K.dcd --frames 0:4 --motion hermite",
+       }) {
+    SCOPED_TRACE(input);
+    const std::string line = "run " + input + " --structures boxes --quiet --log OUT/log";
+    const Json filtered = run_json(line, scratch.path());
+    EXPECT_GT(filtered["structures"]["boxes"]["events"]["total"], 0);
+    run_line("replay OUT/log --quiet", scratch.path());
+    EXPECT_EQ(run_json(line + " --kernel exact", scratch.path())["fingerprint"], filtered["fingerprint"]);
   }
 }
 

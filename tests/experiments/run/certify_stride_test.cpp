@@ -8,14 +8,13 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <sstream>
 
 #include "experiments/run/load_scene.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_scene.h"
-#include "tests/experiments/run_program.h"
+#include "tests/experiments/run_json.h"
 #include "tests/experiments/scratch_directory.h"
 
 namespace kds::test::certify_stride_test {
@@ -24,14 +23,12 @@ namespace {
 using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
 
-const std::string kDcd = data_file("trajectories/villin_hp36_300K.dcd");
-const std::string kPdb = data_file("trajectories/villin_hp36_300K.pdb");
-
-Arguments arguments_with(const std::string& frames, std::vector<std::string> more) {
-  Arguments arguments{kDcd,  "--topology", kPdb, "--structures", "contacts", "--radius",
-                      "1.9", "--apart",    "5",  "--frames",     frames};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
+/// Returns the line of a run of these frames.
+std::string contacts_of(const std::string& frames, const std::string& more = "") {
+  return "VILLIN --structures contacts --radius 1.9 --apart 5 --frames " + frames + " " + more;
+}
+RunOptions options_of(const std::string& line, const std::filesystem::path& out = {}) {
+  return parse_run_options(command_words(line, out));
 }
 
 struct Pairs final : EventListener {
@@ -56,22 +53,25 @@ bool is_among(const PairsMet& some, const PairsMet& all) {
   return std::includes(all.begin(), all.end(), some.begin(), some.end());
 }
 
+/// Checks the certificate of a run against the run of all frames, and returns it.
+StrideCertificate expect_truth_within(const RunOptions& options, const PairsMet& truth) {
+  const Scene scene = load_scene(options, [](const std::string&) {});
+  const StrideCertificate certificate = certify_stride(options, scene);
+  const auto& [found, sure, possible] = *certificate.contacts;
+  EXPECT_TRUE(is_among(sure, truth));
+  EXPECT_TRUE(is_among(truth, possible));
+  EXPECT_TRUE(is_among(sure, found));
+  EXPECT_TRUE(is_among(found, possible));
+  return certificate;
+}
+
 TEST(CertifyStride, SureContactsAreThereAndNoOthersThanPossibleOnes) {
-  for (const auto& [stride, motion] : {std::pair("2", "linear"), std::pair("4", "linear"),
-                                       std::pair("16", "linear"), std::pair("4", "hermite")}) {
-    SCOPED_TRACE(std::string(stride) + " " + motion);
-    const RunOptions options =
-        parse_run_options(arguments_with(std::string("0:161:") + stride, {"--certify", "--motion", motion}));
-    const Scene scene = load_scene(options, [](const std::string&) {});
-    const StrideCertificate certificate = certify_stride(options, scene);
-    ASSERT_TRUE(certificate.contacts);
-    const auto& [found, sure, possible] = *certificate.contacts;
-    const PairsMet truth = pairs_in_truth(parse_run_options(arguments_with("0:161", {})));
-    EXPECT_TRUE(is_among(sure, truth));
-    EXPECT_TRUE(is_among(truth, possible));
-    EXPECT_TRUE(is_among(sure, found));
-    EXPECT_TRUE(is_among(found, possible));
-    EXPECT_FALSE(truth.empty());
+  const PairsMet truth = pairs_in_truth(options_of(contacts_of("0:161")));
+  EXPECT_FALSE(truth.empty());
+  for (const std::string stride : {"2", "4", "16", "4 --motion hermite"}) {
+    SCOPED_TRACE(stride);
+    const StrideCertificate certificate =
+        expect_truth_within(options_of(contacts_of("0:161:" + stride, "--certify")), truth);
     EXPECT_GT(certificate.deviation.largest, 0.1);
     EXPECT_LT(certificate.deviation.frame, 161U);
   }
@@ -79,25 +79,16 @@ TEST(CertifyStride, SureContactsAreThereAndNoOthersThanPossibleOnes) {
 
 // Certificates for straightened motion within a tolerance, with and without a stride.
 TEST(CertifyStride, BoundsWhatAToleranceMayMiss) {
-  for (const auto& [stride, tolerance] :
-       {std::pair("1", "0.1"), std::pair("1", "0.2r"), std::pair("2", "0.4")}) {
-    SCOPED_TRACE(std::string(stride) + " " + tolerance);
-    const RunOptions options = parse_run_options(
-        arguments_with(std::string("0:161:") + stride, {"--certify", "--tolerance", tolerance}));
-    const Scene scene = load_scene(options, [](const std::string&) {});
-    const StrideCertificate certificate = certify_stride(options, scene);
-    const auto& [found, sure, possible] = *certificate.contacts;
-    const PairsMet truth = pairs_in_truth(parse_run_options(arguments_with("0:161", {})));
-    EXPECT_TRUE(is_among(sure, truth));
-    EXPECT_TRUE(is_among(truth, possible));
-    EXPECT_TRUE(is_among(sure, found));
-    EXPECT_TRUE(is_among(found, possible));
-    if (options.reading.frames.stride == 1) {
-      const double most = options.tolerance->length(scene.radii());
-      EXPECT_NEAR(most, std::string(tolerance) == "0.1" ? 0.1 : 0.38, 1e-12);
-      EXPECT_LE(certificate.deviation.largest, most);
-      EXPECT_GT(certificate.deviation.largest, 0.9 * most);
-    }
+  const PairsMet truth = pairs_in_truth(options_of(contacts_of("0:161")));
+  for (const auto& [tolerance, most] : {std::pair("0:161 --tolerance 0.1", 0.1),
+                                        {"0:161 --tolerance 0.2r", 0.38},
+                                        {"0:161:2 --tolerance 0.4", 0.0}}) {
+    SCOPED_TRACE(tolerance);
+    const StrideCertificate certificate =
+        expect_truth_within(options_of(contacts_of(tolerance, "--certify")), truth);
+    if (most == 0) continue;
+    EXPECT_LE(certificate.deviation.largest, most);
+    EXPECT_GT(certificate.deviation.largest, 0.9 * most);
   }
 }
 
@@ -119,57 +110,25 @@ TEST(CertifyStride, IsNeverAboveTheToleranceFarFromTheOrigin) {
         frames += fmt::format("C {} {} {}\n", place[3 * b], place[3 * b + 1], place[3 * b + 2]);
       for (double& x : place) x += 0.2 * unit * step(random);
     }
-    Arguments arguments{directory.file("far.xyz", frames), "--structures", "contacts", "--radius", "1"};
-    const PairsMet truth = pairs_in_truth(parse_run_options(arguments));
-    arguments.insert(arguments.end(), {"--tolerance", "0.2", "--certify"});
-    const RunOptions options = parse_run_options(arguments);
-    const Scene scene = load_scene(options, [](const std::string&) {});
-    const StrideCertificate certificate = certify_stride(options, scene);
+    directory.file("far.xyz", frames);
+    const std::string line = "OUT/far.xyz --structures contacts --radius 1";
+    const PairsMet truth = pairs_in_truth(options_of(line, directory.path()));
+    const StrideCertificate certificate =
+        expect_truth_within(options_of(line + " --tolerance 0.2 --certify", directory.path()), truth);
     EXPECT_LE(certificate.deviation.largest, 0.2);
-    const auto& [found, sure, possible] = *certificate.contacts;
-    EXPECT_TRUE(is_among(sure, truth));
-    EXPECT_TRUE(is_among(truth, possible));
-    EXPECT_TRUE(is_among(sure, found));
-    EXPECT_TRUE(is_among(found, possible));
-    EXPECT_EQ(sure.empty(), far == 1e307);
+    EXPECT_EQ(certificate.contacts->sure.empty(), far == 1e307);
   }
 }
 
 TEST(MotionTolerance, MakesEventsFewer) {
-  const auto events = [](std::vector<std::string> more) {
-    std::vector<std::string> arguments{"run",           kDcd,       "--topology", kPdb,      "--structures",
-                                       "wrapped,power", "--frames", "0:33",       "--audit", "frames",
-                                       "--json",        "-"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 0) << run.err;
-    const Json summary = Json::parse(run.out);
-    EXPECT_EQ(summary["settings"]["tolerance"], more.empty() ? "" : more[1]);
-    return std::pair(summary["structures"]["wrapped"]["events"]["total"].get<int>(),
-                     summary["structures"]["power"]["events"]["total"].get<int>());
+  const std::string line = "run VILLIN --structures wrapped,power --frames 0:33 --audit frames";
+  const Json all = run_json(line), fewer = run_json(line + " --tolerance 0.3r");
+  EXPECT_EQ(fewer["settings"]["tolerance"], "0.3r");
+  const auto events = [](const Json& run, const char* structure) {
+    return run["structures"][structure]["events"]["total"].get<int>();
   };
-  const auto [wrapped, power] = events({});
-  const auto [fewer_wrapped, fewer_power] = events({"--tolerance", "0.3r"});
-  EXPECT_LT(fewer_wrapped * 4, wrapped * 3);
-  EXPECT_LT(fewer_power * 3, power * 2);
-}
-
-TEST(CertifyStride, IsReported) {
-  Arguments arguments = arguments_with("0:41:4", {"--certify", "--json", "-"});
-  arguments.insert(arguments.begin(), "run");
-  const ProgramRun run = run_program(arguments);
-  ASSERT_EQ(run.code, 0) << run.err;
-  const Json summary = Json::parse(run.out);
-  EXPECT_EQ(summary["settings"]["certify"], "yes");
-  const Json& stride = summary["stride"];
-  EXPECT_EQ(stride["skipped"], 30);
-  EXPECT_GT(stride["deviation"]["largest"], 0.1);
-  EXPECT_LE(stride["contacts"]["sure"], stride["contacts"]["found"]);
-  EXPECT_LE(stride["contacts"]["found"], stride["contacts"]["possible"]);
-  arguments.resize(arguments.size() - 2);
-  const ProgramRun shown = run_program(arguments);
-  EXPECT_THAT(shown.out, HasSubstr("30 frames left out, in which beads are at most"));
-  EXPECT_THAT(shown.out, HasSubstr("of them sure"));
+  EXPECT_LT(events(fewer, "wrapped") * 4, events(all, "wrapped") * 3);
+  EXPECT_LT(events(fewer, "power") * 3, events(all, "power") * 2);
 }
 
 std::vector<std::string> lines_of(const std::filesystem::path& path) {
@@ -214,21 +173,14 @@ bool meet(const Listed& a, const Listed& b) {
 // contact overlaps one that is found or listed as possible.
 TEST(CertifyStride, ListsWhichContactsAreSureAndWhichThereMayBe) {
   const ScratchDirectory scratch;
-  const auto listed = [&](const std::string& name, const std::string& frames, std::vector<std::string> more) {
-    Arguments arguments = arguments_with(frames, std::move(more));
-    arguments.insert(arguments.begin(), "run");
-    arguments.insert(arguments.end(), {"--quiet", "--out", scratch / name, "--replace"});
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 0) << run.err;
+  const auto listed = [&](const std::string& name, const std::string& more) {
+    run_line("run " + contacts_of(more, "--quiet --replace --out OUT/" + name), scratch.path());
     return listed_in(scratch / (name + "/contacts.csv"));
   };
-  const std::vector<Listed> truth = listed("truth", "0:81", {});
-  for (const auto& [frames, more] : {std::pair("0:81:4", std::vector<std::string>{}),
-                                     std::pair("0:81", std::vector<std::string>{"--tolerance", "0.03"})}) {
-    SCOPED_TRACE(frames);
-    std::vector<std::string> certified = more;
-    certified.emplace_back("--certify");
-    const std::vector<Listed> found = listed("run", frames, certified);
+  const std::vector<Listed> truth = listed("truth", "0:81");
+  for (const std::string run : {"0:81:4", "0:81 --tolerance 0.03"}) {
+    SCOPED_TRACE(run);
+    const std::vector<Listed> found = listed("run", run + " --certify");
     const std::vector<Listed> possible = listed_in(scratch / "run/possible_contacts.csv");
     const auto meets_any = [](const Listed& contact, const std::vector<Listed>& all) {
       return std::any_of(all.begin(), all.end(), [&](const Listed& other) { return meet(contact, other); });
@@ -251,13 +203,13 @@ TEST(CertifyStride, ListsWhichContactsAreSureAndWhichThereMayBe) {
       EXPECT_EQ(contact.flag, meets_any(contact, found)) << contact.pair;
     }
     // Deviations are larger than the overlaps of contacts.
-    EXPECT_EQ(sure == 0, frames == std::string("0:81:4"));
+    EXPECT_EQ(sure == 0, run == "0:81:4");
     EXPECT_LT(sure, found.size());
     EXPECT_GT(not_found, 0U);
     // Apart from the new column, the table equals the table of an ordinary run.
     std::vector<std::string> with = lines_of(scratch / "run/contacts.csv");
     for (std::string& line : with) line.resize(line.rfind(','));
-    static_cast<void>(listed("run", frames, more));
+    static_cast<void>(listed("run", run));
     EXPECT_EQ(with, lines_of(scratch / "run/contacts.csv"));
     EXPECT_FALSE(std::filesystem::exists(scratch / "run/possible_contacts.csv"));
   }
@@ -265,16 +217,16 @@ TEST(CertifyStride, ListsWhichContactsAreSureAndWhichThereMayBe) {
 
 TEST(CertifyStride, ALoggedRunIsCertifiedWhenItIsReplayed) {
   const ScratchDirectory directory;
-  const std::string log = (directory / "log").string();
-  Arguments arguments = arguments_with("0:41:4", {"--certify", "--log", log, "--json", "-"});
-  arguments.insert(arguments.begin(), "run");
-  const ProgramRun run = run_program(arguments), replay = run_program({"replay", log, "--json", "-"});
-  ASSERT_EQ(run.code, 0) << run.err;
-  ASSERT_EQ(replay.code, 0) << replay.err;
-  const Json first = Json::parse(run.out), again = Json::parse(replay.out);
+  const Json first = run_json("run " + contacts_of("0:41:4", "--certify --log OUT/log"), directory.path()),
+             again = run_json("replay OUT/log", directory.path());
   EXPECT_EQ(again["settings"], first["settings"]);
   EXPECT_EQ(again["stride"], first["stride"]);
-  EXPECT_TRUE(first["stride"].is_object());
+  EXPECT_EQ(first["settings"]["certify"], "yes");
+  const Json& stride = first["stride"];
+  EXPECT_EQ(stride["skipped"], 30);
+  EXPECT_GT(stride["deviation"]["largest"], 0.1);
+  EXPECT_LE(stride["contacts"]["sure"], stride["contacts"]["found"]);
+  EXPECT_LE(stride["contacts"]["found"], stride["contacts"]["possible"]);
 }
 
 }  // namespace

@@ -6,14 +6,13 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "motions/numbers/exact_number.h"
 #include "tests/experiments/csv_cells.h"
-#include "tests/experiments/run_program.h"
+#include "tests/experiments/run_json.h"
 #include "tests/experiments/scratch_directory.h"
 
 namespace kds::test::chord_run_test {
@@ -22,24 +21,13 @@ namespace {
 using testing::StartsWith;
 using Json = nlohmann::ordered_json;
 
-std::vector<std::string> villin(std::vector<std::string> more) {
-  std::vector<std::string> arguments{"run",        data_file("trajectories/villin_hp36_300K.dcd"),
-                                     "--topology", data_file("trajectories/villin_hp36_300K.pdb"),
-                                     "--frames",   "0:6",
-                                     "--quiet"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
-
 TEST(ChordRun, BasesDumpedAtFramesAreThoseOfTheRunWithEvents) {
   const ScratchDirectory scratch;
-  for (const char* motion : {"linear", "hermite"}) {
-    for (const char* between : {"events", "chord"}) {
-      const ProgramRun run =
-          run_program(villin({"--structures", "wrapped", "--between", between, "--motion", motion, "--audit",
-                              "frames", "--dump", scratch / between, "--replace"}));
-      ASSERT_EQ(run.code, 0) << run.err;
-    }
+  for (const std::string motion : {"linear", "hermite"}) {
+    for (const std::string between : {"events", "chord"})
+      run_line("run VILLIN --frames 0:6 --quiet --structures wrapped --audit frames --replace --motion " +
+                   motion + " --between " + between + " --dump OUT/" + between,
+               scratch.path());
     for (const char* frame : {"frame-0", "frame-3", "frame-5"}) {
       const std::string file = std::string("/") + frame + ".wrapped.csv";
       const auto chord = csv_cells(scratch / ("chord" + file));
@@ -84,17 +72,15 @@ TEST(ChordRun, DumpedSpheresHoldTheirBeadsExactly) {
         text += fmt::format("C {} {} {}\n", place[0], place[1], place[2]);
       }
     }
-    const std::string file = scratch.file("walk.xyz", text);
-    for (const std::string structure : {"wrapped", "layered"}) {
+    scratch.file("walk.xyz", text);
+    for (const std::string structure : {"wrapped --between chord", "layered"}) {
       for (const double radius : {0.3, 1e-3}) {
-        std::vector<std::string> arguments{
-            "run",     file,     "--structures",   structure,  "--radius", fmt::format("{}", radius),
-            "--quiet", "--dump", scratch / "dump", "--replace"};
-        if (structure == "wrapped") arguments.insert(arguments.end(), {"--between", "chord"});
-        const ProgramRun run = run_program(arguments);
-        ASSERT_EQ(run.code, 0) << run.err;
+        run_line(fmt::format("run OUT/walk.xyz --structures {} --radius {} --quiet --dump OUT/dump --replace",
+                             structure, radius),
+                 scratch.path());
+        const std::string name = structure.substr(0, 7);
         for (std::size_t k = 0; k < frames; ++k) {
-          const auto nodes = csv_cells(scratch / fmt::format("dump/frame-{}.{}.csv", k, structure));
+          const auto nodes = csv_cells(scratch / fmt::format("dump/frame-{}.{}.csv", k, name));
           ASSERT_EQ(nodes.size(), beads - 1);
           for (const auto& node : nodes) {
             const std::size_t at = node.size() - 4;
@@ -110,10 +96,8 @@ TEST(ChordRun, DumpedSpheresHoldTheirBeadsExactly) {
 }
 
 TEST(ChordRun, CountsBisectionsAndNoEvents) {
-  const ProgramRun run = run_program(villin(
-      {"--structures", "wrapped,layered", "--between", "chord", "--tightness", "0.0005", "--json", "-"}));
-  ASSERT_EQ(run.code, 0) << run.err;
-  const Json summary = Json::parse(run.out);
+  const Json summary =
+      run_json("run VILLIN --frames 0:6 --structures wrapped,layered --between chord --tightness 0.0005");
   EXPECT_EQ(summary["settings"]["between"], "chord");
   EXPECT_EQ(summary["settings"]["tightness"], "0.0005");
   const Json& wrapped = summary["structures"]["wrapped"];
@@ -126,9 +110,8 @@ TEST(ChordRun, CountsBisectionsAndNoEvents) {
 
 TEST(ChordRun, WritesLayeredSpheres) {
   const ScratchDirectory scratch;
-  const ProgramRun run = run_program(villin(
-      {"--structures", "layered", "--audit", "frames", "--levels", "0:2", "--dump", scratch / "dump"}));
-  ASSERT_EQ(run.code, 0) << run.err;
+  run_line("run VILLIN --frames 0:6 --quiet --structures layered --audit frames --levels 0:2 --dump OUT/dump",
+           scratch.path());
   const std::string text = content_of(scratch / "dump/frame-5.layered.csv");
   EXPECT_THAT(text, StartsWith("first,last,x,y,z,radius\n0,107,"));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);  // a header and three nodes

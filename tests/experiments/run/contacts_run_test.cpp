@@ -7,14 +7,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tests/experiments/csv_cells.h"
-#include "tests/experiments/run_program.h"
+#include "tests/experiments/run_json.h"
 #include "tests/experiments/scratch_directory.h"
 
 namespace kds::test::contacts_run_test {
@@ -22,9 +21,6 @@ namespace {
 
 using testing::HasSubstr;
 using Json = nlohmann::ordered_json;
-
-const std::string kDcd = data_file("trajectories/villin_hp36_300K.dcd");
-const std::string kPdb = data_file("trajectories/villin_hp36_300K.pdb");
 
 std::vector<std::string> lines_of(const std::filesystem::path& path) {
   std::vector<std::string> lines;
@@ -45,14 +41,12 @@ std::string frames_at(const std::vector<std::string>& beads, const std::vector<d
 // Some balls meet an obstacle at rest and leave; one only touches it, at a frame.
 TEST(ContactsRun, ANecklaceAndAnObstacleAtRest) {
   const ScratchDirectory scratch;
-  const std::string moving = scratch.file("moving.xyz", frames_at({"0 0", "8 0", "16 3"}, {-4, 0, 4}));
-  const std::string at_rest = scratch.file("rest.xyz", frames_at({"0 0", "8 1.5", "8 2"}, {0}));
-  std::vector<std::string> arguments{"run",      moving,   at_rest,          "--structures", "contacts",
-                                     "--radius", "1",      "--audit",        "events",       "--json",
-                                     "-",        "--dump", scratch / "dump", "--log",        scratch / "log"};
-  const ProgramRun run = run_program(arguments);
-  ASSERT_EQ(run.code, 0) << run.err;
-  const Json contacts = Json::parse(run.out)["structures"]["contacts"];
+  scratch.file("moving.xyz", frames_at({"0 0", "8 0", "16 3"}, {-4, 0, 4}));
+  scratch.file("rest.xyz", frames_at({"0 0", "8 1.5", "8 2"}, {0}));
+  const Json contacts = run_json(
+      "run OUT/moving.xyz OUT/rest.xyz --structures contacts --radius 1 --audit events --dump OUT/dump "
+      "--log OUT/log",
+      scratch.path())["structures"]["contacts"];
   EXPECT_EQ(contacts["events"]["total"], 5);
   EXPECT_EQ(contacts["events"]["begin"], 2);
   EXPECT_EQ(contacts["events"]["end"], 2);
@@ -65,15 +59,15 @@ TEST(ContactsRun, ANecklaceAndAnObstacleAtRest) {
   EXPECT_THAT(lines[2], testing::AllOf(testing::StartsWith("0,0.66"), testing::EndsWith(",1,4,begin")));
   EXPECT_EQ(lines[3], "1,0,0,1,5,touch");
   EXPECT_THAT(lines[4], testing::AllOf(testing::StartsWith("1,0.33"), testing::EndsWith(",1,4,end")));
-  EXPECT_EQ(run_program({"replay", scratch / "log", "--quiet"}).code, 0);
+  run_line("replay OUT/log --quiet", scratch.path());
 }
 
 TEST(ContactsRun, NamesFramesAndTimes) {
   const ScratchDirectory scratch;
-  const ProgramRun run = run_program({"run", kDcd, "--topology", kPdb, "--frames", "0:20", "--structures",
-                                      "contacts", "--radius", "1.9", "--apart", "5", "--out", scratch / "out",
-                                      "--dump", scratch / "dump", "--quiet"});
-  ASSERT_EQ(run.code, 0) << run.err;
+  run_line(
+      "run VILLIN --frames 0:20 --structures contacts --radius 1.9 --apart 5 --out OUT/out --dump OUT/dump "
+      "--quiet",
+      scratch.path());
   const auto named = lines_of(scratch / "out/contacts.csv"), dumped = lines_of(scratch / "dump/contacts.csv");
   EXPECT_THAT(named[0], testing::StartsWith("event,i,j,first,second,frame"));
   EXPECT_EQ(named[1].substr(0, 68), "begin,41,48,C of THR 54 in chain A,N of ALA 57 in chain A,0");
@@ -81,41 +75,27 @@ TEST(ContactsRun, NamesFramesAndTimes) {
   EXPECT_GT(named.size(), 20U);
   EXPECT_EQ(dumped[1], "0,0,0,41,48,begin");
   // A run of other structures replaces the result.
-  const ProgramRun other =
-      run_program({"run", kDcd, "--topology", kPdb, "--frames", "0:3", "--structures", "sorted", "--out",
-                   scratch / "out", "--dump", scratch / "dump", "--replace", "--quiet"});
-  ASSERT_EQ(other.code, 0) << other.err;
+  run_line("run VILLIN --frames 0:3 --structures sorted --out OUT/out --dump OUT/dump --replace --quiet",
+           scratch.path());
   EXPECT_FALSE(std::filesystem::exists(scratch / "out/contacts.csv"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "dump/contacts.csv"));
 }
 
 TEST(ContactsRun, StartAndEndAreCounted) {
-  for (const char* frames : {"0:20", "7:9"}) {
-    const std::vector<std::string> arguments{"run",  kDcd,           "--topology", kPdb,       "--frames",
-                                             frames, "--structures", "contacts",   "--radius", "1.9"};
-    std::vector<std::string> with_json = arguments;
-    with_json.insert(with_json.end(), {"--json", "-"});
-    const Json contacts = Json::parse(run_program(with_json).out)["structures"]["contacts"];
+  for (const std::string frames : {"0:20", "7:9"}) {
+    const Json contacts = run_json("run VILLIN --structures contacts --radius 1.9 --frames " +
+                                   frames)["structures"]["contacts"];
     const int start = contacts["contacts"]["at_start"], end = contacts["contacts"]["at_end"];
     EXPECT_GT(start, 0);
     EXPECT_EQ(contacts["events"]["begin"].get<int>() + start - contacts["events"]["end"].get<int>(), end);
-    EXPECT_THAT(run_program(arguments).out,
-                testing::AllOf(HasSubstr("contacts at the start"), HasSubstr("contacts at the end")));
   }
-  const ProgramRun other = run_program({"run", kDcd, "--topology", kPdb, "--frames", "0:3"});
-  EXPECT_THAT(other.out, testing::Not(HasSubstr("contacts at")));
 }
 
 /// Returns step, beads and kind of each event of a dump. Brackets of times may be narrowed by other events.
 std::vector<std::string> events_of_dump(const std::filesystem::path& csv) {
   std::vector<std::string> events;
-  for (const std::string& line : lines_of(csv)) {
-    std::vector<std::string> cells;
-    std::istringstream text(line);
-    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+  for (const auto& cells : csv_cells(csv))
     events.push_back(cells[0] + " " + cells[3] + " " + cells[4] + " " + cells[5]);
-  }
-  events.erase(events.begin());  // the header
   return events;
 }
 
@@ -125,25 +105,16 @@ TEST(ContactsRun, GroupsLeaveTheContactsOfTheirPairs) {
   for (const bool with_obstacle : {false, true}) {
     SCOPED_TRACE(with_obstacle);
     const ScratchDirectory scratch;
-    const auto run = [&](const std::string& name, std::vector<std::string> more) {
-      std::vector<std::string> arguments{"run",          kDcd,
-                                         "--topology",   kPdb,
-                                         "--frames",     "0:12",
-                                         "--radius",     "1.9",
-                                         "--apart",      "4",
-                                         "--json",       "-",
-                                         "--dump",       scratch / name,
-                                         "--log",        scratch / (name + ".log"),
-                                         "--audit",      "events",
-                                         "--structures", "contacts"};
-      if (with_obstacle) arguments.insert(arguments.end(), {"--obstacle", kPdb});
-      arguments.insert(arguments.end(), more.begin(), more.end());
-      const ProgramRun done = run_program(arguments);
-      EXPECT_EQ(done.code, 0) << done.err;
-      EXPECT_EQ(run_program({"replay", scratch / (name + ".log"), "--quiet"}).code, 0);
-      return Json::parse(done.out);
+    const auto run = [&](const std::string& name, const std::string& more) {
+      const Json done =
+          run_json("run VILLIN --frames 0:12 --radius 1.9 --apart 4 --audit events --structures contacts" +
+                       more + (with_obstacle ? " --obstacle data/trajectories/villin_hp36_300K.pdb" : "") +
+                       " --dump OUT/" + name + " --log OUT/" + name + ".log",
+                   scratch.path());
+      run_line("replay --quiet OUT/" + name + ".log", scratch.path());
+      return done;
     };
-    const Json all = run("all", {}), some = run("some", {"--groups", "//A/-60", "45-/N"});
+    const Json all = run("all", ""), some = run("some", " --groups //A/-60 45-/N");
     EXPECT_EQ(some["settings"]["groups"], "//A/-60 45-/N");
     EXPECT_EQ(all["settings"]["groups"], "");
     EXPECT_NE(all["fingerprint"], some["fingerprint"]);
@@ -160,32 +131,29 @@ TEST(ContactsRun, GroupsLeaveTheContactsOfTheirPairs) {
     EXPECT_EQ(events_of_dump(scratch / "some/contacts.csv"), expected);
     EXPECT_LT(some["structures"]["contacts"]["contacts"]["at_start"],
               all["structures"]["contacts"]["contacts"]["at_start"]);
-    EXPECT_EQ(run("both", {"--groups", "all", "all"})["fingerprint"], all["fingerprint"]);
+    EXPECT_EQ(run("both", " --groups all all")["fingerprint"], all["fingerprint"]);
   }
 }
 
 // Each pair of beads is within one of two groups or between them.
 TEST(ContactsRun, ContactsMissedOfGroups) {
-  const auto contacts = [](std::vector<std::string> more) {
-    std::vector<std::string> arguments{"missed",    kDcd,  "--topology", kPdb, "--frames", "0:9",
-                                       "--factors", "2.5", "--apart",    "5",  "--json",   "-"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 0) << run.err;
-    return run.code == 0 ? Json::parse(run.out)["rows"][0]["contacts"].get<int>() : 0;
+  const auto contacts = [](const std::string& groups) {
+    return run_json("missed VILLIN --frames 0:9 --factors 2.5 --apart 5 " + groups)["rows"][0]["contacts"]
+        .get<int>();
   };
-  const int at_start = contacts({"--groups", "-55", "-55"}), between = contacts({"--groups", "-55", "56-"}),
-            at_end = contacts({"--groups", "56-", "56-"});
+  const int at_start = contacts("--groups -55 -55"), between = contacts("--groups -55 56-"),
+            at_end = contacts("--groups 56- 56-");
   EXPECT_GT(std::min({at_start, between, at_end}), 0);
-  EXPECT_EQ(at_start + between + at_end, contacts({}));
+  EXPECT_EQ(at_start + between + at_end, contacts(""));
 }
 
 TEST(ContactsRun, CertifiesGroups) {
   const ScratchDirectory scratch;
-  const ProgramRun run = run_program({"run", kDcd, "--topology", kPdb, "--frames", "0:21:4", "--radius",
-                                      "1.9", "--apart", "4", "--structures", "contacts", "--certify",
-                                      "--groups", "//A/-60", "45-/N", "--out", scratch / "out", "--quiet"});
-  ASSERT_EQ(run.code, 0) << run.err;
+  run_line(
+      "run VILLIN --frames 0:21:4 --radius 1.9 --apart 4 --structures contacts --certify --groups //A/-60 "
+      "45-/N "
+      "--out OUT/out --quiet",
+      scratch.path());
   const std::vector<std::string> lines = lines_of(scratch / "out/possible_contacts.csv");
   EXPECT_GT(lines.size(), 3U);
   for (const std::string& line : lines)
@@ -193,43 +161,37 @@ TEST(ContactsRun, CertifiesGroups) {
 }
 
 TEST(ContactsRun, PairsNearAlongTheChain) {
-  const auto total = [](std::vector<std::string> more) {
-    std::vector<std::string> arguments{"run",      kDcd, "--topology",   kPdb,       "--frames", "0:6",
-                                       "--radius", "2",  "--structures", "contacts", "--json",   "-"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 0) << run.err;
-    const Json summary = Json::parse(run.out);
-    EXPECT_EQ(summary["settings"]["apart"], more.empty() ? "" : more[1]);
+  const auto total = [](const std::string& apart) {
+    const Json summary = run_json("run VILLIN --frames 0:6 --radius 2 --structures contacts" +
+                                  (apart.empty() ? "" : " --apart " + apart));
+    EXPECT_EQ(summary["settings"]["apart"], apart);
     return summary["structures"]["contacts"]["events"]["total"].get<int>();
   };
-  EXPECT_EQ(total({}), total({"--apart", "2"}));
-  EXPECT_GT(total({}), total({"--apart", "5"}));
-  EXPECT_GT(total({"--apart", "5"}), total({"--apart", "30"}));
+  EXPECT_EQ(total(""), total("2"));
+  EXPECT_GT(total(""), total("5"));
+  EXPECT_GT(total("5"), total("30"));
 }
 
 // The maps of the page are compared with sums over contacts.csv and events.csv.
 TEST(ContactsRun, MapsAgreeWithTheFiles) {
   const ScratchDirectory directory;
-  const std::string out = directory / "out";
   constexpr int frames = 60, begin = 10;  // 49 steps: two in each bin but the last
-  const ProgramRun run =
-      run_program({"run", kDcd, "--topology", kPdb, "--frames", "10:60", "--structures", "power,contacts",
-                   "--apart", "5", "--radius", "2.8", "--out", out, "--quiet"});
-  ASSERT_EQ(run.code, 0) << run.err;
+  run_line(
+      "run VILLIN --frames 10:60 --structures power,contacts --apart 5 --radius 2.8 --out OUT/out --quiet",
+      directory.path());
   const auto without_chain = [](const std::string& name) { return name.substr(0, name.find(" in chain")); };
   std::map<std::string, double> lengths;
-  for (const auto& row : csv_cells(std::filesystem::path(out) / "contacts.csv")) {
+  for (const auto& row : csv_cells(directory / "out/contacts.csv")) {
     const double frame = std::stod(row[5]);
     double& length = lengths[without_chain(row[3]) + " and " + without_chain(row[4])];
     if (row[0] == "begin") length += frames - 1 - frame;
     if (row[0] == "end") length -= frames - 1 - frame;
   }
   std::map<int, int> events;  // by the first frame of the bin
-  for (const auto& row : csv_cells(std::filesystem::path(out) / "events.csv"))
+  for (const auto& row : csv_cells(directory / "out/events.csv"))
     if (row[1] == "contacts") events[begin + (std::stoi(row[0]) - begin) / 2 * 2] += std::stoi(row[2]);
 
-  const std::string html = content_of(std::filesystem::path(out) / "report.html");
+  const std::string html = content_of(directory / "out/report.html");
   EXPECT_LT(html.size(), 450'000U);
   std::size_t pairs = 0;
   std::map<int, int> drawn;
@@ -262,40 +224,34 @@ TEST(ContactsRun, MapsAgreeWithTheFiles) {
 // A cutoff of 3.8 between centres finds what balls of radius 1.9 find. The wrapped hierarchy keeps its radii.
 TEST(ContactsRun, ACutoffIsADistanceOfItsOwn) {
   const ScratchDirectory scratch;
-  const auto run_of = [&](std::vector<std::string> options) {
-    options.insert(options.begin(), {"run", kDcd, "--topology", kPdb, "--frames", "0:12", "--apart", "5",
-                                     "--structures", "contacts,wrapped", "--json", "-"});
-    const ProgramRun run = run_program(options);
-    EXPECT_EQ(run.code, 0) << run.err;
-    return run.code == 0 ? Json::parse(run.out) : Json();
+  const auto run_of = [&](const std::string& options) {
+    return run_json("run VILLIN --frames 0:12 --apart 5 --structures contacts,wrapped " + options,
+                    scratch.path());
   };
   const auto events_of = [](const Json& run, const char* name) { return run["structures"][name]["events"]; };
-  const Json balls = run_of({"--radius", "1.9"}), plain = run_of({"--radius", "1"});
-  for (const char* kernel : {"filtered", "exact"}) {
-    const Json cutoff = run_of({"--radius", "1", "--cutoff", "3.8", "--kernel", kernel, "--audit", "frames"});
+  const Json balls = run_of("--radius 1.9"), plain = run_of("--radius 1");
+  for (const std::string kernel : {"filtered", "exact"}) {
+    const Json cutoff = run_of("--radius 1 --cutoff 3.8 --audit frames --kernel " + kernel);
     EXPECT_EQ(events_of(cutoff, "contacts"), events_of(balls, "contacts")) << kernel;
     EXPECT_EQ(events_of(cutoff, "wrapped"), events_of(plain, "wrapped")) << kernel;
     EXPECT_EQ(cutoff["structures"]["contacts"]["audits"]["failed"], 0);
   }
   EXPECT_GT(events_of(balls, "contacts")["total"], 10);
-  const Json surface = run_of({"--radius", "1", "--cutoff", "1.75", "--surface", "--log", scratch / "log"});
-  EXPECT_EQ(events_of(surface, "contacts"), events_of(run_of({"--radius", "1.875"}), "contacts"));
+  const Json surface = run_of("--radius 1 --cutoff 1.75 --surface --log OUT/log");
+  EXPECT_EQ(events_of(surface, "contacts"), events_of(run_of("--radius 1.875"), "contacts"));
   EXPECT_EQ(surface["settings"]["cutoff"], "1.75");
-  const Json replay = Json::parse(run_program({"replay", scratch / "log", "--json", "-"}).out);
+  const Json replay = run_json("replay OUT/log", scratch.path());
   EXPECT_EQ(replay["replay"]["same"], true);
   EXPECT_EQ(replay["fingerprint"], surface["fingerprint"]);
 }
 
 TEST(ContactsRun, CertifiesACutoff) {
-  const auto counts = [](std::vector<std::string> options) {
-    options.insert(options.begin(), {"run", kDcd, "--topology", kPdb, "--frames", "0:33:4", "--apart", "5",
-                                     "--structures", "contacts", "--certify", "--json", "-"});
-    const ProgramRun run = run_program(options);
-    EXPECT_EQ(run.code, 0) << run.err;
-    return Json::parse(run.out)["stride"]["contacts"];
+  const auto counts = [](const std::string& options) {
+    return run_json("run VILLIN --frames 0:33:4 --apart 5 --structures contacts --certify " +
+                    options)["stride"]["contacts"];
   };
-  const Json balls = counts({"--radius", "4"});
-  EXPECT_EQ(counts({"--radius", "1", "--cutoff", "8"}), balls);
+  const Json balls = counts("--radius 4");
+  EXPECT_EQ(counts("--radius 1 --cutoff 8"), balls);
   EXPECT_GT(balls["sure"], 0);
   EXPECT_LT(balls["sure"], balls["possible"]);
 }

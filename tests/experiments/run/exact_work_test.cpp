@@ -11,35 +11,24 @@
 #include "experiments/run/load_scene.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_scene.h"
-#include "tests/experiments/run_program.h"
+#include "tests/experiments/run_json.h"
 
 namespace kds::test::exact_work_test {
 namespace {
 
 using testing::HasSubstr;
+using Json = nlohmann::ordered_json;
 
 const std::string kWild = data_file("hostile/deg4-wildmix.txt");
 
-std::uint64_t work_in(const std::string& json) {
-  const std::string key = "\"exact_work\": ";
-  const std::size_t at = json.find(key);
-  return at == std::string::npos ? 0 : std::stoull(json.substr(at + key.size()));
-}
-
 TEST(ExactWorkOfRuns, IsTheSameEachTimeAndLimitsTheRun) {
-  const std::vector<std::string> arguments{"run", kWild, "--structures", "power", "--quiet", "--json", "-"};
-  const ProgramRun free = run_program(arguments);
-  ASSERT_EQ(free.code, 0) << free.err;
-  const std::uint64_t work = work_in(free.out);
+  const std::string line = "run data/hostile/deg4-wildmix.txt --structures power --quiet";
+  const auto work_of = [](const Json& run) { return run["engine"]["exact_work"].get<std::uint64_t>(); };
+  const std::uint64_t work = work_of(run_json(line));
   ASSERT_GT(work, 1000U);
-  auto with_limit = arguments;
-  with_limit.insert(with_limit.end(), {"--work", std::to_string(work)});
-  const ProgramRun same = run_program(with_limit);
-  EXPECT_EQ(same.code, 0) << same.err;
-  EXPECT_EQ(work_in(same.out), work);
+  EXPECT_EQ(work_of(run_json(line + " --work " + std::to_string(work))), work);
   for (const std::uint64_t limit : {work - 1, work / 2, std::uint64_t{0}}) {
-    with_limit.back() = std::to_string(limit);
-    const ProgramRun ended = run_program(with_limit);
+    const ProgramRun ended = run_program(command_words(line + " --json - --work " + std::to_string(limit)));
     EXPECT_EQ(ended.code, 2);
     EXPECT_EQ(ended.out, "");
     EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;

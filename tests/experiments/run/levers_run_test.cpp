@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/experiments/run_program.h"
+#include "tests/experiments/run_json.h"
 #include "tests/experiments/scratch_directory.h"
 
 namespace kds::levers_run_test {
@@ -25,23 +24,19 @@ std::string xyz(const std::vector<Beads>& frames) {
   return text.str();
 }
 
-void expect_runs(const std::string& file, std::vector<std::string> options) {
-  options.insert(options.begin(), {"run", file, "--quiet"});
-  const ProgramRun run = run_program(options);
-  EXPECT_EQ(run.code, 0) << run.err;
-}
-
 // A ball that almost contains its neighbour.
 TEST(LeversRun, LayeredSpheresOfBallsThatNearlyHoldEachOther) {
   const ScratchDirectory directory;
   for (const int ulps : {1, 5, 15, 40}) {
-    const std::string file = directory.file("lay.xyz", xyz({{{0, 0, 0}, {1, 0, 0}, {0, 5, 0}, {1, 5, 2}},
-                                                            {{0, 0, 0}, {1, 0, 0}, {0, 6, 0}, {1, 6, 2}}}));
+    directory.file("lay.xyz", xyz({{{0, 0, 0}, {1, 0, 0}, {0, 5, 0}, {1, 5, 2}},
+                                   {{0, 0, 0}, {1, 0, 0}, {0, 6, 0}, {1, 6, 2}}}));
     std::ostringstream radii;
     radii.precision(17);
     radii << 1 + ulps * 0x1p-52 << "\n1e-20\n0.5\n0.5\n";
-    expect_runs(file, {"--radius", "file:" + directory.file("radii.txt", radii.str()), "--structures",
-                       "layered", "--audit", "frames"});
+    directory.file("radii.txt", radii.str());
+    run_line("run OUT/lay.xyz --quiet --structures layered --audit frames --radius file:" +
+                 (directory / "radii.txt").string(),
+             directory.path());
   }
 }
 
@@ -49,10 +44,9 @@ TEST(LeversRun, LayeredSpheresOfBallsThatNearlyHoldEachOther) {
 TEST(LeversRun, TightnessThatCannotBeProved) {
   const ScratchDirectory directory;
   const auto unproved = [](const std::string& file, const std::string& radius) {
-    const ProgramRun run = run_program({"run", file, "--radius", radius, "--structures", "wrapped",
-                                        "--between", "chord", "--tightness", "0.003", "--json", "-"});
-    EXPECT_EQ(run.code, 0) << run.err;
-    return nlohmann::json::parse(run.out)["structures"]["wrapped"]["events"]["unproved"].get<int>();
+    const auto run = run_json("run " + file +
+                              " --structures wrapped --between chord --tightness 0.003 --radius " + radius);
+    return run["structures"]["wrapped"]["events"]["unproved"].get<int>();
   };
   const auto moved = [](double far, double size) {
     return xyz({{{far, 0, 0}, {far + size, 0, 0}, {far, size, 0}, {far, 0, size}},
@@ -77,12 +71,11 @@ TEST(LeversRun, ATolerancePutsNobodyOutOfAPlane) {
       beads.push_back({b + 0.3 * ((7 * k + 3 * b) % 5), 0.1 * ((5 * k + b) % 7), 0.7});
     frames.push_back(beads);
   }
-  const std::string file = directory.file("plane.xyz", xyz(frames));
-  expect_runs(file, {"--radius", "0.5", "--tolerance", "0.4", "--structures", "power", "--audit", "frames"});
-  const ProgramRun trade = run_program(
-      {"trade", file, "--radius", "0.5", "--rounds", "1", "--times", "10", "--json", "-", "--quiet"});
-  ASSERT_EQ(trade.code, 0) << trade.err;
-  const auto json = nlohmann::json::parse(trade.out);
+  directory.file("plane.xyz", xyz(frames));
+  run_line("run OUT/plane.xyz --quiet --radius 0.5 --tolerance 0.4 --structures power --audit frames",
+           directory.path());
+  const auto json =
+      run_json("trade OUT/plane.xyz --radius 0.5 --rounds 1 --times 10 --quiet", directory.path());
   for (const auto& row : json["rows"]) {
     if (row["setting"].contains("tolerance")) {
       EXPECT_LE(row["error"]["displacement"].get<double>(), 0.5 * 0.3 * (1 + 1e-9)) << row["setting"];

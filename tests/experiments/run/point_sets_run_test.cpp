@@ -3,13 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "tests/experiments/run_program.h"
+#include "tests/experiments/run_json.h"
 #include "tests/experiments/scratch_directory.h"
-#include "tests/support/rounds.h"
 
 namespace kds::test::point_sets_run_test {
 namespace {
@@ -27,12 +25,12 @@ std::string square_and_one() {
 
 TEST(PointSetsRun, ABeadThatComesOutOfASquareAndGoesBack) {
   const ScratchDirectory scratch;
-  const std::string input = scratch.file("square.xyz", square_and_one());
-  const ProgramRun run = run_program({"run", input, "--structures", "hull,closest,box", "--radius", "1",
-                                      "--audit", "events", "--json", "-", "--log", scratch / "log", "--dump",
-                                      scratch / "dump", "--events", scratch / "events.csv"});
-  ASSERT_EQ(run.code, 0) << run.err;
-  const Json structures = Json::parse(run.out)["structures"];
+  scratch.file("square.xyz", square_and_one());
+  const Json structures = run_json(
+      "run OUT/square.xyz --structures hull,closest,box --radius 1 --audit events --log OUT/log --dump "
+      "OUT/dump "
+      "--events OUT/events.csv",
+      scratch.path())["structures"];
   EXPECT_EQ(structures["hull"]["events"]["enter"], 1);
   EXPECT_EQ(structures["hull"]["events"]["leave"], 1);
   EXPECT_EQ(structures["box"]["events"]["max-x"], 2);
@@ -49,23 +47,19 @@ TEST(PointSetsRun, ABeadThatComesOutOfASquareAndGoesBack) {
   EXPECT_EQ(content_of(scratch / "dump/frame-2.closest.csv"), "i,j\n0,4\n");
   EXPECT_THAT(content_of(scratch / "log"), HasSubstr("0 hull enter 0.5 0.5 4 1 2\n"));
   EXPECT_THAT(content_of(scratch / "events.csv"), HasSubstr(",hull,enter,1,"));
-  EXPECT_EQ(run_program({"replay", scratch / "log", "--quiet"}).code, 0);
+  run_line("replay OUT/log --quiet", scratch.path());
 }
 
 TEST(PointSetsRun, AreComparedFromFrameToFrame) {
   const ScratchDirectory scratch;
-  const std::string input = scratch.file("square.xyz", square_and_one());
-  const ProgramRun run =
-      run_program({"compare", input, "--radius", "1", "--structures", "box,hull,closest", "--json", "-"});
-  ASSERT_EQ(run.code, 0) << run.err;
-  const Json rows = Json::parse(run.out)["rows"];
+  scratch.file("square.xyz", square_and_one());
+  const Json rows =
+      run_json("compare OUT/square.xyz --radius 1 --structures box,hull,closest", scratch.path())["rows"];
   ASSERT_EQ(rows.size(), 3U);
-  EXPECT_EQ(rows[0]["structure"], "box");
-  EXPECT_EQ(rows[0]["net_changes"], 2);
-  EXPECT_EQ(rows[1]["structure"], "hull");
-  EXPECT_EQ(rows[1]["net_changes"], 2);
-  EXPECT_EQ(rows[2]["structure"], "closest");
-  EXPECT_EQ(rows[2]["net_changes"], 1);
+  for (const auto& [row, structure, changes] : {std::tuple(0, "box", 2), {1, "hull", 2}, {2, "closest", 1}}) {
+    EXPECT_EQ(rows[row]["structure"], structure);
+    EXPECT_EQ(rows[row]["net_changes"], changes);
+  }
 }
 
 }  // namespace

@@ -1,40 +1,34 @@
 // --threads of kds run, contacts, compare and trade: the results are those of one thread.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "tests/experiments/run_program.h"
+#include "tests/experiments/run_json.h"
 #include "tests/experiments/scratch_directory.h"
 
 namespace kds::test::threads_test {
 namespace {
 
-using Json = nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
+using Json = nlohmann::ordered_json;
 
 /// A chain that is long enough in time to be cut.
 class Threads : public testing::Test {
  protected:
   void SetUp() override {
-    const ProgramRun made = run_program({"generate", "random-chain", "--beads", "20", "--frames", "2200",
-                                         "--step", "0.05", "-o", scratch_ / "chain.xyz", "--quiet"});
-    ASSERT_EQ(made.code, 0) << made.err;
+    run_line("generate random-chain --beads 20 --frames 2200 --step 0.05 -o OUT/chain.xyz --quiet",
+             scratch_.path());
   }
-  ProgramRun run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin() + 1, scratch_ / "chain.xyz");
-    return run_program(std::move(arguments));
-  }
-
   ScratchDirectory scratch_;
 };
 
@@ -51,12 +45,13 @@ TEST_F(Threads, GiveTheEventsOfOneThread) {
   std::vector<std::string> logs;
   std::vector<Json> results;
   for (const std::string threads : {"1", "3"}) {
-    const ProgramRun done = run({"run", "--radius", "1", "--structures", "wrapped,power,closest", "--threads",
-                                 threads, "--log", scratch_ / ("log" + threads), "--events",
-                                 scratch_ / ("events" + threads + ".csv"), "--json", "-", "--quiet"});
-    ASSERT_EQ(done.code, 0) << done.err;
+    const Json json = run_json(
+        fmt::format("run OUT/chain.xyz --radius 1 --structures wrapped,power,closest --quiet --threads {0} "
+                    "--log OUT/log{0} --events OUT/events{0}.csv",
+                    threads),
+        scratch_.path());
+    const Json& engine = json.at("engine");
     logs.push_back(content_of(scratch_ / ("log" + threads)));
-    const Json json = Json::parse(done.out), engine = json.at("engine");
     results.push_back(results_of(json));
     EXPECT_EQ(engine.at("parts") == 1, threads == "1");
     EXPECT_EQ(engine.at("parts_run_again"), 0);
@@ -64,7 +59,7 @@ TEST_F(Threads, GiveTheEventsOfOneThread) {
   EXPECT_FALSE(logs[0].empty());
   EXPECT_EQ(logs[0], logs[1]);
   EXPECT_EQ(results[0], results[1]);
-  EXPECT_EQ(run_program({"replay", scratch_ / "log3", "--quiet"}).code, 0);
+  run_line("replay OUT/log3 --quiet", scratch_.path());
 }
 
 /// Members of JSON and columns of CSV about the machine and the work of a run, which depend on where it is
@@ -106,9 +101,8 @@ std::map<std::string, std::string> files_below(const std::filesystem::path& fold
 // Written files have the same bytes on any number of threads.
 TEST(ThreadsAndFiles, AreIndependent) {
   const ScratchDirectory scratch;
-  const std::string ties = data_file("hostile/ties.xyz.gz");  // many contacts last equally long
-  const std::string villin = data_file("trajectories/villin_hp36_300K.dcd") + " --topology " +
-                             data_file("trajectories/villin_hp36_300K.pdb") + " --frames 0:280";
+  const std::string ties = "data/hostile/ties.xyz.gz";  // many contacts last equally long
+  const std::string villin = "VILLIN --frames 0:280";
   const std::string all_files =
       " --events OUT/e.csv --log OUT/log --dump OUT/dump --out OUT/out --json OUT/j.json";
   const std::string commands[] = {
@@ -128,12 +122,7 @@ TEST(ThreadsAndFiles, AreIndependent) {
     for (const std::string threads : {"1", "2"}) {
       const std::filesystem::path out = scratch / (std::to_string(number++) + "-" + threads);
       std::filesystem::create_directory(out);
-      std::vector<std::string> arguments;
-      std::istringstream words(line + " --quiet --threads " + threads);
-      for (std::string word; words >> word;)
-        arguments.push_back(word.starts_with("OUT/") ? (out / word.substr(4)).string() : word);
-      const ProgramRun done = run_program(arguments);
-      ASSERT_EQ(done.code, 0) << done.err;
+      const ProgramRun done = run_line(line + " --quiet --threads " + threads, out);
       EXPECT_THAT(done.err, Not(HasSubstr("--threads"))) << "too short to be cut";
       auto files = files_below(out);
       std::filesystem::remove_all(out);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
@@ -15,7 +14,7 @@
 #include "experiments/trade/measure_trade.h"
 #include "experiments/trade/trade_report.h"
 #include "motions/readers/read_trajectory.h"
-#include "tests/experiments/run_program.h"
+#include "tests/experiments/run_json.h"
 #include "tests/experiments/scratch_directory.h"
 #include "tests/experiments/sound_page.h"
 #include "tests/support/rounds.h"
@@ -270,33 +269,11 @@ TEST(Trade, CalphaErrsByAnUnknownShareWithoutTrueContacts) {
 
 // The exact run of contacts has the events of kds run with the same groups.
 TEST(Trade, GroupsChoosePairsOfContacts) {
-  const std::vector<std::string> input{data_file("trajectories/villin_hp36_300K.dcd"),
-                                       "--topology",
-                                       data_file("trajectories/villin_hp36_300K.pdb"),
-                                       "--frames",
-                                       ":6",
-                                       "--radius",
-                                       "1.9",
-                                       "--apart",
-                                       "4",
-                                       "--json",
-                                       "-"};
-  const auto json_of = [&](const std::string& command, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{command};
-    arguments.insert(arguments.end(), input.begin(), input.end());
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const ProgramRun run = run_program(arguments);
-    EXPECT_EQ(run.code, 0) << run.err;
-    return run.code == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
-  };
-  const std::vector<std::string> groups{"--groups", "//A/-60", "45-/N"};
-  std::vector<std::string> run_options{"--structures", "contacts"};
-  std::vector<std::string> trade_options{"--want",  "contacts", "--without-exact", "--rounds", "1",
-                                         "--times", "3"};
-  const auto all = json_of("trade", trade_options);
-  for (auto* const options : {&run_options, &trade_options})
-    options->insert(options->end(), groups.begin(), groups.end());
-  const auto run = json_of("run", run_options), trade = json_of("trade", trade_options);
+  const std::string input = " VILLIN --frames :6 --radius 1.9 --apart 4", groups = " --groups //A/-60 45-/N",
+                    contacts = " --want contacts --without-exact --rounds 1 --times 3";
+  const auto all = run_json("trade" + input + contacts),
+             trade = run_json("trade" + input + contacts + groups),
+             run = run_json("run" + input + " --structures contacts" + groups);
   const auto& exact = trade["rows"][0];
   EXPECT_GT(exact["cost"]["events"], 0);
   EXPECT_EQ(exact["cost"]["events"], run["structures"]["contacts"]["events"]["total"]);
@@ -410,17 +387,8 @@ TEST(Trade, RecommendsWhatHasSmallErrors) {
 
 TEST(TradeCommand, WritesRowsAndAPage) {
   const ScratchDirectory directory;
-  const std::vector<std::string> arguments{"trade",      data_file("trajectories/villin_hp36_300K.dcd"),
-                                           "--topology", data_file("trajectories/villin_hp36_300K.pdb"),
-                                           "--frames",   "0:9",
-                                           "--rounds",   "1",
-                                           "--times",    "5",
-                                           "--want",     "cages",
-                                           "--out",      (directory.path() / "result").string(),
-                                           "--json",     "-"};
-  const ProgramRun run = run_program(arguments);
-  ASSERT_EQ(run.code, 0) << run.err;
-  const auto json = nlohmann::json::parse(run.out);
+  const auto json = run_json("trade VILLIN --frames 0:9 --rounds 1 --times 5 --want cages --out OUT/result",
+                             directory.path());
   EXPECT_FALSE(json.at("recommendation").get<std::string>().empty());
   ASSERT_FALSE(json.at("rows").empty());
   for (const auto& row : json.at("rows")) {
