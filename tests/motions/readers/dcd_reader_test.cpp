@@ -75,14 +75,6 @@ TEST(DcdReader, SelectsFramesBySeeking) {
   refuse(maker.bytes(), {"--frames", "10 frames"}, {.frames = up_to(11)});
 }
 
-TEST(DcdReader, NumbersThatAreNone) {
-  DcdMaker maker = DcdMaker::chain(5, 3);
-  maker.frames[2][3][1] = std::numeric_limits<float>::quiet_NaN();
-  refuse(maker.bytes(), {"a.dcd: frame 2: bead 3 has y = nan"});
-  maker.frames[1][0][2] = -std::numeric_limits<float>::infinity();
-  refuse(maker.bytes(), {"a.dcd: frame 1: bead 0 has z = -inf"});
-}
-
 TEST(DcdReader, FalseFrameCountIsWarnedOf) {
   DcdMaker maker = DcdMaker::chain(5, 3);
   maker.claim_as_said = true;

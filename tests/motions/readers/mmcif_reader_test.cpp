@@ -3,7 +3,6 @@
 
 #include "motions/base/text_input.h"
 #include "tests/motions/reader_files.h"
-#include "tests/support/rounds.h"
 
 namespace kds::mmcif_reader_test {
 namespace {
@@ -166,13 +165,6 @@ TEST(MmcifReader, MoleculesOfAChain) {
 TEST(MmcifReader, ChainsGoByTheirAuthorsNames) {
   EXPECT_EQ(read(file(residue(1)), {.chain = "Z"}).bead_count(), 3U);
   refuse(file(residue(1)), {"--chain", "'A'", "expected Z"}, {.chain = "A"});
-}
-
-TEST(MmcifReader, ModelsAreFrames) {
-  const Trajectory trajectory = read(file(residue(1) + residue(1, 2, "2.5") + residue(1, 7, "3")));
-  ASSERT_EQ(trajectory.frames.size(), 3U);
-  EXPECT_EQ(trajectory.frames[2](0, 0), 3);
-  refuse(file(residue(1) + residue(2, 2)), {"a.cif: frame 1: bead 0"});
 }
 
 TEST(MmcifReader, EntitiesTellThePolymer) {

@@ -10,7 +10,6 @@
 #include "motions/frames/periodic.h"
 #include "motions/readers/read_trajectory.h"
 #include "tests/motions/test_files.h"
-#include "tests/support/inputs/gro_text.h"
 #include "tests/support/inputs/netcdf_maker.h"
 
 namespace kds::necklace_stream_test {

@@ -191,36 +191,6 @@ TEST(PdbReader, SeveralChainsAreANecklaceEach) {
   refuse(model, {"--chain", "has no chain 'X'", "A, B, C"}, {.chain = "A,X"});
 }
 
-TEST(PdbReader, NamesTheChainsThatAreNotRead) {
-  const std::string a = pdb_residue(1, 'A') + pdb_residue(2, 'A');
-  const auto warnings = [](const std::string& text, const ReadOptions& options = {}) {
-    return read(text, options).warnings;
-  };
-  EXPECT_TRUE(warnings(a + pdb_line({.name = "O", .residue = "HOH", .chain = 'W', .het = true})).empty());
-  EXPECT_THAT(
-      warnings(a + pdb_residue(1, 'B')),
-      testing::ElementsAre(testing::EndsWith("a.pdb: chain B not read; --chain B or --chain A,B reads it")));
-  EXPECT_THAT(warnings(a + pdb_residue(1, 'B') + pdb_residue(1, 'C')),
-              testing::ElementsAre(testing::EndsWith(
-                  "a.pdb: chains B, C not read; --chain B or --chain A,B reads them likewise")));
-  // A user that names a chain knows of the other chains.
-  EXPECT_TRUE(warnings(a + pdb_residue(1, 'B'), {.chain = "A"}).empty());
-  std::string many = a;
-  for (char chain = 'B'; chain <= 'Z'; ++chain) many += pdb_residue(1, chain);
-  EXPECT_THAT(warnings(many).front(), testing::HasSubstr("J, K and 15 more not read"));
-}
-
-TEST(PdbReader, ModelsAreFrames) {
-  const std::string text = models({pdb_residue(1), pdb_residue(1, 'A', 1), pdb_residue(1, 'A', 2)});
-  const Trajectory all = read(text);
-  ASSERT_EQ(all.frames.size(), 3U);
-  EXPECT_EQ(all.frames[2](1, 0), 2);
-  const Trajectory some = read(text, {.frames = {0, std::nullopt, 2}});
-  EXPECT_EQ(some.frame_numbers, (std::vector<std::size_t>{0, 2}));
-  EXPECT_EQ(some.frames[1](1, 0), 2);
-  refuse(text, {"--frames", "3 frames"}, {.frames = {3, std::nullopt, 1}});
-}
-
 TEST(PdbReader, FramesMayBeParted) {
   const std::string one = pdb_residue(1);
   EXPECT_EQ(read(one + "ENDMDL\n" + one + "ENDMDL\n").frames.size(), 2U);
@@ -287,12 +257,6 @@ TEST(PdbReader, CellsOfCrystalsAreNoBoxes) {
     same.replace(same.find("P 1"), 3, group);
     EXPECT_EQ(read(same + models({frame(1), frame(1)}), ca).frames[1](0, 1), 11) << group;
   }
-}
-
-TEST(PdbReader, TopologyIsForFilesWithoutNames) {
-  const Trajectory trajectory = read(pdb_residue(1), {.topology = "unused.pdb"});
-  ASSERT_EQ(trajectory.warnings.size(), 1U);
-  EXPECT_NE(trajectory.warnings[0].find("--topology"), std::string::npos);
 }
 
 TEST(PdbReader, LargeTopology) {

@@ -308,14 +308,5 @@ TEST(Selection, NucleicAcidsByTheirPhosphorus) {
   EXPECT_EQ(beads(residue(1, 'B') + dna, "p"), "A: P2 P3 P4");
 }
 
-TEST(Selection, TopologiesAreSelectedFrom) {
-  const auto pdb = test::write_file("t.pdb", residue(1) + residue(2) + residue(1, 'B'));
-  const auto dcd = test::write_file("t.dcd", test::DcdMaker::chain(15, 2).bytes());
-  const auto necklaces = read_trajectories(dcd, {.topology = pdb, .selection = parsed("//*//CA,CB")});
-  ASSERT_EQ(necklaces.size(), 2U);
-  EXPECT_EQ(necklaces[0].bead_count(), 4U);
-  EXPECT_EQ(necklaces[1].frames[0], read_trajectory(dcd).frames[0](Eigen::all, std::vector<int>{11, 13}));
-}
-
 }  // namespace
 }  // namespace kds::selection_test

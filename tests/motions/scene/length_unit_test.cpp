@@ -12,8 +12,6 @@
 #include <vector>
 
 #include "motions/readers/read_trajectory.h"
-#include "motions/scene/file_frames.h"
-#include "motions/scene/frame_survey.h"
 #include "tests/motions/test_files.h"
 
 namespace kds::length_unit_test {
