@@ -81,9 +81,11 @@ void expect_same_frame_by_frame(const Trajectory& trajectory, const std::filesys
       ASSERT_EQ(frame.stamp.number, trajectory.frame_numbers[k]);
     }
     ASSERT_EQ(k, trajectory.frames.size());
-    auto warnings = trajectory.warnings;  // read_trajectory() alone tells of frames without times
-    std::erase_if(warnings, [](const auto& line) { return line.find("have no time") != line.npos; });
-    EXPECT_EQ(stream.warnings(0), warnings);
+    // A stream and read_trajectory() may differ in warnings of frames without times.
+    std::vector<std::string> warnings = trajectory.warnings, of_stream = stream.warnings(0);
+    for (auto* lines : {&warnings, &of_stream})
+      std::erase_if(*lines, [](const auto& line) { return line.find("have no time") != line.npos; });
+    EXPECT_EQ(of_stream, warnings);
   }
 }
 
