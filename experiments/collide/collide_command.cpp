@@ -99,6 +99,10 @@ CollideOptions parse_collide_options(const Arguments& arguments) {
   const ParsedArguments parsed =
       read_arguments(with_inputs(kCollideCommand), collide_options(), arguments, options);
   take_inputs(parsed, kCollideCommand.name, options);
+  if (options.pairs == WhichPairs::between && parsed.has("--apart"))
+    throw InputError(
+        "--apart",
+        fmt::format("applies to pairs of one necklace, and {} between examines pairs of two", "--pairs"_arg));
   if (!parsed.has("--rounds")) options.rounds = options.methods.size() > 1 ? 3 : 1;
   return options;
 }

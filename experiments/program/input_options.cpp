@@ -48,7 +48,8 @@ Selection parse_selection(std::string_view option, const std::string& text) {
   const bool may_be_atoms = std::all_of(atoms.begin(), atoms.end(), [](const std::string& atom) {
     return !atom.empty() && atom.size() <= longest && atom.find_first_of(" \t!*") == std::string::npos;
   });
-  throw InputError(fmt::format("{}: '{}' is not one of {}, nor an atom selection as in {}{}{}", option, text,
+  throw InputError(option,
+                   fmt::format("'{}' is not one of {}, nor an atom selection as in {}{}{}", text,
                                fmt::join(names, ", "), selection_example, suggestion(text, names),
                                may_be_atoms ? fmt::format("; //*//{} chooses atoms by name", text) : ""));
 }

@@ -38,6 +38,7 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   refuse(reading.format.has_value(), "--format");
   refuse(!reading.groups.empty(), "--groups");
   refuse(reading.time_step.has_value(), "--dt");
+  refuse(reading.units.has_value(), "--units");
   refuse(reading.until_damage, "--until-damage");
   refuse(options.radius != "auto", "--radius");
   refuse(options.obstacle.has_value(), "--obstacle");
@@ -249,7 +250,8 @@ void refuse_events_of_chords(const RunOptions& options, const KineticRunOptions&
     const StructureSpec* const spec = structure_registry().find(name);
     if (spec == nullptr || spec->has_events(kinetic.settings)) continue;
     throw InputError(
-        fmt::format("{}: {} has chord cages, which have no events; expected {}", asked, name,
+        fmt::format("{}: {} has {}, which have no events; expected {}", asked, name,
+                    name == "wrapped" ? "chord cages" : "spheres of each frame",
                     name == "wrapped" ? "--between"_arg + " events" : "--structures"_arg + " without it"));
   }
 }

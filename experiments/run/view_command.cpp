@@ -90,6 +90,9 @@ ViewOptions parse_view_options(const Arguments& arguments) {
   if (!options.page && !options.vtk && !options.script)
     throw InputError("kds view writes nothing; expected -o FILE, --vtk DIR or --script FILE");
   if (options.script) check_script_ending(*options.script);
+  for (const char* const option : {"--quantum", "--max-mb"})
+    if (parsed.has(option) && !options.page)
+      throw InputError(fmt::format("{}: applies to the page, expected -o FILE as well", option));
   if (options.at && !options.script)
     throw InputError("--at: names the frame of --script, which is not given");
   return options;

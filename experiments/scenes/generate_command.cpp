@@ -195,6 +195,8 @@ GenerateOptions parse_generate_options(const Arguments& arguments) {
     throw InputError("--frames", fmt::format("{} beads in {} frames are more than {} positions; give less",
                                              settings.beads, settings.frames, kMostPositions));
   options.settings = completed(*options.model, settings);
+  if (settings.frames == 1 && parsed.has("--step"))
+    throw InputError("--step", "one frame does not move; expected --frames from 2");
   if (settings.motion == ShapeMotion::rest) {
     if (parsed.has("--step"))
       throw InputError(

@@ -65,6 +65,8 @@ InfoOptions parse_info_options(const Arguments& arguments) {
   const ParsedArguments parsed =
       read_arguments(with_inputs(kInfoCommand, true), info_options(), arguments, options);
   take_inputs(parsed, kInfoCommand.name, options);
+  for (const char* const option : {"--beads", "--rho", "--list"})
+    if (parsed.has(option)) options.of_trajectories = option;
   if (options.beads && (parsed.has("--rho") || parsed.has("--list")))
     throw InputError("--beads",
                      fmt::format("lists no conditions; expected no {} and no {}", "--rho"_arg, "--list"_arg));
@@ -107,9 +109,10 @@ const Table<BeadRow>& bead_columns() {
 }
 
 // An instance file has weighted points rather than balls in a chain, so there are no conditions to check.
-void describe(const Instance& instance, bool beads, const TableCommand& command) {
-  if (beads)
-    throw InputError("--beads", fmt::format("has no meaning for an instance file ({})", instance.file));
+void describe(const Instance& instance, const InfoOptions& options, const TableCommand& command) {
+  if (options.of_trajectories)
+    throw InputError(*options.of_trajectories,
+                     fmt::format("has no meaning for an instance file ({})", instance.file));
   Json json;
   json["input"] = {{"files", std::vector{instance.file}},
                    {"beads", instance.point_count()},
@@ -169,7 +172,7 @@ int info_command(const Arguments& arguments) {
   command.check_destinations(taken, {"info.json", "info.csv"});
 
   if (const std::optional<Instance> instance = read_lone_instance(options)) {
-    describe(*instance, options.beads, command);
+    describe(*instance, options, command);
   } else if (options.beads) {
     describe_beads(options, command);
   } else {

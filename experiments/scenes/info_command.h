@@ -1,6 +1,7 @@
 #pragma once
 // The options of `kds info`, and the beads that it lists.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,7 +18,8 @@ namespace kds {
 
 struct InfoOptions : InputOptions, Destinations {  // results: info.json and info.csv
   ValidateOptions validate{.most_listed = 5};
-  bool beads = false;  ///< report only which residue each bead is
+  bool beads = false;                          ///< report only which residue each bead is
+  std::optional<std::string> of_trajectories;  ///< an option that is given and has no meaning for instances
 };
 
 /// Parses the options. Throws an InputError that names the option and what it takes. Throws HelpRequest for

@@ -191,7 +191,7 @@ std::vector<StabilitySubject> kinetic_structures() {
     names.insert(subject.name.substr(0, subject.name.find(':')));
   for (const StructureSpec& spec : structure_registry().all())
     for (const int dimension : {1, 2, 3})
-      if (!names.contains(spec.name) && !spec.refusal(Scene(BeadCurves(dimension, 1, 2).instance(spec.name))))
+      if (!names.contains(spec.name) && !spec.refusal(Scene(BeadCurves(dimension, 1, 6).instance(spec.name))))
         for (const int degree : {1, 3})
           subjects.push_back(structure_subject(spec.name, Of::points, dimension, degree, 6));
   return subjects;

@@ -44,7 +44,8 @@ double seconds_of_one(const Scene& scene, const TradeSetting& setting, TradeCost
     for (std::size_t kind = 0; kind < structure->kinds().size(); ++kind)
       if (structure->kinds()[kind].external) cost.events += structure->statistics.events_by_kind[kind];
   }
-  return std::max(1e-9, with_loading - loading);
+  // Steps too quick to be told from loading count with it.
+  return with_loading > loading ? with_loading - loading : with_loading;
 }
 
 /// Performs all runs that the setting takes and returns their seconds. Stores the counts in `cost`.

@@ -112,12 +112,14 @@ const OptionList<TradeTask>& task_options() {
                     "run each setting N times, alternating, and report the median time (default: 5)"},
                    &O::rounds, 1, 1000)})
           .with(&O::sampling,
-                {{whole_option(
-                      {"--times", "N",
-                       "number of random times, and of frames, at which errors are measured (default: 200)"},
-                      &SamplingOfTimes::times, 1, 1'000'000),
-                  whole_option({"--seed", "N", "seed of the random times (default: 1)"},
-                               &SamplingOfTimes::seed, 0, ~std::uint64_t{0})}})
+                {{only_for({"contacts", "cages", "diagram", "events"},
+                           whole_option({"--times", "N",
+                                         "number of random times, and of frames, at which errors are "
+                                         "measured (default: 200)"},
+                                        &SamplingOfTimes::times, 1, 1'000'000)),
+                  only_for({"contacts", "cages", "diagram", "events"},
+                           whole_option({"--seed", "N", "seed of the random times (default: 1)"},
+                                        &SamplingOfTimes::seed, 0, ~std::uint64_t{0}))}})
           .with({threads_option(&O::threads)});
   return list;
 }

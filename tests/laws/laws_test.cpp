@@ -7,12 +7,14 @@
 //   5. After edits, the structure is the one built from the beads that are present, on their present curves.
 //      The kernels agree, and a replay gives the same structure.
 //
-// KDS_LAW_SCENES in the environment multiplies the number of scenes; KDS_LAW_SEED is the first seed.
+// KDS_LAW_SCENES in the environment multiplies the number of scenes; KDS_LAW_SEED is the first seed;
+// KDS_LAW_STRUCTURE runs one structure only.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -266,8 +268,10 @@ class Subject {
       note_ending(outcome, [&] {
         KineticRun run(scene_, options(kernel, AuditMode::events));
         KineticStructure* const structure = run.structures()[0];
-        ASSERT_EQ(dynamic_cast<CourseFollower*>(structure) != nullptr, row_.edits != Edits::none);
-        ASSERT_EQ(edits_of(*structure) != nullptr, row_.edits == Edits::beads);
+        ASSERT_EQ(dynamic_cast<CourseFollower*>(structure) != nullptr, row_.edits != Edits::none)
+            << "the row's `edits` says otherwise than the structure's base class";
+        ASSERT_EQ(edits_of(*structure) != nullptr, row_.edits == Edits::beads)
+            << "the row's `edits` says otherwise than the structure's base class";
         if (row_.edits == Edits::none) return;
         run.limit_work(most_work);
         run.listen(log);
@@ -383,6 +387,7 @@ TEST_P(Laws, Hold) {
   const LawScene& family = GetParam();
   const std::uint64_t seeds = rounds(family.seeds) * from_environment("KDS_LAW_SCENES", 1);
   const std::uint64_t first = from_environment("KDS_LAW_SEED", 0);
+  const char* const only = std::getenv("KDS_LAW_STRUCTURE");
   std::vector<Counts> counts(law_structures().size());
   int refused = 0;
   for (std::uint64_t seed = first; seed < first + seeds && !HasFailure(); ++seed) {
@@ -397,6 +402,7 @@ TEST_P(Laws, Hold) {
       const LawStructure& row = law_structures()[i];
       const auto& names = family.structures;
       if (!names.empty() && std::find(names.begin(), names.end(), row.name) == names.end()) continue;
+      if (only != nullptr && row.name != only) continue;
       SCOPED_TRACE(family.name + ", seed " + std::to_string(seed) + ", " + row.title());
       try {
         if (structure_registry().find(row.name)->refusal(*scene)) continue;
@@ -414,8 +420,8 @@ TEST_P(Laws, Hold) {
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const Edits edits = law_structures()[i].edits;
     SCOPED_TRACE(law_structures()[i].title());
-    EXPECT_EQ(counts[i].decided > 0, counts[i].runs > 0);
-    EXPECT_EQ(counts[i].edited > 0, counts[i].done > 0 && edits != Edits::none);
+    EXPECT_EQ(counts[i].decided > 0, counts[i].runs > 0) << "no scene of the family was decided";
+    EXPECT_EQ(counts[i].edited > 0, counts[i].done > 0 && edits != Edits::none) << "no edit was made";
   }
 }
 
