@@ -32,14 +32,14 @@ TEST(CollideOptions, DefaultsAndAll) {
   EXPECT_EQ(plain.methods.size(), collision_methods().size());
   EXPECT_EQ(plain.apart, 2U);
   EXPECT_EQ(plain.pairs, WhichPairs::all);
-  const CollideOptions all = parse_collide_options({"a.xyz", "--method", "cells,brute", "--apart", "5",
-                                                    "--pairs", "between", "--out", "there", "--json", "-",
-                                                    "--quiet", "b.xyz", "--radius", "2", "--frames", ":9"});
+  const CollideOptions all =
+      parse_collide_options({"a.xyz", "--method", "cells,brute", "--apart", "5", "--pairs", "within", "--out",
+                             "there", "--json", "-", "--quiet", "b.xyz", "--radius", "2", "--frames", ":9"});
   EXPECT_THAT(all.inputs, ElementsAre("a.xyz", "b.xyz"));
   EXPECT_THAT(all.methods, ElementsAre("brute", "cells"));
   EXPECT_FALSE(all.all_methods);
   EXPECT_EQ(all.apart, 5U);
-  EXPECT_EQ(all.pairs, WhichPairs::between);
+  EXPECT_EQ(all.pairs, WhichPairs::within);
   EXPECT_EQ(all.destinations.out, "there");
   EXPECT_EQ(all.destinations.json, "-");
   EXPECT_TRUE(all.destinations.quiet);
