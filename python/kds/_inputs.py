@@ -96,11 +96,15 @@ def check_unit_name(units):
         raise InputError(f"units: is '{units}'; expected angstrom or nm")
 
 
+def _check_two(groups):
+    if not isinstance(groups, (list, tuple)) or len(groups) != 2:
+        raise InputError("groups: are not two; expected a pair, such as (first, second)")
+
+
 def _set_groups(beads, groups, count, members):
     if groups is None:
         return []
-    if not isinstance(groups, (list, tuple)) or len(groups) != 2:
-        raise InputError("groups: are not two; expected a pair, such as (first, second)")
+    _check_two(groups)
     bits = np.zeros(count, dtype=np.uint8)
     for k, group in enumerate(groups):
         bits[members(group)] |= 1 << k
@@ -365,6 +369,7 @@ def _open_paths(paths, start, stop, step, units, necklaces, times, groups, radiu
     if units is not None:
         more += ["--units", str(units)]
     if groups is not None:
+        _check_two(groups)
         more += ["--groups", *(str(group) for group in groups)]
     if radius is not None:
         more += ["--radius", str(radius)]

@@ -23,7 +23,7 @@ _NO_ARGUMENTS = {
     "frames": "expected start, stop, step", "format": "expected a path with the ending of its format",
     "rounds": "a run is made once; kds.compare takes it", "help": "help(kds.run) explains all arguments"}
 
-_FLAGS = set()  # arguments that are True or False
+_FLAGS, _VALUED = set(), set()  # arguments that are True or False for some function, and those that are not
 _FOLDER = os.path.dirname(__file__)
 LARGEST = 2**62  # whole numbers of the extension module have 64 bits
 
@@ -147,8 +147,7 @@ def takes(command, without=()):
         helps, defaults = {}, {}
         for name, help, is_flag in _kds.options_of(command):
             helps[name], defaults[name] = help, False if is_flag else None
-            if is_flag:
-                _FLAGS.add(name)
+            (_FLAGS if is_flag else _VALUED).add(name)
         inputs = [name for name in INPUT if name != "groups" or name in helps] if "topology" in helps else []
         if command == "run":
             inputs.append("only")
@@ -185,16 +184,16 @@ def arguments(options):
         if value is None:
             continue
         option = "--" + name.replace("_", "-")
-        if name in _FLAGS:
+        if name in _FLAGS - _VALUED:
             found.extend([option] if flag(name, value) else [])
         elif isinstance(value, (bool, np.bool_)):
-            raise InputError(f"{name}: is {value}; expected another value than True or False")
+            if value and name not in _FLAGS:
+                raise InputError(f"{name}: is {value}; expected another value than True or False")
+            found.extend([option] if value else [])
         elif name in ("levels", "nodes") and isinstance(value, (tuple, list)) and any(not isinstance(one, (str, slice))
                                                                                     for one in value):
             raise InputError(f"{name}: is {value!r}; expected slice(first, end), or a text such as '0:2'")
         elif name == "groups":
-            if isinstance(value, str) or len(value) != 2:
-                raise InputError(f"groups: is {value!r}; expected two selections")
             found.extend([option, *(_text(group) for group in value)])
         elif text := _text(value):
             found.append(f"{option}={text}")  # one argument, so the text cannot be taken for an input
