@@ -193,8 +193,6 @@ def arguments(options):
         elif name in ("levels", "nodes") and isinstance(value, (tuple, list)) and any(not isinstance(one, (str, slice))
                                                                                     for one in value):
             raise InputError(f"{name}: is {value!r}; expected slice(first, end), or a text such as '0:2'")
-        elif name == "groups":
-            found.extend([option, *(_text(group) for group in value)])
         elif text := _text(value):
             found.append(f"{option}={text}")  # one argument, so the text cannot be taken for an input
         else:
