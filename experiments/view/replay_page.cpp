@@ -11,7 +11,7 @@
 
 #include "experiments/output/output_files.h"
 #include "experiments/view/replay_columns.h"
-#include "experiments/view/replay_template.h"
+#include "experiments/output/page_templates.h"
 #include "motions/base/input_error.h"
 #include "motions/readers/bead_name.h"
 #include "structures/session/scene_motion.h"
@@ -90,8 +90,8 @@ ReplayPage::ReplayPage(std::ostream& stream, const Scene& scene, ReplayPageOptio
   if (scene.dimension() < 2)
     throw InputError("a replay shows beads in the plane or in space, and this input has 1 coordinate");
   for (const std::string_view piece : replay_template()) page_ += piece;
-  const std::size_t mark = page_.find(replay_data_mark);
-  rest_of_page_ = std::string_view(page_).substr(mark + replay_data_mark.size());
+  const std::size_t mark = page_.find(page_data_mark);
+  rest_of_page_ = std::string_view(page_).substr(mark + page_data_mark.size());
   put(std::string_view(page_).substr(0, mark));
 }
 

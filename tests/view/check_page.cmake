@@ -1,5 +1,5 @@
-# Builds the replay page again from its sources and compares the bytes. Skipped where npm does not reach its registry.
-# Usage: cmake -DNPM=<npm> -DNODE=<node> -DPAGE=<experiments/view/page> -DPLACE=<folder to work in> -P check_page.cmake
+# Builds the pages again from their sources and compares the bytes. Skipped where npm does not reach its registry.
+# Usage: cmake -DNPM=<npm> -DNODE=<node> -DPAGE=<experiments/pages> -DPLACE=<folder to work in> -P check_page.cmake
 if(NOT NPM)
   message(STATUS "skipped: npm is missing")
   return()
@@ -16,12 +16,15 @@ endif()
 if(failed)
   message(FATAL_ERROR "npm ci failed:\n${output}")
 endif()
-execute_process(COMMAND ${NODE} build.mjs built.html WORKING_DIRECTORY "${PLACE}" RESULT_VARIABLE failed ERROR_VARIABLE output)
+execute_process(COMMAND ${NODE} build.mjs built WORKING_DIRECTORY "${PLACE}" RESULT_VARIABLE failed ERROR_VARIABLE output)
 if(failed)
-  message(FATAL_ERROR "the page cannot be built:\n${output}")
+  message(FATAL_ERROR "the pages cannot be built:\n${output}")
 endif()
 file(REMOVE_RECURSE "${PLACE}/node_modules")
-execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files "${PLACE}/built.html" "${PAGE}/dist/replay_page.html" RESULT_VARIABLE differs)
-if(differs)
-  message(FATAL_ERROR "dist/replay_page.html is not what src/ builds: run 'npm run build' in experiments/view/page and commit the page")
-endif()
+foreach(page replay report)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files "${PLACE}/built/${page}_page.html" "${PAGE}/dist/${page}_page.html"
+                  RESULT_VARIABLE differs)
+  if(differs)
+    message(FATAL_ERROR "dist/${page}_page.html is not what src/ builds: run 'npm run build' in experiments/pages and commit it")
+  endif()
+endforeach()

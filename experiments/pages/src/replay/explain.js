@@ -1,0 +1,117 @@
+// Explains structures and kinds of events in a sentence each. A structure that is not listed is shown without one.
+
+import { count } from "../shared/dom.js";
+
+const structures = {
+  wrapped: "Wrapped hierarchy: a balanced tree of cages. A cage is the smallest sphere around the beads of its node.",
+  boxes: "Hierarchy of boxes: each node of a balanced tree has the smallest box around its beads.",
+  power: "Power diagram: an edge joins two beads whose cells share a face.",
+  contacts: "Contacts: pairs of beads that are at most the cutoff apart, by default those that touch or overlap.",
+  sorted: "Sorted list: the beads in order along an axis.",
+  box: "Enclosing box: the smallest box around all beads.",
+  hull: "Convex hull of the beads in the plane.",
+  closest: "Closest pair: the two beads with the least distance.",
+};
+
+const kinds = {
+  wrapped: {
+    enter: "A bead reaches the sphere of this cage and joins the basis, the beads that hold the sphere.",
+    leave: "A bead of the basis is no longer needed to hold the sphere of this cage.",
+    pivot: "A bead reaches the sphere of this cage and takes the place of another bead in the basis.",
+  },
+  power: {
+    "2-3": "Two tetrahedra with a common triangle become three around a new edge.",
+    "3-2": "Three tetrahedra around an edge become two. The edge goes.",
+    "2-2": "Two triangles exchange their common edge for the other diagonal.",
+    "4-1": "A bead loses its power cell and is hidden: four tetrahedra become one.",
+    "1-4": "A hidden bead gets a power cell: one tetrahedron becomes four.",
+    "3-1": "A bead loses its power cell and is hidden: three triangles become one.",
+    "1-3": "A hidden bead gets a power cell: one triangle becomes three.",
+    wander: "A hidden bead moves into another cell of the triangulation.",
+    rebuild: "Flips block each other here, so the diagram is built anew.",
+    "rebuild-at-frame": "The diagram is built anew at this frame.",
+    clear: "Cells go, where flips block each other.",
+    fill: "Cells come, where flips block each other.",
+    repair: "The diagram is repaired, where flips block each other.",
+  },
+  contacts: {
+    begin: "Two beads come into contact.",
+    end: "The contact of two beads ends.",
+    touch: "Two beads are in contact at this one instant.",
+  },
+  sorted: { interchange: "Two neighbours in the list exchange places." },
+  hull: {
+    enter: "A bead becomes a corner of the hull.",
+    leave: "A corner of the hull moves inside.",
+    interchange: "Two corners exchange their order along an axis.",
+  },
+  closest: { replace: "Another pair becomes the closest.", overtake: "A pair overtakes another within the tournament." },
+  boxes: { support: "Another bead holds a side of this box." },
+  box: { overtake: "A bead overtakes another within the tournament for an end of the box." },
+};
+
+export const explainStructure = (name) => structures[name] ?? "";
+export const explainKind = (structure, kind) =>
+  kinds[structure]?.[kind] ?? (structure === "box" && /^(min|max)-/.test(kind) ? "Another bead holds this end of the box." : "");
+
+// Splits a bead's name, such as "A/LEU42/CA", into chain, residue and atom.
+export function residueOf(name) {
+  const parts = name.split("/");
+  return parts.length === 3 ? { chain: parts[0], residue: parts[1], atom: parts[2] } : null;
+}
+
+// Writes a time of the run: frames and, if known, picoseconds.
+export function timeText(step, u, frames, times, unit) {
+  const last = step + 1 >= frames.length;
+  const from = frames[step];
+  const to = last ? from : frames[step + 1];
+  const frame = u === 0 ? `frame ${from}` : `frame ${trim(from + (to - from) * u, 6)}`;
+  if (!times) return frame;
+  const at = last ? times[step] : times[step] + (times[step + 1] - times[step]) * u;
+  return `${frame}, ${trim(at, 6)} ${unit}`;
+}
+
+// Returns the number of decimals that positions rounded to multiples of `quantum` need.
+export const decimals = (quantum) => Math.min(100, Math.max(0, Math.ceil(-Math.log10(quantum))));
+
+// Times of events are multiples of 2^-32, so 32 decimals are exact.
+const allDecimals = 32;
+const bracketDecimals = 10;
+
+export const exactText = (u) => u.toFixed(allDecimals).replace(/\.?0+$/, "");
+// Returns the largest number of few decimals that is at most u.
+export const lowerText = (u) => u.toFixed(allDecimals).slice(0, 2 + bracketDecimals);
+// Returns the smallest number of few decimals that is at least u.
+export function upperText(u) {
+  const below = lowerText(u);
+  if (/^0*$/.test(u.toFixed(allDecimals).slice(below.length))) return below;
+  const next = String(BigInt(below.replace(".", "")) + 1n).padStart(1 + bracketDecimals, "0");
+  return `${next.slice(0, 1)}.${next.slice(1)}`;
+}
+
+// Returns numerator / 2^exponent. `ids` are the exponent, then the 32-bit words of the numerator, lowest first.
+export const dyadic = ([exponent, ...words]) =>
+  words.reduceRight((sum, word) => sum * 2 ** 32 + word, 0) / 2 ** exponent;
+
+export const trim = (value, digits) => String(Number(value.toFixed(digits)));
+
+// Returns the line below the title.
+export function subtitle(meta) {
+  const events = meta.structures.reduce((sum, structure) => sum + structure.events, 0);
+  const stride = meta.stride > 1 ? ` (one in ${meta.stride} of the input)` : "";
+  return `${count(meta.beads, "bead")}, ${count(meta.frames, "frame")}${stride}, ${count(events, "event")}`;
+}
+
+// Returns the text at the foot of the panel: input, motion, rounding and command of the replay.
+export function aboutText(meta) {
+  const unit = meta.length_unit ? ` ${meta.length_unit}` : "";
+  const note = meta.quantum_note ? ` (${meta.quantum_note})` : "";
+  const parts = [
+    `Input: ${meta.inputs.join(", ")}.`,
+    `Motion between frames: ${meta.motion}.`,
+    `Positions are rounded to multiples of ${meta.quantum}${unit}${note}. Events come from the exact motion; their times are shown to 2^-32 of a step, in brackets that hold the true times.`,
+    ...(meta.stride > 1 ? [`The run takes one frame in ${meta.stride} of the input, which keeps the page small.`] : []),
+    `Made by ${meta.program}: ${meta.command}`,
+  ];
+  return parts.join(" ");
+}

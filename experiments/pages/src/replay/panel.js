@@ -1,0 +1,195 @@
+// The panels of the chosen event and of the chosen bead.
+import { byId, count, make } from "../shared/dom.js";
+import { noBead } from "./events.js";
+import { decimals, dyadic, exactText, explainKind, lowerText, residueOf, timeText, trim, upperText } from "./explain.js";
+
+const longList = 12;
+
+export class Panels {
+  // `data`: meta, frames, times, names, state, radii, positions(). `actions`: bead(b) chooses a bead, follow(on), and
+  // beadEvent(way) goes to the bead's next (1) or previous event.
+  constructor(data, actions) {
+    this.data = data;
+    this.actions = actions;
+  }
+
+  timeText(step, u) {
+    const { frames, times, meta } = this.data;
+    return timeText(step, u, frames, times, meta.time_unit);
+  }
+
+  nameOf(bead) {
+    return this.data.names?.[bead] ?? `bead ${bead}`;
+  }
+
+  beadButton(bead) {
+    if (bead === noBead) return make("span", {}, "outside");
+    const text = this.data.names ? `${bead} ${this.data.names[bead]}` : `${bead}`;
+    return make("button", { class: "bead", title: `Choose bead ${bead}`, onclick: () => this.actions.bead(bead) }, text);
+  }
+
+  beadButtons(beads) {
+    const list = make("div", { class: "beads" }, ...beads.slice(0, longList).map((bead) => this.beadButton(bead)));
+    if (beads.length > longList) list.append(`and ${beads.length - longList} more`);
+    return list;
+  }
+
+  residues(beads) {
+    const { names } = this.data;
+    if (!names) return null;
+    const residues = beads.map((bead) => residueOf(names[bead])).filter(Boolean);
+    return [...new Set(residues.map(({ chain, residue }) => `${chain}/${residue}`))].join(", ") || null;
+  }
+
+  get eventCount() {
+    return this.data.state.structures.reduce((sum, { events }) => sum + events.count, 0);
+  }
+
+  showEvent() {
+    const { state } = this.data;
+    const place = byId("event");
+    byId("event-now").textContent = this.eventSentence();
+    if (!state.chosen) {
+      const way = ["None chosen. Press ", make("kbd", {}, "n"), ", or click a mark on the timeline."];
+      place.replaceChildren(make("p", {}, ...(this.eventCount ? way : ["This run has no events."])));
+      return;
+    }
+    const [s, e] = state.chosen;
+    const { name, events } = state.structures[s];
+    const kind = events.kindOf(e);
+    const beads = events.beadsOf(e);
+    const rows = [
+      ["time", this.timeText(events.step[e], events.u[e])],
+      ["bracket", this.bracketText(events, e)],
+    ];
+    const stage = events.stages[events.stage[e]];
+    if (stage) rows.push(["decided by", stage]);
+    rows.push(...this.changeRows(s, e));
+    for (const role of events.rolesOf(e)) {
+      if (role.of === "node") rows.push([role.name, `beads ${role.ids[0]} to ${role.ids[1]}`]);
+      else if (kind.name === "rebuild" && role.name === "time") rows.push(["built anew at", `u = ${trim(dyadic(role.ids), 10)}`]);
+      else if (role.of === "number") rows.push([role.name, role.ids.join(" ")]);
+      else rows.push([role.name, this.beadButtons(role.ids)]);
+    }
+    const residues = this.residues(beads);
+    if (residues) rows.push(["residues", residues]);
+    place.replaceChildren(
+      make("h3", {}, make("span", { class: `chip c${events.kind[e] % 8}` }, `${name}: ${kind.name}`)),
+      make("p", {}, explainKind(name, kind.name)),
+      table(rows),
+      make("p", { class: "soft" }, `Event ${(e + 1).toLocaleString("en")} of ${events.count.toLocaleString("en")} of ${name}, number ${events.order[e] + 1} of the run${kind.external ? "" : ", internal"}.`),
+    );
+  }
+
+  // Says what the chosen event is, in one or two sentences. Before the first one is chosen it says how to get there.
+  eventSentence() {
+    const { state } = this.data;
+    if (!state.chosen && this.eventCount === 0) return "No structure changes in this run.";
+    if (!state.chosen) return this.hasChosen ? "" : "Press Next event to see a structure change.";
+    this.hasChosen = true;
+    const [s, e] = state.chosen;
+    const { name, events } = state.structures[s];
+    return `${name}, ${events.kindOf(e).name}. ${explainKind(name, events.kindOf(e).name)}`;
+  }
+
+  bracketText(events, e) {
+    const { frames } = this.data;
+    const step = events.step[e];
+    const [lower, upper] = events.bracketOf(e);
+    const between = step + 1 < frames.length ? `frames ${frames[step]} and ${frames[step + 1]}` : `frame ${frames[step]}`;
+    const lines = lower === upper ? [`u = ${exactText(lower)}`] : [`u ≥ ${lowerText(lower)}`, `u ≤ ${upperText(upper)}`];
+    return make("span", {}, ...lines.map((line) => make("div", { class: "bounds" }, line)), `between ${between}`);
+  }
+
+  changeRows(s, e) {
+    const rows = [];
+    for (const { name, arity, removed, added } of this.data.state.changesOf(s, e)) {
+      if (arity !== 2) continue;
+      const pairs = (words) => {
+        const list = Array.from({ length: words.length / 2 }, (_, k) => `${words[2 * k]}–${words[2 * k + 1]}`);
+        return `${list.length === 1 ? name.replace(/s$/, "") : name} ${list.join(", ")}`;
+      };
+      if (removed.length) rows.push([make("span", { class: "goes" }, "goes"), pairs(removed)]);
+      if (added.length) rows.push([make("span", { class: "comes" }, "comes"), pairs(added)]);
+    }
+    return rows;
+  }
+
+  // Shows a bead: {number, events (indices by structure), follow}. While the run plays, only values that have changed are
+  // replaced, so that buttons keep the focus.
+  showBead(bead) {
+    if (this.shownBead !== bead) {
+      this.shownBead = bead;
+      this.beadValues = new Map();
+      if (bead.number >= 0) this.layOutBead(bead);
+      else byId("bead").replaceChildren(make("p", {}, "None chosen. Click a bead."));
+    }
+    if (bead.number < 0) return;
+    for (const [name, value, element] of this.beadRows(bead)) {
+      const known = this.beadValues.get(name);
+      const text = String(value);
+      if (known.text === text) continue;
+      known.text = text;
+      known.place.replaceChildren(element ? element(value) : text);
+    }
+    byId("follow").checked = bead.follow;
+  }
+
+  layOutBead(bead) {
+    const rows = this.beadRows(bead).map(([name]) => {
+      const place = make("span");
+      this.beadValues.set(name, { place, text: null });
+      return [name, place];
+    });
+    const none = bead.events.every((list) => list.length === 0);
+    const { actions } = this;
+    const follow = make("input", { type: "checkbox", id: "follow", onchange: () => actions.follow(follow.checked) });
+    byId("bead").replaceChildren(
+      make("h3", {}, this.data.names ? `${bead.number} ${this.nameOf(bead.number)}` : `bead ${bead.number}`),
+      table(rows),
+      make(
+        "p",
+        { class: "buttons" },
+        make("button", { disabled: none, onclick: () => actions.beadEvent(-1) }, "Its previous event"),
+        make("button", { disabled: none, onclick: () => actions.beadEvent(1) }, "Its next event"),
+      ),
+      make(
+        "p",
+        { class: "buttons" },
+        make("label", {}, follow, " follow it"),
+        make("button", { onclick: () => actions.bead(-1) }, "Release it"),
+      ),
+    );
+  }
+
+  // Returns what is known of a bead at the present: [name, value, function that shows the value].
+  beadRows(bead) {
+    const { state, radii, positions, meta } = this.data;
+    const b = bead.number;
+    const has = (layer) => state.layersNamed(layer).length > 0;
+    const buttons = (beads) => (beads.length ? this.beadButtons(beads) : "none now");
+    const digits = decimals(meta.quantum);
+    const at = Array.from(positions().subarray(3 * b, 3 * b + meta.dimension), (value) => value.toFixed(digits));
+    const rows = [
+      ["place", `${at.join(", ")} ${meta.length_unit}`],
+      ["radius", radii(b) ? `${trim(radii(b), Math.min(100, digits + 1))} ${meta.length_unit}` : "none, a point"],
+    ];
+    if (has("hidden")) {
+      const hidden = state.elements("hidden").some(([other]) => other === b);
+      rows.push(["power cell", hidden ? "none, the bead is hidden" : "yes"]);
+    }
+    if (has("edges")) rows.push(["neighbours", state.partnersOf("edges", b), buttons]);
+    if (has("contacts")) rows.push(["contacts", state.partnersOf("contacts", b), buttons]);
+    if (has("cages")) {
+      const held = state.elements("cages").filter(([, ...basis]) => basis.includes(b)).length;
+      rows.push(["holds", count(held, "cage")]);
+    }
+    const total = bead.events.reduce((sum, list) => sum + list.length, 0);
+    const before = bead.events.reduce((sum, list, s) => sum + list.filter((e) => e < state.applied[s]).length, 0);
+    rows.push(["events", total ? `${total.toLocaleString("en")}, ${before.toLocaleString("en")} of them so far; marked at the foot of the timeline` : "none"]);
+    return rows;
+  }
+}
+
+const table = (rows) =>
+  make("dl", {}, ...rows.flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]));

@@ -1,0 +1,58 @@
+// Keeps the view in the URL's fragment.
+import { byId } from "../shared/dom.js";
+import { readLink, writeLink } from "./link.js";
+
+const linkEvery = 500;  // ms
+
+// Opens the view that the URL names.
+export async function openView(app) {
+  const view = readLink(location.hash);
+  app.layers.open(view);
+  app.setTheme(view.theme ?? app.theme ?? null);
+  if (view.speed) {
+    app.player.speed = view.speed;
+    byId("speed").value = String(view.speed);
+  }
+  const end = app.state.lastStep;
+  const within = (range) => range && range[0] >= 0 && range[0] < range[1] && range[1] <= end;
+  if (within(view.loop)) app.player.loop = view.loop;
+  byId("loop-clear").hidden = !app.player.loop;
+  if (view.bead < app.meta.beads) app.chooseBead(view.bead);
+  if (view.camera && app.scene) app.scene.view = view.camera;
+  if (within(view.window)) app.timeline.show(view.window);
+  const [s, e] = view.event ?? [];
+  const known = e < app.state.structures[s]?.events.count;
+  await app.goTo(Math.min(end, view.step ?? 0), view.u ?? 0, known ? [s, e] : null);
+  if (view.follow) app.bead.follow = app.bead.number >= 0;
+  app.showTexts();
+}
+
+// Writes the view to the URL a little later, because browsers limit how often a page may change its URL.
+export function saveViewSoon(app) {
+  if (app.linking) return;
+  app.linking = setTimeout(() => {
+    app.linking = null;
+    if (app.player.playing) return;
+    const { state, timeline } = app;
+    const all = timeline.range[0] === 0 && timeline.range[1] === timeline.end;
+    app.written = writeLink({
+      step: state.step,
+      u: state.u,
+      event: state.chosen,
+      bead: app.bead.number,
+      follow: app.bead.follow,
+      layers: app.layers.shown(),
+      level: app.layers.level,
+      camera: app.scene?.view,
+      speed: app.player.speed,
+      window: all ? null : timeline.range,
+      loop: app.player.loop,
+      theme: app.theme,
+    });
+    try {
+      history.replaceState(null, "", app.written);
+    } catch {
+      // A page inside a notebook may have no address of its own.
+    }
+  }, linkEvery);
+}
