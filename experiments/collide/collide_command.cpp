@@ -128,8 +128,7 @@ int collide_command(const Arguments& arguments) {
   check_inputs_exist(options);
   TakenPaths taken;
   taken.read(options);
-  command.check_destinations(taken,
-                             {"collide.json", "collide.csv", "pairs.csv", "frames.csv", "report.html"});
+  command.check_destinations(taken);
 
   refuse_instance(options, "points, no balls");
   const auto warn = command.warn();
@@ -157,7 +156,7 @@ int collide_command(const Arguments& arguments) {
   json["frames"] = Json::array();  // the results fill it in
   json["warnings"] = command.warnings();
   add_provenance(json, command.command_line());
-  results.deliver(report, json, file_names(options), command.page(json["settings"]));
+  results.deliver(report, std::move(json));
   return 0;
 }
 

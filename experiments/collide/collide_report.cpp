@@ -5,10 +5,8 @@
 #include <algorithm>
 
 #include "experiments/events/event_distribution.h"
-#include "experiments/events/frame_axis.h"
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/print.h"
-#include "experiments/output/page/svg_plot.h"
+#include "experiments/output/report_page.h"
 #include "experiments/output/text.h"
 #include "experiments/program/spread_columns.h"
 #include "experiments/program/timing.h"
@@ -31,31 +29,6 @@ std::string closest_line(const CollideReport& report) {
                        frame_text(row.closest->frame), pair.distance, what);
   }
   return "closest   -\n";  // no method reports it, or no pair is asked for
-}
-
-std::string findings(const CollideReport& report) {
-  std::string html =
-      fmt::format("<p>Beads collide in <strong>{}</strong> of {} {}", with_thousands(report.colliding_frames),
-                  with_thousands(report.frames), report.frames == 1 ? "frame" : "frames");
-  html += fmt::format(": {} pairs, summed over all frames.", with_thousands(report.rows.front().pairs));
-  const auto closest =
-      std::ranges::find_if(report.rows, [](const auto& row) { return row.closest.has_value(); });
-  if (closest != report.rows.end()) {
-    const ClosestPair& pair = closest->closest->pair;
-    const std::string how = pair.sign > 0   ? fmt::format("are {} apart", short_decimal(pair.distance))
-                            : pair.sign < 0 ? fmt::format("overlap by {}", short_decimal(-pair.distance))
-                                            : "touch";
-    html += fmt::format(" The closest two, beads {} and {} in frame {}, {}.", pair.first, pair.second,
-                        frame_text(closest->closest->frame), how);
-  }
-  html += "</p>\n";
-  if (report.rows.size() > 1) {
-    const auto& quickest =
-        *std::ranges::min_element(report.rows, {}, [](const CollideRow& row) { return row.seconds.median; });
-    html += fmt::format("<p><strong>{}</strong> was the fastest method: {} s for all frames.</p>\n",
-                        html_escaped(quickest.method), spread_text(quickest.seconds));
-  }
-  return html;
 }
 
 /// Returns the columns of the closest pair, which are members of the object `closest` in JSON.
@@ -118,8 +91,7 @@ Table<FrameFound> collide_frame_columns(bool timed) {
   return table;
 }
 
-ClosestCourse::ClosestCourse(std::size_t frames)
-    : frames_(frames), width_(bin_width(frames, EventCourse::most_bins)) {}
+ClosestCourse::ClosestCourse(std::size_t frames) : width_(bin_width(frames, EventCourse::most_bins)) {}
 
 void ClosestCourse::add(const FrameFound& frame) {
   const std::size_t bin = added_++ / width_;
@@ -135,47 +107,18 @@ void ClosestCourse::add(const FrameFound& frame) {
   bin_of_last_ = bin;
 }
 
-std::string ClosestCourse::figure() const {
-  if (distances_.size() < 2) return "";
-  constexpr std::size_t few = 60;  // frames; a line would suggest more of them
-  const FrameAxis axis(frames_shown_);
-  LinePlot plot{axis.label(),
-                "closest distance",
-                frames_ > few ? Drawn::line : Drawn::points,
-                {{"closest pair", {}}},
-                true};
+Json ClosestCourse::json() const {
+  Json bins = Json::array();
   for (std::size_t k = 0; k < distances_.size(); ++k)
-    plot.curves.front().points.emplace_back(axis.coordinate(frames_shown_[k]), distances_[k]);
-  return html_figure(
-      svg_plot(plot),
-      fmt::format(
-          "Distance of the closest pair, frame by frame, in {}. Two beads overlap if it is below zero.{}",
-          length_unit, width_ > 1 ? fmt::format(" Each value is the least of {} frames.", width_) : ""));
+    bins.push_back({{"frame", frames_shown_[k].number},
+                    {"picoseconds", frames_shown_[k].picoseconds},
+                    {"distance", distances_[k]}});
+  return bins;
 }
 
 std::string collide_table(const CollideReport& report) {
   return fmt::format("frames    {}\n{}\n", with_thousands(report.frames), closest_line(report)) +
          collide_columns(false).text(report.rows);
-}
-
-std::string collide_page(const CollideReport& report, const std::string& input, const std::string& map,
-                         const ClosestCourse& course, Page page) {
-  page.title = "kds collide: " + input;
-  page.found = findings(report);
-  page.words =
-      "All methods decide exactly and agree. <em>Pairs</em>: pairs of beads that have a point in common, or "
-      "whose surfaces are at most <code>--within</code> apart, summed over all frames; <em>family</em>: "
-      "pairs of spheres of a hierarchy that prove all other pairs disjoint; <em>seconds</em>: the time to "
-      "find the pairs in all frames, as the median of the rounds with "
-      "the least and the most in brackets; <em>and for closest</em>: the time to find the closest pairs as "
-      "well. The distance of two beads is the distance of their surfaces, below zero if they overlap.";
-  std::string plots;
-  if (!map.empty())
-    plots += html_figure(map, "The pairs of beads that collide: the stronger the colour, the more often.");
-  plots += course.figure();
-  page.body =
-      html_section("Plots", plots) + html_section("Numbers", collide_columns(false).html(report.rows));
-  return html_page(page);
 }
 
 ContactMap::ContactMap(std::size_t beads)
@@ -185,28 +128,16 @@ ContactMap::ContactMap(std::size_t beads)
       counts_(groups_ * groups_, 0) {}
 
 void ContactMap::add_frame(std::span<const BeadPair> pairs) {
-  ++frames_;
-  pairs_ += pairs.size();
   for (const auto& [i, j] : pairs) ++counts_[i / in_group_ * groups_ + j / in_group_];
 }
 
-std::string ContactMap::plot() const {
-  const auto side = static_cast<double>(in_group_);
-  MapPlot map{
-      "bead", in_group_ == 1 ? "share of frames" : fmt::format("pairs a frame of {} beads each", in_group_),
-      -0.5,   static_cast<double>(beads_) - 0.5,
-      side,   {}};
-  const auto middle = [&](std::size_t group) { return side * (static_cast<double>(group) + 0.5) - 0.5; };
-  for (std::size_t i = 0; i < groups_; ++i) {
-    for (std::size_t j = i; j < groups_; ++j) {
-      const std::uint64_t count = counts_[i * groups_ + j];
-      if (count == 0) continue;
-      const double value = static_cast<double>(count) / static_cast<double>(frames_);
-      map.squares.push_back({middle(i), middle(j), value});
-      if (i != j) map.squares.push_back({middle(j), middle(i), value});
-    }
-  }
-  return svg_plot(map);
+Json ContactMap::json() const {
+  Json groups = Json::array();
+  for (std::size_t i = 0; i < groups_; ++i)
+    for (std::size_t j = i; j < groups_; ++j)
+      if (const std::uint64_t pairs = counts_[i * groups_ + j]; pairs > 0)
+        groups.push_back({{"i", i}, {"j", j}, {"pairs", pairs}});
+  return {{"beads_in_group", in_group_}, {"groups", groups}};
 }
 
 PairsCsv::PairsCsv(std::ostream& stream, const CollideFrames& scene) : stream_(stream), scene_(scene) {
@@ -228,27 +159,32 @@ void PairsCsv::add(const FrameRead& frame, std::span<const BeadPair> pairs) {
 void CollideResults::begin(const CollideFrames& scene) {
   frame_columns_ = collide_frame_columns(scene.has_times());
   if (destinations_.out || destinations_.json) frames_.emplace();
+  if (frames_) {
+    course_.emplace(scene.frame_count());
+    contacts_.emplace(scene.radii().size());
+  }
   if (!files_) return;
   pairs_.emplace(files_->open("pairs.csv"), scene);
   frames_csv_ = &files_->open("frames.csv");
   *frames_csv_ << frame_columns_.csv_header();
-  course_.emplace(scene.frame_count());
-  contacts_.emplace(scene.radii().size());
 }
 
 void CollideResults::add_frame(const FrameRead& frame, const FrameFound& found,
                                std::span<const BeadPair> pairs) {
-  if (frames_) frames_->add(frame_columns_.json(found));
+  if (frames_) {
+    frames_->add(frame_columns_.json(found));
+    course_->add(found);
+    contacts_->add_frame(pairs);
+  }
   if (!files_) return;
   *frames_csv_ << frame_columns_.csv_line(found);
-  course_->add(found);
   pairs_->add(frame, pairs);
-  contacts_->add_frame(pairs);
   files_->check();
 }
 
-void CollideResults::deliver(const CollideReport& report, const Json& json, const std::string& input,
-                             Page page) {
+void CollideResults::deliver(const CollideReport& report, Json json) {
+  if (course_) json["course"] = course_->json();
+  if (contacts_) json["map"] = contacts_->json();
   const auto write_to = [&](std::ostream& stream) {
     frames_->write_within(json, "frames", [&stream](std::string_view text) { stream << text; });
   };
@@ -257,10 +193,8 @@ void CollideResults::deliver(const CollideReport& report, const Json& json, cons
   if (files_) {
     write_to(files_->open("collide.json"));
     files_->write("collide.csv", collide_columns(report.timed).csv(report.rows));
-    page.data = {"collide.json", "collide.csv", "pairs.csv", "frames.csv"};
-    write_page(*files_,
-               collide_page(report, input, contacts_->empty() ? "" : contacts_->plot(), *course_, page),
-               destinations_.print);
+    // The page shows the course and the map instead of all frames.
+    write_report(*files_, text_of(json), {{"collide.json", "collide.csv", "pairs.csv", "frames.csv"}});
   }
   AtomicFiles json_file;
   if (destinations_.json && !json_on_stdout) write_to(json_file.open(*destinations_.json));

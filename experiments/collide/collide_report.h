@@ -15,13 +15,12 @@
 
 #include "experiments/collide/compare_detectors.h"
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/html_page.h"
-#include "experiments/output/page/table.h"
+#include "experiments/output/table.h"
 #include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 
-/// Returns the columns of collide.csv, of the rows of collide.json, of the terminal and of the page. JSON and
+/// Returns the columns of collide.csv, of the rows of collide.json and of the terminal. JSON and
 /// CSV have the time of the closest pair if the input is `timed`.
 [[nodiscard]] Table<CollideRow> collide_columns(bool timed);
 /// Returns the columns of frames.csv and of the frames in collide.json. The CSV has a column of times if the
@@ -35,19 +34,15 @@ class ClosestCourse {
  public:
   explicit ClosestCourse(std::size_t frames);
   void add(const FrameFound& frame);
-  /// Returns a figure for a page. Returns an empty text if fewer than two bins have a closest pair.
-  [[nodiscard]] std::string figure() const;
+  /// Returns an array with an object {frame, picoseconds, distance} for each bin.
+  [[nodiscard]] Json json() const;
 
  private:
-  std::size_t frames_, width_, added_ = 0;
+  std::size_t width_, added_ = 0;
   std::vector<FrameStamp> frames_shown_;  // one per point
   std::vector<double> distances_;         // one per point
   std::size_t bin_of_last_ = 0;
 };
-
-/// `map` is the plot of the contacts, or empty. `page` already says how the results were made.
-[[nodiscard]] std::string collide_page(const CollideReport& report, const std::string& input,
-                                       const std::string& map, const ClosestCourse& course, Page page);
 
 /// Counts how often each pair of beads collides, as a contact map shows it. If there are many beads, counts
 /// pairs of groups of consecutive beads. Memory does not grow with frames or pairs.
@@ -56,15 +51,13 @@ class ContactMap {
   explicit ContactMap(std::size_t beads);
 
   void add_frame(std::span<const BeadPair> pairs);
-  [[nodiscard]] bool empty() const { return pairs_ == 0; }
-  /// Returns the map as an SVG element.
-  [[nodiscard]] std::string plot() const;
+  /// Returns {beads_in_group, groups: [{i, j, pairs}]} with the groups i <= j that have pairs, and their
+  /// number over all frames.
+  [[nodiscard]] Json json() const;
 
  private:
   static constexpr std::size_t most_groups = 240;
   std::size_t beads_, in_group_, groups_;
-  std::size_t frames_ = 0;
-  std::uint64_t pairs_ = 0;
   std::vector<std::uint64_t> counts_;  // for the groups i <= j, at index i * groups_ + j
 };
 
@@ -94,8 +87,8 @@ class CollideResults {
   void begin(const CollideFrames& scene);
   void add_frame(const FrameRead& frame, const FrameFound& found, std::span<const BeadPair> pairs);
   /// Delivers all results. The files in --out appear together.
-  /// `json` does not contain the frames.
-  void deliver(const CollideReport& report, const Json& json, const std::string& input, Page page);
+  /// `json` contains neither the frames nor the members `course` and `map`.
+  void deliver(const CollideReport& report, Json json);
 
  private:
   Destinations destinations_;

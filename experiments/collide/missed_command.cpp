@@ -11,9 +11,7 @@
 #include <string>
 
 #include "experiments/contacts/follow_contacts.h"
-#include "experiments/output/page/html_page.h"
-#include "experiments/output/page/svg_plot.h"
-#include "experiments/output/page/table.h"
+#include "experiments/output/table.h"
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
 #include "experiments/program/mean_interval.h"
@@ -35,11 +33,6 @@ namespace {
 struct MissedRule {
   double factor = 1;
   std::optional<double> cutoff = {};
-
-  friend bool operator==(const MissedRule&, const MissedRule&) = default;
-  [[nodiscard]] std::string text() const {
-    return cutoff ? fmt::format("cutoff {}", *cutoff) : fmt::format("radii times {}", factor);
-  }
 };
 
 /// The result of one stride of one run.
@@ -236,6 +229,10 @@ MissedOptions parse_missed_options(const Arguments& arguments) {
   const ParsedArguments parsed = read_arguments(with_inputs(kMissedCommand), list, arguments, options);
   take_inputs(parsed, kMissedCommand.name, options.task);
   const MissedTask& task = options.task;
+  if (task.distances.lengths.empty() && !parsed.has("--factors"))
+    throw InputError(
+        "kds missed needs --cutoff LENGTH, the distance within which two beads are in contact, such as "
+        "--cutoff 8 between C-alpha atoms, or --factors LIST for balls that meet");
   if (!task.distances.lengths.empty() && parsed.has("--factors"))
     throw InputError(
         "--factors and --cutoff: each says when two beads are in contact; expected one of the two options");
@@ -251,22 +248,6 @@ std::optional<double> missed_fraction(const MissedRow& row) {
   return static_cast<double>(row.missed()) / static_cast<double>(row.contacts);
 }
 
-/// Returns a plot with a curve over strides for each rule that has contacts.
-std::string plot_of(std::span<const MissedRow> rows) {
-  LinePlot plot{"stride", "% of contacts missed", Drawn::points, {}};
-  for (const MissedRow& row : rows) {
-    const auto fraction = missed_fraction(row);
-    if (!fraction) continue;
-    const std::string name = row.rule.text();
-    if (plot.curves.empty() || plot.curves.back().name != name) plot.curves.push_back({name, {}});
-    plot.curves.back().points.emplace_back(static_cast<double>(row.stride), 100 * *fraction);
-    plot.curves.back().bars.emplace_back(100 * (row.interval ? row.interval->lower : *fraction),
-                                         100 * (row.interval ? row.interval->upper : *fraction));
-  }
-  const bool has_line = !plot.curves.empty() && plot.curves.front().points.size() > 1;
-  return has_line ? svg_plot(plot) : "";
-}
-
 std::string percent_text(const MissedRow& row) {
   const auto fraction = missed_fraction(row);
   return fraction ? fmt::format("{:.1f}%", 100 * *fraction) : "-";
@@ -278,34 +259,7 @@ std::string percent_with_interval(const MissedRow& row) {
                                            : "");
 }
 
-std::string frames_at(std::size_t stride) {
-  return stride == 1 ? "every frame" : fmt::format("one frame in {}", stride);
-}
-
-// Returns a sentence for each rule about its smallest and its largest stride.
-std::string findings(std::span<const MissedRow> rows) {
-  std::string html;
-  for (std::size_t first = 0; first < rows.size();) {
-    std::size_t end = first;
-    while (end < rows.size() && rows[end].rule == rows[first].rule) ++end;
-    const MissedRow &least = rows[first], &most = rows[end - 1];
-    if (least.contacts == 0) {
-      html += fmt::format("<p>With {} there are no contacts to miss.</p>\n", least.rule.text());
-      first = end;
-      continue;
-    }
-    html += fmt::format(
-        "<p>With {0}, <strong>{2}</strong> of {1} contacts are missed if only {3} is examined",
-        least.rule.text(), with_thousands(least.contacts), percent_text(least), frames_at(least.stride));
-    if (end - first > 1)
-      html += fmt::format(", <strong>{}</strong> if only {} is", percent_text(most), frames_at(most.stride));
-    html += ".</p>\n";
-    first = end;
-  }
-  return html;
-}
-
-// Returns the columns of missed.json and missed.csv, of the terminal and of the page.
+// Returns the columns of missed.json and missed.csv, of the terminal.
 Table<MissedRow> missed_columns(const MissedTask& task) {
   using Row = MissedRow;
   Table<Row> table({{"factor", "radii times", [](const Row& r) { return Field(r.rule.factor); }}});
@@ -329,30 +283,6 @@ Table<MissedRow> missed_columns(const MissedTask& task) {
   return table;
 }
 
-// `page` says how the results were made.
-std::string missed_page(std::span<const MissedRow> rows, const MissedTask& task, Page page) {
-  page.title = "kds missed: " + file_names(task);
-  page.found = findings(rows);
-  page.words =
-      "A <em>contact</em> of two beads lasts from the moment at which their closed balls begin to meet to "
-      "the moment at which they part; with a cutoff, the balls are those that meet within this distance. A "
-      "touch is a contact too, and so is a contact that lasts at the first "
-      "or the last frame. The times are exact for the motion between frames that the run was asked for. One "
-      "frame in <em>stride</em> is examined, beginning with the first; <em>frames</em> is their number. A "
-      "contact is <em>found</em> if an examined frame lies in it, its ends included, and <em>missed</em> "
-      "otherwise. The 95% interval of the share is from batch means over the steps in which contacts begin, "
-      "which may depend on each other, and missing for fewer than 50 steps. It is for runs of these beads "
-      "that do not drift; the count itself is complete.";
-  if (const std::string plot = plot_of(rows); !plot.empty())
-    page.body = html_section(
-        "By stride",
-        html_figure(plot,
-                    "Contacts that are missed if one frame in <em>stride</em> is examined. Error bars "
-                    "are 95% intervals."));
-  page.body += html_section("Numbers", missed_columns(task).html(rows));
-  return html_page(page);
-}
-
 }  // namespace
 
 int missed_command(const Arguments& arguments) {
@@ -373,8 +303,7 @@ int missed_command(const Arguments& arguments) {
   json["rows"] = missed_columns(task).json(report.rows);
   json["warnings"] = command.warnings();
   const auto columns = missed_columns(task);
-  command.deliver(json, columns.csv(report.rows), columns.text(report.rows),
-                  [&](Page page) { return missed_page(report.rows, task, std::move(page)); });
+  command.deliver(json, columns.csv(report.rows), columns.text(report.rows));
   return 0;
 }
 

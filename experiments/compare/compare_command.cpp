@@ -124,8 +124,7 @@ int compare_command(const Arguments& arguments) {
   json["pooled"] = pooled_columns().json(pooled_rows(comparison));
   json["rows"] = compare_columns(comparison).json(comparison.rows);
   json["warnings"] = command.warnings();
-  command.deliver(json, compare_columns(comparison).csv(comparison.rows), compare_table(comparison),
-                  [&](Page page) { return compare_page(comparison, std::move(page)); });
+  command.deliver(json, compare_columns(comparison).csv(comparison.rows), compare_table(comparison));
   return 0;
 }
 

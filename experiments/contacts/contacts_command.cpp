@@ -187,10 +187,7 @@ int contacts_command(const Arguments& arguments) {
   TakenPaths taken;
   taken.read(task);
   if (options.view) taken.write("--view", *options.view);
-  std::vector<std::string> files{"contacts.json", "contacts.csv", "intervals.csv", "frames.csv",
-                                 "report.html"};
-  if (task.certify) files.emplace_back("possible_intervals.csv");
-  command.check_destinations(std::move(taken), files);
+  command.check_destinations(std::move(taken));
   if (options.view) ensure_writable_file(*options.view, "--view");
 
   const ContactsFound found = find_contacts(task, command.progress(), command.warn());
@@ -217,9 +214,7 @@ int contacts_command(const Arguments& arguments) {
     csvs.emplace_back("possible_intervals.csv", CsvContent([&](std::ostream& stream) {
                         write_possible_csv(*report, *figures.certificate, stream);
                       }));
-  command.deliver(json, csvs, contacts_text(*report, figures), [&](Page page) {
-    return contacts_page(*report, figures, file_names(task), std::move(page));
-  });
+  command.deliver(json, csvs, contacts_text(*report, figures));
   return 0;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The outputs of `kds contacts`: tables of pairs and of samples, and the page.
+// The outputs of `kds contacts`: tables of pairs and of samples.
 
 #include <optional>
 #include <ostream>
@@ -8,7 +8,6 @@
 
 #include "experiments/contacts/certify_contacts.h"
 #include "experiments/contacts/follow_contacts.h"
-#include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
 
 namespace kds {
@@ -33,8 +32,4 @@ void write_possible_csv(const ContactsReport& report, const ContactsCertificate&
 /// Returns the text on the terminal: the table of samples, the certificate, the figures of all pairs, and
 /// the pairs with the most contacts.
 [[nodiscard]] std::string contacts_text(const ContactsReport& report, const ContactsFigures& figures);
-/// `input` names the input, and `page` says how the results were made.
-[[nodiscard]] std::string contacts_page(const ContactsReport& report, const ContactsFigures& figures,
-                                        const std::string& input, Page page);
-
 }  // namespace kds

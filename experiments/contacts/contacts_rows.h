@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "experiments/contacts/contacts_report.h"
-#include "experiments/output/page/table.h"
+#include "experiments/output/table.h"
 
 namespace kds {
 

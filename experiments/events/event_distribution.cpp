@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <utility>
 
@@ -23,30 +22,10 @@ void EventCourse::add(std::uint64_t events, const FrameStamp& frame) {
   bin.cumulative = before + events;
 }
 
-void Displacements::add_frame(Eigen::Matrix3Xd centers, const FrameStamp& stamp) {
-  if (last_.cols() > 0) {
-    if (steps_ % width_ == 0) bins_.push_back({last_stamp_, 0, 0, 0});
-    Bin& bin = bins_.back();
-    const Eigen::VectorXd moved = (centers - last_).colwise().norm();
-    ++steps_;
-    ++bin.steps;
-    bin.sum_of_means += moved.mean();
-    bin.most = std::max(bin.most, moved.maxCoeff());
-  }
-  last_ = std::move(centers);
-  last_stamp_ = stamp;
-}
-
-EventGrid::EventGrid(const Scene& scene, std::size_t grids) {
-  const double share = std::sqrt(std::min(1.0, 2.0 / static_cast<double>(grids)));
-  const auto most = [share](std::size_t all) { return static_cast<std::size_t>(share * double(all)); };
-  steps_per_bin = bin_width(scene.step_count(), std::max<std::size_t>(2, most(most_bins)));
-  beads_per_block = bin_width(scene.bead_count(), std::max<std::size_t>(2, most(most_blocks)));
-  for (std::size_t step = 0; step < scene.step_count(); step += steps_per_bin)
-    edges.push_back(scene.stamp(step));
-  counts.assign(edges.size(),
-                std::vector<std::uint64_t>((scene.bead_count() + beads_per_block - 1) / beads_per_block));
-  edges.push_back(scene.stamp(scene.step_count()));
+Json over_time_json(const EventCourse& course) {
+  Json events = Json::array();
+  for (const EventBin& bin : course.bins()) events.push_back(bin.events);
+  return {{"steps", course.width()}, {"events", events}};
 }
 
 EventDistributions::EventDistributions(const KineticRun& run, const Scene& scene)
@@ -60,7 +39,6 @@ EventDistributions::EventDistributions(const KineticRun& run, const Scene& scene
   for (const KineticStructure* structure : run.structures()) {
     EventDistribution& distribution = distributions_.emplace_back();
     distribution.by_bead.resize(scene.bead_count(), 0);
-    distribution.grid = EventGrid(scene, run.structures().size());
     for (const EventKind& kind : structure->kinds())
       for (const IdRole& role : kind.roles)
         if (role.of == IdRole::Of::node) distribution.by_level.resize(level_count, 0);
@@ -75,12 +53,8 @@ void EventDistributions::on_event(const Event& event) {
     if (role.of == IdRole::Of::node) {
       if (const auto node = tree_.find({ids.front(), ids.back()})) ++distribution.by_level[levels_[*node]];
     } else if (role.of == IdRole::Of::beads) {
-      for (const BeadId bead : ids) {
-        if (bead >= distribution.by_bead.size()) continue;
-        ++distribution.by_bead[bead];
-        ++distribution.grid
-              .counts[event.step / distribution.grid.steps_per_bin][bead / distribution.grid.beads_per_block];
-      }
+      for (const BeadId bead : ids)
+        if (bead < distribution.by_bead.size()) ++distribution.by_bead[bead];
     }
   });
 }

@@ -1,13 +1,12 @@
 #pragma once
-// Counts events by time and by bead: in bins of neighbouring steps, along the chain, and next to the
-// displacements of beads from frame to frame.
+// Counts events by time and by bead: in bins of neighbouring steps, and along the chain.
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "experiments/output/result_json.h"
 #include "kds/event_log.h"
 #include "motions/frames/frame_stamp.h"
 #include "motions/scene/scene.h"
@@ -46,49 +45,8 @@ class EventCourse {
   std::vector<EventBin> bins_;
 };
 
-/// Records how far beads move from frame to frame during a run.
-class Displacements {
- public:
-  struct Bin {
-    FrameStamp first_frame;  ///< the bin's first frame
-    std::size_t steps = 0;
-    double sum_of_means = 0;  ///< sum over the steps of the beads' mean displacement
-    double most = 0;          ///< largest displacement of a bead in a step
-    [[nodiscard]] double mean() const { return sum_of_means / static_cast<double>(steps); }
-  };
-
-  Displacements() = default;
-  /// `width` is the number of steps in a bin.
-  explicit Displacements(std::size_t width) : width_(width) {}
-
-  /// Adds the next frame. Each frame has the same number of beads.
-  void add_frame(Eigen::Matrix3Xd centers, const FrameStamp& stamp);
-  [[nodiscard]] std::size_t width() const { return width_; }
-  [[nodiscard]] const std::vector<Bin>& bins() const { return bins_; }
-
- private:
-  std::size_t width_ = 1;
-  std::size_t steps_ = 0;
-  FrameStamp last_stamp_;
-  Eigen::Matrix3Xd last_;
-  std::vector<Bin> bins_;
-};
-
-/// Counts events by time and by bead at once. Bins of neighbouring steps are the columns, blocks of
-/// neighbouring beads are the rows. An event counts once for each of its beads, as in
-/// `EventDistribution::by_bead`.
-struct EventGrid {
-  /// Bound the size of the page. More than two grids share the cells of two.
-  static constexpr std::size_t most_bins = 36, most_blocks = 24;
-
-  std::size_t steps_per_bin = 1, beads_per_block = 1;  ///< the last bin and the last block may have fewer
-  std::vector<FrameStamp> edges;                       ///< frames at which the bins begin, and the last frame
-  std::vector<std::vector<std::uint64_t>> counts;      ///< by bin, then by block
-
-  EventGrid() = default;
-  /// `grids` is the number of grids of the run.
-  EventGrid(const Scene& scene, std::size_t grids);
-};
+/// Returns {steps: width of a bin, events: [events of each bin]}.
+[[nodiscard]] Json over_time_json(const EventCourse& course);
 
 /// How a structure's external events are distributed along the chain, and by depth in its tree.
 struct EventDistribution {
@@ -98,7 +56,6 @@ struct EventDistribution {
   /// Number of events at the nodes of each tree level, where roots have level 0. Empty if events do not occur
   /// at nodes.
   std::vector<std::uint64_t> by_level;
-  EventGrid grid;
 };
 
 /// Listens to all events of a run.

@@ -33,7 +33,6 @@ struct Destinations {
   std::optional<std::filesystem::path> out;  ///< directory for the result files
   std::optional<std::string> json;           ///< a file, or - for standard output
   bool quiet = false;
-  bool print = false;    ///< whether `out` also gets files for print (page/print.h)
   bool replace = false;  ///< whether `out` may hold an earlier result, which is replaced
 };
 

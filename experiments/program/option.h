@@ -392,7 +392,7 @@ template <class Options>
 }
 /// Returns the options --out, --replace, --json and --quiet with their help, for a command that writes no
 /// page.
-[[nodiscard]] inline OptionList<Destinations> data_options(
+[[nodiscard]] inline OptionList<Destinations> destination_options(
     const std::string& out,
     const std::string& json = "write the rows to FILE; - is standard output (default: none)",
     const std::string& quiet = "print no table and no progress bar") {
@@ -400,21 +400,6 @@ template <class Options>
            replace_option(&Destinations::replace),
            of_output(text_option({"--json", "FILE", json}, &Destinations::json)),
            of_output(flag_option("--quiet", quiet, &Destinations::quiet))}};
-}
-
-/// Returns the options --out, --paper, --replace, --json and --quiet with their help, for a command that
-/// writes a page.
-[[nodiscard]] inline OptionList<Destinations> destination_options(
-    const std::string& out,
-    const std::string& json = "write the rows to FILE; - is standard output (default: none)",
-    const std::string& quiet = "print no table and no progress bar") {
-  std::vector<Option<Destinations>> options = data_options(out, json, quiet).all();
-  options.insert(options.begin() + 1,
-                 of_output(flag_option("--paper",
-                                       "with --out, also write the tables as LaTeX and the plots as SVG and "
-                                       "PDF (default: no)",
-                                       &Destinations::print)));
-  return {std::move(options)};
 }
 
 template <class Options>

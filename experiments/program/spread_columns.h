@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/output/page/table.h"
+#include "experiments/output/table.h"
 #include "experiments/program/timing.h"
 
 namespace kds {

@@ -7,8 +7,7 @@
 #include <optional>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/html_page.h"
-#include "experiments/output/page/print.h"
+#include "experiments/output/report_page.h"
 #include "experiments/output/text.h"
 #include "motions/base/input_error.h"
 
@@ -96,12 +95,6 @@ void TakenPaths::write(const Destinations& destinations) {
   if (destinations.json) write_json(*destinations.json);
 }
 
-namespace {
-
-constexpr std::string_view kReport = "report.html";
-
-}  // namespace
-
 TableCommand::TableCommand(std::string name, const Arguments& arguments, Destinations destinations,
                            std::string_view counted)
     : name_(std::move(name)),
@@ -110,15 +103,10 @@ TableCommand::TableCommand(std::string name, const Arguments& arguments, Destina
       bar_(!destinations_.quiet, counted) {}
 
 void TableCommand::check_destinations(TakenPaths taken) {
-  check_destinations(std::move(taken), {name_ + ".json", name_ + ".csv", std::string(kReport)});
-}
-
-void TableCommand::check_destinations(TakenPaths taken, const std::vector<std::string>& files) {
   taken.write(destinations_);
   taken.require_directory(destinations_.replace);
-  const auto& [out, json, quiet, print, replace] = destinations_;
+  const auto& [out, json, quiet, replace] = destinations_;
   if (json && *json != "-") ensure_writable_file(*json, "--json");
-  if (std::ranges::find(files, kReport) != files.end()) check_page(destinations_);
   if (out) files_ = std::make_unique<AtomicFiles>(*out, "--out", replace);
 }
 
@@ -139,53 +127,38 @@ std::vector<std::string> TableCommand::warnings() {
   return warnings;
 }
 
-Page TableCommand::page(Json settings, std::vector<std::string> data) const {
-  Page page;
-  page.command_line = command_line_;
-  page.settings = std::move(settings);
-  page.data = std::move(data);
-  if (destinations_.out) page.replay = replay_beside(*destinations_.out, replay_);
-  return page;
-}
-
 AtomicFiles& TableCommand::add_replay(const std::filesystem::path& page) {
   replay_ = page;
   replay_files_ = std::make_unique<AtomicFiles>();
   return *replay_files_;
 }
 
-void TableCommand::deliver(Json json, const std::string& csv, const std::string& table,
-                           const PageOf& page_of) const {
-  deliver(std::move(json), Csvs{{name_ + ".csv", csv}}, table, page_of);
+void TableCommand::deliver(Json json, const std::string& csv, const std::string& table) const {
+  deliver(std::move(json), Csvs{{name_ + ".csv", csv}}, table);
 }
 
-void TableCommand::deliver(Json json, const Csvs& csvs, const std::string& table,
-                           const PageOf& page_of) const {
+void TableCommand::deliver(Json json, const Csvs& csvs, const std::string& table) const {
   add_provenance(json, command_line_);
-  deliver_text(text_of(json), json["settings"], csvs, table, page_of);
-}
-
-void TableCommand::deliver_text(const std::string& json, const Json& settings, const Csvs& csvs,
-                                const std::string& table, const PageOf& page_of) const {
-  const auto& [out, json_path, quiet, print, replace] = destinations_;
+  const std::string text = text_of(json);
+  const auto& [out, json_path, quiet, replace] = destinations_;
   const bool json_on_stdout = json_path == "-";
   if (files_) {
-    std::vector<std::string> data{name_ + ".json"};
-    files_->write(data.front(), json);
+    ReportLinks links{{name_ + ".json"}, replay_beside(*out, replay_)};
+    files_->write(links.data.front(), text);
     for (const auto& [name, csv] : csvs) {
       csv.write(files_->open(name));
-      data.push_back(name);
+      links.data.push_back(name);
     }
     files_->check();
-    if (page_of) write_page(*files_, page_of(page(settings, std::move(data))), print);
+    write_report(*files_, text, links);
   }
   AtomicFiles json_file;
-  if (json_path && !json_on_stdout) json_file.write(*json_path, json);
+  if (json_path && !json_on_stdout) json_file.write(*json_path, text);
   commit_together({files_.get(), replay_files_.get(), &json_file});
-  if (json_on_stdout) print_to_stdout(json);
+  if (json_on_stdout) print_to_stdout(text);
   if (quiet || json_on_stdout) return;
   print_to_stdout(table);
-  if (out && page_of) print_report_path(*out);
+  if (out) print_report_path(*out);
   if (replay_) print_to_stdout("replay " + replay_->string() + "\n");
 }
 

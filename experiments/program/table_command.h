@@ -7,7 +7,7 @@
 //   command.check_destinations(taken);          // before any input is read
 //   const auto rows = measure(command.warn(), command.progress());
 //   Json json{{"settings", ...}, {"rows", ...}, {"warnings", command.warnings()}};
-//   command.deliver(json, csv, table, [&](Page page) { return update_page(rows, page); });
+//   command.deliver(json, csv, table);
 
 #include <filesystem>
 #include <functional>
@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/input_options.h"
@@ -72,7 +71,6 @@ class TableCommand {
  public:
   using Progress = std::function<void(std::size_t done, std::size_t total)>;
   using Warn = HeldWarnings::Warn;
-  using PageOf = std::function<std::string(Page)>;
 
   /// `counted` names the unit that the progress bar counts.
   TableCommand(std::string name, const Arguments& arguments, Destinations destinations,
@@ -84,9 +82,6 @@ class TableCommand {
   /// Checks the destinations of a command that reads these inputs. Throws InputError also if an input does
   /// not exist.
   void check_inputs_and_destinations(const InputOptions& inputs);
-  /// Checks the destinations of a command that writes `files` into --out. If report.html is among the files,
-  /// also checks that the page can be made.
-  void check_destinations(TakenPaths taken, const std::vector<std::string>& files);
   /// Returns the files of --out, which `deliver` otherwise writes. They hold their place since the check.
   [[nodiscard]] std::unique_ptr<AtomicFiles> take_files() { return std::move(files_); }
 
@@ -101,23 +96,15 @@ class TableCommand {
 
   /// The command with its arguments, quoted for a shell.
   [[nodiscard]] const std::string& command_line() const { return command_line_; }
-  /// Returns a page without content that says how it was made and which data files lie next to it.
-  [[nodiscard]] Page page(Json settings, std::vector<std::string> data = {}) const;
-
   /// Returns the files for a replay page at `page`, which `deliver` then links and writes with the results.
   [[nodiscard]] AtomicFiles& add_replay(const std::filesystem::path& page);
 
-  /// Adds command, version and machine to `json` and writes all results. The page also shows the member
-  /// `settings` of `json`. The files in --out appear together. The table is printed unless --quiet is given
-  /// or the JSON goes to standard output.
-  void deliver(Json json, const std::string& csv, const std::string& table, const PageOf& page_of = {}) const;
-
+  /// Adds command, version and machine to `json` and writes all results, which appear together. The table is
+  /// printed unless --quiet is given or the JSON goes to standard output.
+  void deliver(Json json, const std::string& csv, const std::string& table) const;
   /// Delivers several CSV files, given as pairs of name and content.
   using Csvs = std::vector<std::pair<std::string, CsvContent>>;
-  void deliver(Json json, const Csvs& csvs, const std::string& table, const PageOf& page_of = {}) const;
-  /// Delivers a result whose JSON is already text.
-  void deliver_text(const std::string& json, const Json& settings, const Csvs& csvs, const std::string& table,
-                    const PageOf& page_of) const;
+  void deliver(Json json, const Csvs& csvs, const std::string& table) const;
 
  private:
   std::string name_, command_line_;

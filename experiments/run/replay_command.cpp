@@ -9,7 +9,6 @@
 
 #include "certificates/exact/exact_time.h"
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/print.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
@@ -205,16 +204,16 @@ int replay_command(const Arguments& arguments) {
   if (events) paths.write("--events", *events);
   if (options.view) paths.write("--view", *options.view);
   check_writable(destinations);
-  check_page(destinations);
   if (events) ensure_writable_file(*events, "--events");
   if (options.view) ensure_writable_file(*options.view, "--view");
 
   RunResults results(destinations, events, options.view);
   ProgressBar bar(!destinations.quiet, "step");
-  const ReplayReport replay = replay_log(
+  ReplayReport replay = replay_log(
       log, [&bar](std::size_t done, double within, std::size_t total) { bar.update(done, within, total); },
       [&bar](const std::string& warning) { print_warning(bar, warning); }, &results);
   bar.erase();
+  results.add_distributions(replay.run);
   results.deliver(replay.run, replay_json(replay, log), comparison_table(replay.run) + verdict(replay));
   return replay.same() ? 0 : 1;
 }

@@ -1,7 +1,6 @@
 #include "experiments/program/commands.h"
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/print.h"
 #include "experiments/program/input_options.h"
 #include "experiments/program/progress_bar.h"
 #include "experiments/program/table_command.h"
@@ -25,7 +24,6 @@ void check_before_run(const RunOptions& options) {
   if (options.log) paths.write("--log", *options.log);
   if (options.view) paths.write("--view", *options.view);
   check_writable(options);
-  check_page(options);
   if (options.dump) check_directory(*options.dump, "--dump", options.replace);
   if (options.events) ensure_writable_file(*options.events, "--events");
   if (options.log) ensure_writable_file(*options.log, "--log");
@@ -40,11 +38,12 @@ int run_command(const Arguments& arguments) {
 
   RunResults results(options, options.events, options.view);
   ProgressBar bar(!options.quiet, "step");
-  const RunReport report = run_scene(
+  RunReport report = run_scene(
       options,
       [&bar](std::size_t done, double within, std::size_t total) { bar.update(done, within, total); },
       [&bar](const std::string& warning) { print_warning(bar, warning); }, results);
   bar.erase();
+  results.add_distributions(report);
   results.deliver(report, report_json(report), comparison_table(report));
   return 0;
 }

@@ -9,9 +9,9 @@
 #include "experiments/events/event_files.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
-#include "experiments/run/html_report.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_scene.h"
+#include "experiments/run/run_summary.h"
 
 namespace kds {
 
@@ -120,6 +120,11 @@ Json structure_json(const StructureReport& structure, std::size_t rounds) {
             {"audits", {{"run", structure.audits_run}, {"failed", structure.audits_failed}}}};
   if (structure.contacts_at_start && structure.contacts_at_end)
     json["contacts"] = {{"at_start", *structure.contacts_at_start}, {"at_end", *structure.contacts_at_end}};
+  if (!structure.distribution.by_bead.empty()) {
+    json["over_time"] = over_time_json(structure.course);
+    json["by_bead"] = structure.distribution.by_bead;
+    if (!structure.distribution.by_level.empty()) json["by_level"] = structure.distribution.by_level;
+  }
   if (rounds > 1) {
     json["seconds_least"] = structure.of_seconds.least;
     json["seconds_most"] = structure.of_seconds.most;

@@ -1,5 +1,5 @@
 #pragma once
-// The findings of one run: the numbers behind the table, summary.json, events.csv and the plots.
+// The findings of one run: the numbers behind the table, summary.json and events.csv.
 
 #include <cstdint>
 #include <filesystem>
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "experiments/events/closest_approach.h"
-#include "experiments/events/contact_map.h"
 #include "experiments/events/event_distribution.h"
 #include "experiments/program/timing.h"
 #include "experiments/run/certify_stride.h"
@@ -69,10 +68,8 @@ struct RunReport {
   std::optional<ClosestApproach> approach;  ///< only if the run has the closest pair
   /// The least distance over all frames. Known with --certify, or with --tolerance if no frame is left out.
   std::optional<DistanceRange> approach_in_all_frames;
-  std::string command_line;                  ///< asks for the same run, without outputs
-  Displacements displacement;                ///< empty if not recorded
-  std::vector<std::string> bead_names;       ///< an unknown name is an empty text
-  std::vector<PairOccupancy> contact_pairs;  ///< pairs that are ever in contact; empty if not recorded
+  std::string command_line;             ///< asks for the same run, without outputs
+  std::vector<std::string> bead_names;  ///< an unknown name is an empty text
 };
 
 /// The result of a replay.

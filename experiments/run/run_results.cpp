@@ -1,13 +1,10 @@
 #include "experiments/run/run_results.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/html_page.h"
-#include "experiments/output/page/print.h"
-#include "experiments/run/html_report.h"
+#include "experiments/output/report_page.h"
 #include "experiments/run/replay_labels.h"
 #include "structures/session/event_writers.h"
 
@@ -24,14 +21,13 @@ void RunResults::begin(const Scene& scene, KineticRun& run, const RunOptions& op
     every_event_ = make_event_writer(*events_path_, every_event_file_.emplace().open(*events_path_), scene);
     run.simulator().listen(*every_event_);
   }
+  if (destinations_.out || destinations_.json) {
+    distributions_.emplace(run, scene);
+    run.simulator().listen(*distributions_);
+  }
   if (!destinations_.out) return;
   files_.emplace(*destinations_.out, "--out", destinations_.replace);
   events_.emplace(files_->open("events.csv"), scene.stamp(0).picoseconds.has_value());
-  scene_ = &scene;
-  displacement_ = Displacements(bin_width(scene.step_count(), EventCourse::most_bins));
-  distributions_.emplace(run, scene);
-  run.simulator().listen(*distributions_);
-  if (has_contacts(run)) run.simulator().listen(occupancy_.emplace());
   if (has_contacts(run)) contacts_files_.emplace_back(contacts_file);
   if (has_contacts(run) && certified) contacts_files_.emplace_back(possible_contacts_file);
   if (!has_contacts(run) || certified) return;
@@ -65,14 +61,11 @@ void RunResults::begin_dump_and_log(const RunOptions& options, const Scene& scen
 
 void RunResults::add_frame(std::size_t frame, const KineticRun& run) {
   if (frame == 0) {
-    for (ContactsCsv* const listener :
-         std::array<ContactsCsv*, 3>{occupancy_ ? &*occupancy_ : nullptr, contacts_ ? &*contacts_ : nullptr,
-                                     dumped_contacts_ ? &*dumped_contacts_ : nullptr})
-      if (listener != nullptr) listener->add_built(run);
+    if (contacts_) contacts_->add_built(run);
+    if (dumped_contacts_) dumped_contacts_->add_built(run);
   }
   if (dumps_) dumps_->write(frame, run.dump(frame));
   if (view_) view_->add_frame(frame);
-  if (scene_ != nullptr) displacement_.add_frame(scene_->centers(frame), scene_->stamp(frame));
 }
 
 void RunResults::add_step(const FrameStamp& frame, std::string_view structure, std::uint64_t events) {
@@ -86,21 +79,20 @@ void RunResults::end_run() {
   if (view_) view_->finish();
 }
 
-void RunResults::deliver(RunReport report, const std::string& json, const std::string& table) {
+void RunResults::add_distributions(RunReport& report) const {
+  if (!distributions_) return;
+  for (std::size_t s = 0; s < report.structures.size(); ++s)
+    report.structures[s].distribution = distributions_->distributions()[s];
+}
+
+void RunResults::deliver(const RunReport& report, const std::string& json, const std::string& table) {
   const bool json_on_stdout = destinations_.json == "-";
   const bool table_on_stdout = !destinations_.quiet && !json_on_stdout;
   if (files_) {
     files_->write("summary.json", json);
-    for (std::size_t s = 0; s < report.structures.size(); ++s)
-      report.structures[s].distribution = distributions_->distributions()[s];
-    report.displacement = displacement_;
-    if (occupancy_ && report.first_frame && report.last_frame)
-      report.contact_pairs = occupancy_->pairs(static_cast<double>(report.first_frame->number),
-                                               static_cast<double>(report.last_frame->number));
-    std::vector<std::string> data{"summary.json", "events.csv"};
-    data.insert(data.end(), contacts_files_.begin(), contacts_files_.end());
-    write_page(*files_, html_report(report, data, replay_beside(*destinations_.out, page_path_)),
-               destinations_.print);
+    ReportLinks links{{"summary.json", "events.csv"}, replay_beside(*destinations_.out, page_path_)};
+    links.data.insert(links.data.end(), contacts_files_.begin(), contacts_files_.end());
+    write_report(*files_, json, links);
   }
   AtomicFiles json_file;
   if (destinations_.json && !json_on_stdout) json_file.write(*destinations_.json, json);

@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 
-#include "experiments/events/contact_map.h"
 #include "experiments/events/event_distribution.h"
 #include "experiments/events/event_files.h"
 #include "experiments/output/output_files.h"
@@ -46,19 +45,18 @@ class RunResults {
   void end_run();
   /// Writes contacts.csv and possible_contacts.csv if the run has contacts.
   void add_certificate(const StrideCertificate& certificate, const Scene& scene);
+  /// Adds the distributions of events, which are recorded for --out and --json.
+  void add_distributions(RunReport& report) const;
   /// Delivers all results. `json` is the summary. `table` is printed unless --quiet is given or standard
   /// output carries the JSON. The files appear when all are complete.
-  void deliver(RunReport report, const std::string& json, const std::string& table);
+  void deliver(const RunReport& report, const std::string& json, const std::string& table);
 
  private:
   Destinations destinations_;
   std::optional<std::filesystem::path> events_path_, page_path_;
   std::optional<AtomicFiles> files_;
-  const Scene* scene_ = nullptr;
   std::optional<EventsCsv> events_;
   std::optional<EventDistributions> distributions_;
-  Displacements displacement_;
-  std::optional<ContactOccupancy> occupancy_;
   std::optional<ContactsTable> contacts_;
   std::vector<std::string> contacts_files_;
   std::optional<AtomicFiles> every_event_file_;

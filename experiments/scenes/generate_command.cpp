@@ -133,8 +133,9 @@ const OptionList<GenerateOptions>& generate_options() {
                        "last frame, in chain lengths; a single number applies to both frames (default: 1.5)"},
                       &S::distance, {0, 1e6})),
           })
-          .with(data_options("write generate.json and generate.csv to DIR (default: none)",
-                             "write a summary to FILE; - is standard output (default: none)"));
+          .with(
+              destination_options("write generate.json, generate.csv and report.html to DIR (default: none)",
+                                  "write a summary to FILE; - is standard output (default: none)"));
   return list;
 }
 
@@ -300,7 +301,7 @@ int generate_command(const Arguments& arguments) {
     refuse_unnamed(options, file);
     taken.add("-o", file);
   }
-  command.check_destinations(taken, {"generate.json", "generate.csv"});
+  command.check_destinations(taken);
 
   const std::vector<Trajectory> necklaces = necklaces_for(options, files);
   std::size_t beads = 0;

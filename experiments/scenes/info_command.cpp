@@ -53,8 +53,8 @@ const OptionList<InfoOptions>& info_options() {
           .with({of_output(flag_option(
               "--beads", "list the beads instead, one per row: necklace, chain, residue, atom and radius",
               &O::beads))})
-          .with(data_options("write info.json and info.csv to DIR (default: none)",
-                             "write the results to FILE; - is standard output (default: none)"));
+          .with(destination_options("write info.json, info.csv and report.html to DIR (default: none)",
+                                    "write the results to FILE; - is standard output (default: none)"));
   return list;
 }
 
@@ -169,7 +169,7 @@ int info_command(const Arguments& arguments) {
   check_inputs_exist(options);
   TakenPaths taken;
   taken.read(options);
-  command.check_destinations(taken, {"info.json", "info.csv"});
+  command.check_destinations(taken);
 
   if (const std::optional<Instance> instance = read_lone_instance(options)) {
     describe(*instance, options, command);

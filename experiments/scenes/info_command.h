@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/table.h"
+#include "experiments/output/table.h"
 #include "experiments/program/input_options.h"
 #include "motions/base/bead.h"
 #include "motions/frames/trajectory.h"

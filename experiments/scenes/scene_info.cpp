@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "experiments/output/page/table.h"
+#include "experiments/output/table.h"
 #include "experiments/output/text.h"
 #include "motions/base/input_error.h"
 namespace kds {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "certificates/base/kernel.h"
-#include "experiments/output/page/table.h"
+#include "experiments/output/table.h"
 #include "experiments/program/command_line.h"
 #include "experiments/program/option.h"
 #include "experiments/stability/stability_scenes.h"

@@ -105,7 +105,8 @@ const OptionList<StabilityOptions>& stability_options() {
                                           &StabilityCases::cases, 1, 1'000'000),
                              whole_option({"--seed", "N", "seed of the random cases (default: 1)"},
                                           &StabilityCases::seed, 0, ~std::uint64_t{0})}})
-          .with(data_options("write stability.json and stability.csv to DIR (default: none)"));
+          .with(destination_options(
+              "write stability.json, stability.csv and report.html to DIR (default: none)"));
   return list;
 }
 
@@ -263,7 +264,7 @@ std::vector<StabilityRow> run_stability(const StabilityOptions& options,
 int stability_command(const Arguments& arguments) {
   const StabilityOptions options = parse_stability_options(arguments);
   TableCommand command("stability", arguments, options, "row");
-  command.check_destinations({}, {"stability.json", "stability.csv"});
+  command.check_destinations();
 
   const std::vector<StabilityRow> rows = run_stability(options, command.progress());
   command.bar().erase();

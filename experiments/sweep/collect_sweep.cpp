@@ -9,7 +9,7 @@
 #include <unordered_map>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/print.h"
+#include "experiments/output/report_page.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
 #include "experiments/sweep/pooled_figures.h"
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMostOnPage = 300, kMostNamed = 3;
+constexpr std::size_t kMostOnPage = 20'000, kMostNamed = 3;
 constexpr std::string_view kDone = "\"done\": ";
 
 Field field_from(const Json& json) {
@@ -118,12 +118,8 @@ class Listing {
     ++rows_;
     if (on_page && first_.size() < kMostOnPage) first_.push_back(std::move(row));
   }
-  [[nodiscard]] std::string section(const std::string& heading, const std::string& file) const {
-    if (first_.empty()) return "";
-    return html_section(
-        heading, table_.html(first_) + fmt::format("<p>{} of {} rows; {} has all.</p>\n", first_.size(),
-                                                   with_thousands(rows_), file));
-  }
+  /// Returns the rows that the page shows, with the number of all.
+  [[nodiscard]] Json json() const { return {{"all", rows_}, {"rows", table_.json(first_)}}; }
 
  private:
   Table<Row> table_;
@@ -240,23 +236,20 @@ CollectedSweep collect_sweep(const SweepPlan& plan, const TaskStates& states, co
   json << "\n  ]\n}\n";
   list_failures(plan, states, failed);
 
-  Page page;
-  page.title = "kds sweep";
-  page.command_line = command_line;
-  page.data = {"results.csv", "results.json", "pooled.csv", "times.csv", "failed.csv", "warnings.csv"};
-  page.found =
-      fmt::format("<p>{} of {} tasks have results, in {} rows.</p>\n", with_thousands(collected.all.done),
-                  with_thousands(collected.all.tasks), with_thousands(collected.rows));
-  for (const std::string& copy : plan.copies()) page.found += "<p>" + html_escaped(copy) + ".</p>\n";
-  page.body = html_section("Tasks", counts_html(counts)) +
-              failed.section("Tasks without a result", "failed.csv") +
-              warnings.section("Warnings", "warnings.csv") + means.section("Means", "pooled.csv");
-  page.words = html_escaped(fmt::format(
-      "Means pool the tasks that {}. Their 95% intervals are Student's, for "
-      "independent values; those of counts stay above 0. An interval takes {} values or more.",
-      pooled.empty() ? "differ in nothing" : fmt::format("differ in {} only", fmt::join(pooled, ", ")),
-      least_pooled));
-  out.write(folder / "report.html", without_copies(html_page(page)));
+  Json report{{"tasks", collected.all.tasks},
+              {"done", collected.all.done},
+              {"result_rows", collected.rows},
+              {"axes", std::vector<std::string>(group_names.begin() + 1, group_names.end())},
+              {"pooled", pooled},
+              {"least_pooled", least_pooled},
+              {"counts", counts_json(counts)},
+              {"means", means.json()},
+              {"failed", failed.json()},
+              {"warned", warnings.json()},
+              {"warnings", plan.copies()}};
+  add_provenance(report, command_line);
+  ReportLinks links{{"results.csv", "results.json", "pooled.csv", "times.csv", "failed.csv", "warnings.csv"}};
+  write_report(out, text_of(report), links);
   commit_together({&out});
   return collected;
 }

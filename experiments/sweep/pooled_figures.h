@@ -8,7 +8,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "experiments/output/page/table.h"
+#include "experiments/output/table.h"
 #include "experiments/program/mean_interval.h"
 #include "experiments/sweep/result_rows.h"
 #include "experiments/sweep/sweep_plan.h"

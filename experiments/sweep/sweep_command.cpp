@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/html_page.h"
+#include "experiments/output/report_page.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"

@@ -77,8 +77,8 @@ std::string counts_text(const std::vector<SweepCount>& counts) {
   return count_table().text(without_repeated_sum(counts));
 }
 
-std::string counts_html(const std::vector<SweepCount>& counts) {
-  return count_table().html(without_repeated_sum(counts));
+Json counts_json(const std::vector<SweepCount>& counts) {
+  return count_table().json(without_repeated_sum(counts));
 }
 
 std::string other_versions_text(const TaskStates& states) {

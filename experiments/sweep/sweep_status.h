@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/output/page/table.h"
+#include "experiments/output/table.h"
 #include "experiments/sweep/sweep_plan.h"
 #include "experiments/sweep/task_journal.h"
 
@@ -30,7 +30,7 @@ void count_task(const TaskState& state, bool running, SweepCount& count);
                                                   bool running);
 /// Returns a table, without the sum over all commands if there is only one.
 [[nodiscard]] std::string counts_text(const std::vector<SweepCount>& counts);
-[[nodiscard]] std::string counts_html(const std::vector<SweepCount>& counts);
+[[nodiscard]] Json counts_json(const std::vector<SweepCount>& counts);
 /// Returns a line for each other version of kds that has results in the folder.
 [[nodiscard]] std::string other_versions_text(const TaskStates& states);
 

@@ -16,8 +16,8 @@ namespace kds {
 namespace {
 
 // The sweep sets these options itself, or their files would be those of every task.
-constexpr std::array<std::string_view, 12> kOwnOptions{"help", "o",   "out",    "json", "quiet", "paper",
-                                                       "dump", "log", "events", "view", "data",  "replace"};
+constexpr std::array<std::string_view, 11> kOwnOptions{"help", "o",      "out",  "json", "quiet",  "dump",
+                                                       "log",  "events", "view", "data", "replace"};
 
 bool is_own(std::string_view option) { return std::ranges::find(kOwnOptions, option) != kOwnOptions.end(); }
 

@@ -319,8 +319,7 @@ int trade_command(const Arguments& arguments) {
   json["rows"] = trade_rows_json(rows);
   json["recommendation"] = recommendation(rows);
   json["warnings"] = command.warnings();
-  command.deliver(json, trade_csv(rows), trade_table(rows),
-                  [&](Page page) { return trade_page(rows, file_names(options), std::move(page)); });
+  command.deliver(json, trade_csv(rows), trade_table(rows));
   return 0;
 }
 

@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "experiments/output/page/svg_plot.h"
-#include "experiments/output/page/table.h"
+#include "experiments/output/table.h"
 #include "experiments/output/text.h"
 
 namespace kds {
@@ -102,10 +101,8 @@ Table<TradeRow> trade_columns(const std::string& title, Want want) {
        .words = [](const Row& r) { return (r.on_front ? "* " : "  ") + words_of(r.setting); },
        .json = setting_json},
       {"cost.seconds", "seconds", [](const Row& r) { return Field(r.cost.seconds); }, shortly},
-      {"cost.seconds_least", "least", [](const Row& r) { return Field(r.cost.quickest); }, shortly,
-       Shown::on_pages},
-      {"cost.seconds_most", "most", [](const Row& r) { return Field(r.cost.slowest); }, shortly,
-       Shown::on_pages},
+      {.key = "cost.seconds_least", .value = [](const Row& r) { return Field(r.cost.quickest); }},
+      {.key = "cost.seconds_most", .value = [](const Row& r) { return Field(r.cost.slowest); }},
       {"cost.ratio", "ratio", [](const Row& r) { return Field(r.cost.ratio); }, with_decimals(3)},
       {"cost.events", "events", [](const Row& r) { return Field(r.cost.events); }},
       {"cost.certificates", "certificates", [](const Row& r) { return Field(r.cost.certificates); }},
@@ -127,69 +124,6 @@ Table<TradeRow> trade_columns(std::span<const TradeRow> group) {
   return trade_columns(title_of(group), group.front().want);
 }
 
-std::string plots_of(std::span<const TradeRow> group) {
-  std::string html;
-  for (const ErrorColumn& column : columns_for(group.front().want)) {
-    PointPlot plot{"processor time / exact run",
-                   column.share ? fmt::format("{}, %", column.title) : column.title,
-                   {"quickest of its error", "others"},
-                   {}};
-    for (const TradeRow& row : group) {
-      const std::optional<double>& error = row.errors.*column.value;
-      if (!error || !std::isfinite(*error)) continue;
-      PointPlot::Point& point = plot.points.emplace_back(PointPlot::Point{
-          row.on_front ? words_of(row.setting) : "", row.cost.ratio, (column.share ? 100 : 1) * *error,
-          row.on_front ? std::size_t{0} : std::size_t{1}});
-      point.from = row.cost.ratio * row.cost.quickest / row.cost.seconds;
-      point.to = row.cost.ratio * row.cost.slowest / row.cost.seconds;
-    }
-    const bool errs = std::any_of(plot.points.begin(), plot.points.end(),
-                                  [](const PointPlot::Point& point) { return point.y > 0; });
-    const auto of_series = [&](std::size_t series) {
-      return std::any_of(plot.points.begin(), plot.points.end(),
-                         [&](const PointPlot::Point& point) { return point.series == series; });
-    };
-    if (!errs) continue;
-    if (!of_series(1)) plot.series.pop_back();
-    html += html_figure(svg_plot(plot),
-                        fmt::format("Cost against error of {}: {}. Settings without error are at the bottom. "
-                                    "Bars lead from the quickest to the slowest round.",
-                                    title_of(group), column.title));
-  }
-  return html;
-}
-
-// Marks text between backticks as code.
-std::string with_code(const std::string& html) {
-  std::string text;
-  bool inside = false;
-  for (const char c : html) {
-    if (c != '`') {
-      text += c;
-      continue;
-    }
-    text += inside ? "</code>" : "<code>";
-    inside = !inside;
-  }
-  return text;
-}
-
-constexpr const char* words_of_columns =
-    "Each row is a setting of `kds run`: its --structures, and its other options. Seconds: processor time, "
-    "as "
-    "the median of the rounds, without reading and the first build; for --certify, the time of its runs. "
-    "Ratio: seconds divided by those of the exact run for as many frames. Tests: tests of two spheres by a "
-    "search for contacts in the hierarchy, on average. Errors are measured against beads on straight lines "
-    "between all frames, at frames and at random times between them. Radius: how much larger a sphere is "
-    "than the smallest one: mean, maximum, and maximum over frames. Outside: beads outside their "
-    "spheres, as the mean over times; with --certify spheres are larger by the certified deviation. Wrong: "
-    "cells that are not in the true diagram. Edges: short edges that are missed. Missed, and invented or "
-    "spurious: events or contacts compared with the exact run. With --certify all possible contacts count as "
-    "found, and unsure are the contacts that are possible but not certain. --select ca is another model: "
-    "contacts of residues count that are at least its --apart apart. Time: error of times, in frames. "
-    "Closest: error of the closest distance. Moved: distance of a bead from its true position. *: no other "
-    "row of the group is both as fast and as accurate.";
-
 }  // namespace
 
 Json trade_rows_json(std::span<const TradeRow> rows) { return trade_columns("", Want::scenes).json(rows); }
@@ -200,15 +134,6 @@ std::string trade_table(std::span<const TradeRow> rows) {
   std::string text;
   for (const auto& group : groups_of(rows)) text += trade_columns(group).text(group) + "\n";
   return text + recommendation(rows) + "\n";
-}
-
-std::string trade_page(std::span<const TradeRow> rows, const std::string& input, Page page) {
-  page.title = "kds trade: " + input;
-  page.found = fmt::format("<p>{}</p>\n", with_code(html_escaped(recommendation(rows))));
-  page.words = with_code(words_of_columns);
-  for (const auto& group : groups_of(rows))
-    page.body += html_section(title_of(group), trade_columns(group).html(group) + plots_of(group));
-  return html_page(page);
 }
 
 namespace {

@@ -4,7 +4,6 @@
 #include <span>
 #include <string>
 
-#include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
 #include "experiments/trade/measure_trade.h"
 
@@ -15,8 +14,6 @@ namespace kds {
 [[nodiscard]] std::string trade_csv(std::span<const TradeRow> rows);
 /// Returns a block per group. Rows on the Pareto front are marked.
 [[nodiscard]] std::string trade_table(std::span<const TradeRow> rows);
-/// `page` says how the results were made.
-[[nodiscard]] std::string trade_page(std::span<const TradeRow> rows, const std::string& input, Page page);
 
 /// Returns one or two sentences per group: the quickest setting whose main errors are small, its errors and
 /// its gain. `rows` are in the order of measure_trade.

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "experiments/output/page/svg_plot.h"
 #include "experiments/output/text.h"
 #include "experiments/program/commands.h"
 #include "experiments/program/option_values.h"
@@ -108,61 +107,6 @@ std::string task_line(const UpdateTask& task) {
       static_cast<double>(task.hidden) / steps);
 }
 
-using Bar = std::pair<double, double>;  // least and most
-
-/// Returns a plot with a mark at each stride for each technique that has a value. `bar` returns the error bar
-/// of a row; if null, there are no error bars.
-template <class Value>
-LinePlot over_strides(std::span<const UpdateRow> rows, const char* label, Value value,
-                      Bar (*bar)(const UpdateRow&) = nullptr) {
-  LinePlot plot{"stride", label, Drawn::points, {}};
-  for (const UpdateRow& row : rows) {
-    const std::optional<double> y = value(row);
-    if (!y) continue;
-    auto curve = std::find_if(plot.curves.begin(), plot.curves.end(),
-                              [&](const Curve& c) { return c.name == row.technique; });
-    if (curve == plot.curves.end()) curve = plot.curves.insert(curve, {row.technique, {}});
-    curve->points.emplace_back(static_cast<double>(row.task.stride), *y);
-    if (bar != nullptr) curve->bars.push_back(bar(row));
-  }
-  return plot;
-}
-
-std::string plots(std::span<const UpdateRow> rows) {
-  const bool several = rows.front().task.stride != rows.back().task.stride;
-  if (!several) {
-    BarPlot plot{"microseconds per step", {}};
-    for (const UpdateRow& row : rows)
-      plot.bars.push_back({row.technique, 1e6 * per_step(row, row.seconds.median)});
-    return html_figure(svg_plot(plot), "Time of each technique from one frame to the next.");
-  }
-  std::string html = html_figure(
-      svg_plot(over_strides(
-          rows, "time / time to rebuild", [](const UpdateRow& row) { return std::optional(row.ratio); },
-          [](const UpdateRow& row) {
-            const double unit = row.ratio / row.seconds.median;
-            return Bar(unit * row.seconds.least, unit * row.seconds.most);
-          })),
-      "Time of each technique as a multiple of the median time to rebuild with CGAL, by stride. "
-      "Bars reach from the shortest to the longest round.");
-  const LinePlot efficiency = over_strides(rows, "events / changed cells", [](const UpdateRow& row) {
-    const bool in_order =
-        row.technique == "kinetic" || row.technique == "hermite" || row.technique == "lifted";
-    return in_order ? row.efficiency() : std::nullopt;
-  });
-  if (!efficiency.curves.empty())
-    html += html_figure(svg_plot(efficiency),
-                        "Events a changed cell, by stride: <em>kinetic</em> is linear motion.");
-  LinePlot failed{"stride", "% of certificates that fail", Drawn::points, {{"failed", {}}}};
-  for (const UpdateRow& row : rows) {
-    if (row.technique == "rebuild")
-      failed.curves.front().points.emplace_back(static_cast<double>(row.task.stride),
-                                                100 * row.task.failed_share());
-  }
-  return html + html_figure(svg_plot(failed),
-                            "Certificates of a frame's diagram that fail at the next frame, by stride.");
-}
-
 /// Groups the rows by stride. Rows of one stride are adjacent.
 std::vector<std::span<const UpdateRow>> by_stride(std::span<const UpdateRow> rows) {
   std::vector<std::span<const UpdateRow>> groups;
@@ -175,38 +119,10 @@ std::vector<std::span<const UpdateRow>> by_stride(std::span<const UpdateRow> row
   return groups;
 }
 
-std::string tables(std::span<const UpdateRow> rows) {
-  std::string html;
-  for (const auto& group : by_stride(rows))
-    html += fmt::format("<p>{}.</p>\n", html_escaped(task_line(group.front().task))) +
-            update_columns().html(group);
-  return html;
-}
-
-// Names the fastest technique for each stride.
-std::string findings(std::span<const UpdateRow> rows) {
-  std::string html;
-  for (const auto& group : by_stride(rows)) {
-    const UpdateRow& best = *std::ranges::min_element(group, {}, &UpdateRow::ratio);
-    html += fmt::format(
-        "<p>At stride {} <strong>{}</strong> was the fastest, {} of rebuilding's time; {:.3g}% of the "
-        "certificates failed from one frame to the next.</p>\n",
-        best.task.stride, html_escaped(best.technique), short_decimal(best.ratio),
-        100 * best.task.failed_share());
-  }
-  return html;
-}
-
 }  // namespace
 
 const Table<UpdateRow>& update_columns() {
   using Row = UpdateRow;
-  const auto micros = [](const char* heading, double Spread::*seconds, Shown shown) {
-    return Column<Row>{.heading = heading,
-                       .value = [=](const Row& r) { return Field(1e6 * per_step(r, r.seconds.*seconds)); },
-                       .format = shortly,
-                       .shown = shown};
-  };
   static const Table<Row> table{{
       {.key = "stride", .value = [](const Row& r) { return Field(r.task.stride); }},
       {"technique", "technique", [](const Row& r) { return Field(r.technique); }},
@@ -223,9 +139,9 @@ const Table<UpdateRow>& update_columns() {
        with_decimals(3)},
       {"rebuilds", "rebuilds", [](const Row& r) { return Field(r.rebuilds); }},
       {.key = "audits", .value = [](const Row& r) { return Field(r.audits); }},
-      micros("us per step", &Spread::median, Shown::everywhere),
-      micros("least", &Spread::least, Shown::on_pages),
-      micros("most", &Spread::most, Shown::on_pages),
+      {.heading = "us per step",
+       .value = [](const Row& r) { return Field(1e6 * per_step(r, r.seconds.median)); },
+       .format = shortly},
       {.key = "seconds", .value = [](const Row& r) { return Field(r.seconds.median); }},
       {"ratio", "ratio", [](const Row& r) { return Field(r.ratio); }, with_decimals(3)},
       {.key = "seconds_least", .value = [](const Row& r) { return Field(r.seconds.least); }},
@@ -244,22 +160,6 @@ std::string update_table(std::span<const UpdateRow> rows) {
   if (audits > 0)
     text += fmt::format("\n{} audits against the static diagram, none failed\n", with_thousands(audits));
   return text;
-}
-
-std::string update_page(std::span<const UpdateRow> rows, const std::string& input, Page page) {
-  page.title = "kds update: " + input;
-  page.found = findings(rows);
-  page.words =
-      "Each <em>technique</em> brings the power diagram from one frame to the next and ends in the same "
-      "diagram. <em>Activated</em>: beads that moved along a path in time; <em>removed</em>: beads taken out "
-      "and put in again; <em>events</em>: flips, and beads that vanish from the diagram or come back; "
-      "<em>events "
-      "per change</em>: events divided by the number of cells that are in only one of the two frames' "
-      "diagrams; "
-      "<em>ratio</em>: time as a multiple of building the diagram anew with CGAL; <em>us per step</em>: the "
-      "median of the rounds, with the <em>least</em> and the <em>most</em>.";
-  page.body = html_section("Plots", plots(rows)) + html_section("Numbers", tables(rows));
-  return html_page(page);
 }
 
 std::vector<UpdateRow> measure_updates(const UpdateOptions& options,
@@ -302,8 +202,7 @@ int update_command(const Arguments& arguments) {
   json["settings"] = update_options().settings_json(options);
   json["rows"] = update_columns().json(rows);
   json["warnings"] = command.warnings();
-  command.deliver(json, update_columns().csv(rows), update_table(rows),
-                  [&](Page page) { return update_page(rows, file_names(options), std::move(page)); });
+  command.deliver(json, update_columns().csv(rows), update_table(rows));
   return 0;
 }
 

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "experiments/output/output_files.h"
-#include "experiments/output/page/html_page.h"
-#include "experiments/output/page/table.h"
+#include "experiments/output/table.h"
 #include "experiments/program/input_options.h"
 #include "kds/kinetic_structure.h"
 #include "motions/scene/scene.h"
@@ -54,11 +53,9 @@ struct UpdateRow;  // compare_updates.h
     const std::function<void(const std::string&)>& warn,
     const std::function<void(const Scene& all)>& look_at = {});
 
-/// Returns the columns of update.json and update.csv, of the terminal and of the page.
+/// Returns the columns of update.json and update.csv and of the terminal.
 [[nodiscard]] const Table<UpdateRow>& update_columns();
 /// Returns a line for each stride, followed by a line for each technique.
 [[nodiscard]] std::string update_table(std::span<const UpdateRow> rows);
-/// Completes a page that already says how the results were made.
-[[nodiscard]] std::string update_page(std::span<const UpdateRow> rows, const std::string& input, Page page);
 
 }  // namespace kds

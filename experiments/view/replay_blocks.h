@@ -34,11 +34,6 @@ class BlockBytes {
   std::string bytes_;
 };
 
-/// Returns the bytes compressed in zlib format.
-[[nodiscard]] std::string compressed(std::string_view bytes);
-/// Returns the bytes in base64, with padding (RFC 4648).
-[[nodiscard]] std::string base64(std::string_view bytes);
-
 /// Receives a finished block.
 using BlockSink = std::function<void(const std::string& name, std::string_view bytes)>;
 

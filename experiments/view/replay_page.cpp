@@ -10,8 +10,9 @@
 #include <variant>
 
 #include "experiments/output/output_files.h"
-#include "experiments/view/replay_columns.h"
+#include "experiments/output/page_data.h"
 #include "experiments/output/page_templates.h"
+#include "experiments/view/replay_columns.h"
 #include "motions/base/input_error.h"
 #include "motions/readers/bead_name.h"
 #include "structures/session/scene_motion.h"
@@ -30,19 +31,6 @@ constexpr int kVersion = 2;
 const std::vector<std::string> kStages{"", "floating point, with proved error bounds",
                                        "floating point, with errors followed through each operation",
                                        "integers"};
-
-/// Returns a JSON text in which no tag begins, so that it can stand in a script element.
-std::string without_tags(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<') {
-      safe += "\\u003c";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
-}
 
 /// Returns the roles of an event's ids. A count of 0 means all ids that are left.
 Json roles_json(const EventKind& kind) {

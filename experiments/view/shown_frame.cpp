@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "experiments/output/page_data.h"
 #include "experiments/view/replay_blocks.h"
 #include "motions/base/input_error.h"
 #include "motions/numbers/exact_number.h"

@@ -13,18 +13,18 @@
 #include <string>
 #include <vector>
 
+#include "experiments/output/page_templates.h"
 #include "experiments/view/replay_columns.h"
-#include "experiments/view/replay_template.h"
 #include "motions/base/input_error.h"
 #include "motions/curves/bezier_motion.h"
 #include "motions/readers/instance.h"
 #include "motions/readers/read_trajectory.h"
 #include "structures/session/kinetic_run.h"
 #include "structures/session/parallel_run.h"
+#include "tests/experiments/count_of.h"
 #include "tests/experiments/replay_data.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
-#include "tests/experiments/sound_page.h"
 #include "tests/support/inputs/random.h"
 
 namespace kds::test::replay_page_test {
@@ -316,14 +316,14 @@ std::string text_of_template() {
 
 TEST(ReplayPage, IsTheTemplateAroundTheData) {
   const std::string text = text_of_template();
-  EXPECT_EQ(count_of(text, std::string(replay_data_mark)), 1U);
+  EXPECT_EQ(count_of(text, std::string(page_data_mark)), 1U);
   std::ifstream file(KDS_REPLAY_PAGE, std::ios::binary);
   EXPECT_TRUE(text == std::string(std::istreambuf_iterator<char>(file), {}));
   const Scene scene = random_scene(3, FrameMotion::linear, 3, 1);
   const std::string page = record(scene, {{"power"}}, {}).page;
-  const std::size_t mark = text.find(replay_data_mark);
+  const std::size_t mark = text.find(page_data_mark);
   EXPECT_TRUE(page.starts_with(text.substr(0, mark)));
-  EXPECT_TRUE(page.ends_with(text.substr(mark + replay_data_mark.size())));
+  EXPECT_TRUE(page.ends_with(text.substr(mark + page_data_mark.size())));
 }
 
 TEST(ReplayPage, IsHarmlessForAnyNames) {
@@ -334,10 +334,10 @@ TEST(ReplayPage, IsHarmlessForAnyNames) {
   labels.command = "kds view '</script>'";
   const std::string page = record(scene, {{"power"}}, {labels, {}, {}}).page;
   const std::string text = text_of_template();
-  const std::string data = page.substr(text.find(replay_data_mark));
+  const std::string data = page.substr(text.find(page_data_mark));
   const ReplayData replay(page);
   EXPECT_EQ(count_of(data, "<script"),
-            count_of(text.substr(text.find(replay_data_mark)), "<script") + replay.block_count() + 1);
+            count_of(text.substr(text.find(page_data_mark)), "<script") + replay.block_count() + 1);
   EXPECT_EQ(replay.meta["title"], labels.title);
   EXPECT_EQ(replay.meta["command"], labels.command);
 }

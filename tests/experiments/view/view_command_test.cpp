@@ -16,11 +16,12 @@
 #include <vector>
 
 #include "experiments/view/replay_template.h"
+#include "tests/experiments/count_of.h"
 #include "tests/experiments/csv_cells.h"
 #include "tests/experiments/replay_data.h"
+#include "tests/experiments/report_data.h"
 #include "tests/experiments/run_program.h"
 #include "tests/experiments/scratch_directory.h"
-#include "tests/experiments/sound_page.h"
 
 namespace kds::test::view_command_test {
 namespace {
@@ -250,7 +251,7 @@ TEST(View, IsLinkedFromReports) {
   const ProgramRun run = run_program({"run", kVillin, "--frames", "0:4", "--out", report, "--view", page});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("\nreplay " + page + "\n"));
-  EXPECT_THAT(content_of(report + "/report.html"), HasSubstr("<a href=\"../a%20run%20%231.html\">"));
+  EXPECT_EQ(ReportData(report + "/report.html").links["replay"], "../a run #1.html");
 }
 
 TEST(View, ShowsTheContactsThatKdsContactsFollows) {
@@ -261,7 +262,7 @@ TEST(View, ShowsTheContactsThatKdsContactsFollows) {
                                       "0:12", "--cutoff", "8", "--apart", "4", "--out", out, "--view", page});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("replay " + page));
-  EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("<a href=\"../replay.html\">"));
+  EXPECT_EQ(ReportData(out + "/report.html").links["replay"], "../replay.html");
   const ReplayData data(content_of(page));
   const auto positions = data.positions();
   ASSERT_EQ(positions.size(), 12U);
@@ -311,7 +312,7 @@ TEST(View, ShowsTheFirstRunOfAComparison) {
                                       "--strides", "2,4", "--motions", "hermite,linear", "--structures",
                                       "wrapped,contacts", "--rounds", "1", "--out", out, "--view", page});
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_THAT(content_of(out + "/report.html"), HasSubstr("<a href=\"../replay.html\">"));
+  EXPECT_EQ(ReportData(out + "/report.html").links["replay"], "../replay.html");
   const ReplayData data(content_of(page));
   EXPECT_EQ(data.words("frames"), (Ids{0, 2, 4, 6, 8, 10}));
   EXPECT_EQ(data.meta["motion"], "linear");  // the first in the order of motions

@@ -1,4 +1,4 @@
-#include "experiments/output/page/table.h"
+#include "experiments/output/table.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/output/page/html_page.h"
-#include "experiments/output/page/latex.h"
 #include "experiments/output/text.h"
 #include "motions/base/text_input.h"
 
@@ -68,12 +66,10 @@ std::string in_percent(const Field& field) { return fmt::format("{:.3g}%", 100 *
 
 Field text_or_nothing(const std::string& text) { return text.empty() ? Field() : Field(text); }
 
-std::vector<std::size_t> TableOfCells::columns_for(Shown reader) const {
+std::vector<std::size_t> TableOfCells::shown_columns() const {
   std::vector<std::size_t> indices;
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    const Shown shown = columns_[c].shown;
-    if (!columns_[c].heading.empty() && (shown == Shown::everywhere || shown == reader)) indices.push_back(c);
-  }
+  for (std::size_t c = 0; c < columns_.size(); ++c)
+    if (!columns_[c].heading.empty()) indices.push_back(c);
   return indices;
 }
 
@@ -139,7 +135,7 @@ std::string TableOfCells::alignment_of(std::span<const std::size_t> columns) con
 }
 
 std::vector<std::string> TableOfCells::lines() const {
-  const std::vector<std::size_t> columns = columns_for(Shown::in_text);
+  const std::vector<std::size_t> columns = shown_columns();
   std::vector<std::vector<std::string>> lines(1);
   for (const std::size_t c : columns) lines[0].push_back(columns_[c].heading);
   for (const std::vector<TableCell>& cells : rows_) {
@@ -147,30 +143,6 @@ std::vector<std::string> TableOfCells::lines() const {
     for (const std::size_t c : columns) line.push_back(one_line(shown(cells[c], c)));
   }
   return in_columns(lines, alignment_of(columns));
-}
-
-TableOfCells::ForPage TableOfCells::for_page(std::span<const std::string> groups) const {
-  const std::vector<std::size_t> columns = columns_for(Shown::on_pages);
-  ForPage page;
-  page.alignment = alignment_of(columns);
-  for (const std::size_t c : columns) page.headings.push_back(columns_[c].heading);
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const std::string& group = groups[row];
-    if (!group.empty() && (row == 0 || group != groups[row - 1])) page.rows.push_back({{group}});
-    HtmlRow& line = page.rows.emplace_back(HtmlRow{{}, !group.empty()});
-    for (const std::size_t c : columns) line.cells.push_back(shown(rows_[row][c], c));
-  }
-  return page;
-}
-
-std::string TableOfCells::html(std::span<const std::string> groups) const {
-  const auto [headings, rows, alignment] = for_page(groups);
-  return html_table(headings, rows, alignment);
-}
-
-std::string TableOfCells::latex(std::span<const std::string> groups) const {
-  const auto [headings, rows, alignment] = for_page(groups);
-  return latex_table(headings, rows, alignment);
 }
 
 }  // namespace kds

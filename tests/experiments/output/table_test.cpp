@@ -1,6 +1,6 @@
-// One declaration of columns gives JSON, CSV, text and HTML.
+// One declaration of columns gives JSON, CSV and text.
 
-#include "experiments/output/page/table.h"
+#include "experiments/output/table.h"
 
 #include <gmock/gmock.h>
 
@@ -23,9 +23,8 @@ struct Row {
 const Table<Row> table{{
     {"name", "name", [](const Row& r) { return Field(r.name); }},
     {"count", "count", [](const Row& r) { return Field(r.count); }},
-    {"cost.time", "time", [](const Row& r) { return Field(r.time); }, with_decimals(2), Shown::in_text},
+    {"cost.time", "time", [](const Row& r) { return Field(r.time); }, with_decimals(2)},
     {.key = "cost.long", .value = [](const Row& r) { return Field(r.time ? Field(*r.time > 1) : Field()); }},
-    {.heading = "page", .value = [](const Row&) { return Field("<b>"); }, .shown = Shown::on_pages},
 }};
 const std::array<Row, 3> rows{Row{"a,b", 12345, 1.0 / 3}, Row{"c", 7, std::nullopt},
                               Row{"d", 0, std::numeric_limits<double>::infinity()}};
@@ -50,13 +49,6 @@ TEST(Table, TextAlignsNumbersAtTheRight) {
             "  a,b   12,345  0.33\n"
             "  c          7     -\n"
             "  d          0   inf\n");
-}
-
-TEST(Table, PagesEscapeAndLeaveOutColumnsOfTheTerminal) {
-  const std::string html = table.html(rows);
-  EXPECT_THAT(html, HasSubstr("&lt;b&gt;"));
-  EXPECT_THAT(html, Not(HasSubstr("time")));
-  EXPECT_THAT(html, HasSubstr("12,345"));
 }
 
 TEST(Table, WithoutRowsHasAHeaderOnly) {
@@ -93,15 +85,6 @@ TEST(Table, JsonHasListsAndLeavesOutOptionalMembers) {
 TEST(Table, WordsReplaceTheFormatAndStayOneLine) {
   EXPECT_EQ(extended.lines(rows),
             (std::vector<std::string>{"name  many", "a,b   a,b!", "c     c!", "d     d!"}));
-}
-
-TEST(Table, PagesHaveALineForEachGroup) {
-  const std::string html = extended.html(rows, [](const Row& r) { return r.count > 0 ? "some" : "none"; });
-  const auto some = html.find(">some<"), first = html.find(">a,b<"), none = html.find(">none<");
-  EXPECT_LT(some, first);
-  EXPECT_LT(html.find(">c<"), none);
-  EXPECT_LT(none, html.find(">d<"));
-  EXPECT_EQ(html.find(">some<", some + 1), std::string::npos);
 }
 
 }  // namespace

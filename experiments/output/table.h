@@ -1,6 +1,6 @@
 #pragma once
-// A table whose columns are declared once. The table writes its rows as JSON, as CSV, as text for a terminal,
-// as HTML for a page and as LaTeX for print.
+// A table whose columns are declared once. The table writes its rows as JSON, as CSV, and as text for a
+// terminal.
 //
 //   const Table<Row> table{{
 //       {.key = "seconds", .heading = "seconds", .value = [](const Row& r) { return Field(r.seconds); },
@@ -20,7 +20,6 @@
 #include <variant>
 #include <vector>
 
-#include "experiments/output/page/html_page.h"
 #include "experiments/output/result_json.h"
 
 namespace kds {
@@ -76,13 +75,9 @@ using FieldFormat = std::function<std::string(const Field&)>;
 /// Formats a share as a percentage with three figures.
 [[nodiscard]] std::string in_percent(const Field& field);
 
-/// The outputs for people in which a column appears.
-enum class Shown : std::uint8_t { everywhere, in_text, on_pages };
-
 struct ColumnNames {
   std::string key = {}, heading = {};
   FieldFormat format = plainly;
-  Shown shown = Shown::everywhere;
   bool in_csv = true, optional = false;
 };
 
@@ -104,18 +99,10 @@ class TableOfCells {
   [[nodiscard]] std::string csv_header() const;
   [[nodiscard]] std::string csv_lines() const;
   [[nodiscard]] std::vector<std::string> lines() const;
-  [[nodiscard]] std::string html(std::span<const std::string> groups) const;
-  [[nodiscard]] std::string latex(std::span<const std::string> groups) const;
 
  private:
-  struct ForPage {
-    std::vector<std::string> headings;
-    std::vector<HtmlRow> rows;
-    std::string alignment;
-  };
-  [[nodiscard]] ForPage for_page(std::span<const std::string> groups) const;
   [[nodiscard]] std::string alignment_of(std::span<const std::size_t> columns) const;
-  [[nodiscard]] std::vector<std::size_t> columns_for(Shown reader) const;
+  [[nodiscard]] std::vector<std::size_t> shown_columns() const;
   [[nodiscard]] std::string shown(const TableCell& cell, std::size_t column) const;
 
   std::vector<ColumnNames> columns_;
@@ -158,7 +145,6 @@ struct Column {
   std::string heading = {};      ///< for people, with its unit; if empty, the column is not shown
   OfRow<Field, Row> value = {};  ///< if null, the column is in JSON only
   FieldFormat format = plainly;
-  Shown shown = Shown::everywhere;
   OfRow<std::string, Row> words = {};  ///< replaces the format if people see more than the field
   OfRow<Json, Row> json = {};          ///< replaces the value in JSON, for arrays and objects
   bool optional = false;               ///< if true, JSON omits the member when it has no value
@@ -191,28 +177,12 @@ class Table {
     for (const std::string& line : lines(rows)) text.append(indent).append(line).append("\n");
     return text;
   }
-  using Group = std::function<std::string(const Row&)>;
-  /// Returns an HTML table with its copy for print. If `group` is given, a line with the name of each group
-  /// precedes the group's rows.
-  [[nodiscard]] std::string html(Rows rows, const Group& group = {}) const {
-    return filled(rows).html(groups_of(rows, group));
-  }
-  /// Returns the table of `html` as a LaTeX tabular environment (latex.h).
-  [[nodiscard]] std::string latex(Rows rows, const Group& group = {}) const {
-    return filled(rows).latex(groups_of(rows, group));
-  }
 
  private:
-  [[nodiscard]] static std::vector<std::string> groups_of(Rows rows, const Group& group) {
-    std::vector<std::string> groups;
-    for (const Row& row : rows) groups.push_back(group ? group(row) : "");
-    return groups;
-  }
-
   [[nodiscard]] TableOfCells filled(Rows rows) const {
     TableOfCells table;
     for (const auto& c : columns_)
-      table.add_column({c.key, c.heading, c.format, c.shown, static_cast<bool>(c.value), c.optional});
+      table.add_column({c.key, c.heading, c.format, static_cast<bool>(c.value), c.optional});
     for (const Row& row : rows) {
       std::vector<TableCell> cells;
       for (const auto& column : columns_) cells.push_back(cell_of(column, row));

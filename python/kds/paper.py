@@ -1,0 +1,248 @@
+"""Writes a result for print: its plots as PDF, its tables as LaTeX.
+
+    python3 -m kds.paper RESULT.json [DIR]
+
+RESULT.json is what a command of kds writes with --json, or into --out. Beside it, or in DIR, come RESULT-figure-NAME.pdf and
+RESULT-table-NAME.tex, a ``tabular`` with the rules of the LaTeX package booktabs. A table of more than 40 rows is cut to the
+first 40, and says so in a comment; RESULT-table-NAME.csv has all. Plots need matplotlib.
+"""
+
+import csv
+import json
+import pathlib
+import re
+import sys
+
+ROWS_ON_A_PAGE = 40
+COLUMNS_ON_A_PAGE = 8
+SPECIAL = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
+           **{character: "\\" + character for character in "&%$#_{}"}}
+
+# The columns of the tables of each command. Other results show the first columns that hold numbers or words.
+COLUMNS = {
+    "contacts": ["first", "second", "contacts", "occupancy", "residence", "total"],
+    "compare": ["input", "structure", "motion", "stride", "events", "events_per_step", "net_changes", "events_per_net_change"],
+    "missed": ["cutoff", "factor", "stride", "contacts", "missed", "missed_fraction"],
+    "collide": ["method", "pairs", "colliding_frames", "family", "seconds"],
+    "update": ["stride", "technique", "events", "efficiency", "seconds", "ratio"],
+    "trade": ["want", "setting", "cost_seconds", "cost_ratio", "pareto"],
+}
+
+
+def latex_text(text):
+    return "".join(SPECIAL.get(character, character) for character in str(text))
+
+
+def number_text(value):
+    """Writes four significant digits, and whole numbers with all of theirs."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int):
+        return f"{value:,}".replace(",", r"\,")
+    text = f"{value:.4g}"
+    found = re.fullmatch(r"(.*)e([+-])0*(\d+)", text)
+    return rf"${found[1]} \cdot 10^{{{found[2].strip('+')}{found[3]}}}$" if found else text
+
+
+def cell(row, column):
+    """Writes a value, with its interval if the row has one."""
+    value = row.get(column)
+    if value is None:
+        return "--"
+    if isinstance(value, str):
+        return latex_text(value)
+    text = number_text(value)
+    ends = [row.get(column + end) for end in ("_lower", "_upper")]
+    if None in ends:
+        ends = [row.get(column + end) for end in ("_least", "_most")]
+    return text if None in ends else f"{text} ({number_text(ends[0])} to {number_text(ends[1])})"
+
+
+def flat(row):
+    """Makes columns of the members of objects, as in cost_seconds."""
+    columns = {}
+    for name, value in row.items():
+        if isinstance(value, dict):
+            columns.update({f"{name}_{inner}": one for inner, one in value.items()})
+        else:
+            columns[name] = value
+    return {name: value for name, value in columns.items() if not isinstance(value, (list, dict))}
+
+
+def columns_of(rows, command):
+    known = [name for row in rows for name in row]
+    names = [name for name in COLUMNS.get(command, dict.fromkeys(known)) if name in known]
+    ends = re.compile("_(lower|upper|least|most)$")
+    return [name for name in names if not ends.search(name) and any(row.get(name) is not None for row in rows)
+            ][:COLUMNS_ON_A_PAGE]
+
+
+def tabular(rows, columns):
+    right = [all(not isinstance(row.get(name), str) for row in rows) for name in columns]
+    lines = [rf"\begin{{tabular}}{{{''.join('r' if is_right else 'l' for is_right in right)}}}", r"\toprule",
+             " & ".join(latex_text(name.replace("_", " ")) for name in columns) + r" \\", r"\midrule"]
+    lines += [" & ".join(cell(row, name) for name in columns) + r" \\" for row in rows[:ROWS_ON_A_PAGE]]
+    if len(rows) > ROWS_ON_A_PAGE:
+        lines.append(f"% the first {ROWS_ON_A_PAGE} of {len(rows)} rows")
+    return "\n".join([*lines, r"\bottomrule", r"\end{tabular}", ""])
+
+
+def tables_of(result, command):
+    """Returns the tables of a result, lists of flat rows by name."""
+    tables = {name: result[name] for name in ("rows", "pooled") if result.get(name)}
+    if "structures" in result:  # of a run
+        tables["structures"] = [{"structure": name, **structure} for name, structure in result["structures"].items()]
+    if command == "contacts":
+        tables["rows"] = sorted(tables.get("rows", []), key=lambda row: (-(row["occupancy"] or 0), -row["total"]))
+        tables["spacings"] = result["frames"]
+    return {name: [flat(row) for row in rows] for name, rows in tables.items() if rows}
+
+
+def error_bars(axes, rows, x, y, label=None, scale=1):
+    rows = [row for row in rows if row.get(y) is not None]
+    if not rows:
+        return
+    values = [scale * row[y] for row in rows]
+    low = [value if row.get(y + "_lower") is None else scale * row[y + "_lower"] for value, row in zip(values, rows)]
+    high = [value if row.get(y + "_upper") is None else scale * row[y + "_upper"] for value, row in zip(values, rows)]
+    axes.errorbar([row[x] for row in rows], values, marker="o", capsize=2, label=label,
+                  yerr=[[v - l for v, l in zip(values, low)], [h - v for v, h in zip(values, high)]])
+
+
+def by(rows, *names):
+    groups = {}
+    for row in rows:
+        groups.setdefault(tuple(row.get(name) for name in names), []).append(row)
+    return groups.items()
+
+
+def draw_contacts(result, figure):
+    survival = figure("survival", f"length of a contact ({result['unit']})", "share of contacts that last longer")
+    points = [{"length": 0, "survival": 1, "lower": 1, "upper": 1}, *result["survival"]]
+    length = [point["length"] for point in points]
+    survival.step(length, [point["survival"] for point in points], where="post")
+    ends = [[float("nan") if point[end] is None else point[end] for point in points] for end in ("lower", "upper")]
+    survival.fill_between(length, *ends, step="post", alpha=0.3, label="95% band")
+    survival.legend()
+    course = figure("course", "frame", "contacts at once")
+    course.plot([point["frame"] for point in result["course"]], [point["contacts"] for point in result["course"]])
+    share = figure("map", result["by"], result["by"])
+    pairs = share.scatter([row["i"] for row in result["rows"]], [row["j"] for row in result["rows"]], s=4, vmin=0, vmax=1,
+                          c=[row["occupancy"] for row in result["rows"]])
+    share.figure.colorbar(pairs, label="share of time in contact")
+
+
+def draw_compare(result, figure):
+    for number, ((name, motion), rows) in enumerate(by(result["rows"], "input", "motion")):
+        axes = figure(f"strides-{number + 1}", "stride", "events in a step", log=True)
+        axes.set_title(f"{pathlib.Path(name).name}, {motion}")
+        for (structure,), some in by(rows, "structure"):
+            error_bars(axes, some, "stride", "events_per_step", structure)
+        axes.legend()
+
+
+def draw_missed(result, figure):
+    axes = figure("missed", "stride", "contacts that frames miss (%)")
+    rule = "cutoff" if "cutoff" in result["rows"][0] else "factor"
+    for (length,), rows in by(result["rows"], rule):
+        error_bars(axes, rows, "stride", "missed_fraction", f"{rule} {length}", 100)
+    axes.set_xscale("log", base=2)
+    axes.legend()
+
+
+def draw_update(result, figure):
+    axes = figure("update", "stride", "time / time to rebuild")
+    for (technique,), rows in by(result["rows"], "technique"):
+        error_bars(axes, rows, "stride", "ratio", technique)
+    axes.legend()
+
+
+def draw_collide(result, figure):
+    if not result.get("course"):
+        return
+    axes = figure("closest", "frame", "distance of the closest pair")
+    axes.plot([point["frame"] for point in result["course"]], [point["distance"] for point in result["course"]])
+
+
+def draw_trade(result, figure):
+    for (want,), rows in by(result["rows"], "want"):
+        errors = [name for name in rows[0]["error"] if any(row["error"][name] for row in rows)]
+        for error in errors:
+            axes = figure(f"{want}-{error}", "processor time / exact run", error.replace("_", " "))
+            for front in (True, False):
+                some = [row for row in rows if row["pareto"] == front and row["error"][error] is not None]
+                axes.scatter([row["cost"]["ratio"] for row in some], [row["error"][error] for row in some],
+                             label="quickest of its error" if front else "others", marker="o" if front else "x")
+            axes.legend()
+
+
+def draw_run(result, figure):
+    for name, structure in result["structures"].items():
+        course = structure.get("over_time")
+        if not course or not course["events"]:
+            continue
+        axes = figure(f"events-{name}", "step", f"events of {name} in {course['steps']} step(s)")
+        axes.stairs(course["events"], [course["steps"] * k for k in range(len(course["events"]) + 1)])
+
+
+def write(path, folder=None):
+    """Writes the files of a result, and returns their paths."""
+    path = pathlib.Path(path)
+    result = json.loads(path.read_text())
+    if not isinstance(result, dict) or not str(result.get("command", "")).startswith("kds "):
+        raise ValueError(f"{path}: is no result of a command of kds")
+    command = result["command"].split()[1]
+    folder = path.parent if folder is None else pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+
+    def place(kind, name, ending):
+        written.append(folder / f"{path.stem}-{kind}-{name}.{ending}")
+        return written[-1]
+
+    for name, rows in tables_of(result, command).items():
+        place("table", name, "tex").write_text(tabular(rows, columns_of(rows, command)))
+        if len(rows) > ROWS_ON_A_PAGE:
+            with open(place("table", name, "csv"), "w", newline="") as file:
+                table = csv.DictWriter(file, list(dict.fromkeys(column for row in rows for column in row)))
+                table.writeheader()
+                table.writerows(rows)
+    draw = globals().get("draw_run" if "structures" in result else f"draw_{command}")
+    if draw is None:
+        return written
+    import matplotlib
+    from matplotlib.figure import Figure
+    figures = {}
+
+    def figure(name, x, y, log=False):
+        figures[name] = Figure(figsize=(3.4, 2.6), layout="constrained")
+        axes = figures[name].subplots()
+        axes.set_xlabel(x)
+        axes.set_ylabel(y)
+        if log:
+            axes.set_xscale("log", base=2)
+            axes.set_yscale("log")
+        return axes
+
+    with matplotlib.rc_context({"font.size": 8, "pdf.fonttype": 42}):
+        draw(result, figure)
+        for name, drawn in figures.items():
+            drawn.savefig(place("figure", name, "pdf"))
+    return written
+
+
+def main(arguments):
+    if len(arguments) not in (1, 2) or arguments[0] in ("-h", "--help"):
+        print(__doc__.strip())
+        return 0 if arguments[:1] in (["-h"], ["--help"]) else 2
+    try:
+        for written in write(*arguments):
+            print(written)
+    except (OSError, ValueError, ImportError) as error:
+        print(f"kds.paper: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
