@@ -210,8 +210,11 @@ def write(path, folder=None):
     draw = globals().get("draw_run" if "structures" in result else f"draw_{command}")
     if draw is None:
         return written
-    import matplotlib
-    from matplotlib.figure import Figure
+    try:
+        import matplotlib
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise ImportError("plots need matplotlib, which is not installed; the tables are written") from error
     figures = {}
 
     def figure(name, x, y, log=False):

@@ -1,0 +1,79 @@
+"""Results for print: python3 -m kds.paper."""
+
+import csv
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import kds.paper
+from data import DCD, PDB, program
+
+try:
+    import matplotlib  # noqa: F401
+    HAS_PLOTS = True
+except ImportError:
+    HAS_PLOTS = False
+
+
+def print_in(folder, name, result):
+    path = pathlib.Path(folder) / f"{name}.json"
+    path.write_text(json.dumps(result))
+    run = subprocess.run([sys.executable, "-m", "kds.paper", path], capture_output=True, text=True, check=False)
+    return run, {file.name for file in path.parent.iterdir()}
+
+
+class Paper(unittest.TestCase):
+    def test_tables_have_the_numbers_and_are_cut_to_a_page(self):
+        result = program("contacts", DCD, "--topology", PDB, "--cutoff", "7", "--frames", "0:60")
+        with tempfile.TemporaryDirectory() as folder:
+            run, files = print_in(folder, "contacts", result)
+            self.assertEqual(run.returncode, 0 if HAS_PLOTS else 2, run.stderr)
+            text = (pathlib.Path(folder) / "contacts-table-rows.tex").read_text()
+            with open(pathlib.Path(folder) / "contacts-table-rows.csv", newline="") as file:
+                everything = list(csv.DictReader(file))
+        rows = [line.removesuffix(r" \\").split(" & ") for line in text.splitlines() if " & " in line]
+        self.assertEqual(len(rows), 1 + kds.paper.ROWS_ON_A_PAGE)
+        self.assertEqual({len(row) for row in rows}, {len(rows[0])})
+        self.assertIn(f"% the first 40 of {len(result['rows'])} rows", text)
+        self.assertEqual(len(everything), len(result["rows"]))
+        most = max(result["rows"], key=lambda row: (row["occupancy"], row["total"]))
+        self.assertEqual(float(everything[0]["total"]), most["total"])
+        if HAS_PLOTS:
+            self.assertLessEqual({f"contacts-figure-{name}.pdf" for name in ("survival", "course", "map")}, files)
+
+    def test_each_command_has_its_plot(self):
+        if not HAS_PLOTS:
+            self.skipTest("matplotlib is missing")
+        short = [DCD, "--topology", PDB, "--frames", "0:12"]
+        for name, arguments in {"events-wrapped": ["run", *short], "strides-1": ["compare", *short, "--strides", "1,2"],
+                                "missed": ["missed", *short, "--cutoff", "6"], "closest": ["collide", *short],
+                                "update": ["update", *short]}.items():
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                run, files = print_in(folder, "result", program(*arguments))
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertIn(f"result-figure-{name}.pdf", files)
+
+    def test_words_and_numbers_of_latex(self):
+        self.assertEqual(kds.paper.latex_text("50% of a_b & \\c"), r"50\% of a\_b \& \textbackslash{}c")
+        self.assertEqual(kds.paper.cell({"x": 1234567}, "x"), r"1\,234\,567")
+        self.assertEqual(kds.paper.cell({"x": 0.123456, "x_lower": 0.1, "x_upper": 0.2}, "x"), "0.1235 (0.1 to 0.2)")
+        self.assertEqual(kds.paper.cell({"x": 1.5e-7}, "x"), r"$1.5 \cdot 10^{-7}$")
+        self.assertEqual(kds.paper.cell({"x": None}, "x"), "--")
+
+    def test_what_is_no_result_is_refused_in_a_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run, files = print_in(folder, "other", {"rows": []})
+            self.assertEqual((run.returncode, files), (2, {"other.json"}))
+            self.assertTrue(re.fullmatch("kds.paper: .*other.json: is no result of a command of kds\n", run.stderr), run.stderr)
+            missing = subprocess.run([sys.executable, "-m", "kds.paper", f"{folder}/none.json"], capture_output=True, text=True,
+                                     check=False)
+            self.assertEqual(missing.returncode, 2)
+            self.assertEqual(missing.stderr.count("\n"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
