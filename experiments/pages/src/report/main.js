@@ -1,14 +1,14 @@
 // Starts the report page: reads the result that the page contains, and shows it.
-import { fromBase64, inflate } from "../shared/codec.js";
+import { errors, fail } from "../shared/problems.js";
+import { describe } from "./describe.js";
+import { showReport } from "./page.js";
+import { resultOfPage } from "./result.js";
 
-async function resultOfPage(document) {
-  const element = document.getElementById("kds-report");
-  if (!element) throw new Error("this page has no result in it: a command with --out DIR writes DIR/report.html");
-  const meta = JSON.parse(element.textContent);
-  const bytes = await inflate(fromBase64(document.getElementById("kds-result").textContent));
-  return { meta, result: JSON.parse(new TextDecoder().decode(bytes)) };
-}
+window.addEventListener("error", ({ error, message }) => fail(error ?? message));
+window.addEventListener("unhandledrejection", ({ reason }) => fail(reason));
 
-resultOfPage(document).then(({ result }) => {
-  document.title = result.command;
-});
+// The result stands behind this script.
+const parsed = new Promise((resolve) => document.addEventListener("DOMContentLoaded", resolve, { once: true }));
+const ready = parsed.then(() => resultOfPage(document)).then(({ meta, result }) => showReport(meta, result, describe(result)));
+ready.catch(fail);
+window.kds = { ready, errors };

@@ -8,5 +8,5 @@ export function fail(error) {
   errors.push(text);
   const place = byId("problem");
   place.hidden = false;
-  place.textContent = `The replay cannot be shown: ${text}.`;
+  place.textContent = `This page cannot be shown: ${text}.`;
 }

@@ -1,0 +1,44 @@
+// The page of other results: their rows and members as tables.
+import { capital, num, plural } from "../format.js";
+import { dataOf, filesOf, kindOf } from "../result.js";
+import { column } from "../table_text.js";
+
+const known = new Set(["command", "kind", "version", "machine", "settings", "input", "warnings"]);
+
+const flat = (row, prefix = "") => Object.entries(row).flatMap(([name, value]) =>
+  value !== null && typeof value === "object" && !Array.isArray(value) ? flat(value, `${prefix}${name}.`)
+    : Array.isArray(value) ? (value.length <= 4 && value.every((v) => typeof v !== "object") ? [[prefix + name, value.join(", ")]] : []) : [[prefix + name, value]]);
+
+export function tableOf(title, rows) {
+  const flatRows = rows.map((row) => Object.fromEntries(flat(row)));
+  const names = [...new Set(flatRows.flatMap(Object.keys))];
+  return { title, rows: flatRows, columns: names.map((name) => column(name, name.replaceAll("_", " "))) };
+}
+
+export function generic(result) {
+  const kind = kindOf(result), members = Object.entries(result).filter(([name]) => !known.has(name));
+  const tables = members.filter(([, value]) => Array.isArray(value) && value.length > 0 && typeof value[0] === "object");
+  const figures = members.filter(([, value]) => !Array.isArray(value)).flatMap(([name, value]) => flat({ [name]: value }))
+    .map(([name, value]) => ({ name: name.replaceAll("_", " "), value }));
+  return {
+    title: `${capital(kind)} of ${filesOf(result).join(", ")}`,
+    answer: answerOf(kind, result),
+    sections: [{ heading: "Result", parts: [...tables.map(([name, value]) => tableOf(capital(name), value)),
+      figures.length > 0 && { title: "Figures", rows: figures, columns: [column("name", "figure"), column("value")] }] }],
+  };
+}
+
+function answerOf(kind, result) {
+  const data = dataOf(result), rows = result.rows ?? [];
+  if (kind === "info" && result.proper !== undefined) {
+    const broken = rows.filter(({ holds }) => !holds).map(({ condition }) => condition);
+    return `${data} ${result.proper ? "is a proper necklace: all conditions hold in all frames"
+      : `is not a proper necklace: ${broken.join(", ")} ${broken.length === 1 ? "fails" : "fail"}`}. The radius of its beads is ` +
+      `${num(result.input.radius_min)}${result.input.radius_max > result.input.radius_min ? ` to ${num(result.input.radius_max)}` : ""} A.`;
+  }
+  if (kind === "update" && rows.length > 0) {
+    const timed = rows.filter(({ ratio }) => ratio !== null), best = timed.reduce((a, b) => (b.ratio < a.ratio ? b : a), timed[0]);
+    return `Technique ${best.technique} is the fastest for ${data}: it takes ${num(best.ratio)} times as long as building anew at every frame${best.stride > 1 ? `, with a stride of ${best.stride}` : ""}.`;
+  }
+  return `The result has ${plural(rows.length, "row")} for ${data}.`;
+}

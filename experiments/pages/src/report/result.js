@@ -1,0 +1,34 @@
+// The result that the page contains, and what all results have.
+import { fromBase64, inflate } from "../shared/codec.js";
+import { baseName, num, plural } from "./format.js";
+
+export async function resultOfPage(document) {
+  const element = document.getElementById("kds-report"), packed = document.getElementById("kds-result");
+  if (!element || !packed) throw new Error("it has no result in it: a command with --out DIR writes DIR/report.html");
+  const meta = JSON.parse(element.textContent);
+  if (meta.format !== "kds-report" || meta.version !== 1)
+    throw new Error(`the report is of format '${meta.format}' ${meta.version}, this page shows 'kds-report' 1`);
+  const bytes = await inflate(fromBase64(packed.textContent));
+  if (bytes.length !== meta.size) throw new Error(`the result has ${bytes.length} bytes, expected ${meta.size}: the file is cut off`);
+  return { meta, result: JSON.parse(new TextDecoder().decode(bytes)) };
+}
+
+// The kind of a result: its field `kind`, else the command's name.
+export function kindOf(result) {
+  if (result.kind) return result.kind;
+  if (result.tasks !== undefined && result.rows?.[0]?.task) return "sweep";
+  return result.command?.split(/\s+/)[1] ?? "result";
+}
+
+export const filesOf = (result) => (result.input?.files ?? result.inputs?.map(({ file }) => file) ?? []).map(baseName);
+
+// Names the data that a result holds for: "villin.dcd (108 beads, 1,000 frames, 0 to 1,998 ps)".
+export function dataOf(result) {
+  const input = result.input ?? {}, files = filesOf(result);
+  const names = files.length > 3 ? plural(files.length, "file") : files.join(", ");
+  const times = input.picoseconds ? `${num(input.picoseconds[0])} to ${num(input.picoseconds[1])} ps` : null;
+  const stride = Number(String(result.settings?.frames ?? "").split(":")[2] || 1);
+  const facts = [input.beads && plural(input.beads, "bead"),
+    input.frames && plural(input.frames, "frame") + (stride > 1 ? ` (one in ${stride} of the file)` : ""), times];
+  return `${names} (${facts.filter(Boolean).join(", ")})`;
+}

@@ -1,0 +1,77 @@
+// Tables without a browser: order, filter, CSV and LaTeX.
+//
+// A column has a `name`, a `key` (name in CSV), `value(row)`, and may have `lower(row)` and `upper(row)`, the ends of an
+// interval, and `write(value)`, which makes text of a number.
+import { briefInterval, num } from "./format.js";
+
+export const column = (key, name = key, options = {}) => ({ key, name, value: (row) => row[key], ...options });
+
+// A column with the interval of fields KEY_lower and KEY_upper.
+export const withInterval = (key, name, options = {}) =>
+  column(key, name, { lower: (row) => row[`${key}_lower`], upper: (row) => row[`${key}_upper`], ...options });
+
+const missing = (value) => value === null || value === undefined || Number.isNaN(value);
+
+export function cellText(column, row) {
+  const value = column.value(row);
+  if (column.lower) return briefInterval(value, column.lower(row), column.upper(row), column.write);
+  if (missing(value)) return "–";
+  if (typeof value === "boolean") return value ? "yes" : "no";
+  return typeof value === "number" ? (column.write ?? num)(value) : String(value);
+}
+
+// Returns whether the column holds numbers.
+export const isNumeric = (column, rows) => {
+  const row = rows.find((other) => !missing(column.value(other)));
+  return row ? typeof column.value(row) === "number" : Boolean(column.lower);
+};
+
+// Sorts by a column, missing values last in both directions. Equal rows keep their order.
+export function sortRows(rows, { value }, descending) {
+  const sign = descending ? -1 : 1;
+  return [...rows].sort((one, other) => {
+    const [a, b] = [value(one), value(other)];
+    if (missing(a) || missing(b)) return missing(a) - missing(b);
+    if (typeof a === "number" && typeof b === "number") return sign * (a - b);
+    return sign * String(a).localeCompare(String(b), "en", { numeric: true });
+  });
+}
+
+// Returns the rows in which each word of `text` occurs in a cell.
+export function filterRows(rows, columns, text) {
+  const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+  if (words.length === 0) return rows;
+  return rows.filter((row) => {
+    const cells = columns.map((column) => cellText(column, row).toLowerCase()).join("\n");
+    return words.every((word) => cells.includes(word));
+  });
+}
+
+const csvCell = (value) => {
+  if (missing(value)) return "";
+  const text = String(value);
+  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+};
+const csvLine = (cells) => `${cells.map(csvCell).join(",")}\n`;
+
+export function toCsv(columns, rows) {
+  const fields = columns.flatMap(({ key, value, lower, upper }) =>
+    lower ? [[key, value], [`${key}_lower`, lower], [`${key}_upper`, upper]] : [[key, value]]);
+  return csvLine(fields.map(([key]) => key)) +
+    rows.map((row) => csvLine(fields.map(([, value]) => value(row)))).join("");
+}
+
+const latexSigns = {
+  "\\": "\\textbackslash{}", "{": "\\{", "}": "\\}", $: "\\$", "&": "\\&", "#": "\\#", _: "\\_", "%": "\\%",
+  "~": "\\textasciitilde{}", "^": "\\textasciicircum{}", "–": "--", "µ": "\\textmu{}", "×": "$\\times$", "Å": "\\AA{}",
+  "<": "\\textless{}", ">": "\\textgreater{}", "|": "\\textbar{}", "→": "$\\to$", "≥": "$\\geq$", "≤": "$\\leq$",
+};
+export const latexEscaped = (text) => String(text).replace(/[\\{}$&#_%~^–µ×Å<>|→≥≤]/g, (sign) => latexSigns[sign]);
+
+// Returns a tabular with the rules of package booktabs.
+export function toLatex(columns, rows) {
+  const shape = columns.map((column) => (isNumeric(column, rows) ? "r" : "l")).join("");
+  const line = (cells) => `${cells.map(latexEscaped).join(" & ")} \\\\\n`;
+  return `\\begin{tabular}{${shape}}\n\\toprule\n${line(columns.map(({ name }) => name))}\\midrule\n` +
+    `${rows.map((row) => line(columns.map((column) => cellText(column, row)))).join("")}\\bottomrule\n\\end{tabular}\n`;
+}
