@@ -30,31 +30,36 @@ export function stacked(drawings, title) {
   return { text: new XMLSerializer().serializeToString(svg), width, height };
 }
 
-// `figure` has `title`, `note`, `draw({width, dark})`, which returns drawings from top to bottom, and `columns` and `rows`,
-// the numbers of the plot.
+// `figure` has `title`, `note`, `draw({width, dark}, choice)`, which returns drawings from top to bottom, and `columns` and
+// `rows`, the numbers of the plot. Each of its `controls` is a menu, {name, options, value}, whose value is in the choice.
 export function figureElement({ title, note, draw, columns, rows, controls = [] }) {
   const place = make("div", { class: "plot" });
+  const choice = Object.fromEntries(controls.map(({ name, value }) => [name, value]));
   let drawn = 0;
   const show = () => {
     const width = Math.floor(place.clientWidth);
     if (width === 0) return;
     drawn = width;
-    const drawings = draw({ width, dark: schemes.matches });
-    drawings.at(-1).setAttribute("role", "img");
-    drawings.at(-1).setAttribute("aria-label", title);
+    const drawings = draw({ width, dark: schemes.matches }, choice);
+    for (const drawing of drawings) {
+      drawing.setAttribute("role", "img");
+      drawing.setAttribute("aria-label", title);
+    }
     place.replaceChildren(...drawings);
   };
   // Not within the observer, because a drawing changes the size of its place.
   new ResizeObserver(() => requestAnimationFrame(() => { if (Math.floor(place.clientWidth) !== drawn) show(); })).observe(place);
   schemes.addEventListener("change", show);
-  for (const control of controls) control.addEventListener("change", show);
+  const menus = controls.map(({ name, options, value }) => make("label", {}, `${name} `, make("select", {
+    onchange: ({ target }) => { choice[name] = target.value; show(); },
+  }, ...options.map((option) => make("option", { value: option, selected: option === value }, option)))));
 
   const name = fileName(title);
-  const saved = () => stacked(draw({ width: kSavedWidth, dark: false }), title);
-  const numbers = () => (typeof rows === "function" ? rows() : rows);
+  const saved = () => stacked(draw({ width: kSavedWidth, dark: false }, choice), title);
+  const numbers = () => (typeof rows === "function" ? rows(choice) : rows);
   return make("figure", {},
     make("figcaption", {}, make("b", {}, title), note ? make("span", { class: "soft" }, ` ${note}`) : null),
-    place,
+    menus.length > 0 ? make("div", { class: "buttons" }, ...menus) : null, place,
     make("div", { class: "buttons" },
       saveButton("SVG", `Save the plot as SVG: ${title}`, () => save(`${name}.svg`, saved().text, "image/svg+xml")),
       saveButton("PNG", `Save the plot as PNG: ${title}`, async () => {

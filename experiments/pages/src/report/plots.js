@@ -1,5 +1,5 @@
 // Plots that several kinds of results share. Each function returns drawings (SVG) from top to bottom: a key and the plot.
-import { axisX, axisY, cell, dot, gridX, gridY, legend, line, plot, rect, ruleX, tip, pointer, areaY, text } from "@observablehq/plot";
+import { axisX, axisY, dot, gridX, gridY, legend, line, plot, rect, ruleX, tip, pointer, areaY } from "@observablehq/plot";
 import { categories, rgb, viridis } from "../shared/palette.js";
 
 const kSvg = "http://www.w3.org/2000/svg";
@@ -39,6 +39,13 @@ export function key(names, { width, dark }, lines = true) {
   });
   svg.setAttribute("height", y + 10);
   svg.setAttribute("viewBox", `0 0 ${width} ${y + 10}`);
+  return svg;
+}
+
+// A line of text above a plot.
+export function caption(name, { width }) {
+  const svg = element("svg", { width, height: 24, viewBox: `0 0 ${width} 24`, "font-size": 13, "font-family": "system-ui, Helvetica, Arial, sans-serif", fill: "currentColor" });
+  element("text", { x: 4, y: 17, "font-weight": 600 }, svg).textContent = name;
   return svg;
 }
 
@@ -104,7 +111,7 @@ export function coursePlot(points, size, { x, y, step = false, height = 280 }) {
 
 // Draws a map of pairs {i, j, value, text} with 0 <= value <= 1 over elements with names.
 export function pairMap(pairs, names, size, { label, axis, tickFormat }) {
-  const side = Math.min(size.width, 560), margin = 64, inner = side - margin - 16;
+  const side = Math.min(size.width, 480), margin = 64, inner = side - margin - 16;
   const step = Math.max(1, Math.ceil(names.length * 13 / inner));
   const ticks = names.map((_, k) => k).filter((k) => k % step === 0);
   const both = pairs.length > 6000 ? pairs : pairs.flatMap((pair) => [pair, { ...pair, i: pair.j, j: pair.i }]);
@@ -132,7 +139,7 @@ export function dotRows(rows, size, { x, groups = [], height = null, left = 150 
   const shown = far ? rows.filter(({ value }) => value > 0) : rows;
   const drawing = plot({
     width: size.width, height: height ?? 70 + 26 * names.length, style, marginLeft: Math.min(left, size.width * 0.42), marginBottom: 42, marginRight: 30,
-    x: { grid: true, type: far ? "log" : "linear", zero: !far, ...(far ? { tickFormat: (v) => (/^[125]/.test(v.toExponential()) ? v.toLocaleString("en", { maximumSignificantDigits: 2 }) : "") } : {}), ...x },
+    x: { grid: true, type: far ? "log" : "linear", nice: far, zero: !far, ...(far ? { tickFormat: (v) => (/^[125]/.test(v.toExponential()) ? v.toLocaleString("en", { maximumSignificantDigits: 2 }) : "") } : {}), ...x },
     y: { type: "point", domain: names, label: null, tickSize: 0, grid: true },
     marks: groups.length > 1 || groups.length === 0
       ? Array.from({ length: Math.max(1, groups.length) }, (_, k) => rowMarks(shown.filter((row) => kind(row) === k), k, size)).flat()
@@ -150,4 +157,4 @@ const rowMarks = (rows, k, size) => {
   ];
 };
 
-export { cell, dot, line, plot, ruleX, text, tip, pointer };
+export { dot, line, plot };
