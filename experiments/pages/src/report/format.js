@@ -11,7 +11,7 @@ export function num(value, figures = 3) {
     : { minimumSignificantDigits: figures, maximumSignificantDigits: figures });
 }
 
-export const percent = (share) => (share === null || share === undefined ? "–" : `${num(round(100 * share))}%`);
+export const percent = (share) => (share === null || share === undefined ? "–" : `${num(Math.abs(share) < 1e-9 ? 0 : round(100 * share))}%`);
 
 // Rounds away digits that are errors of rounding, so that 100 * 0.07 is 7.
 const round = (value) => Number(value.toPrecision(12));

@@ -77,22 +77,32 @@ const seriesMarks = ({ name, points }, k, size, { x, y, facet }) => {
 };
 
 // Draws `series`, each with a name and points {x, y, lower, upper, text}. `options` has the scales x and y and, for several
-// plots beside each other, `facet`, the name of a member of the points.
+// plots beside each other, `facet`, the name of a member of the points, and `facets`, its values.
 export function seriesPlot(series, size, options) {
-  const { x, y, facet, height = 360, marks = [] } = options;
+  const { x, y, facet, facets, height = 360 } = options, [scale, axis] = axisOf(x);
   const drawing = plot({
     width: size.width, height, style, marginLeft: 62, marginBottom: 42, marginRight: 20,
-    x: { grid: x.type !== "point", ...x }, y: { grid: true, ...y }, fx: { label: null, padding: 0.08 },
-    marks: [...marks, ...series.flatMap((one, k) => seriesMarks(one, k, size, { x, y, facet }))],
+    x: scale, y: { grid: true, ...y }, fx: { label: null, padding: 0.08, domain: facets },
+    marks: [...axis, ...series.flatMap((one, k) => seriesMarks(one, k, size, { x, y, facet }))],
   });
   return series.length > 1 ? [key(series.map(({ name }) => name), size), drawing] : [drawing];
 }
 
-// Ticks of a logarithmic axis at the values themselves.
-export const ticksAt = (values) => {
-  const ticks = [...new Set(values)].sort((a, b) => a - b);
-  return { type: "log", ticks, tickFormat: (value) => value.toLocaleString("en") };
-};
+// A logarithmic scale with ticks at the values themselves.
+export const ticksAt = (values) => ({ type: "log", ticks: [...new Set(values)].sort((a, b) => a - b) });
+
+// A logarithmic scale with ticks at 1, 2 and 5 times the powers of ten.
+export function decades(values) {
+  const [least, most] = [Math.min(...values) / 1.15, Math.max(...values) * 1.15], ticks = [];
+  for (let power = Math.floor(Math.log10(least)); power <= Math.log10(most); ++power)
+    ticks.push(...[1, 2, 5].map((digit) => digit * 10 ** power).filter((tick) => tick >= least && tick <= most));
+  return { type: "log", domain: [least, most], ticks };
+}
+
+// Splits a logarithmic scale with ticks into a scale and its axis, because the library leaves out labels of such a scale.
+const axisOf = ({ ticks, ...x }) => (x.type === "log" && ticks
+  ? [{ ...x, axis: null }, [gridX(ticks), axisX(ticks, { text: (v) => v.toLocaleString("en", { maximumSignificantDigits: 4 }), label: x.label })]]
+  : [{ grid: x.type !== "point", ...x }, []]);
 
 // Draws one course, {x, y}, with its band {lower, upper} if it has one.
 export function coursePlot(points, size, { x, y, step = false, height = 280 }) {
@@ -133,17 +143,16 @@ export function pairMap(pairs, names, size, { label, axis, tickFormat }) {
 // Draws one dot a row, {name, group, value, lower, upper, text}: a log axis if values lie far apart.
 export function dotRows(rows, size, { x, groups = [], height = null, left = 150 }) {
   const names = [...new Set(rows.map(({ name }) => name))];
-  const values = rows.map(({ value }) => value).filter((value) => value > 0);
+  const values = rows.flatMap(({ value, lower, upper }) => [value, lower, upper]).filter((value) => value > 0);
   const far = values.length > 0 && Math.max(...values) > 30 * Math.min(...values);
   const kind = (row) => Math.max(0, groups.indexOf(row.group));
   const shown = far ? rows.filter(({ value }) => value > 0) : rows;
+  const [scale, axis] = axisOf({ ...(far ? decades(values) : { zero: true }), ...x });
   const drawing = plot({
     width: size.width, height: height ?? 70 + 26 * names.length, style, marginLeft: Math.min(left, size.width * 0.42), marginBottom: 42, marginRight: 30,
-    x: { grid: true, type: far ? "log" : "linear", nice: far, zero: !far, ...(far ? { tickFormat: (v) => (/^[125]/.test(v.toExponential()) ? v.toLocaleString("en", { maximumSignificantDigits: 2 }) : "") } : {}), ...x },
+    x: scale,
     y: { type: "point", domain: names, label: null, tickSize: 0, grid: true },
-    marks: groups.length > 1 || groups.length === 0
-      ? Array.from({ length: Math.max(1, groups.length) }, (_, k) => rowMarks(shown.filter((row) => kind(row) === k), k, size)).flat()
-      : rowMarks(shown, 0, size),
+    marks: [...axis, ...Array.from({ length: Math.max(1, groups.length) }, (_, k) => rowMarks(shown.filter((row) => kind(row) === k), k, size)).flat()],
   });
   return groups.length > 1 ? [key(groups, size, false), drawing] : [drawing];
 }
@@ -157,4 +166,4 @@ const rowMarks = (rows, k, size) => {
   ];
 };
 
-export { dot, line, plot };
+export { axisOf, dot, plot };

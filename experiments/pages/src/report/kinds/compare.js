@@ -34,8 +34,6 @@ export function compare(result) {
     });
     if (falls.length > 0) more.push(`With ${everyFrame(last)}, a run sees ${list(falls)} that it sees with ${everyFrame(strides[0])}${inputs.length > 1 ? ` in ${inputs[0]}` : ""}.`);
   }
-  if (motions.length > 1) more.push(`The sentence is for ${motions[0]} motion; the plot also shows ${list(motions.slice(1))} motion.`);
-  if (rows.some(({ steps }) => steps < 50)) more.push("Means of fewer than 50 steps have no interval.");
   const names = structures.flatMap((structure) => motions.map((motion) => ({ structure, motion, name: motions.length > 1 ? `${structure}, ${motion}` : structure })));
   const series = names.map(({ structure, motion, name }) => ({ name, points: rows.filter((row) => row.structure === structure && row.motion === motion && row.rate > 0)
     .sort((a, b) => a.stride - b.stride).map((row) => ({ x: row.stride, y: row.rate, lower: row.rate_lower, upper: row.rate_upper, input: row.input, text: rate(row) })) }))
@@ -55,8 +53,8 @@ export function compare(result) {
     holds: `Holds for ${list(result.inputs.slice(0, 4).map(({ name, beads, frames }) => `${baseName(name)} (${num(beads)} beads, ${num(frames)} frames)`))}${result.inputs.length > 4 ? " and others" : ""}, ${everyFrame(strides[0])} and ${motions[0]} motion.`,
     more,
     first: series.length > 0 ? {
-      title: `Events per ${unit} by stride`, note: "Bars are 95% intervals. The axis is logarithmic.",
-      draw: (size) => (facet && size.width < 600 ? inputs.slice(0, 6).flatMap((input) => one(series, size, unit, rows, null, input)) : one(series, size, unit, rows, facet)),
+      title: `Events per ${unit} by stride`, note: `Bars are 95% intervals${rows.some(({ steps }) => steps < 50) ? "; means of fewer than 50 steps have none" : ""}. The y axis is logarithmic.`,
+      draw: (size) => (facet && size.width < 600 ? inputs.slice(0, 6).flatMap((input) => one(series, size, unit, rows, { input })) : one(series, size, unit, rows, { facet, facets: inputs })),
       columns, rows,
     } : null,
     sections: [{ heading: "Tables", parts: [{ title: "Events", columns, rows }, { title: "Quality and times", columns: quality, rows },
@@ -66,6 +64,6 @@ export function compare(result) {
   };
 }
 
-const one = (series, size, unit, rows, facet, input = null) => seriesPlot(
+const one = (series, size, unit, rows, { facet, facets, input = null }) => seriesPlot(
   series.map(({ name, points }) => ({ name, points: input ? points.filter((point) => point.input === input) : points })), size,
-  { facet, x: { ...ticksAt(rows.map(({ stride }) => stride)), label: `stride (frames)${input ? `, ${input}` : ""}` }, y: { type: "log", label: `events per ${unit}` } });
+  { facet, facets, x: { ...ticksAt(rows.map(({ stride }) => stride)), label: `stride (frames)${input ? `, ${input}` : ""}` }, y: { type: "log", label: `events per ${unit}` } });

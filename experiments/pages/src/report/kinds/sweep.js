@@ -1,5 +1,5 @@
 // The page of kds sweep collect: results of each input by each axis. Nothing is pooled but seeds.
-import { baseName, interval, list, num, plural } from "../format.js";
+import { baseName, capital, interval, list, num, plural } from "../format.js";
 import { caption, seriesPlot, ticksAt } from "../plots.js";
 import { column } from "../table_text.js";
 
@@ -59,23 +59,24 @@ export function seriesOf(view, input, axis, measure) {
 
 const unitOf = (view, measure) => (/^(residence|median|total|longest)$/.test(measure) ? ` (${view.rows[0].unit})` : "");
 
-function sentencesOf(view) {
-  return distinct(view.rows.map(({ input }) => input)).map((input) => {
-    const [one] = seriesOf(view, input, view.axis, view.measure), name = words[view.measure] ?? view.measure.replaceAll("_", " ").replaceAll(".", " ");
-    if (!one || view.axis === "input") return null;
-    const [first, last] = [one.points[0], one.points.at(-1)], where = one.name === view.measure ? "" : ` (${one.name})`;
-    const to = one.points.length > 1 ? ` and ${last.text} at ${view.axis} ${last.x}` : "";
-    return `${input}, ${view.command}: ${name}${unitOf(view, view.measure)} is ${first.text} at ${view.axis} ${first.x}${to}${where}.`;
-  }).filter(Boolean);
+// "Events per step by stride (kds run, motion linear): a.dcd: 9.42 at 1, 10.7 at 2; b.dcd: ..."
+function sentenceOf(view) {
+  if (view.axis === "input" || !view.measure) return null;
+  const inputs = distinct(view.rows.map(({ input }) => input)).slice(0, 3).map((input) => ({ input, one: seriesOf(view, input, view.axis, view.measure)[0] })).filter(({ one }) => one);
+  if (inputs.length === 0) return null;
+  const { name } = inputs[0].one, measure = words[view.measure] ?? view.measure.replaceAll("_", " ").replaceAll(".", " ");
+  const ends = ({ points }) => distinct([points[0], points.at(-1)]).map(({ x, text }) => `${text} at ${view.axis} ${x}`).join(", ");
+  return `${capital(measure)}${unitOf(view, view.measure)} of kds ${view.command}${name === view.measure ? "" : ` (${name})`}: ` +
+    `${inputs.map(({ input, one }) => `${ends(one)} in ${input}`).join("; ")}.`;
 }
 
 export function sweep(result) {
   const commands = distinct(result.rows.map(({ command }) => command)), views = commands.map((command) => viewOf(result, command));
   const inputs = distinct(result.rows.map(({ input }) => baseName(input))), left = result.tasks - result.done;
   const state = `${num(result.done)} of ${plural(result.tasks, "task")} have results${left > 0 ? `; ${num(left)} failed or are open` : ""}`;
-  const claims = views.flatMap(sentencesOf);
+  const claims = views.map(sentenceOf).filter(Boolean);
   const title = `Sweep of ${list(commands.map((command) => `kds ${command}`))}`;
-  const holds = `Holds for ${plural(inputs.length, "input")}, each by itself: ${list(inputs.slice(0, 6))}${inputs.length > 6 ? " and others" : ""}. ${state}.`;
+  const holds = `Holds for ${plural(inputs.length, "input")}, each by itself: ${list(inputs.slice(0, 6))}${inputs.length > 6 ? " and others" : ""}.`;
   const failed = result.failed?.length > 0 ? { title: "Tasks without a result", rows: result.failed, columns: distinct(result.failed.flatMap(Object.keys)).map((name) => column(name)) } : null;
   const tables = views.map((view) => ({ title: `Results of kds ${view.command}`, rows: view.rows, columns: [column("input"),
     ...distinct([...view.dimensions, view.measure, ...view.measures]).map((name) => (view.rows.some((row) => row[`${name}_lower`] !== undefined && row[`${name}_upper`] !== undefined)
@@ -84,7 +85,7 @@ export function sweep(result) {
     columns: distinct(result.means.flatMap(Object.keys)).filter((name) => name !== "lower" && name !== "upper").map((name) => column(name, name, name === "mean" ? { lower: (row) => row.lower, upper: (row) => row.upper } : {})) } : null;
   const figures = views.map((view) => figureOf(view));
   return {
-    title, answer: claims[0] ?? `${state}.`, holds, more: claims.slice(1, 6), notes: left > 0 ? [`${state}. failed.csv has the reasons.`] : [],
+    title, answer: claims[0] ?? `${state}.`, holds, more: [...claims.slice(1, 6), ...(left > 0 ? [] : [`${state}.`])], notes: left > 0 ? [`${state}. failed.csv has the reasons.`] : [],
     first: figures[0] ?? null,
     sections: [...figures.slice(1).map((figure) => ({ heading: figure.heading, parts: [figure] })), { heading: "Tables", parts: [failed, ...tables, pooled] }],
   };
@@ -93,16 +94,16 @@ export function sweep(result) {
 // One plot below another, one for each input. The reader chooses the measure and the axis.
 function figureOf(view) {
   const axes = view.dimensions.length > 0 ? view.dimensions : ["input"], inputs = distinct(view.rows.map(({ input }) => input));
-  const controls = [{ name: "measure", options: view.measures, value: view.measure }, { name: "axis", options: axes, value: view.axis }];
-  const points = ({ measure, axis }) => inputs.flatMap((input) => seriesOf(view, input, axis, measure).flatMap(({ name, points }) => points.map((point) => ({ input, series: name, measure, axis, ...point }))));
+  const controls = [{ name: "measure", options: view.measures, value: view.measure }, { name: "axis", options: axes, value: view.axis }].filter(({ options }) => options.length > 1);
+  const points = ({ measure = view.measure, axis = view.axis }) => inputs.flatMap((input) => seriesOf(view, input, axis, measure).flatMap(({ name, points }) => points.map((point) => ({ input, series: name, measure, axis, ...point }))));
   return {
     heading: `kds ${view.command}`, title: `kds ${view.command}: each input`, note: "Bars are 95% intervals where the results have them." +
       (inputs.length > kMostInputs ? ` The first ${kMostInputs} of ${inputs.length} inputs are drawn; the table has all.` : ""), controls,
-    draw: (size, { measure, axis }) => inputs.slice(0, kMostInputs).flatMap((input) => {
+    draw: (size, { measure = view.measure, axis = view.axis }) => inputs.slice(0, kMostInputs).flatMap((input, k) => {
       const series = seriesOf(view, input, axis, measure), xs = series.flatMap(({ points }) => points.map(({ x }) => x));
       if (xs.length === 0) return [];
       const scale = !view.numeric.includes(axis) ? { type: "point", domain: distinct(xs), padding: 0.5 } : xs.every((x) => x > 0) ? ticksAt(xs) : {};
-      return [caption(input, size), ...seriesPlot(series, size, { x: { ...scale, label: axis }, y: { label: `${words[measure] ?? measure}${unitOf(view, measure)}`, zero: true }, height: 240 })];
+      return [caption(input, size), ...seriesPlot(series, size, { x: { ...scale, label: axis }, y: { label: `${words[measure] ?? measure}${unitOf(view, measure)}`, zero: true }, height: 240 }).slice(k === 0 ? 0 : -1)];
     }),
     columns: ["input", "measure", "axis", "x", "series"].map((name) => column(name)).concat([column("y", "value", { key: "value", lower: (p) => p.lower, upper: (p) => p.upper })]), rows: points,
   };

@@ -1,6 +1,6 @@
 // The page of kds trade: which setting saves time at which error, and which one to take.
 import { capital, interval, num, percent } from "../format.js";
-import { dot, dotRows, key, line, look, plot, style } from "../plots.js";
+import { axisOf, decades, dot, dotRows, key, look, plot, style } from "../plots.js";
 import { dataOf, filesOf } from "../result.js";
 import { column } from "../table_text.js";
 
@@ -38,15 +38,16 @@ export function groupsOf(result) {
 function frontPlot({ want, rows, taken }, size) {
   const shown = rows.filter(({ error }) => error !== null && error !== undefined);
   const named = ["exact run", "on the front", "other settings", ...(taken ? ["the setting to take"] : [])];
-  const kind = (row) => (row.exact ? 0 : row.front ? 1 : 2), { colour } = look(1, size.dark);
+  const kind = (row) => (row.exact ? 0 : row.front ? 1 : 2);
   const title = (row) => `${row.name}\n${interval(row.time, null, null, "µs per frame")}\n${errors[want].name}: ${percent(row.error)}`;
   const ring = look(3, size.dark);
+  const [scale, axis] = axisOf({ ...decades(shown.map(({ time }) => time)), label: "time per frame of the trajectory (µs)" });
   return [key(named, size, false), plot({
     width: size.width, height: 340, style, marginLeft: 62, marginBottom: 42, marginRight: 20,
-    x: { type: "log", grid: true, nice: true, label: "time per frame of the trajectory (µs)", tickFormat: (v) => (/^[125]/.test(v.toExponential()) ? num(v, 1) : "") },
+    x: scale,
     y: { type: "sqrt", grid: true, label: errors[want].name, tickFormat: "%", zero: true },
     marks: [
-      line(shown.filter(({ front, exact }) => front || exact).sort((a, b) => a.time - b.time), { x: "time", y: "error", stroke: colour, strokeDasharray: "6 3" }),
+      ...axis,
       ...[2, 1, 0].map((k) => dot(shown.filter((row) => kind(row) === k), { x: "time", y: "error", fill: look(k, size.dark).colour, symbol: look(k, size.dark).symbol, r: 5, tip: true, title })),
       dot(taken ? [taken] : [], { x: "time", y: "error", stroke: ring.colour, strokeWidth: 2.5, symbol: ring.symbol, r: 11 }),
     ],
@@ -60,7 +61,7 @@ const columnsOf = (want) => [column("name", "setting"), column("time", "µs per 
   column("displacement", "beads moved by at most, A"), column("front", "on the front"), column("events"), column("memory", "memory, MB")];
 
 const figureOf = (group) => (errors[group.want] && group.rows.some(({ error }) => error > 0)
-  ? { title: `Time and error: ${nameOf(group)}`, note: "Left and low is better. The y axis is a square root. The dashed line is the front: no other setting is both as fast and as accurate.",
+  ? { title: `Time and error: ${nameOf(group)}`, note: "Left and low is better. On the front: no other setting is both as fast and as accurate in all errors of the table. The y axis is a square root.",
     draw: (size) => frontPlot(group, size), columns: columnsOf(group.want), rows: group.rows }
   : group.want === "scenes" ? { title: "Time of parts of the scene", columns: columnsOf(group.want), rows: group.rows,
     draw: (size) => dotRows(group.rows.map((row) => ({ ...row, value: row.time, lower: row.time_lower, upper: row.time_upper, text: `${num(row.time)} µs per frame` })), size, { x: { label: "time per frame (µs)" }, left: 260 }) } : null);
@@ -78,10 +79,9 @@ export function trade(result) {
   return {
     title: `Speed and accuracy for ${filesOf(result).join(", ")}`, answer: sentenceOf(lead),
     holds: `Holds for ${dataOf(result)}. Times are medians of ${result.settings.rounds} rounds, with the range of the rounds. Errors are measured at ${result.settings.times} times; the truth is straight motion between all frames.`,
-    more: others.map(sentenceOf).filter(Boolean),
     first: figureOf(lead), side: figureOf(lead) && errors[lead.want] ? { title: "The front", columns: ["setting", "µs per frame", errors[lead.want].name],
       rows: front.map((row) => [row === lead.taken ? `${row.name} (take this)` : row.exact ? `${row.name} (exact)` : row.name, num(row.time), percent(row.error)]), note: "The tables below have all settings." } : null,
-    sections: [...useful.filter((group) => group !== lead).map((group) => ({ heading: capital(nameOf(group)), parts: [figureOf(group)] })),
-      { heading: "Tables", parts: groups.map((group) => ({ title: `Settings for ${nameOf(group)}`, columns: columnsOf(group.want), rows: group.rows })) }],
+    sections: [...useful.filter((group) => group !== lead).map((group) => ({ heading: capital(nameOf(group)), note: sentenceOf(group), parts: [figureOf(group)] })),
+      { heading: "Tables", note: others.filter((group) => !useful.includes(group)).map(sentenceOf).join(" ") || null, parts: groups.map((group) => ({ title: `Settings for ${nameOf(group)}`, columns: columnsOf(group.want), rows: group.rows })) }],
   };
 }
