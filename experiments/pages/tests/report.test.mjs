@@ -35,8 +35,10 @@ test("rows are sorted by number or text, missing values last", () => {
   assert.deepEqual(names("name", false), ["ALA 9", "ALA 10", "LEU 42"]);
 });
 
-test("a filter keeps rows that have each word", () => {
+test("a filter keeps rows that have each of the names", () => {
   assert.deepEqual(filterRows(rows, columns, "ala 10").map(({ name }) => name), ["ALA 10"]);
+  assert.deepEqual(filterRows(rows, columns, "ala, 9").map(({ name }) => name), ["ALA 9"]);
+  assert.equal(filterRows(rows, columns, "20").length, 0);
   assert.equal(filterRows(rows, columns, " ").length, 3);
   assert.equal(filterRows(rows, columns, "trp").length, 0);
 });

@@ -35,15 +35,15 @@ export function tableElement({ title, note, columns, rows, sort = null }) {
     body.replaceChildren(...found.slice(0, shown).map((row) => make("tr", {},
       ...columns.map((column, k) => make("td", { class: numeric[k] ? "number" : null }, cellText(column, row))))));
     const count = Math.min(shown, found.length);
-    said.textContent = `${num(count)} of ${num(found.length)} rows shown` +
-      (found.length < rows.length ? ` that contain the text, of ${num(rows.length)} in all.` : ".");
+    said.textContent = `${num(count)} of ${num(rows.length)} rows shown` +
+      (found.length < rows.length ? `; the text is in ${num(found.length)}.` : ".");
     more.hidden = count === found.length;
   }
   show();
 
   const name = fileName(title);
   const filter = make("input", {
-    type: "search", placeholder: "Filter, as in LEU 42", "aria-label": `Filter the rows of table ${title}`,
+    type: "search", placeholder: "Filter by name: LEU 42", "aria-label": `Filter the rows of table ${title}`,
     oninput: ({ target }) => { text = target.value; shown = kPage; show(); },
   });
   return make("details", { class: "table" },

@@ -37,13 +37,15 @@ export function sortRows(rows, { value }, descending) {
   });
 }
 
-// Returns the rows in which each word of `text` occurs in a cell.
+// Returns the rows whose names contain the text. "LEU 42, PHE 47" asks for both names. Tables without names are searched
+// for numbers.
 export function filterRows(rows, columns, text) {
-  const words = text.toLowerCase().split(/\s+/).filter(Boolean);
-  if (words.length === 0) return rows;
+  const phrases = text.toLowerCase().split(",").map((phrase) => phrase.trim().replace(/\s+/g, " ")).filter(Boolean);
+  if (phrases.length === 0) return rows;
+  const named = columns.filter((column) => !isNumeric(column, rows)), searched = named.length > 0 ? named : columns;
   return rows.filter((row) => {
-    const cells = columns.map((column) => cellText(column, row).toLowerCase()).join("\n");
-    return words.every((word) => cells.includes(word));
+    const cells = searched.map((column) => cellText(column, row).toLowerCase()).join("\n");
+    return phrases.every((phrase) => cells.includes(phrase));
   });
 }
 
