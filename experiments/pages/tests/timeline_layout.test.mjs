@@ -7,6 +7,7 @@ import { random, sampleRun } from "./sample_run.mjs";
 const { state } = await loadRun(sampleRun({ beads: 24, frames: 8 }));
 const { events } = state.structures.find(({ name }) => name === "power");
 const times = [...events.time];
+const all = Uint32Array.from(times.keys());
 
 test("bars hold all events of the window, by kind", () => {
   const next = random(1);
@@ -15,7 +16,7 @@ test("bars hold all events of the window, by kind", () => {
     const from = 6 * next();
     const window = new Window(from, from + 0.2 + (7 - from - 0.2) * next(), 100 + 900 * next());
     const inside = times.flatMap((t, e) => (t >= window.from && t <= window.to ? [e] : []));
-    const layout = layoutEvents(events, window);
+    const layout = layoutEvents(events, all, window);
     assert.equal(layout.shown, inside.length);
     if (layout.single) {
       assert.deepEqual(layout.marks.map(({ event }) => event), inside);
@@ -41,7 +42,7 @@ test("the event near a click is the nearest, within reach", () => {
     const x = 600 * next();
     const gaps = times.map((t) => Math.abs(window.x(t) - x));
     const least = Math.min(...gaps);
-    const found = eventNear(events, window, x, 5);
+    const found = eventNear(events, all, window, x, 5);
     if (least > 5) assert.equal(found, -1);
     else assert.ok(Math.abs(gaps[found] - least) < 1e-9);
   }

@@ -106,9 +106,10 @@ test("positions are told as finely as they are rounded", () => {
   assert.deepEqual([0.02, 0.005, 1e-9, 1, 1e9].map(decimals), [2, 3, 9, 0, 0]);
 });
 
-test("times are told in frames and picoseconds", () => {
-  assert.equal(timeText(1, 0.5, [100, 105, 110], [0, 2, 4], "ps"), "frame 107.5, 3 ps");
-  assert.equal(timeText(2, 0, [100, 105, 110], null, "ps"), "frame 110");
+test("times are told in ps or fs if they are known, and in frames", () => {
+  assert.equal(timeText(1, 0.5, [100, 105, 110], [0, 2, 4]), "3 ps, frame 107.5");
+  assert.equal(timeText(1, 0.5, [100, 105, 110], [0, 0.02, 0.04]), "30 fs, frame 107.5");
+  assert.equal(timeText(2, 0, [100, 105, 110], null), "frame 110");
   assert.deepEqual(residueOf("A/LEU42/CA"), { chain: "A", residue: "LEU42", atom: "CA" });
   assert.equal(residueOf("17"), null);
 });

@@ -2,9 +2,11 @@
 import { blocksOfPage, metaOfPage } from "./blocks.js";
 import { float64, pause, uint32 } from "../shared/codec.js";
 import { contactIntervals } from "./contact_intervals.js";
+import { FramesWithChords, loadChords } from "./chords.js";
 import { connectControls } from "./controls.js";
 import { byId } from "../shared/dom.js";
 import { aboutText, subtitle } from "./explain.js";
+import { EventFilter } from "./event_filter.js";
 import { Frames } from "./frames.js";
 import { LayerList } from "./layer_list.js";
 import { Panels } from "./panel.js";
@@ -14,6 +16,7 @@ import { fail } from "../shared/problems.js";
 import { RunState, loadStructures } from "./run_state.js";
 import { openView, saveViewSoon } from "./saved_view.js";
 import { Scene, hasWebGL2 } from "./scene.js";
+import { StructureLayers } from "./structure_layers.js";
 import { TimelineView } from "./timeline_view.js";
 
 const textsEvery = 100;  // ms, while playing
@@ -26,7 +29,6 @@ export class App {
       throw new Error("this browser cannot unpack it; take Chrome 111, Firefox 113, Safari 16.4 or a newer one");
     document.title = `${meta.title} · kds replay`;
     byId("title").textContent = meta.title;
-    byId("subtitle").textContent = subtitle(meta);
     byId("about").textContent = aboutText(meta);
     const blocks = blocksOfPage(document, meta);
     const radii = meta.radius === null ? float64(await blocks.bytes("radii")) : null;
@@ -35,7 +37,10 @@ export class App {
     this.times = meta.has_times ? [...float64(await blocks.bytes("times"))] : null;
     this.names = meta.names ? JSON.parse(new TextDecoder().decode(await blocks.bytes("names"))) : null;
     this.state = new RunState(meta, await loadStructures(meta, blocks));
-    this.frames = new Frames(meta, blocks);
+    this.filter = new EventFilter(this.state.structures);
+    byId("subtitle").textContent = subtitle(meta, this.filter.countedInAll);
+    byId("how").hidden = this.filter.countedInAll === 0;
+    this.frames = new FramesWithChords(new Frames(meta, blocks), await loadChords(meta, blocks));
     await this.frames.prepare(0);
     this.bead = { number: -1, events: [], follow: false };
     this.player = new Player(this.state.lastStep);
@@ -44,6 +49,7 @@ export class App {
     this.makeScene();
     this.picture = new Picture(this);
     this.layers = new LayerList(this.state, meta, () => this.changed());
+    this.structures = new StructureLayers(this);
     this.panels = new Panels(
       {
         meta,
@@ -51,6 +57,7 @@ export class App {
         times: this.times,
         names: this.names,
         state: this.state,
+        filter: this.filter,
         radii: this.radii,
         positions: () => this.positions,
       },
@@ -60,10 +67,10 @@ export class App {
         beadEvent: (way) => this.goToNearest(way, this.bead.events),
       },
     );
-    this.timeline = new TimelineView(this.state, this.frameNumbers, this.findPairs(), {
+    this.timeline = new TimelineView(this.state, this.filter, this.frameNumbers, this.times, this.findPairs(), {
       seek: (time) => this.scrub(time),
       choose: (event) => this.chooseEvent(event),
-      structures: () => this.changed(),
+      filtered: () => this.changed(),
       changed: () => saveViewSoon(this),
       loop: () => this.player.loop,
       pairName: ([i, j]) => (this.names ? `${this.names[i]} – ${this.names[j]}` : `${i} – ${j}`),
@@ -123,10 +130,10 @@ export class App {
     return this.goTo(0, 0, event);
   }
 
-  // Goes to the next (`way` 1) or previous event: of the structures that are switched on, or of the events `within`, if given.
+  // Goes to the next (`way` 1) or previous event that is switched on, or to one of the events `within`, if given.
   goToNearest(way, within = null) {
-    const takes = within ? () => true : (s) => !this.timeline.muted.has(s);
-    const event = way > 0 ? this.state.next(takes, within) : this.state.previous(takes, within);
+    const stops = within ? within.map((list, s) => list.filter((e) => this.filter.takes(s, e))) : this.filter.stops;
+    const event = way > 0 ? this.state.next(stops) : this.state.previous(stops);
     if (event) return this.chooseEvent(event);
     this.sayNoEvent(way > 0 ? "later" : "earlier", within !== null);
     return Promise.resolve();
@@ -134,7 +141,7 @@ export class App {
 
   // Says so in the place of the event's sentence, until the texts are shown again.
   sayNoEvent(later, ofBead) {
-    const among = this.timeline.muted.size ? " of the structures that are switched on" : "";
+    const among = this.filter.words.length ? " of the kinds that are switched on" : "";
     const text = ofBead ? `The bead has no ${later} event.` : `There is no ${later} event${among}.`;
     this.say(text);
     byId("event-now").textContent = text;
@@ -255,7 +262,9 @@ export class App {
     scene.setShrink(Number(byId("bead-size").value));
     this.picture.drawLayers();
     this.picture.drawMarks();
+    this.structures.draw();
     this.cost.drawCalls = scene.render();
+    this.structures.placeDistance();
   }
 
   placeOf(bead) {
@@ -275,7 +284,7 @@ export class App {
     this.shownEvent = chosen;
     this.panels.showEvent();
     if (!state.chosen) return;
-    this.say(`${this.panels.eventSentence()} ${text}`);
+    this.say(`${byId("event-now").textContent} ${text}`);
     this.reveal("event");
   }
 

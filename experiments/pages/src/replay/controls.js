@@ -10,7 +10,7 @@ export function connectControls(app) {
   on("play", () => app.togglePlay());
   on("next-event", () => app.goToNearest(1));
   on("previous-event", () => app.goToNearest(-1));
-  byId("next-event").disabled = byId("previous-event").disabled = app.panels.eventCount === 0;
+  byId("next-event").disabled = byId("previous-event").disabled = app.filter.countedInAll === 0 && !app.filter.hasInternal;
   on("next-frame", () => app.stepFrame(1));
   on("previous-frame", () => app.stepFrame(-1));
   on("loop-from", () => app.setLoop(0));

@@ -4,7 +4,8 @@ import { count } from "../shared/dom.js";
 
 const structures = {
   wrapped: "Wrapped hierarchy: a balanced tree of cages. A cage is the smallest sphere around the beads of its node.",
-  boxes: "Hierarchy of boxes: each node of a balanced tree has the smallest box around its beads.",
+  boxes: "Hierarchy of boxes: each node of a balanced tree has the smallest box around its beads. Of boxes with oblique sides, the axis-parallel part is drawn.",
+  layered: "Layered hierarchy: each node of a balanced tree has a sphere around the spheres of its two children.",
   power: "Power diagram: an edge joins two beads whose cells share a face.",
   contacts: "Contacts: pairs of beads that are at most the cutoff apart, by default those that touch or overlap.",
   sorted: "Sorted list: the beads in order along an axis.",
@@ -60,15 +61,30 @@ export function residueOf(name) {
   return parts.length === 3 ? { chain: parts[0], residue: parts[1], atom: parts[2] } : null;
 }
 
-// Writes a time of the run: frames and, if known, picoseconds.
-export function timeText(step, u, frames, times, unit) {
+// Splits a bead's name further, such as "A/LEU42/CA" into A, LEU, 42 and CA.
+export function namedParts(name) {
+  const parts = residueOf(name);
+  if (!parts) return null;
+  const [, residue, number] = /^(.*?[A-Za-z])(-?\d+[A-Za-z]?)$/.exec(parts.residue) ?? [null, "", parts.residue];
+  return { chain: parts.chain, residue, number, atom: parts.atom };
+}
+
+// Returns the unit of the times, which are in picoseconds: femtoseconds if frames follow each other within 0.1 ps.
+export function timeUnit(times) {
+  const short = times.length > 1 && Math.abs(times.at(-1) - times[0]) < 0.1 * (times.length - 1);
+  return short ? { name: "fs", perPicosecond: 1000 } : { name: "ps", perPicosecond: 1 };
+}
+
+// Writes a time of the run: fs or ps if known, and the frame.
+export function timeText(step, u, frames, times) {
   const last = step + 1 >= frames.length;
   const from = frames[step];
   const to = last ? from : frames[step + 1];
   const frame = u === 0 ? `frame ${from}` : `frame ${trim(from + (to - from) * u, 6)}`;
   if (!times) return frame;
+  const { name, perPicosecond } = timeUnit(times);
   const at = last ? times[step] : times[step] + (times[step + 1] - times[step]) * u;
-  return `${frame}, ${trim(at, 6)} ${unit}`;
+  return `${trim(at * perPicosecond, 6)} ${name}, ${frame}`;
 }
 
 // Returns the number of decimals that positions rounded to multiples of `quantum` need.
@@ -95,9 +111,8 @@ export const dyadic = ([exponent, ...words]) =>
 
 export const trim = (value, digits) => String(Number(value.toFixed(digits)));
 
-// Returns the line below the title.
-export function subtitle(meta) {
-  const events = meta.structures.reduce((sum, structure) => sum + structure.events, 0);
+// Returns the line below the title. Internal events are not among `events`.
+export function subtitle(meta, events) {
   const stride = meta.stride > 1 ? ` (one in ${meta.stride} of the input)` : "";
   return `${count(meta.beads, "bead")}, ${count(meta.frames, "frame")}${stride}, ${count(events, "event")}`;
 }

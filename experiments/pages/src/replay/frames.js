@@ -21,6 +21,7 @@ export class Frames {
     this.limit = limit;
     this.beads = meta.beads;
     this.axes = meta.dimension;
+    this.width = Math.max(3, meta.dimension);  // coordinates that `positions` writes
     this.degree = Math.max(1, meta.degree);
     this.count = meta.frames;
     this.quantum = meta.quantum;
@@ -144,20 +145,21 @@ export class Frames {
     return block.subarray(at, at + this.numbersPerFrame);
   }
 
-  // Writes the positions at u in a step to `out`, x, y, z of each bead; z is 0 in the plane. The step must be prepared.
+  // Writes the positions at u in a step to `out`, x, y, z of each bead; z is 0 in the plane. Spheres have a fourth coordinate.
+  // The step must be prepared.
   positions(step, u, out) {
-    const beads = this.beads;
+    const { beads, width } = this;
     const lone = step + 1 >= this.count || u === 0;
     const weights = lone ? [1] : bernstein(this.degree, u);
     const points = weights.map((_, j) => (lone ? this.frame(step) : this.controlPoint(step, j)));
-    for (let axis = 0; axis < 3; ++axis) {
+    for (let axis = 0; axis < width; ++axis) {
       const origin = axis < this.axes ? this.origin[axis] : 0;
-      for (let b = 0; b < beads; ++b) out[3 * b + axis] = origin;
+      for (let b = 0; b < beads; ++b) out[width * b + axis] = origin;
       if (axis >= this.axes) continue;
       for (let j = 0; j < points.length; ++j) {
         const point = points[j];
         const scale = weights[j] * this.quantum;
-        for (let b = 0, k = axis * beads; b < beads; ++b, ++k) out[3 * b + axis] += scale * point[k];
+        for (let b = 0, k = axis * beads; b < beads; ++b, ++k) out[width * b + axis] += scale * point[k];
       }
     }
     return out;

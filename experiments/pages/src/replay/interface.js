@@ -16,6 +16,13 @@ export function interfaceOf(app, ready) {
       contacts: app.state.elements("contacts"),
       hidden: app.state.elements("hidden").flat(),
       cages: app.state.elements("cages"),
+      supports: app.state.elements("supports"),
+      ends: app.state.elements("ends"),
+      hull: app.state.elements("hull"),
+      closest: app.state.elements("closest"),
+      order: app.state.elements("order"),
+      spheres: app.frames.chords.flatMap(({ s, nodes, spheres }) =>
+        [...nodes].map((node, k) => ({ structure: s, node, sphere: [...spheres.subarray(4 * k, 4 * k + 4)] }))),
       positions: app.positions.slice(),
     }),
   };

@@ -7,6 +7,12 @@ const sentences = {
   beads: "blue (first) to yellow (last)",
   chain: "joins consecutive beads",
   cages: "spheres around parts of it",
+  boxes: "boxes around parts of it",
+  spheres: "around parts, without events",
+  hull: "convex hull of the beads",
+  box: "box around all centres",
+  closest: "closest pair and its distance",
+  order: "ranks along x, below",
   edges: "of the power diagram",
   contacts: "join beads in contact",
   hidden: "hatched: no power cell",
@@ -18,7 +24,10 @@ export class LayerList {
     this.state = state;
     this.changed = changed;
     this.names = ["beads", "chain"];
-    for (const name of ["cages", "edges", "contacts", "hidden"]) if (state.layersNamed(name).length) this.names.push(name);
+    const has = { boxes: "supports", box: "ends" };
+    this.hierarchies = ["cages", "boxes", "spheres"];
+    for (const name of ["cages", "boxes", "spheres", "edges", "contacts", "hidden", "hull", "box", "closest", "order"])
+      if (state.layersNamed(has[name] ?? name).length || (name === "spheres" && meta.structures.some(({ spheres }) => spheres))) this.names.push(name);
     if (state.structures.some(({ events }) => events.count)) this.names.push("flashes");
     this.boxes = new Map();
     this.drawn = new Map();
@@ -45,14 +54,29 @@ export class LayerList {
 
   switched() {
     this.forget();
-    byId("level-row").hidden = !this.shows("cages");
+    this.showLevelRow();
     this.changed();
   }
 
+  showLevelRow() {
+    byId("level-row").hidden = !this.hierarchies.some((name) => this.shows(name));
+  }
+
+  levelOf(s, node) {
+    return this.state.structures[s].nodes[4 * node + 2];
+  }
+
+  // Returns a function of structure and node that says whether the node is on the level shown.
+  nodeFilter() {
+    const level = Number(byId("level").value);
+    return byId("all-levels").checked ? () => true : (s, node) => this.levelOf(s, node) === level;
+  }
+
   makeLevels() {
-    this.nodes = this.state.layersNamed("cages").map(({ s }) => this.state.structures[s].nodes);
     const counts = [];
-    for (const nodes of this.nodes) {
+    const hierarchies = this.state.structures.filter(({ nodes }) => nodes.length);
+    this.noun = hierarchies.length === 1 && this.names.includes("cages") ? "cage" : "node";
+    for (const { nodes } of hierarchies.slice(0, 1)) {  // all have the same tree
       for (let k = 2; k < nodes.length; k += 4) counts[nodes[k]] = (counts[nodes[k]] ?? 0) + 1;
     }
     this.counts = counts;
@@ -76,8 +100,8 @@ export class LayerList {
     byId("level").disabled = all;
     const level = Number(byId("level").value);
     byId("level-text").textContent = all
-      ? `all ${count(this.counts.reduce((a, b) => a + b, 0), "cage")}`
-      : `level ${level}: ${count(this.counts[level] ?? 0, "cage")}`;
+      ? `all ${count(this.counts.reduce((a, b) => a + b, 0), this.noun)}`
+      : `level ${level}: ${count(this.counts[level] ?? 0, this.noun)}`;
   }
 
   get level() {
@@ -98,7 +122,7 @@ export class LayerList {
       byId("all-levels").checked = view.level === "all";
       if (view.level !== "all") byId("level").value = view.level;
     }
-    byId("level-row").hidden = !this.shows("cages");
+    this.showLevelRow();
     this.nameLevel();
     this.forget();
   }
@@ -119,15 +143,14 @@ export class LayerList {
   // Returns the cages of the level shown.
   cages(colour, dark) {
     const all = byId("all-levels").checked;
-    const level = Number(byId("level").value);
     const colours = categories[dark ? "dark" : "light"].map(rgb);
+    const takes = this.nodeFilter();
     const cages = [];
-    this.state.layersNamed("cages").forEach(({ layer }, k) => {
-      const nodes = this.nodes[k];
+    this.state.layersNamed("cages").forEach(({ layer, s }) => {
       const words = layer.set.packed;
       for (let at = 0; at < words.length; at += layer.arity) {
-        const own = nodes[4 * words[at] + 2];
-        if (!all && own !== level) continue;
+        const own = this.levelOf(s, words[at]);
+        if (!takes(s, words[at])) continue;
         const basis = [];
         for (let j = at + 1; j < at + layer.arity && words[j] !== noBead; ++j) basis.push(words[j]);
         if (basis.length) cages.push({ basis, colour: all ? colours[own % 8] : rgb(colour), alpha: all ? 0.45 : 0.8 });

@@ -17,6 +17,8 @@ export function writeLink(view) {
   parts.set("speed", view.speed);
   if (view.window) parts.set("win", list(view.window, 15));
   if (view.loop) parts.set("loop", list(view.loop, 15));
+  if (view.off?.length) parts.set("off", view.off.join("_"));
+  if (view.internal) parts.set("internal", 1);
   if (view.theme) parts.set("theme", view.theme);
   return `#${parts}`;
 }
@@ -49,6 +51,8 @@ export function readLink(hash) {
   vector("loop", "loop", 2);
   if (["light", "dark"].includes(parts.get("theme"))) view.theme = parts.get("theme");
   if (parts.has("follow")) view.follow = true;
+  if (parts.has("off")) view.off = parts.get("off").split("_").filter((word) => /^\d+(\.\d+)?$/.test(word));
+  if (parts.has("internal")) view.internal = true;
   return view;
 }
 

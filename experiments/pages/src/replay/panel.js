@@ -1,12 +1,13 @@
 // The panels of the chosen event and of the chosen bead.
 import { byId, count, make } from "../shared/dom.js";
 import { noBead } from "./events.js";
+import { eventSentence, sideText, textOf } from "./event_sentence.js";
 import { decimals, dyadic, exactText, explainKind, lowerText, residueOf, timeText, trim, upperText } from "./explain.js";
 
 const longList = 12;
 
 export class Panels {
-  // `data`: meta, frames, times, names, state, radii, positions(). `actions`: bead(b) chooses a bead, follow(on), and
+  // `data`: meta, frames, times, names, state, filter, radii, positions(). `actions`: bead(b) chooses a bead, follow(on), and
   // beadEvent(way) goes to the bead's next (1) or previous event.
   constructor(data, actions) {
     this.data = data;
@@ -14,8 +15,8 @@ export class Panels {
   }
 
   timeText(step, u) {
-    const { frames, times, meta } = this.data;
-    return timeText(step, u, frames, times, meta.time_unit);
+    const { frames, times } = this.data;
+    return timeText(step, u, frames, times);
   }
 
   nameOf(bead) {
@@ -41,17 +42,36 @@ export class Panels {
     return [...new Set(residues.map(({ chain, residue }) => `${chain}/${residue}`))].join(", ") || null;
   }
 
-  get eventCount() {
-    return this.data.state.structures.reduce((sum, { events }) => sum + events.count, 0);
+  // Returns the sentence of an event, as event_sentence.js has it. The last one is kept, because each picture asks for it.
+  sentenceOf(s, e) {
+    if (this.lastSentence?.s === s && this.lastSentence.e === e) return this.lastSentence.sentence;
+    const { state, names, meta } = this.data;
+    const { name, events, nodes } = state.structures[s];
+    const sentence = eventSentence({
+      structure: name, kind: events.kindOf(e).name, roles: events.rolesOf(e), changes: state.changesOf(s, e), nodes, names,
+      dimension: meta.dimension, several: this.several,
+    });
+    this.lastSentence = { s, e, sentence };
+    return sentence;
+  }
+
+  get several() {
+    return this.data.meta.necklaces.length > 1;
+  }
+
+  // The sentence of the chosen event, or null.
+  get present() {
+    const { chosen } = this.data.state;
+    return chosen ? this.sentenceOf(...chosen) : null;
   }
 
   showEvent() {
-    const { state } = this.data;
+    const { state, filter, meta } = this.data;
     const place = byId("event");
-    byId("event-now").textContent = this.eventSentence();
+    byId("event-now").replaceChildren(...this.sentence());
     if (!state.chosen) {
       const way = ["None chosen. Press ", make("kbd", {}, "n"), ", or click a mark on the timeline."];
-      place.replaceChildren(make("p", {}, ...(this.eventCount ? way : ["This run has no events."])));
+      place.replaceChildren(make("p", {}, ...(filter.countedInAll ? way : ["This run has no events."])));
       return;
     }
     const [s, e] = state.chosen;
@@ -64,10 +84,14 @@ export class Panels {
     ];
     const stage = events.stages[events.stage[e]];
     if (stage) rows.push(["decided by", stage]);
+    const { enters, leaves } = this.present;
+    if (enters.length) rows.push([make("span", { class: "comes" }, "◆ enters"), this.beadButtons(enters)]);
+    if (leaves.length) rows.push([make("span", { class: "goes" }, "✕ leaves"), this.beadButtons(leaves)]);
     rows.push(...this.changeRows(s, e));
     for (const role of events.rolesOf(e)) {
       if (role.of === "node") rows.push([role.name, `beads ${role.ids[0]} to ${role.ids[1]}`]);
       else if (kind.name === "rebuild" && role.name === "time") rows.push(["built anew at", `u = ${trim(dyadic(role.ids), 10)}`]);
+      else if (role.name === "side") rows.push([role.name, sideText(role.ids[0], meta.dimension)]);
       else if (role.of === "number") rows.push([role.name, role.ids.join(" ")]);
       else rows.push([role.name, this.beadButtons(role.ids)]);
     }
@@ -77,19 +101,25 @@ export class Panels {
       make("h3", {}, make("span", { class: `chip c${events.kind[e] % 8}` }, `${name}: ${kind.name}`)),
       make("p", {}, explainKind(name, kind.name)),
       table(rows),
-      make("p", { class: "soft" }, `Event ${(e + 1).toLocaleString("en")} of ${events.count.toLocaleString("en")} of ${name}, number ${events.order[e] + 1} of the run${kind.external ? "" : ", internal"}.`),
+      make("p", { class: "soft" }, kind.external ? `Event ${filter.placeOf(s, e).toLocaleString("en")} of ${filter.counted(s).toLocaleString("en")} of ${name}.` : "An internal event, which is not counted."),
     );
   }
 
-  // Says what the chosen event is, in one or two sentences. Before the first one is chosen it says how to get there.
-  eventSentence() {
-    const { state } = this.data;
-    if (!state.chosen && this.eventCount === 0) return "No structure changes in this run.";
-    if (!state.chosen) return this.hasChosen ? "" : "Press Next event to see a structure change.";
+  // Says what the chosen event is, in parts of text. Before the first one is chosen it says how to get there.
+  sentence() {
+    const { state, names, meta, filter } = this.data;
+    if (!state.chosen && filter.countedInAll === 0) return [noEvents(meta)];
+    if (!state.chosen) return this.hasChosen ? [] : ["Press Next event to see a structure change."];
     this.hasChosen = true;
-    const [s, e] = state.chosen;
-    const { name, events } = state.structures[s];
-    return `${name}, ${events.kindOf(e).name}. ${explainKind(name, events.kindOf(e).name)}`;
+    const { parts } = this.present;
+    if (typeof parts[0] === "string") return [textOf(parts, names, this.several)];
+    const signs = { enters: ["comes", "◆ "], leaves: ["goes", "✕ "] };
+    return parts.map((part, k) => {
+      if (typeof part === "string") return part;
+      const text = textOf(k === 0 ? [part] : ["", part], names, this.several);
+      const [name, sign] = signs[part.mark] ?? ["", ""];
+      return make("span", { class: name }, sign + text);
+    });
   }
 
   bracketText(events, e) {
@@ -104,7 +134,7 @@ export class Panels {
   changeRows(s, e) {
     const rows = [];
     for (const { name, arity, removed, added } of this.data.state.changesOf(s, e)) {
-      if (arity !== 2) continue;
+      if (arity !== 2 || name === "order" || name === "ends") continue;
       const pairs = (words) => {
         const list = Array.from({ length: words.length / 2 }, (_, k) => `${words[2 * k]}–${words[2 * k + 1]}`);
         return `${list.length === 1 ? name.replace(/s$/, "") : name} ${list.join(", ")}`;
@@ -184,11 +214,22 @@ export class Panels {
       const held = state.elements("cages").filter(([, ...basis]) => basis.includes(b)).length;
       rows.push(["holds", count(held, "cage")]);
     }
-    const total = bead.events.reduce((sum, list) => sum + list.length, 0);
-    const before = bead.events.reduce((sum, list, s) => sum + list.filter((e) => e < state.applied[s]).length, 0);
+    const { filter } = this.data;
+    const counted = bead.events.map((list, s) => list.filter((e) => filter.takesKind(s, state.structures[s].events.kind[e])));
+    const total = counted.reduce((sum, list) => sum + list.length, 0);
+    const before = counted.reduce((sum, list, s) => sum + list.filter((e) => e < state.applied[s]).length, 0);
     rows.push(["events", total ? `${total.toLocaleString("en")}, ${before.toLocaleString("en")} of them so far; marked at the foot of the timeline` : "none"]);
     return rows;
   }
+}
+
+// Says why a page shows no event: a lone frame, structures without events, or beads that never change them.
+function noEvents({ frames, structures }) {
+  if (frames === 1) return "One frame: the beads do not move.";
+  const still = structures.filter(({ spheres }) => spheres);
+  return still.length === structures.length
+    ? "The spheres follow their beads between frames without events."
+    : "No structure changes in this run.";
 }
 
 const table = (rows) =>

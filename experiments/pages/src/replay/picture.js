@@ -5,6 +5,7 @@ import { noBead } from "./events.js";
 const flashSeconds = 0.5;
 const mostFlashes = 8;  // of each structure: more would cover the scene
 const flashingCage = 0.5;
+const pairLayers = new Set(["edges", "contacts", "hull", "closest"]);
 
 export class Picture {
   constructor(app) {
@@ -40,11 +41,11 @@ export class Picture {
     const { scene, state } = this.app;
     const marks = [];
     const rings = [];
-    const cages = [...this.cages];
+    const cages = [...this.cages, ...this.app.structures.spheres()];
     const { goes, comes, glow, chosen } = scene.colours;
     const markEvent = (s, e, alpha) => {
       for (const { name, arity, removed, added } of state.changesOf(s, e)) {
-        if (arity === 2) {
+        if (pairLayers.has(name)) {
           for (let k = 0; k < removed.length; k += 2)
             marks.push({ pair: removed.subarray(k, k + 2), colour: goes, dashed: true, alpha });
           for (let k = 0; k < added.length; k += 2)
@@ -55,7 +56,12 @@ export class Picture {
           cages.push({ basis, colour: rgb(glow), alpha: strength });
         }
       }
-      for (const bead of state.structures[s].events.beadsOf(e)) rings.push({ bead, colour: glow, alpha });
+      const { enters, leaves } = this.app.panels.sentenceOf(s, e);
+      const marked = [...enters, ...leaves];
+      const others = [...state.structures[s].events.beadsOf(e)].filter((bead) => !marked.includes(bead));
+      for (const bead of others) rings.push({ bead, colour: glow, alpha });
+      for (const bead of leaves) rings.push({ bead, colour: goes, alpha, shape: "cross" });
+      for (const bead of enters) rings.push({ bead, colour: comes, alpha, shape: "diamond" });
     };
     if (this.app.bead.number >= 0) {
       const b = this.app.bead.number;
@@ -76,10 +82,13 @@ export class Picture {
     const { state, player } = this.app;
     const span = flashSeconds * player.speed * player.rate;
     state.structures.forEach(({ events }, s) => {
-      if (this.app.timeline.muted.has(s)) return;
-      const first = Math.max(events.countBefore(state.time - span), state.applied[s] - mostFlashes);
-      for (let e = first; e < state.applied[s]; ++e)
+      const first = events.countBefore(state.time - span);
+      let flashes = 0;
+      for (let e = state.applied[s] - 1; e >= first && flashes < mostFlashes; --e) {
+        if (!this.app.filter.takes(s, e)) continue;
+        ++flashes;
         markEvent(s, e, Math.max(0.05, 1 - (state.time - events.time[e]) / span));
+      }
     });
   }
 }

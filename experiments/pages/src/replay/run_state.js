@@ -93,32 +93,29 @@ export class RunState {
     return partners.sort((a, b) => a - b);
   }
 
-  // Returns the next event in the run's order, [structure, event], or null. `takes(s)` says which structures count,
-  // `within[s]` restricts a structure to some of its events, ascending.
-  next(takes, within = null) {
-    return this.nearest(takes, within, 1);
+  // Returns the next event in the run's order, [structure, event], or null. `within[s]` has the events of a structure that
+  // count, ascending.
+  next(within) {
+    return this.nearest(within, 1);
   }
 
-  previous(takes, within = null) {
-    return this.nearest(takes, within, -1);
+  previous(within) {
+    return this.nearest(within, -1);
   }
 
-  nearest(takes, within, way) {
+  nearest(within, way) {
     let best = null;
     this.structures.forEach(({ events }, s) => {
-      if (!takes(s)) return;
-      const list = within?.[s];
-      const count = list ? list.length : events.count;
-      const at = (k) => (list ? list[k] : k);
-      let place = countWhile(count, (k) => at(k) < this.applied[s]);
+      const list = within[s];
+      let place = countWhile(list.length, (k) => list[k] < this.applied[s]);
       if (way < 0) {
         --place;
         // The chosen event, or one at exactly this time, is where we are.
-        while (place >= 0 && this.isHere(s, at(place))) --place;
+        while (place >= 0 && this.isHere(s, list[place])) --place;
       }
-      if (place < 0 || place >= count) return;
-      const order = events.order[at(place)];
-      if (best === null || (order - best.order) * way < 0) best = { order, event: [s, at(place)] };
+      if (place < 0 || place >= list.length) return;
+      const order = events.order[list[place]];
+      if (best === null || (order - best.order) * way < 0) best = { order, event: [s, list[place]] };
     });
     return best?.event ?? null;
   }

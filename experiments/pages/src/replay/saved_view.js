@@ -8,6 +8,9 @@ const linkEvery = 500;  // ms
 export async function openView(app) {
   const view = readLink(location.hash);
   app.layers.open(view);
+  app.filter.internal = view.internal ?? app.filter.internal;
+  app.filter.words = view.off ?? app.filter.words;
+  app.timeline.showFilter();
   app.setTheme(view.theme ?? app.theme ?? null);
   if (view.speed) {
     app.player.speed = view.speed;
@@ -47,6 +50,8 @@ export function saveViewSoon(app) {
       speed: app.player.speed,
       window: all ? null : timeline.range,
       loop: app.player.loop,
+      off: app.filter.words,
+      internal: app.filter.internal,
       theme: app.theme,
     });
     try {

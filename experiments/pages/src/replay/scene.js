@@ -1,4 +1,4 @@
-// The three-dimensional picture: camera, beads and the layers over them, seven draw calls at most.
+// The three-dimensional picture: camera, beads and the layers over them, nine draw calls at most.
 import {
   Color,
   DataTexture,
@@ -23,6 +23,7 @@ export const hasWebGL2 = () => document.createElement("canvas").getContext("webg
 
 const linked = { ends: [Uint32Array, 2, false], tint: [Uint8Array, 4, true], dash: [Uint8Array, 1, false] };
 const ringed = { bead: [Uint32Array, 1, false], tint: [Uint8Array, 4, true] };
+const shapes = { ring: 0, diamond: 1, cross: 2 };
 
 const manyPairs = 20000;  // above, the pairs of a layer are thin lines
 
@@ -45,7 +46,7 @@ export class Scene {
     this.controls.enableDamping = false;
     this.controls.zoomToCursor = true;
     this.controls.enableRotate = meta.dimension === 3;
-    if (meta.dimension === 2) {
+    if (meta.dimension < 3) {
       this.controls.mouseButtons.LEFT = 2;  // pan
       this.controls.touches.ONE = 1;        // pan
     }
@@ -69,6 +70,20 @@ export class Scene {
     this.texture.minFilter = this.texture.magFilter = NearestFilter;
   }
 
+  // Makes a layer of lines between beads.
+  segments(order, thickness, depthTest = true) {
+    return new Instances({
+      vertex: shaders.segmentVertex,
+      fragment: shaders.segmentFragment,
+      uniforms: { ...this.uniforms, thickness: { value: thickness } },
+      attributes: linked,
+      segments: true,
+      transparent: true,
+      depthTest,
+      order,
+    });
+  }
+
   makeLayers() {
     this.uniforms = {
       balls: { value: this.texture },
@@ -77,17 +92,7 @@ export class Scene {
       fog: { value: new Color() },
       reach: { value: new Vector3(1, -1, 0.5) },
     };
-    const segments = (order, thickness, depthTest = true) =>
-      new Instances({
-        vertex: shaders.segmentVertex,
-        fragment: shaders.segmentFragment,
-        uniforms: { ...this.uniforms, thickness: { value: thickness } },
-        attributes: linked,
-        segments: true,
-        transparent: true,
-        depthTest,
-        order,
-      });
+    const segments = (...options) => this.segments(...options);
     this.beads = new Instances({
       vertex: shaders.beadVertex,
       fragment: shaders.beadFragment,
@@ -116,7 +121,7 @@ export class Scene {
       vertex: shaders.haloVertex,
       fragment: shaders.haloFragment,
       uniforms: this.uniforms,
-      attributes: ringed,
+      attributes: { ...ringed, shape: [Uint8Array, 1, false] },
       transparent: true,
       depthTest: false,
       order: 5,
@@ -175,33 +180,40 @@ export class Scene {
     this.beads.changed(this.meta.beads, "tint");
   }
 
-  // Shows marked pairs, {pair, colour, dashed, alpha}, and rings around beads, {bead, colour, alpha}.
-  setMarks(marks, rings) {
-    this.marks.reserve(marks.length);
-    marks.forEach(({ pair, colour, dashed, alpha }, k) => {
-      this.marks.array("ends").set(pair, 2 * k);
-      this.marks.array("tint").set([...rgb(colour), 255 * alpha], 4 * k);
-      this.marks.array("dash")[k] = dashed ? 1 : 0;
+  // Shows lines between beads, {pair, colour, dashed, alpha}, in a layer of segments.
+  setLines(layer, lines) {
+    layer.reserve(lines.length);
+    lines.forEach(({ pair, colour, dashed, alpha }, k) => {
+      layer.array("ends").set(pair, 2 * k);
+      layer.array("tint").set([...rgb(colour), 255 * alpha], 4 * k);
+      layer.array("dash")[k] = dashed ? 1 : 0;
     });
-    this.marks.changed(marks.length, "ends", "tint", "dash");
-    this.marks.visible = true;
+    layer.changed(lines.length, "ends", "tint", "dash");
+    layer.visible = true;
+  }
+
+  // Shows marked pairs as `setLines` has them, and signs around beads, {bead, colour, alpha, shape}.
+  setMarks(marks, rings) {
+    this.setLines(this.marks, marks);
     this.halos.reserve(rings.length);
-    rings.forEach(({ bead, colour, alpha }, k) => {
+    rings.forEach(({ bead, colour, alpha, shape = "ring" }, k) => {
       this.halos.array("bead")[k] = bead;
       this.halos.array("tint").set([...rgb(colour), 255 * alpha], 4 * k);
+      this.halos.array("shape")[k] = shapes[shape];
     });
-    this.halos.changed(rings.length, "bead", "tint");
+    this.halos.changed(rings.length, "bead", "tint", "shape");
     this.halos.visible = true;
   }
 
-  // Shows cages, {basis, colour, alpha}, at the present positions.
+  // Shows cages, {basis or sphere, colour, alpha}, at the present positions.
   setCages(cages) {
     this.cages.reserve(cages.length);
     const sphere = this.cages.array("sphere");
     const tint = this.cages.array("tint");
     let count = 0;
-    for (const { basis, colour, alpha } of cages) {
-      if (!sphereOfBasis(basis, this.positions, this.radii, sphere, 4 * count)) continue;
+    for (const { basis, sphere: own, colour, alpha } of cages) {
+      if (own) sphere.set(own, 4 * count);
+      else if (!sphereOfBasis(basis, this.positions, this.radii, sphere, 4 * count)) continue;
       tint[4 * count] = colour[0];
       tint[4 * count + 1] = colour[1];
       tint[4 * count + 2] = colour[2];
@@ -227,7 +239,7 @@ export class Scene {
   viewAxes() {
     const { low, high } = this.meta.box;
     const sides = [0, 1, 2].map((axis) => (high[axis] ?? 0) - (low[axis] ?? 0));
-    const order = this.meta.dimension === 2 ? [0, 1, 2] : [0, 1, 2].sort((a, b) => sides[b] - sides[a]);
+    const order = this.meta.dimension < 3 ? [0, 1, 2] : [0, 1, 2].sort((a, b) => sides[b] - sides[a]);
     const unit = (axis) => new Vector3(...[0, 1, 2].map((k) => (k === axis ? 1 : 0)));
     const [right, up] = [unit(order[0]), unit(order[1])];
     const back = right.clone().cross(up);
@@ -276,7 +288,7 @@ export class Scene {
     this.camera.near = -depth - 3 * this.radius;
     this.camera.far = -depth + 3 * this.radius;
     this.camera.updateProjectionMatrix();
-    const strength = this.meta.dimension === 2 ? 0 : 0.5;
+    const strength = this.meta.dimension < 3 ? 0 : 0.5;
     this.uniforms.reach.value.set(depth + 0.7 * this.radius, depth - this.radius, strength);
   }
 
@@ -291,7 +303,7 @@ export class Scene {
 
   // Turns the camera around its target, by angles.
   turn(aside, upward) {
-    if (this.meta.dimension === 2) return;
+    if (this.meta.dimension < 3) return;
     const way = this.camera.position.clone().sub(this.controls.target);
     const right = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
     way.applyAxisAngle(this.camera.up, aside).applyAxisAngle(right, upward);

@@ -65,21 +65,19 @@ void main() {
   gl_FragDepth = 0.5 * (projectionMatrix[2][2] * z + projectionMatrix[3][2]) + 0.5;
 }`;
 
-// Segments between two beads, some pixels wide.
-export const segmentVertex = `${header}
+// Segments, some pixels wide.
+const segment = `${header}
 in vec2 corner;  // x from 0 to 1 along the segment, y from -1 to 1 across
-in uvec2 ends;
 in vec4 tint;
-in float dash;
 uniform float thickness;
 out vec4 colour;
 out float along;
 out float across;
 out float depth;
 flat out float dashed;
-void main() {
-  vec4 a = viewMatrix * vec4(ball(ends.x).xyz, 1.0);
-  vec4 b = viewMatrix * vec4(ball(ends.y).xyz, 1.0);
+void draw(vec3 start, vec3 end, float dash) {
+  vec4 a = viewMatrix * vec4(start, 1.0);
+  vec4 b = viewMatrix * vec4(end, 1.0);
   vec4 from = projectionMatrix * a;
   vec4 to = projectionMatrix * b;
   vec2 way = (to.xy - from.xy) * screen * 0.5;
@@ -93,6 +91,33 @@ void main() {
   along = corner.x * length;
   across = corner.y * (thickness * 0.5 + 0.5);
   dashed = dash;
+}`;
+
+// Segments between two beads.
+export const segmentVertex = `${segment}
+in uvec2 ends;
+in float dash;
+void main() {
+  draw(ball(ends.x).xyz, ball(ends.y).xyz, dash);
+}`;
+
+// The twelve edges of a box. Edges of no length, and second copies of others where the box is flat, are left out.
+export const wireVertex = `${segment}
+in vec3 low;
+in vec3 high;
+void main() {
+  int edge = gl_VertexID / 6;
+  int axis = edge % 3;
+  ivec3 at = ivec3(0);
+  at[(axis + 1) % 3] = (edge / 3) % 2;
+  at[(axis + 2) % 3] = edge / 6;
+  vec3 start = mix(low, high, vec3(at));
+  vec3 end = start;
+  end[axis] = high[axis];
+  draw(start, end, 0.0);
+  at[axis] = 1;
+  bool flat_axis = any(bvec3(at.x == 1 && low.x == high.x, at.y == 1 && low.y == high.y, at.z == 1 && low.z == high.z));
+  if (flat_axis) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 
 export const segmentFragment = `${header}${depthCue}
@@ -161,11 +186,13 @@ void main() {
   pixel = vec4(faded(colour.rgb, depth), colour.a * max(line, 0.05 + 0.28 * glow));
 }`;
 
-// Halos: rings around beads, in front of everything.
+// Halos around beads, in front of everything: rings (shape 0), diamonds (1) and rings with a cross (2).
 export const haloVertex = `${header}
 in vec2 corner;
 in uint bead;
 in vec4 tint;
+in float shape;
+flat out float form;
 out vec2 at;
 out vec4 colour;
 flat out float inner;
@@ -174,7 +201,8 @@ void main() {
   vec4 b = ball(bead);
   vec4 centre = projectionMatrix * viewMatrix * vec4(b.xyz, 1.0);
   inner = max(3.0, b.w * shrink * projectionMatrix[1][1] * screen.y * 0.5);
-  outer = inner + 9.0;
+  outer = inner + (shape > 0.5 ? 14.0 : 9.0);
+  form = shape;
   at = corner * outer;
   colour = tint;
   gl_Position = centre + vec4(at * 2.0 / screen, 0.0, 0.0);
@@ -185,9 +213,20 @@ in vec2 at;
 in vec4 colour;
 flat in float inner;
 flat in float outer;
+flat in float form;
 out vec4 pixel;
 void main() {
   float away = length(at);
+  if (form > 0.5) {
+    // Distances from the outline of the diamond, or from the ring and the two strokes of the cross.
+    vec2 turned = abs(vec2(at.x + at.y, at.x - at.y)) * 0.70711;
+    float line = form < 1.5 ? abs(max(turned.x, turned.y) - (inner + 3.0) )
+        : min(abs(away - inner - 2.0), away < inner + 12.0 ? min(turned.x, turned.y) : outer);
+    float alpha = 1.0 - smoothstep(1.4, 2.4, line);
+    if (alpha <= 0.0) discard;
+    pixel = vec4(colour.rgb, colour.a * alpha);
+    return;
+  }
   if (away > outer) discard;
   float ring = smoothstep(inner - 1.5, inner, away) * (1.0 - smoothstep(inner + 2.5, inner + 3.5, away));
   float glow = away < inner ? 0.22 : 0.55 * (1.0 - (away - inner) / (outer - inner));

@@ -68,18 +68,18 @@ function pinchOf(touches) {
 
 // Returns the text for the pointer: the time, and the events there.
 function describe(view, element, x, time) {
-  const { first, spacing, word } = view.frameOf;
-  const at = (t) => `${word} ${trim(first + spacing * t, 4)}`;
+  const { first, spacing, word, unit } = view.frameOf;
+  const at = (t) => `${unit ? "" : `${word} `}${trim(first + spacing * t, 4)}${unit ? ` ${unit}` : ""}`;
   const row = view.rows.find(({ canvas }) => canvas === element);
   if (!row) return at(time);
   const { events } = view.state.structures[row.s];
-  const layout = layoutEvents(events, view.window);
+  const layout = layoutEvents(events, view.filter.lists[row.s], view.window);
   const bin = layout.bins?.find((one) => x >= one.x && x < one.x + binWidth);
   if (bin) {
     const kinds = [...bin.counts].flatMap((number, k) => (number ? [`${number} ${events.kinds[k].name}`] : []));
     return `${at(time)}: ${kinds.join(", ")}`;
   }
-  const e = layout.single ? eventNear(events, view.window, x, near) : -1;
+  const e = layout.single ? eventNear(events, view.filter.lists[row.s], view.window, x, near) : -1;
   return e < 0 ? at(time) : `${at(events.time[e])}: ${events.kindOf(e).name}`;
 }
 
@@ -87,7 +87,7 @@ function describe(view, element, x, time) {
 function click(view, element, x, event, time) {
   const row = view.rows.find(({ canvas }) => canvas === element);
   if (row) {
-    const e = eventNear(view.state.structures[row.s].events, view.window, x, near);
+    const e = eventNear(view.state.structures[row.s].events, view.filter.lists[row.s], view.window, x, near);
     if (e >= 0) return view.actions.choose([row.s, e]);
   }
   if (element.id === "pairs") {

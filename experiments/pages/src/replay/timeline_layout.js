@@ -1,4 +1,5 @@
 // Computes the places of stacked bars, single events and ticks on the timeline. Draws nothing.
+import { countWhile } from "./events.js";
 
 // The part of the time that is shown, in steps, and the width in pixels that shows it.
 export class Window {
@@ -32,14 +33,15 @@ export function moved([from], span, end) {
 export const binWidth = 4;  // pixels
 const sparse = 7;           // pixels: events that stand singly are at least so far apart, on average
 
-// Lays out the events of one structure. Returns {single: true, marks: [{x, event, kind}]}, or {single: false, bins:
+// Lays out those events of one structure that are in `list`, ascending. Returns {single: true, marks: [{x, event, kind}]}, or {single: false, bins:
 // [{x, first, last, counts}], most} with the number of events by kind in each bin.
-export function layoutEvents(events, window) {
-  const first = events.countBefore(window.from);
-  const last = Math.max(first, events.countBefore(window.to + 1e-12));
+export function layoutEvents(events, list, window) {
+  const before = (time) => countWhile(list.length, (k) => events.time[list[k]] < time);
+  const first = before(window.from);
+  const last = Math.max(first, before(window.to + 1e-12));
   if ((last - first) * sparse <= window.width) {
     const marks = [];
-    for (let e = first; e < last; ++e) marks.push({ x: window.x(events.time[e]), event: e, kind: events.kind[e] });
+    for (const e of list.subarray(first, last)) marks.push({ x: window.x(events.time[e]), event: e, kind: events.kind[e] });
     return { single: true, marks, shown: last - first };
   }
   const bins = [];
@@ -47,10 +49,10 @@ export function layoutEvents(events, window) {
   const count = Math.ceil(window.width / binWidth);
   let e = first;
   for (let b = 0; b < count; ++b) {
-    const end = b === count - 1 ? last : Math.min(last, events.countBefore(window.time((b + 1) * binWidth)));
+    const end = b === count - 1 ? last : Math.min(last, before(window.time((b + 1) * binWidth)));
     if (end <= e) continue;
     const counts = new Uint32Array(events.kinds.length);
-    for (let k = e; k < end; ++k) ++counts[events.kind[k]];
+    for (let k = e; k < end; ++k) ++counts[events.kind[list[k]]];
     bins.push({ x: b * binWidth, first: e, last: end, counts });
     most = Math.max(most, end - e);
     e = end;
@@ -58,12 +60,14 @@ export function layoutEvents(events, window) {
   return { single: false, bins, most, shown: last - first };
 }
 
-// Returns the event nearest to x, if it is at most `reach` pixels away, or -1.
-export function eventNear(events, window, x, reach) {
-  const after = events.countBefore(window.time(x));
+// Returns the event of `list` nearest to x, if it is at most `reach` pixels away, or -1.
+export function eventNear(events, list, window, x, reach) {
+  const time = window.time(x);
+  const after = countWhile(list.length, (k) => events.time[list[k]] < time);
   let best = -1;
-  for (const e of [after - 1, after]) {
-    if (e < 0 || e >= events.count) continue;
+  for (const k of [after - 1, after]) {
+    if (k < 0 || k >= list.length) continue;
+    const e = list[k];
     const away = Math.abs(window.x(events.time[e]) - x);
     if (away <= reach && (best < 0 || away < Math.abs(window.x(events.time[best]) - x))) best = e;
   }

@@ -1,7 +1,8 @@
 // Draws the timeline: axis, a row of events for each structure, and the contact intervals of each pair.
 import { categories, theme } from "./colours.js";
 import { byId, count, make } from "../shared/dom.js";
-import { explainStructure } from "./explain.js";
+import { countWhile } from "./events.js";
+import { explainKind, explainStructure, timeUnit } from "./explain.js";
 import { listenToTimeline } from "./timeline_input.js";
 import { Window, axisTicks, binWidth, layoutEvents, layoutSpans, moved, zoomed } from "./timeline_layout.js";
 
@@ -12,19 +13,21 @@ const eventsBeside = 16;
 const inset = 4;  // pixels left of a text, for the line of the present
 
 export class TimelineView {
-  // `actions`: seek(time), choose([structure, event]), structures() after one is switched on or off, changed() after another
-  // part of the run is shown, loop() and pairName(pair).
-  constructor(state, frames, pairs, actions) {
+  // `filter` says which events are shown. `times` are those of the frames in picoseconds, or null. `actions`: seek(time),
+  // choose([structure, event]), filtered() after events are switched on or off, changed() after another part of the run is
+  // shown, loop() and pairName(pair).
+  constructor(state, filter, frames, times, pairs, actions) {
     this.state = state;
     this.end = Math.max(1e-9, state.lastStep);
     this.range = [0, this.end];
     this.actions = actions;
     this.pairs = pairs;
-    this.muted = new Set();
+    this.filter = filter;
     this.rows = [];
+    this.chips = [];
     this.pairHeight = pairHeight;
     this.pairsOfBead = null;
-    this.setFrames(frames);
+    this.setFrames(frames, times);
     this.makeRows();
     this.makePairs();
     listenToTimeline(this);
@@ -35,8 +38,14 @@ export class TimelineView {
     byId("pairs").addEventListener("scroll", () => this.drawPairs());
   }
 
-  // The axis shows the numbers of the frames in the file if they are evenly spaced.
-  setFrames(frames) {
+  // The axis shows the times of the frames, or else their numbers in the file, if they are evenly spaced.
+  setFrames(frames, times) {
+    const step = times?.length > 1 ? (times.at(-1) - times[0]) / (times.length - 1) : 0;
+    if (step > 0 && times.every((time, k) => Math.abs(time - times[0] - k * step) < 1e-3 * step)) {
+      const { name, perPicosecond } = timeUnit(times);
+      this.frameOf = { first: times[0] * perPicosecond, spacing: step * perPicosecond, unit: name };
+      return;
+    }
     const spacing = frames.length > 1 ? frames[1] - frames[0] : 1;
     const even = frames.every((frame, k) => frame === frames[0] + k * spacing);
     this.frameOf = even ? { first: frames[0], spacing, word: "frame" } : { first: 0, spacing: 1, word: "step" };
@@ -58,35 +67,72 @@ export class TimelineView {
   makeRows() {
     this.state.structures.forEach((structure, s) => {
       const { events } = structure;
-      const totals = new Uint32Array(events.kinds.length);
-      for (const kind of events.kind) ++totals[kind];
-      const chips = events.kinds.flatMap((kind, k) =>
-        totals[k] === 0
-          ? []
-          : [make("span", { class: `chip c${k % 8}` }, `${kind.name} ${totals[k].toLocaleString("en")}`)],
-      );
+      const { filter } = this;
+      const chips = events.kinds.flatMap((kind, k) => {
+        const total = filter.totals[s][k];
+        if (total === 0) return [];
+        const on = make("input", {
+          type: "checkbox",
+          onchange: () => {
+            if (on.checked) filter.off[s].delete(k);
+            else filter.off[s].add(k);
+            this.filtered();
+          },
+        });
+        const title = `Show and step to ${kind.name}: ${explainKind(structure.name, kind.name)}`;
+        const chip = make("label", { class: `chip c${k % 8}`, title }, on, `${kind.name} ${total.toLocaleString("en")}`);
+        this.chips.push({ s, k, chip, on });
+        return [chip];
+      });
       if (events.count === 0) chips.push(make("span", { class: "soft" }, "no events"));
       const box = make("input", {
         type: "checkbox",
         checked: true,
         onchange: () => {
-          if (box.checked) this.muted.delete(s);
-          else this.muted.add(s);
-          row.classList.toggle("muted", !box.checked);
-          this.actions.structures();
+          if (box.checked) filter.muted.delete(s);
+          else filter.muted.add(s);
+          this.filtered();
         },
       });
       const label = make("label", { title: explainStructure(structure.name) }, box, make("b", {}, structure.name));
       const canvas = make("canvas", { role: "img", height: rowHeight });
       canvas.setAttribute(
         "aria-label",
-        `${count(events.count, "event")} of ${structure.name} over time. Keys n and p go from event to event.`,
+        `${count(filter.counted(s), "event")} of ${structure.name} over time. Keys n and p go from event to event.`,
       );
       if (structure.note) chips.push(make("span", { class: "note", title: structure.note }, structure.note));
       const row = make("div", { class: "row" }, make("div", { class: "row-label" }, label, ...chips), canvas);
       byId("rows").append(row);
-      this.rows.push({ s, canvas });
+      this.rows.push({ s, canvas, row, box });
     });
+    byId("internal-row").hidden = !this.filter.hasInternal;
+    byId("internal").onchange = () => {
+      this.filter.internal = byId("internal").checked;
+      this.filtered();
+    };
+    this.showFilter();
+  }
+
+  // Takes over a change of the filter by the reader.
+  filtered() {
+    this.filter.changed();
+    this.showFilter();
+    this.draw();
+    this.actions.filtered();
+  }
+
+  // Shows in the boxes what the filter says.
+  showFilter() {
+    const { filter } = this;
+    byId("internal").checked = filter.internal;
+    for (const { s, row, box } of this.rows) {
+      box.checked = !filter.muted.has(s);
+      row.classList.toggle("muted", !box.checked);
+    }
+    for (const { s, k, chip, on } of this.chips) {
+      on.checked = !filter.off[s].has(k);
+      chip.hidden = !filter.internal && !this.state.structures[s].events.kinds[k].external;
+    }
   }
 
   makePairs() {
@@ -113,9 +159,9 @@ export class TimelineView {
   // Shows the present with some events before and after it, so that they stand singly.
   showEvents() {
     const times = this.state.structures.flatMap(({ events }, s) => {
-      if (this.muted.has(s)) return [];
-      const here = this.state.applied[s];
-      return [...events.time.subarray(Math.max(0, here - eventsBeside), here + eventsBeside)];
+      const list = this.filter.stops[s];
+      const here = countWhile(list.length, (k) => list[k] < this.state.applied[s]);
+      return [...list.slice(Math.max(0, here - eventsBeside), here + eventsBeside)].map((e) => events.time[e]);
     });
     const now = this.state.time;
     const nearest = times.sort((a, b) => Math.abs(a - now) - Math.abs(b - now)).slice(0, eventsBeside);
@@ -174,7 +220,7 @@ export class TimelineView {
 
   drawAxis() {
     const context = this.context(byId("axis-canvas"), 20);
-    const { first, spacing, word } = this.frameOf;
+    const { first, spacing, word, unit } = this.frameOf;
     const [from, to] = this.range.map((time) => first + spacing * time);
     const inFrames = new Window(from, to, this.width);
     context.font = "11px system-ui, sans-serif";
@@ -187,7 +233,7 @@ export class TimelineView {
       context.moveTo(x, 15);
       context.lineTo(x, 20);
       context.stroke();
-      const text = k === 0 ? `${word} ${label}` : label;
+      const text = k > 0 ? label : unit ? `${label} ${unit}` : `${word} ${label}`;
       const half = context.measureText(text).width / 2;
       const at = Math.min(this.width - half, Math.max(half + inset, x));
       if (at - half < free) return;
@@ -200,13 +246,13 @@ export class TimelineView {
   drawRow({ s, canvas }) {
     const context = this.context(canvas, rowHeight);
     const { events } = this.state.structures[s];
-    const layout = layoutEvents(events, this.window);
+    const layout = layoutEvents(events, this.filter.lists[s], this.window);
     context.fillStyle = this.colours.grid;
     context.fillRect(0, base, this.width, 1);
     context.fillStyle = this.colours.chosen;
     for (const e of this.eventsOfBead[s] ?? []) {
       const x = this.window.x(events.time[e]);
-      if (x >= 0 && x <= this.width) context.fillRect(x - 0.75, base + 1, 1.5, rowHeight - base - 1);
+      if (this.filter.takesKind(s, events.kind[e]) && x >= 0 && x <= this.width) context.fillRect(x - 0.75, base + 1, 1.5, rowHeight - base - 1);
     }
     if (layout.single) {
       for (const { x, kind } of layout.marks) {
