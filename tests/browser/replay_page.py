@@ -236,6 +236,60 @@ def link_restores(browser, replay):
     check(browser.run("return document.querySelector('#event h3').textContent").startswith("power"), "the event is not chosen")
 
 
+def event_is_named_and_kinds_are_skipped(browser):
+    """The sentence of an event of a sphere has its beads and residues; n skips kinds whose box is off."""
+    wrapped = browser.wait("""const said = [];
+        for (let e = 0; e < 6; ++e) {
+          await kds.seekEvent(0, e);
+          const node = [...document.querySelectorAll("#event dt")].find((dt) => dt.textContent === "node");
+          const signs = [...document.querySelectorAll("#event-now .comes, #event-now .goes")].map((span) => span.textContent);
+          said.push([document.getElementById("event-now").textContent, signs, node.nextSibling.textContent]);
+        }
+        return said""")
+    for text, signs, node in wrapped:
+        check(signs and all("ALA" in sign and sign[0] in "◆✕" for sign in signs), f"no bead is marked: {text}")
+        check(node in text or "residue" in text, f"the node is not named: {text}, {node}")
+    kinds = """const click = (name) => [...document.querySelectorAll(".chip")].find((chip) => chip.textContent.startsWith(name)).querySelector("input").click();
+        args[0].forEach(click);
+        await kds.seek(0, 0);
+        const seen = [];
+        for (let k = 0; k < 20; ++k) {
+          document.getElementById("next-event").click();
+          await new Promise((done) => setTimeout(done, 40));
+          seen.push(document.querySelector("#event h3").textContent);
+        }
+        args[0].forEach(click);
+        return seen"""
+    seen = browser.wait(kinds, ["3-2", "2-3", "begin"])
+    check({kind.split(": ")[1] for kind in seen} <= {"enter", "leave", "pivot", "end"}, f"n went to {seen}")
+    check("contacts: end" in seen, f"n went to no end of a contact: {seen}")
+
+
+def every_structure_is_drawn(browser, node, page, place):
+    for dimension in ("2", "3"):
+        replay = os.path.join(place, f"still{dimension}.html")
+        subprocess.run([node, os.path.join(page, "tests", "make_replay.mjs"), os.path.join(page, "dist", "replay_page.html"),
+                        replay, "24", "3", dimension, "Still", "still"], check=True)
+        browser.open(replay)
+        browser.run("document.getElementById('all-levels').click()")
+        for layer in ("boxes", "box", "hull", "closest", "spheres"):
+            drawn = marked(pixels(browser, layer))
+            check(len(drawn) > 60, f"{layer} has {len(drawn)} pixels")
+        check(browser.run("return document.getElementById('ranks').hidden"), "the order is shown, though it is off")
+        pixels(browser, "order", "closest")
+        colours = browser.run("""const c = document.getElementById("ranks");
+            const {data} = c.getContext("2d").getImageData(0, c.height - 2, c.width, 1), seen = new Set();
+            for (let k = 0; k < data.length; k += 4) seen.add(data.slice(k, k + 3).join());
+            return seen.size""")
+        check(colours >= 2, "the order has no stripes")
+        distance = browser.run("return document.getElementById('distance').textContent")
+        state = browser.run("const {closest: [[a, b]], positions: p} = kds.state(); return [...p.slice(3 * a, 3 * a + 3), ...p.slice(3 * b, 3 * b + 3)]")
+        expected = sum((x - y)**2 for x, y in zip(state[:3], state[3:]))**0.5
+        check(abs(float(distance.split()[0]) - expected) < 1e-3, f"the distance is {expected}, shown as {distance}")
+        text = browser.run("return document.body.innerText")
+        check("Press" not in text, "a page without events says to press a key")
+
+
 def works_on_a_phone(browser):
     browser.size(390, 844)
     browser.wait("await new Promise((done) => setTimeout(done, 200))")
@@ -267,10 +321,11 @@ def main(node, page, place):
         check(len(everything) > 2000, f"only {len(everything)} pixels are drawn")
         for test in (states_agree, picking_agrees_with_pixels, cage_encloses_beads, keys_work,
                      picking_agrees_with_pixels, follows_a_bead,  # after keys_work the camera is turned and nearer
-                     saves_a_picture, loops, timeline_goes_to_times):
+                     saves_a_picture, loops, timeline_goes_to_times, event_is_named_and_kinds_are_skipped):
             test(browser)
             print("passed:", test.__name__)
         link_restores(browser, replay)
+        every_structure_is_drawn(browser, node, page, place)
         works_on_a_phone(browser)
         complaints, requests = browser.complaints(), browser.requests()
         check(not complaints, f"the page complains: {complaints}")

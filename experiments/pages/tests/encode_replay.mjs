@@ -143,6 +143,19 @@ export function encodeReplay(run) {
         for (const change of changes) bytes.differences(wordsOf(change).filter((word) => isOther(word, change)));
       });
     });
+    if (structure.spheres) {
+      // `spheres`: {nodes, frames: [[x, y, z, radius] of each node] of each frame}; of degree 1.
+      put(`sphere-nodes-${s}`, (bytes) => bytes.uint32(structure.spheres.nodes));
+      for (let first = 0; first < run.frames.length; first += block_frames) {
+        put(`spheres-${s}-positions-${first / block_frames}`, (bytes) => {
+          const whole = structure.spheres.frames.map((balls) =>
+            [0, 1, 2, 3].flatMap((axis) => balls.map((ball) => quantised(ball[axis], axis < 3 ? low[axis] : 0, quantum))));
+          for (let f = first; f < Math.min(first + block_frames, whole.length); ++f)
+            whole[f].forEach((value, k) =>
+              bytes.varint(value - (f > first ? whole[f - 1][k] : k % structure.spheres.nodes.length ? whole[f][k - 1] : 0)));
+        });
+      }
+    }
     if (structure.nodes) put(`nodes-${s}`, (bytes) => bytes.uint32(structure.nodes.flat()));
   });
   const meta = {
@@ -180,6 +193,7 @@ export function encodeReplay(run) {
         changes: structure.events.flatMap((e) => (e.changes ?? []).filter((c) => c.layer === layer.name)).length,
       })),
       nodes: structure.nodes?.length ?? 0,
+      spheres: structure.spheres?.nodes.length ?? 0,
       note: structure.note ?? "",
     })),
     blocks: Object.fromEntries([...blocks].map(([name, buffer]) => [name, buffer.length])),

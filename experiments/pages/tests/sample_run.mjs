@@ -123,6 +123,41 @@ function cageStructure(frames) {
   };
 }
 
+// Structures of all other kinds, as they are at the first frame, and a root's sphere that grows from frame to frame.
+function stillStructures(frames) {
+  const [first] = frames;
+  const beads = first.map((_, b) => b);
+  const ends = (list) =>
+    first[0].flatMap((_, axis) => {
+      const sorted = [...list].sort((a, b) => first[a][axis] - first[b][axis]);
+      return [sorted[0], sorted.at(-1)];
+    });
+  const half = beads.length / 2;
+  const nodes = [[0, beads.length, 0, 0xffffffff], [0, half, 1, 0], [half, beads.length, 1, 0]];
+  const supports = nodes.flatMap(([from, to], node) => ends(beads.slice(from, to)).map((bead, side) => [node, side, bead]));
+  const pairs = beads.flatMap((i) => beads.slice(i + 1).map((j) => [i, j]));
+  const closest = pairs.sort((a, b) => far(first[a[0]], first[a[1]]) - far(first[b[0]], first[b[1]]))[0];
+  const turn = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  const hull = beads.flatMap((i) => beads.filter((j) => j !== i && beads.every((k) => turn(first[i], first[j], first[k]) >= 0)).map((j) => [i, j]));
+  const order = [...beads].sort((a, b) => first[a][0] - first[b][0]).map((bead, rank) => [rank, bead]);
+  const still = (name, layer, initial, more = {}) =>
+    ({ name, kinds: [], stages: [], events: [], layers: layer ? [{ name: layer, arity: initial[0].length, initial }] : [], ...more });
+  return [
+    still("sorted", "order", order),
+    still("box", "ends", ends(beads).map((bead, end) => [end, bead])),
+    still("hull", "hull", hull),
+    still("closest", "closest", [closest]),
+    still("boxes", "supports", supports, { nodes }),
+    still("layered", null, [], { nodes, spheres: { nodes: [0], frames: frames.map((_, f) => [[5, 1, 0.5, 6 + f]]) } }),
+  ];
+}
+
+// Returns a run of structures without events, among them all that sampleRun lacks.
+export function stillRun(settings) {
+  const run = sampleRun(settings);
+  return { ...run, structures: stillStructures(run.frames) };
+}
+
 // Returns a run for encodeReplay.
 export function sampleRun({ beads = 24, frames = 10, dimension = 3, seed = 1, title = "Winding chains", cages = true } = {}) {
   const next = random(seed);

@@ -101,8 +101,8 @@ export class StructureLayers {
     label.style.transform = `translate(${trim(Math.min(clientWidth - 90, Math.max(4, x + 12)), 1)}px, ${trim(y + 6, 1)}px)`;
   }
 
-  // Draws the order of the beads as a strip: from left to right the beads by rank, in their colours. Beads of the chosen event
-  // and the chosen bead are marked.
+  // Draws the order of the beads as a strip: from left to right the beads by rank, in their colours, with their numbers if
+  // there is room. Beads of the chosen event and the chosen bead are marked.
   drawOrder() {
     const { app, order } = this;
     const canvas = byId("ranks");
@@ -118,6 +118,8 @@ export class StructureLayers {
     const scale = window.devicePixelRatio || 1;
     [canvas.width, canvas.height] = [Math.round(canvas.clientWidth * scale), ranksHeight * scale];
     const context = canvas.getContext("2d");
+    context.font = `${11 * scale}px system-ui, sans-serif`;
+    context.textAlign = "center";
     const width = canvas.width / ranks.length;
     const tint = app.scene.beads.array("tint");
     const marks = new Map([[app.bead.number, app.scene.colours.chosen]]);
@@ -127,6 +129,10 @@ export class StructureLayers {
       const bead = ranks[Math.floor(rank)];
       context.fillStyle = `rgb(${tint[4 * bead]} ${tint[4 * bead + 1]} ${tint[4 * bead + 2]})`;
       context.fillRect(rank * width, 8 * scale, Math.max(1, width - (width > 4 ? 1 : 0)), canvas.height - 8 * scale);
+      if (width < 22 * scale) continue;
+      const light = 0.3 * tint[4 * bead] + 0.6 * tint[4 * bead + 1] + 0.1 * tint[4 * bead + 2];
+      context.fillStyle = light > 128 ? "#000" : "#fff";
+      context.fillText(bead, (rank + 0.5) * width, canvas.height - 5 * scale);
     }
     for (const [bead, colour] of marks) {
       const rank = bead < 0 ? -1 : ranks.indexOf(bead);

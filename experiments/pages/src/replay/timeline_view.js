@@ -102,6 +102,7 @@ export class TimelineView {
       );
       if (structure.note) chips.push(make("span", { class: "note", title: structure.note }, structure.note));
       const row = make("div", { class: "row" }, make("div", { class: "row-label" }, label, ...chips), canvas);
+      canvas.hidden = events.count === 0;
       byId("rows").append(row);
       this.rows.push({ s, canvas, row, box });
     });
