@@ -47,7 +47,9 @@ function pairStructure(name, layer, kinds, frames, limit, takes) {
   }
   return {
     name, stages: ["filter", "exact"], events, layers: [{ name: layer, arity: 2, initial }],
-    kinds: kinds.map((kind) => ({ name: kind, external: true, roles: [linear("first", 1), linear("second", 1)] })),
+    kinds: kinds.map((kind) => ({
+      name: kind, external: true, roles: layer === "edges" ? [linear("edge", 2)] : [linear("first", 1), linear("second", 1)],
+    })),
   };
 }
 

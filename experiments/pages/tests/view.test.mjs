@@ -10,6 +10,7 @@ test("a link says again what it was written from", () => {
   const view = {
     step: 12, u: 0.40432302819102027, event: [1, 153], bead: 7, follow: true, layers: ["beads", "edges"], level: "3",
     camera: [1, 2, 3, 4.5, -5, 6, 1.25], speed: 0.05, window: [1.5, 2.25], loop: [1, 2], theme: "dark",
+    off: ["1", "2.0"], internal: true,
   };
   assert.deepEqual(readLink(writeLink(view)), view);
 });

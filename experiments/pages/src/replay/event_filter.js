@@ -1,4 +1,5 @@
-// Which events are shown, counted and stepped to. Internal events, which change only bookkeeping, are left out unless asked for.
+// Decides which events are shown, counted and stepped to. Internal events, which change only bookkeeping, are left out unless
+// the reader asks for them.
 
 export class EventFilter {
   constructor(structures) {
@@ -19,7 +20,10 @@ export class EventFilter {
   changed() {
     this.lists = this.structures.map(({ events }, s) => {
       const on = events.kinds.map((_, k) => this.takesKind(s, k));
-      return Uint32Array.from({ length: events.count }, (_, e) => e).filter((e) => on[events.kind[e]]);
+      const list = new Uint32Array(events.count);
+      let size = 0;
+      for (let e = 0; e < events.count; ++e) if (on[events.kind[e]]) list[size++] = e;
+      return list.subarray(0, size);
     });
   }
 
@@ -57,7 +61,7 @@ export class EventFilter {
     return place;
   }
 
-  // What is switched off, as words of a link: "2" is structure 2, "2.1" its kind 1.
+  // Words of a link that name what is switched off: "2" is structure 2, "2.1" its kind 1.
   get words() {
     return [...[...this.muted].map(String), ...this.off.flatMap((kinds, s) => [...kinds].map((k) => `${s}.${k}`))];
   }

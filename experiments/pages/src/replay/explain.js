@@ -4,7 +4,7 @@ import { count } from "../shared/dom.js";
 
 const structures = {
   wrapped: "Wrapped hierarchy: a balanced tree of cages. A cage is the smallest sphere around the beads of its node.",
-  boxes: "Hierarchy of boxes: each node of a balanced tree has the smallest box around its beads. Of boxes with oblique sides, the axis-parallel part is drawn.",
+  boxes: "Hierarchy of boxes: each node of a balanced tree has the smallest box around its beads. The page draws the sides along the axes.",
   layered: "Layered hierarchy: each node of a balanced tree has a sphere around the spheres of its two children.",
   power: "Power diagram: an edge joins two beads whose cells share a face.",
   contacts: "Contacts: pairs of beads that are at most the cutoff apart, by default those that touch or overlap.",

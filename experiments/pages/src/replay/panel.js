@@ -1,7 +1,7 @@
 // The panels of the chosen event and of the chosen bead.
 import { byId, count, make } from "../shared/dom.js";
 import { noBead } from "./events.js";
-import { eventSentence, sideText, textOf } from "./event_sentence.js";
+import { eventSentence, rangeText, sideText, textOf } from "./event_sentence.js";
 import { decimals, dyadic, exactText, explainKind, lowerText, residueOf, timeText, trim, upperText } from "./explain.js";
 
 const longList = 12;
@@ -55,6 +55,11 @@ export class Panels {
     return sentence;
   }
 
+  nodeText([first, last]) {
+    const text = rangeText(first, last, this.data.names, this.several);
+    return text.startsWith("bead") ? text : `${text} (beads ${first} to ${last})`;
+  }
+
   get several() {
     return this.data.meta.necklaces.length > 1;
   }
@@ -89,7 +94,7 @@ export class Panels {
     if (leaves.length) rows.push([make("span", { class: "goes" }, "✕ leaves"), this.beadButtons(leaves)]);
     rows.push(...this.changeRows(s, e));
     for (const role of events.rolesOf(e)) {
-      if (role.of === "node") rows.push([role.name, `beads ${role.ids[0]} to ${role.ids[1]}`]);
+      if (role.of === "node") rows.push([role.name, this.nodeText(role.ids)]);
       else if (kind.name === "rebuild" && role.name === "time") rows.push(["built anew at", `u = ${trim(dyadic(role.ids), 10)}`]);
       else if (role.name === "side") rows.push([role.name, sideText(role.ids[0], meta.dimension)]);
       else if (role.of === "number") rows.push([role.name, role.ids.join(" ")]);
