@@ -26,6 +26,7 @@ constexpr double kAngstromQuantum = 0.02;
 constexpr double kMostLength = 1e18, kLeastLength = 1e-15;
 /// Rounded coordinates stay below this number, so that their differences have 32 bits.
 constexpr double kMostQuanta = 1 << 28;
+constexpr double kMostSphereQuanta = 1 << 30;  // spheres are larger than the scene
 constexpr int kVersion = 2;
 /// In the order of DecidedBy. No text: the page names no stage.
 const std::vector<std::string> kStages{"", "floating point, with proved error bounds",
@@ -50,7 +51,7 @@ std::string short_name(const Scene& scene, BeadId bead) {
 }
 
 std::string_view note_on(const ReplayRecorder::Structure& structure) {
-  if (!structure.layers.empty()) return "";
+  if (!structure.layers.empty() || !structure.sphere_nodes.empty()) return "";
   return structure.kinds.empty() ? "This structure has no events, and the scene does not show it."
                                  : "The scene does not show this structure; its events are on the timeline.";
 }
@@ -75,8 +76,6 @@ Json numbers_json(std::span<const double> numbers) {
 
 ReplayPage::ReplayPage(std::ostream& stream, const Scene& scene, ReplayPageOptions options)
     : stream_(stream), scene_(scene), options_(std::move(options)) {
-  if (scene.dimension() < 2)
-    throw InputError("a replay shows beads in the plane or in space, and this input has 1 coordinate");
   for (const std::string_view piece : replay_template()) page_ += piece;
   const std::size_t mark = page_.find(page_data_mark);
   rest_of_page_ = std::string_view(page_).substr(mark + page_data_mark.size());
@@ -150,7 +149,7 @@ FrameBlocks::Numbers ReplayPage::numbers_of(const Eigen::Matrix3Xd& points, std:
 
 void ReplayPage::write_frames() {
   constexpr std::size_t most_frames = 64, beads_of_block = 300'000;
-  const std::size_t beads = scene_.bead_count(), frames = scene_.frame_count();
+  const std::size_t beads = scene_.bead_count(), frames = frame_count();
   const int degree = scene_.degree(), dimension = scene_.dimension();
   block_frames_ = std::clamp<std::size_t>(beads_of_block / beads, 1, most_frames);
   FrameBlocks blocks(beads, degree, block_frames_,
@@ -237,9 +236,46 @@ Json ReplayPage::write_structure(std::size_t index, const ReplayRecorder::Struct
       add_words(nodes, std::array{node.beads.first, node.beads.last + 1, node.level, node.parent});
     put_block(fmt::format("nodes-{}", index), nodes.bytes());
   }
-  return {{"name", structure.name},    {"kinds", kinds},   {"stages", kStages},
-          {"events", events.count()},  {"layers", layers}, {"nodes", structure.nodes.size()},
+  if (!structure.sphere_nodes.empty()) write_spheres(index, structure);
+  return {{"name", structure.name},
+          {"kinds", kinds},
+          {"stages", kStages},
+          {"events", events.count()},
+          {"layers", layers},
+          {"nodes", structure.nodes.size()},
+          {"spheres", structure.sphere_nodes.size()},
           {"note", note_on(structure)}};
+}
+
+void ReplayPage::write_spheres(std::size_t index, const ReplayRecorder::Structure& structure) {
+  BlockBytes nodes;
+  add_words(nodes, structure.sphere_nodes);
+  put_block(fmt::format("sphere-nodes-{}", index), nodes.bytes());
+  const std::size_t count = structure.sphere_nodes.size();
+  std::size_t at = 0;
+  const auto next = [&] {
+    FrameBlocks::Numbers numbers;
+    numbers.reserve(4 * count);
+    for (std::size_t axis = 0; axis < 4; ++axis)
+      for (std::size_t k = at; k < at + count; ++k) {
+        const double value = structure.spheres[k][axis] - (axis < 3 ? origin_[axis] : 0);
+        numbers.push_back(static_cast<std::int32_t>(
+            std::clamp(std::round(value / quantum_), -kMostSphereQuanta, kMostSphereQuanta)));
+      }
+    at += count;
+    return numbers;
+  };
+  FrameBlocks blocks(count, scene_.degree(), block_frames_,
+                     [&](const std::string& name, std::string_view bytes) {
+                       put_block(fmt::format("spheres-{}-{}", index, name), bytes);
+                     });
+  blocks.add(next(), {});
+  while (at < structure.spheres.size()) {
+    std::vector<FrameBlocks::Numbers> controls;
+    for (int j = 1; j < scene_.degree(); ++j) controls.push_back(next());
+    blocks.add(next(), controls);
+  }
+  blocks.finish();
 }
 
 void ReplayPage::write_record(const ReplayRecorder& recorder) {
@@ -266,7 +302,7 @@ void ReplayPage::write_record(const ReplayRecorder& recorder) {
                   {"dimension", scene_.dimension()},
                   {"degree", scene_.degree()},
                   {"motion", motion_name(scene_)},
-                  {"frames", scene_.frame_count()},
+                  {"frames", frame_count()},
                   {"stride", labels.stride},
                   {"has_times", has_times_},
                   {"time_unit", "ps"},

@@ -29,6 +29,7 @@ struct ReplayLabels {
   std::vector<std::string> inputs = {};  ///< names of the input files
   bool in_angstrom = true;               ///< lengths are in angstrom; otherwise they have no unit
   std::size_t stride = 1;                ///< the run takes every stride-th of the frames asked for
+  bool lone_frame = false;               ///< the second frame of the run repeats the first and is not shown
 };
 
 struct ReplayPageOptions {
@@ -49,7 +50,7 @@ class ReplayTooLarge : public std::runtime_error {
 
 class ReplayPage {
  public:
-  /// Begins a page. The stream and the scene must outlive it. Throws InputError if the scene is on a line.
+  /// Begins a page. The stream and the scene must outlive it.
   ReplayPage(std::ostream& stream, const Scene& scene, ReplayPageOptions options);
 
   /// Reads all frames of the scene, from the first one on, and writes them. Throws InputError if coordinates
@@ -65,10 +66,14 @@ class ReplayPage {
   void choose_quantum(const Eigen::Matrix3Xd& first);
   /// Returns the largest difference of a bead's coordinate from the corner of the first frame.
   [[nodiscard]] double farthest() const;
+  [[nodiscard]] std::size_t frame_count() const {
+    return options_.labels.lone_frame ? 1 : scene_.frame_count();
+  }
   [[nodiscard]] std::int32_t rounded(double value, int axis, BeadId bead, std::size_t frame) const;
   [[nodiscard]] FrameBlocks::Numbers numbers_of(const Eigen::Matrix3Xd& points, std::size_t frame) const;
   void write_beads();
   [[nodiscard]] Json write_structure(std::size_t index, const ReplayRecorder::Structure& structure);
+  void write_spheres(std::size_t index, const ReplayRecorder::Structure& structure);
   void put(std::string_view text);
   void put_block(const std::string& name, std::string_view bytes);
   void require_size(std::uint64_t expected) const;

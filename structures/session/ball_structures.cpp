@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <algorithm>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,13 +18,6 @@
 namespace kds {
 
 namespace {
-
-ReplayElement element_of(std::initializer_list<BeadId> ids) {
-  ReplayElement element;
-  element.fill(no_bead);
-  std::copy(ids.begin(), ids.end(), element.begin());
-  return element;
-}
 
 template <int Dimension>
 class PowerInRun final : public RunningStructure {
@@ -57,8 +49,8 @@ class PowerInRun final : public RunningStructure {
     std::vector<std::vector<ReplayElement>> elements(2);
     for (BeadId a = 0; a < scene_.bead_count(); ++a)
       for (const BeadId b : diagram.edges.of(a))
-        if (a < b) elements[0].push_back(element_of({a, b}));
-    for (const BeadId bead : diagram.hidden) elements[1].push_back(element_of({bead}));
+        if (a < b) elements[0].push_back(replay_element({a, b}));
+    for (const BeadId bead : diagram.hidden) elements[1].push_back(replay_element({bead}));
     return elements;
   }
   /// A flip of a facet in space adds one edge, a flip of an edge removes one, and a bead that hides or shows
@@ -68,7 +60,7 @@ class PowerInRun final : public RunningStructure {
     using Events = DiagramEvents<Dimension>;
     const auto edge = [&](bool adds, BeadId a, BeadId b) {
       if (a != infinite_bead && b != infinite_bead)
-        edits.push_back({0, adds, element_of({std::min(a, b), std::max(a, b)})});
+        edits.push_back({0, adds, replay_element({std::min(a, b), std::max(a, b)})});
     };
     const auto& ids = change.ids;
     if constexpr (Dimension == 2) {
@@ -85,7 +77,7 @@ class PowerInRun final : public RunningStructure {
       const BeadId bead = ids[Dimension + 1];
       const bool hides = change.kind == Events::hides;
       for (std::size_t i = 0; i <= Dimension; ++i) edge(!hides, ids[i], bead);
-      edits.push_back({1, hides, element_of({bead})});
+      edits.push_back({1, hides, replay_element({bead})});
       return true;
     }
     return change.kind == Events::wanders || change.kind == Events::clears || change.kind == Events::fills;
@@ -124,13 +116,13 @@ class ContactsInRun final : public RunningStructure {
   [[nodiscard]] std::vector<std::vector<ReplayElement>> replay_elements(bool) const override {
     std::vector<std::vector<ReplayElement>> elements(1);
     for (const BeadPair& pair : contacts_.pairs())
-      elements[0].push_back(element_of({pair.first, pair.second}));
+      elements[0].push_back(replay_element({pair.first, pair.second}));
     return elements;
   }
   [[nodiscard]] bool replay_edits(const Change& change, std::vector<ReplayEdit>& edits) const override {
     using Events = Contacts<Dimension>;
     if (change.kind == Events::begin || change.kind == Events::end)
-      edits.push_back({0, change.kind == Events::begin, element_of({change.ids[0], change.ids[1]})});
+      edits.push_back({0, change.kind == Events::begin, replay_element({change.ids[0], change.ids[1]})});
     return true;
   }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {

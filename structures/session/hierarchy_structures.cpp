@@ -44,6 +44,21 @@ class ChordsInRun : public RunningStructure {
     }
     return nodes;
   }
+  [[nodiscard]] ReplayScheme replay_scheme() const override {
+    ReplayScheme scheme{{}, replay_nodes(cages().tree()), {}};
+    for (NodeId id = 0; id < keeps_.size(); ++id)
+      if (keeps(id)) scheme.sphere_nodes.push_back(id);
+    return scheme;
+  }
+  [[nodiscard]] std::vector<Sphere> replay_spheres(bool built) const override {
+    std::vector<Sphere> spheres;
+    for (int k = built ? 0 : 1; k <= (built ? 0 : cages().degree()); ++k) {
+      const auto at_control = cages().cages(k);
+      for (NodeId id = 0; id < keeps_.size(); ++id)
+        if (keeps(id)) spheres.push_back(sphere_of(at_control[id], 0));
+    }
+    return spheres;
+  }
 
  protected:
   [[nodiscard]] const Scene& scene() const { return scene_; }
@@ -239,6 +254,27 @@ class BoxesInRun final : public RunningStructure {
         elements.add({range.first, range.last, side}, supports.subspan(side, 1));
     });
     return elements;
+  }
+  [[nodiscard]] ReplayScheme replay_scheme() const override {
+    return {{{"supports", 3, 2}}, replay_nodes(hierarchy_.tree())};
+  }
+  [[nodiscard]] std::vector<std::vector<ReplayElement>> replay_elements(bool) const override {
+    std::vector<std::vector<ReplayElement>> elements(1);
+    for (NodeId id = 0; id < hierarchy_.tree().node_count(); ++id) {
+      if (!hierarchy_.keeps(id)) continue;
+      const auto supports = hierarchy_.supports(id);
+      for (BeadId side = 0; side < supports.size(); ++side)
+        if (supports[side] != no_bead) elements[0].push_back(replay_element({id, side, supports[side]}));
+    }
+    return elements;
+  }
+  [[nodiscard]] bool replay_edits(const Change& change, std::vector<ReplayEdit>& edits) const override {
+    if (change.kind != BoxHierarchy<Dimension>::support_changes) return true;
+    const NodeId node = *hierarchy_.tree().find({change.ids[0], change.ids[1]});
+    const BeadId was = change.ids[3], is = change.ids[4];
+    if (was != no_bead || is != no_bead)
+      edits.push_back({0, is != no_bead, replay_element({node, change.ids[2], is})});
+    return true;
   }
   [[nodiscard]] bool can_be_cut() const override { return true; }
   /// Includes nodes that are not kept, because nodes above them depend on them.

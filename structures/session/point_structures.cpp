@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -36,6 +38,119 @@ std::vector<BeadId> state_of(const KineticClosestPair<D>& closest) {
   return {closest.pair()->begin(), closest.pair()->end()};
 }
 
+/// The layers of a structure of points, for replays.
+template <class Structure>
+struct Shown;
+
+template <int D>
+struct Shown<SortedList<D>> {
+  static constexpr ReplayLayer layer{"order", 2, 1};
+
+  std::vector<BeadId> order, ranks;  // followed, because a search for a bead would be slow
+
+  std::vector<ReplayElement> elements(const SortedList<D>& list) {
+    order = list.order();
+    ranks.assign(order.empty() ? 0 : *std::max_element(order.begin(), order.end()) + 1, no_bead);
+    std::vector<ReplayElement> all;
+    for (BeadId rank = 0; rank < order.size(); ++rank) {
+      ranks[order[rank]] = rank;
+      all.push_back(replay_element({rank, order[rank]}));
+    }
+    return all;
+  }
+  bool edits(const Change& change, std::vector<ReplayEdit>& edits) {
+    if (change.kind == SortedList<D>::interchanges) {
+      const auto [first, second] = std::pair(change.ids[0], change.ids[1]);
+      std::swap(ranks[first], ranks[second]);
+      for (const BeadId bead : {first, second}) {
+        order[ranks[bead]] = bead;
+        edits.push_back({0, true, replay_element({ranks[bead], bead})});
+      }
+    } else if (change.kind != SortedList<D>::changes) {
+      insert_or_erase(change, edits);
+    }
+    return true;
+  }
+
+ private:
+  /// Every bead behind the place gets another rank.
+  void insert_or_erase(const Change& change, std::vector<ReplayEdit>& edits) {
+    const BeadId bead = change.ids[0];
+    const bool inserts = change.kind == SortedList<D>::inserts;
+    const BeadId place = !inserts ? ranks[bead] : change.ids[1] == no_bead ? 0 : ranks[change.ids[1]] + 1;
+    if (inserts)
+      order.insert(order.begin() + place, bead);
+    else
+      order.erase(order.begin() + place);
+    if (bead >= ranks.size()) ranks.resize(bead + std::size_t{1}, no_bead);
+    for (BeadId rank = place; rank < order.size(); ++rank) {
+      ranks[order[rank]] = rank;
+      edits.push_back({0, true, replay_element({rank, order[rank]})});
+    }
+    if (!inserts) edits.push_back({0, false, replay_element({static_cast<BeadId>(order.size())})});
+  }
+};
+
+template <int D>
+struct Shown<EnclosingBox<D>> {
+  static constexpr ReplayLayer layer{"ends", 2, 1};
+
+  static std::vector<ReplayElement> elements(const EnclosingBox<D>& box) {
+    std::vector<ReplayElement> all;
+    for (BeadId end = 0; end < box.ends().size(); ++end)
+      if (box.ends()[end] != no_bead) all.push_back(replay_element({end, box.ends()[end]}));
+    return all;
+  }
+  static bool edits(const Change& change, std::vector<ReplayEdit>& edits) {
+    using Box = EnclosingBox<D>;
+    if (change.kind < Box::first_end || change.kind >= Box::inserts) return true;
+    const BeadId end = change.kind - BeadId{Box::first_end}, bead = change.ids[1];
+    edits.push_back({0, bead != no_bead, replay_element({end, bead})});
+    return true;
+  }
+};
+
+template <>
+struct Shown<ConvexHull> {
+  static constexpr ReplayLayer layer{"hull", 2, 1};
+
+  static std::vector<ReplayElement> elements(const ConvexHull& hull) {
+    std::vector<ReplayElement> all;
+    const auto& corners = hull.corners();
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      all.push_back(replay_element({corners[k], corners[(k + 1) % corners.size()]}));
+    return all;
+  }
+  static bool edits(const Change& change, std::vector<ReplayEdit>& edits) {
+    const auto [corner, before, after] = std::tuple(change.ids[0], change.ids[1], change.ids[2]);
+    if (change.kind == ConvexHull::enter) {
+      edits.push_back({0, true, replay_element({corner, after})});
+      if (before != corner) edits.push_back({0, true, replay_element({before, corner})});
+    } else if (change.kind == ConvexHull::leave) {
+      edits.push_back({0, false, replay_element({corner})});
+      if (before != corner) edits.push_back({0, true, replay_element({before, after})});
+    }
+    return true;
+  }
+};
+
+template <int D>
+struct Shown<KineticClosestPair<D>> {
+  static constexpr ReplayLayer layer{"closest", 2, 2};
+
+  static std::vector<ReplayElement> elements(const KineticClosestPair<D>& closest) {
+    if (!closest.pair()) return {};
+    return {replay_element({(*closest.pair())[0], (*closest.pair())[1]})};
+  }
+  static bool edits(const Change& change, std::vector<ReplayEdit>& edits) {
+    if (change.kind != KineticClosestPair<D>::replace) return true;
+    for (const std::size_t at : {0U, 2U})
+      if (change.ids[at] != no_bead)
+        edits.push_back({0, at == 2, replay_element({change.ids[at], change.ids[at + 1]})});
+    return true;
+  }
+};
+
 /// A structure of points in a run. Three functions say in what such structures differ: dump(structure) and
 /// elements(structure) return its state at a frame, build(structure, centers) returns a StaticBuild.
 template <class Structure, class Dump, class Elements, class Build>
@@ -56,6 +171,13 @@ class PointsInRun final : public RunningStructure {
   }
   [[nodiscard]] bool can_be_cut() const override { return true; }
   [[nodiscard]] std::optional<std::vector<BeadId>> state() const override { return state_of(structure_); }
+  [[nodiscard]] ReplayScheme replay_scheme() const override { return {{Shown<Structure>::layer}, {}}; }
+  [[nodiscard]] std::vector<std::vector<ReplayElement>> replay_elements(bool) const override {
+    return {shown_.elements(structure_)};
+  }
+  [[nodiscard]] bool replay_edits(const Change& change, std::vector<ReplayEdit>& edits) const override {
+    return shown_.edits(change, edits);
+  }
   [[nodiscard]] double static_seconds(std::size_t frame) const override {
     return seconds_per_call<WallClock>(build_(structure_, scene_.centers(frame)));
   }
@@ -63,6 +185,7 @@ class PointsInRun final : public RunningStructure {
  private:
   const Scene& scene_;
   Structure structure_;
+  mutable Shown<Structure> shown_;  // follows the changes, for replays
   Dump dump_;
   Elements elements_;
   Build build_;

@@ -2,9 +2,11 @@
 // Layers of a structure, as replays show them. A layer is a set of elements, for example all edges of a
 // diagram. An element is a few ids, for example the two beads of an edge. Events remove and add elements.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -18,6 +20,13 @@ namespace kds {
 
 /// The ids of an element. Unused entries hold no_bead.
 using ReplayElement = std::array<BeadId, 5>;
+
+[[nodiscard]] inline ReplayElement replay_element(std::initializer_list<BeadId> ids) {
+  ReplayElement element;
+  element.fill(no_bead);
+  std::copy(ids.begin(), ids.end(), element.begin());
+  return element;
+}
 
 struct ReplayLayer {
   std::string_view name;  ///< in static storage
@@ -64,9 +73,17 @@ struct ReplayNode {
 ///   edges     the two beads of an edge, ascending
 ///   hidden    a bead without a cell in the power diagram
 ///   contacts  the two beads of a pair in contact, ascending
+///   supports  node, side (low, high of the first direction, then of the next), the bead that holds the side
+///   ends      end (low, high of the first axis, then of the next), the bead there
+///   hull      a corner, then the next corner counterclockwise; the corner itself if it is alone
+///   closest   the two beads of the closest pair, ascending
+///   order     rank, then the bead of this rank
 struct ReplayScheme {
   std::vector<ReplayLayer> layers;
-  std::vector<ReplayNode> nodes;  ///< for `cages`
+  std::vector<ReplayNode> nodes;  ///< for `cages` and `supports`, and for spheres
+  /// For a structure without events whose spheres follow curves between frames: the nodes that have spheres
+  /// (RunningStructure::replay_spheres).
+  std::vector<std::uint32_t> sphere_nodes{};
 };
 
 }  // namespace kds

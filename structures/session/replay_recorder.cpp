@@ -35,6 +35,7 @@ ReplayRecorder::ReplayRecorder(KineticRun& run) : run_(run) {
     structure.kinds.assign(kinetic.kinds().begin(), kinetic.kinds().end());
     for (const ReplayLayer& layer : scheme.layers) structure.layers.push_back({layer, {}, {}, 0});
     structure.nodes = std::move(scheme.nodes);
+    structure.sphere_nodes = std::move(scheme.sphere_nodes);
     now_.emplace_back(scheme.layers.size());
   }
 }
@@ -51,6 +52,17 @@ void ReplayRecorder::begin() {
         now_[s][l].emplace(place_key(layer.layer, element), element);
       append_ids(layer.layer, elements[l], layer.initial);
     }
+    add_spheres(s, true);
+  }
+}
+
+void ReplayRecorder::add_spheres(std::size_t structure, bool built) {
+  if (structures_[structure].sphere_nodes.empty()) return;
+  for (const Sphere& sphere : run_.running(structure).replay_spheres(built)) {
+    std::array<float, 4>& numbers = structures_[structure].spheres.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      numbers[axis] = static_cast<float>(sphere.center[static_cast<Eigen::Index>(axis)]);
+    numbers[3] = static_cast<float>(sphere.radius);
   }
 }
 
@@ -72,6 +84,7 @@ void ReplayRecorder::reach_frame() {
   for (std::size_t s = 0; s < structures_.size(); ++s) {
     Structure& structure = structures_[s];
     const KineticStructure& kinetic = *run_.structures()[s];
+    add_spheres(s, false);
     if (kinetic.statistics.rebuilds == rebuilds_[s]) continue;
     rebuilds_[s] = kinetic.statistics.rebuilds;
     const std::vector<LayerChange> changes = changes_to_now(s);

@@ -10,8 +10,10 @@
 //   recorder.begin();
 //   while (run.run_step()) recorder.reach_frame();
 //
-// Memory grows with the state and with the number of changes, not with the number of frames.
+// Memory grows with the state and with the number of changes. It grows with the number of frames only for
+// structures whose spheres follow curves between frames.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -56,6 +58,9 @@ class ReplayRecorder final : public EventListener {
     Events events;
     std::vector<Layer> layers;
     std::vector<ReplayNode> nodes;
+    std::vector<std::uint32_t> sphere_nodes;  ///< nodes with spheres that follow curves between frames
+    /// Their spheres at the first frame, then at the control points of each step except for its start.
+    std::vector<std::array<float, 4>> spheres;
   };
   static constexpr EventKind rebuilt_at_frame{"rebuild-at-frame", false, true, {}};
 
@@ -68,7 +73,7 @@ class ReplayRecorder final : public EventListener {
   /// Adds an event. Throws std::logic_error before `begin`.
   void on_event(const Event& event) override;
   /// Must be called at each frame after the first, when the step that leads to the frame has been run. Takes
-  /// time only if a structure was rebuilt.
+  /// time only if a structure was rebuilt or has spheres that follow curves.
   void reach_frame();
 
   [[nodiscard]] const std::vector<Structure>& structures() const { return structures_; }
@@ -81,6 +86,7 @@ class ReplayRecorder final : public EventListener {
     std::vector<ReplayElement> removed, added;
   };
 
+  void add_spheres(std::size_t structure, bool built);
   void add_event(std::size_t structure, std::uint32_t step, double lower, double upper, std::uint8_t kind,
                  DecidedBy stage, std::span<const BeadId> ids);
   /// Returns the changes of a structure's layers that lead to its state now.

@@ -90,6 +90,12 @@ class RunningStructure {
     static_cast<void>(edits);
     return true;
   }
+  /// Returns the spheres of the scheme's `sphere_nodes` at the control points of the step just run, except
+  /// for its start, one control point after another. If `built`, returns those at the first frame.
+  [[nodiscard]] virtual std::vector<Sphere> replay_spheres(bool built) const {
+    static_cast<void>(built);
+    return {};
+  }
   /// Follows, from the next step on, how many certificates name each bead. A structure that always knows this
   /// number does nothing.
   virtual void follow_certificates() {}

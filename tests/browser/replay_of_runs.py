@@ -5,6 +5,7 @@ the layers nor the changes of the page.
 """
 import csv
 import itertools
+import json
 import os
 import random
 import subprocess
@@ -209,6 +210,144 @@ SHARE_DRAWN = """
 """
 
 
+class OtherTwin:
+    """The state of the other structures, from the dump of frame 0 and the lines of a log."""
+
+    def __init__(self, dump, frame=0):
+        def read(name):
+            path = os.path.join(dump, f"frame-{frame}.{name}.csv")
+            return rows(path) if os.path.exists(path) else []
+
+        self.order = [int(row[0]) for row in read("sorted")]
+        self.ends = [int(bead) for row in read("box") for bead in row[1:3]]
+        self.hull = {int(row[0]) for row in read("hull")}
+        self.closest = [tuple(map(int, row)) for row in read("closest")]
+        boxes = read("boxes")
+        self.nodes = {(int(row[0]), int(row[1])): index for index, row in enumerate(boxes)}
+        self.supports = {(node, side): int(bead) for row in boxes for node in [self.nodes[int(row[0]), int(row[1])]]
+                         for side, bead in enumerate(row[2].split())}
+
+    def apply(self, structure, kind, ids):
+        if structure == "sorted":
+            at = self.order.index(ids[0])
+            check(self.order[at + 1] == ids[1], "the log exchanges beads that are not neighbours")
+            self.order[at:at + 2] = [ids[1], ids[0]]
+        elif structure == "box" and kind != "overtake":
+            self.ends["min-x max-x min-y max-y min-z max-z".split().index(kind)] = ids[1]
+        elif structure == "hull" and kind != "interchange":
+            self.hull ^= {ids[0]}
+        elif structure == "closest" and kind == "replace":
+            self.closest = [tuple(ids[2:])]
+        elif structure == "boxes":
+            self.supports[self.nodes[ids[0], ids[1]], ids[2]] = ids[4]
+
+    def state(self):
+        return {"order": set(enumerate(self.order)), "ends": set(enumerate(self.ends)), "hull": set(self.hull),
+                "closest": set(self.closest), "supports": {(*place, bead) for place, bead in self.supports.items()}}
+
+
+def other_elements(state):
+    found = {name: {tuple(element) for element in state[name]} for name in ("order", "ends", "closest", "supports")}
+    corners = [corner for corner, _ in state["hull"]]
+    check(sorted(corners) == sorted(after for _, after in state["hull"]), f"the hull is no circle: {state['hull']}")
+    return {**found, "hull": set(corners)}
+
+
+OTHERS = """
+  const states = [];
+  for (const [name, ...place] of args[0]) {
+    await kds[name](...place);
+    const sentence = document.getElementById("event-now").textContent;
+    const {positions, ...state} = kds.state();
+    const chips = [...document.querySelectorAll(".row")].map((row) => [...row.querySelectorAll(".chip")].map((chip) => [chip.textContent, chip.hidden]));
+    states.push({...state, sentence, chips});
+  }
+  return states;
+"""
+
+
+def other_structures_are_those_of_the_run(browser, kds, data, place):
+    """Order, box, hull, closest pair and boxes at random events and at frames; counts of kinds are those of the run."""
+    villin = os.path.join(data, "trajectories", "villin_hp36_300K")
+    protein = [villin + ".dcd", "--topology", villin + ".pdb", "--radius", "2.3"]
+    for name, source, structures, frames in (
+            ("line", [os.path.join(data, "kinetic", "d1_n50_degree3.txt")], "sorted,box", 2),
+            ("plane", [os.path.join(data, "kinetic", "d2_n50_degree2.txt")], "sorted,box,hull,closest", 2),
+            ("boxes", [*protein, "--frames", ":8"], "box,closest,boxes", 8),
+            ("dops", [*protein, "--frames", ":4", "--directions", "7"], "boxes", 4)):
+        replay, folder, dump, log = (os.path.join(place, name + ending) for ending in (".html", "", "-dump", ".kdslog"))
+        run_program(kds, "run", *source, "--structures", structures, "--view", replay, "--dump", dump, "--log", log,
+                    "--out", folder, "--replace")
+        names, twin, wanted, counts = structures.split(","), OtherTwin(dump), [], {}
+        with open(log) as file:
+            lines = [line.split() for line in file.readlines()[2:]]
+        lines = [line for line in lines if line[0] not in ("step", "end")]
+        chosen = set(random.Random(5).sample(range(len(lines)), min(60, len(lines))))
+        for order, (step, structure, kind, _, _, *ids) in enumerate(lines):
+            ids = list(map(int, ids))
+            twin.apply(structure, kind, ids)
+            number = counts[structure] = counts.get(structure, -1) + 1
+            if order in chosen:
+                wanted.append((names.index(structure), number, ids, twin.state()))
+        browser.open(replay)
+        random.Random(6).shuffle(wanted)
+        states = browser.wait(OTHERS, [["seekEvent", s, event] for s, event, *_ in wanted])
+        for (s, event, ids, state), shown in zip(wanted, states):
+            where = f"{name}, event {event} of {names[s]}"
+            for layer, found in other_elements(shown).items():
+                check(found == state[layer], f"{layer} at {where}: {found ^ state[layer]}")
+            if name in ("line", "plane") and names[s] != "hull":
+                check(all(f"ead {bead}" in shown["sentence"] for bead in ids), f"{where}: {shown['sentence']}")
+        for frame in range(1, frames):
+            shown = browser.wait(OTHERS, [["seek", frame - 1, 1]])[0]
+            expected = OtherTwin(dump, frame).state()
+            for layer, found in other_elements(shown).items():
+                check(found == expected[layer], f"{layer} of {name} at frame {frame}: {found ^ expected[layer]}")
+        with open(os.path.join(folder, "summary.json")) as file:
+            summary = json.load(file)["structures"]
+        for structure, chips in zip(names, shown["chips"]):
+            events = dict(summary[structure]["events"])
+            total = events.pop("total")
+            visible = {text.split()[0]: int(text.split()[1].replace(",", "")) for text, hidden in chips if not hidden}
+            check(sum(visible.values()) == total, f"{structure} of {name}: {visible} are not {total} events")
+            check(all(events[kind] == number for kind, number in visible.items()), f"{structure}: {visible}, {events}")
+        subtitle = browser.run("return document.getElementById('subtitle').textContent")
+        total = sum(summary[structure]["events"]["total"] for structure in names)
+        check(subtitle.endswith(f" {total:,} events"), f"{name}: {subtitle}, expected {total}")
+
+
+def spheres_are_those_of_the_run(browser, kds, data, place):
+    """Layered spheres and chords, at frames as dumped, and half way between two frames in the middle."""
+    villin = os.path.join(data, "trajectories", "villin_hp36_300K")
+    for structure, more in (("layered", []), ("wrapped", ["--between", "chord"])):
+        replay, dump = os.path.join(place, structure + ".html"), os.path.join(place, structure + "-dump")
+        run_program(kds, "run", villin + ".dcd", "--topology", villin + ".pdb", "--radius", "2.3", "--frames", ":5",
+                    "--structures", structure, *more, "--view", replay, "--dump", dump, "--replace")
+        frames = []
+        for frame in range(5):
+            table = rows(os.path.join(dump, f"frame-{frame}.{structure}.csv"))
+            frames.append([[float(value) for value in row[-4:]] for row in table])
+        browser.open(replay)
+        for step in range(4):
+            start, middle = browser.wait(OTHERS, [["seek", step, 0], ["seek", step, 0.5]])
+            for k, (a, b) in enumerate(zip(frames[step], frames[step + 1])):
+                for shown, expected in ((start, a), (middle, [(x + y) / 2 for x, y in zip(a, b)])):
+                    sphere = shown["spheres"][k]["sphere"]
+                    check(max(abs(x - y) for x, y in zip(sphere, expected)) < 0.011, f"{structure}, node {k}: {sphere}, {expected}")
+        text = browser.run("return document.body.innerText")
+        check("Next event to" not in text and "Press" not in text, "a page without events tells how to go to one")
+        drawn = browser.wait(SHARE_DRAWN, 0.5)
+        check(drawn > 0.05, f"{structure} covers {drawn} of the picture")
+
+
+def one_frame_is_shown(browser, kds, data, place):
+    villin, replay = os.path.join(data, "trajectories", "villin_hp36_300K"), os.path.join(place, "one.html")
+    run_program(kds, "view", villin + ".pdb", "--radius", "2.3", "--structures", "wrapped,power", "-o", replay)
+    browser.open(replay)
+    check(len(browser.run("return kds.state().cages")) == 107, "one frame has no cages")
+    check("One frame" in browser.run("return document.getElementById('event-now').textContent"), "no word of one frame")
+
+
 def many_edges_are_drawn(browser, kds, place):
     """Above 20,000 edges, the page draws them as thin lines."""
     trajectory, replay = os.path.join(place, "many.xyz"), os.path.join(place, "many.html")
@@ -230,6 +369,9 @@ def main(kds, data, place):
         states_are_those_of_the_run(browser, kds, data, place)
         positions_are_on_the_curves(browser, kds, place)
         instances_are_shown(browser, kds, data, place)
+        other_structures_are_those_of_the_run(browser, kds, data, place)
+        spheres_are_those_of_the_run(browser, kds, data, place)
+        one_frame_is_shown(browser, kds, data, place)
         many_edges_are_drawn(browser, kds, place)
         complaints, requests = browser.complaints(), browser.requests()
         check(not complaints, f"the page complains: {complaints}")

@@ -236,7 +236,7 @@ TEST(ReplayPage, ShowsInstancesOfHighDegree) {
   }
 }
 
-TEST(ReplayPage, RefusesLinesAndCoordinatesTooLargeForTheQuantum) {
+TEST(ReplayPage, RefusesCoordinatesTooLargeForTheQuantum) {
   const Scene scene = random_scene(3, FrameMotion::linear, 2, 1);
   EXPECT_THROW(static_cast<void>(record(scene, {{"contacts"}}, {{}, 1e-9, {}})), InputError);
   try {
@@ -245,9 +245,14 @@ TEST(ReplayPage, RefusesLinesAndCoordinatesTooLargeForTheQuantum) {
     EXPECT_THAT(error.what(), HasSubstr("--quantum 1e-09: frame 0, bead "));
     EXPECT_THAT(error.what(), HasSubstr("at least --quantum "));
   }
-  std::ostringstream stream;
-  const Scene line(read_instance(data_file("kinetic/d1_n20_linear.txt")));
-  EXPECT_THROW(ReplayPage(stream, line, {}), InputError);
+}
+
+TEST(ReplayPage, ShowsPointsOnALine) {
+  const Scene scene(read_instance(data_file("kinetic/d1_n20_linear.txt")));
+  const Recorded recorded = record(scene, {{"sorted"}}, {});
+  const ReplayData data(recorded.page);
+  expect_frames(data, scene);
+  expect_events(data, recorded.log);
 }
 
 TEST(ReplayPage, StopsOnceItIsTooLarge) {

@@ -273,34 +273,53 @@ TEST(ReplayRecorder, KeepsAProtein) {
   expect_replay(scene, three, true, 500);
 }
 
-TEST(ReplayRecorder, SaysWhatItKnowsOfStructuresWithoutLayers) {
+TEST_P(RecordedIn, PointsAndBoxesOfRandomScenes) {
+  const auto [dimension, motion] = GetParam();
+  KineticRunOptions options{{"sorted", "box", "closest", "boxes"}};
+  if (dimension == 2) options.structures.push_back("hull");
+  expect_replay(wandering_scene(dimension, 1, motion), options, false, 100);
+}
+
+TEST(ReplayRecorder, KeepsSpheresOnCurves) {
+  const Scene scene = wandering_scene(3, 1, FrameMotion::hermite);
+  KineticRun run(scene, {{"layered"}});
+  ReplayRecorder recorder(run);
+  run.listen(recorder);
+  run.build();
+  recorder.begin();
+  const ReplayRecorder::Structure& structure = recorder.structures()[0];
+  const std::size_t nodes = structure.sphere_nodes.size();
+  EXPECT_EQ(nodes, structure.nodes.size());
+  for (std::size_t frame = 1; run.run_step(); ++frame) {
+    recorder.reach_frame();
+    ASSERT_EQ(structure.spheres.size(), nodes * (1 + 3 * frame));  // three control points a step
+    const std::vector<NodeSphere> expected = run.running(0).spheres_at(Dyadic(1.0));
+    for (std::size_t k = 0; k < nodes; ++k) {
+      const auto& sphere = structure.spheres[structure.spheres.size() - nodes + k];
+      EXPECT_NEAR(sphere[0], expected[k].sphere.center[0], 1e-4);
+      EXPECT_NEAR(sphere[3], expected[k].sphere.radius, 1e-4);
+    }
+  }
+}
+
+TEST(ReplayRecorder, MustBeBegun) {
   const Scene scene = wandering_scene(2, 1, FrameMotion::linear);
   KineticRun run(scene, {{"hull", "boxes"}});
   ReplayRecorder recorder(run);
   run.listen(recorder);
   EXPECT_THROW(run.finish(), std::logic_error);  // begin() was not called
-  KineticRun again(scene, {{"hull", "boxes"}});
-  ReplayRecorder second(again);
-  again.listen(second);
-  again.build();
-  second.begin();
-  again.finish();
-  for (const ReplayRecorder::Structure& structure : second.structures()) {
-    EXPECT_TRUE(structure.layers.empty());
-    EXPECT_GT(structure.events.count(), 0U) << structure.name;
-  }
-  EXPECT_THROW(static_cast<void>(second.elements(2, 0)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(recorder.elements(2, 0)), std::invalid_argument);
 }
 
 TEST(ReplayRecorder, RecordsEditsOfBeads) {
   const Scene scene = wandering_scene(3, 4, FrameMotion::linear);
-  KineticRun run(scene, {{"power", "contacts"}});
+  KineticRun run(scene, {{"sorted", "box", "closest", "boxes", "power", "contacts"}});
   ReplayRecorder recorder(run);
   run.listen(recorder);
   run.build();
   recorder.begin();
   run.go_to(0.5);
-  for (const std::size_t s : {0U, 1U}) {
+  for (std::size_t s = 0; s < recorder.structures().size(); ++s) {
     for (const BeadId bead : {3U, 11U, 17U}) run.erase(s, bead);
     expect_elements_of_run(recorder, run);
     for (const BeadId bead : {11U, 3U}) run.insert(s, bead);
