@@ -209,21 +209,53 @@ std::unique_ptr<FileFrames> open_frames(const InputOptions& options,
   return frames;
 }
 
+namespace {
+
+/// The only frame of a source, twice.
+class LoneFrameTwice final : public FrameSource {
+ public:
+  explicit LoneFrameTwice(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
+
+  [[nodiscard]] const std::vector<NecklaceBeads>& necklaces() const override { return source_->necklaces(); }
+  [[nodiscard]] bool next(FrameRead& frame) override {
+    if (next_ == 2) return false;
+    source_->seek(0);
+    if (!source_->next(frame)) return false;
+    frame.stamp.number += next_++;
+    if (frame.stamp.picoseconds && next_ == 2) ++*frame.stamp.picoseconds;  // times must ascend
+    return true;
+  }
+  void seek(std::size_t k) override { next_ = k; }
+
+ private:
+  std::unique_ptr<FrameSource> source_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
 Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
                      const std::function<void(const std::string&)>& warn,
-                     const std::optional<MotionTolerance>& tolerance) {
+                     const std::optional<MotionTolerance>& tolerance, bool* lone_frame) {
   std::unique_ptr<FileFrames> files = open_frames(input, warn);
-  const FrameSurvey survey = survey_frames(*files, input.radius == "auto", warn);
-  if (survey.frame_count < 2 && !files->early_end().empty())
+  FrameSurvey survey = survey_frames(*files, input.radius == "auto", warn);
+  const bool repeats = lone_frame != nullptr && survey.frame_count == 1;
+  if (survey.frame_count < 2 && !repeats && !files->early_end().empty())
     throw InputError(fmt::format("{}; a run needs at least two frames", files->early_end()));
   std::unique_ptr<FrameSource> frames = std::move(files);
+  if (repeats) {
+    frames = std::make_unique<LoneFrameTwice>(std::move(frames));
+    survey.frame_count = 2;
+    *lone_frame = true;
+  }
   std::vector<double> radii = bead_radii(input.radius, frames->necklaces(), survey);
   for (double& radius : radii) radius *= radius_factor;
   if (tolerance) frames = std::make_unique<StraightenedFrames>(std::move(frames), tolerance->length(radii));
   return {std::move(frames), survey, std::move(radii), motion};
 }
 
-Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn) {
+Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn,
+                 bool* lone_frame) {
   const InputOptions& input = options;
   if (std::optional<Instance> instance = read_lone_instance(input)) {
     if (options.motion != FrameMotion::linear)
@@ -234,7 +266,7 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
                                                   options.inputs.front().string()));
     return Scene(std::move(*instance));
   }
-  return load_necklaces(input, options.motion, 1, warn, options.tolerance);
+  return load_necklaces(input, options.motion, 1, warn, options.tolerance, lone_frame);
 }
 
 namespace {

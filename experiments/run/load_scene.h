@@ -37,10 +37,12 @@ void refuse_instance(const InputOptions& options, std::string_view what = "no fr
 /// to `warn` as one line. Throws InputError for any fault of an input.
 [[nodiscard]] Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
                                    const std::function<void(const std::string&)>& warn,
-                                   const std::optional<MotionTolerance>& tolerance = {});
-/// Loads the scene of a `kds run`, whose input may also be an instance file.
-[[nodiscard]] Scene load_scene(const RunOptions& options,
-                               const std::function<void(const std::string&)>& warn);
+                                   const std::optional<MotionTolerance>& tolerance = {},
+                                   bool* lone_frame = nullptr);
+/// Loads the scene of a `kds run`, whose input may also be an instance file. If `lone_frame` is given, an
+/// input of one frame is accepted: the frame is repeated, and `lone_frame` becomes true.
+[[nodiscard]] Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn,
+                               bool* lone_frame = nullptr);
 
 /// Returns the library's options for a run over the scene with these options of the command line. If the
 /// options name no structures, the run has the input's default structures. Throws InputError.

@@ -114,11 +114,11 @@ void check_before_view(const ViewOptions& options) {
   if (options.script) ensure_writable_file(*options.script, "--script");
 }
 
-std::string counts_of(const Scene& scene, const ReplayRecorder& recorder) {
+std::string counts_of(const Scene& scene, std::size_t frames, const ReplayRecorder& recorder) {
   const auto number_of = [](std::size_t count, const char* noun) {
     return fmt::format("{} {}{}", with_thousands(count), noun, count == 1 ? "" : "s");
   };
-  std::string text = number_of(scene.bead_count(), "bead") + ", " + number_of(scene.frame_count(), "frame");
+  std::string text = number_of(scene.bead_count(), "bead") + ", " + number_of(frames, "frame");
   for (const ReplayRecorder::Structure& structure : recorder.structures())
     text += ", " + number_of(structure.events.count(), "event") + " of " + structure.name;
   return text + "\n";
@@ -139,24 +139,26 @@ std::string write_view(const ViewOptions& options, std::size_t stride, std::size
   RunOptions run_options = options.run;
   run_options.reading.frames.stride *= stride;
   HeldWarnings warnings;
-  const Scene scene = load_scene(run_options, warnings.hold());
+  bool lone_frame = false;
+  const Scene scene = load_scene(run_options, warnings.hold(), &lone_frame);
   frames = scene.frame_count();
   const auto run = open_run(run_options, scene, AuditMode::none);
   if (!options.quiet) watch_exact_work(run->simulator(), scene, warn);
   ReplayLabels labels = replay_labels(options.run, "view");
   labels.stride = stride;
+  labels.lone_frame = lone_frame;
   ViewRequest request{options.page, options.quantum, {}, options.vtk, options.script,
                       options.at,   options.replace};
   request.most_bytes = static_cast<std::uint64_t>(options.most_megabytes * kMegabyte);
   ViewResults view(request, labels, scene, *run);
   run_steps(*run, run_options, [&](std::size_t frame) {
-    view.add_frame(frame);
+    if (frame == 0 || !lone_frame) view.add_frame(frame);
     bar.update(frame, 0, scene.step_count());
   });
   view.finish();
   warnings.release(warn);  // none of a run that is given up because its page is too large
   commit_together({view.files(), view.vtk_files()});
-  std::string text = counts_of(scene, view.recorder());
+  std::string text = counts_of(scene, lone_frame ? 1 : frames, view.recorder());
   if (options.page)
     text += fmt::format("replay {} ({:.1f} MB): open it in a browser\n", options.page->string(),
                         static_cast<double>(view.page_bytes()) / kMegabyte);
