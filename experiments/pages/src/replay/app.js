@@ -9,13 +9,16 @@ import { aboutText, subtitle } from "./explain.js";
 import { EventFilter } from "./event_filter.js";
 import { Frames } from "./frames.js";
 import { LayerList } from "./layer_list.js";
+import { Look } from "./look.js";
 import { Panels } from "./panel.js";
 import { Picture } from "./picture.js";
 import { Player } from "./player.js";
 import { fail } from "../shared/problems.js";
+import { residuesOf, traceOf } from "./residues.js";
 import { RunState, loadStructures } from "./run_state.js";
 import { openView, saveViewSoon } from "./saved_view.js";
 import { Scene, hasWebGL2 } from "./scene.js";
+import { connectShare } from "./share.js";
 import { StructureLayers } from "./structure_layers.js";
 import { TimelineView } from "./timeline_view.js";
 
@@ -67,7 +70,9 @@ export class App {
         beadEvent: (way) => this.goToNearest(way, this.bead.events),
       },
     );
-    this.timeline = new TimelineView(this.state, this.filter, this.frameNumbers, this.times, this.findPairs(), {
+    const pairs = this.findPairs();
+    this.look = new Look(this, residuesOf(meta, this.names), pairs);
+    this.timeline = new TimelineView(this.state, this.filter, this.frameNumbers, this.times, pairs, {
       seek: (time) => this.scrub(time),
       choose: (event) => this.chooseEvent(event),
       filtered: () => this.changed(),
@@ -77,6 +82,7 @@ export class App {
     });
     byId("axis").setAttribute("aria-valuemax", this.state.lastStep);
     connectControls(this);
+    connectShare(this);
     await openView(this);
     this.cost.ready = performance.now();
     document.body.dataset.ready = "";
@@ -87,15 +93,16 @@ export class App {
     if (!hasWebGL2()) {
       byId("scene").hidden = true;
       byId("no-webgl").hidden = false;
-      byId("png").hidden = byId("reset-camera").hidden = true;
+      byId("reset-camera").hidden = true;
       this.scene = null;
       return;
     }
-    this.scene = new Scene(byId("scene"), this.meta, this.radii, () => {
+    this.scene = new Scene(byId("scene"), this.meta, this.radii, traceOf(this.meta, this.names), () => {
       this.request();
       saveViewSoon(this);
     });
     this.positions = this.scene.positions;
+    this.scene.trace.fit(this.frames.positions(0, 0, this.positions));
   }
 
   findPairs() {
@@ -260,6 +267,7 @@ export class App {
     if (this.bead.follow && before)
       scene.follow(this.placeOf(this.bead.number).map((value, axis) => value - before[axis]));
     scene.setShrink(Number(byId("bead-size").value));
+    this.look.colours();
     this.picture.drawLayers();
     this.picture.drawMarks();
     this.structures.draw();
@@ -279,6 +287,7 @@ export class App {
     axis.setAttribute("aria-valuenow", state.time.toFixed(4));
     axis.setAttribute("aria-valuetext", text);
     this.panels.showBead(this.bead);
+    this.look.showTexts();
     const chosen = state.chosen?.join(".") ?? "";
     if (chosen === this.shownEvent) return;
     this.shownEvent = chosen;
@@ -308,7 +317,9 @@ export class App {
 
   // Choosing a bead.
 
-  chooseBead(bead) {
+  // `second` asks for its distance from the chosen bead instead.
+  chooseBead(bead, second = false) {
+    if (this.look.measure.takes(bead, second)) return;
     const events = bead < 0 ? [] : this.state.structures.map((structure) => structure.events.withBead(bead));
     this.bead = { number: bead, events, follow: bead >= 0 && this.bead.follow };
     this.timeline.showBead(bead, events);
@@ -332,17 +343,9 @@ export class App {
 
   release() {
     this.state.chosen = null;
+    this.look.release();
     this.chooseBead(-1);
     this.showTexts();
-  }
-
-  async savePicture() {
-    if (!this.scene) return;
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(await this.scene.picture());
-    link.download = `${this.meta.title.replace(/[^\w.-]+/g, "_")}-${this.frameNumbers[this.state.step]}.png`;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
   }
 
   // `name` is light, dark, or null for that of the system.

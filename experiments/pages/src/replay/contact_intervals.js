@@ -1,6 +1,6 @@
 // The times during which each pair is in contact, from a layer of pairs.
 
-// Returns [{pair: [i, j], spans: [{from, to, begins, ends}], total}], the longest in contact first. `begins` and `ends` are
+// Returns [{pair: [i, j], spans: [{from, to, begins, ends}], total, changes}], the most changes first. `begins` and `ends` are
 // events, or -1 at the ends of the run.
 export function contactIntervals(layer, events, lastStep) {
   const pairs = new Map();
@@ -23,6 +23,9 @@ export function contactIntervals(layer, events, lastStep) {
     }
     for (let at = 0; at < added.length; at += layer.arity) begin(added, at, events.time[event], event);
   }
-  for (const row of pairs.values()) row.total = row.spans.reduce((sum, { from, to }) => sum + to - from, 0);
-  return [...pairs.values()].sort((a, b) => b.total - a.total || a.pair[0] - b.pair[0] || a.pair[1] - b.pair[1]);
+  for (const row of pairs.values()) {
+    row.total = row.spans.reduce((sum, { from, to }) => sum + to - from, 0);
+    row.changes = row.spans.reduce((sum, { begins, ends }) => sum + (begins >= 0) + (ends >= 0), 0);
+  }
+  return [...pairs.values()].sort((a, b) => b.changes - a.changes || b.total - a.total || a.pair[0] - b.pair[0] || a.pair[1] - b.pair[1]);
 }

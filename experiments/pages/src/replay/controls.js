@@ -17,7 +17,6 @@ export function connectControls(app) {
   on("loop-to", () => app.setLoop(1));
   on("loop-clear", () => app.clearLoop());
   on("theme", () => app.setTheme(app.dark ? "light" : "dark"));
-  on("png", () => app.savePicture());
   on("reset-camera", () => {
     app.setFollow(false);
     app.scene?.resetCamera();
@@ -42,6 +41,7 @@ export function connectControls(app) {
   const resized = () => {
     app.scene?.resize();
     app.timeline.draw();
+    app.look.showTexts();
     app.request();
   };
   new ResizeObserver(resized).observe(byId("stage"));
@@ -56,7 +56,7 @@ function listenToScene(app) {
   canvas.addEventListener("pointerdown", (event) => (start = event));
   canvas.addEventListener("pointerup", (event) => {
     const still = start && Math.hypot(event.clientX - start.clientX, event.clientY - start.clientY) < 5;
-    if (still && event.isPrimary && event.button === 0) app.chooseBead(app.scene.pick(event.clientX, event.clientY));
+    if (still && event.isPrimary && event.button === 0) app.chooseBead(app.scene.pick(event.clientX, event.clientY), event.shiftKey);
     start = null;
   });
   canvas.addEventListener("webglcontextlost", () => app.report("The browser took the graphics away. Load the page again."));

@@ -13,14 +13,16 @@ const square = new Float32Array([-1, -1, 1, -1, 1, 1, -1, -1, 1, 1, -1, 1]);
 const strip = new Float32Array([0, -1, 1, -1, 1, 1, 0, -1, 1, 1, 0, 1]);
 
 export class Instances {
-  // `attributes`: {name: [array type, numbers per instance, normalized]}. An instance has `repeat` squares.
-  constructor({ vertex, fragment, uniforms, attributes, segments = false, repeat = 1, transparent = false, depthTest = true, order }) {
+  // `attributes`: {name: [array type, numbers per instance, normalized]}. An instance is made of `repeat` squares or strips, or of
+  // the triangles of `corners`, three numbers for each corner.
+  constructor({ vertex, fragment, uniforms, attributes, segments = false, repeat = 1, corners, transparent = false, depthTest = true, order }) {
     this.attributes = attributes;
     this.capacity = 0;
     this.geometry = new InstancedBufferGeometry();
-    const corners = Array(repeat).fill([...(segments ? strip : square)]).flat();
-    this.geometry.setAttribute("corner", new BufferAttribute(Float32Array.from(corners), 2));
-    this.geometry.setDrawRange(0, 6 * repeat);  // three.js finds the number of corners in "position" only
+    const squares = () => Float32Array.from(Array(repeat).fill([...(segments ? strip : square)]).flat());
+    const places = corners ? new BufferAttribute(corners, 3) : new BufferAttribute(squares(), 2);
+    this.geometry.setAttribute("corner", places);
+    this.geometry.setDrawRange(0, places.count);  // three.js finds the number of corners in "position" only
     this.material = new RawShaderMaterial({
       glslVersion: GLSL3,
       vertexShader: vertex,

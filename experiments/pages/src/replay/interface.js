@@ -8,6 +8,7 @@ export function interfaceOf(app, ready) {
     seek: (step, u) => app.goTo(step, u),
     seekEvent: (s, e) => app.goTo(0, 0, [s, e]),
     pick: (x, y) => app.scene?.pick(x, y) ?? -1,
+    project: (bead) => app.scene.project(app.placeOf(bead)),
     statistics: () => ({ ...app.cost }),
     state: () => ({
       step: app.state.step,

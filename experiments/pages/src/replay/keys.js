@@ -17,6 +17,7 @@ export function listenToKeys(app) {
     "-": () => app.scene?.zoom(0.8),
     Home: () => app.scrub(0),
     End: () => app.scrub(app.state.lastStep),
+    "/": () => byId("find").focus(),
     Escape: () => app.release(),
     "?": () => (byId("guide").open = !byId("guide").open),
   };
@@ -36,6 +37,7 @@ export function listenToKeys(app) {
 // Buttons, boxes and menus use some keys themselves.
 function takesKey(element, key) {
   const tag = element.tagName;
+  if (["search", "number", "text"].includes(element.type)) return true;
   if (tag === "SELECT" || (tag === "INPUT" && element.type === "range")) return key !== "n" && key !== "p";
   if (tag === "BUTTON" || tag === "SUMMARY" || tag === "INPUT") return key === " " || key === "Enter";
   return false;

@@ -4,7 +4,8 @@ import { byId, count, make } from "../shared/dom.js";
 import { noBead } from "./events.js";
 
 const sentences = {
-  beads: "blue (first) to yellow (last)",
+  beads: "coloured as chosen below",
+  trace: "a tube through the chain",
   chain: "joins consecutive beads",
   cages: "spheres around parts of it",
   boxes: "boxes around parts of it",
@@ -23,20 +24,21 @@ export class LayerList {
   constructor(state, meta, changed) {
     this.state = state;
     this.changed = changed;
-    this.names = ["beads", "chain"];
+    this.names = ["beads", "trace", "chain"];
     const has = { boxes: "supports", box: "ends" };
     this.hierarchies = ["cages", "boxes", "spheres"];
+    const spheres = meta.structures.some((structure) => structure.spheres);
     for (const name of ["cages", "boxes", "spheres", "edges", "contacts", "hidden", "hull", "box", "closest", "order"])
-      if (state.layersNamed(has[name] ?? name).length || (name === "spheres" && meta.structures.some(({ spheres }) => spheres))) this.names.push(name);
+      if (state.layersNamed(has[name] ?? name).length || (name === "spheres" && spheres)) this.names.push(name);
     if (state.structures.some(({ events }) => events.count)) this.names.push("flashes");
     this.boxes = new Map();
     this.drawn = new Map();
-    const several = meta.necklaces.length > 1;
     this.points = meta.radius === 0;  // points of an instance, which are no chain
     for (const name of this.names) {
-      const checked = name !== "chain" || !this.points;
+      const tube = meta.names && state.layersNamed("contacts").length > 0;  // instead of the chain
+      const checked = name === "trace" ? tube : name !== "chain" || (!tube && !this.points);
       const box = make("input", { type: "checkbox", checked, onchange: () => this.switched() });
-      const text = name === "beads" && several ? "a colour for each necklace" : sentences[name];
+      const text = sentences[name];
       this.boxes.set(name, box);
       byId("layers").append(
         make("li", {}, make("label", {}, box, make("span", { class: "sign" }, make("span", { class: `swatch ${name}` })), make("b", {}, name)), make("span", {}, text)),
@@ -49,7 +51,7 @@ export class LayerList {
   // Cages and contacts fit beads of their true size, but such beads cover edges.
   setBeadSize() {
     const touched = this.names.includes("cages") || this.names.includes("contacts");
-    byId("bead-size").value = this.points || !this.names.includes("edges") ? 1 : touched ? 0.6 : 0.4;
+    byId("bead-size").value = this.shows("trace") ? 0.3 : this.points || !this.names.includes("edges") ? 1 : touched ? 0.6 : 0.4;
   }
 
   switched() {

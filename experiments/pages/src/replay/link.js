@@ -1,5 +1,9 @@
-// The view in the URL's fragment: time, chosen event and bead, layers, camera, timeline.
+// The view in the URL's fragment: all that is seen.
 import { speeds } from "./player.js";
+
+// Words, and lists of whole numbers, by their names in the link and in the view.
+const words = { colour: "colour", lines: "lines", map: "map" };
+const lists = { pair: "pair", dist: "distance" };
 
 const numbers = (text) => (text ?? "").split(",").map(Number);
 const list = (values, digits) => values.map((value) => Number(value.toPrecision(digits))).join(",");
@@ -20,6 +24,10 @@ export function writeLink(view) {
   if (view.off?.length) parts.set("off", view.off.join("_"));
   if (view.internal) parts.set("internal", 1);
   if (view.theme) parts.set("theme", view.theme);
+  if (view.size) parts.set("size", view.size);
+  if (Number.isInteger(view.residue)) parts.set("res", view.residue);
+  for (const [name, member] of Object.entries(words)) if (view[member]) parts.set(name, view[member]);
+  for (const [name, member] of Object.entries(lists)) if (view[member]?.length) parts.set(name, view[member].join("."));
   return `#${parts}`;
 }
 
@@ -49,6 +57,13 @@ export function readLink(hash) {
   if (view.camera && !seesScene(view.camera)) delete view.camera;
   vector("win", "window", 2);
   vector("loop", "loop", 2);
+  number("size", "size", (value) => value > 0 && value <= 1);
+  number("res", "residue", (value) => value >= 0 && Number.isInteger(value));
+  for (const [name, member] of Object.entries(words)) if (/^\w+$/.test(parts.get(name) ?? "")) view[member] = parts.get(name);
+  for (const [name, member] of Object.entries(lists)) {
+    const values = /^\d+(\.\d+)*$/.test(parts.get(name) ?? "") ? parts.get(name).split(".").map(Number) : [];
+    if (values.length === 2) view[member] = values;
+  }
   if (["light", "dark"].includes(parts.get("theme"))) view.theme = parts.get("theme");
   if (parts.has("follow")) view.follow = true;
   if (parts.has("off")) view.off = parts.get("off").split("_").filter((word) => /^\d+(\.\d+)?$/.test(word));

@@ -55,6 +55,11 @@ export class Panels {
     return sentence;
   }
 
+  // The sentence of an event as one text.
+  sentenceText(s, e) {
+    return textOf(this.sentenceOf(s, e).parts, this.data.names, this.several);
+  }
+
   nodeText([first, last]) {
     const text = rangeText(first, last, this.data.names, this.several);
     return text.startsWith("bead") ? text : `${text} (beads ${first} to ${last})`;

@@ -17,11 +17,15 @@ export class Picture {
   drawLayers() {
     const { layers, scene, state } = this.app;
     scene.beads.visible = layers.shows("beads");
+    scene.trace.visible = layers.shows("trace");
     scene.chain.visible = layers.shows("chain");
+    // Lines between balls that touch would be hidden within them.
+    scene.contacts.mesh.material.depthTest = scene.shrink < 0.75 || !layers.shows("beads");
     for (const [name, target] of [["edges", scene.edges], ["contacts", scene.contacts]]) {
       if (layers.shows(name) && layers.isStale(name)) {
         const words = state.layersNamed(name).map(({ layer }) => layer.set.packed);
-        const all = words.length === 1 ? words[0] : Uint32Array.from(words.flatMap((list) => [...list]));
+        const every = words.length === 1 ? words[0] : Uint32Array.from(words.flatMap((list) => [...list]));
+        const all = name === "contacts" ? this.app.look.filterContacts(every) : every;
         // Many lines would cover each other, so they are fainter.
         const [few, most, least] = name === "edges" ? [400, 150, 40] : [60, 230, all.length / 2 > 2000 ? 60 : 110];
         const alpha = Math.max(least, most * Math.min(1, Math.sqrt(few / (all.length / 2))));
@@ -73,6 +77,7 @@ export class Picture {
     if (state.chosen) markEvent(...state.chosen, 1);
     else if (this.app.player.playing && this.app.layers.shows("flashes")) this.markFlashes(markEvent);
     if (this.app.bead.number >= 0) rings.push({ bead: this.app.bead.number, colour: chosen, alpha: 1 });
+    this.app.look.addMarks(marks, rings);
     scene.setMarks(marks, rings);
     scene.setCages(cages);
   }

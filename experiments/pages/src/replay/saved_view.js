@@ -4,13 +4,14 @@ import { readLink, writeLink } from "./link.js";
 
 const linkEvery = 500;  // ms
 
-// Opens the view that the URL names.
-export async function openView(app) {
-  const view = readLink(location.hash);
+// Opens the view that the URL, or another text, names.
+export async function openView(app, text = location.hash) {
+  const view = readLink(text);
   app.layers.open(view);
   app.filter.internal = view.internal ?? app.filter.internal;
   app.filter.words = view.off ?? app.filter.words;
   app.timeline.showFilter();
+  app.look.open(view);
   app.setTheme(view.theme ?? app.theme ?? null);
   if (view.speed) {
     app.player.speed = view.speed;
@@ -20,7 +21,7 @@ export async function openView(app) {
   const within = (range) => range && range[0] >= 0 && range[0] < range[1] && range[1] <= end;
   if (within(view.loop)) app.player.loop = view.loop;
   byId("loop-clear").hidden = !app.player.loop;
-  if (view.bead < app.meta.beads) app.chooseBead(view.bead);
+  app.chooseBead(view.bead < app.meta.beads ? view.bead : -1);
   if (view.camera && app.scene) app.scene.view = view.camera;
   if (within(view.window)) app.timeline.show(view.window);
   const [s, e] = view.event ?? [];
@@ -35,29 +36,34 @@ export function saveViewSoon(app) {
   if (app.linking) return;
   app.linking = setTimeout(() => {
     app.linking = null;
-    if (app.player.playing) return;
-    const { state, timeline } = app;
-    const all = timeline.range[0] === 0 && timeline.range[1] === timeline.end;
-    app.written = writeLink({
-      step: state.step,
-      u: state.u,
-      event: state.chosen,
-      bead: app.bead.number,
-      follow: app.bead.follow,
-      layers: app.layers.shown(),
-      level: app.layers.level,
-      camera: app.scene?.view,
-      speed: app.player.speed,
-      window: all ? null : timeline.range,
-      loop: app.player.loop,
-      off: app.filter.words,
-      internal: app.filter.internal,
-      theme: app.theme,
-    });
-    try {
-      history.replaceState(null, "", app.written);
-    } catch {
-      // A page inside a notebook may have no address of its own.
-    }
+    if (!app.player.playing && !app.film?.running) saveView(app);
   }, linkEvery);
+}
+
+// Writes the view to the URL now, and to `app.written`.
+export function saveView(app) {
+  const { state, timeline } = app;
+  const all = timeline.range[0] === 0 && timeline.range[1] === timeline.end;
+  app.written = writeLink({
+    ...app.look.view,
+    step: state.step,
+    u: state.u,
+    event: state.chosen,
+    bead: app.bead.number,
+    follow: app.bead.follow,
+    layers: app.layers.shown(),
+    level: app.layers.level,
+    camera: app.scene?.view,
+    speed: app.player.speed,
+    window: all ? null : timeline.range,
+    loop: app.player.loop,
+    off: app.filter.words,
+    internal: app.filter.internal,
+    theme: app.theme,
+  });
+  try {
+    history.replaceState(null, "", app.written);
+  } catch {
+    // A page inside a notebook may have no address of its own.
+  }
 }

@@ -1,4 +1,4 @@
-// The three-dimensional picture: camera, beads and the layers over them, nine draw calls at most.
+// The three-dimensional picture: camera, beads and the layers over them, ten draw calls at most.
 import {
   Color,
   DataTexture,
@@ -12,12 +12,13 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { alongChain, categories, rgb, theme } from "./colours.js";
+import { rgb, theme } from "./colours.js";
 import { Instances } from "./instances.js";
 import { Lines } from "./lines.js";
 import { beadAt } from "./picking.js";
 import * as shaders from "./shaders.js";
 import { sphereOfBasis } from "./spheres.js";
+import { Trace } from "./trace.js";
 
 export const hasWebGL2 = () => document.createElement("canvas").getContext("webgl2") !== null;
 
@@ -30,13 +31,14 @@ const manyPairs = 20000;  // above, the pairs of a layer are thin lines
 const textHeight = 56;  // pixels above the scene that the text takes
 
 export class Scene {
-  constructor(canvas, meta, radii, onCamera) {
+  // `traces` are the beads of the trace of each chain.
+  constructor(canvas, meta, radii, traces, onCamera) {
     this.meta = meta;
     this.radii = radii;
     this.positions = new Float32Array(3 * meta.beads);
     this.shrink = 1;
     // Many beads are small, and smooth outlines double the time of a picture.
-    this.renderer = new WebGLRenderer({ canvas, antialias: meta.beads < 3000 });
+    this.renderer = new WebGLRenderer({ canvas, antialias: meta.beads < 3000, alpha: true });
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
     this.three = new ThreeScene();
     this.camera = new OrthographicCamera();
@@ -53,7 +55,7 @@ export class Scene {
     // Points have no radius and are drawn as small balls.
     this.drawnRadius = (bead) => radii(bead) || 0.012 * this.radius;
     this.makeTexture();
-    this.makeLayers();
+    this.makeLayers(traces);
     this.resetCamera();
     this.onCamera = () => {
       this.placeClipping();
@@ -84,10 +86,11 @@ export class Scene {
     });
   }
 
-  makeLayers() {
+  makeLayers(traces) {
     this.uniforms = {
       balls: { value: this.texture },
       screen: { value: new Vector2(1, 1) },
+      sharp: { value: 1 },
       shrink: { value: 1 },
       fog: { value: new Color() },
       reach: { value: new Vector3(1, -1, 0.5) },
@@ -100,6 +103,7 @@ export class Scene {
       attributes: ringed,
       order: 0,
     });
+    this.trace = new Trace(traces, this.uniforms);
     this.chain = segments(1, 3);
     const pairs = (name, order, thickness, depthTest) => {
       const layers = this.meta.structures.flatMap(({ layers }) => layers).filter((layer) => layer.name === name);
@@ -126,7 +130,7 @@ export class Scene {
       depthTest: false,
       order: 5,
     });
-    for (const layer of [this.beads, this.chain, this.edges, this.contacts, this.cages, this.marks, this.halos])
+    for (const layer of [this.beads, this.trace, this.chain, this.edges, this.contacts, this.cages, this.marks, this.halos])
       this.three.add(layer.mesh);
     this.fillBeads();
     this.fillChain();
@@ -154,30 +158,21 @@ export class Scene {
   setTheme(dark) {
     this.dark = dark;
     this.colours = theme(dark ? "dark" : "light");
-    this.renderer.setClearColor(this.colours.page);
+    this.renderer.setClearColor(this.colours.page, 1);
     const [r, g, b] = rgb(this.colours.fog).map((value) => value / 255);
     this.uniforms.fog.value.setRGB(r, g, b);
     this.chain.setPairs(this.chainPairs, 2, rgb(this.colours.chain), 255);
-    this.paintBeads(new Set());
   }
 
-  // Colours beads along the chain, or by necklace if there are several. `hidden` beads are drawn hatched.
+  // Colours beads and traces by `colourOf`. `hidden` beads are drawn hatched.
   paintBeads(hidden) {
     const tint = this.beads.array("tint");
-    const palette = categories[this.dark ? "dark" : "light"].map(rgb);
-    let first = 0;
-    this.meta.necklaces.forEach((count, n) => {
-      for (let b = first; b < first + count; ++b) {
-        const own =
-          this.meta.necklaces.length === 1
-            ? alongChain((b - first) / Math.max(1, count - 1), this.dark)
-            : palette[n % palette.length];
-        tint.set(own, 4 * b);
-        tint[4 * b + 3] = hidden.has(b) ? 0 : 255;
-      }
-      first += count;
-    });
+    for (let b = 0; b < this.meta.beads; ++b) {
+      tint.set(this.colourOf(b), 4 * b);
+      tint[4 * b + 3] = hidden.has(b) ? 0 : 255;
+    }
     this.beads.changed(this.meta.beads, "tint");
+    this.trace.paint(this.colourOf);
   }
 
   // Shows lines between beads, {pair, colour, dashed, alpha}, in a layer of segments.
@@ -278,7 +273,8 @@ export class Scene {
     const [x, y] = [perPixel * width, perPixel * height];
     Object.assign(this.camera, { left: -x, right: x, top: y, bottom: -y });
     this.camera.setViewOffset(width, height, 0, -textHeight / 2, width, height);
-    this.renderer.getDrawingBufferSize(this.uniforms.screen.value);
+    this.uniforms.screen.value.set(width, height);
+    this.uniforms.sharp.value = this.renderer.getPixelRatio();
   }
 
   // Puts the clipping planes and the fog around the scene.
@@ -341,7 +337,33 @@ export class Scene {
     const x = (((clientX - place.left) / place.width - 0.5) * (right - left)) / zoom;
     const y = ((0.5 - (clientY - textHeight / 2 - place.top) / place.height) * (top - bottom)) / zoom;
     const camera = { eye: axis(3), right: axis(0), up: axis(1), back: axis(2) };
-    return beadAt(this.positions, this.meta.beads, camera, x, y, (b) => this.drawnRadius(b) * this.shrink);
+    return beadAt(this.positions, this.meta.beads, camera, x, y, (b) => this.pickedRadius(b));
+  }
+
+  // The radius within which the pointer meets a bead: that of its ball, or of the trace through it.
+  pickedRadius(bead) {
+    const ball = this.beads.mesh.visible || !this.trace.visible ? this.drawnRadius(bead) * this.shrink : 0;
+    return this.trace.visible && this.trace.beads.has(bead) ? Math.max(ball, 1.5 * this.trace.tube.value) : ball;
+  }
+
+  // Returns the place of a point in the scene's canvas, in pixels of the page.
+  project(point) {
+    const { x, y } = new Vector3(...point).project(this.camera);
+    const { x: width, y: height } = this.uniforms.screen.value;
+    return [((x + 1) / 2) * width, ((1 - y) / 2) * height];
+  }
+
+  // Pixels of the page to a unit of length.
+  get scale() {
+    return (this.uniforms.screen.value.x * this.camera.zoom) / (this.camera.right - this.camera.left);
+  }
+
+  // Moves a point to the middle of the picture, and zooms in to `zoom` at least.
+  lookAt(point, zoom = 0) {
+    this.follow(point.map((value, axis) => value - this.controls.target.getComponent(axis)));
+    this.camera.zoom = Math.max(zoom, this.camera.zoom);
+    this.camera.updateProjectionMatrix();
+    this.onCamera();
   }
 
   setShrink(shrink) {
@@ -354,9 +376,20 @@ export class Scene {
     return this.renderer.info.render.calls;
   }
 
-  // Returns the picture as a PNG.
-  picture() {
-    this.render();
-    return new Promise((resolve) => this.renderer.domElement.toBlob(resolve, "image/png"));
+  // Draws the picture `scale` times as large, or as large as the graphics allow, and gives it to `take`, which must copy it at
+  // once.
+  drawLarge(scale, transparent, take) {
+    const { renderer, uniforms } = this;
+    const most = renderer.capabilities.maxTextureSize / Math.max(...uniforms.screen.value.toArray());
+    const ratio = renderer.getPixelRatio();
+    const draw = (pixels, alpha) => {
+      uniforms.sharp.value = pixels;
+      renderer.setPixelRatio(pixels);
+      renderer.setClearAlpha(alpha);
+      this.render();
+    };
+    draw(Math.min(scale, most), transparent ? 0 : 1);
+    take(renderer.domElement);
+    draw(ratio, 1);
   }
 }

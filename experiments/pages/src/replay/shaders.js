@@ -1,14 +1,15 @@
 // Shaders of the scene. All positions of beads stand in one texture, x, y, z and radius, and the instances of all layers
 // name beads by their numbers. The projection is parallel, so the outline of a ball is a circle.
 
-const header = `
+export const header = `
 precision highp float;
 precision highp int;
 precision highp sampler2D;
 uniform mat4 viewMatrix;
 uniform mat4 projectionMatrix;
 uniform sampler2D balls;
-uniform vec2 screen;   // pixels
+uniform vec2 screen;   // pixels of the page
+uniform float sharp;   // pixels of the picture to a pixel of the page
 uniform float shrink;  // drawn radius of a bead divided by its radius
 vec4 ball(uint bead) {
   int width = textureSize(balls, 0).x;
@@ -55,7 +56,7 @@ void main() {
   if (square > 1.0) discard;
   float height = sqrt(1.0 - square);
   bool hidden = colour.a < 0.5;
-  if (hidden && square < 0.5 && mod(gl_FragCoord.x + gl_FragCoord.y, 6.0) < 4.0) discard;
+  if (hidden && square < 0.5 && mod((gl_FragCoord.x + gl_FragCoord.y) / sharp, 6.0) < 4.0) discard;
   vec3 normal = vec3(at, height);
   float light = 0.45 + 0.5 * max(0.0, dot(normal, normalize(vec3(-0.4, 0.6, 0.7))));
   float shine = pow(max(0.0, dot(normal, normalize(vec3(-0.25, 0.4, 0.9)))), 40.0) * 0.18;
@@ -130,7 +131,7 @@ uniform float thickness;
 out vec4 pixel;
 void main() {
   if (dashed > 0.5 && mod(along, 10.0) > 6.0) discard;
-  float edge = clamp(thickness * 0.5 + 0.5 - abs(across), 0.0, 1.0);
+  float edge = clamp((thickness * 0.5 - abs(across)) * sharp + 0.5, 0.0, 1.0);
   pixel = vec4(faded(colour.rgb, depth), colour.a * edge);
 }`;
 

@@ -89,12 +89,13 @@ export class StructureLayers {
   // Writes the distance of the closest pair beside it. Called after the scene is drawn.
   placeDistance() {
     const { layers, scene, state, positions, meta } = this.app;
-    const label = byId("distance");
+    const label = byId("closest-label");
     const pair = layers.shows("closest") ? state.elements("closest")[0] : null;
     label.hidden = !pair;
     if (!pair) return;
     const [a, b] = pair.map((bead) => new Vector3(...positions.subarray(3 * bead, 3 * bead + 3)));
-    label.textContent = `${Number(a.distanceTo(b).toPrecision(4))} ${meta.length_unit === "angstrom" ? "Å" : meta.length_unit}`;
+    const unit = meta.length_unit === "angstrom" ? "Å" : meta.length_unit;
+    label.textContent = `${Number(a.distanceTo(b).toPrecision(4))} ${unit}`;
     const place = a.add(b).divideScalar(2).project(scene.camera);
     const { clientWidth, clientHeight } = scene.renderer.domElement;
     const [x, y] = [((1 + place.x) / 2) * clientWidth, ((1 - place.y) / 2) * clientHeight];
@@ -109,7 +110,7 @@ export class StructureLayers {
     canvas.hidden = !order || !app.layers.shows("order");
     if (canvas.hidden) return;
     const beads = [...(app.panels.present?.enters ?? []), ...(app.panels.present?.leaves ?? []), app.bead.number];
-    const key = [order.version, canvas.clientWidth, app.dark, ...beads].join();
+    const key = [order.version, canvas.clientWidth, app.look.coloursKey, ...beads].join();
     if (key === this.drawnOrder) return;
     this.drawnOrder = key;
     const words = order.set.packed;

@@ -145,7 +145,7 @@ export class TimelineView {
   showBead(bead, eventsOfBead) {
     this.eventsOfBead = eventsOfBead;
     this.pairsOfBead = bead < 0 ? this.pairs : this.pairs.filter(({ pair }) => pair.includes(bead));
-    const what = bead < 0 ? "longest in contact first" : `with bead ${bead}`;
+    const what = bead < 0 ? "most changes first" : `with bead ${bead}`;
     byId("pairs-title").textContent = `Contacts over time: ${count(this.pairsOfBead.length, "pair")}, ${what}`;
     byId("pairs-space").style.height = `${this.pairsOfBead.length * pairHeight}px`;
     this.draw();

@@ -1,0 +1,104 @@
+// Pictures to show others: the scene with time, sentence, legend and scale bar on a canvas of any size.
+import { byId } from "../shared/dom.js";
+import { trim } from "./explain.js";
+
+const font = (size, weight = "") => `${weight} ${size}px system-ui, "Segoe UI", "DejaVu Sans", sans-serif`.trim();
+
+// Breaks a text into lines that fit.
+export function linesOf(text, width, widthOf) {
+  const lines = [""];
+  for (const word of text.split(" ")) {
+    const longer = `${lines.at(-1)} ${word}`.trim();
+    if (lines.at(-1) === "" || widthOf(longer) <= width) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines;
+}
+
+// Returns the largest of 1, 2, 5, 10, ... that is at most `length`.
+export function roundLength(length) {
+  const power = 10 ** Math.floor(Math.log10(length));
+  return [5, 2, 1].find((step) => step * power <= length) * power;
+}
+
+// Draws what is seen to a canvas, `scale` times as large. `texts` adds time, sentence, legend and scale bar.
+export function compose(app, canvas, { scale, transparent = false, texts = true, sentence = byId("event-now").textContent }) {
+  const { scene } = app;
+  const [width, height] = scene.uniforms.screen.value.toArray();
+  const size = { width: Math.round(width * scale), height: Math.round(height * scale) };
+  if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
+  const context = canvas.getContext("2d");
+  context.setTransform(1, 0, 0, 1, 0, 0);
+  context.clearRect(0, 0, canvas.width, canvas.height);
+  scene.drawLarge(scale, transparent, (picture) => context.drawImage(picture, 0, 0, canvas.width, canvas.height));
+  context.setTransform(canvas.width / width, 0, 0, canvas.height / height, 0, 0);
+  const ink = getComputedStyle(document.body).color;
+  const write = (text, x, y, weight = "", fontSize = 13) => {
+    context.font = font(fontSize, weight);
+    context.fillStyle = ink;
+    context.fillText(text, x, y);
+    return context.measureText(text).width;
+  };
+  const { measure } = app.look;
+  if (measure.pair) write(measure.text, ...measure.place().map((value, k) => value + [6, -6][k]), "600");
+  if (!texts) return;
+  write(byId("time").textContent, 14, 24, "600", 14);
+  context.font = font(13);
+  linesOf(sentence, width - 28, (text) => context.measureText(text).width).forEach((line, k) => write(line, 14, 44 + 18 * k));
+  drawLegend(app, context, write, width, height);
+}
+
+function drawLegend(app, context, write, width, height) {
+  const { scene, layers, look } = app;
+  const css = ([r, g, b]) => `rgb(${r}, ${g}, ${b})`;
+  const { legend } = look;
+  const rows = [];
+  if (layers.shows("beads") || layers.shows("trace")) {
+    if (legend.ramp) rows.push({ ramp: legend.ramp, text: `${legend.title}: ${legend.low} to ${legend.high}` });
+    else rows.push(...legend.entries.map(([colour, text]) => ({ colour: css(colour), text })));
+  }
+  for (const name of layers.shown()) {
+    const swatch = document.querySelector(`.swatch.${name}`);
+    const style = swatch && getComputedStyle(swatch);
+    const colour = style && parseFloat(style.borderTopWidth) > 0 ? style.borderTopColor : style?.backgroundColor;
+    if (!["beads", "trace", "hidden", "flashes"].includes(name) && colour) rows.push({ colour, line: true, text: name });
+  }
+  if (app.state.chosen && scene.marks.count) rows.push({ colour: scene.colours.goes, line: true, text: "goes" }, { colour: scene.colours.comes, line: true, text: "comes" });
+  rows.forEach(({ ramp, colour, line, text }, k) => {
+    const y = height - 14 - 18 * (rows.length - 1 - k);
+    context.fillStyle = colour;
+    if (ramp) {
+      context.fillStyle = context.createLinearGradient(14, 0, 44, 0);
+      ramp.forEach((own, at) => context.fillStyle.addColorStop(at / (ramp.length - 1), css(own)));
+    }
+    context.fillRect(14, line ? y - 6 : y - 9, ramp ? 30 : 18, line ? 3 : 9);
+    write(text, ramp ? 50 : 38, y);
+  });
+  const unit = app.meta.length_unit === "angstrom" ? "Å" : app.meta.length_unit;
+  const length = roundLength(90 / scene.scale);
+  const right = width - 14;
+  context.fillStyle = scene.colours.axis;
+  context.fillRect(right - length * scene.scale, height - 16, length * scene.scale, 3);
+  context.textAlign = "right";
+  write(`${trim(length, 9)} ${unit}`, right, height - 22);
+  context.textAlign = "left";
+}
+
+export function save(blob, name) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+export const fileName = (app, ending) => `${app.meta.title.replace(/[^\w.-]+/g, "_")}-${app.frameNumbers[app.state.step]}.${ending}`;
+
+export const pngOf = (canvas) => new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
+
+export async function savePicture(app) {
+  const canvas = document.createElement("canvas");
+  app.draw();
+  compose(app, canvas, { scale: Number(byId("png-scale").value), transparent: byId("png-transparent").checked, texts: byId("png-texts").checked });
+  save(await pngOf(canvas), fileName(app, "png"));
+}
