@@ -11,12 +11,13 @@ test("a link says again what it was written from", () => {
     step: 12, u: 0.40432302819102027, event: [1, 153], bead: 7, follow: true, layers: ["beads", "edges"], level: "3",
     camera: [1, 2, 3, 4.5, -5, 6, 1.25], speed: 0.05, window: [1.5, 2.25], loop: [1, 2], theme: "dark",
     off: ["1", "2.0"], internal: true,
+    colour: "life", lines: "30", size: 0.35, map: "changes", residue: 0, pair: [0, 12], distance: [3, 4],
   };
   assert.deepEqual(readLink(writeLink(view)), view);
 });
 
 test("parts of a link that make no sense are left out", () => {
-  assert.deepEqual(readLink("#s=-1&u=7&e=1&b=x&level=9z&cam=1,2&win=a,b&speed=99&theme=pink"), {});
+  assert.deepEqual(readLink("#s=-1&u=7&e=1&b=x&level=9z&cam=1,2&win=a,b&speed=99&theme=pink&size=2&res=-1&pair=1&dist=1.x&off=&colour=a+b"), {});
   assert.deepEqual(readLink("#cam=0,0,1,0,0,0,0"), {});
   assert.deepEqual(readLink("#cam=1,2,3,1,2,3,1&speed=0.03"), {});
   assert.deepEqual(readLink(""), {});

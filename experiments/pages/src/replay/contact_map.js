@@ -53,14 +53,14 @@ export class ContactMap {
       const pair = this.pairAt(event);
       if (pair) choose(pair);
     });
-    byId("map-measure").onchange = () => {
-      this.draw();
-      app.changed();
-    };
+    byId("map-measure").onchange = () => app.changed();
+    this.resize();
   }
 
-  get size() {
-    return Math.max(50, Math.min(this.canvas.clientWidth - margin.left, this.canvas.clientHeight - margin.bottom));
+  // Takes over the size of its place on the page.
+  resize() {
+    [this.width, this.height] = [this.canvas.clientWidth, this.canvas.clientHeight];
+    this.size = Math.max(50, Math.min(this.width - margin.left, this.height - margin.bottom));
   }
 
   contactOf([a, b]) {
@@ -123,18 +123,22 @@ export class ContactMap {
     return found;
   }
 
+  // Draws the map if anything in it has changed.
   draw() {
-    const { canvas } = this;
-    const { clientWidth, clientHeight } = canvas;
-    if (!clientWidth || !this.app.timeline?.colours) return;
+    const { canvas, app } = this;
+    if (!this.width || !app.timeline?.colours) return;
     const scale = window.devicePixelRatio || 1;
-    const [width, height] = [Math.round(clientWidth * scale), Math.round(clientHeight * scale)];
+    const pair = this.hovered ?? app.look.pair;
+    const versions = app.state.layersNamed("contacts").map(({ layer }) => layer.version);
+    const key = [versions, this.hovered, app.look.pair, this.width, this.height, scale, byId("map-measure").value, app.dark].join(" ");
+    if (key === this.shown) return;
+    this.shown = key;
+    const [width, height] = [Math.round(this.width * scale), Math.round(this.height * scale)];
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     const context = canvas.getContext("2d");
     context.setTransform(scale, 0, 0, scale, 0, 0);
-    context.clearRect(0, 0, clientWidth, clientHeight);
+    context.clearRect(0, 0, this.width, this.height);
     this.drawTo(context, this.size, scale);
-    const pair = this.hovered ?? this.app.look.pair;
     byId("map-text").textContent = pair ? this.textOf(pair) : "Click a square to go to the pair's next event.";
   }
 
@@ -192,7 +196,7 @@ export class ContactMap {
     };
     const few = (pixels) => Math.max(1, Math.ceil(pixels / square));
     for (let r = 0; r < list.length; r += few(26)) place(list[r].title, -4, Math.max(9, (r + 0.5) * square + 3), "right");
-    for (let r = 0; r < list.length; r += few(58)) place(list[r].title, Math.min(size - 20, Math.max(20, (r + 0.5) * square)), size + 13, "center");
+    for (let r = 0; r < list.length; r += few(72)) place(list[r].title, Math.min(size - 20, Math.max(20, (r + 0.5) * square)), size + 13, "center");
   }
 }
 

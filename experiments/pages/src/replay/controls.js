@@ -41,7 +41,7 @@ export function connectControls(app) {
   const resized = () => {
     app.scene?.resize();
     app.timeline.draw();
-    app.look.showTexts();
+    app.look.resize();
     app.request();
   };
   new ResizeObserver(resized).observe(byId("stage"));

@@ -22,10 +22,12 @@ export function roundLength(length) {
 }
 
 // Draws what is seen to a canvas, `scale` times as large. `texts` adds time, sentence, legend and scale bar.
-export function compose(app, canvas, { scale, transparent = false, texts = true, sentence = byId("event-now").textContent }) {
+// Encoders of films want `even` sides.
+export function compose(app, canvas, { scale, transparent = false, even = false, texts = true, sentence = byId("event-now").textContent }) {
   const { scene } = app;
   const [width, height] = scene.uniforms.screen.value.toArray();
-  const size = { width: Math.round(width * scale), height: Math.round(height * scale) };
+  const side = (length) => (even ? 2 * Math.round((length * scale) / 2) : Math.round(length * scale));
+  const size = { width: side(width), height: side(height) };
   if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
   const context = canvas.getContext("2d");
   context.setTransform(1, 0, 0, 1, 0, 0);

@@ -63,7 +63,6 @@ export class Film {
     const frames = Math.max(2, Math.round(perSecond * Math.min(60, Math.max(0.2, Number(byId("film-seconds").value) || 10))));
     const canvas = document.createElement("canvas");
     const { x, y } = app.scene.uniforms.screen.value;
-    // Encoders want even sides.
     const scale = Math.min(2, largest / Math.max(x, y));
     const draw = async (k) => {
       const time = from + ((to - from) * k) / (frames - 1);
@@ -72,7 +71,7 @@ export class Film {
       const sentence = sentenceAt(app, time, ((to - from) / frames) * perSecond * sentenceSeconds);
       app.draw();
       byId("time").textContent = app.panels.timeText(app.state.step, app.state.u);
-      compose(app, canvas, { scale, sentence, texts: byId("png-texts").checked });
+      compose(app, canvas, { scale, even: true, sentence, texts: byId("png-texts").checked });
       byId("film-progress").textContent = `${k + 1} of ${frames} frames`;
     };
     try {

@@ -8,6 +8,8 @@ import { Measure } from "./measure.js";
 import { Search } from "./search.js";
 
 const foundZoom = 2;
+const manyLines = 1000;
+const mapEvery = 200;  // ms, while playing
 
 export class Look {
   constructor(app, residues, pairs) {
@@ -21,7 +23,7 @@ export class Look {
     const rules = [["all", `all ${count(pairs.length, "pair")}`], ["changing", `${changing.toLocaleString("en")} that change`]];
     for (const most of [100, 30, 10]) if (changing > most) rules.push([most, `${most} that change most`]);
     for (const [value, text] of rules) byId("lines").add(new Option(text, value));
-    byId("lines").value = changing ? "changing" : "all";
+    byId("lines").value = changing > manyLines ? "100" : changing ? "changing" : "all";
     byId("lines").onchange = () => this.changed();
     byId("lines-row").hidden = byId("map-toggle").hidden = pairs.length === 0;
     byId("map-toggle").onclick = () => this.showMap(!this.mapShown);
@@ -52,7 +54,7 @@ export class Look {
     this.coloursKey = key;
     const { meta, dark } = app;
     const { of, legend } = beadColours(byId("colour").value, { ...this, meta, dark, durationText: (steps) => this.durationText(steps) });
-    app.scene.colourOf = of;
+    app.scene.setColours(of);
     this.legend = legend;
     const css = ([r, g, b]) => `rgb(${r}, ${g}, ${b})`;
     const swatch = (colour, own = "plain") => make("span", { class: `swatch ${own}`, style: `background: ${colour}` });
@@ -79,6 +81,7 @@ export class Look {
     byId("map-panel").hidden = !on;
     byId("map-toggle").setAttribute("aria-pressed", on);
     if (on && !this.map && this.residues.list.length) this.map = new ContactMap(this.app, this.residues, this.pairs, (pair) => this.goToPair(pair));
+    this.map?.resize();
     this.app.changed();
   }
 
@@ -157,7 +160,15 @@ export class Look {
 
   showTexts() {
     this.measure.showTexts();
-    if (this.mapShown) this.map?.draw();
+    const now = performance.now();
+    if (!this.map || !this.mapShown || (this.app.player.playing && now - (this.mapAt ?? 0) < mapEvery)) return;
+    this.mapAt = now;
+    this.map.draw();
+  }
+
+  resize() {
+    this.map?.resize();
+    this.showTexts();
   }
 
   release() {
@@ -187,6 +198,7 @@ export class Look {
     const count = this.residues.list.length;
     this.residue = view.residue < count ? view.residue : -1;
     this.pair = view.pair?.every((residue) => residue < count) ? view.pair : null;
+    this.measure.waits = false;
     this.measure.pair = view.distance?.every((bead) => bead < this.app.meta.beads) ? view.distance : null;
     if (view.map && this.pairs.length) this.showMap(view.map !== "none");
     this.changed();

@@ -44,6 +44,9 @@ export class Measure {
   showTexts() {
     const { app, pair, waits } = this;
     const name = (bead) => app.panels.nameOf(bead);
+    const key = [app.bead.number, waits, pair, this.text].join(" ");
+    if (key === this.shown) return;  // each change of the page costs time
+    this.shown = key;
     byId("measure").disabled = app.bead.number < 0;
     byId("measure").setAttribute("aria-pressed", waits);
     byId("measure-clear").hidden = !pair;

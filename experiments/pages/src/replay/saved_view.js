@@ -8,8 +8,8 @@ const linkEvery = 500;  // ms
 export async function openView(app, text = location.hash) {
   const view = readLink(text);
   app.layers.open(view);
-  app.filter.internal = view.internal ?? app.filter.internal;
-  app.filter.words = view.off ?? app.filter.words;
+  app.filter.internal = view.internal ?? false;
+  app.filter.words = view.off ?? [];
   app.timeline.showFilter();
   app.look.open(view);
   app.setTheme(view.theme ?? app.theme ?? null);

@@ -164,15 +164,20 @@ export class Scene {
     this.chain.setPairs(this.chainPairs, 2, rgb(this.colours.chain), 255);
   }
 
-  // Colours beads and traces by `colourOf`. `hidden` beads are drawn hatched.
+  // Colours traces, and takes over the colours of beads.
+  setColours(colourOf) {
+    this.tints = Array.from({ length: this.meta.beads }, (_, bead) => colourOf(bead));
+    this.trace.paint((bead) => this.tints[bead]);
+  }
+
+  // Colours beads. `hidden` beads are drawn hatched.
   paintBeads(hidden) {
     const tint = this.beads.array("tint");
     for (let b = 0; b < this.meta.beads; ++b) {
-      tint.set(this.colourOf(b), 4 * b);
+      tint.set(this.tints[b], 4 * b);
       tint[4 * b + 3] = hidden.has(b) ? 0 : 255;
     }
     this.beads.changed(this.meta.beads, "tint");
-    this.trace.paint(this.colourOf);
   }
 
   // Shows lines between beads, {pair, colour, dashed, alpha}, in a layer of segments.
