@@ -198,7 +198,9 @@ def link_restores_what_is_seen(browser, replay):
     browser.driver.find_element("tag name", "body").send_keys("+")
     browser.wait("await kds.seekEvent(2, 3)")
     pixels_of = lambda: pixels(browser, "beads", "trace", "contacts")
-    picture, link = pixels_of(), copied(browser)
+    picture = pixels_of()
+    browser.wait("await kds.seekEvent(2, 3)")  # pixels_of releases the event
+    link = copied(browser)
     parts = dict(part.split("=") for part in link.split("#")[1].split("&"))
     for name in ("s", "u", "e", "b", "layers", "cam", "colour", "lines", "size", "map", "dist", "off", "pair"):
         check(name in parts, f"the link does not say {name}: {link}")

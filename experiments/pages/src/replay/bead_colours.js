@@ -53,7 +53,7 @@ export function beadColours(mode, { meta, residues, pairs, dark, durationText })
     const [low, high] = [logs.reduce((a, b) => Math.min(a, b), Infinity), logs.reduce((a, b) => Math.max(a, b), -Infinity)];
     const at = (life) => (high > low ? (Math.log(life) - low) / (high - low) : 0.5);
     const colours = lives.map((life) => (life > 0 ? alongChain(at(life), dark) : palette[6]));
-    const legend = { title: "mean life of contacts that change", ramp, low: durationText(Math.exp(low)), high: durationText(Math.exp(high)) };
+    const legend = { title: "mean life of contacts that change", ramp, low: durationText(Math.exp(low)).split(" ")[0], high: durationText(Math.exp(high)) };
     return { of: (bead) => colours[of[bead]], legend };
   }
   const firsts = [];

@@ -23,7 +23,7 @@ export function roundLength(length) {
 
 // Draws what is seen to a canvas, `scale` times as large. `texts` adds time, sentence, legend and scale bar.
 // Encoders of films want `even` sides.
-export function compose(app, canvas, { scale, transparent = false, even = false, texts = true, sentence = byId("event-now").textContent }) {
+export function compose(app, canvas, { scale, transparent = false, even = false, texts = true, sentence = app.state.chosen ? byId("event-now").textContent : "" }) {
   const { scene } = app;
   const [width, height] = scene.uniforms.screen.value.toArray();
   const side = (length) => (even ? 2 * Math.round((length * scale) / 2) : Math.round(length * scale));
@@ -37,9 +37,11 @@ export function compose(app, canvas, { scale, transparent = false, even = false,
   const ink = getComputedStyle(document.body).color;
   const write = (text, x, y, weight = "", fontSize = 13) => {
     context.font = font(fontSize, weight);
+    const length = context.measureText(text).width;
+    context.fillStyle = `${scene.colours.page}b0`;
+    if (!transparent) context.fillRect(context.textAlign === "right" ? x - length - 3 : x - 3, y - 13, length + 6, 18);
     context.fillStyle = ink;
     context.fillText(text, x, y);
-    return context.measureText(text).width;
   };
   const { measure } = app.look;
   if (measure.pair) write(measure.text, ...measure.place().map((value, k) => value + [6, -6][k]), "600");

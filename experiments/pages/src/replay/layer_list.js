@@ -35,7 +35,8 @@ export class LayerList {
     this.drawn = new Map();
     this.points = meta.radius === 0;  // points of an instance, which are no chain
     for (const name of this.names) {
-      const tube = meta.names && state.layersNamed("contacts").length > 0;  // instead of the chain
+      const others = this.names.some((other) => other === "cages" || other === "edges");
+      const tube = meta.names && this.names.includes("contacts") && !others;  // instead of the chain
       const checked = name === "trace" ? tube : name !== "chain" || (!tube && !this.points);
       const box = make("input", { type: "checkbox", checked, onchange: () => this.switched() });
       const text = sentences[name];

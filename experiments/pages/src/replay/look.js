@@ -21,7 +21,7 @@ export class Look {
     byId("colour").onchange = () => this.changed();
     const changing = pairs.filter(({ changes }) => changes > 0).length;
     const rules = [["all", `all ${count(pairs.length, "pair")}`], ["changing", `${changing.toLocaleString("en")} that change`]];
-    for (const most of [100, 30, 10]) if (changing > most) rules.push([most, `${most} that change most`]);
+    for (const most of [100, 30, 10]) if (changing > most) rules.push([most, `${most} most changing`]);
     for (const [value, text] of rules) byId("lines").add(new Option(text, value));
     byId("lines").value = changing > manyLines ? "100" : changing ? "changing" : "all";
     byId("lines").onchange = () => this.changed();
@@ -119,8 +119,9 @@ export class Look {
 
   find(residue, bead) {
     this.residue = residue;
-    if (bead >= 0) this.app.scene?.lookAt(this.app.placeOf(bead), foundZoom);
-    this.app.chooseBead(bead);
+    if (bead < 0) return this.app.changed();
+    this.app.scene?.lookAt(this.app.placeOf(bead), foundZoom);
+    return this.app.chooseBead(bead);
   }
 
   // Names under the pointer.

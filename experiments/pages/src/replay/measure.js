@@ -28,6 +28,7 @@ export class Measure {
 
   // Takes a bead as the second one. Returns false if the bead is to be chosen instead.
   takes(bead, wanted) {
+    if (bead < 0) this.waits = false;
     const first = this.app.bead.number;
     if ((!this.waits && !wanted) || first < 0 || bead < 0 || bead === first) return false;
     this.set([first, bead]);

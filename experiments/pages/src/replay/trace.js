@@ -3,7 +3,8 @@
 import { Instances } from "./instances.js";
 import { beadFragment, header } from "./shaders.js";
 
-const pieces = 6;  // of the curve between two beads
+// Pieces of the curve between two beads. Many segments are small.
+const piecesOf = (segments) => (segments < 1000 ? 10 : 4);
 
 const vertex = `${header}
 in vec3 corner;  // place along the curve and across, 0; or place on a ball, 1 at the first bead and 2 at the second
@@ -30,11 +31,11 @@ void main() {
   at = band ? corner.y * vec2(-way.y, way.x) / max(1e-9, length(way.xy)) : corner.xy;
   colour = vec4(mix(tint.rgb, nextTint.rgb, smoothstep(0.3, 0.7, t)), 1.0);
   depth = centre.z;
-  radius = tube;
-  gl_Position = projectionMatrix * vec4(centre + vec3(at * tube, 0.0), 1.0);
+  radius = band ? tube : 0.97 * tube;  // within the tube, so that only its gaps show them
+  gl_Position = projectionMatrix * vec4(centre + vec3(at * radius, 0.0), 1.0);
 }`;
 
-function corners() {
+function corners(pieces) {
   const numbers = [];
   for (let k = 0; k < pieces; ++k) {
     const [a, b] = [k / pieces, (k + 1) / pieces];
@@ -53,6 +54,7 @@ export const segmentsOf = (traces) =>
 export class Trace {
   constructor(traces, uniforms) {
     this.segments = segmentsOf(traces);
+    const count = this.segments.length;
     this.beads = new Set(traces.flat());
     this.tube = { value: 0 };
     this.instances = new Instances({
@@ -60,11 +62,10 @@ export class Trace {
       fragment: beadFragment,
       uniforms: { ...uniforms, tube: this.tube },
       attributes: { beads: [Uint32Array, 4, false], tint: [Uint8Array, 4, true], nextTint: [Uint8Array, 4, true] },
-      corners: corners(),
+      corners: corners(piecesOf(count)),
       order: 0,
     });
     this.mesh = this.instances.mesh;
-    const count = this.segments.length;
     this.instances.reserve(count);
     this.instances.array("beads").set(this.segments.flat());
     this.instances.changed(count, "beads");
