@@ -9,6 +9,7 @@ import { Search } from "./search.js";
 
 const foundZoom = 2;
 const manyLines = 1000;
+const lowPage = 700;  // pixels: a lower page, as in a notebook, has no room for the map at first
 const mapEvery = 200;  // ms, while playing
 
 export class Look {
@@ -30,7 +31,7 @@ export class Look {
     byId("bead-size").addEventListener("change", () => app.changed());
     this.measure = new Measure(app);
     this.search = new Search(app, residues, (residue, bead) => this.find(residue, bead));
-    this.showMap(pairs.length > 0);
+    this.showMap(pairs.length > 0 && window.innerHeight >= lowPage);
     this.listenToPointer();
   }
 
