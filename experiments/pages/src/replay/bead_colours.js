@@ -53,15 +53,17 @@ export function beadColours(mode, { meta, residues, pairs, dark, durationText })
     const [low, high] = [logs.reduce((a, b) => Math.min(a, b), Infinity), logs.reduce((a, b) => Math.max(a, b), -Infinity)];
     const at = (life) => (high > low ? (Math.log(life) - low) / (high - low) : 0.5);
     const colours = lives.map((life) => (life > 0 ? alongChain(at(life), dark) : palette[6]));
-    const legend = { title: "mean life of contacts that change", ramp, low: durationText(Math.exp(low)).split(" ")[0], high: durationText(Math.exp(high)) };
-    return { of: (bead) => colours[of[bead]], legend };
+    const [least, most] = [low, high].map((log) => durationText(Math.exp(log)));
+    const title = "mean life of contacts that change";
+    return { of: (bead) => colours[of[bead]], legend: { title, ramp, low: least.split(" ")[0], high: most } };
   }
   const firsts = [];
   meta.necklaces.reduce((sum, count, n) => ((firsts[n] = sum), sum + count), 0);
   const necklace = (bead) => list[of[bead]].necklace;
   if (mode === "along") {
     const share = (bead, n) => (bead - firsts[n]) / Math.max(1, meta.necklaces[n] - 1);
-    return { of: (bead) => alongChain(share(bead, necklace(bead)), dark), legend: { title: "along the chain", ramp, low: "first", high: "last" } };
+    const legend = { title: "along the chain", ramp, low: "first", high: "last" };
+    return { of: (bead) => alongChain(share(bead, necklace(bead)), dark), legend };
   }
   const text = (n) => (list[of[firsts[n]]].chain ? `chain ${list[of[firsts[n]]].chain}` : `chain ${n + 1}`);
   const entries = firsts.slice(0, 8).map((_, n) => [palette[n % 8], text(n)]);

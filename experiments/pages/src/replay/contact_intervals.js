@@ -27,5 +27,6 @@ export function contactIntervals(layer, events, lastStep) {
     row.total = row.spans.reduce((sum, { from, to }) => sum + to - from, 0);
     row.changes = row.spans.reduce((sum, { begins, ends }) => sum + (begins >= 0) + (ends >= 0), 0);
   }
-  return [...pairs.values()].sort((a, b) => b.changes - a.changes || b.total - a.total || a.pair[0] - b.pair[0] || a.pair[1] - b.pair[1]);
+  const byBeads = ([a, b], [c, d]) => a - c || b - d;
+  return [...pairs.values()].sort((a, b) => b.changes - a.changes || b.total - a.total || byBeads(a.pair, b.pair));
 }

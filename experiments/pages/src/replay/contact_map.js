@@ -1,5 +1,5 @@
 // The contact map: residue by residue, which pairs are in contact now, and how long or how often in the run.
-import { byId } from "../shared/dom.js";
+import { byId, count } from "../shared/dom.js";
 import { countWhile } from "./events.js";
 import { trim } from "./explain.js";
 
@@ -91,7 +91,7 @@ export class ContactMap {
     if (!contact) return `${name}: never in contact`;
     const now = this.now().some(([a, b]) => a === pair[0] && b === pair[1]);
     const { share, changes } = contact;
-    return `${name}: ${now ? "in contact now" : "apart now"}, ${trim(100 * share, 1)}% of the run, ${changes} ${changes === 1 ? "change" : "changes"}`;
+    return `${name}: ${now ? "in contact now" : "apart now"}, ${trim(100 * share, 1)}% of the run, ${count(changes, "change")}`;
   }
 
   hover(pair) {
@@ -130,7 +130,8 @@ export class ContactMap {
     const scale = window.devicePixelRatio || 1;
     const pair = this.hovered ?? app.look.pair;
     const versions = app.state.layersNamed("contacts").map(({ layer }) => layer.version);
-    const key = [versions, this.hovered, app.look.pair, this.width, this.height, scale, byId("map-measure").value, app.dark].join(" ");
+    const size = [this.width, this.height, scale];
+    const key = [versions, this.hovered, app.look.pair, size, byId("map-measure").value, app.dark].join(" ");
     if (key === this.shown) return;
     this.shown = key;
     const [width, height] = [Math.round(this.width * scale), Math.round(this.height * scale)];
@@ -195,8 +196,10 @@ export class ContactMap {
       context.fillText(text, x, y, margin.left - 4);
     };
     const few = (pixels) => Math.max(1, Math.ceil(pixels / square));
-    for (let r = 0; r < list.length; r += few(26)) place(list[r].title, -4, Math.max(9, (r + 0.5) * square + 3), "right");
-    for (let r = 0; r < list.length; r += few(72)) place(list[r].title, Math.min(size - 20, Math.max(20, (r + 0.5) * square)), size + 13, "center");
+    const middle = (r) => (r + 0.5) * square;
+    for (let r = 0; r < list.length; r += few(26)) place(list[r].title, -4, Math.max(9, middle(r) + 3), "right");
+    for (let r = 0; r < list.length; r += few(72))
+      place(list[r].title, Math.min(size - 20, Math.max(20, middle(r))), size + 13, "center");
   }
 }
 

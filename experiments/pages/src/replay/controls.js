@@ -56,7 +56,8 @@ function listenToScene(app) {
   canvas.addEventListener("pointerdown", (event) => (start = event));
   canvas.addEventListener("pointerup", (event) => {
     const still = start && Math.hypot(event.clientX - start.clientX, event.clientY - start.clientY) < 5;
-    if (still && event.isPrimary && event.button === 0) app.chooseBead(app.scene.pick(event.clientX, event.clientY), event.shiftKey);
+    if (!still || !event.isPrimary || event.button !== 0) return;
+    app.chooseBead(app.scene.pick(event.clientX, event.clientY), event.shiftKey);
     start = null;
   });
   canvas.addEventListener("webglcontextlost", () => app.report("The browser took the graphics away. Load the page again."));

@@ -11,17 +11,23 @@ export function eventSentence({ structure, kind, roles, changes, nodes, names, d
   const plain = (bead) => ({ bead, mark: "" });
   const enters = (bead) => ({ bead, mark: "enters" });
   const leaves = (bead) => ({ bead, mark: "leaves" });
-  const list = (beads, mark = plain) => beads.flatMap((bead, k) => (k === 0 ? [mark(bead)] : [k + 1 < beads.length ? ", " : " and ", mark(bead)]));
+  const comma = (k, beads) => (k === 0 ? [] : [k + 1 < beads.length ? ", " : " and "]);
+  const list = (beads, mark = plain) => beads.flatMap((bead, k) => [...comma(k, beads), mark(bead)]);
   const around = () => `around ${rangeText(...ids.node, names, several)}`;
   const sentences = {
     wrapped: () => {
       const { goes, comes } = exchanged(changes.find(({ name }) => name === "cages"));
-      if (comes.length && goes.length) return [...list(comes, enters), comes.length > 1 ? " take" : " takes", " the place of ", ...list(goes, leaves), ` on the sphere ${around()}`];
-      if (comes.length) return [...list(comes, enters), comes.length > 1 ? " enter" : " enters", ` the sphere ${around()}`];
+      const says = (verb) => (comes.length > 1 ? ` ${verb}` : ` ${verb}s`);
+      if (comes.length && goes.length)
+        return [...list(comes, enters), says("take"), " the place of ", ...list(goes, leaves), ` on the sphere ${around()}`];
+      if (comes.length) return [...list(comes, enters), says("enter"), ` the sphere ${around()}`];
       if (goes.length) return [...list(goes, leaves), goes.length > 1 ? " leave" : " leaves", ` the sphere ${around()}`];
       return null;
     },
-    boxes: () => [enters(ids.is[0]), ` takes the place of `, leaves(ids.was[0]), ` at the ${sideText(ids.side[0], dimension)} side of the box ${around()}`],
+    boxes: () => {
+      const side = sideText(ids.side[0], dimension);
+      return [enters(ids.is[0]), " takes the place of ", leaves(ids.was[0]), ` at the ${side} side of the box ${around()}`];
+    },
     power: {
       "2-3": () => [...list(ids.edge, enters), " become neighbours in the power diagram"],
       "3-2": () => [...list(ids.edge, leaves), " are neighbours in the power diagram no more"],
@@ -50,10 +56,12 @@ export function eventSentence({ structure, kind, roles, changes, nodes, names, d
     box: () => {
       if (kind === "overtake") return [plain(ids.is[0]), " overtakes ", plain(ids.was[0]), " on the way to an end of the box"];
       const [end, axis] = kind.split("-");
-      return [enters(ids.is[0]), " takes the place of ", leaves(ids.was[0]), ` at the ${end === "min" ? "low" : "high"} ${axis} end of the box`];
+      const side = end === "min" ? "low" : "high";
+      return [enters(ids.is[0]), " takes the place of ", leaves(ids.was[0]), ` at the ${side} ${axis} end of the box`];
     },
   };
-  const between = ({ corner, before, after }) => (before[0] === corner[0] ? [] : [" between ", plain(before[0]), " and ", plain(after[0])]);
+  const between = ({ corner, before, after }) =>
+    before[0] === corner[0] ? [] : [" between ", plain(before[0]), " and ", plain(after[0])];
   const alias = { "4-1": "hides", "3-1": "hides", "1-4": "shows", "1-3": "shows" }[kind] ?? kind;
   const say = typeof sentences[structure] === "function" ? sentences[structure] : sentences[structure]?.[alias];
   let parts = null;
@@ -63,7 +71,10 @@ export function eventSentence({ structure, kind, roles, changes, nodes, names, d
     // An event without these ids, for example of an edit, has the text of its kind.
   }
   parts = parts ? [...parts, "."] : [explainKind(structure, kind) || `${structure}: ${kind}.`];
-  const marked = (mark) => [...new Set(parts.filter((part) => part.mark === mark).map(({ bead }) => bead))].filter((bead) => bead !== noBead);
+  const marked = (mark) => {
+    const beads = parts.filter((part) => part.mark === mark).map(({ bead }) => bead);
+    return [...new Set(beads)].filter((bead) => bead !== noBead);
+  };
   return { parts, enters: marked("enters"), leaves: marked("leaves") };
 }
 
@@ -86,7 +97,8 @@ export function sideText(side, dimension) {
 // Names the beads under a node: "residues 40 to 46", or "beads 3 to 9" without names.
 export function rangeText(first, last, names, several) {
   const [from, to] = [first, last].map((bead) => (names ? namedParts(names[bead]) : null));
-  if (!from?.number || !to?.number || from.chain !== to.chain) return first === last ? `bead ${first}` : `beads ${first} to ${last}`;
+  if (!from?.number || !to?.number || from.chain !== to.chain)
+    return first === last ? `bead ${first}` : `beads ${first} to ${last}`;
   const chain = several && from.chain ? ` of chain ${from.chain}` : "";
   return from.number === to.number ? `residue ${from.number}${chain}` : `residues ${from.number} to ${to.number}${chain}`;
 }

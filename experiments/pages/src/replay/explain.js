@@ -4,7 +4,9 @@ import { count } from "../shared/dom.js";
 
 const structures = {
   wrapped: "Wrapped hierarchy: a balanced tree of cages. A cage is the smallest sphere around the beads of its node.",
-  boxes: "Hierarchy of boxes: each node of a balanced tree has the smallest box around its beads. The page draws the sides along the axes.",
+  boxes:
+    "Hierarchy of boxes: each node of a balanced tree has the smallest box around its beads. " +
+    "The page draws the sides along the axes.",
   layered: "Layered hierarchy: each node of a balanced tree has a sphere around the spheres of its two children.",
   power: "Power diagram: an edge joins two beads whose cells share a face.",
   contacts: "Contacts: pairs of beads that are at most the cutoff apart, by default those that touch or overlap.",
@@ -124,7 +126,8 @@ export function aboutText(meta) {
   const parts = [
     `Input: ${meta.inputs.join(", ")}.`,
     `Motion between frames: ${meta.motion}.`,
-    `Positions are rounded to multiples of ${meta.quantum}${unit}${note}. Events come from the exact motion; their times are shown to 2^-32 of a step, in brackets that hold the true times.`,
+    `Positions are rounded to multiples of ${meta.quantum}${unit}${note}.`,
+    "Events come from the exact motion; their times are shown to 2^-32 of a step, in brackets that hold the true times.",
     ...(meta.stride > 1 ? [`The run takes one frame in ${meta.stride} of the input, which keeps the page small.`] : []),
     `Made by ${meta.program}: ${meta.command}`,
   ];

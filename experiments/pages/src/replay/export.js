@@ -21,9 +21,11 @@ export function roundLength(length) {
   return [5, 2, 1].find((step) => step * power <= length) * power;
 }
 
+const sentenceNow = (app) => (app.state.chosen ? byId("event-now").textContent : "");
+
 // Draws what is seen to a canvas, `scale` times as large. `texts` adds time, sentence, legend and scale bar.
 // Encoders of films want `even` sides.
-export function compose(app, canvas, { scale, transparent = false, even = false, texts = true, sentence = app.state.chosen ? byId("event-now").textContent : "" }) {
+export function compose(app, canvas, { scale, transparent = false, even = false, texts = true, sentence = sentenceNow(app) }) {
   const { scene } = app;
   const [width, height] = scene.uniforms.screen.value.toArray();
   const side = (length) => (even ? 2 * Math.round((length * scale) / 2) : Math.round(length * scale));
@@ -67,7 +69,8 @@ function drawLegend(app, context, write, width, height) {
     const colour = style && parseFloat(style.borderTopWidth) > 0 ? style.borderTopColor : style?.backgroundColor;
     if (!["beads", "trace", "hidden", "flashes"].includes(name) && colour) rows.push({ colour, line: true, text: name });
   }
-  if (app.state.chosen && scene.marks.count) rows.push({ colour: scene.colours.goes, line: true, text: "goes" }, { colour: scene.colours.comes, line: true, text: "comes" });
+  if (app.state.chosen && scene.marks.count)
+    for (const text of ["goes", "comes"]) rows.push({ colour: scene.colours[text], line: true, text });
   rows.forEach(({ ramp, colour, line, text }, k) => {
     const y = height - 14 - 18 * (rows.length - 1 - k);
     context.fillStyle = colour;
@@ -96,13 +99,18 @@ export function save(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-export const fileName = (app, ending) => `${app.meta.title.replace(/[^\w.-]+/g, "_")}-${app.frameNumbers[app.state.step]}.${ending}`;
+export const fileName = ({ meta, frameNumbers, state }, ending) =>
+  `${meta.title.replace(/[^\w.-]+/g, "_")}-${frameNumbers[state.step]}.${ending}`;
 
 export const pngOf = (canvas) => new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
 
 export async function savePicture(app) {
   const canvas = document.createElement("canvas");
   app.draw();
-  compose(app, canvas, { scale: Number(byId("png-scale").value), transparent: byId("png-transparent").checked, texts: byId("png-texts").checked });
+  compose(app, canvas, {
+    scale: Number(byId("png-scale").value),
+    transparent: byId("png-transparent").checked,
+    texts: byId("png-texts").checked,
+  });
   save(await pngOf(canvas), fileName(app, "png"));
 }

@@ -9,9 +9,11 @@ const perSecond = 25;
 const sentenceSeconds = 1.2;  // that a sentence stays if no other event follows
 const largest = 1280;         // pixels of a film's longer side
 
+const filmTypes = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
+
 export const recordableType = () =>
   typeof MediaRecorder !== "undefined" && HTMLCanvasElement.prototype.captureStream
-    ? ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"].find((type) => MediaRecorder.isTypeSupported(type)) ?? null
+    ? filmTypes.find((type) => MediaRecorder.isTypeSupported(type)) ?? null
     : null;
 
 // The span that the box names, in steps.

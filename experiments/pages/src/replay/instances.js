@@ -15,7 +15,9 @@ const strip = new Float32Array([0, -1, 1, -1, 1, 1, 0, -1, 1, 1, 0, 1]);
 export class Instances {
   // `attributes`: {name: [array type, numbers per instance, normalized]}. An instance is made of `repeat` squares or strips, or of
   // the triangles of `corners`, three numbers for each corner.
-  constructor({ vertex, fragment, uniforms, attributes, segments = false, repeat = 1, corners, transparent = false, depthTest = true, order }) {
+  constructor({
+    vertex, fragment, uniforms, attributes, segments = false, repeat = 1, corners, transparent = false, depthTest = true, order,
+  }) {
     this.attributes = attributes;
     this.capacity = 0;
     this.geometry = new InstancedBufferGeometry();

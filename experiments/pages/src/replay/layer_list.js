@@ -41,9 +41,8 @@ export class LayerList {
       const box = make("input", { type: "checkbox", checked, onchange: () => this.switched() });
       const text = sentences[name];
       this.boxes.set(name, box);
-      byId("layers").append(
-        make("li", {}, make("label", {}, box, make("span", { class: "sign" }, make("span", { class: `swatch ${name}` })), make("b", {}, name)), make("span", {}, text)),
-      );
+      const sign = make("span", { class: "sign" }, make("span", { class: `swatch ${name}` }));
+      byId("layers").append(make("li", {}, make("label", {}, box, sign, make("b", {}, name)), make("span", {}, text)));
     }
     this.makeLevels();
     this.setBeadSize();

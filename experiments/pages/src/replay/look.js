@@ -54,7 +54,8 @@ export class Look {
     if (key === this.coloursKey) return;
     this.coloursKey = key;
     const { meta, dark } = app;
-    const { of, legend } = beadColours(byId("colour").value, { ...this, meta, dark, durationText: (steps) => this.durationText(steps) });
+    const durationText = (steps) => this.durationText(steps);
+    const { of, legend } = beadColours(byId("colour").value, { ...this, meta, dark, durationText });
     app.scene.setColours(of);
     this.legend = legend;
     const css = ([r, g, b]) => `rgb(${r}, ${g}, ${b})`;
@@ -81,7 +82,8 @@ export class Look {
     this.mapShown = on;
     byId("map-panel").hidden = !on;
     byId("map-toggle").setAttribute("aria-pressed", on);
-    if (on && !this.map && this.residues.list.length) this.map = new ContactMap(this.app, this.residues, this.pairs, (pair) => this.goToPair(pair));
+    if (on && !this.map && this.residues.list.length)
+      this.map = new ContactMap(this.app, this.residues, this.pairs, (pair) => this.goToPair(pair));
     this.map?.resize();
     this.app.changed();
   }
@@ -155,7 +157,8 @@ export class Look {
 
   addMarks(marks, rings) {
     const { chosen, glow } = this.app.scene.colours;
-    if (this.residue >= 0) for (const bead of this.residues.list[this.residue].beads) rings.push({ bead, colour: chosen, alpha: 0.5 });
+    const found = this.residue < 0 ? [] : this.residues.list[this.residue].beads;
+    for (const bead of found) rings.push({ bead, colour: chosen, alpha: 0.5 });
     for (const bead of this.beadsOfPair()) rings.push({ bead, colour: glow, alpha: 0.35 });
     this.measure.addMarks(marks);
   }

@@ -107,11 +107,13 @@ export class Panels {
     }
     const residues = this.residues(beads);
     if (residues) rows.push(["residues", residues]);
+    const [nth, all] = [filter.placeOf(s, e), filter.counted(s)].map((number) => number.toLocaleString("en"));
+    const ordinal = kind.external ? `Event ${nth} of ${all} of ${name}.` : "An internal event, which is not counted.";
     place.replaceChildren(
       make("h3", {}, make("span", { class: `chip c${events.kind[e] % 8}` }, `${name}: ${kind.name}`)),
       make("p", {}, explainKind(name, kind.name)),
       table(rows),
-      make("p", { class: "soft" }, kind.external ? `Event ${filter.placeOf(s, e).toLocaleString("en")} of ${filter.counted(s).toLocaleString("en")} of ${name}.` : "An internal event, which is not counted."),
+      make("p", { class: "soft" }, ordinal),
     );
   }
 
@@ -228,7 +230,8 @@ export class Panels {
     const counted = bead.events.map((list, s) => list.filter((e) => filter.takesKind(s, state.structures[s].events.kind[e])));
     const total = counted.reduce((sum, list) => sum + list.length, 0);
     const before = counted.reduce((sum, list, s) => sum + list.filter((e) => e < state.applied[s]).length, 0);
-    rows.push(["events", total ? `${total.toLocaleString("en")}, ${before.toLocaleString("en")} of them so far; marked at the foot of the timeline` : "none"]);
+    const [all, past] = [total, before].map((number) => number.toLocaleString("en"));
+    rows.push(["events", total ? `${all}, ${past} of them so far; marked at the foot of the timeline` : "none"]);
     return rows;
   }
 }

@@ -12,9 +12,11 @@ export function residuesOf(meta, names) {
     const key = parts ? `${necklace}/${parts.chain}/${parts.residue}` : bead;
     if (key !== known) {
       known = key;
-      const [, type, number] = parts?.residue.match(/^(.*?)(-?\d+[A-Za-z]?)$/) ?? [null, parts?.residue ?? "", parts ? "" : `${bead}`];
+      const whole = [null, parts?.residue ?? "", parts ? "" : `${bead}`];
+      const [, type, number] = parts?.residue.match(/^(.*?)(-?\d+[A-Za-z]?)$/) ?? whole;
       chains.add(parts?.chain);
-      list.push({ chain: parts?.chain ?? "", type, number, necklace, beads: [], title: parts ? `${type} ${number}`.trim() : names?.[bead] ?? `bead ${bead}` });
+      const title = parts ? `${type} ${number}`.trim() : names?.[bead] ?? `bead ${bead}`;
+      list.push({ chain: parts?.chain ?? "", type, number, necklace, beads: [], title });
     }
     list.at(-1).beads.push(bead);
     of[bead] = list.length - 1;

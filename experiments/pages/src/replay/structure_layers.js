@@ -35,25 +35,27 @@ export class StructureLayers {
     const { app } = this;
     const { layers, scene, state, positions, meta, radii } = app;
     const boxes = [];
-    const add = (list, colour, alpha) => boxes.push(...list.map((box) => ({ ...box, colour, alpha: alpha(box) })));
+    const add = (list, colour, alpha) => boxes.push(...list.map((box) => ({ ...box, colour: rgb(colour), alpha })));
     if (layers.shows("boxes")) {
       const all = layers.level === "all";
       const takes = layers.nodeFilter();
       for (const { layer, s } of state.layersNamed("supports")) {
         const list = boxesOf(layer.set.packed, meta.dimension, positions, radii, (node) => takes(s, node));
         const colours = categories[app.dark ? "dark" : "light"];
-        for (const box of list) add([box], rgb(all ? colours[layers.levelOf(s, box.node) % 8] : scene.colours.boxes), () => (all ? 0.6 : 0.9));
+        for (const box of list)
+          add([box], all ? colours[layers.levelOf(s, box.node) % 8] : scene.colours.boxes, all ? 0.6 : 0.9);
       }
     }
     if (layers.shows("box")) {
       const words = state.elements("ends").flatMap(([end, bead]) => [0, end, bead]);
-      add(boxesOf(words, meta.dimension, positions, () => 0, () => true), rgb(scene.colours.box), () => 1);
+      add(boxesOf(words, meta.dimension, positions, () => 0, () => true), scene.colours.box, 1);
     }
     if (state.chosen) {
       const [s, e] = state.chosen;
       const [change] = state.changesOf(s, e).filter(({ name, added }) => name === "supports" && added.length);
       const layer = change && state.structures[s].layers.find(({ name }) => name === "supports");
-      if (layer) add(boxesOf(layer.set.packed, meta.dimension, positions, radii, (node) => node === change.added[0]), rgb(scene.colours.glow), () => 1);
+      const takes = (node) => node === change.added[0];
+      if (layer) add(boxesOf(layer.set.packed, meta.dimension, positions, radii, takes), scene.colours.glow, 1);
     }
     this.wires.reserve(boxes.length);
     boxes.forEach(({ low, high, colour, alpha }, k) => {
@@ -63,9 +65,8 @@ export class StructureLayers {
     });
     this.wires.changed(boxes.length, "low", "high", "tint");
     this.wires.visible = true;
-    const lines = ["hull", "closest"].flatMap((name) =>
-      layers.shows(name) ? state.elements(name).map((pair) => ({ pair, colour: scene.colours[name], dashed: false, alpha: 1 })) : [],
-    );
+    const line = (name) => (pair) => ({ pair, colour: scene.colours[name], dashed: false, alpha: 1 });
+    const lines = ["hull", "closest"].flatMap((name) => (layers.shows(name) ? state.elements(name).map(line(name)) : []));
     scene.setLines(this.outline, lines);
     this.drawOrder();
   }
@@ -77,11 +78,11 @@ export class StructureLayers {
     const all = layers.level === "all";
     const takes = layers.nodeFilter();
     const colours = categories[dark ? "dark" : "light"].map(rgb);
+    const colourOf = (s, node) => (all ? colours[layers.levelOf(s, node) % 8] : rgb(scene.colours.spheres));
+    const alpha = all ? 0.45 : 0.8;
     return frames.chords.flatMap(({ s, nodes, spheres }) =>
       [...nodes].flatMap((node, k) =>
-        takes(s, node)
-          ? [{ sphere: spheres.subarray(4 * k, 4 * k + 4), colour: all ? colours[layers.levelOf(s, node) % 8] : rgb(scene.colours.spheres), alpha: all ? 0.45 : 0.8 }]
-          : [],
+        takes(s, node) ? [{ sphere: spheres.subarray(4 * k, 4 * k + 4), colour: colourOf(s, node), alpha }] : [],
       ),
     );
   }

@@ -33,8 +33,8 @@ export function moved([from], span, end) {
 export const binWidth = 4;  // pixels
 const sparse = 7;           // pixels: events that stand singly are at least so far apart, on average
 
-// Lays out those events of one structure that are in `list`, ascending. Returns {single: true, marks: [{x, event, kind}]}, or {single: false, bins:
-// [{x, first, last, counts}], most} with the number of events by kind in each bin.
+// Lays out those events of one structure that are in `list`, ascending. Returns {single: true, marks: [{x, event, kind}]}, or
+// {single: false, bins: [{x, first, last, counts}], most} with the number of events by kind in each bin.
 export function layoutEvents(events, list, window) {
   const before = (time) => countWhile(list.length, (k) => events.time[list[k]] < time);
   const first = before(window.from);

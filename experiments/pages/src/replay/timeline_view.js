@@ -253,7 +253,8 @@ export class TimelineView {
     context.fillStyle = this.colours.chosen;
     for (const e of this.eventsOfBead[s] ?? []) {
       const x = this.window.x(events.time[e]);
-      if (this.filter.takesKind(s, events.kind[e]) && x >= 0 && x <= this.width) context.fillRect(x - 0.75, base + 1, 1.5, rowHeight - base - 1);
+      const seen = x >= 0 && x <= this.width && this.filter.takesKind(s, events.kind[e]);
+      if (seen) context.fillRect(x - 0.75, base + 1, 1.5, rowHeight - base - 1);
     }
     if (layout.single) {
       for (const { x, kind } of layout.marks) {

@@ -37,7 +37,8 @@ export function zip(files) {
   };
   for (const [name, bytes] of files) {
     const letters = new TextEncoder().encode(name);
-    const common = [[2, 20], [2, 0], [2, 0], [2, 0], [2, date], [4, crc32(bytes)], [4, bytes.length], [4, bytes.length], [2, letters.length], [2, 0]];
+    const sizes = [[4, bytes.length], [4, bytes.length], [2, letters.length], [2, 0]];
+    const common = [[2, 20], [2, 0], [2, 0], [2, 0], [2, date], [4, crc32(bytes)], ...sizes];
     directory.push(numbers([4, 0x02014b50], [2, 20], ...common, [2, 0], [2, 0], [2, 0], [4, 0], [4, at]), letters);
     put(numbers([4, 0x04034b50], ...common));
     put(letters);
