@@ -30,6 +30,9 @@ SAVED = """return new Promise((done) => {
     document.getElementById(args[0]).click();
   })"""
 
+# The box of a kind of contacts.
+KIND_SWITCH = "[...document.querySelectorAll('.chip')].find((chip) => chip.textContent.startsWith(arguments[0])).querySelector('input')"
+
 
 def saved(browser, button):
     name, kind, text = browser.wait(SAVED, button)
@@ -117,6 +120,13 @@ def map_goes_to_the_next_event(browser):
         check(time == expected, f"the next event is at {expected}, the map went to {time}")
     text = browser.run("return document.getElementById('map-text').textContent")
     check(f"ALA {pair[0] % 4 + 1} – " in text and "% of the run" in text, f"the map says '{text}'")
+    browser.run(KIND_SWITCH + ".click()", "begin")
+    for _ in range(3):
+        click(browser, left + MAP_LEFT + (pair[1] + 0.5) * square, top + (pair[0] + 0.5) * square)
+        browser.wait("await new Promise((done) => setTimeout(done, 150))")
+        kind = browser.run("return document.querySelector('#event h3').textContent")
+        check(kind == "contacts: end", f"the map went to {kind}, though begin is off")
+    browser.run(KIND_SWITCH + ".click()", "begin")
 
 
 def distances_are_true(browser):
@@ -198,6 +208,7 @@ def link_restores_what_is_seen(browser, replay):
     browser.driver.find_element("tag name", "body").send_keys("+")
     browser.wait("await kds.seekEvent(2, 3)")
     pixels_of = lambda: pixels(browser, "beads", "trace", "contacts")
+    browser.run(KIND_SWITCH + ".click()", "end")
     picture = pixels_of()
     browser.wait("await kds.seekEvent(2, 3)")  # pixels_of releases the event
     link = copied(browser)
@@ -208,8 +219,14 @@ def link_restores_what_is_seen(browser, replay):
     browser.wait("await new Promise((done) => setTimeout(done, 300))")
     check(copied(browser) == link, f"the link opens another view: {copied(browser)} from {link}")
     check(pixels_of() == picture, "the link shows another picture")
+    check(not browser.run(f"return {KIND_SWITCH}.checked", "end"), "the link does not keep a kind switched off")
     # A page without an address: the copied state goes into the box that finds residues.
+    # What was chosen before and is not in the state goes.
     browser.open(replay)
+    browser.run("document.querySelector('.row:nth-child(3) input').click()")
+    browser.wait("await kds.seek(2, 0)")
+    browser.driver.find_element("tag name", "body").send_keys("[")
+    browser.run("document.getElementById('zoom-in').click()")
     find(browser, "#" + link.split("#")[1])
     browser.wait("await new Promise((done) => setTimeout(done, 300))")
     check(copied(browser) == link, "the pasted state opens another view")

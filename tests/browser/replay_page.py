@@ -282,7 +282,7 @@ def every_structure_is_drawn(browser, node, page, place):
             for (let k = 0; k < data.length; k += 4) seen.add(data.slice(k, k + 3).join());
             return seen.size""")
         check(colours >= 2, "the order has no stripes")
-        distance = browser.run("return document.getElementById('distance').textContent")
+        distance = browser.run("return document.getElementById('closest-label').textContent")
         state = browser.run("const {closest: [[a, b]], positions: p} = kds.state(); return [...p.slice(3 * a, 3 * a + 3), ...p.slice(3 * b, 3 * b + 3)]")
         expected = sum((x - y)**2 for x, y in zip(state[:3], state[3:]))**0.5
         check(abs(float(distance.split()[0]) - expected) < 1e-3, f"the distance is {expected}, shown as {distance}")

@@ -3,7 +3,9 @@ import test from "node:test";
 import { beadColours, colourModes, contactLives } from "../src/replay/bead_colours.js";
 import { contactFilter, residueContacts } from "../src/replay/contact_map.js";
 import { contactIntervals } from "../src/replay/contact_intervals.js";
+import { EventFilter } from "../src/replay/event_filter.js";
 import { linesOf, roundLength } from "../src/replay/export.js";
+import { lastEvent } from "../src/replay/film.js";
 import { distanceOf } from "../src/replay/measure.js";
 import { findResidues, residuesOf, traceOf } from "../src/replay/residues.js";
 import { segmentsOf } from "../src/replay/trace.js";
@@ -98,6 +100,32 @@ test("distances, lines of text and scale bars", () => {
   assert.equal(distanceOf([0, 0, 0, 1, 2, 2], 0, 1), 3);
   assert.deepEqual(linesOf("one two three", 7, (text) => text.length), ["one two", "three"]);
   assert.deepEqual([0.31, 1, 7, 49, 50].map(roundLength), [0.2, 1, 5, 20, 50]);
+});
+
+test("a film tells of the last event that is switched on", () => {
+  const { structures } = state;
+  const filter = new EventFilter(structures);
+  // The slow twin looks at all events.
+  const slow = (time, span) => {
+    const all = structures.flatMap(({ events }, s) => Array.from({ length: events.count }, (_, e) => [s, e]));
+    const near = all.filter(([s, e]) => filter.takes(s, e) && structures[s].events.time[e] < time + 1e-12);
+    const order = ([s, e]) => structures[s].events.order[e];
+    const lasts = structures.flatMap((_, s) => near.filter(([other]) => other === s).slice(-1));
+    const late = lasts.filter(([s, e]) => structures[s].events.time[e] >= time - span);
+    return late.sort((a, b) => order(a) - order(b)).at(-1) ?? null;
+  };
+  const next = random(5);
+  const seen = new Set();
+  for (const words of [[], ["0"], [`${s}.0`, "0", "1"], [`${s}`], ["0", "1", "2"]]) {
+    filter.words = words;
+    for (let k = 0; k < 40; ++k) {
+      const [time, span] = [7 * next(), 0.3 * next()];
+      const last = lastEvent(structures, filter.stops, time, span);
+      assert.deepEqual(last, slow(time, span), `${words} at ${time}`);
+      seen.add(String(last?.[0]));
+    }
+  }
+  assert.deepEqual([...seen].sort(), ["0", "1", "2", "undefined"]);
 });
 
 test("an archive has the checksums and places that readers want", async () => {

@@ -176,7 +176,7 @@ export function sampleRun({ beads = 24, frames = 10, dimension = 3, seed = 1, ti
   const positions = Array.from({ length: frames }, (_, f) => Array.from({ length: beads }, (__, b) => place(b, f)));
   const structures = [
     ...(cages ? [cageStructure(positions)] : []),
-    pairStructure("power", "edges", ["3-2", "2-3"], positions, 2.6, () => true),
+    pairStructure("power", "edges", ["2-3", "3-2"], positions, 2.6, () => true),
     pairStructure("contacts", "contacts", ["begin", "end"], positions, 1, (i, j) => j > i + 1),
   ];
   structures.at(-2).layers.push({ name: "hidden", arity: 1, initial: [] });

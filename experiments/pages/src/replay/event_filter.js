@@ -71,8 +71,9 @@ export class EventFilter {
     for (const kinds of this.off) kinds.clear();
     for (const word of words) {
       const [s, k] = word.split(".").map(Number);
+      if (!this.off[s]) continue;
       if (k === undefined) this.muted.add(s);
-      else if (this.off[s]) this.off[s].add(k);
+      else this.off[s].add(k);
     }
     this.changed();
   }

@@ -47,6 +47,8 @@ export function compose(app, canvas, { scale, transparent = false, even = false,
   };
   const { measure } = app.look;
   if (measure.pair) write(measure.text, ...measure.place().map((value, k) => value + [6, -6][k]), "600");
+  const { closest } = app.structures;
+  if (closest) write(closest.text, closest.at[0], closest.at[1] + 13, "600");
   if (!texts) return;
   write(byId("time").textContent, 14, 24, "600", 14);
   context.font = font(13);
@@ -54,7 +56,7 @@ export function compose(app, canvas, { scale, transparent = false, even = false,
   drawLegend(app, context, write, width, height);
 }
 
-function drawLegend(app, context, write, width, height) {
+function drawLegend(app, context, write, width, stage) {
   const { scene, layers, look } = app;
   const css = ([r, g, b]) => `rgb(${r}, ${g}, ${b})`;
   const { legend } = look;
@@ -67,10 +69,13 @@ function drawLegend(app, context, write, width, height) {
     const swatch = document.querySelector(`.swatch.${name}`);
     const style = swatch && getComputedStyle(swatch);
     const colour = style && parseFloat(style.borderTopWidth) > 0 ? style.borderTopColor : style?.backgroundColor;
-    if (!["beads", "trace", "hidden", "flashes"].includes(name) && colour) rows.push({ colour, line: true, text: name });
+    if (!["beads", "trace", "hidden", "flashes", "order"].includes(name) && colour) rows.push({ colour, line: true, text: name });
   }
   if (app.state.chosen && scene.marks.count)
     for (const text of ["goes", "comes"]) rows.push({ colour: scene.colours[text], line: true, text });
+  const ranks = byId("ranks");
+  if (!ranks.hidden) context.drawImage(ranks, 14, stage - 36, width - 28, 26);
+  const height = stage - (ranks.hidden ? 0 : 40);
   rows.forEach(({ ramp, colour, line, text }, k) => {
     const y = height - 14 - 18 * (rows.length - 1 - k);
     context.fillStyle = colour;

@@ -7,6 +7,9 @@ import { zip } from "./zip.js";
 
 const perSecond = 25;
 const sentenceSeconds = 1.2;  // that a sentence stays if no other event follows
+const sliceEvery = 100;       // ms after which a recorder hands over what it has
+const mostSlices = 50;        // to wait for the first frame
+const leastBytes = 1000;      // that a film with a frame has
 const largest = 1280;         // pixels of a film's longer side
 
 const filmTypes = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
@@ -96,12 +99,19 @@ export class Film {
     const parts = [];
     recorder.ondataavailable = ({ data }) => parts.push(data);
     const ended = new Promise((resolve) => (recorder.onstop = resolve));
-    recorder.start();
+    recorder.start(sliceEvery);
     const start = performance.now();
     for (let k = 0; k < frames && this.running; ++k) {
       await draw(k);
       stream.getTracks()[0].requestFrame();
       await new Promise((resolve) => setTimeout(resolve, Math.max(0, start + ((k + 1) * 1000) / perSecond - performance.now())));
+    }
+    // A busy machine encodes the first frame late. A recorder that is stopped before has no film, so the last frame is held.
+    const isEmpty = () => parts.reduce((sum, { size }) => sum + size, 0) < leastBytes;
+    for (let k = 0; k < mostSlices && this.running && isEmpty(); ++k) {
+      await draw(frames - 1);
+      stream.getTracks()[0].requestFrame();
+      await new Promise((resolve) => setTimeout(resolve, sliceEvery));
     }
     recorder.stop();
     await ended;

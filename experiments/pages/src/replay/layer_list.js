@@ -20,6 +20,8 @@ const sentences = {
   flashes: "of events while playing",
 };
 
+const aroundBeads = new Set(["cages", "boxes", "spheres", "edges", "hull", "closest"]);
+
 export class LayerList {
   constructor(state, meta, changed) {
     this.state = state;
@@ -35,7 +37,7 @@ export class LayerList {
     this.drawn = new Map();
     this.points = meta.radius === 0;  // points of an instance, which are no chain
     for (const name of this.names) {
-      const others = this.names.some((other) => other === "cages" || other === "edges");
+      const others = this.names.some((other) => aroundBeads.has(other));
       const tube = meta.names && this.names.includes("contacts") && !others;  // instead of the chain
       const checked = name === "trace" ? tube : name !== "chain" || (!tube && !this.points);
       const box = make("input", { type: "checkbox", checked, onchange: () => this.switched() });

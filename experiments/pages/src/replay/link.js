@@ -66,7 +66,8 @@ export function readLink(hash) {
   }
   if (["light", "dark"].includes(parts.get("theme"))) view.theme = parts.get("theme");
   if (parts.has("follow")) view.follow = true;
-  if (parts.has("off")) view.off = parts.get("off").split("_").filter((word) => /^\d+(\.\d+)?$/.test(word));
+  const off = (parts.get("off") ?? "").split("_").filter((word) => /^\d+(\.\d+)?$/.test(word));
+  if (off.length) view.off = off;
   if (parts.has("internal")) view.internal = true;
   return view;
 }

@@ -93,7 +93,7 @@ export class Look {
     this.pair = pair;
     const event = this.map.nextEvent(pair);
     if (event) return this.app.chooseEvent(event).then(() => this.bringIntoSight(this.beadsOfPair()));
-    this.app.say("This pair has no event.");
+    this.app.say(`This pair has no event${this.app.filter.words.length ? " that is switched on" : ""}.`);
     this.bringIntoSight(this.beadsOfPair());
     this.app.changed();
     return Promise.resolve();

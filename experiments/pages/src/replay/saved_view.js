@@ -19,11 +19,11 @@ export async function openView(app, text = location.hash) {
   }
   const end = app.state.lastStep;
   const within = (range) => range && range[0] >= 0 && range[0] < range[1] && range[1] <= end;
-  if (within(view.loop)) app.player.loop = view.loop;
+  app.player.loop = within(view.loop) ? view.loop : null;
   byId("loop-clear").hidden = !app.player.loop;
   app.chooseBead(view.bead < app.meta.beads ? view.bead : -1);
   if (view.camera && app.scene) app.scene.view = view.camera;
-  if (within(view.window)) app.timeline.show(view.window);
+  app.timeline.show(within(view.window) ? view.window : [0, app.timeline.end]);
   const [s, e] = view.event ?? [];
   const known = e < app.state.structures[s]?.events.count;
   await app.goTo(Math.min(end, view.step ?? 0), view.u ?? 0, known ? [s, e] : null);

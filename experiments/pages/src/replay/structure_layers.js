@@ -13,6 +13,7 @@ const ranksHeight = 26;
 export class StructureLayers {
   constructor(app) {
     this.app = app;
+    this.closest = null;  // {text, at}: its distance and the place of the text in the scene
     this.order = app.state.layersNamed("order")[0]?.layer ?? null;
     if (!app.scene) return;
     const { uniforms, three } = app.scene;
@@ -93,6 +94,7 @@ export class StructureLayers {
     const label = byId("closest-label");
     const pair = layers.shows("closest") ? state.elements("closest")[0] : null;
     label.hidden = !pair;
+    this.closest = null;
     if (!pair) return;
     const [a, b] = pair.map((bead) => new Vector3(...positions.subarray(3 * bead, 3 * bead + 3)));
     const unit = meta.length_unit === "angstrom" ? "Å" : meta.length_unit;
@@ -100,7 +102,9 @@ export class StructureLayers {
     const place = a.add(b).divideScalar(2).project(scene.camera);
     const { clientWidth, clientHeight } = scene.renderer.domElement;
     const [x, y] = [((1 + place.x) / 2) * clientWidth, ((1 - place.y) / 2) * clientHeight];
-    label.style.transform = `translate(${trim(Math.min(clientWidth - 90, Math.max(4, x + 12)), 1)}px, ${trim(y + 6, 1)}px)`;
+    const at = [Math.min(clientWidth - 90, Math.max(4, x + 12)), y + 6];
+    label.style.transform = `translate(${trim(at[0], 1)}px, ${trim(at[1], 1)}px)`;
+    this.closest = { text: label.textContent, at };
   }
 
   // Draws the order of the beads as a strip: from left to right the beads by rank, in their colours, with their numbers if
