@@ -149,7 +149,7 @@ int collide_command(const Arguments& arguments) {
                               .frames = frames.frame_count(),
                               .dimension = frames.dimension(),
                               .truncated = frames.is_truncated(),
-                              .picoseconds = times_of(frames.first_frame(), frames.last_frame())},
+                              .ends = {frames.first_frame(), frames.last_frame()}},
                              frames.radii());
   json["settings"] = collide_options().settings_json(options);
   json["rows"] = collide_columns(report.timed).json(report.rows);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "experiments/events/event_distribution.h"
 #include "experiments/output/output_files.h"
@@ -91,29 +92,14 @@ Table<FrameFound> collide_frame_columns(bool timed) {
   return table;
 }
 
-ClosestCourse::ClosestCourse(std::size_t frames) : width_(bin_width(frames, EventCourse::most_bins)) {}
+CollisionCourse::CollisionCourse(std::size_t frames) : width_(bin_width(frames, EventCourse::most_bins)) {}
 
-void ClosestCourse::add(const FrameFound& frame) {
-  const std::size_t bin = added_++ / width_;
-  if (!frame.closest) return;
-  const double distance = frame.closest->distance;
-  if (distances_.empty() || bin != bin_of_last_) {
-    frames_shown_.push_back(frame.stamp);
-    distances_.push_back(distance);
-  } else if (distance < distances_.back()) {
-    frames_shown_.back() = frame.stamp;
-    distances_.back() = distance;
-  }
-  bin_of_last_ = bin;
-}
-
-Json ClosestCourse::json() const {
-  Json bins = Json::array();
-  for (std::size_t k = 0; k < distances_.size(); ++k)
-    bins.push_back({{"frame", frames_shown_[k].number},
-                    {"picoseconds", frames_shown_[k].picoseconds},
-                    {"distance", distances_[k]}});
-  return bins;
+void CollisionCourse::add(const FrameFound& frame) {
+  if (added_++ % width_ == 0) return bins_.push_back(frame);
+  FrameFound& bin = bins_.back();
+  bin.pairs = std::max(bin.pairs, frame.pairs);
+  if (frame.closest && !(bin.closest && bin.closest->distance <= frame.closest->distance))
+    bin.closest = frame.closest;
 }
 
 std::string collide_table(const CollideReport& report) {
@@ -160,6 +146,7 @@ void CollideResults::begin(const CollideFrames& scene) {
   frame_columns_ = collide_frame_columns(scene.has_times());
   if (destinations_.out || destinations_.json) frames_.emplace();
   if (frames_) {
+    scene_ = &scene;
     course_.emplace(scene.frame_count());
     contacts_.emplace(scene.radii().size());
   }
@@ -182,9 +169,25 @@ void CollideResults::add_frame(const FrameRead& frame, const FrameFound& found,
   files_->check();
 }
 
+Json CollideResults::names_json(const CollideReport& report) const {
+  std::set<BeadId> beads;
+  const auto add = [&](const ClosestPair& pair) { beads.insert({pair.first, pair.second}); };
+  for (const CollideRow& row : report.rows)
+    if (row.closest) add(row.closest->pair);
+  for (const FrameFound& bin : course_->bins())
+    if (bin.closest) add(*bin.closest);
+  Json names = Json::object();
+  for (const BeadId bead : beads)
+    if (const std::string& name = scene_->bead_name(bead); !name.empty()) names[std::to_string(bead)] = name;
+  return names;
+}
+
 void CollideResults::deliver(const CollideReport& report, Json json) {
-  if (course_) json["course"] = course_->json();
-  if (contacts_) json["map"] = contacts_->json();
+  if (frames_) {
+    json["course"] = frame_columns_.json(course_->bins());
+    json["map"] = contacts_->json();
+    json["names"] = names_json(report);
+  }
   const auto write_to = [&](std::ostream& stream) {
     frames_->write_within(json, "frames", [&stream](std::string_view text) { stream << text; });
   };
@@ -194,7 +197,8 @@ void CollideResults::deliver(const CollideReport& report, Json json) {
     write_to(files_->open("collide.json"));
     files_->write("collide.csv", collide_columns(report.timed).csv(report.rows));
     // The page shows the course and the map instead of all frames.
-    write_report(*files_, text_of(json), {{"collide.json", "collide.csv", "pairs.csv", "frames.csv"}});
+    write_report(*files_, report_name, text_of(json),
+                 {{"collide.json", "collide.csv", "pairs.csv", "frames.csv"}});
   }
   AtomicFiles json_file;
   if (destinations_.json && !json_on_stdout) write_to(json_file.open(*destinations_.json));

@@ -28,20 +28,18 @@ namespace kds {
 [[nodiscard]] Table<FrameFound> collide_frame_columns(bool timed);
 [[nodiscard]] std::string collide_table(const CollideReport& report);
 
-/// The closest distance over the course of the frames. If there are many frames, consecutive frames share a
-/// bin, and the bin keeps their least distance.
-class ClosestCourse {
+/// Collisions over the course of the frames. If there are many frames, consecutive frames share a bin.
+class CollisionCourse {
  public:
-  explicit ClosestCourse(std::size_t frames);
+  explicit CollisionCourse(std::size_t frames);
   void add(const FrameFound& frame);
-  /// Returns an array with an object {frame, picoseconds, distance} for each bin.
-  [[nodiscard]] Json json() const;
+  /// Returns a row for each bin: the stamp of its first frame, the greatest number of pairs in one of its
+  /// frames, and the closest pair of all of them.
+  [[nodiscard]] const std::vector<FrameFound>& bins() const { return bins_; }
 
  private:
   std::size_t width_, added_ = 0;
-  std::vector<FrameStamp> frames_shown_;  // one per point
-  std::vector<double> distances_;         // one per point
-  std::size_t bin_of_last_ = 0;
+  std::vector<FrameFound> bins_;
 };
 
 /// Counts how often each pair of beads collides, as a contact map shows it. If there are many beads, counts
@@ -87,17 +85,21 @@ class CollideResults {
   void begin(const CollideFrames& scene);
   void add_frame(const FrameRead& frame, const FrameFound& found, std::span<const BeadPair> pairs);
   /// Delivers all results. The files in --out appear together.
-  /// `json` contains neither the frames nor the members `course` and `map`.
+  /// `json` contains neither the frames nor the members `course`, `map` and `names`.
   void deliver(const CollideReport& report, Json json);
 
  private:
+  /// Returns the names of the beads in closest pairs of rows and course, by their number.
+  [[nodiscard]] Json names_json(const CollideReport& report) const;
+
   Destinations destinations_;
   std::unique_ptr<AtomicFiles> files_;
   std::optional<PairsCsv> pairs_;
   std::ostream* frames_csv_ = nullptr;
   Table<FrameFound> frame_columns_{{}};
-  std::optional<JsonItems> frames_;  // empty if no JSON is requested
-  std::optional<ClosestCourse> course_;
+  std::optional<JsonItems> frames_;  // empty if no JSON is requested, as are the next three
+  const CollideFrames* scene_ = nullptr;
+  std::optional<CollisionCourse> course_;
   std::optional<ContactMap> contacts_;
 };
 

@@ -56,31 +56,11 @@ std::optional<MeanInterval> interval_of_share(std::span<const double> missed,
   return interval;
 }
 
-/// Description of the input. Radii are those of the radius policy, without the factor.
-struct MissedInput {
-  std::size_t beads = 0, necklaces = 0, frames = 0;
-  int dimension = 3;
-  bool truncated = false;
-  double radius_min = 0, radius_max = 0;
-  std::optional<std::array<double, 2>> picoseconds;
-};
-
 struct MissedReport {
-  MissedInput input;
-  std::vector<MissedRow> rows;  ///< ordered by factor or cutoff, then by stride
+  InputSize input;
+  double radius_min = 0, radius_max = 0;  ///< of the radius policy, without the factor
+  std::vector<MissedRow> rows;            ///< ordered by factor or cutoff, then by stride
 };
-
-MissedInput input_of(const Scene& scene) {
-  const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
-  return {scene.bead_count(),
-          scene.necklaces().size(),
-          scene.frame_count(),
-          scene.dimension(),
-          scene.is_truncated(),
-          *least,
-          *most,
-          times_of(scene.stamp(0), scene.stamp(scene.frame_count() - 1))};
-}
 
 /// Returns the rows of one rule, by stride.
 std::vector<MissedRow> rows_of(const MissedTask& task, const Scene& scene, const MissedRule& rule,
@@ -152,7 +132,11 @@ std::optional<std::string> hint_of(const MissedTask& task, const Scene& scene, c
 MissedReport count_missed(const MissedTask& task, const std::function<void(const std::string&)>& warn,
                           const std::function<void(std::size_t, std::size_t)>& progress) {
   MissedReport report;
-  report.input = input_of(load_necklaces(task, task.motion, 1, warn));
+  const Scene all = load_necklaces(task, task.motion, 1, warn);
+  report.input = size_of(all);
+  const auto [least, most] = std::ranges::minmax(all.radii());
+  report.radius_min = least;
+  report.radius_max = most;
   const std::vector<std::size_t> strides = strides_that_fit(task.strides, report.input.frames, task);
   const std::vector<MissedRule> rules = rules_of(task);
   for (std::size_t run = 0; run < rules.size(); ++run) {
@@ -294,11 +278,8 @@ int missed_command(const Arguments& arguments) {
   refuse_instance(task, "points, no balls");
   const MissedReport report = count_missed(task, command.warn(), command.progress());
 
-  const MissedInput& input = report.input;
   Json json;
-  json["input"] = input_json(
-      task, {input.beads, input.necklaces, input.frames, input.dimension, input.truncated, input.picoseconds},
-      input.radius_min, input.radius_max);
+  json["input"] = input_json(task, report.input, report.radius_min, report.radius_max);
   json["settings"] = missed_task_options().settings_json(task);
   json["rows"] = missed_columns(task).json(report.rows);
   json["warnings"] = command.warnings();

@@ -199,10 +199,7 @@ int contacts_command(const Arguments& arguments) {
                       command.add_replay(*options.view), command.progress());
 
   Json json;
-  json["input"] = input_json(task,
-                             {scene.bead_count(), scene.necklaces().size(), scene.frame_count(),
-                              scene.dimension(), scene.is_truncated()},
-                             scene.radii());
+  json["input"] = input_json(task, size_of(scene), scene.radii());
   json["settings"] = contacts_task_options().settings_json(task);
   add_contacts(*report, figures, json);
   json["warnings"] = command.warnings();

@@ -239,6 +239,7 @@ void add_contacts(const ContactsReport& report, const ContactsFigures& figures, 
   json["by"] = name_of(report.by);
   json["unit"] = report.unit();
   json["elements"] = report.elements.names.size();
+  json["names"] = report.elements.names;
   json["run_length"] = report.run_length;
   Json sums{{"pairs", figures.pairs.size()}, {"pairs_asked", report.pairs_asked}, {"contacts", all.contacts}};
   sums["open_at_start"] = all.open_at_start;
@@ -259,7 +260,9 @@ void add_contacts(const ContactsReport& report, const ContactsFigures& figures, 
   Json course = Json::array();
   const std::vector<double> means = report.course.means();
   for (std::size_t bin = 0; bin < means.size(); ++bin)
-    course.push_back(Json{{"frame", report.frame_numbers[bin]}, {"contacts", means[bin]}});
+    course.push_back(Json{{"frame", report.course_frames[bin].number},
+                          {"picoseconds", report.course_frames[bin].picoseconds},
+                          {"contacts", means[bin]}});
   json["course"] = std::move(course);
 }
 

@@ -177,7 +177,7 @@ void follow(const ContactsTask& task, const Scene& scene, ContactsReport& report
   });
   run.run([&](std::size_t frame) {
     if (frame < scene.step_count() && frame % report.course.width() == 0)
-      report.frame_numbers.push_back(scene.frame_number(frame));
+      report.course_frames.push_back(scene.stamp(frame));
     progress(frame, scene.step_count());
   });
   frames.finish();

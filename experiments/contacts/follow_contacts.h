@@ -83,7 +83,7 @@ struct ContactsReport {
   ContactClock clock = ContactClock::frames;
   double run_length = 0;  ///< in units of the clock
   std::size_t steps;
-  std::vector<std::size_t> frame_numbers;  ///< in the file, of the first frame of each bin of `course`
+  std::vector<FrameStamp> course_frames;  ///< the first frame of each bin of `course`
   std::size_t first_frame = 0, last_frame = 0;
   std::uint64_t pairs_asked = 0;  ///< pairs of elements that could be in contact
   ContactLifetimes lifetimes;

@@ -23,9 +23,16 @@ void EventCourse::add(std::uint64_t events, const FrameStamp& frame) {
 }
 
 Json over_time_json(const EventCourse& course) {
-  Json events = Json::array();
-  for (const EventBin& bin : course.bins()) events.push_back(bin.events);
-  return {{"steps", course.width()}, {"events", events}};
+  Json events = Json::array(), frames = Json::array(), picoseconds = Json::array();
+  for (const EventBin& bin : course.bins()) {
+    events.push_back(bin.events);
+    frames.push_back(bin.first_frame.number);
+    picoseconds.push_back(bin.first_frame.picoseconds);
+  }
+  Json json{{"steps", course.width()}, {"events", events}, {"frames", frames}};
+  if (!course.bins().empty() && course.bins().front().first_frame.picoseconds)
+    json["picoseconds"] = std::move(picoseconds);
+  return json;
 }
 
 EventDistributions::EventDistributions(const KineticRun& run, const Scene& scene)

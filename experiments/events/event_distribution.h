@@ -45,7 +45,8 @@ class EventCourse {
   std::vector<EventBin> bins_;
 };
 
-/// Returns {steps: width of a bin, events: [events of each bin]}.
+/// Returns {steps: width of a bin, events: [events of each bin], frames: [number of its first frame]}, and
+/// `picoseconds` of these frames if they have times.
 [[nodiscard]] Json over_time_json(const EventCourse& course);
 
 /// How a structure's external events are distributed along the chain, and by depth in its tree.

@@ -8,7 +8,8 @@
 
 namespace kds {
 
-void write_report(AtomicFiles& files, std::string_view json, const ReportLinks& links) {
+void write_report(AtomicFiles& files, const std::filesystem::path& file, std::string_view json,
+                  const ReportLinks& links) {
   std::string page;
   for (const std::string_view piece : report_template()) page += piece;
   const Json meta{{"format", "kds-report"},
@@ -20,7 +21,7 @@ void write_report(AtomicFiles& files, std::string_view json, const ReportLinks& 
                fmt::format("<script type=\"application/json\" id=\"kds-report\">{}</script>\n"
                            "<script type=\"text/plain\" id=\"kds-result\">{}</script>",
                            without_tags(text_of(meta)), base64(compressed(json))));
-  files.write(std::string(report_name), page);
+  files.write(file, page);
 }
 
 std::filesystem::path replay_beside(const std::filesystem::path& directory,

@@ -19,8 +19,10 @@ struct ReportLinks {
   std::filesystem::path replay = {};   ///< path of a replay from the page's folder; empty if there is none
 };
 
-/// Writes report.html. `json` is the whole result, as text.
-void write_report(AtomicFiles& files, std::string_view json, const ReportLinks& links);
+/// Writes the page to `file`, which `files` may hold relative to its directory. `json` is the whole result,
+/// as text.
+void write_report(AtomicFiles& files, const std::filesystem::path& file, std::string_view json,
+                  const ReportLinks& links);
 
 /// Returns the path of `replay`, a page that this command writes, from `directory`. Returns an empty path
 /// without such a page.

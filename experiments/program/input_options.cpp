@@ -298,6 +298,20 @@ Json files_json(const InputOptions& options) {
   return files;
 }
 
+InputSize size_of(const Scene& scene) {
+  return {scene.bead_count(),   scene.necklaces().size(),
+          scene.frame_count(),  scene.dimension(),
+          scene.is_truncated(), {scene.stamp(0), scene.stamp(scene.frame_count() - 1)}};
+}
+
+void add_ends(Json& input, const std::array<FrameStamp, 2>& ends) {
+  const auto& [first, last] = ends;
+  input["first_frame"] = first.number;
+  input["last_frame"] = last.number;
+  if (first.picoseconds && last.picoseconds)
+    input["picoseconds"] = std::vector<double>{*first.picoseconds, *last.picoseconds};
+}
+
 Json input_json(const InputOptions& options, const InputSize& size, double radius_min, double radius_max) {
   Json json{{"files", files_json(options)}, {"beads", size.beads}};
   if (size.necklaces) json["necklaces"] = *size.necklaces;
@@ -306,8 +320,7 @@ Json input_json(const InputOptions& options, const InputSize& size, double radiu
   json["truncated"] = size.truncated;
   json["radius_min"] = radius_min;
   json["radius_max"] = radius_max;
-  if (size.picoseconds)
-    json["picoseconds"] = std::vector<double>(size.picoseconds->begin(), size.picoseconds->end());
+  add_ends(json, size.ends);
   return json;
 }
 

@@ -17,6 +17,7 @@
 #include "motions/base/input_error.h"
 #include "motions/frames/frame_stamp.h"
 #include "motions/readers/read_trajectory.h"
+#include "motions/scene/scene.h"
 
 namespace kds {
 
@@ -78,15 +79,13 @@ struct InputSize {
   std::optional<std::size_t> necklaces = {};  ///< empty if the result does not show it
   std::size_t frames = 0;
   int dimension = 3;
-  bool truncated = false;  ///< frames are missing at the end (FrameSource::is_truncated)
-  std::optional<std::array<double, 2>> picoseconds = {};  ///< of the first and the last frame
+  bool truncated = false;               ///< frames are missing at the end (FrameSource::is_truncated)
+  std::array<FrameStamp, 2> ends = {};  ///< of the first and the last frame
 };
-/// Returns the times of the first and the last frame, or nothing unless both have one.
-[[nodiscard]] inline std::optional<std::array<double, 2>> times_of(const FrameStamp& first,
-                                                                   const FrameStamp& last) {
-  if (!first.picoseconds || !last.picoseconds) return std::nullopt;
-  return std::array<double, 2>{*first.picoseconds, *last.picoseconds};
-}
+[[nodiscard]] InputSize size_of(const Scene& scene);
+/// Adds `first_frame` and `last_frame`, the numbers of both frames in the file, and `picoseconds` if both
+/// frames have times.
+void add_ends(Json& input, const std::array<FrameStamp, 2>& ends);
 /// Returns the files, the size, and the least and largest radius of an input.
 [[nodiscard]] Json input_json(const InputOptions& options, const InputSize& size, double radius_min,
                               double radius_max);

@@ -150,7 +150,7 @@ void TableCommand::deliver(Json json, const Csvs& csvs, const std::string& table
       links.data.push_back(name);
     }
     files_->check();
-    write_report(*files_, text, links);
+    write_report(*files_, report_name, text, links);
   }
   AtomicFiles json_file;
   if (json_path && !json_on_stdout) json_file.write(*json_path, text);

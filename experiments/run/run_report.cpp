@@ -9,6 +9,7 @@
 #include "experiments/events/event_files.h"
 #include "experiments/output/result_json.h"
 #include "experiments/output/text.h"
+#include "experiments/program/input_options.h"
 #include "experiments/run/run_options.h"
 #include "experiments/run/run_scene.h"
 #include "experiments/run/run_summary.h"
@@ -151,6 +152,9 @@ Json approach_json(const RunReport& report) {
             {"frame", approach.frame},
             {"u", approach.u},
             {"distance", json_of(approach.distance)}};
+  if (!report.bead_names.empty())
+    json["names"] =
+        std::vector<std::string>{report.bead_names[approach.beads[0]], report.bead_names[approach.beads[1]]};
   if (const auto& range = report.approach_in_all_frames) json["distance_in_all_frames"] = json_of(*range);
   return json;
 }
@@ -161,13 +165,8 @@ Json run_json(const RunReport& report) {
                    {"frames", report.frames},        {"dimension", report.dimension},
                    {"truncated", report.truncated},  {"radius_min", report.radius_min},
                    {"radius_max", report.radius_max}};
-  if (report.first_frame && report.last_frame) {
-    const auto& [first, first_time] = *report.first_frame;
-    const auto& [last, last_time] = *report.last_frame;
-    json["input"]["first_frame"] = first;
-    json["input"]["last_frame"] = last;
-    if (first_time && last_time) json["input"]["picoseconds"] = std::vector<double>{*first_time, *last_time};
-  }
+  if (report.first_frame && report.last_frame)
+    add_ends(json["input"], {*report.first_frame, *report.last_frame});
   json["settings"] = Json::object();
   for (const auto& [name, value] : report.settings) json["settings"][name] = value;
   json["structures"] = Json::object();

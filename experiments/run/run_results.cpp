@@ -92,7 +92,7 @@ void RunResults::deliver(const RunReport& report, const std::string& json, const
     files_->write("summary.json", json);
     ReportLinks links{{"summary.json", "events.csv"}, replay_beside(*destinations_.out, page_path_)};
     links.data.insert(links.data.end(), contacts_files_.begin(), contacts_files_.end());
-    write_report(*files_, json, links);
+    write_report(*files_, report_name, json, links);
   }
   AtomicFiles json_file;
   if (destinations_.json && !json_on_stdout) json_file.write(*destinations_.json, json);

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMostOnPage = 20'000, kMostNamed = 3;
+constexpr std::size_t kMostOnPage = 5'000, kBytesOnPage = 2'000'000, kMostNamed = 3;
 constexpr std::string_view kDone = "\"done\": ";
 
 Field field_from(const Json& json) {
@@ -60,14 +60,12 @@ class WideTable {
       cells[fixed.size() + by_name_.at(name)] = field_from(value).csv();
     return fmt::format("{}\n", fmt::join(cells, ","));
   }
-  // Returns an object on one line, if it is UTF-8. File names need not be.
-  [[nodiscard]] std::string json(const std::vector<std::string>& fixed, const RowFields& fields) const {
+  [[nodiscard]] Json json(const std::vector<std::string>& fixed, const RowFields& fields) const {
     Json row = Json::object();
     for (std::size_t c = 0; c < fixed_.size(); ++c)
       row[fixed_[c]] = fixed[c].empty() ? Json() : Json(fixed[c]);
     for (const auto& [name, value] : fields) row[columns_[by_name_.at(name)]] = value;
-    const auto line = line_of(row);
-    return line ? *line : text_of(row);
+    return row;
   }
 
  private:
@@ -115,17 +113,24 @@ class Listing {
   }
   void add(Row row, bool on_page = true) {
     stream_ << table_.csv_line(row);
-    ++rows_;
-    if (on_page && first_.size() < kMostOnPage) first_.push_back(std::move(row));
+    if (!on_page) return;
+    if (first_.size() == kMostOnPage) {
+      ++left_out_;
+    } else {
+      first_.push_back(std::move(row));
+    }
   }
-  /// Returns the rows that the page shows, with the number of all.
-  [[nodiscard]] Json json() const { return {{"all", rows_}, {"rows", table_.json(first_)}}; }
+  /// Adds the rows that the page shows to its data as a member, and how many are left out.
+  void add_to(Json& page, const char* name) const {
+    page[name] = table_.json(first_);
+    if (left_out_ > 0) page["left_out"][name] = left_out_;
+  }
 
  private:
   Table<Row> table_;
   std::ostream& stream_;
   std::vector<Row> first_;
-  std::size_t rows_ = 0;
+  std::size_t left_out_ = 0;  // rows that are only in the file because there are too many
 };
 
 // Returns the tasks that are done in the order of their groups, whose first tasks are in the order of the
@@ -166,6 +171,12 @@ void refuse_to_empty(const fs::path& folder, const SweepCount& all, const TaskSt
       others.empty() ? "" : " ", others);
 }
 
+// Writes an object on one line, if it is UTF-8. File names need not be.
+std::string json_line(const Json& row) {
+  const auto line = line_of(row);
+  return line ? *line : text_of(row);
+}
+
 void list_failures(const SweepPlan& plan, const TaskStates& states, Listing<TaskMessage>& failed) {
   for (const SweepTask& task : plan.tasks())
     if (auto failure = failure_of(plan, task, states)) failed.add(std::move(*failure));
@@ -175,8 +186,7 @@ void list_failures(const SweepPlan& plan, const TaskStates& states, Listing<Task
 
 CollectedSweep collect_sweep(const SweepPlan& plan, const TaskStates& states, const fs::path& folder,
                              const std::string& command_line) {
-  const std::vector<SweepCount> counts = count_tasks(plan, states, false);
-  CollectedSweep collected{counts.back(), 0, {}};
+  CollectedSweep collected{count_tasks(plan, states, false).back(), 0, {}};
   refuse_to_empty(folder, collected.all, states);
   const std::vector<std::string>& pooled = plan.spec().pooled;
   std::vector<std::string> fixed{"command", "input"}, group_names;
@@ -217,6 +227,8 @@ CollectedSweep collect_sweep(const SweepPlan& plan, const TaskStates& states, co
   of_times << times.header();
   json << fmt::format("{{\n  \"version\": \"{}\",\n  \"tasks\": {},\n  {}{},\n  \"rows\": [",
                       program_version(), collected.all.tasks, kDone, collected.all.done);
+  JsonItems on_page;
+  std::size_t rows_on_page = 0, bytes_on_page = 0;
   for (const SweepTask& task : plan.tasks()) {
     const TaskStatus status = states.of(task.name).status();
     if (status == TaskStatus::open && collected.first_missing.size() < kMostNamed)
@@ -228,7 +240,14 @@ CollectedSweep collect_sweep(const SweepPlan& plan, const TaskStates& states, co
     for (std::size_t row = 0; row < result.rows.size(); ++row) {
       const RowFields& fields = result.rows[row].fields;
       csv << results.csv(texts, fields);
-      json << (collected.rows++ > 0 ? ",\n    " : "\n    ") << results.json(texts, fields);
+      const Json object = results.json(texts, fields);
+      const std::string line = json_line(object);
+      json << (collected.rows++ > 0 ? ",\n    " : "\n    ") << line;
+      bytes_on_page += line.size();
+      if (bytes_on_page <= kBytesOnPage) {
+        on_page.add(object);
+        ++rows_on_page;
+      }
       of_times << times.csv({texts.front(), std::to_string(row)}, times_of(result, row));
     }
     for (const std::string& warning : result.warnings) warnings.add(message_of(plan, task, warning));
@@ -236,20 +255,18 @@ CollectedSweep collect_sweep(const SweepPlan& plan, const TaskStates& states, co
   json << "\n  ]\n}\n";
   list_failures(plan, states, failed);
 
-  Json report{{"tasks", collected.all.tasks},
-              {"done", collected.all.done},
-              {"result_rows", collected.rows},
-              {"axes", std::vector<std::string>(group_names.begin() + 1, group_names.end())},
-              {"pooled", pooled},
-              {"least_pooled", least_pooled},
-              {"counts", counts_json(counts)},
-              {"means", means.json()},
-              {"failed", failed.json()},
-              {"warned", warnings.json()},
-              {"warnings", plan.copies()}};
+  Json report{
+      {"kind", "sweep"},  {"tasks", collected.all.tasks}, {"done", collected.all.done}, {"axes", plan.axes()},
+      {"pooled", pooled}, {"left_out", Json::object()},   {"warnings", plan.copies()}};
+  if (collected.rows > rows_on_page) report["left_out"]["rows"] = collected.rows - rows_on_page;
+  means.add_to(report, "means");
+  failed.add_to(report, "failed");
+  warnings.add_to(report, "warned");
   add_provenance(report, command_line);
+  std::string text;
+  on_page.write_within(report, "rows", [&](std::string_view piece) { text += piece; });
   ReportLinks links{{"results.csv", "results.json", "pooled.csv", "times.csv", "failed.csv", "warnings.csv"}};
-  write_report(out, text_of(report), links);
+  write_report(out, folder / report_name, text, links);
   commit_together({&out});
   return collected;
 }

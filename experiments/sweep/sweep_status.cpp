@@ -77,10 +77,6 @@ std::string counts_text(const std::vector<SweepCount>& counts) {
   return count_table().text(without_repeated_sum(counts));
 }
 
-Json counts_json(const std::vector<SweepCount>& counts) {
-  return count_table().json(without_repeated_sum(counts));
-}
-
 std::string other_versions_text(const TaskStates& states) {
   std::string text;
   for (const auto& [version, results] : states.of_other_versions())

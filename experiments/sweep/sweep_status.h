@@ -30,7 +30,6 @@ void count_task(const TaskState& state, bool running, SweepCount& count);
                                                   bool running);
 /// Returns a table, without the sum over all commands if there is only one.
 [[nodiscard]] std::string counts_text(const std::vector<SweepCount>& counts);
-[[nodiscard]] Json counts_json(const std::vector<SweepCount>& counts);
 /// Returns a line for each other version of kds that has results in the folder.
 [[nodiscard]] std::string other_versions_text(const TaskStates& states);
 

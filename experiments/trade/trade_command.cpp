@@ -308,13 +308,10 @@ int trade_command(const Arguments& arguments) {
   const std::vector<TradeRow> rows = measure_subject(options, subject, command.progress(), command.warn());
 
   Json json;
-  json["input"] = input_json(
-      options,
-      {.frames = finest.frame_count(),
-       .dimension = finest.scene().dimension(),
-       .truncated = finest.scene().is_truncated(),
-       .picoseconds = times_of(finest.scene().stamp(0), finest.scene().stamp(finest.frame_count() - 1))},
-      finest.radii());
+  InputSize size = size_of(finest.scene());
+  size.frames = finest.frame_count();
+  size.ends[1] = finest.scene().stamp(finest.frame_count() - 1);
+  json["input"] = input_json(options, size, finest.radii());
   json["settings"] = trade_options().settings_json(options);
   json["rows"] = trade_rows_json(rows);
   json["recommendation"] = recommendation(rows);

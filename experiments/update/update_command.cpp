@@ -188,14 +188,8 @@ int update_command(const Arguments& arguments) {
 
   Json input;
   const std::vector<UpdateRow> rows =
-      measure_updates(options, command.progress(), command.warn(), [&](const Scene& all) {
-        input = input_json(options,
-                           {.frames = all.frame_count(),
-                            .dimension = all.dimension(),
-                            .truncated = all.is_truncated(),
-                            .picoseconds = times_of(all.stamp(0), all.stamp(all.frame_count() - 1))},
-                           all.radii());
-      });
+      measure_updates(options, command.progress(), command.warn(),
+                      [&](const Scene& all) { input = input_json(options, size_of(all), all.radii()); });
 
   Json json;
   json["input"] = std::move(input);

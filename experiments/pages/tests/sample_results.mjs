@@ -13,11 +13,11 @@ const pair = (i, j, contacts, occupancy, longest) => ({ i, j, first: `LEU ${i + 
 const looked = (spacing, found, length) => ({ spacing, samples: spacing && 100 / spacing, found, plain_contacts: found ?? 92, plain_length: length, plain_occupancy: 0.3,
   bridged_contacts: found && found - 5, bridged_length: found && length + 9, bridged_occupancy: found && 0.31 });
 
-const contacts = { ...common("contacts"), settings: { cutoff: "6", intermittency: 1 }, by: "residue", unit: "ps", elements: 5, run_length: 900,
+const contacts = { ...common("contacts"), settings: { cutoff: "6", intermittency: 1 }, by: "residue", unit: "ps", elements: 5, names: ["LEU 1", "LEU 2", "LEU 3", "LEU 4", "<b>&_5"], run_length: 900,
   all: { pairs: 2, pairs_asked: 10, contacts: 92, open_at_start: 1, open_at_end: 0, open_at_both: 0, ...bounds("occupancy", 0.3, 0.2, 0.4), ...bounds("residence", 85.2, 74, 97), ...bounds("median", 3, 2, 4) },
   rows: [pair(0, 3, 90, 0.5, 40), pair(1, 4, 2, 0.96, 500)], frames: [looked(null, null, 85), looked(1, 90, 90), looked(8, 40, 200)],
   survival: [{ length: 1, at_risk: 91, survival: 0.7, lower: 0.6, upper: 0.8 }, { length: 500, at_risk: 1, survival: 0, lower: null, upper: null }],
-  course: [{ frame: 0, contacts: 1.5 }, { frame: 5, contacts: 1.2 }], warnings: ["a warning of <i>kds</i>"] };
+  course: [{ frame: 0, picoseconds: 0, contacts: 1.5 }, { frame: 5, picoseconds: 500, contacts: 1.2 }], warnings: ["a warning of <i>kds</i>"] };
 
 const looks = (stride, missed, fraction, lower, upper) => ({ cutoff: 6, stride, frames: 100 / stride, contacts: 100, found: 100 - missed, missed, ...bounds("missed_fraction", fraction, lower, upper) });
 const missed = { ...common("missed"), rows: [looks(1, 0, 0), looks(2, 20, 0.2, 0.15, 0.25), looks(8, 67, 0.67, 0.61, 0.72)] };
@@ -29,7 +29,7 @@ const compare = { ...common("compare"), input: undefined, inputs: ["a.dcd", "b.d
   rows: [changed("wrapped", "a.dcd", 1, 9, 8, 10), changed("wrapped", "a.dcd", 2, 12, 10, 14), changed("wrapped", "b.dcd", 1, 12), changed("contacts", "a.dcd", 1, 0), changed("contacts", "b.dcd", 1, 0)] };
 
 const structure = (events, seconds) => ({ events, certificates: { created: 9, never_failing: 1, cancelled: 1, failed: 5, peak: 2, per_bead_max: 2 }, stages: { isolation: 4 }, seconds, build_seconds: 0.01, static_seconds: 2, rebuilds: 0, audits: { run: 10, failed: 0 } });
-const run = { ...common("run"), structures: { wrapped: structure({ total: 180, enter: 90, leave: 80, pivot: 10 }, 1), power: { ...structure({ total: 90, "2-3": 50, "3-2": 40, wander: 3 }, 3), over_time: { steps: 3, events: [20, 30, 40] } } }, engine: {}, fingerprint: "0" };
+const run = { ...common("run"), structures: { wrapped: structure({ total: 180, enter: 90, leave: 80, pivot: 10 }, 1), power: { ...structure({ total: 90, "2-3": 50, "3-2": 40, wander: 3 }, 3), over_time: { steps: 3, events: [20, 30, 40], frames: [0, 3, 6] } } }, engine: {}, fingerprint: "0" };
 
 const setting = (name, seconds, ratio, pareto, radius) => ({ want: "cages", setting: name, pareto, cost: { seconds, seconds_least: 0.9 * seconds, seconds_most: 1.1 * seconds, ratio, events: 5, certificates: 9, tests: null, memory: 2e6 },
   error: { displacement: 0, radius_mean: radius, radius_max: 3 * radius, beads_outside: 0, events_missed: null } });
@@ -38,16 +38,17 @@ const trade = { ...common("trade"), settings: { rounds: 5, times: 200 }, recomme
 
 const method = (name, seconds) => ({ method: name, pairs: 3, closest: { frame: 1, i: 0, j: 5, distance: -0.3 }, family: null, colliding_frames: 1, seconds, seconds_least: seconds, seconds_most: 2 * seconds, closest_seconds: null });
 const collide = { ...common("collide"), input: { ...input, frames: 2 }, settings: { apart: 2, within: 0 }, rows: [method("brute", 2e-5), method("cells", 1e-5)],
-  frames: [{ frame: 0, collide: false, pairs: 0, closest: { i: 0, j: 5, distance: 0.2 } }, { frame: 1, collide: true, pairs: 3, closest: { i: 0, j: 5, distance: -0.3 } }] };
+  course: [{ frame: 0, picoseconds: null, collide: false, pairs: 0, closest: { i: 0, j: 5, distance: 0.2 } }, { frame: 1, picoseconds: null, collide: true, pairs: 3, closest: { i: 0, j: 5, distance: -0.3 } }],
+  map: { beads_in_group: 1, groups: [{ i: 0, j: 5, pairs: 1 }, { i: 2, j: 9, pairs: 2 }] }, names: { 0: "LEU 42 CA" } };
 
 const task = (k, file, cutoff, life, lower, upper) => ({ task: `t${k}`, command: "contacts", input: `data/${file}`, cutoff, pairs: 3, contacts: 9, ...bounds("residence", life, lower, upper), unit: "ps", by: "residue" });
-const sweep = { version: "1", tasks: 5, done: 4, rows: [task(1, "a.dcd", "6", 50, 40, 60), task(2, "a.dcd", "8", 80, 70, 90), task(3, "b.dcd", "6", 20), task(4, "b.dcd", "8", 30)] };
+const sweep = { kind: "sweep", command: "kds sweep collect s", version: "1", tasks: 5, done: 4, axes: ["cutoff"], pooled: [], left_out: { rows: 1 }, means: [], failed: [], warned: [], warnings: [], rows: [task(1, "a.dcd", "6", 50, 40, 60), task(2, "a.dcd", "8", 80, 70, 90), task(3, "b.dcd", "6", 20), task(4, "b.dcd", "8", 30)] };
 
 const info = { ...common("info"), proper: true, necklaces: [{ file: "a.dcd", first: 0, last: 14 }], rows: [{ condition: "connected", violations: 0, frames: 0, first_frame: null, holds: true }] };
 const update = { ...common("update"), rows: [{ stride: 1, technique: "rebuild", steps: 9, ratio: 1 }, { stride: 1, technique: "kinetic", steps: 9, ratio: 0.4 }] };
 
 // A table of many rows.
-const contacts_many = { ...contacts, elements: 504, rows: Array.from({ length: 500 }, (_, k) => ({ ...pair(k, k + 4, 2, 0.5 + k / 2000, 9) })) };
+const contacts_many = { ...contacts, elements: 504, names: Array.from({ length: 504 }, (_, k) => `LEU ${k + 1}`), rows: Array.from({ length: 500 }, (_, k) => ({ ...pair(k, k + 4, 2, 0.5 + k / 2000, 9) })) };
 
 export const samples = { contacts, contacts_many, missed, missed_none, compare, run, trade, collide, sweep, info, update };
 

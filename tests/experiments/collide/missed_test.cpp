@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(MissedOptions, DefaultsAndAll) {
-  const MissedTask plain = parse_missed_options({"a.pdb"}).task;
+  const MissedTask plain = parse_missed_options({"a.pdb", "--cutoff", "8"}).task;
   EXPECT_THAT(plain.strides, IsEmpty());
   EXPECT_THAT(plain.factors, ElementsAre(1));
   EXPECT_EQ(plain.apart, 2U);
@@ -57,7 +57,7 @@ std::vector<int> column(const Json& rows, const char* name) {
 
 TEST(Missed, CountsContactsInWhichNoFrameLies) {
   const Passing passing;
-  const ProgramRun run = passing.run({"--json", "-"});
+  const ProgramRun run = passing.run({"--json", "-", "--factors", "1"});
   ASSERT_EQ(run.code, 0) << run.err;
   const Json json = Json::parse(run.out);
   EXPECT_EQ(json["input"]["beads"], 2);
@@ -102,7 +102,7 @@ TEST(Missed, ARunACutoff) {
 TEST(Missed, WithoutContactsNoShare) {
   const ScratchDirectory directory;
   const std::string path = directory.file("two.xyz", "2\n\nC 0 0 0\nC 1 0 0\n2\n\nC 0 0 0\nC 1 0 1\n");
-  const ProgramRun run = run_program({"missed", path, "--json", "-"});
+  const ProgramRun run = run_program({"missed", path, "--json", "-", "--factors", "1"});
   ASSERT_EQ(run.code, 0) << run.err;
   const Json json = Json::parse(run.out);
   ASSERT_EQ(json["rows"].size(), 1U);
@@ -131,7 +131,7 @@ TEST(Missed, SharesOfManyStepsHaveIntervals) {
 TEST(Missed, WritesFilesAndAPage) {
   const Passing passing;
   const std::string out = (passing.directory / "report").string();
-  ProgramRun run = passing.run({"--out", out});
+  ProgramRun run = passing.run({"--out", out, "--factors", "1"});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("missed %"));
   EXPECT_THAT(

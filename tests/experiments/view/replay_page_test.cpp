@@ -347,17 +347,6 @@ TEST(ReplayPage, IsHarmlessForAnyNames) {
   EXPECT_EQ(replay.meta["command"], labels.command);
 }
 
-// RFC 4648, section 10.
-TEST(ReplayBlocks, EncodeBase64) {
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foo"), "Zm9v");
-  EXPECT_EQ(base64("foob"), "Zm9vYg==");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(base64("\xfb\xff\xfe"), "+//+");
-}
-
 TEST(ReplayBlocks, EncodeNumbers) {
   BlockBytes bytes;
   for (const std::int64_t number : {0, -1, 1, 63, -64, 64, 8191}) bytes.add_varint(number);

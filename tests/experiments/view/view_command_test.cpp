@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/view/replay_template.h"
+#include "experiments/output/page_templates.h"
 #include "tests/experiments/count_of.h"
 #include "tests/experiments/csv_cells.h"
 #include "tests/experiments/replay_data.h"

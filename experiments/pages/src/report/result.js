@@ -15,9 +15,7 @@ export async function resultOfPage(document) {
 
 // The kind of a result: its field `kind`, else the command's name.
 export function kindOf(result) {
-  if (result.kind) return result.kind;
-  if (result.tasks !== undefined && result.rows?.[0]?.task) return "sweep";
-  return result.command?.split(/\s+/)[1] ?? "result";
+  return result.kind ?? result.command?.split(/\s+/)[1] ?? "result";
 }
 
 export const filesOf = (result) => (result.input?.files ?? result.inputs?.map(({ file }) => file) ?? []).map(baseName);

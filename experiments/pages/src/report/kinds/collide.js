@@ -1,25 +1,26 @@
 // The page of kds collide: which beads collide, in which frames, and which method is the fastest.
 import { num, percent, plural, seconds } from "../format.js";
-import { coursePlot, dotRows } from "../plots.js";
+import { coursePlot, dotRows, pairMap } from "../plots.js";
 import { dataOf, filesOf } from "../result.js";
 import { column } from "../table_text.js";
 
 export function collide(result) {
-  const { rows, frames = [], input } = result, looked = input.frames;
+  const { rows, course, input } = result, looked = input.frames;
   const fewest = rows[0], fastest = rows.reduce((a, b) => (b.seconds < a.seconds ? b : a), rows[0]);
   const agree = rows.every(({ pairs }) => pairs === fewest.pairs);
   const within = Number(result.settings.within) > 0 ? ` within ${num(Number(result.settings.within))} A of each other` : "";
   const meets = within ? `come${within}` : "collide";
-  const bead = (row, end) => row[`name_${end}`] ?? `bead ${row[end]}`;
-  const most = frames.reduce((a, b) => (b.pairs > a.pairs ? b : a), frames[0] ?? { pairs: 0, frame: 0 });
+  const bead = (row, end) => result.names[row[end]] ?? `bead ${row[end]}`;
+  const most = Math.max(0, ...course.map(({ pairs }) => pairs)), alone = course.length === looked;
   const answer = fewest.pairs === 0 ? `No two beads ${meets} in any of the ${plural(looked, "frame")}.`
-    : `Beads ${meets} in ${num(fewest.colliding_frames)} of ${plural(looked, "frame")} (${percent(fewest.colliding_frames / looked)}), ${num(fewest.pairs / looked)} pairs per frame on average and at most ${num(most.pairs)} (frame ${num(most.frame)}).`;
+    : `Beads ${meets} in ${num(fewest.colliding_frames)} of ${plural(looked, "frame")} (${percent(fewest.colliding_frames / looked)}), ${num(fewest.pairs / looked)} pairs per frame on average and at most ${num(most)}.`;
   const { closest } = fewest;
   const perFrame = (value) => 1e6 * value / looked;
   const times = rows.map((row) => ({ ...row, name: row.method, value: perFrame(row.seconds), lower: row.seconds_least === undefined ? null : perFrame(row.seconds_least),
     upper: row.seconds_most === undefined ? null : perFrame(row.seconds_most), text: `${num(perFrame(row.seconds))} µs per frame (${num(perFrame(row.seconds_least))} to ${num(perFrame(row.seconds_most))})` }));
-  const points = frames.map((row) => ({ ...row, x: row.picoseconds ?? row.frame, y: row.pairs })), axis = frames[0]?.picoseconds === undefined ? "frame" : "time (ps)";
-  const frameColumns = [column("frame"), ...(axis === "frame" ? [] : [column("picoseconds", "time, ps")]), column("collide", "collide"), column("pairs"),
+  const timed = course.some(({ picoseconds }) => picoseconds !== null), axis = timed ? "time (ps)" : "frame";
+  const points = course.map((row) => ({ ...row, x: timed ? row.picoseconds : row.frame, y: row.pairs }));
+  const frameColumns = [column("frame", alone ? "frame" : "from frame"), ...(timed ? [column("picoseconds", "time, ps")] : []), column("pairs", alone ? "pairs" : "pairs, at most"),
     column("i", "first", { value: ({ closest: c }) => (c ? bead(c, "i") : null) }), column("j", "second", { value: ({ closest: c }) => (c ? bead(c, "j") : null) }),
     column("distance", "distance of surfaces, A", { value: ({ closest: c }) => c?.distance ?? null })];
   const methodColumns = [column("method"), column("value", "µs per frame (range of rounds)", { key: "microseconds_per_frame", lower: (row) => row.lower, upper: (row) => row.upper }),
@@ -32,10 +33,24 @@ export function collide(result) {
       rows.length > 1 ? `Method ${fastest.method} is the fastest with ${times.find(({ method }) => method === fastest.method).text}; ${agree ? `all ${rows.length} methods find the same pairs` : "the methods DIFFER"}.` : null,
     ].filter(Boolean),
     notes: agree ? [] : ["The methods found different numbers of pairs. This is an error of kds."],
-    first: points.length > 1 ? { title: "Colliding pairs over time",
+    first: points.length > 1 ? { title: "Colliding pairs over time", note: alone ? "" : "Each point shows the most pairs of several frames.",
       draw: (size) => coursePlot(points, size, { x: { label: axis }, y: { label: "colliding pairs", zero: true }, height: 320 }), columns: frameColumns, rows: points } : null,
-    sections: [rows.length > 1 && { heading: "Methods", parts: [{ title: "Time by method", note: "Lines reach from the least to the most of the rounds.",
+    sections: [map(result), rows.length > 1 && { heading: "Methods", parts: [{ title: "Time by method", note: "Lines reach from the least to the most of the rounds.",
       draw: (size) => dotRows(times, size, { x: { label: "time per frame (µs)" }, left: 90 }), columns: methodColumns, rows: times }] },
     { heading: "Tables", parts: [{ title: "Methods", columns: methodColumns, rows: times }, points.length > 0 && { title: "Frames", columns: frameColumns, rows: points }] }].filter(Boolean),
   };
+}
+
+// Which beads collide. With many beads, groups of neighbours are shown.
+function map({ map: { beads_in_group: size, groups }, input }) {
+  if (groups.length === 0) return null;
+  const count = Math.ceil(input.beads / size), most = Math.max(...groups.map(({ pairs }) => pairs));
+  const names = Array.from({ length: count }, (_, k) => (size === 1 ? String(k) : `${k * size} to ${Math.min(input.beads, (k + 1) * size) - 1}`));
+  const label = size === 1 ? "share of frames in which the pair collides" : "collisions, relative to the most of two groups";
+  const rows = groups.map((pair) => ({ ...pair, first: names[pair.i], second: names[pair.j], value: pair.pairs / (size === 1 ? input.frames : most),
+    text: `${plural(pair.pairs, "collision")} in ${plural(input.frames, "frame")}` }));
+  return { heading: "Where beads collide", parts: [{
+    title: size === 1 ? "Map of colliding beads" : `Map of collisions, in groups of ${size} beads`,
+    draw: (place) => pairMap(rows, names, place, { label, axis: size === 1 ? "bead" : "beads", tickFormat: "%" }),
+    columns: [column("first"), column("second"), column("pairs", "collisions")], rows }] };
 }

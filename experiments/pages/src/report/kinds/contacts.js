@@ -17,14 +17,6 @@ const nouns = { residue: "residues", bead: "beads", chain: "chains" };
 // The most of the time in contact first, then the longest.
 export const persistence = (a, b) => b.occupancy - a.occupancy || b.longest - a.longest || b.total - a.total || a.i - b.i || a.j - b.j;
 
-// Names of all elements: from `names` if the result has them, else from the pairs.
-export function namesOf(result) {
-  if (result.names) return result.names;
-  const names = Array(result.elements).fill("–");
-  for (const { i, j, first, second } of result.rows) [names[i], names[j]] = [first, second];
-  return names;
-}
-
 function sentences(result) {
   const { all, rows, unit, by } = result;
   const data = dataOf(result);
@@ -46,7 +38,7 @@ function sentences(result) {
 }
 
 function map(result, rows) {
-  const names = namesOf(result);
+  const { names } = result;
   return {
     title: `Contact map: share of the time in contact`,
     note: `by ${result.by}; ${plural(rows.length, "pair")}`,
@@ -74,15 +66,14 @@ function survival({ survival, unit, all }) {
   };
 }
 
-function course({ course, unit, input, run_length }) {
+function course({ course }) {
   if (!course?.length) return null;
-  const picosecond = unit === "ps" && input.picoseconds && input.frames > 1
-    ? (frame) => input.picoseconds[0] + (frame - course[0].frame) * (run_length / (input.last_frame - input.first_frame || input.frames - 1)) : null;
-  const points = course.map(({ frame, contacts }) => ({ x: picosecond ? picosecond(frame) : frame, y: contacts, text: num(contacts) }));
+  const timed = course[0].picoseconds !== null;
+  const points = course.map(({ frame, picoseconds, contacts }) => ({ x: timed ? picoseconds : frame, y: contacts, text: num(contacts) }));
   return {
     title: "Pairs in contact over time", note: "mean of each span",
-    draw: (size) => coursePlot(points, size, { step: true, x: { label: picosecond ? "time (ps)" : "frame" }, y: { label: "pairs in contact", zero: true } }),
-    columns: [column("x", "", { key: picosecond ? "picoseconds" : "frame" }), column("y", "", { key: "pairs_in_contact" })], rows: points,
+    draw: (size) => coursePlot(points, size, { step: true, x: { label: timed ? "time (ps)" : "frame" }, y: { label: "pairs in contact", zero: true } }),
+    columns: [column("x", "", { key: timed ? "picoseconds" : "frame" }), column("y", "", { key: "pairs_in_contact" })], rows: points,
   };
 }
 

@@ -28,8 +28,8 @@ function sentences(result, structures) {
     return `${num(s.seconds / s.static_seconds)}${range} times as long for ${name}`;
   }))} as building it anew at every frame (below 1: maintaining is faster).` + (timed.some(([, s]) => s.seconds_least === undefined) ? " One run was timed; --rounds 5 gives a range." : "")];
   if (result.closest_approach) {
-    const { distance, beads, frame, u } = result.closest_approach;
-    more.push(`The nearest two beads ever come is ${num(distance[1], 4)} A: beads ${beads.join(" and ")}, at frame ${num(frame + u, 6)}.`);
+    const { distance, beads, names, frame, u } = result.closest_approach;
+    more.push(`The nearest two beads ever come is ${num(distance[1], 4)} A: ${names ? list(names) : `beads ${beads.join(" and ")}`}, at frame ${num(frame + u, 6)}.`);
   }
   return [answer, more];
 }
@@ -75,12 +75,11 @@ export function run(result) {
 
 // The course of events, if the result has `over_time` for its structures.
 function overTime(result, structures) {
-  const parts = structures.filter(([, s]) => s.over_time).map(([name, { over_time: { steps, events } }]) => {
-    const first = result.input.first_frame ?? 0, stride = Number(String(result.settings.frames ?? "").split(":")[2] || 1);
-    const points = events.map((count, k) => ({ x: first + k * steps * stride, y: count / steps }));
+  const parts = structures.filter(([, s]) => s.over_time).map(([name, { over_time: { steps, events, frames, picoseconds } }]) => {
+    const points = events.map((count, k) => ({ x: (picoseconds ?? frames)[k], y: count / steps })), unit = picoseconds ? "time (ps)" : "frame";
     return { title: `Events of ${name} per step over time`,
-      draw: (size) => coursePlot(points, size, { step: true, x: { label: "frame" }, y: { label: "events per step", zero: true }, height: 220 }),
-      columns: [column("x", "", { key: "frame" }), column("y", "", { key: "events_per_step" })], rows: points };
+      draw: (size) => coursePlot(points, size, { step: true, x: { label: unit }, y: { label: "events per step", zero: true }, height: 220 }),
+      columns: [column("x", unit), column("y", "", { key: "events_per_step" })], rows: points };
   });
   return parts.length > 0 ? { heading: "When it changed", parts } : null;
 }

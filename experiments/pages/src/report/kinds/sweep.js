@@ -8,16 +8,12 @@ const words = { residence: "mean life of a contact", missed_fraction: "share of 
 const identity = new Set(["structure", "technique", "method", "want", "setting", "factor", "cutoff", "stride", "condition"]);
 const kMostInputs = 8;
 
+// The lists of a sweep that the page may cut, and the files that have all of their lines.
+const tableNames = { rows: "results", means: "means", failed: "failures", warned: "warnings" };
+const fileOf = { rows: "results.csv", means: "pooled.csv", failed: "failed.csv", warned: "warnings.csv" };
+
 const distinct = (values) => [...new Set(values)];
 const isNumber = (value) => value !== null && value !== "" && Number.isFinite(Number(value));
-
-// The axes of the sweep: from `axes` if the result has it, else the texts at the start of a row.
-export function axesOf(result) {
-  if (result.axes) return result.axes;
-  const keys = Object.entries(result.rows[0] ?? {}).slice(3);
-  const end = keys.findIndex(([name, value]) => (value !== null && typeof value !== "string") || name === "structure" || name.includes("."));
-  return keys.slice(0, end < 0 ? keys.length : end).map(([name]) => name);
-}
 
 // 97.5% quantiles of Student's distribution for 2 to 30 degrees of freedom.
 const student = [4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.16, 2.145, 2.131, 2.12, 2.11, 2.101, 2.093, 2.086, 2.08, 2.074, 2.069, 2.064, 2.06, 2.056, 2.052, 2.048, 2.045, 2.042];
@@ -33,11 +29,11 @@ export function meanOf(values) {
 export function viewOf(result, command) {
   const rows = result.rows.filter((row) => row.command === command).map((row) => ({ ...row, input: baseName(row.input),
     ...(row["events.total"] === undefined ? {} : { "events per step": row["events.total"] / Math.max(1, row["input.frames"] - 1) }) }));
-  const names = distinct(rows.flatMap(Object.keys)), axes = axesOf(result);
+  const names = distinct(rows.flatMap(Object.keys)), { axes, pooled } = result;
   const varied = (name) => distinct(rows.map((row) => row[name] ?? null)).length > 1;
   const fields = names.filter((name) => !["task", "command", "input"].includes(name) && !axes.includes(name));
   const own = fields.filter((name) => identity.has(name.replace("result.", "")) && !axes.some((axis) => axis === `${name}s` && varied(axis)));
-  const dimensions = [...axes, ...own].filter(varied).filter((name) => name !== "seed");
+  const dimensions = [...axes, ...own].filter(varied).filter((name) => !pooled.includes(name));
   const measures = fields.filter((name) => !own.includes(name) && !/_lower$|_upper$|^input\.|_frame$|^engine\.|^stages\./.test(name) && rows.some((row) => typeof row[name] === "number"));
   const numeric = dimensions.filter((name) => rows.every((row) => row[name] === null || row[name] === undefined || isNumber(row[name])));
   return { command, rows, dimensions, measures, axis: numeric[0] ?? dimensions[0] ?? "input", measure: measures.includes(leading[command]) ? leading[command] : measures[0], numeric };
@@ -77,17 +73,18 @@ export function sweep(result) {
   const claims = views.map(sentenceOf).filter(Boolean);
   const title = `Sweep of ${list(commands.map((command) => `kds ${command}`))}`;
   const holds = `Holds for ${plural(inputs.length, "input")}, each by itself: ${list(inputs.slice(0, 6))}${inputs.length > 6 ? " and others" : ""}.`;
-  const failed = result.failed?.length > 0 ? { title: "Tasks without a result", rows: result.failed, columns: distinct(result.failed.flatMap(Object.keys)).map((name) => column(name)) } : null;
+  const listed = (title, rows) => (rows.length > 0 ? { title, rows, columns: distinct(rows.flatMap(Object.keys)).map((name) => column(name)) } : null);
+  const cut = Object.entries(result.left_out).map(([name, count]) => `${plural(count, "more line")} of ${tableNames[name]} ${count === 1 ? "is" : "are"} in ${fileOf[name]}.`);
   const tables = views.map((view) => ({ title: `Results of kds ${view.command}`, rows: view.rows, columns: [column("input"),
     ...distinct([...view.dimensions, view.measure, ...view.measures]).map((name) => (view.rows.some((row) => row[`${name}_lower`] !== undefined && row[`${name}_upper`] !== undefined)
       ? column(name, `${name} (95%)`, { lower: (row) => row[`${name}_lower`], upper: (row) => row[`${name}_upper`] }) : column(name)))] }));
-  const pooled = result.means?.length > 0 ? { title: `Means over ${list(result.pooled ?? [])}`, rows: result.means, note: "Student's 95% intervals over the tasks that differ in the pooled axes only.",
+  const pooled = result.means.length > 0 ? { title: `Means over ${list(result.pooled)}`, rows: result.means, note: "Student's 95% intervals over the tasks that differ in the pooled axes only.",
     columns: distinct(result.means.flatMap(Object.keys)).filter((name) => name !== "lower" && name !== "upper").map((name) => column(name, name, name === "mean" ? { lower: (row) => row.lower, upper: (row) => row.upper } : {})) } : null;
   const figures = views.map((view) => figureOf(view));
   return {
-    title, answer: claims[0] ?? `${state}.`, holds, more: [...claims.slice(1, 6), ...(left > 0 ? [] : [`${state}.`])], notes: left > 0 ? [`${state}. failed.csv has the reasons.`] : [],
+    title, answer: claims[0] ?? `${state}.`, holds, more: [...claims.slice(1, 6), ...(left > 0 ? [] : [`${state}.`])], notes: [...(left > 0 ? [`${state}. failed.csv has the reasons.`] : []), ...cut],
     first: figures[0] ?? null,
-    sections: [...figures.slice(1).map((figure) => ({ heading: figure.heading, parts: [figure] })), { heading: "Tables", parts: [failed, ...tables, pooled] }],
+    sections: [...figures.slice(1).map((figure) => ({ heading: figure.heading, parts: [figure] })), { heading: "Tables", parts: [listed("Tasks without a result", result.failed), listed("Warnings of tasks", result.warned), ...tables, pooled] }],
   };
 }
 
