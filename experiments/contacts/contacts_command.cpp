@@ -186,9 +186,8 @@ int contacts_command(const Arguments& arguments) {
   check_inputs_exist(task);
   TakenPaths taken;
   taken.read(task);
-  if (options.view) taken.write("--view", *options.view);
+  if (options.view) taken.write_page(*options.view, options.destinations);
   command.check_destinations(std::move(taken));
-  if (options.view) ensure_writable_file(*options.view, "--view");
 
   const ContactsFound found = find_contacts(task, command.progress(), command.warn());
   const Scene& scene = *found.scene;

@@ -354,6 +354,10 @@ bool leads_to(const fs::path& path, const fs::path& other) {
   return std::mismatch(start.begin(), start.end(), whole.begin(), whole.end()).first == start.end();
 }
 
+bool lies_in(const fs::path& path, const fs::path& directory) {
+  return path.has_filename() && place_of(directory_of(path)) == place_of(directory);
+}
+
 void fail_to_write(const std::string& subject, int error) {
   const std::string message =
       subject + ": " + (error == 0 ? "output failed" : std::generic_category().message(error));
@@ -424,7 +428,8 @@ AtomicFiles::AtomicFiles(const fs::path& directory, std::string_view option, boo
 
 std::ostream& AtomicFiles::open(const fs::path& place) {
   if (is_directory_) {
-    const std::string name = place.string();
+    const bool is_path = place.has_parent_path() && lies_in(place, parts_.front().place);
+    const std::string name = (is_path ? place.filename() : place).string();
     if (name.empty() || name.find_first_of("/\n") != std::string::npos || name == kList)
       throw std::logic_error("'" + name + "' is no name for a file of a result");
     names_ += name + '\n';

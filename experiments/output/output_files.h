@@ -44,6 +44,9 @@ void print_to_stdout(const std::string& text);
 /// Returns whether `path` is `other` or a directory above it.
 [[nodiscard]] bool leads_to(const std::filesystem::path& path, const std::filesystem::path& other);
 
+/// Returns whether `path` is directly in `directory`, even if neither exists.
+[[nodiscard]] bool lies_in(const std::filesystem::path& path, const std::filesystem::path& directory);
+
 /// Checks before a run that a directory of results can be written after it. Leaves no trace. Throws an
 /// InputError that names the option and the path, as AtomicFiles does.
 void check_directory(const std::filesystem::path& path, std::string_view option, bool replace);
@@ -97,7 +100,7 @@ class AtomicFiles {
   AtomicFiles(const AtomicFiles&) = delete;
   AtomicFiles& operator=(const AtomicFiles&) = delete;
 
-  /// Writes a file. `place` is a path, or a name in the directory.
+  /// Writes a file. `place` is a path. In a directory it is a name, or the path of a file directly in it.
   void write(const std::filesystem::path& place, std::string_view text);
   /// Opens a file that is written piece by piece until the end.
   [[nodiscard]] std::ostream& open(const std::filesystem::path& place);

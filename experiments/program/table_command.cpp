@@ -85,6 +85,16 @@ void TakenPaths::write_into(const std::string& option, const fs::path& directory
   for (const fs::path& place : places_of(directory)) directories_.emplace_back(option, place);
 }
 
+void TakenPaths::write_page(const fs::path& page, const Destinations& destinations) {
+  if (!destinations.out || !lies_in(page, *destinations.out)) {
+    write("--view", page);
+    return ensure_writable_file(page, "--view");
+  }
+  if (page.extension() != ".html" || page.filename() == report_name)
+    throw InputError(fmt::format("--view {}: is no name for a page in --out, expected {}", page.string(),
+                                 (*destinations.out / "replay.html").string()));
+}
+
 void TakenPaths::require_directory(bool replace) const {
   if (replace && directories_.empty())
     throw InputError("--replace: replaces a directory of results, expected --out DIR as well");
@@ -129,6 +139,7 @@ std::vector<std::string> TableCommand::warnings() {
 
 AtomicFiles& TableCommand::add_replay(const std::filesystem::path& page) {
   replay_ = page;
+  if (destinations_.out && lies_in(page, *destinations_.out)) return *files_;
   replay_files_ = std::make_unique<AtomicFiles>();
   return *replay_files_;
 }

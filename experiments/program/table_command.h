@@ -45,6 +45,9 @@ class TakenPaths {
   /// Registers a directory that will be written as a whole, and its PLACE.part. Throws InputError if one of
   /// them or of their parents is registered as a file, or if a registered file or directory lies in them.
   void write_into(const std::string& option, const std::filesystem::path& directory);
+  /// Registers a page of --view and checks that it can be written. A page directly in --out is one of its
+  /// files. Throws InputError if its name could be that of another.
+  void write_page(const std::filesystem::path& page, const Destinations& destinations);
   /// Registers the destinations --out and --json.
   void write(const Destinations& destinations);
   /// Throws InputError if --replace is given (`replace`) and no directory is registered.
@@ -96,7 +99,8 @@ class TableCommand {
 
   /// The command with its arguments, quoted for a shell.
   [[nodiscard]] const std::string& command_line() const { return command_line_; }
-  /// Returns the files for a replay page at `page`, which `deliver` then links and writes with the results.
+  /// Returns the files of a replay page at `page`, those of --out if it lies there, which `deliver` then
+  /// links and writes with the results.
   [[nodiscard]] AtomicFiles& add_replay(const std::filesystem::path& page);
 
   /// Adds command, version and machine to `json` and writes all results, which appear together. The table is

@@ -202,10 +202,9 @@ int replay_command(const Arguments& arguments) {
   paths.require_directory(destinations.replace);
   const auto& events = options.events;
   if (events) paths.write("--events", *events);
-  if (options.view) paths.write("--view", *options.view);
+  if (options.view) paths.write_page(*options.view, destinations);
   check_writable(destinations);
   if (events) ensure_writable_file(*events, "--events");
-  if (options.view) ensure_writable_file(*options.view, "--view");
 
   RunResults results(destinations, events, options.view);
   ProgressBar bar(!destinations.quiet, "step");

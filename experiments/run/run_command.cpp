@@ -22,12 +22,11 @@ void check_before_run(const RunOptions& options) {
   paths.require_directory(options.replace);
   if (options.events) paths.write("--events", *options.events);
   if (options.log) paths.write("--log", *options.log);
-  if (options.view) paths.write("--view", *options.view);
+  if (options.view) paths.write_page(*options.view, options);
   check_writable(options);
   if (options.dump) check_directory(*options.dump, "--dump", options.replace);
   if (options.events) ensure_writable_file(*options.events, "--events");
   if (options.log) ensure_writable_file(*options.log, "--log");
-  if (options.view) ensure_writable_file(*options.view, "--view");
 }
 
 }  // namespace

@@ -12,9 +12,11 @@ namespace kds {
 
 void RunResults::begin(const Scene& scene, KineticRun& run, const RunOptions& options) {
   const bool certified = options.certify;
+  if (destinations_.out) files_.emplace(*destinations_.out, "--out", destinations_.replace);
   if (page_path_) {
     ViewRequest request;
     request.page = page_path_;
+    if (files_ && lies_in(*page_path_, *destinations_.out)) request.page_files = &*files_;
     view_.emplace(request, replay_labels(options, "run"), scene, run);
   }
   if (events_path_) {
@@ -25,8 +27,7 @@ void RunResults::begin(const Scene& scene, KineticRun& run, const RunOptions& op
     distributions_.emplace(run, scene);
     run.simulator().listen(*distributions_);
   }
-  if (!destinations_.out) return;
-  files_.emplace(*destinations_.out, "--out", destinations_.replace);
+  if (!files_) return;
   events_.emplace(files_->open("events.csv"), scene.stamp(0).picoseconds.has_value());
   if (has_contacts(run)) contacts_files_.emplace_back(contacts_file);
   if (has_contacts(run) && certified) contacts_files_.emplace_back(possible_contacts_file);

@@ -13,10 +13,11 @@ ViewResults::ViewResults(const ViewRequest& request, const ReplayLabels& labels,
     : request_(request), scene_(scene), run_(run), recorder_(run) {
   if (request_.script) find_script_frame(labels.stride);
   if (request_.page) {
-    page_.emplace(files_.open(*request_.page), scene,
+    AtomicFiles& files = request_.page_files != nullptr ? *request_.page_files : files_;
+    page_.emplace(files.open(*request_.page), scene,
                   ReplayPageOptions{labels, request_.quantum, request_.most_bytes});
     page_->write_frames();
-    files_.check();
+    files.check();
   }
   if (request_.vtk) vtk_.emplace(*request_.vtk, request_.replace);
   run.simulator().listen(recorder_);

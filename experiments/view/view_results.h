@@ -23,8 +23,9 @@ struct ViewRequest {
   std::optional<std::uint64_t> most_bytes;  ///< of the page
   std::optional<std::filesystem::path> vtk;
   std::optional<std::filesystem::path> script;
-  std::optional<std::size_t> at;  ///< number of the script's frame in the file; no value: the first frame
-  bool replace = false;           ///< whether `vtk` may hold an earlier result, which is replaced
+  std::optional<std::size_t> at;      ///< number of the script's frame in the file; no value: the first frame
+  bool replace = false;               ///< whether `vtk` may hold an earlier result, which is replaced
+  AtomicFiles* page_files = nullptr;  ///< files with which the page appears; null: files()
 };
 
 class ViewResults {

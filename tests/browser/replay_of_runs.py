@@ -357,7 +357,7 @@ def many_edges_are_drawn(browser, kds, place):
     edges = len(browser.run("return kds.state().edges"))
     check(edges > 20000, f"there are {edges} edges only")
     drawn = browser.wait(SHARE_DRAWN, 0.5)
-    check(0.1 < drawn < 0.9, f"edges cover {drawn} of the picture")
+    check(0.05 < drawn < 0.9, f"edges cover {drawn} of the picture")
     browser.open(replay, "#layers=flashes")
     drawn = browser.wait(SHARE_DRAWN, 0.5)
     check(drawn < 0.01, f"without edges something covers {drawn} of the picture")

@@ -38,7 +38,7 @@ const trade = { ...common("trade"), settings: { rounds: 5, times: 200 }, recomme
 
 const method = (name, seconds) => ({ method: name, pairs: 3, closest: { frame: 1, i: 0, j: 5, distance: -0.3 }, family: null, colliding_frames: 1, seconds, seconds_least: seconds, seconds_most: 2 * seconds, closest_seconds: null });
 const collide = { ...common("collide"), input: { ...input, frames: 2 }, settings: { apart: 2, within: 0 }, rows: [method("brute", 2e-5), method("cells", 1e-5)],
-  course: [{ frame: 0, picoseconds: null, collide: false, pairs: 0, closest: { i: 0, j: 5, distance: 0.2 } }, { frame: 1, picoseconds: null, collide: true, pairs: 3, closest: { i: 0, j: 5, distance: -0.3 } }],
+  course: [{ frame: 0, collide: false, pairs: 0, closest: { i: 0, j: 5, distance: 0.2 } }, { frame: 1, collide: true, pairs: 3, closest: { i: 0, j: 5, distance: -0.3 } }],
   map: { beads_in_group: 1, groups: [{ i: 0, j: 5, pairs: 1 }, { i: 2, j: 9, pairs: 2 }] }, names: { 0: "LEU 42 CA" } };
 
 const task = (k, file, cutoff, life, lower, upper) => ({ task: `t${k}`, command: "contacts", input: `data/${file}`, cutoff, pairs: 3, contacts: 9, ...bounds("residence", life, lower, upper), unit: "ps", by: "residue" });

@@ -18,7 +18,7 @@ export function collide(result) {
   const perFrame = (value) => 1e6 * value / looked;
   const times = rows.map((row) => ({ ...row, name: row.method, value: perFrame(row.seconds), lower: row.seconds_least === undefined ? null : perFrame(row.seconds_least),
     upper: row.seconds_most === undefined ? null : perFrame(row.seconds_most), text: `${num(perFrame(row.seconds))} µs per frame (${num(perFrame(row.seconds_least))} to ${num(perFrame(row.seconds_most))})` }));
-  const timed = course.some(({ picoseconds }) => picoseconds !== null), axis = timed ? "time (ps)" : "frame";
+  const timed = course.some(({ picoseconds }) => (picoseconds ?? null) !== null), axis = timed ? "time (ps)" : "frame";
   const points = course.map((row) => ({ ...row, x: timed ? row.picoseconds : row.frame, y: row.pairs }));
   const frameColumns = [column("frame", alone ? "frame" : "from frame"), ...(timed ? [column("picoseconds", "time, ps")] : []), column("pairs", alone ? "pairs" : "pairs, at most"),
     column("i", "first", { value: ({ closest: c }) => (c ? bead(c, "i") : null) }), column("j", "second", { value: ({ closest: c }) => (c ? bead(c, "j") : null) }),
