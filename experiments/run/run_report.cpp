@@ -105,6 +105,7 @@ Json structure_json(const StructureReport& structure, std::size_t rounds) {
   Json stages = Json::object();
   add_counts(stages, structure.stages);
   Json json{{"events", events},
+            {"internal", structure.internal_kinds},
             {"certificates",
              {{"created", structure.created},
               {"never_failing", structure.never_failing},

@@ -28,7 +28,7 @@ const changed = (structure, file, stride, perStep, lower, upper) => ({ structure
 const compare = { ...common("compare"), input: undefined, inputs: ["a.dcd", "b.dcd"].map((name) => ({ file: `data/${name}`, name: `data/${name}`, beads: 15, frames: 61, frame_picoseconds: 2 })), pooled: [],
   rows: [changed("wrapped", "a.dcd", 1, 9, 8, 10), changed("wrapped", "a.dcd", 2, 12, 10, 14), changed("wrapped", "b.dcd", 1, 12), changed("contacts", "a.dcd", 1, 0), changed("contacts", "b.dcd", 1, 0)] };
 
-const structure = (events, seconds) => ({ events, certificates: { created: 9, never_failing: 1, cancelled: 1, failed: 5, peak: 2, per_bead_max: 2 }, stages: { isolation: 4 }, seconds, build_seconds: 0.01, static_seconds: 2, rebuilds: 0, audits: { run: 10, failed: 0 } });
+const structure = (events, seconds) => ({ events, internal: ["wander"], certificates: { created: 9, never_failing: 1, cancelled: 1, failed: 5, peak: 2, per_bead_max: 2 }, stages: { isolation: 4 }, seconds, build_seconds: 0.01, static_seconds: 2, rebuilds: 0, audits: { run: 10, failed: 0 } });
 const run = { ...common("run"), structures: { wrapped: structure({ total: 180, enter: 90, leave: 80, pivot: 10 }, 1), power: { ...structure({ total: 90, "2-3": 50, "3-2": 40, wander: 3 }, 3), over_time: { steps: 3, events: [20, 30, 40], frames: [0, 3, 6] } } }, engine: {}, fingerprint: "0" };
 
 const setting = (name, seconds, ratio, pareto, radius) => ({ want: "cages", setting: name, pareto, cost: { seconds, seconds_least: 0.9 * seconds, seconds_most: 1.1 * seconds, ratio, events: 5, certificates: 9, tests: null, memory: 2e6 },

@@ -82,7 +82,7 @@ export function seriesPlot(series, size, options) {
   const { x, y, facet, facets, height = 360 } = options, [scale, axis] = axisOf(x);
   const drawing = plot({
     width: size.width, height, style, marginLeft: 62, marginBottom: 42, marginRight: 20,
-    x: scale, y: { grid: true, ...y }, fx: { label: null, padding: 0.08, domain: facets },
+    x: scale, y: { grid: true, nice: true, ...y }, fx: { label: null, padding: 0.08, domain: facets },
     marks: [...axis, ...series.flatMap((one, k) => seriesMarks(one, k, size, { x, y, facet }))],
   });
   return series.length > 1 ? [key(series.map(({ name }) => name), size), drawing] : [drawing];

@@ -8,7 +8,7 @@ export function collide(result) {
   const { rows, course, input } = result, looked = input.frames;
   const fewest = rows[0], fastest = rows.reduce((a, b) => (b.seconds < a.seconds ? b : a), rows[0]);
   const agree = rows.every(({ pairs }) => pairs === fewest.pairs);
-  const within = Number(result.settings.within) > 0 ? ` within ${num(Number(result.settings.within))} A of each other` : "";
+  const within = Number(result.settings.within) > 0 ? ` within ${num(Number(result.settings.within))} Å of each other` : "";
   const meets = within ? `come${within}` : "collide";
   const bead = (row, end) => result.names[row[end]] ?? `bead ${row[end]}`;
   const most = Math.max(0, ...course.map(({ pairs }) => pairs)), alone = course.length === looked;
@@ -22,14 +22,14 @@ export function collide(result) {
   const points = course.map((row) => ({ ...row, x: timed ? row.picoseconds : row.frame, y: row.pairs }));
   const frameColumns = [column("frame", alone ? "frame" : "from frame"), ...(timed ? [column("picoseconds", "time, ps")] : []), column("pairs", alone ? "pairs" : "pairs, at most"),
     column("i", "first", { value: ({ closest: c }) => (c ? bead(c, "i") : null) }), column("j", "second", { value: ({ closest: c }) => (c ? bead(c, "j") : null) }),
-    column("distance", "distance of surfaces, A", { value: ({ closest: c }) => c?.distance ?? null })];
+    column("distance", "distance of surfaces, Å", { value: ({ closest: c }) => c?.distance ?? null })];
   const methodColumns = [column("method"), column("value", "µs per frame (range of rounds)", { key: "microseconds_per_frame", lower: (row) => row.lower, upper: (row) => row.upper }),
     column("pairs"), column("colliding_frames", "frames with collisions"), column("family", "pairs of spheres that prove the rest disjoint"), column("closest_seconds", "time to the closest pair", { write: seconds })];
   return {
     title: `Collisions in ${filesOf(result).join(", ")}`, answer,
-    holds: `Holds for ${dataOf(result)}, radii of ${num(input.radius_min)}${input.radius_max > input.radius_min ? ` to ${num(input.radius_max)}` : ""} A, pairs at least ${result.settings.apart} apart along a chain. Every pair was counted, so that the counts have no interval.`,
+    holds: `Holds for ${dataOf(result)}, radii of ${num(input.radius_min)}${input.radius_max > input.radius_min ? ` to ${num(input.radius_max)}` : ""} Å, pairs at least ${result.settings.apart} apart along a chain. Every pair was counted, so that the counts have no interval.`,
     more: [
-      closest ? `The closest pair of all frames is ${bead(closest, "i")} and ${bead(closest, "j")} in frame ${num(closest.frame)}: ${closest.distance < 0 ? `their surfaces overlap by ${num(-closest.distance)} A` : `their surfaces are ${num(closest.distance)} A apart`}.` : null,
+      closest ? `The closest pair of all frames is ${bead(closest, "i")} and ${bead(closest, "j")} in frame ${num(closest.frame)}: ${closest.distance < 0 ? `their surfaces overlap by ${num(-closest.distance)} Å` : `their surfaces are ${num(closest.distance)} Å apart`}.` : null,
       rows.length > 1 ? `Method ${fastest.method} is the fastest with ${times.find(({ method }) => method === fastest.method).text}; ${agree ? `all ${rows.length} methods find the same pairs` : "the methods DIFFER"}.` : null,
     ].filter(Boolean),
     notes: agree ? [] : ["The methods found different numbers of pairs. This is an error of kds."],

@@ -6,10 +6,10 @@ import { column, withInterval } from "../table_text.js";
 
 const kPersistent = 0.9;
 
-// "with a cutoff of 6 A", "from a distance of 8 A until one beyond 10 A".
+// "with a cutoff of 6 Å", "from a distance of 8 Å until one beyond 10 Å".
 function cutoffText({ cutoff, surface }) {
   const [begin, end] = String(cutoff).split(":"), between = surface ? " between surfaces" : "";
-  return end ? `for contacts that begin within ${begin} A and end beyond ${end} A${between}` : `with a cutoff of ${begin} A${between}`;
+  return end ? `for contacts that begin within ${begin} Å and end beyond ${end} Å${between}` : `with a cutoff of ${begin} Å${between}`;
 }
 
 const nouns = { residue: "residues", bead: "beads", chain: "chains" };
@@ -146,6 +146,6 @@ export function contacts(result) {
 function certified({ stride, unit }) {
   if (!stride) return null;
   const rows = ["pairs", "contacts", "time"].filter((name) => stride[name]).map((name) => ({ name: name === "time" ? `time in contact (${unit})` : name, ...stride[name] }));
-  return { heading: "Frames left out", note: `${plural(stride.skipped, "frame")} left out, in which beads are at most ${num(stride.deviation?.largest)} A from their positions in the run.`,
+  return { heading: "Frames left out", note: `${plural(stride.skipped, "frame")} left out, in which beads are at most ${num(stride.deviation?.largest)} Å from their positions in the run.`,
     parts: [{ title: "What is sure", columns: [column("name", "figure"), column("found"), column("sure"), column("possible"), column("least"), column("most")], rows }] };
 }

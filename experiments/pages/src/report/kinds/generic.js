@@ -21,7 +21,7 @@ export function generic(result) {
   const figures = members.filter(([, value]) => !Array.isArray(value)).flatMap(([name, value]) => flat({ [name]: value }))
     .map(([name, value]) => ({ name: name.replaceAll("_", " "), value }));
   return {
-    title: `${capital(kind)} of ${filesOf(result).join(", ")}`,
+    title: [capital(kind), filesOf(result).join(", ")].filter(Boolean).join(" of "),
     answer: answerOf(kind, result),
     sections: [{ heading: "Result", parts: [...tables.map(([name, value]) => tableOf(capital(name), value)),
       figures.length > 0 && { title: "Figures", rows: figures, columns: [column("name", "figure"), column("value")] }] }],
@@ -30,15 +30,20 @@ export function generic(result) {
 
 function answerOf(kind, result) {
   const data = dataOf(result), rows = result.rows ?? [];
-  if (kind === "info" && result.proper !== undefined) {
+  if (result.proper !== undefined) {
     const broken = rows.filter(({ holds }) => !holds).map(({ condition }) => condition);
     return `${data} ${result.proper ? "is a proper necklace: all conditions hold in all frames"
       : `is not a proper necklace: ${broken.join(", ")} ${broken.length === 1 ? "fails" : "fail"}`}. The radius of its beads is ` +
-      `${num(result.input.radius_min)}${result.input.radius_max > result.input.radius_min ? ` to ${num(result.input.radius_max)}` : ""} A.`;
+      `${num(result.input.radius_min)}${result.input.radius_max > result.input.radius_min ? ` to ${num(result.input.radius_max)}` : ""} Å.`;
   }
   if (kind === "update" && rows.length > 0) {
     const timed = rows.filter(({ ratio }) => ratio !== null), best = timed.reduce((a, b) => (b.ratio < a.ratio ? b : a), timed[0]);
     return `Technique ${best.technique} is the fastest for ${data}: it takes ${num(best.ratio)} times as long as building anew at every frame${best.stride > 1 ? `, with a stride of ${best.stride}` : ""}.`;
   }
-  return `The result has ${plural(rows.length, "row")} for ${data}.`;
+  if (kind === "stability") {
+    const sum = (name) => rows.reduce((all, row) => all + (row[name] ?? 0), 0), broken = rows.filter(({ holds }) => !holds).length;
+    return `${broken === 0 ? `All ${plural(rows.length, "row")} hold` : `${num(broken)} of ${plural(rows.length, "row")} fail`}: the filtered and the exact arithmetic ` +
+      `agree in ${num(sum("agree"))} of ${plural(sum("cases"), "case")}, and ${num(sum("refused"))} are refused.`;
+  }
+  return `The result has ${plural(rows.length, "row")}${filesOf(result).length > 0 ? ` for ${data}` : ""}.`;
 }

@@ -9,7 +9,7 @@ export function groupsOf({ rows }) {
   const groups = new Map();
   for (const row of rows) {
     const by = row.cutoff === undefined || row.cutoff === null ? "factor" : "cutoff", key = `${by} ${row[by]}`;
-    if (!groups.has(key)) groups.set(key, { name: by === "cutoff" ? `within ${num(row.cutoff)} A` : `radii times ${num(row.factor)}`, rows: [] });
+    if (!groups.has(key)) groups.set(key, { name: by === "cutoff" ? `within ${num(row.cutoff)} Å` : `radii times ${num(row.factor)}`, rows: [] });
     groups.get(key).rows.push(row);
   }
   return [...groups.values()];

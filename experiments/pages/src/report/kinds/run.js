@@ -4,8 +4,6 @@ import { coursePlot, dotRows } from "../plots.js";
 import { dataOf, filesOf } from "../result.js";
 import { column } from "../table_text.js";
 
-const internal = new Set(["wander", "bisection", "unproved"]);
-
 // The unit of time of rates, and how many of them the run lasts.
 export function spanOf({ input }) {
   if (input.picoseconds && input.picoseconds[1] > input.picoseconds[0]) return { unit: "ps", length: input.picoseconds[1] - input.picoseconds[0] };
@@ -29,7 +27,7 @@ function sentences(result, structures) {
   }))} as building it anew at every frame (below 1: maintaining is faster).` + (timed.some(([, s]) => s.seconds_least === undefined) ? " One run was timed; --rounds 5 gives a range." : "")];
   if (result.closest_approach) {
     const { distance, beads, names, frame, u } = result.closest_approach;
-    more.push(`The nearest two beads ever come is ${num(distance[1], 4)} A: ${names ? list(names) : `beads ${beads.join(" and ")}`}, at frame ${num(frame + u, 6)}.`);
+    more.push(`The nearest two beads ever come is ${num(distance[1], 4)} Å: ${names ? list(names) : `beads ${beads.join(" and ")}`}, at frame ${num(frame + u, 6)}.`);
   }
   return [answer, more];
 }
@@ -38,8 +36,8 @@ export function run(result) {
   const structures = Object.entries(result.structures ?? {}), names = structures.map(([name]) => name);
   const { unit, length } = spanOf(result);
   const [answer, more] = sentences(result, structures);
-  const kinds = structures.flatMap(([name, { events }]) => kindsOf(events).map(([kind, count]) => ({
-    structure: name, kind, count, rate: count / length, internal: internal.has(kind),
+  const kinds = structures.flatMap(([name, { events, internal }]) => kindsOf(events).map(([kind, count]) => ({
+    structure: name, kind, count, rate: count / length, internal: internal.includes(kind),
   })));
   const rows = kinds.filter((row) => !row.internal && row.count > 0).map((row) => ({
     name: structures.length > 1 ? `${row.structure}: ${row.kind}` : row.kind, group: row.structure, value: row.rate, text: `${num(row.rate)} per ${unit}; ${plural(row.count, "event")}`,

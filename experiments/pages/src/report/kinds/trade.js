@@ -58,7 +58,7 @@ const nameOf = ({ want, structure }) => (want === "events" ? `events of ${struct
 
 const columnsOf = (want) => [column("name", "setting"), column("time", "µs per frame (range)", { lower: (row) => row.time_lower, upper: (row) => row.time_upper }),
   column("ratio", "time / exact"), ...(errors[want] ? [errors[want].main, ...errors[want].also].map((name) => column(name, name.replaceAll("_", " "), shares.test(name) ? { write: percent } : {})) : []),
-  column("displacement", "beads moved by at most, A"), column("front", "on the front"), column("events"), column("memory", "memory, MB")];
+  column("displacement", "beads moved by at most, Å"), column("front", "on the front"), column("events"), column("memory", "memory, MB")];
 
 const figureOf = (group) => (errors[group.want] && group.rows.some(({ error }) => error > 0)
   ? { title: `Time and error: ${nameOf(group)}`, note: "Left and low is better. On the front: no other setting is both as fast and as accurate in all errors of the table. The y axis is a square root.",
