@@ -71,7 +71,7 @@ def flat(row):
 
 def columns_of(rows, command):
     known = [name for row in rows for name in row]
-    names = [name for name in COLUMNS.get(command, dict.fromkeys(known)) if name in known]
+    names = [name for name in COLUMNS.get(command, []) if name in known] or list(dict.fromkeys(known))
     ends = re.compile("_(lower|upper|least|most)$")
     return [name for name in names if not ends.search(name) and any(row.get(name) is not None for row in rows)
             ][:COLUMNS_ON_A_PAGE]
@@ -126,6 +126,15 @@ def draw_contacts(result, figure):
     survival.legend()
     course = figure("course", "frame", "contacts at once")
     course.plot([point["frame"] for point in result["course"]], [point["contacts"] for point in result["course"]])
+    exact = next(row["plain_length"] for row in result["frames"] if row["spacing"] is None)
+    if exact:
+        spacings = figure("spacings", "spacing of the samples (frames)", "error of the mean length", log=True)
+        for kind, label in (("plain", "samples alone"), ("bridged", "bridged absences"), ("dual", "two cutoffs")):
+            rows = [row for row in result["frames"] if row["spacing"] and row.get(kind + "_length")]
+            if rows:
+                errors = [abs(row[kind + "_length"] / exact - 1) for row in rows]
+                spacings.plot([row["spacing"] for row in rows], errors, marker="o", label=label)
+        spacings.legend()
     share = figure("map", result["by"], result["by"])
     pairs = share.scatter([row["i"] for row in result["rows"]], [row["j"] for row in result["rows"]], s=4, vmin=0, vmax=1,
                           c=[row["occupancy"] for row in result["rows"]])
@@ -185,8 +194,8 @@ def draw_run(result, figure):
         axes.stairs(course["events"], [course["steps"] * k for k in range(len(course["events"]) + 1)])
 
 
-def write(path, folder=None):
-    """Writes the files of a result, and returns their paths."""
+def write(path, folder=None, ending="pdf"):
+    """Writes the files of a result, and returns their paths. Plots have this ending, pdf or svg."""
     path = pathlib.Path(path)
     result = json.loads(path.read_text())
     if not isinstance(result, dict) or not str(result.get("command", "")).startswith("kds "):
@@ -227,10 +236,10 @@ def write(path, folder=None):
             axes.set_yscale("log")
         return axes
 
-    with matplotlib.rc_context({"font.size": 8, "pdf.fonttype": 42}):
+    with matplotlib.rc_context({"font.size": 8, "pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "kds"}):
         draw(result, figure)
         for name, drawn in figures.items():
-            drawn.savefig(place("figure", name, "pdf"))
+            drawn.savefig(place("figure", name, ending), metadata={"Date": None} if ending == "svg" else None)
     return written
 
 

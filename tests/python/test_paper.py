@@ -43,7 +43,8 @@ class Paper(unittest.TestCase):
         most = max(result["rows"], key=lambda row: (row["occupancy"], row["total"]))
         self.assertEqual(float(everything[0]["total"]), most["total"])
         if HAS_PLOTS:
-            self.assertLessEqual({f"contacts-figure-{name}.pdf" for name in ("survival", "course", "map")}, files)
+            self.assertIn("plain length", (pathlib.Path(folder) / "contacts-table-spacings.tex").read_text())
+            self.assertLessEqual({f"contacts-figure-{name}.pdf" for name in ("survival", "course", "spacings", "map")}, files)
 
     def test_each_command_has_its_plot(self):
         if not HAS_PLOTS:
