@@ -252,9 +252,12 @@ void take_inputs(const ParsedArguments& parsed, std::string_view command, InputO
 void check_input_lists(const InputOptions& options) {
   if (!options.topologies.empty() && options.topologies.size() != options.inputs.size())
     throw InputError("--topology",
-                     fmt::format("lists {} files for {} {}; expected one file for all, or one for each",
+                     fmt::format("lists {} files for {} {}{}; expected one file for all, or one for each",
                                  options.topologies.size(), options.inputs.size(),
-                                 options.inputs.size() == 1 ? "INPUT" : "INPUTs"));
+                                 options.inputs.size() == 1 ? "INPUT" : "INPUTs",
+                                 std::ranges::any_of(options.topologies, &std::filesystem::path::empty)
+                                     ? " (an empty entry stands for none)"
+                                     : ""));
   if (options.reading.chain)
     check_chains(*options.reading.chain, options.inputs.size(), options.obstacle.has_value());
 }

@@ -28,11 +28,11 @@ std::optional<std::string_view> nearest_name(std::string_view word, std::span<co
     const std::size_t distance = edit_distance(typed, known);
     const std::size_t letters =
         std::max(bare.size(), known.size() - std::min(known.find_first_not_of('-'), known.size()));
-    const bool is_part = bare.size() >= letters_for_a_part &&
-                         (known.ends_with(bare) || (bare.size() < known.size() && known.starts_with(typed)));
+    const bool begins = bare.size() >= letters_for_a_part && known.starts_with(typed);
+    const bool is_part = begins || (bare.size() >= letters_for_a_part && known.ends_with(bare));
     const bool is_near = distance <= std::max<std::size_t>(1, letters / 3) && distance < known.size();
     if (!is_part && !is_near) continue;
-    const std::size_t rank = is_near ? distance : longest + distance;
+    const std::size_t rank = begins ? 0 : is_near ? distance : longest + distance;
     if (nearest && rank >= least) continue;
     nearest = name;
     least = rank;
