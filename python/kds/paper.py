@@ -18,7 +18,7 @@ COLUMNS_ON_A_PAGE = 8
 SPECIAL = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
            **{character: "\\" + character for character in "&%$#_{}"}}
 
-# The columns of the tables of each command. Other results show the first columns that hold numbers or words.
+# The columns of the rows of each command. Other tables show their first columns that hold numbers or words.
 COLUMNS = {
     "contacts": ["first", "second", "contacts", "occupancy", "residence", "total"],
     "compare": ["input", "structure", "motion", "stride", "events", "events_per_step", "net_changes", "events_per_net_change"],
@@ -59,7 +59,7 @@ def cell(row, column):
 
 
 def flat(row):
-    """Makes columns of the members of objects, as in cost_seconds."""
+    """Makes columns of the members of objects, such as cost_seconds."""
     columns = {}
     for name, value in row.items():
         if isinstance(value, dict):
@@ -69,9 +69,10 @@ def flat(row):
     return {name: value for name, value in columns.items() if not isinstance(value, (list, dict))}
 
 
-def columns_of(rows, command):
-    known = [name for row in rows for name in row]
-    names = [name for name in COLUMNS.get(command, []) if name in known] or list(dict.fromkeys(known))
+def columns_of(rows, listed=None):
+    """Returns the names of the columns to print: those of `listed` that the rows have, or the first ones."""
+    known = dict.fromkeys(name for row in rows for name in row)
+    names = [name for name in listed or known if name in known]
     ends = re.compile("_(lower|upper|least|most)$")
     return [name for name in names if not ends.search(name) and any(row.get(name) is not None for row in rows)
             ][:COLUMNS_ON_A_PAGE]
@@ -87,6 +88,12 @@ def tabular(rows, columns):
     return "\n".join([*lines, r"\bottomrule", r"\end{tabular}", ""])
 
 
+def setting_text(setting):
+    """Writes a setting as options of kds run: the structures, then the others."""
+    options = dict(setting)
+    return " ".join([options.pop("structures"), *(f"--{name} {value}" for name, value in options.items())])
+
+
 def tables_of(result, command):
     """Returns the tables of a result, lists of flat rows by name."""
     tables = {name: result[name] for name in ("rows", "pooled") if result.get(name)}
@@ -95,6 +102,8 @@ def tables_of(result, command):
     if command == "contacts":
         tables["rows"] = sorted(tables.get("rows", []), key=lambda row: (-(row["occupancy"] or 0), -row["total"]))
         tables["spacings"] = result["frames"]
+    if command == "trade":
+        tables["rows"] = [{**row, "setting": setting_text(row["setting"])} for row in tables["rows"]]
     return {name: [flat(row) for row in rows] for name, rows in tables.items() if rows}
 
 
@@ -126,19 +135,23 @@ def draw_contacts(result, figure):
     survival.legend()
     course = figure("course", "frame", "contacts at once")
     course.plot([point["frame"] for point in result["course"]], [point["contacts"] for point in result["course"]])
-    exact = next(row["plain_length"] for row in result["frames"] if row["spacing"] is None)
-    if exact:
-        spacings = figure("spacings", "spacing of the samples (frames)", "error of the mean length", log=True)
-        for kind, label in (("plain", "samples alone"), ("bridged", "bridged absences"), ("dual", "two cutoffs")):
-            rows = [row for row in result["frames"] if row["spacing"] and row.get(kind + "_length")]
-            if rows:
-                errors = [abs(row[kind + "_length"] / exact - 1) for row in rows]
-                spacings.plot([row["spacing"] for row in rows], errors, marker="o", label=label)
-        spacings.legend()
     share = figure("map", result["by"], result["by"])
     pairs = share.scatter([row["i"] for row in result["rows"]], [row["j"] for row in result["rows"]], s=4, vmin=0, vmax=1,
                           c=[row["occupancy"] for row in result["rows"]])
     share.figure.colorbar(pairs, label="share of time in contact")
+    draw_spacings(result["frames"], figure)
+
+
+def draw_spacings(rows, figure):
+    """Draws the relative error of the mean length by the spacing of samples. The axes have no zero."""
+    exact = next(row for row in rows if row["spacing"] is None)["plain_length"]
+    axes = figure("spacings", "spacing of samples (frames)", "relative error of the mean length", log=True)
+    for kind in ("plain", "bridged", "dual"):
+        known = [(row["spacing"], row.get(f"{kind}_length")) for row in rows if row["spacing"] is not None]
+        errors = [(spacing, abs(length / exact - 1)) for spacing, length in known if exact and length and length != exact]
+        if errors:
+            axes.plot(*zip(*errors), marker="o", label=kind)
+    axes.legend()
 
 
 def draw_compare(result, figure):
@@ -170,7 +183,8 @@ def draw_collide(result, figure):
     if not result.get("course"):
         return
     axes = figure("closest", "frame", "distance of the closest pair")
-    axes.plot([point["frame"] for point in result["course"]], [point["distance"] for point in result["course"]])
+    near = [point for point in result["course"] if point["closest"]]
+    axes.plot([point["frame"] for point in near], [point["closest"]["distance"] for point in near])
 
 
 def draw_trade(result, figure):
@@ -194,8 +208,8 @@ def draw_run(result, figure):
         axes.stairs(course["events"], [course["steps"] * k for k in range(len(course["events"]) + 1)])
 
 
-def write(path, folder=None, ending="pdf"):
-    """Writes the files of a result, and returns their paths. Plots have this ending, pdf or svg."""
+def write(path, folder=None, plots="pdf"):
+    """Writes the files of a result, plots in the format `plots`, and returns their paths."""
     path = pathlib.Path(path)
     result = json.loads(path.read_text())
     if not isinstance(result, dict) or not str(result.get("command", "")).startswith("kds "):
@@ -210,7 +224,8 @@ def write(path, folder=None, ending="pdf"):
         return written[-1]
 
     for name, rows in tables_of(result, command).items():
-        place("table", name, "tex").write_text(tabular(rows, columns_of(rows, command)))
+        place("table", name, "tex").write_text(
+            tabular(rows, columns_of(rows, COLUMNS.get(command) if name == "rows" else None)))
         if len(rows) > ROWS_ON_A_PAGE:
             with open(place("table", name, "csv"), "w", newline="") as file:
                 table = csv.DictWriter(file, list(dict.fromkeys(column for row in rows for column in row)))
@@ -239,7 +254,7 @@ def write(path, folder=None, ending="pdf"):
     with matplotlib.rc_context({"font.size": 8, "pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "kds"}):
         draw(result, figure)
         for name, drawn in figures.items():
-            drawn.savefig(place("figure", name, ending), metadata={"Date": None} if ending == "svg" else None)
+            drawn.savefig(place("figure", name, plots), metadata={"CreationDate" if plots == "pdf" else "Date": None})
     return written
 
 
