@@ -108,8 +108,7 @@ std::string collide_table(const CollideReport& report) {
 }
 
 ContactMap::ContactMap(std::size_t beads)
-    : beads_(beads),
-      in_group_((beads + most_groups - 1) / most_groups),
+    : in_group_((beads + most_groups - 1) / most_groups),
       groups_((beads + in_group_ - 1) / in_group_),
       counts_(groups_ * groups_, 0) {}
 

@@ -55,7 +55,7 @@ class ContactMap {
 
  private:
   static constexpr std::size_t most_groups = 240;
-  std::size_t beads_, in_group_, groups_;
+  std::size_t in_group_, groups_;
   std::vector<std::uint64_t> counts_;  // for the groups i <= j, at index i * groups_ + j
 };
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -243,7 +242,7 @@ std::string percent_with_interval(const MissedRow& row) {
                                            : "");
 }
 
-// Returns the columns of missed.json and missed.csv, of the terminal.
+// Returns the columns of missed.json and missed.csv and of the terminal.
 Table<MissedRow> missed_columns(const MissedTask& task) {
   using Row = MissedRow;
   Table<Row> table({{"factor", "radii times", [](const Row& r) { return Field(r.rule.factor); }}});

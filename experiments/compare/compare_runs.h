@@ -78,8 +78,6 @@ struct CompareRow {
   std::vector<double> events_of_steps, net_changes_of_steps;
 
   [[nodiscard]] std::uint64_t events() const { return structure.events_total; }
-  /// Returns whether the structure has kinds of events. Layered spheres have none.
-  [[nodiscard]] bool has_events() const { return !structure.events_by_kind.empty(); }
   /// Returns the name of the motion, "own" for an instance file.
   [[nodiscard]] std::string motion_name() const;
   [[nodiscard]] std::uint64_t internal() const;

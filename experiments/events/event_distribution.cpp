@@ -13,13 +13,10 @@ std::size_t bin_width(std::size_t steps, std::size_t most) {
 }
 
 void EventCourse::add(std::uint64_t events, const FrameStamp& frame) {
-  const std::uint64_t before = bins_.empty() ? 0 : bins_.back().cumulative;
-  if (steps_ % width_ == 0) bins_.push_back({steps_, 0, frame, 0, 0});
+  if (steps_ % width_ == 0) bins_.push_back({frame, 0});
   EventBin& bin = bins_.back();
-  ++bin.steps;
   ++steps_;
   bin.events += events;
-  bin.cumulative = before + events;
 }
 
 Json over_time_json(const EventCourse& course) {

@@ -16,10 +16,8 @@
 namespace kds {
 
 struct EventBin {
-  std::size_t first_step = 0, steps = 0;
-  FrameStamp first_frame;        ///< the bin's first frame
-  std::uint64_t events = 0;      ///< in the bin
-  std::uint64_t cumulative = 0;  ///< up to the end of the bin
+  FrameStamp first_frame;    ///< the bin's first frame
+  std::uint64_t events = 0;  ///< in the bin
 };
 
 /// Returns the number of steps per bin such that there are at most `most` bins.

@@ -3,22 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
 namespace kds {
-namespace {
-
-std::string superscript(int exponent) {
-  constexpr std::array<std::string_view, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text;
-  for (const char c : std::to_string(exponent))
-    text += c == '-' ? "⁻" : digits[static_cast<std::size_t>(c - '0')];
-  return text;
-}
-
-}  // namespace
 
 std::string with_thousands(std::uint64_t value) {
   std::string digits = fmt::format("{}", value);
@@ -44,25 +32,6 @@ std::string short_decimal(double value) {
   if (size >= 1e-4) return fmt::format("{:.6f}", value);
   if (size >= 1e-9) return fmt::format("{:.{}f}", value, 3 - static_cast<int>(std::floor(std::log10(size))));
   return fmt::format("{:.3e}", value);  // only errors of rounding are so small
-}
-
-std::string tick_label(double value) {
-  if (value == 0) return "0";
-  const double size = std::abs(value);
-  if (size >= 1e6 || size < 1e-3) {
-    int exponent = static_cast<int>(std::floor(std::log10(size)));
-    double mantissa = value / std::pow(10, exponent);
-    if (std::abs(mantissa) >= 9.9995) {
-      mantissa /= 10;
-      ++exponent;
-    }
-    const std::string power = "10" + superscript(exponent);
-    const std::string digits = fmt::format("{:.4g}", mantissa);
-    return digits == "1" ? power : digits == "-1" ? "-" + power : digits + "·" + power;
-  }
-  if (size >= 1000)
-    return (value < 0 ? "-" : "") + with_thousands(static_cast<std::uint64_t>(std::llround(size)));
-  return fmt::format("{:.4g}", value);
 }
 
 std::string hex_digits(std::uint64_t value) { return fmt::format("{:016x}", value); }

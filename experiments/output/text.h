@@ -1,5 +1,5 @@
 #pragma once
-// Text helpers that messages, tables and pages share. The helpers are independent of the locale.
+// Text helpers that messages and tables share. The helpers are independent of the locale.
 
 #include <cstdint>
 #include <optional>
@@ -15,12 +15,6 @@ namespace kds {
 /// Returns seconds or a ratio with about four figures. From 1e-9 to 1e15 there is no exponent, so the cells
 /// of a row have one notation.
 [[nodiscard]] std::string short_decimal(double value);
-
-/// The unit of lengths, as figures name it: XYZ files, LAMMPS units lj and instance files name none.
-inline constexpr std::string_view length_unit = "angstrom (or the unit of a file whose format names none)";
-
-/// Returns a value in the form of a plot's tick labels: 12,000, 0.25, 3·10⁻⁷.
-[[nodiscard]] std::string tick_label(double value);
 
 /// Returns a fingerprint as 16 hex digits, the form in which all outputs print it.
 [[nodiscard]] std::string hex_digits(std::uint64_t value);

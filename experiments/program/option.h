@@ -390,8 +390,7 @@ template <class Options>
   return of_output(flag_option(
       "--replace", "replace an earlier result in DIR (default: a DIR that holds files is refused)", replace));
 }
-/// Returns the options --out, --replace, --json and --quiet with their help, for a command that writes no
-/// page.
+/// Returns the options --out, --replace, --json and --quiet with their help.
 [[nodiscard]] inline OptionList<Destinations> destination_options(
     const std::string& out,
     const std::string& json = "write the rows to FILE; - is standard output (default: none)",

@@ -34,13 +34,14 @@ void refuse_instance(const InputOptions& options, std::string_view what = "no fr
                                                       std::size_t stride = 1);
 
 /// Reads all inputs once, then opens them for the run, which reads frames as it proceeds. Each warning goes
-/// to `warn` as one line. Throws InputError for any fault of an input.
+/// to `warn` as one line. Throws InputError for any fault of an input. If `lone_frame` is given, an input of
+/// one frame is accepted: the frame is repeated, and `lone_frame` becomes true.
 [[nodiscard]] Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radius_factor,
                                    const std::function<void(const std::string&)>& warn,
                                    const std::optional<MotionTolerance>& tolerance = {},
                                    bool* lone_frame = nullptr);
-/// Loads the scene of a `kds run`, whose input may also be an instance file. If `lone_frame` is given, an
-/// input of one frame is accepted: the frame is repeated, and `lone_frame` becomes true.
+/// Loads the scene of a `kds run`, whose input may also be an instance file. `lone_frame` is as in
+/// load_necklaces.
 [[nodiscard]] Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn,
                                bool* lone_frame = nullptr);
 

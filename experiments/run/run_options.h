@@ -57,8 +57,8 @@ struct RunOptions : InputOptions, Destinations {
   std::optional<std::uint64_t> work;            ///< limit on the limb operations of exact arithmetic
 };
 
-/// Returns the options --out, --paper, --replace, --json and --quiet of a run. The replay of a run has the
-/// same options.
+/// Returns the options --out, --replace, --json and --quiet of a run. The replay of a run has the same
+/// options.
 [[nodiscard]] OptionList<Destinations> run_destination_options();
 
 /// Returns the help of --structures.

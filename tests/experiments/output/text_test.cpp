@@ -48,20 +48,6 @@ TEST(Text, ShellWordsReadBack) {
   EXPECT_EQ(shell_words({"my file", "", "it's"}), R"('my file' '' 'it'\''s')");
 }
 
-TEST(TickLabel, ShowsSizesLegibly) {
-  EXPECT_EQ(tick_label(0), "0");
-  EXPECT_EQ(tick_label(-3), "-3");
-  EXPECT_EQ(tick_label(12000), "12,000");
-  EXPECT_EQ(tick_label(-1234), "-1,234");
-  EXPECT_EQ(tick_label(1403.75), "1,404");
-  EXPECT_EQ(tick_label(123456.5), "123,457");
-  EXPECT_EQ(tick_label(0.25), "0.25");
-  EXPECT_EQ(tick_label(1e6), "10⁶");
-  EXPECT_EQ(tick_label(3e-7), "3·10⁻⁷");
-  EXPECT_EQ(tick_label(-2.5e12), "-2.5·10¹²");
-  EXPECT_EQ(tick_label(9999999), "10⁷");
-}
-
 TEST(Text, ColumnsAreAsWideAsTheirWidestCell) {
   EXPECT_EQ(in_columns({{"name", "n", "peer", "note"}, {"a", "12345", "1", ""}}, "<>"),
             (std::vector<std::string>{"name      n  peer  note", "a     12345     1"}));
