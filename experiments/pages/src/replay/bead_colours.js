@@ -1,5 +1,6 @@
 // Colours of beads and traces: along the chain, by chain, by type of residue, or by the life of their contacts.
-import { alongChain, categories, rgb } from "./colours.js";
+import { categories, rgb } from "../shared/palette.js";
+import { alongChain } from "./colours.js";
 
 const classes = [
   ["hydrophobic", 1, "ALA VAL LEU ILE MET PHE TRP TYR NLE"],

@@ -1,9 +1,6 @@
 // Colours. Kinds of events and layers have the colours of Okabe and Ito, which people with colour blindness tell apart.
 // Edges that go are dashed too, because no meaning may depend on colour alone.
-
-import { rgb, viridis } from "../shared/palette.js";
-
-export { categories, rgb } from "../shared/palette.js";
+import { colourAt, viridis } from "../shared/palette.js";
 
 const themes = {
   light: {
@@ -24,9 +21,6 @@ export const theme = (name) => themes[name];
 
 // Returns the colour at t in 0..1 along the chain, [r, g, b] up to 255. Its dark end is lighter on dark pages.
 export function alongChain(t, dark) {
-  const place = Math.min(0.999999, Math.max(0, t)) * (viridis.length - 1);
-  const k = Math.floor(place);
-  const [from, to] = [rgb(viridis[k]), rgb(viridis[k + 1])];
-  const mixed = from.map((value, c) => value + (to[c] - value) * (place - k));
-  return mixed.map((value, c) => Math.round(dark ? value + ([110, 150, 200][c] - value) * 0.45 * (1 - t) : value));
+  const lighter = (value, c) => value + ([110, 150, 200][c] - value) * 0.45 * (1 - t);
+  return colourAt(viridis, t).map((value, c) => Math.round(dark ? lighter(value, c) : value));
 }

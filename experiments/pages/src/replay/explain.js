@@ -67,7 +67,7 @@ export function residueOf(name) {
 export function namedParts(name) {
   const parts = residueOf(name);
   if (!parts) return null;
-  const [, residue, number] = /^(.*?[A-Za-z])(-?\d+[A-Za-z]?)$/.exec(parts.residue) ?? [null, "", parts.residue];
+  const [, residue, number] = /^(.*?)(-?\d+[A-Za-z]?)$/.exec(parts.residue) ?? [null, parts.residue, ""];
   return { chain: parts.chain, residue, number, atom: parts.atom };
 }
 
@@ -112,6 +112,9 @@ export const dyadic = ([exponent, ...words]) =>
   words.reduceRight((sum, word) => sum * 2 ** 32 + word, 0) / 2 ** exponent;
 
 export const trim = (value, digits) => String(Number(value.toFixed(digits)));
+
+// Returns the unit of lengths, or an empty text.
+export const lengthUnit = ({ length_unit: unit }) => (unit === "angstrom" ? "Å" : unit);
 
 // Returns the line below the title. Internal events are not among `events`.
 export function subtitle(meta, events) {

@@ -1,6 +1,8 @@
 // Pictures to show others: the scene with time, sentence, legend and scale bar on a canvas of any size.
 import { byId } from "../shared/dom.js";
-import { trim } from "./explain.js";
+import { css } from "../shared/palette.js";
+import { pngOf, save } from "../shared/save.js";
+import { lengthUnit, trim } from "./explain.js";
 
 const font = (size, weight = "") => `${weight} ${size}px system-ui, "Segoe UI", "DejaVu Sans", sans-serif`.trim();
 
@@ -58,7 +60,6 @@ export function compose(app, canvas, { scale, transparent = false, even = false,
 
 function drawLegend(app, context, write, width, stage) {
   const { scene, layers, look } = app;
-  const css = ([r, g, b]) => `rgb(${r}, ${g}, ${b})`;
   const { legend } = look;
   const rows = [];
   if (layers.shows("beads") || layers.shows("trace")) {
@@ -86,28 +87,17 @@ function drawLegend(app, context, write, width, stage) {
     context.fillRect(14, line ? y - 6 : y - 9, ramp ? 30 : 18, line ? 3 : 9);
     write(text, ramp ? 50 : 38, y);
   });
-  const unit = app.meta.length_unit === "angstrom" ? "Å" : app.meta.length_unit;
   const length = roundLength(90 / scene.scale);
   const right = width - 14;
   context.fillStyle = scene.colours.axis;
   context.fillRect(right - length * scene.scale, height - 16, length * scene.scale, 3);
   context.textAlign = "right";
-  write(`${trim(length, 9)} ${unit}`, right, height - 22);
+  write(`${trim(length, 9)} ${lengthUnit(app.meta)}`, right, height - 22);
   context.textAlign = "left";
-}
-
-export function save(blob, name) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(blob);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
 export const fileName = ({ meta, frameNumbers, state }, ending) =>
   `${meta.title.replace(/[^\w.-]+/g, "_")}-${frameNumbers[state.step]}.${ending}`;
-
-export const pngOf = (canvas) => new Promise((resolve) => canvas.toBlob(resolve, "image/png"));
 
 export async function savePicture(app) {
   const canvas = document.createElement("canvas");
@@ -117,5 +107,5 @@ export async function savePicture(app) {
     transparent: byId("png-transparent").checked,
     texts: byId("png-texts").checked,
   });
-  save(await pngOf(canvas), fileName(app, "png"));
+  save(fileName(app, "png"), await pngOf(canvas));
 }

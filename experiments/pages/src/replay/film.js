@@ -1,8 +1,9 @@
 // Films of a span of the run: WebM where the browser can record the canvas, or its frames as PNG files in a zip.
 import { pause } from "../shared/codec.js";
 import { byId } from "../shared/dom.js";
+import { pngOf, save } from "../shared/save.js";
 import { countWhile } from "./events.js";
-import { compose, fileName, pngOf, save } from "./export.js";
+import { compose, fileName } from "./export.js";
 import { zip } from "./zip.js";
 
 const perSecond = 25;
@@ -14,7 +15,7 @@ const largest = 1280;         // pixels of a film's longer side
 
 const filmTypes = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
 
-export const recordableType = () =>
+const recordableType = () =>
   typeof MediaRecorder !== "undefined" && HTMLCanvasElement.prototype.captureStream
     ? filmTypes.find((type) => MediaRecorder.isTypeSupported(type)) ?? null
     : null;
@@ -82,7 +83,7 @@ export class Film {
     try {
       const webm = byId("film-type").value === "webm";
       const film = await (webm ? this.record(canvas, frames, draw) : this.collect(canvas, frames, draw));
-      if (this.running) save(film, fileName(app, webm ? film.type.match(/webm|mp4/)[0] : "zip"));
+      if (this.running) save(fileName(app, webm ? film.type.match(/webm|mp4/)[0] : "zip"), film);
       byId("film-progress").textContent = this.running ? `Saved ${(film.size / 1e6).toFixed(1)} MB.` : "Stopped.";
     } finally {
       this.running = false;

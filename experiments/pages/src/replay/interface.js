@@ -1,6 +1,8 @@
 // window.kds: functions for notebooks and tests.
 import { errors } from "../shared/problems.js";
 
+const layers = ["edges", "contacts", "cages", "supports", "ends", "hull", "closest", "order"];
+
 export function interfaceOf(app, ready) {
   return {
     ready,
@@ -13,15 +15,8 @@ export function interfaceOf(app, ready) {
     state: () => ({
       step: app.state.step,
       u: app.state.u,
-      edges: app.state.elements("edges"),
-      contacts: app.state.elements("contacts"),
+      ...Object.fromEntries(layers.map((name) => [name, app.state.elements(name)])),
       hidden: app.state.elements("hidden").flat(),
-      cages: app.state.elements("cages"),
-      supports: app.state.elements("supports"),
-      ends: app.state.elements("ends"),
-      hull: app.state.elements("hull"),
-      closest: app.state.elements("closest"),
-      order: app.state.elements("order"),
       spheres: app.frames.chords.flatMap(({ s, nodes, spheres }) =>
         [...nodes].map((node, k) => ({ structure: s, node, sphere: [...spheres.subarray(4 * k, 4 * k + 4)] }))),
       positions: app.positions.slice(),

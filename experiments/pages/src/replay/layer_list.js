@@ -1,6 +1,6 @@
 // The list of layers: it switches them on and off, and is the legend of the picture.
-import { categories, rgb } from "./colours.js";
 import { byId, count, make } from "../shared/dom.js";
+import { categories, rgb } from "../shared/palette.js";
 import { noBead } from "./events.js";
 
 const sentences = {

@@ -3,6 +3,7 @@
 import { beadColours, colourModes } from "./bead_colours.js";
 import { contactFilter, ContactMap } from "./contact_map.js";
 import { byId, count, make } from "../shared/dom.js";
+import { css } from "../shared/palette.js";
 import { timeUnit } from "./explain.js";
 import { Measure } from "./measure.js";
 import { Search } from "./search.js";
@@ -28,7 +29,6 @@ export class Look {
     byId("lines").onchange = () => this.changed();
     byId("lines-row").hidden = byId("map-toggle").hidden = pairs.length === 0;
     byId("map-toggle").onclick = () => this.showMap(!this.mapShown);
-    byId("bead-size").addEventListener("change", () => app.changed());
     this.measure = new Measure(app);
     this.search = new Search(app, residues, (residue, bead) => this.find(residue, bead));
     this.showMap(pairs.length > 0 && window.innerHeight >= lowPage);
@@ -58,7 +58,6 @@ export class Look {
     const { of, legend } = beadColours(byId("colour").value, { ...this, meta, dark, durationText });
     app.scene.setColours(of);
     this.legend = legend;
-    const css = ([r, g, b]) => `rgb(${r}, ${g}, ${b})`;
     const swatch = (colour, own = "plain") => make("span", { class: `swatch ${own}`, style: `background: ${colour}` });
     const parts = legend.ramp
       ? [legend.low, swatch(`linear-gradient(90deg, ${legend.ramp.map(css)})`, "ramp"), legend.high]

@@ -1,6 +1,6 @@
-// The distance of two beads, now: in the panel, and as a line in the scene.
+// The distance of two beads at the present: in the panel, and as a line in the scene.
 import { byId, make } from "../shared/dom.js";
-import { decimals } from "./explain.js";
+import { decimals, lengthUnit } from "./explain.js";
 
 export const distanceOf = (positions, a, b) => Math.hypot(...[0, 1, 2].map((k) => positions[3 * a + k] - positions[3 * b + k]));
 
@@ -39,7 +39,7 @@ export class Measure {
     if (!this.pair) return "";
     const { meta, positions } = this.app;
     const distance = distanceOf(positions, ...this.pair).toFixed(decimals(meta.quantum));
-    return `${distance} ${meta.length_unit === "angstrom" ? "Å" : meta.length_unit}`.trim();
+    return `${distance} ${lengthUnit(meta)}`.trim();
   }
 
   showTexts() {
@@ -67,7 +67,6 @@ export class Measure {
   }
 
   place() {
-    const [a, b] = this.pair.map((bead) => this.app.placeOf(bead));
-    return this.app.scene.project(a.map((value, axis) => (value + b[axis]) / 2));
+    return this.app.scene.project(this.app.look.middleOf(this.pair));
   }
 }

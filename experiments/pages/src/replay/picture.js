@@ -1,5 +1,5 @@
 // Fills the scene: the layers that have changed, marks of the chosen event and bead, and flashes of recent events.
-import { rgb } from "./colours.js";
+import { rgb } from "../shared/palette.js";
 import { noBead } from "./events.js";
 
 const flashSeconds = 0.5;

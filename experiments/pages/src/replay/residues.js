@@ -1,5 +1,5 @@
 // Residues of the beads, from their names. Without names each bead counts as a residue.
-import { residueOf } from "./explain.js";
+import { namedParts, residueOf } from "./explain.js";
 
 // Returns {of, list}: the residue of each bead, and all residues, {chain, type, number, beads, title}.
 export function residuesOf(meta, names) {
@@ -8,12 +8,11 @@ export function residuesOf(meta, names) {
   const chains = new Set();
   let known = null;
   meta.necklaces.flatMap((count, n) => Array(count).fill(n)).forEach((necklace, bead) => {
-    const parts = names ? residueOf(names[bead]) : null;
-    const key = parts ? `${necklace}/${parts.chain}/${parts.residue}` : bead;
+    const parts = names ? namedParts(names[bead]) : null;
+    const key = parts ? `${necklace}/${parts.chain}/${parts.residue}/${parts.number}` : bead;
     if (key !== known) {
       known = key;
-      const whole = [null, parts?.residue ?? "", parts ? "" : `${bead}`];
-      const [, type, number] = parts?.residue.match(/^(.*?)(-?\d+[A-Za-z]?)$/) ?? whole;
+      const [type, number] = parts ? [parts.residue, parts.number] : ["", `${bead}`];
       chains.add(parts?.chain);
       const title = parts ? `${type} ${number}`.trim() : names?.[bead] ?? `bead ${bead}`;
       list.push({ chain: parts?.chain ?? "", type, number, necklace, beads: [], title });

@@ -12,7 +12,8 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { rgb, theme } from "./colours.js";
+import { rgb } from "../shared/palette.js";
+import { theme } from "./colours.js";
 import { Instances } from "./instances.js";
 import { Lines } from "./lines.js";
 import { beadAt } from "./picking.js";

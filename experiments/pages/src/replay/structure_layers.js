@@ -1,10 +1,10 @@
 // Draws the structures that are neither spheres of bases nor edges: boxes, spheres on curves, hull, closest pair, and the order.
-import { Vector3 } from "three";
 import { boxesOf } from "./boxes.js";
-import { categories, rgb } from "./colours.js";
 import { byId } from "../shared/dom.js";
-import { trim } from "./explain.js";
+import { categories, rgb } from "../shared/palette.js";
+import { lengthUnit, trim } from "./explain.js";
 import { Instances } from "./instances.js";
+import { distanceOf } from "./measure.js";
 import * as shaders from "./shaders.js";
 
 const edgesOfBox = 12;
@@ -90,19 +90,15 @@ export class StructureLayers {
 
   // Writes the distance of the closest pair beside it. Called after the scene is drawn.
   placeDistance() {
-    const { layers, scene, state, positions, meta } = this.app;
+    const { layers, look, scene, state, positions, meta } = this.app;
     const label = byId("closest-label");
     const pair = layers.shows("closest") ? state.elements("closest")[0] : null;
     label.hidden = !pair;
     this.closest = null;
     if (!pair) return;
-    const [a, b] = pair.map((bead) => new Vector3(...positions.subarray(3 * bead, 3 * bead + 3)));
-    const unit = meta.length_unit === "angstrom" ? "Å" : meta.length_unit;
-    label.textContent = `${Number(a.distanceTo(b).toPrecision(4))} ${unit}`;
-    const place = a.add(b).divideScalar(2).project(scene.camera);
-    const { clientWidth, clientHeight } = scene.renderer.domElement;
-    const [x, y] = [((1 + place.x) / 2) * clientWidth, ((1 - place.y) / 2) * clientHeight];
-    const at = [Math.min(clientWidth - 90, Math.max(4, x + 12)), y + 6];
+    label.textContent = `${Number(distanceOf(positions, ...pair).toPrecision(4))} ${lengthUnit(meta)}`;
+    const [x, y] = scene.project(look.middleOf(pair));
+    const at = [Math.min(scene.uniforms.screen.value.x - 90, Math.max(4, x + 12)), y + 6];
     label.style.transform = `translate(${trim(at[0], 1)}px, ${trim(at[1], 1)}px)`;
     this.closest = { text: label.textContent, at };
   }

@@ -1,6 +1,7 @@
 // Draws the timeline: axis, a row of events for each structure, and the contact intervals of each pair.
-import { categories, theme } from "./colours.js";
 import { byId, count, make } from "../shared/dom.js";
+import { categories } from "../shared/palette.js";
+import { theme } from "./colours.js";
 import { countWhile } from "./events.js";
 import { explainKind, explainStructure, timeUnit } from "./explain.js";
 import { listenToTimeline } from "./timeline_input.js";

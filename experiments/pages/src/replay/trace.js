@@ -1,6 +1,7 @@
 // The trace of each chain: a tube on a Catmull-Rom curve through its beads, in one draw call. The projection is parallel, so
 // a band that faces the reader, shaded across, looks like a tube. Balls close its ends and cover its bends.
 import { Instances } from "./instances.js";
+import { distanceOf } from "./measure.js";
 import { beadFragment, header } from "./shaders.js";
 
 // Pieces of the curve between two beads. Many segments are small.
@@ -73,7 +74,7 @@ export class Trace {
 
   // Makes the tube an eighth as thick as its beads are apart.
   fit(positions) {
-    const apart = this.segments.map(([, a, b]) => Math.hypot(...[0, 1, 2].map((k) => positions[3 * a + k] - positions[3 * b + k])));
+    const apart = this.segments.map(([, a, b]) => distanceOf(positions, a, b));
     this.tube.value = apart.sort((a, b) => a - b)[apart.length >> 1] / 8 || 0;
   }
 

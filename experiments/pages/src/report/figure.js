@@ -1,6 +1,7 @@
 // A plot on the page: drawn again when its width or the colours of the page change, and saved as SVG, PNG and CSV.
 import { make } from "../shared/dom.js";
-import { fileName, pngOf, save, saveButton } from "./save.js";
+import { save } from "../shared/save.js";
+import { fileName, pngOfSvg, saveButton } from "./save.js";
 import { toCsv } from "./table_text.js";
 
 const kSvg = "http://www.w3.org/2000/svg", kSavedWidth = 720;
@@ -64,7 +65,7 @@ export function figureElement({ title, note, draw, columns, rows, controls = [] 
       saveButton("SVG", `Save the plot as SVG: ${title}`, () => save(`${name}.svg`, saved().text, "image/svg+xml")),
       saveButton("PNG", `Save the plot as PNG: ${title}`, async () => {
         const { text, width, height } = saved();
-        save(`${name}.png`, await pngOf(text, width, height));
+        save(`${name}.png`, await pngOfSvg(text, width, height));
       }),
       saveButton("CSV", `Save the numbers of the plot as CSV: ${title}`, () => save(`${name}.csv`, toCsv(columns, numbers()), "text/csv"))));
 }

@@ -2,8 +2,9 @@
 // sentences), `first` (the
 // plot of the first screen), `side` (a list beside it) and `sections` of figures and tables.
 import { byId, make } from "../shared/dom.js";
+import { save } from "../shared/save.js";
 import { figureElement } from "./figure.js";
-import { saveButton, save } from "./save.js";
+import { saveButton } from "./save.js";
 import { tableElement } from "./table.js";
 
 const partElement = (part) => (part.draw ? figureElement(part) : tableElement(part));

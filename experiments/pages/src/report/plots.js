@@ -1,6 +1,6 @@
 // Plots that several kinds of results share. Each function returns drawings (SVG) from top to bottom: a key and the plot.
 import { axisX, axisY, dot, gridX, gridY, legend, line, plot, rect, ruleX, tip, pointer, areaY } from "@observablehq/plot";
-import { categories, rgb, viridis } from "../shared/palette.js";
+import { categories, colourAt, css, viridis } from "../shared/palette.js";
 
 const kSvg = "http://www.w3.org/2000/svg";
 const symbols = ["circle", "square", "triangle", "diamond", "star", "cross", "wye", "times"];
@@ -52,11 +52,7 @@ export function caption(name, { width }) {
 // Returns the colour of a share from 0 to 1. The largest stands out from the page, whether that is light or dark.
 export function shade(dark) {
   const colours = dark ? viridis : [...viridis].reverse();
-  return (t) => {
-    const place = Math.min(0.999999, Math.max(0, t)) * (colours.length - 1), k = Math.floor(place);
-    const to = rgb(colours[k + 1]);
-    return `rgb(${rgb(colours[k]).map((value, c) => Math.round(value + (to[c] - value) * (place - k))).join()})`;
-  };
+  return (t) => css(colourAt(colours, t).map(Math.round));
 }
 
 export const scaleKey = (label, { width, dark }, domain = [0, 1], tickFormat = undefined) =>

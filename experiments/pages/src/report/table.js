@@ -1,7 +1,8 @@
 // A table on the page: sorted by a click on a heading, filtered by typed text, saved as CSV and LaTeX.
 import { make } from "../shared/dom.js";
+import { save } from "../shared/save.js";
 import { num } from "./format.js";
-import { fileName, save, saveButton } from "./save.js";
+import { fileName, saveButton } from "./save.js";
 import { cellText, filterRows, isNumeric, sortRows, toCsv, toLatex } from "./table_text.js";
 
 const kPage = 50, kMostLatexRows = 200;
