@@ -86,6 +86,28 @@ test("contacts are sorted by occupancy, not by flickering", () => {
   assert.deepEqual(table.rows.map(({ contacts }) => contacts), [2, 90]);
 });
 
+const tableNamed = (name, title) =>
+  describe(samples[name]).sections.flatMap(({ parts }) => parts).find((part) => part && !part.draw && part.title === title);
+
+test("events of all kinds have a column in the table of compare", () => {
+  const { columns } = tableNamed("compare", "Events");
+  for (const kind of ["enter", "leave", "interchange"]) assert.ok(columns.some(({ key }) => key === kind), kind);
+});
+
+test("internal kinds of a run are in its table, and not counted", () => {
+  const { rows } = tableNamed("run", "Events by kind");
+  assert.deepEqual(rows.filter(({ internal }) => internal).map(({ structure, kind }) => [structure, kind]), [["power", "wander"]]);
+});
+
+test("the closest pair of collide has its names, or the numbers of its beads", () => {
+  assert.equal(describe(samples.collide).more[0],
+    "The closest pair of all frames is LEU 42 CA and bead 5 in frame 1: their surfaces overlap by 0.300 Å.");
+});
+
+test("a sweep says which of its rows are left out", () => {
+  assert.ok(describe(samples.sweep).notes.includes("1 more line of results is in results.csv."));
+});
+
 test("the kind of a result is its field or its command", () => {
   assert.equal(kindOf({ command: "kds contacts a.dcd" }), "contacts");
   assert.equal(kindOf({ kind: "trade", command: "kds x" }), "trade");

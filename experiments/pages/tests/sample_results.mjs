@@ -23,7 +23,7 @@ const looks = (stride, missed, fraction, lower, upper) => ({ cutoff: 6, stride, 
 const missed = { ...common("missed"), rows: [looks(1, 0, 0), looks(2, 20, 0.2, 0.15, 0.25), looks(8, 67, 0.67, 0.61, 0.72)] };
 const missed_none = { ...common("missed"), rows: [{ factor: 1, stride: 1, frames: 10, contacts: 0, found: 0, missed: 0, ...bounds("missed_fraction", null) }] };
 
-const changed = (structure, file, stride, perStep, lower, upper) => ({ structure, input: `data/${file}`, stride, motion: "linear", beads: 15, steps: 60, events: Math.round(60 * perStep), enter: 3, leave: 4, internal: 0, efficiency: 1,
+const changed = (structure, file, stride, perStep, lower, upper) => ({ structure, input: `data/${file}`, stride, motion: "linear", beads: 15, steps: 60, events: Math.round(60 * perStep), enter: 3, leave: 4, interchange: null, internal: 0, efficiency: 1,
   net_changes: 5, ...bounds("events_per_net_change", 1.2), ...bounds("events_per_step", perStep, lower, upper), compactness: 3, locality: 2, seconds: 0.1, seconds_least: 0.1, seconds_most: 0.2 });
 const compare = { ...common("compare"), input: undefined, inputs: ["a.dcd", "b.dcd"].map((name) => ({ file: `data/${name}`, name: `data/${name}`, beads: 15, frames: 61, frame_picoseconds: 2 })), pooled: [],
   rows: [changed("wrapped", "a.dcd", 1, 9, 8, 10), changed("wrapped", "a.dcd", 2, 12, 10, 14), changed("wrapped", "b.dcd", 1, 12), changed("contacts", "a.dcd", 1, 0), changed("contacts", "b.dcd", 1, 0)] };

@@ -172,6 +172,9 @@ TEST(Collide, OfATrajectoryWithPlots) {
   on_page["frames"] = Json::array();  // the page shows the course instead
   EXPECT_EQ(ReportData(directory / "out/report.html").result, on_page);
   ASSERT_EQ(json["course"].size(), 10U);
+  for (const Json& bin : json["course"])
+    for (const char* end : {"i", "j"})
+      EXPECT_TRUE(json["names"].contains(bin["closest"][end].dump())) << bin.dump();
   std::uint64_t in_map = 0;
   for (const Json& group : json["map"]["groups"]) in_map += group["pairs"].get<std::uint64_t>();
   EXPECT_EQ(in_map, json["rows"][0]["pairs"]);

@@ -248,6 +248,7 @@ TEST(ContactsCommand, FilesAndPage) {
   for (const Json& row : json["rows"]) {
     const std::string key = row["i"].dump() + "," + row["j"].dump();
     EXPECT_EQ(row["contacts"], contacts[key]) << key;
+    EXPECT_EQ(row["first"], json["names"][row["i"].get<std::size_t>()]) << key;
     EXPECT_GE(row["j"].get<int>() - row["i"].get<int>(), 3);
   }
   EXPECT_THAT(content_of(out + "/contacts.csv"), HasSubstr("i,j,first,second,contacts,occupancy"));

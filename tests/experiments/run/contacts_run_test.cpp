@@ -189,6 +189,8 @@ TEST(ContactsRun, DistributionsAgreeWithTheEvents) {
     EXPECT_EQ(structure["over_time"]["steps"], 1);
     EXPECT_EQ(structure["over_time"]["events"], Json(events[name])) << name;
   }
+  EXPECT_EQ(summary["structures"]["power"]["internal"], Json::array({"wander"}));
+  EXPECT_TRUE(summary["structures"]["contacts"]["internal"].empty());
   int named = 0;
   for (const Json& count : summary["structures"]["contacts"]["by_bead"]) named += count.get<int>();
   EXPECT_GT(named, 0);

@@ -42,7 +42,7 @@ export function layoutEvents(events, list, window) {
   if ((last - first) * sparse <= window.width) {
     const marks = [];
     for (const e of list.subarray(first, last)) marks.push({ x: window.x(events.time[e]), event: e, kind: events.kind[e] });
-    return { single: true, marks, shown: last - first };
+    return { single: true, marks };
   }
   const bins = [];
   let most = 0;
@@ -57,7 +57,7 @@ export function layoutEvents(events, list, window) {
     most = Math.max(most, end - e);
     e = end;
   }
-  return { single: false, bins, most, shown: last - first };
+  return { single: false, bins, most };
 }
 
 // Returns the event of `list` nearest to x, if it is at most `reach` pixels away, or -1.

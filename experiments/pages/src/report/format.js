@@ -1,8 +1,11 @@
 // Numbers as people read them: few figures, thousands separated, a unit and an interval.
+export { count as plural } from "../shared/dom.js";
+
+export const known = (value) => value !== null && value !== undefined && !Number.isNaN(value);
 
 // Writes whole numbers in full, and others with `figures` significant figures.
 export function num(value, figures = 3) {
-  if (value === null || value === undefined || Number.isNaN(value)) return "–";
+  if (!known(value)) return "–";
   if (!Number.isFinite(value)) return value > 0 ? "infinite" : "minus infinite";
   if (Number.isInteger(value)) return value.toLocaleString("en");
   const size = Math.abs(value);
@@ -11,13 +14,12 @@ export function num(value, figures = 3) {
     : { minimumSignificantDigits: figures, maximumSignificantDigits: figures });
 }
 
-export const percent = (share) => (share === null || share === undefined ? "–" : `${num(Math.abs(share) < 1e-9 ? 0 : round(100 * share))}%`);
+export const percent = (share) => (known(share) ? `${num(Math.abs(share) < 1e-9 ? 0 : round(100 * share))}%` : "–");
 
 // Rounds away digits that are errors of rounding, so that 100 * 0.07 is 7.
 const round = (value) => Number(value.toPrecision(12));
 
 const united = (text, unit) => (unit ? `${text} ${unit}` : text);
-const known = (value) => value !== null && value !== undefined;
 
 // Writes a value with its 95% interval, if it has one.
 export function interval(value, lower, upper, unit = "", write = num) {
@@ -25,7 +27,7 @@ export function interval(value, lower, upper, unit = "", write = num) {
   return known(lower) && known(upper) ? `${text} (95%: ${write(lower)} to ${write(upper)})` : text;
 }
 
-// The same without the level, for cells of tables whose heading names it.
+// Writes a value with its interval for cells of tables whose heading names the level.
 export const briefInterval = (value, lower, upper, write = num) =>
   known(value) && known(lower) && known(upper) ? `${write(value)} (${write(lower)} to ${write(upper)})`
     : known(value) ? write(value) : known(lower) ? `at least ${write(lower)}` : "–";
@@ -35,8 +37,6 @@ export function seconds(value) {
   const [scale, unit] = value >= 1 || value === 0 ? [1, "s"] : value >= 1e-3 ? [1e3, "ms"] : [1e6, "µs"];
   return `${num(value * scale)} ${unit}`;
 }
-
-export const plural = (number, one, many = `${one}s`) => `${num(number)} ${number === 1 ? one : many}`;
 
 export const ordinal = (n) =>
   n + (n % 100 >= 11 && n % 100 <= 13 ? "th" : { 1: "st", 2: "nd", 3: "rd" }[n % 10] ?? "th");

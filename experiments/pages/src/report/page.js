@@ -1,6 +1,10 @@
-// Puts a description of a report on the page. A description has `title`, `answer`, `holds` (for which data), `more` (further
-// sentences), `first` (the
-// plot of the first screen), `side` (a list beside it) and `sections` of figures and tables.
+// Puts a description of a report on the page. A description has these members:
+//   title, answer    the heading, and the sentence that answers the question
+//   holds            the data for which the answer holds
+//   more             further sentences
+//   notes            warnings that follow from the result
+//   first, side      the plot of the first screen, and a short table beside it
+//   sections         {heading, note, parts}, where parts are figures (figure.js) and tables (table.js)
 import { byId, make } from "../shared/dom.js";
 import { save } from "../shared/save.js";
 import { figureElement } from "./figure.js";

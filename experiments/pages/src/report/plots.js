@@ -1,6 +1,7 @@
 // Plots that several kinds of results share. Each function returns drawings (SVG) from top to bottom: a key and the plot.
 import { axisX, axisY, dot, gridX, gridY, legend, line, plot, rect, ruleX, tip, pointer, areaY } from "@observablehq/plot";
 import { categories, colourAt, css, viridis } from "../shared/palette.js";
+import { known } from "./format.js";
 
 const kSvg = "http://www.w3.org/2000/svg";
 const symbols = ["circle", "square", "triangle", "diamond", "star", "cross", "wye", "times"];
@@ -55,7 +56,7 @@ export function shade(dark) {
   return (t) => css(colourAt(colours, t).map(Math.round));
 }
 
-export const scaleKey = (label, { width, dark }, domain = [0, 1], tickFormat = undefined) =>
+const scaleKey = (label, { width, dark }, domain = [0, 1], tickFormat = undefined) =>
   legend({ color: { type: "linear", domain, interpolate: shade(dark), label }, width: Math.min(width, 320), label, tickFormat, marginLeft: 8, marginRight: 14 });
 
 export const style = { fontSize: "12px", fontFamily: "system-ui, Helvetica, Arial, sans-serif", background: "none" };
@@ -63,7 +64,7 @@ export const style = { fontSize: "12px", fontFamily: "system-ui, Helvetica, Aria
 // Marks of one series: a line, 95% intervals and dots.
 const seriesMarks = ({ name, points }, k, size, { x, y, facet }) => {
   const { colour, symbol, dash } = look(k, size.dark), fx = facet ? { fx: facet } : {};
-  const bounded = points.filter(({ lower, upper }) => lower !== null && lower !== undefined && upper !== null && upper !== undefined);
+  const bounded = points.filter(({ lower, upper }) => known(lower) && known(upper));
   return [
     line(points, { x: "x", y: "y", stroke: colour, strokeWidth: 2, strokeDasharray: dash, ...fx }),
     ruleX(bounded, { x: "x", y1: "lower", y2: "upper", stroke: colour, strokeWidth: 1.5, ...fx }),
@@ -95,19 +96,19 @@ export function decades(values) {
   return { type: "log", domain: [least, most], ticks };
 }
 
-// Splits a logarithmic scale with ticks into a scale and its axis, because the library leaves out labels of such a scale.
+// Returns [scale, marks of its axis]. Observable Plot leaves out labels of logarithmic scales, so their ticks are marks.
 const axisOf = ({ ticks, ...x }) => (x.type === "log" && ticks
   ? [{ ...x, axis: null }, [gridX(ticks), axisX(ticks, { text: (v) => v.toLocaleString("en", { maximumSignificantDigits: 4 }), label: x.label })]]
   : [{ grid: x.type !== "point", ...x }, []]);
 
-// Draws one course, {x, y}, with its band {lower, upper} if it has one.
+// Draws a line through points {x, y, lower, upper, text}, with a band from `lower` to `upper` where they are known.
 export function coursePlot(points, size, { x, y, step = false, height = 280 }) {
   const { colour } = look(0, size.dark), curve = step ? "step-after" : "linear";
   return [plot({
     width: size.width, height, style, marginLeft: 62, marginBottom: 42, marginRight: 20,
     x: { grid: true, ...x }, y: { grid: true, ...y },
     marks: [
-      areaY(points.filter(({ lower }) => lower !== null && lower !== undefined),
+      areaY(points.filter(({ lower }) => known(lower)),
         { x: "x", y1: "lower", y2: "upper", fill: colour, fillOpacity: 0.2, curve }),
       line(points, { x: "x", y: "y", stroke: colour, strokeWidth: 1.8, curve }),
       tip(points, pointer({ x: "x", y: "y", title: (p) => `${x.label}: ${p.x}\n${y.label}: ${p.text ?? p.y}` })),
@@ -136,7 +137,8 @@ export function pairMap(pairs, names, size, { label, axis, tickFormat }) {
   })];
 }
 
-// Draws one dot a row, {name, group, value, lower, upper, text}: a log axis if values lie far apart.
+// Draws a dot for each row, {name, group, value, lower, upper, text}. The axis is logarithmic if values differ by more than 30
+// times.
 export function dotRows(rows, size, { x, groups = [], height = null, left = 150 }) {
   const names = [...new Set(rows.map(({ name }) => name))];
   const values = rows.flatMap(({ value, lower, upper }) => [value, lower, upper]).filter((value) => value > 0);
@@ -155,7 +157,7 @@ export function dotRows(rows, size, { x, groups = [], height = null, left = 150 
 
 const rowMarks = (rows, k, size) => {
   const { colour, symbol } = look(k, size.dark);
-  const bounded = rows.filter(({ lower }) => lower !== null && lower !== undefined);
+  const bounded = rows.filter(({ lower }) => known(lower));
   return [
     line(bounded.flatMap((row) => [{ ...row, at: row.lower }, { ...row, at: row.upper }]), { x: "at", y: "name", z: "name", stroke: colour, strokeWidth: 2 }),
     dot(rows, { x: "value", y: "name", fill: colour, symbol, r: 5, tip: true, title: (row) => `${row.name}\n${row.text}` }),

@@ -18,6 +18,8 @@ export function kindOf(result) {
   return result.kind ?? result.command?.split(/\s+/)[1] ?? "result";
 }
 
+export const distinct = (values) => [...new Set(values)];
+
 export const filesOf = (result) => (result.input?.files ?? result.inputs?.map(({ file }) => file) ?? []).map(baseName);
 
 // Names the data that a result holds for: "villin.dcd (108 beads, 1,000 frames, 0 to 1,998 ps)".

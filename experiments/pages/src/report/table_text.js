@@ -1,8 +1,8 @@
 // Tables without a browser: order, filter, CSV and LaTeX.
 //
-// A column has a `name`, a `key` (name in CSV), `value(row)`, and may have `lower(row)` and `upper(row)`, the ends of an
-// interval, and `write(value)`, which makes text of a number.
-import { briefInterval, num } from "./format.js";
+// A column has a `name` (its heading), a `key` (its name in CSV) and `value(row)`. It may have `lower(row)` and `upper(row)`,
+// the ends of an interval, `write(value)`, which makes text of a number, and a `hint` for the pointer.
+import { briefInterval, known, num } from "./format.js";
 
 export const column = (key, name = key, options = {}) => ({ key, name, value: (row) => row[key], ...options });
 
@@ -10,19 +10,17 @@ export const column = (key, name = key, options = {}) => ({ key, name, value: (r
 export const withInterval = (key, name, options = {}) =>
   column(key, name, { lower: (row) => row[`${key}_lower`], upper: (row) => row[`${key}_upper`], ...options });
 
-const missing = (value) => value === null || value === undefined || Number.isNaN(value);
-
 export function cellText(column, row) {
   const value = column.value(row);
   if (column.lower) return briefInterval(value, column.lower(row), column.upper(row), column.write);
-  if (missing(value)) return "–";
+  if (!known(value)) return "–";
   if (typeof value === "boolean") return value ? "yes" : "no";
   return typeof value === "number" ? (column.write ?? num)(value) : String(value);
 }
 
 // Returns whether the column holds numbers.
 export const isNumeric = (column, rows) => {
-  const row = rows.find((other) => !missing(column.value(other)));
+  const row = rows.find((other) => known(column.value(other)));
   return row ? typeof column.value(row) === "number" : Boolean(column.lower);
 };
 
@@ -31,7 +29,7 @@ export function sortRows(rows, { value }, descending) {
   const sign = descending ? -1 : 1;
   return [...rows].sort((one, other) => {
     const [a, b] = [value(one), value(other)];
-    if (missing(a) || missing(b)) return missing(a) - missing(b);
+    if (!known(a) || !known(b)) return known(b) - known(a);
     if (typeof a === "number" && typeof b === "number") return sign * (a - b);
     return sign * String(a).localeCompare(String(b), "en", { numeric: true });
   });
@@ -50,7 +48,7 @@ export function filterRows(rows, columns, text) {
 }
 
 const csvCell = (value) => {
-  if (missing(value)) return "";
+  if (!known(value)) return "";
   const text = String(value);
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 };

@@ -1,5 +1,5 @@
 // The page of kds collide: which beads collide, in which frames, and which method is the fastest.
-import { num, percent, plural, seconds } from "../format.js";
+import { known, num, percent, plural, seconds } from "../format.js";
 import { coursePlot, dotRows, pairMap } from "../plots.js";
 import { dataOf, filesOf } from "../result.js";
 import { column } from "../table_text.js";
@@ -16,9 +16,9 @@ export function collide(result) {
     : `Beads ${meets} in ${num(fewest.colliding_frames)} of ${plural(looked, "frame")} (${percent(fewest.colliding_frames / looked)}), ${num(fewest.pairs / looked)} pairs per frame on average and at most ${num(most)}.`;
   const { closest } = fewest;
   const perFrame = (value) => 1e6 * value / looked;
-  const times = rows.map((row) => ({ ...row, name: row.method, value: perFrame(row.seconds), lower: row.seconds_least === undefined ? null : perFrame(row.seconds_least),
-    upper: row.seconds_most === undefined ? null : perFrame(row.seconds_most), text: `${num(perFrame(row.seconds))} µs per frame (${num(perFrame(row.seconds_least))} to ${num(perFrame(row.seconds_most))})` }));
-  const timed = course.some(({ picoseconds }) => (picoseconds ?? null) !== null), axis = timed ? "time (ps)" : "frame";
+  const times = rows.map((row) => ({ ...row, name: row.method, value: perFrame(row.seconds), lower: perFrame(row.seconds_least),
+    upper: perFrame(row.seconds_most), text: `${num(perFrame(row.seconds))} µs per frame (${num(perFrame(row.seconds_least))} to ${num(perFrame(row.seconds_most))})` }));
+  const timed = course.some(({ picoseconds }) => known(picoseconds)), axis = timed ? "time (ps)" : "frame";
   const points = course.map((row) => ({ ...row, x: timed ? row.picoseconds : row.frame, y: row.pairs }));
   const frameColumns = [column("frame", alone ? "frame" : "from frame"), ...(timed ? [column("picoseconds", "time, ps")] : []), column("pairs", alone ? "pairs" : "pairs, at most"),
     column("i", "first", { value: ({ closest: c }) => (c ? bead(c, "i") : null) }), column("j", "second", { value: ({ closest: c }) => (c ? bead(c, "j") : null) }),
@@ -27,10 +27,10 @@ export function collide(result) {
     column("pairs"), column("colliding_frames", "frames with collisions"), column("family", "pairs of spheres that prove the rest disjoint"), column("closest_seconds", "time to the closest pair", { write: seconds })];
   return {
     title: `Collisions in ${filesOf(result).join(", ")}`, answer,
-    holds: `Holds for ${dataOf(result)}, radii of ${num(input.radius_min)}${input.radius_max > input.radius_min ? ` to ${num(input.radius_max)}` : ""} Å, pairs at least ${result.settings.apart} apart along a chain. Every pair was counted, so that the counts have no interval.`,
+    holds: `Holds for ${dataOf(result)}, radii of ${num(input.radius_min)}${input.radius_max > input.radius_min ? ` to ${num(input.radius_max)}` : ""} Å, pairs at least ${result.settings.apart} apart along a chain. Every pair was counted, so counts have no interval.`,
     more: [
       closest ? `The closest pair of all frames is ${bead(closest, "i")} and ${bead(closest, "j")} in frame ${num(closest.frame)}: ${closest.distance < 0 ? `their surfaces overlap by ${num(-closest.distance)} Å` : `their surfaces are ${num(closest.distance)} Å apart`}.` : null,
-      rows.length > 1 ? `Method ${fastest.method} is the fastest with ${times.find(({ method }) => method === fastest.method).text}; ${agree ? `all ${rows.length} methods find the same pairs` : "the methods DIFFER"}.` : null,
+      rows.length > 1 ? `Method ${fastest.method} is the fastest with ${times.find(({ method }) => method === fastest.method).text}; ${agree ? `all ${rows.length} methods find the same pairs` : "the methods find different pairs"}.` : null,
     ].filter(Boolean),
     notes: agree ? [] : ["The methods found different numbers of pairs. This is an error of kds."],
     first: points.length > 1 ? { title: "Colliding pairs over time", note: alone ? "" : "Each point shows the most pairs of several frames.",
@@ -41,7 +41,7 @@ export function collide(result) {
   };
 }
 
-// Which beads collide. With many beads, groups of neighbours are shown.
+// Returns the section with the map of colliding beads, in groups of neighbouring beads if there are many, or null.
 function map({ map: { beads_in_group: size, groups }, input }) {
   if (groups.length === 0) return null;
   const count = Math.ceil(input.beads / size), most = Math.max(...groups.map(({ pairs }) => pairs));

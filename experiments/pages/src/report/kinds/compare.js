@@ -1,18 +1,17 @@
 // The page of kds compare: how often each structure changes, by stride, motion and input.
-import { baseName, everyFrame, interval, list, num, percent, seconds } from "../format.js";
+import { baseName, everyFrame, interval, known, list, num, percent, seconds } from "../format.js";
 import { seriesPlot, ticksAt } from "../plots.js";
+import { distinct } from "../result.js";
 import { column, withInterval } from "../table_text.js";
 
 // Rates of a row per picosecond if all inputs have times, otherwise per frame of the file.
-export function rated(result) {
+function rated(result) {
   const spacing = new Map(result.inputs.map(({ name, frame_picoseconds: ps }) => [name, ps]));
   const timed = result.inputs.every(({ frame_picoseconds: ps }) => ps > 0), unit = timed ? "ps" : "frame";
-  const per = (value, row) => (value === null || value === undefined ? null : value / (row.stride * (timed ? spacing.get(row.input) : 1)));
+  const per = (value, row) => (known(value) ? value / (row.stride * (timed ? spacing.get(row.input) : 1)) : null);
   return { unit, rows: result.rows.map((row) => ({ ...row, input: baseName(row.input),
     rate: per(row.events_per_step, row), rate_lower: per(row.events_per_step_lower, row), rate_upper: per(row.events_per_step_upper, row) })) };
 }
-
-const distinct = (values) => [...new Set(values)];
 
 export function compare(result) {
   const { unit, rows } = rated(result);
@@ -38,7 +37,11 @@ export function compare(result) {
   const series = names.map(({ structure, motion, name }) => ({ name, points: rows.filter((row) => row.structure === structure && row.motion === motion && row.rate > 0)
     .sort((a, b) => a.stride - b.stride).map((row) => ({ x: row.stride, y: row.rate, lower: row.rate_lower, upper: row.rate_upper, input: row.input, text: rate(row) })) }))
     .filter(({ points }) => points.length > 0);
-  const kinds = distinct(result.rows.flatMap(Object.keys)).filter((key) => /^(\d-\d|enter|leave|pivot|begin|end|touch|swap|flip|split|merge|wander)$/.test(key));
+  // The counts of kinds stand between these two members.
+  const kinds = distinct(result.rows.flatMap((row) => {
+    const keys = Object.keys(row);
+    return keys.slice(keys.indexOf("events") + 1, keys.indexOf("internal"));
+  }));
   const columns = [column("structure"), column("input"), column("stride"), column("motion"), withInterval("rate", `events per ${unit} (95%)`),
     withInterval("events_per_step", "events per step (95%)"), withInterval("events_per_net_change", "events per net change (95%)"),
     column("events"), ...kinds.map((kind) => column(kind)), column("internal"), column("net_changes", "net changes"), column("steps")];

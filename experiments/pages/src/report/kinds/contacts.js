@@ -1,12 +1,12 @@
 // The page of kds contacts: which contacts persist, and how long contacts last.
-import { briefInterval, interval, num, percent, plural } from "../format.js";
+import { briefInterval, interval, known, num, percent, plural } from "../format.js";
 import { coursePlot, pairMap, seriesPlot, ticksAt } from "../plots.js";
 import { dataOf, filesOf } from "../result.js";
 import { column, withInterval } from "../table_text.js";
 
 const kPersistent = 0.9;
 
-// "with a cutoff of 6 Å", "from a distance of 8 Å until one beyond 10 Å".
+// Returns "with a cutoff of 6 Å", or "for contacts that begin within 8 Å and end beyond 10 Å".
 function cutoffText({ cutoff, surface }) {
   const [begin, end] = String(cutoff).split(":"), between = surface ? " between surfaces" : "";
   return end ? `for contacts that begin within ${begin} Å and end beyond ${end} Å${between}` : `with a cutoff of ${begin} Å${between}`;
@@ -14,8 +14,8 @@ function cutoffText({ cutoff, surface }) {
 
 const nouns = { residue: "residues", bead: "beads", chain: "chains" };
 
-// The most of the time in contact first, then the longest.
-export const persistence = (a, b) => b.occupancy - a.occupancy || b.longest - a.longest || b.total - a.total || a.i - b.i || a.j - b.j;
+// Sorts pairs by their share of the time in contact, then by their longest contact.
+const persistence = (a, b) => b.occupancy - a.occupancy || b.longest - a.longest || b.total - a.total || a.i - b.i || a.j - b.j;
 
 function sentences(result) {
   const { all, rows, unit, by } = result;
@@ -24,16 +24,16 @@ function sentences(result) {
     return [`No two ${nouns[by]} of ${data} come into contact ${cutoffText(result.settings)}. Try a larger --cutoff or a smaller --apart.`, []];
   const often = rows.filter(({ occupancy }) => occupancy > kPersistent);
   const sure = often.filter((row) => row.occupancy === 1 || row.occupancy_lower > kPersistent);
-  const life = all.residence === null ? `no contact ends, so that a contact lasts at least ${num(all.residence_lower)} ${unit} (95%)`
+  const life = all.residence === null ? `no contact ends, so a contact lasts at least ${num(all.residence_lower)} ${unit} (95%)`
     : `a contact lasts ${interval(all.residence, all.residence_lower, all.residence_upper, unit)} on average`;
   const answer = `${num(often.length)} of ${plural(all.pairs_asked, "pair")} of ${nouns[by]} ${often.length === 1 ? "is" : "are"} in contact for more than 90% of the time` +
     (often.length > 0 ? ` (${num(sure.length)} of them also at the lower end of their 95% intervals)` : "") +
     `; ${life}.`;
   const more = [`${plural(all.pairs, "pair")} ${all.pairs === 1 ? "is" : "are"} ever in contact, in ${plural(all.contacts, "contact")}. ` +
     `A pair is in contact for ${interval(all.occupancy, all.occupancy_lower, all.occupancy_upper, "", percent)} of the time, averaged over all pairs.` +
-    (all.median === null || all.median === undefined ? "" : ` Half of the contacts end within ${interval(all.median, all.median_lower, all.median_upper, unit)}; the mean is longer, because few long contacts decide it.`)];
+    (!known(all.median) ? "" : ` Half of the contacts end within ${interval(all.median, all.median_lower, all.median_upper, unit)}; the mean is longer, because a few long contacts raise it.`)];
   if (all.residence_upper > result.run_length || all.residence > result.run_length)
-    more.push(`The run lasts ${num(result.run_length)} ${unit}, which is short beside the life of its contacts. A longer run narrows the interval.`);
+    more.push(`The run lasts ${num(result.run_length)} ${unit}, which is short compared with the life of its contacts. A longer run narrows the interval.`);
   return [answer, more];
 }
 
@@ -79,13 +79,13 @@ function course({ course }) {
 
 const spacingText = (spacing) => (spacing === null ? "exact" : spacing < 1 ? `${Math.round(1 / spacing)} times a frame` : spacing === 1 ? "every frame" : `one frame in ${spacing}`);
 
-// What samples show: rows of `frames` with the names of their spacings.
+// Returns the section that compares contacts counted at samples with the exact ones, or null.
 function samples(result) {
   const rows = result.frames.map((row) => ({ ...row, name: spacingText(row.spacing) }));
   const exact = rows.find(({ spacing }) => spacing === null), sampled = rows.filter(({ spacing }) => spacing !== null && spacing >= 1);
   if (!exact || sampled.length === 0) return null;
   const kinds = [["plain", "counted at frames alone"], ["bridged", `absences of up to ${result.settings.intermittency ?? 1} samples bridged`], ["dual", "two cutoffs at frames"]]
-    .filter(([kind]) => sampled.some((row) => row[`${kind}_length`] !== null && row[`${kind}_length`] !== undefined));
+    .filter(([kind]) => sampled.some((row) => known(row[`${kind}_length`])));
   const series = [
     { name: "exact, for straight paths", points: sampled.map(({ spacing }) => ({ x: spacing, y: exact.plain_length, text: num(exact.plain_length) })) },
     ...kinds.map(([kind, name]) => ({ name, points: sampled.filter((row) => row[`${kind}_length`]).map((row) => ({ x: row.spacing, y: row[`${kind}_length`], text: num(row[`${kind}_length`]) })) })),
@@ -97,7 +97,7 @@ function samples(result) {
         column(`${kind}_occupancy`, `${name}: occupancy`, { write: percent })])];
   return {
     heading: "What the spacing of frames shows",
-    note: `Looking at ${worst.name} sees ${num(worst.found)} of the ${plural(exact.plain_contacts, "contact")}, and makes the mean contact ${num(worst.plain_length)} ` +
+    note: `Looking only at ${worst.name} sees ${num(worst.found)} of the ${plural(exact.plain_contacts, "contact")}, and makes the mean contact ${num(worst.plain_length)} ` +
       `instead of ${num(exact.plain_length)} ${result.unit} long. Exact values hold for straight paths between the frames that were read.`,
     parts: [{
       title: "Mean length of contacts by spacing of frames",
@@ -134,7 +134,7 @@ export function contacts(result) {
     } : null,
     sections: [
       rows.length > 0 && { heading: "Pairs", parts: [{ title: "Pairs in contact", columns, rows,
-        note: "Sorted by occupancy, then by the longest contact. Click a heading to sort. Intervals take the contacts of a pair to begin and end at constant rates." }] },
+        note: "Sorted by occupancy, then by the longest contact. Click a heading to sort. Intervals assume that the contacts of a pair begin and end at constant rates." }] },
       survival(result) && { heading: "How long contacts last", parts: [survival(result), course(result)] },
       samples(result),
       certified(result),
@@ -142,7 +142,7 @@ export function contacts(result) {
   };
 }
 
-// With --certify: what the frames left out may have changed.
+// Returns the section on frames left out by a stride, which results of --certify have, or null.
 function certified({ stride, unit }) {
   if (!stride) return null;
   const rows = ["pairs", "contacts", "time"].filter((name) => stride[name]).map((name) => ({ name: name === "time" ? `time in contact (${unit})` : name, ...stride[name] }));

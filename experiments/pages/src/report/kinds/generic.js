@@ -1,4 +1,4 @@
-// The page of other results: their rows and members as tables.
+// The page of any other result: its rows and members as tables.
 import { capital, num, plural } from "../format.js";
 import { dataOf, filesOf, kindOf } from "../result.js";
 import { column } from "../table_text.js";
@@ -9,7 +9,7 @@ const flat = (row, prefix = "") => Object.entries(row).flatMap(([name, value]) =
   value !== null && typeof value === "object" && !Array.isArray(value) ? flat(value, `${prefix}${name}.`)
     : Array.isArray(value) ? (value.length <= 4 && value.every((v) => typeof v !== "object") ? [[prefix + name, value.join(", ")]] : []) : [[prefix + name, value]]);
 
-export function tableOf(title, rows) {
+function tableOf(title, rows) {
   const flatRows = rows.map((row) => Object.fromEntries(flat(row)));
   const names = [...new Set(flatRows.flatMap(Object.keys))];
   return { title, rows: flatRows, columns: names.map((name) => column(name, name.replaceAll("_", " "))) };
@@ -38,7 +38,7 @@ function answerOf(kind, result) {
   }
   if (kind === "update" && rows.length > 0) {
     const timed = rows.filter(({ ratio }) => ratio !== null), best = timed.reduce((a, b) => (b.ratio < a.ratio ? b : a), timed[0]);
-    return `Technique ${best.technique} is the fastest for ${data}: it takes ${num(best.ratio)} times as long as building anew at every frame${best.stride > 1 ? `, with a stride of ${best.stride}` : ""}.`;
+    return `Technique ${best.technique} is the fastest for ${data}: it takes ${num(best.ratio)} times as long as rebuilding at every frame${best.stride > 1 ? `, with a stride of ${best.stride}` : ""}.`;
   }
   if (kind === "stability") {
     const sum = (name) => rows.reduce((all, row) => all + (row[name] ?? 0), 0), broken = rows.filter(({ holds }) => !holds).length;

@@ -1,5 +1,5 @@
-// The page of kds missed: which share of the contacts nobody sees who looks at frames only.
-import { capital, everyFrame, interval, num, percent, plural } from "../format.js";
+// The page of kds missed: the share of contacts that are missed if only some frames are examined.
+import { capital, everyFrame, interval, known, num, percent, plural } from "../format.js";
 import { seriesPlot, ticksAt } from "../plots.js";
 import { dataOf, filesOf } from "../result.js";
 import { column, withInterval } from "../table_text.js";
@@ -8,14 +8,14 @@ import { column, withInterval } from "../table_text.js";
 export function groupsOf({ rows }) {
   const groups = new Map();
   for (const row of rows) {
-    const by = row.cutoff === undefined || row.cutoff === null ? "factor" : "cutoff", key = `${by} ${row[by]}`;
+    const by = known(row.cutoff) ? "cutoff" : "factor", key = `${by} ${row[by]}`;
     if (!groups.has(key)) groups.set(key, { name: by === "cutoff" ? `within ${num(row.cutoff)} Å` : `radii times ${num(row.factor)}`, rows: [] });
     groups.get(key).rows.push(row);
   }
   return [...groups.values()];
 }
 
-// The row to lead with: every 8th frame, else the largest stride that still finds a contact.
+// Returns the row of the first sentence: every 8th frame, else the largest stride that still finds a contact.
 export function leadOf(rows) {
   const missing = rows.filter(({ stride, missed }) => stride > 1 && missed > 0);
   return missing.find(({ stride }) => stride === 8) ?? missing.filter(({ found }) => found > 0).at(-1) ?? missing.at(-1) ?? rows.at(-1);
@@ -36,19 +36,19 @@ export function missed(result) {
   const rows = groups.flatMap((group) => group.rows.map((row) => ({ group: group.name, ...row })));
   const sections = [{ heading: "Table", parts: [{ title: "Contacts missed by stride", columns, rows }] }];
   if (full.length === 0)
-    return { title, sections, answer: "No two beads come into contact, so that no contact can be missed. Set a cutoff: --cutoff 8 --apart 3 is usual between C-alpha atoms, --cutoff 4.5 between heavy atoms.",
+    return { title, sections, answer: "No two beads come into contact, so no contact can be missed. Set a cutoff: --cutoff 8 --apart 3 is usual between C-alpha atoms, --cutoff 4.5 between heavy atoms.",
       holds: `Holds for ${dataOf(result)}.` };
   const series = full.map(({ name, rows }) => ({ name, points: rows.map((row) => ({
     x: row.stride, y: row.missed_fraction, lower: row.missed_fraction_lower, upper: row.missed_fraction_upper, text: share(row) })) }));
   const bare = full.flatMap(({ rows }) => rows).some((row) => row.missed > 0 && row.found > 0 && row.missed_fraction_lower === null);
   return {
     title, answer: `${capital(sentenceOf(full[0]))}.`,
-    holds: `Holds for ${dataOf(result)}. Contacts are found exactly for straight paths between all frames that were read.`.replace("straight", result.settings.motion === "hermite" ? "smooth (Hermite)" : "straight"),
+    holds: `Holds for ${dataOf(result)}. Contacts are found exactly for ${result.settings.motion === "hermite" ? "smooth (Hermite)" : "straight"} paths between all frames that were read.`,
     more: [...full.slice(1, 5).map((group) => `${capital(sentenceOf(group))}.`),
       ...(bare ? ["Shares without an interval come from fewer than 50 steps."] : [])],
     first: {
       title: "Share of contacts that are missed", note: "Bars are 95% intervals.",
-      draw: (size) => seriesPlot(series, size, { x: { ...ticksAt(rows.map(({ stride }) => stride)), label: "stride (frames from one look to the next)" },
+      draw: (size) => seriesPlot(series, size, { x: { ...ticksAt(rows.map(({ stride }) => stride)), label: "stride (frames)" },
         y: { label: "share of contacts missed", domain: [0, 1], tickFormat: "%" } }),
       columns, rows,
     }, sections,

@@ -4,8 +4,8 @@ import { coursePlot, dotRows } from "../plots.js";
 import { dataOf, filesOf } from "../result.js";
 import { column } from "../table_text.js";
 
-// The unit of time of rates, and how many of them the run lasts.
-export function spanOf({ input }) {
+// Returns the unit of time of rates, and the length of the run in this unit.
+function spanOf({ input }) {
   if (input.picoseconds && input.picoseconds[1] > input.picoseconds[0]) return { unit: "ps", length: input.picoseconds[1] - input.picoseconds[0] };
   return { unit: "step", length: input.frames > 1 ? input.frames - 1 : 1 };
 }
@@ -24,10 +24,10 @@ function sentences(result, structures) {
   const more = timed.length === 0 ? [] : [`Maintaining the structure took ${list(timed.map(([name, s]) => {
     const range = s.seconds_least !== undefined && s.static_seconds_most > 0 ? ` (${num(s.seconds_least / s.static_seconds_most)} to ${num(s.seconds_most / s.static_seconds_least)} over the rounds)` : "";
     return `${num(s.seconds / s.static_seconds)}${range} times as long for ${name}`;
-  }))} as building it anew at every frame (below 1: maintaining is faster).` + (timed.some(([, s]) => s.seconds_least === undefined) ? " One run was timed; --rounds 5 gives a range." : "")];
+  }))} as rebuilding it at every frame (below 1: maintaining is faster).` + (timed.some(([, s]) => s.seconds_least === undefined) ? " One run was timed; --rounds 5 gives a range." : "")];
   if (result.closest_approach) {
     const { distance, beads, names, frame, u } = result.closest_approach;
-    more.push(`The nearest two beads ever come is ${num(distance[1], 4)} Å: ${names ? list(names) : `beads ${beads.join(" and ")}`}, at frame ${num(frame + u, 6)}.`);
+    more.push(`The least distance of two beads is ${num(distance[1], 4)} Å, between ${names ? list(names) : `beads ${beads.join(" and ")}`} at frame ${num(frame + u, 6)}.`);
   }
   return [answer, more];
 }
@@ -43,11 +43,10 @@ export function run(result) {
     name: structures.length > 1 ? `${row.structure}: ${row.kind}` : row.kind, group: row.structure, value: row.rate, text: `${num(row.rate)} per ${unit}; ${plural(row.count, "event")}`,
   }));
   const eventColumns = [column("structure"), column("kind"), column("count", "events"), column("rate", `events per ${unit}`), column("internal")];
-  const times = structures.map(([name, s]) => ({ name, ...s, ratio: s.static_seconds > 0 ? s.seconds / s.static_seconds : null, seconds_lower: s.seconds_least, seconds_upper: s.seconds_most,
-    static_lower: s.static_seconds_least, static_upper: s.static_seconds_most, events: s.events.total }));
+  const times = structures.map(([name, s]) => ({ name, ...s, ratio: s.static_seconds > 0 ? s.seconds / s.static_seconds : null, events: s.events.total }));
   const stages = [...new Set(structures.flatMap(([, s]) => Object.keys(s.stages ?? {})))];
   return {
-    title: `${result.replay ? "Replay" : "Run"} of ${filesOf(result).join(", ")}`, answer, more, holds: `Holds for ${dataOf(result)}. Every event was counted, so that the counts have no interval.`,
+    title: `${result.replay ? "Replay" : "Run"} of ${filesOf(result).join(", ")}`, answer, more, holds: `Holds for ${dataOf(result)}. Every event was counted, so counts have no interval.`,
     first: rows.length > 0 ? {
       title: `Events per ${unit} by kind`, note: "Kinds without events and internal kinds are in the table.",
       draw: (size) => dotRows(rows, size, { groups: names, x: { label: `events per ${unit}` } }), columns: eventColumns, rows: kinds,
@@ -55,10 +54,10 @@ export function run(result) {
     sections: [
       overTime(result, structures),
       { heading: "Tables", parts: [
-        { title: "Events by kind", columns: eventColumns, rows: kinds, note: "Internal events keep the structure, and totals leave them out." },
+        { title: "Events by kind", columns: eventColumns, rows: kinds, note: "Internal events change only bookkeeping. Totals leave them out." },
         { title: "Times and audits", rows: times, columns: [column("name", "structure"), column("events"),
-          column("seconds", "maintaining (range)", { write: seconds, lower: (row) => row.seconds_lower, upper: (row) => row.seconds_upper }),
-          column("static_seconds", "building at every frame (range)", { write: seconds, lower: (row) => row.static_lower, upper: (row) => row.static_upper }),
+          column("seconds", "maintaining (range)", { write: seconds, lower: (row) => row.seconds_least, upper: (row) => row.seconds_most }),
+          column("static_seconds", "building at every frame (range)", { write: seconds, lower: (row) => row.static_seconds_least, upper: (row) => row.static_seconds_most }),
           column("ratio", "kinetic / static"), column("build_seconds", "first build", { write: seconds }), column("rebuilds"),
           column("audits", "audits", { value: ({ audits }) => audits?.run ?? null }), column("failed", "failed audits", { value: ({ audits }) => audits?.failed ?? null })] },
         { title: "Certificates", rows: times, columns: [column("name", "structure"), ...["created", "never_failing", "cancelled", "failed", "peak", "per_bead_max"].map((key) =>
@@ -71,7 +70,7 @@ export function run(result) {
   };
 }
 
-// The course of events, if the result has `over_time` for its structures.
+// Returns the section of events over time, or null if the result has none.
 function overTime(result, structures) {
   const parts = structures.filter(([, s]) => s.over_time).map(([name, { over_time: { steps, events, frames, picoseconds } }]) => {
     const points = events.map((count, k) => ({ x: (picoseconds ?? frames)[k], y: count / steps })), unit = picoseconds ? "time (ps)" : "frame";

@@ -1,6 +1,7 @@
 // The page of kds sweep collect: results of each input by each axis. Nothing is pooled but seeds.
 import { baseName, capital, interval, list, num, plural } from "../format.js";
 import { caption, seriesPlot, ticksAt } from "../plots.js";
+import { distinct } from "../result.js";
 import { column } from "../table_text.js";
 
 const leading = { run: "events per step", contacts: "residence", missed: "missed_fraction", compare: "events_per_step", collide: "pairs" };
@@ -12,7 +13,6 @@ const kMostInputs = 8;
 const tableNames = { rows: "results", means: "means", failed: "failures", warned: "warnings" };
 const fileOf = { rows: "results.csv", means: "pooled.csv", failed: "failed.csv", warned: "warnings.csv" };
 
-const distinct = (values) => [...new Set(values)];
 const isNumber = (value) => value !== null && value !== "" && Number.isFinite(Number(value));
 
 // 97.5% quantiles of Student's distribution for 2 to 30 degrees of freedom.
@@ -25,8 +25,8 @@ export function meanOf(values) {
   return { y: mean, lower: mean - half, upper: mean + half };
 }
 
-// What one command of the sweep can show: its rows, axes that vary and measures.
-export function viewOf(result, command) {
+// Returns the rows of one command of the sweep, the dimensions in which they differ, and the measures that plots can show.
+function viewOf(result, command) {
   const rows = result.rows.filter((row) => row.command === command).map((row) => ({ ...row, input: baseName(row.input),
     ...(row["events.total"] === undefined ? {} : { "events per step": row["events.total"] / Math.max(1, row["input.frames"] - 1) }) }));
   const names = distinct(rows.flatMap(Object.keys)), { axes, pooled } = result;
@@ -40,7 +40,7 @@ export function viewOf(result, command) {
 }
 
 // Series of one input: points by `axis`, one series for each combination of the other dimensions.
-export function seriesOf(view, input, axis, measure) {
+function seriesOf(view, input, axis, measure) {
   const rest = view.dimensions.filter((name) => name !== axis), groups = new Map();
   for (const row of view.rows.filter((other) => other.input === input && typeof other[measure] === "number")) {
     const name = rest.map((dimension) => `${dimension} ${row[dimension] ?? "none"}`).join(", ") || measure;
@@ -88,7 +88,7 @@ export function sweep(result) {
   };
 }
 
-// One plot below another, one for each input. The reader chooses the measure and the axis.
+// Returns a figure with a plot for each input, one below another. The reader chooses the measure and the axis.
 function figureOf(view) {
   const axes = view.dimensions.length > 0 ? view.dimensions : ["input"], inputs = distinct(view.rows.map(({ input }) => input));
   const controls = [{ name: "measure", options: view.measures, value: view.measure }, { name: "axis", options: axes, value: view.axis }].filter(({ options }) => options.length > 1);

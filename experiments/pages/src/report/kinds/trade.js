@@ -1,10 +1,10 @@
 // The page of kds trade: which setting saves time at which error, and which one to take.
-import { capital, interval, num, percent } from "../format.js";
+import { capital, interval, known, num, percent } from "../format.js";
 import { axisOf, decades, dot, dotRows, key, look, plot, style } from "../plots.js";
 import { dataOf, filesOf } from "../result.js";
 import { column } from "../table_text.js";
 
-// The error that a group is compared by, and the others that its table shows.
+// For each thing wanted: its main error, by which settings are compared, and other errors of its table.
 const errors = {
   contacts: { main: "contacts_missed", name: "contacts missed", also: ["contacts_spurious", "contacts_unsure", "contact_time_mean"] },
   cages: { main: "radius_mean", name: "radii too large, on average", also: ["radius_max", "beads_outside", "events_missed"] },
@@ -13,10 +13,10 @@ const errors = {
 };
 const shares = /missed|spurious|unsure|wrong|invented|^radius/;
 
-export const settingText = ({ structures, ...options }) =>
+const settingText = ({ structures, ...options }) =>
   [structures, ...Object.entries(options).map(([name, value]) => (name === "stride" ? `--frames ::${value}` : `--${name} ${value}`))].join(" ").replace("--certify yes", "--certify");
 
-// Groups of rows. Each begins with its exact run, whose ratio is 1.
+// Returns groups of rows. Each begins with its exact run, whose ratio is 1.
 export function groupsOf(result) {
   const frames = result.input.frames, groups = [];
   for (const row of result.rows) {
@@ -36,7 +36,7 @@ export function groupsOf(result) {
 }
 
 function frontPlot({ want, rows, taken }, size) {
-  const shown = rows.filter(({ error }) => error !== null && error !== undefined);
+  const shown = rows.filter(({ error }) => known(error));
   const named = ["exact run", "on the front", "other settings", ...(taken ? ["the setting to take"] : [])];
   const kind = (row) => (row.exact ? 0 : row.front ? 1 : 2);
   const title = (row) => `${row.name}\n${interval(row.time, null, null, "µs per frame")}\n${errors[want].name}: ${percent(row.error)}`;
@@ -61,7 +61,7 @@ const columnsOf = (want) => [column("name", "setting"), column("time", "µs per 
   column("displacement", "beads moved by at most, Å"), column("front", "on the front"), column("events"), column("memory", "memory, MB")];
 
 const figureOf = (group) => (errors[group.want] && group.rows.some(({ error }) => error > 0)
-  ? { title: `Time and error: ${nameOf(group)}`, note: "Left and low is better. On the front: no other setting is both as fast and as accurate in all errors of the table. The y axis is a square root.",
+  ? { title: `Time and error: ${nameOf(group)}`, note: "The lower left is best. A setting is on the front if no other one is both as fast and as accurate in all errors of the table. The y axis has a square-root scale.",
     draw: (size) => frontPlot(group, size), columns: columnsOf(group.want), rows: group.rows }
   : group.want === "scenes" ? { title: "Time of parts of the scene", columns: columnsOf(group.want), rows: group.rows,
     draw: (size) => dotRows(group.rows.map((row) => ({ ...row, value: row.time, lower: row.time_lower, upper: row.time_upper, text: `${num(row.time)} µs per frame` })), size, { x: { label: "time per frame (µs)" }, left: 260 }) } : null);
