@@ -362,11 +362,11 @@ std::string size_text(const ComparedInput& input) {
 
 namespace {
 
-// Returns nothing for fewer than two values.
+// Returns nothing for fewer than two values, and no interval for two.
 std::optional<PooledMean> pooled_mean(std::span<const double> values) {
   const auto interval = mean_of_independent(values);
   if (!interval) return std::nullopt;
-  return PooledMean{interval->mean, above_zero(interval)};
+  return PooledMean{interval->mean, values.size() < least_pooled ? std::nullopt : above_zero(interval)};
 }
 
 }  // namespace

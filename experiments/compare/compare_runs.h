@@ -125,7 +125,8 @@ struct ComparedInput {
 /// Returns "108 beads, 1,000 frames 0.02 ps apart".
 [[nodiscard]] std::string size_text(const ComparedInput& input);
 
-/// A mean over inputs. The interval is above 0 (above_zero), and missing if all inputs have one value.
+/// A mean over inputs. The interval is above 0 (above_zero). It is missing for two inputs
+/// (least_pooled), and if all inputs have one value.
 struct PooledMean {
   double mean = 0;
   std::optional<MeanInterval> interval;

@@ -11,6 +11,7 @@
 #include "experiments/program/option_values.h"
 #include "motions/base/input_error.h"
 #include "motions/base/input_file.h"
+#include "motions/readers/instance.h"
 #include "motions/readers/reader_registry.h"
 
 namespace kds {
@@ -18,6 +19,19 @@ namespace kds {
 std::filesystem::path source_data_folder() { return KDS_SOURCE_DATA_DIR; }
 
 namespace {
+
+/// Returns whether a LAMMPS dump says that its units are `lj`.
+bool names_reduced_units(const std::filesystem::path& path) {
+  constexpr std::size_t most_lines = 12;  // the atoms of the first frame begin before
+  LineReader lines(path);
+  std::string_view line;
+  bool units = false;
+  while (lines.number() < most_lines && lines.next(line)) {
+    if (units) return line == name_of(LammpsUnits::lj);
+    units = line.starts_with("ITEM: UNITS");
+  }
+  return false;
+}
 
 std::string parse_radius(const std::string& rule) {
   if (rule == "auto" || rule == "element" || rule == "element:fit") return rule;
@@ -301,6 +315,20 @@ Json files_json(const InputOptions& options) {
   return files;
 }
 
+bool in_angstrom(const InputOptions& options) {
+  for (std::size_t i = 0; i < options.inputs.size(); ++i) {
+    if (is_instance_file(options.inputs[i])) return false;
+    const ReadOptions reading = reading_of(options, i);
+    const ReaderSpec* const reader = reader_registry().find(options.inputs[i], reading.format);
+    if (reader == nullptr) continue;
+    if (reader->name == "xyz") return false;
+    if (reader->name != "lammps") continue;
+    if (reading.units ? *reading.units == LammpsUnits::lj : names_reduced_units(options.inputs[i]))
+      return false;
+  }
+  return true;
+}
+
 InputSize size_of(const Scene& scene) {
   return {scene.bead_count(),   scene.necklaces().size(),
           scene.frame_count(),  scene.dimension(),
@@ -323,6 +351,7 @@ Json input_json(const InputOptions& options, const InputSize& size, double radiu
   json["truncated"] = size.truncated;
   json["radius_min"] = radius_min;
   json["radius_max"] = radius_max;
+  json["length_unit"] = length_unit(options);
   add_ends(json, size.ends);
   return json;
 }

@@ -70,6 +70,15 @@ void check_input_lists(const InputOptions& options);
 [[nodiscard]] std::string input_name(const InputOptions& options, std::size_t input);
 /// Returns the file names of the inputs without their folders, separated by commas.
 [[nodiscard]] std::string file_names(const InputOptions& options);
+/// Returns whether the formats of all inputs give lengths in angstrom. Instances, XYZ files and LAMMPS dumps
+/// in units `lj` name no unit. Opens the inputs.
+[[nodiscard]] bool in_angstrom(const InputOptions& options);
+
+/// Returns "angstrom", or an empty text if lengths have no unit.
+[[nodiscard]] inline std::string length_unit(const InputOptions& options) {
+  return in_angstrom(options) ? "angstrom" : "";
+}
+
 /// Returns the paths of the inputs and of the obstacle.
 [[nodiscard]] Json files_json(const InputOptions& options);
 

@@ -19,6 +19,11 @@ struct MeanInterval {
   std::size_t samples = 0;
 };
 
+/// Means over inputs and tasks have an interval from this many values on. For two values Student's quantile
+/// is 12.7, so that the interval of a count can reach a factor of exp(12.7), which is 330,000, to either
+/// side. For three it is 4.3.
+inline constexpr std::size_t least_pooled = 3;
+
 /// Returns the mean of independent measurements, such as runs of several seeds, with Student's interval.
 /// Returns nothing for fewer than two measurements.
 [[nodiscard]] std::optional<MeanInterval> mean_of_independent(std::span<const double> values);

@@ -3,15 +3,10 @@
 
 #include <string>
 
-#include "experiments/program/input_options.h"
 #include "experiments/run/run_options.h"
 #include "experiments/view/replay_page.h"
 
 namespace kds {
-
-/// Returns whether the formats of all inputs give lengths in angstrom. Instances, XYZ files and LAMMPS dumps
-/// in units `lj` name no unit. Opens the inputs.
-[[nodiscard]] bool in_angstrom(const InputOptions& options);
 
 /// Returns the labels. `command` is the command that writes this page again: run or view.
 [[nodiscard]] ReplayLabels replay_labels(const RunOptions& options, const std::string& command);

@@ -71,6 +71,7 @@ RunReport report_of(KineticRun& run, const Scene& scene, const RunOptions& optio
   const auto [least, most] = std::minmax_element(scene.radii().begin(), scene.radii().end());
   report.radius_min = *least;
   report.radius_max = *most;
+  report.length_unit = length_unit(options);
   report.settings = run_options().settings(options);
   if (std::ranges::any_of(options.inputs, is_instance_file))
     for (auto& [name, value] : report.settings)
@@ -153,19 +154,19 @@ Json approach_json(const RunReport& report) {
             {"frame", approach.frame},
             {"u", approach.u},
             {"distance", json_of(approach.distance)}};
-  if (!report.bead_names.empty())
-    json["names"] =
-        std::vector<std::string>{report.bead_names[approach.beads[0]], report.bead_names[approach.beads[1]]};
+  const std::string &first = report.bead_names[approach.beads[0]],
+                    &second = report.bead_names[approach.beads[1]];
+  if (!first.empty() && !second.empty()) json["names"] = std::vector<std::string>{first, second};
   if (const auto& range = report.approach_in_all_frames) json["distance_in_all_frames"] = json_of(*range);
   return json;
 }
 
 Json run_json(const RunReport& report) {
   Json json;
-  json["input"] = {{"files", report.files},          {"beads", report.beads},
-                   {"frames", report.frames},        {"dimension", report.dimension},
-                   {"truncated", report.truncated},  {"radius_min", report.radius_min},
-                   {"radius_max", report.radius_max}};
+  json["input"] = {{"files", report.files},           {"beads", report.beads},
+                   {"frames", report.frames},         {"dimension", report.dimension},
+                   {"truncated", report.truncated},   {"radius_min", report.radius_min},
+                   {"radius_max", report.radius_max}, {"length_unit", report.length_unit}};
   if (report.first_frame && report.last_frame)
     add_ends(json["input"], {*report.first_frame, *report.last_frame});
   json["settings"] = Json::object();

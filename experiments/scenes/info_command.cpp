@@ -154,6 +154,7 @@ void describe(const InfoOptions& options, TableCommand& command) {
   info.first_time = survey.first.picoseconds;
   info.last_time = survey.last.picoseconds;
   info.truncated = survey.truncated;
+  info.length_unit = length_unit(options);
   Json json;
   add_scene(json, info);
   json["settings"] = info_options().settings_json(options);

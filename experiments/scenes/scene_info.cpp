@@ -241,7 +241,8 @@ void add_scene(Json& json, const SceneInfo& info) {
                    {"dimension", 3},
                    {"truncated", info.truncated},
                    {"radius_min", info.radius_min},
-                   {"radius_max", info.radius_max}};
+                   {"radius_max", info.radius_max},
+                   {"length_unit", info.length_unit}};
   if (info.first_time && info.last_time)
     json["input"]["picoseconds"] = std::vector<double>{*info.first_time, *info.last_time};
   json["necklaces"] = necklaces;

@@ -45,7 +45,8 @@ struct SceneInfo {
   double radius_min = 0, radius_max = 0;
   /// Times of the first and the last frame, in picoseconds; none if the file has no times.
   std::optional<double> first_time = {}, last_time = {};
-  bool truncated = false;  ///< frames are missing at the end (FrameSource::is_truncated)
+  bool truncated = false;        ///< frames are missing at the end (FrameSource::is_truncated)
+  std::string length_unit = {};  ///< empty if lengths have none
   std::vector<NecklaceInfo> necklaces;
   std::array<ConditionInfo, kConditions.size()> conditions;
 

@@ -15,10 +15,6 @@
 
 namespace kds {
 
-/// An interval takes this many values. For two values Student's quantile is 12.7, so that the interval of a
-/// count can reach a factor of exp(12.7), which is 330,000, to either side. For three it is 4.3.
-inline constexpr std::size_t least_pooled = 3;
-
 /// A measure over all tasks that are pooled: count, mean and sum of squared differences from the mean, by
 /// Welford's update.
 struct PooledFigure {

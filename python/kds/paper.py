@@ -98,13 +98,19 @@ def tables_of(result, command):
     """Returns the tables of a result, lists of flat rows by name."""
     tables = {name: result[name] for name in ("rows", "pooled") if result.get(name)}
     if "structures" in result:  # of a run
-        tables["structures"] = [{"structure": name, **structure} for name, structure in result["structures"].items()]
+        structures = result["structures"].items()
+        tables["structures"] = [{"structure": name, "events": one["events"]["total"], "created": one["certificates"]["created"],
+                                 "peak": one["certificates"]["peak"], "seconds": one["seconds"], "static_seconds": one["static_seconds"],
+                                 "audits": one["audits"]["run"], "failed": one["audits"]["failed"]} for name, one in structures]
+        tables["kinds"] = [{"structure": name, "kind": kind, "events": count, "internal": kind in one["internal"]}
+                           for name, one in structures for kind, count in one["events"].items() if kind != "total"]
     if command == "contacts":
         tables["rows"] = sorted(tables.get("rows", []), key=lambda row: (-(row["occupancy"] or 0), -row["total"]))
         tables["spacings"] = result["frames"]
     if command == "trade":
         tables["rows"] = [{**row, "setting": setting_text(row["setting"])} for row in tables["rows"]]
-    return {name: [flat(row) for row in rows] for name, rows in tables.items() if rows}
+    flat_tables = {name: [flat(row) for row in rows] for name, rows in tables.items()}
+    return {name: rows for name, rows in flat_tables.items() if columns_of(rows)}
 
 
 def error_bars(axes, rows, x, y, label=None, scale=1):
@@ -213,7 +219,7 @@ def write(path, folder=None, plots="pdf"):
     path = pathlib.Path(path)
     result = json.loads(path.read_text())
     if not isinstance(result, dict) or not str(result.get("command", "")).startswith("kds "):
-        raise ValueError(f"{path}: is no result of a command of kds")
+        raise ValueError(f"{path}: is not the result of a single command; expected the file that --json or --out writes")
     command = result["command"].split()[1]
     folder = path.parent if folder is None else pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
