@@ -105,7 +105,8 @@ export class ContactMap {
     const { state, filter } = this.app;
     const { structures, applied } = state;
     const order = ([s, e]) => structures[s].events.order[e];
-    const events = (this.contactOf(pair)?.events ?? []).filter(([s, e]) => filter.takes(s, e)).sort((a, b) => order(a) - order(b));
+    const events = (this.contactOf(pair)?.events ?? []).filter(([s, e]) => filter.takes(s, e))
+      .sort((a, b) => order(a) - order(b));
     return events.find(([s, e]) => e >= applied[s]) ?? events[0] ?? null;
   }
 

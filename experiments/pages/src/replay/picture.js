@@ -37,7 +37,8 @@ export class Picture {
       const hidden = layers.shows("hidden") ? state.elements("hidden").flat() : [];
       scene.paintBeads(new Set(hidden));
     }
-    if (layers.isStale("cages")) this.cages = layers.shows("cages") ? this.app.layers.cages(scene.colours.cage, this.app.dark) : [];
+    if (layers.isStale("cages")) this.cages = layers.shows("cages")
+      ? this.app.layers.cages(scene.colours.cage, this.app.dark) : [];
   }
 
   // Marks the changes of the chosen event, the neighbours of the chosen bead and, while playing, the events just passed.

@@ -67,5 +67,6 @@ export function figureElement({ title, note, draw, columns, rows, controls = [] 
         const { text, width, height } = saved();
         save(`${name}.png`, await pngOfSvg(text, width, height));
       }),
-      saveButton("CSV", `Save the numbers of the plot as CSV: ${title}`, () => save(`${name}.csv`, toCsv(columns, numbers()), "text/csv"))));
+      saveButton("CSV", `Save the numbers of the plot as CSV: ${title}`,
+        () => save(`${name}.csv`, toCsv(columns, numbers()), "text/csv"))));
 }

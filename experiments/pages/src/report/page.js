@@ -27,7 +27,8 @@ function howMade(meta, result) {
   const machine = result.machine ?? {}, settings = settingsOf(result);
   const facts = [
     ["version", result.version],
-    ["machine", [machine.cpu, machine.cores && `${machine.cores} cores`, machine.os, machine.compiler].filter(Boolean).join("; ")],
+    ["machine", [machine.cpu, machine.cores && `${machine.cores} cores`, machine.os, machine.compiler]
+      .filter(Boolean).join("; ")],
     ["input", (result.input?.files ?? result.inputs?.map(({ file }) => file) ?? []).join(", ")],
     ...settings,
   ].filter(([, value]) => value);
@@ -41,7 +42,8 @@ function howMade(meta, result) {
       () => save("result.json", JSON.stringify(result, null, 2), "application/json"))));
 }
 
-export function showReport(meta, result, { title, answer, holds = null, more = [], first, side = null, notes = [], sections = [] }) {
+export function showReport(meta, result, { title, answer, holds = null, more = [], first, side = null, notes = [],
+    sections = [] }) {
   document.title = title;
   const warnings = [...(result.warnings ?? []), ...notes];
   byId("report").replaceChildren(...[

@@ -26,7 +26,8 @@ function element(name, attributes, parent) {
 
 // Draws names beside their colours, symbols and dashes, in lines that fit `width`.
 export function key(names, { width, dark }, lines = true) {
-  const svg = element("svg", { width, "font-size": 12, "font-family": "system-ui, Helvetica, Arial, sans-serif", fill: "currentColor" });
+  const svg = element("svg", { width, "font-size": 12, "font-family": "system-ui, Helvetica, Arial, sans-serif",
+      fill: "currentColor" });
   const sign = lines ? 36 : 18;
   let x = 4, y = 12;
   names.forEach((name, k) => {
@@ -45,7 +46,8 @@ export function key(names, { width, dark }, lines = true) {
 
 // A line of text above a plot.
 export function caption(name, { width }) {
-  const svg = element("svg", { width, height: 24, viewBox: `0 0 ${width} 24`, "font-size": 13, "font-family": "system-ui, Helvetica, Arial, sans-serif", fill: "currentColor" });
+  const svg = element("svg", { width, height: 24, viewBox: `0 0 ${width} 24`, "font-size": 13,
+      "font-family": "system-ui, Helvetica, Arial, sans-serif", fill: "currentColor" });
   element("text", { x: 4, y: 17, "font-weight": 600 }, svg).textContent = name;
   return svg;
 }
@@ -57,7 +59,8 @@ export function shade(dark) {
 }
 
 const scaleKey = (label, { width, dark }, domain = [0, 1], tickFormat = undefined) =>
-  legend({ color: { type: "linear", domain, interpolate: shade(dark), label }, width: Math.min(width, 320), label, tickFormat, marginLeft: 8, marginRight: 14 });
+  legend({ color: { type: "linear", domain, interpolate: shade(dark), label }, width: Math.min(width, 320), label,
+      tickFormat, marginLeft: 8, marginRight: 14 });
 
 export const style = { fontSize: "12px", fontFamily: "system-ui, Helvetica, Arial, sans-serif", background: "none" };
 
@@ -98,7 +101,8 @@ export function decades(values) {
 
 // Returns [scale, marks of its axis]. Observable Plot leaves out labels of logarithmic scales, so their ticks are marks.
 const axisOf = ({ ticks, ...x }) => (x.type === "log" && ticks
-  ? [{ ...x, axis: null }, [gridX(ticks), axisX(ticks, { text: (v) => v.toLocaleString("en", { maximumSignificantDigits: 4 }), label: x.label })]]
+  ? [{ ...x, axis: null }, [gridX(ticks), axisX(ticks,
+      { text: (v) => v.toLocaleString("en", { maximumSignificantDigits: 4 }), label: x.label })]]
   : [{ grid: x.type !== "point", ...x }, []]);
 
 // Draws a line through points {x, y, lower, upper, text}, with a band from `lower` to `upper` where they are known.
@@ -126,12 +130,14 @@ export function pairMap(pairs, names, size, { label, axis, tickFormat }) {
   const domain = [-0.5, names.length - 0.5], tickName = (k) => names[k];
   return [scaleKey(label, { ...size, width: side }, [0, 1], tickFormat), plot({
     width: side, height: side, style, marginLeft: margin, marginBottom: margin, marginTop: 22, marginRight: 16,
-    x: { domain, label: axis }, y: { domain, label: axis }, color: { type: "linear", domain: [0, 1], interpolate: shade(size.dark) },
+    x: { domain, label: axis }, y: { domain, label: axis },
+    color: { type: "linear", domain: [0, 1], interpolate: shade(size.dark) },
     marks: [
       gridX(ticks, { strokeOpacity: 0.08 }), gridY(ticks, { strokeOpacity: 0.08 }),
       axisX(ticks, { tickFormat: tickName, tickRotate: -90, label: axis, labelOffset: margin - 6, fontSize: 10 }),
       axisY(ticks, { tickFormat: tickName, label: axis, fontSize: 10 }),
-      rect(both, { x1: (p) => p.i - half, x2: (p) => p.i + half, y1: (p) => p.j - half, y2: (p) => p.j + half, fill: "value", shapeRendering: "crispEdges" }),
+      rect(both, { x1: (p) => p.i - half, x2: (p) => p.i + half, y1: (p) => p.j - half, y2: (p) => p.j + half, fill: "value",
+          shapeRendering: "crispEdges" }),
       tip(both, pointer({ x: "i", y: "j", title: (p) => `${names[p.i]}, ${names[p.j]}\n${p.text}`, maxRadius: 12 })),
     ],
   })];
@@ -147,10 +153,12 @@ export function dotRows(rows, size, { x, groups = [], height = null, left = 150 
   const shown = far ? rows.filter(({ value }) => value > 0) : rows;
   const [scale, axis] = axisOf({ ...(far ? decades(values) : { zero: true }), ...x });
   const drawing = plot({
-    width: size.width, height: height ?? 70 + 26 * names.length, style, marginLeft: Math.min(left, size.width * 0.42), marginBottom: 42, marginRight: 30,
+    width: size.width, height: height ?? 70 + 26 * names.length, style, marginLeft: Math.min(left, size.width * 0.42),
+    marginBottom: 42, marginRight: 30,
     x: scale,
     y: { type: "point", domain: names, label: null, tickSize: 0, grid: true },
-    marks: [...axis, ...Array.from({ length: Math.max(1, groups.length) }, (_, k) => rowMarks(shown.filter((row) => kind(row) === k), k, size)).flat()],
+    marks: [...axis, ...Array.from({ length: Math.max(1, groups.length) },
+        (_, k) => rowMarks(shown.filter((row) => kind(row) === k), k, size)).flat()],
   });
   return groups.length > 1 ? [key(groups, size, false), drawing] : [drawing];
 }
@@ -159,7 +167,8 @@ const rowMarks = (rows, k, size) => {
   const { colour, symbol } = look(k, size.dark);
   const bounded = rows.filter(({ lower }) => known(lower));
   return [
-    line(bounded.flatMap((row) => [{ ...row, at: row.lower }, { ...row, at: row.upper }]), { x: "at", y: "name", z: "name", stroke: colour, strokeWidth: 2 }),
+    line(bounded.flatMap((row) => [{ ...row, at: row.lower }, { ...row, at: row.upper }]),
+      { x: "at", y: "name", z: "name", stroke: colour, strokeWidth: 2 }),
     dot(rows, { x: "value", y: "name", fill: colour, symbol, r: 5, tip: true, title: (row) => `${row.name}\n${row.text}` }),
   ];
 };

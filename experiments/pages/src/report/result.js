@@ -9,7 +9,8 @@ export async function resultOfPage(document) {
   if (meta.format !== "kds-report" || meta.version !== 1)
     throw new Error(`the report is of format '${meta.format}' ${meta.version}, this page shows 'kds-report' 1`);
   const bytes = await inflate(fromBase64(packed.textContent));
-  if (bytes.length !== meta.size) throw new Error(`the result has ${bytes.length} bytes, expected ${meta.size}: the file is cut off`);
+  if (bytes.length !== meta.size) throw new Error(`the result has ${bytes.length} bytes, expected ${meta.size}: the file ` +
+    `is cut off`);
   return { meta, result: JSON.parse(new TextDecoder().decode(bytes)) };
 }
 
@@ -21,6 +22,9 @@ export function kindOf(result) {
 export const distinct = (values) => [...new Set(values)];
 
 export const filesOf = (result) => (result.input?.files ?? result.inputs?.map(({ file }) => file) ?? []).map(baseName);
+
+// Writes the radius of the beads, or the least and the largest.
+export const radiiText = ({ radius_min: least, radius_max: most }) => `${num(least)}${most > least ? ` to ${num(most)}` : ""} Å`;
 
 // Names the data that a result holds for: "villin.dcd (108 beads, 1,000 frames, 0 to 1,998 ps)".
 export function dataOf(result) {

@@ -18,11 +18,13 @@ export function tableElement({ title, note, columns, rows, sort = null }) {
     const found = filterRows(rows, columns, text);
     return order ? sortRows(found, columns.find(({ key }) => key === order.key), order.descending) : found;
   };
-  const heads = columns.map((column, k) => make("th", { scope: "col", class: numeric[k] ? "number" : null, title: column.hint ?? null },
+  const heads = columns.map((column, k) => make("th",
+      { scope: "col", class: numeric[k] ? "number" : null, title: column.hint ?? null },
     make("button", {
       type: "button",
       onclick: () => {
-        order = order?.key === column.key ? { key: column.key, descending: !order.descending } : { key: column.key, descending: numeric[k] };
+        order = order?.key === column.key ? { key: column.key, descending: !order.descending }
+          : { key: column.key, descending: numeric[k] };
         show();
       },
     }, column.name)));
@@ -51,7 +53,8 @@ export function tableElement({ title, note, columns, rows, sort = null }) {
     make("summary", {}, `${title} (${num(rows.length)} ${rows.length === 1 ? "row" : "rows"})`),
     note ? make("p", { class: "soft" }, note) : null,
     make("div", { class: "buttons" }, rows.length > 5 ? filter : null,
-      saveButton("CSV", "Save all rows that match the filter as CSV", () => save(`${name}.csv`, toCsv(columns, chosen()), "text/csv")),
+      saveButton("CSV", "Save all rows that match the filter as CSV",
+        () => save(`${name}.csv`, toCsv(columns, chosen()), "text/csv")),
       saveButton("LaTeX", `Save the first ${kMostLatexRows} rows that match the filter as a LaTeX tabular`,
         () => save(`${name}.tex`, toLatex(columns, chosen().slice(0, kMostLatexRows)), "application/x-tex"))),
     make("div", { class: "wide", tabindex: "0", role: "region", "aria-label": title },

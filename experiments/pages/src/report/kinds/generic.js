@@ -1,13 +1,14 @@
 // The page of any other result: its rows and members as tables.
 import { capital, num, plural } from "../format.js";
-import { dataOf, filesOf, kindOf } from "../result.js";
+import { dataOf, filesOf, kindOf, radiiText } from "../result.js";
 import { column } from "../table_text.js";
 
 const known = new Set(["command", "kind", "version", "machine", "settings", "input", "warnings"]);
 
 const flat = (row, prefix = "") => Object.entries(row).flatMap(([name, value]) =>
   value !== null && typeof value === "object" && !Array.isArray(value) ? flat(value, `${prefix}${name}.`)
-    : Array.isArray(value) ? (value.length <= 4 && value.every((v) => typeof v !== "object") ? [[prefix + name, value.join(", ")]] : []) : [[prefix + name, value]]);
+    : Array.isArray(value) ? (value.length <= 4 && value.every((v) => typeof v !== "object")
+      ? [[prefix + name, value.join(", ")]] : []) : [[prefix + name, value]]);
 
 function tableOf(title, rows) {
   const flatRows = rows.map((row) => Object.fromEntries(flat(row)));
@@ -34,15 +35,18 @@ function answerOf(kind, result) {
     const broken = rows.filter(({ holds }) => !holds).map(({ condition }) => condition);
     return `${data} ${result.proper ? "is a proper necklace: all conditions hold in all frames"
       : `is not a proper necklace: ${broken.join(", ")} ${broken.length === 1 ? "fails" : "fail"}`}. The radius of its beads is ` +
-      `${num(result.input.radius_min)}${result.input.radius_max > result.input.radius_min ? ` to ${num(result.input.radius_max)}` : ""} Å.`;
+      `${radiiText(result.input)}.`;
   }
   if (kind === "update" && rows.length > 0) {
-    const timed = rows.filter(({ ratio }) => ratio !== null), best = timed.reduce((a, b) => (b.ratio < a.ratio ? b : a), timed[0]);
-    return `Technique ${best.technique} is the fastest for ${data}: it takes ${num(best.ratio)} times as long as rebuilding at every frame${best.stride > 1 ? `, with a stride of ${best.stride}` : ""}.`;
+    const timed = rows.filter(({ ratio }) => ratio !== null);
+    const best = timed.reduce((a, b) => (b.ratio < a.ratio ? b : a), timed[0]);
+    return `Technique ${best.technique} is the fastest for ${data}: it takes ${num(best.ratio)} times as long as ` +
+      `rebuilding at every frame${best.stride > 1 ? `, with a stride of ${best.stride}` : ""}.`;
   }
   if (kind === "stability") {
-    const sum = (name) => rows.reduce((all, row) => all + (row[name] ?? 0), 0), broken = rows.filter(({ holds }) => !holds).length;
-    return `${broken === 0 ? `All ${plural(rows.length, "row")} hold` : `${num(broken)} of ${plural(rows.length, "row")} fail`}: the filtered and the exact arithmetic ` +
+    const sum = (name) => rows.reduce((all, row) => all + (row[name] ?? 0), 0);
+    const broken = rows.filter(({ holds }) => !holds).length, all = plural(rows.length, "row");
+    return `${broken === 0 ? `All ${all} hold` : `${num(broken)} of ${all} fail`}: the filtered and the exact arithmetic ` +
       `agree in ${num(sum("agree"))} of ${plural(sum("cases"), "case")}, and ${num(sum("refused"))} are refused.`;
   }
   return `The result has ${plural(rows.length, "row")}${filesOf(result).length > 0 ? ` for ${data}` : ""}.`;
