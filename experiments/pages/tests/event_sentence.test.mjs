@@ -24,7 +24,8 @@ test("the sentence of a sphere names the bead that enters or leaves and the resi
     const [old, now] = [changes[0].removed[0].slice(1), changes[0].added[0].slice(1)];
     const [comes, goes] = [now.filter((b) => !old.includes(b)), old.filter((b) => !now.includes(b))];
     const said = eventSentence({
-      structure: "wrapped", kind: events.kindOf(e).name, roles: events.rolesOf(e), changes: state.changesOf(s, e), names, dimension: 3, several: true,
+      structure: "wrapped", kind: events.kindOf(e).name, roles: events.rolesOf(e), changes: state.changesOf(s, e), names,
+      dimension: 3, several: true,
     });
     assert.deepEqual([said.enters, said.leaves].map((list) => [...list].sort()), [comes, goes].map((list) => list.sort()));
     const text = textOf(said.parts, names, true);
@@ -43,7 +44,8 @@ test("names of beads and nodes are those of a molecule", () => {
   assert.equal(rangeText(0, 1, made, false), "residues 42 to 7A");
   assert.equal(rangeText(0, 2, made, true), "beads 0 to 2");
   assert.equal(rangeText(3, 9, null, false), "beads 3 to 9");
-  const said = sentence("wrapped", "enter", { node: [0, 8], basis: [1, 2, 4] }, [{ name: "cages", removed: [0, 1, 2], added: [0, 1, 2, 4] }]);
+  const said = sentence("wrapped", "enter", { node: [0, 8], basis: [1, 2, 4] },
+    [{ name: "cages", removed: [0, 1, 2], added: [0, 1, 2, 4] }]);
   assert.equal(textOf(said.parts, names, false), "ALA 2 CA enters the sphere around residues 1 to 3.");
 });
 
@@ -90,7 +92,8 @@ test("switched off and internal events are neither stepped to nor counted", () =
     seen.push(event.join("."));
   }
   const expected = run.structures.flatMap(({ events }, s) =>
-    events.flatMap(({ kind, order }, e) => (s < 2 && !(s === 0 && kind === 1) && !(s === 1 && kind === 0) ? [{ order, name: `${s}.${e}` }] : [])),
+    events.flatMap(({ kind, order }, e) => (s < 2 && !(s === 0 && kind === 1) && !(s === 1 && kind === 0)
+        ? [{ order, name: `${s}.${e}` }] : [])),
   );
   assert.deepEqual(seen, expected.sort((a, b) => a.order - b.order).map(({ name }) => name));
   assert.equal(filter.counted(1), run.structures[1].events.filter(({ kind }) => kind === 1).length);

@@ -50,7 +50,8 @@ function randomLayer(seed, arity, spacing) {
   for (let event = 0; event < 3000; ++event) {
     if (next() < 0.7) {
       const removed = [...state.values()].filter(() => next() < 0.1);
-      const added = [...Array(3)].map(element).filter((e, k, all) => !state.has(String(e)) && all.findIndex((f) => String(f) === String(e)) === k);
+      const added = [...Array(3)].map(element)
+        .filter((e, k, all) => !state.has(String(e)) && all.findIndex((f) => String(f) === String(e)) === k);
       removed.forEach((e) => state.delete(String(e)));
       added.forEach((e) => state.set(String(e), e));
       words.push(event, removed.length, added.length, ...removed.flat(), ...added.flat());

@@ -22,7 +22,8 @@ const pairs = contactIntervals(layer, state.structures[s].events, state.lastStep
 
 test("beads of one residue stand together, and without names each bead is one", () => {
   assert.equal(residues.list.length, 8);
-  assert.deepEqual(residues.list[5], { chain: "B", type: "ALA", number: "2", necklace: 1, beads: [15, 16, 17], title: "B ALA 2" });
+  assert.deepEqual(residues.list[5], { chain: "B", type: "ALA", number: "2", necklace: 1, beads: [15, 16, 17],
+      title: "B ALA 2" });
   assert.deepEqual([...residues.of.slice(0, 4)], [0, 0, 0, 1]);
   const unnamed = residuesOf(meta, null);
   assert.equal(unnamed.list.length, 24);
@@ -37,7 +38,8 @@ test("residues are found by type, number, chain, atom and bead", () => {
   assert.deepEqual(find("ala 2"), [1, 5]);
   assert.deepEqual(find("3 CA"), [2, 6]);
   assert.equal(find("ALA").length, 8);
-  for (const text of ["", " ", "LEU 2", "ALA 99", "bead 24", "2 ALA"]) assert.deepEqual(find(text), text === "2 ALA" ? [1, 5] : [], text);
+  for (const text of ["", " ", "LEU 2", "ALA 99", "bead 24", "2 ALA"]) assert.deepEqual(find(text),
+    text === "2 ALA" ? [1, 5] : [], text);
   assert.deepEqual(findResidues(residuesOf(meta, null), "17"), [17]);
 });
 
@@ -61,7 +63,8 @@ test("the contacts of residues agree with those found by sampling", () => {
       if (own[0] !== own[1] && spans.some(({ from, to }) => time >= from && time < to)) inContact.add(own[0] * 8 + own[1]);
     }
     for (const key of inContact) counts.set(key, (counts.get(key) ?? 0) + 1);
-    for (const key of before ? [...inContact, ...before] : []) if (inContact.has(key) !== before.has(key)) changes.set(key, (changes.get(key) ?? 0) + 1);
+    for (const key of before ? [...inContact, ...before] : []) if (inContact.has(key) !== before.has(key)) changes.set(key,
+      (changes.get(key) ?? 0) + 1);
     before = inContact;
   }
   assert.ok(contacts.size > 3);
@@ -90,7 +93,8 @@ test("colours tell chains, types and lives apart", () => {
   assert.notDeepEqual(of(0), of(12));
   assert.deepEqual(colours("type").legend.entries.map(([, text]) => text), ["hydrophobic"]);
   assert.deepEqual(colours("along").of(0), colours("along").of(12));
-  const lives = contactLives(residues, [{ pair: [0, 3], total: 3, changes: 3, spans: [{}, {}] }, { pair: [0, 6], total: 7, changes: 0, spans: [{}] }]);
+  const lives = contactLives(residues, [{ pair: [0, 3], total: 3, changes: 3, spans: [{}, {}] },
+      { pair: [0, 6], total: 7, changes: 0, spans: [{}] }]);
   assert.deepEqual(lives.slice(0, 3), [1.5, 1.5, NaN]);
   const low = Number(colours("life").legend.low);
   assert.ok(Math.abs(low - Math.min(...contactLives(residues, pairs).filter((life) => life > 0))) < 1e-9 * low);

@@ -25,7 +25,8 @@ test("the state at a time has the events before it", () => {
   for (let round = 0; round < 60; ++round) {
     const [step, u] = [Math.floor(7 * next()), next()];
     state.seek(step, u);
-    check(run.structures.map(({ events }) => events.filter((e) => e.step < step || (e.step === step && (e.lower + e.upper) / 2 <= u)).length));
+    check(run.structures.map(({ events }) => events
+        .filter((e) => e.step < step || (e.step === step && (e.lower + e.upper) / 2 <= u)).length));
   }
   state.seek(99, 0);
   assert.equal(state.time, 7);

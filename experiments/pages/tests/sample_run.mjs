@@ -140,10 +140,12 @@ function stillStructures(frames) {
   const pairs = beads.flatMap((i) => beads.slice(i + 1).map((j) => [i, j]));
   const closest = pairs.sort((a, b) => far(first[a[0]], first[a[1]]) - far(first[b[0]], first[b[1]]))[0];
   const turn = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-  const hull = beads.flatMap((i) => beads.filter((j) => j !== i && beads.every((k) => turn(first[i], first[j], first[k]) >= 0)).map((j) => [i, j]));
+  const hull = beads.flatMap((i) => beads.filter((j) => j !== i
+      && beads.every((k) => turn(first[i], first[j], first[k]) >= 0)).map((j) => [i, j]));
   const order = [...beads].sort((a, b) => first[a][0] - first[b][0]).map((bead, rank) => [rank, bead]);
   const still = (name, layer, initial, more = {}) =>
-    ({ name, kinds: [], stages: [], events: [], layers: layer ? [{ name: layer, arity: initial[0].length, initial }] : [], ...more });
+    ({ name, kinds: [], stages: [], events: [], layers: layer ? [{ name: layer, arity: initial[0].length, initial }] : [],
+        ...more });
   return [
     still("sorted", "order", order),
     still("box", "ends", ends(beads).map((bead, end) => [end, bead])),
@@ -184,7 +186,8 @@ export function sampleRun({ beads = 24, frames = 10, dimension = 3, seed = 1, ti
   all.sort((a, b) => a.step - b.step || a.lower - b.lower);
   all.forEach((event, order) => (event.order = order));
   for (const { events } of structures) events.sort((a, b) => a.order - b.order);
-  const names = Array.from({ length: beads }, (_, b) => `${b < half ? "A" : "B"}/ALA${1 + Math.floor((b % half) / 3)}/${["N", "CA", "C"][b % 3]}`);
+  const names = Array.from({ length: beads }, (_, b) =>
+    `${b < half ? "A" : "B"}/ALA${1 + Math.floor((b % half) / 3)}/${["N", "CA", "C"][b % 3]}`);
   return {
     title, dimension, frames: positions, radius: 0.5, names, necklaces: [half, beads - half], structures,
     times: positions.map((_, f) => 2 * f), frame_numbers: positions.map((_, f) => 100 + 5 * f), quantum: 0.001,

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
-import { Window, axisTicks, binWidth, eventNear, layoutEvents, layoutSpans, moved, zoomed } from "../src/replay/timeline_layout.js";
+import { Window, axisTicks, binWidth, eventNear, layoutEvents, layoutSpans, moved,
+  zoomed } from "../src/replay/timeline_layout.js";
 import { loadRun } from "./load_run.mjs";
 import { random, sampleRun } from "./sample_run.mjs";
 

@@ -26,7 +26,8 @@ test("parts of a link that make no sense are left out", () => {
 test("decimals of a bracket enclose it", () => {
   const next = random(2);
   const scaled = (text) => BigInt(text.replace(".", "").padEnd(33, "0"));
-  for (const u of [0, 1, 0.5, 2 ** -32, 1 - 2 ** -32, ...Array.from({ length: 500 }, () => Math.floor(next() * 2 ** 32) / 2 ** 32)]) {
+  for (const u of [0, 1, 0.5, 2 ** -32, 1 - 2 ** -32,
+      ...Array.from({ length: 500 }, () => Math.floor(next() * 2 ** 32) / 2 ** 32)]) {
     const exact = (BigInt(u * 2 ** 32) * 10n ** 32n) / 2n ** 32n;  // 2^32 divides 10^32
     const [lower, upper] = [scaled(lowerText(u)), scaled(upperText(u))];
     assert.ok(lower <= exact && exact - lower < 10n ** 22n, `${lowerText(u)} below ${u}`);
