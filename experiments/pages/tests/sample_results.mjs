@@ -3,7 +3,7 @@ import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 
-const input = { files: ["data/a.dcd"], beads: 15, frames: 10, dimension: 3, truncated: false, radius_min: 1, radius_max: 1 };
+const input = { files: ["data/a.dcd"], beads: 15, frames: 10, dimension: 3, truncated: false, length_unit: "angstrom", first_frame: 0, last_frame: 9, radius_min: 1, radius_max: 1 };
 const common = (command, more = {}) => ({ command: `kds ${command} data/a.dcd`, version: "1",
     machine: { cpu: "a", cores: 2, os: "b", compiler: "c" }, settings: { topology: "a.pdb" }, input, warnings: [], ...more });
 const bounds = (name, value, lower = null, upper = null) =>

@@ -122,7 +122,8 @@ export function coursePlot(points, size, { x, y, step = false, height = 280 }) {
 
 // Draws a map of pairs {i, j, value, text} with 0 <= value <= 1 over elements with names.
 export function pairMap(pairs, names, size, { label, axis, tickFormat }) {
-  const side = Math.min(size.width, 480), margin = 64, inner = side - margin - 16;
+  const longest = Math.max(4, ...names.map((name) => name.length)), margin = Math.min(150, 24 + 6 * longest);
+  const side = Math.min(size.width, 416 + margin), inner = side - margin - 16;
   const step = Math.max(1, Math.ceil(names.length * 13 / inner));
   const ticks = names.map((_, k) => k).filter((k) => k % step === 0);
   const both = pairs.length > 6000 ? pairs : pairs.flatMap((pair) => [pair, { ...pair, i: pair.j, j: pair.i }]);
@@ -134,7 +135,7 @@ export function pairMap(pairs, names, size, { label, axis, tickFormat }) {
     color: { type: "linear", domain: [0, 1], interpolate: shade(size.dark) },
     marks: [
       gridX(ticks, { strokeOpacity: 0.08 }), gridY(ticks, { strokeOpacity: 0.08 }),
-      axisX(ticks, { tickFormat: tickName, tickRotate: -90, label: axis, labelOffset: margin - 6, fontSize: 10 }),
+      axisX(ticks, { tickFormat: tickName, tickRotate: -90, label: axis, labelOffset: margin - 8, fontSize: 10 }),
       axisY(ticks, { tickFormat: tickName, label: axis, fontSize: 10 }),
       rect(both, { x1: (p) => p.i - half, x2: (p) => p.i + half, y1: (p) => p.j - half, y2: (p) => p.j + half, fill: "value",
           shapeRendering: "crispEdges" }),

@@ -23,8 +23,21 @@ export const distinct = (values) => [...new Set(values)];
 
 export const filesOf = (result) => (result.input?.files ?? result.inputs?.map(({ file }) => file) ?? []).map(baseName);
 
+// Writes a length with its unit, or a number if the input names no unit.
+export const lengthText = (length, { length_unit: unit }, figures = 3) =>
+  `${typeof length === "number" ? num(length, figures) : length}${unit === "angstrom" ? " Å" : ""}`;
+
+// Returns the heading of a column of lengths.
+export const lengthName = (name, { length_unit: unit }) => (unit === "angstrom" ? `${name}, Å` : name);
+
 // Writes the radius of the beads, or the least and the largest.
-export const radiiText = ({ radius_min: least, radius_max: most }) => `${num(least)}${most > least ? ` to ${num(most)}` : ""} Å`;
+export function radiiText(input) {
+  const { radius_min: least, radius_max: most } = input;
+  return lengthText(most > least ? `${num(least)} to ${num(most)}` : least, input);
+}
+
+// Returns where the last frame lies on the axis of frames or of times.
+export const endOf = ({ input }, timed) => (timed ? input.picoseconds?.[1] : input.last_frame);
 
 // Names the data that a result holds for: "villin.dcd (108 beads, 1,000 frames, 0 to 1,998 ps)".
 export function dataOf(result) {

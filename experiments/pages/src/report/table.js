@@ -45,8 +45,9 @@ export function tableElement({ title, note, columns, rows, sort = null }) {
   show();
 
   const name = fileName(title);
+  const example = cellText(columns[Math.max(0, numeric.indexOf(false))], rows[0] ?? {});
   const filter = make("input", {
-    type: "search", placeholder: "Filter by name: LEU 42", "aria-label": `Filter the rows of table ${title}`,
+    type: "search", placeholder: `Filter, as ${example}`, "aria-label": `Filter the rows of table ${title}`,
     oninput: ({ target }) => { text = target.value; shown = kPage; show(); },
   });
   return make("details", { class: "table" },

@@ -25,24 +25,24 @@ export const isNumeric = (column, rows) => {
 };
 
 // Sorts by a column, missing values last in both directions. Equal rows keep their order.
-export function sortRows(rows, { value }, descending) {
+export function sortRows(rows, { value, order = value }, descending) {
   const sign = descending ? -1 : 1;
   return [...rows].sort((one, other) => {
-    const [a, b] = [value(one), value(other)];
+    const [a, b] = [order(one), order(other)];
     if (!known(a) || !known(b)) return known(b) - known(a);
     if (typeof a === "number" && typeof b === "number") return sign * (a - b);
     return sign * String(a).localeCompare(String(b), "en", { numeric: true });
   });
 }
 
-// Returns the rows whose names contain the text. "LEU 42, PHE 47" asks for both names. Tables without names are searched
-// for numbers.
+// Returns the rows whose names contain the text, with or without its blanks. "LEU 42, PHE 47" asks for both names. Tables
+// without names are searched for numbers.
 export function filterRows(rows, columns, text) {
-  const phrases = text.toLowerCase().split(",").map((phrase) => phrase.trim().replace(/\s+/g, " ")).filter(Boolean);
+  const phrases = text.toLowerCase().split(",").map((phrase) => phrase.replace(/ +/g, "").trim()).filter(Boolean);
   if (phrases.length === 0) return rows;
   const named = columns.filter((column) => !isNumeric(column, rows)), searched = named.length > 0 ? named : columns;
   return rows.filter((row) => {
-    const cells = searched.map((column) => cellText(column, row).toLowerCase()).join("\n");
+    const cells = searched.map((column) => cellText(column, row).toLowerCase().replaceAll(" ", "")).join("\n");
     return phrases.every((phrase) => cells.includes(phrase));
   });
 }

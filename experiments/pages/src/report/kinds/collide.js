@@ -1,14 +1,15 @@
 // The page of kds collide: which beads collide, in which frames, and which method is the fastest.
 import { known, num, percent, plural, seconds } from "../format.js";
 import { coursePlot, dotRows, pairMap } from "../plots.js";
-import { dataOf, filesOf, radiiText } from "../result.js";
+import { dataOf, filesOf, lengthName, lengthText, radiiText } from "../result.js";
 import { column } from "../table_text.js";
 
 export function collide(result) {
   const { rows, course, input } = result, looked = input.frames;
   const fewest = rows[0], fastest = rows.reduce((a, b) => (b.seconds < a.seconds ? b : a), rows[0]);
   const agree = rows.every(({ pairs }) => pairs === fewest.pairs);
-  const within = Number(result.settings.within) > 0 ? ` within ${num(Number(result.settings.within))} Å of each other` : "";
+  const distance = Number(result.settings.within);
+  const within = distance > 0 ? ` within ${lengthText(distance, input)} of each other` : "";
   const meets = within ? `come${within}` : "collide";
   const bead = (row, end) => result.names[row[end]] ?? `bead ${row[end]}`;
   const most = Math.max(0, ...course.map(({ pairs }) => pairs)), alone = course.length === looked;
@@ -27,7 +28,7 @@ export function collide(result) {
     ...(timed ? [column("picoseconds", "time, ps")] : []), column("pairs", alone ? "pairs" : "pairs, at most"),
     column("i", "first", { value: ({ closest: c }) => (c ? bead(c, "i") : null) }),
     column("j", "second", { value: ({ closest: c }) => (c ? bead(c, "j") : null) }),
-    column("distance", "distance of surfaces, Å", { value: ({ closest: c }) => c?.distance ?? null })];
+    column("distance", lengthName("distance of surfaces", input), { value: ({ closest: c }) => c?.distance ?? null })];
   const methodColumns = [column("method"), column("value", "µs per frame (range of rounds)",
       { key: "microseconds_per_frame", lower: (row) => row.lower, upper: (row) => row.upper }),
     column("pairs"), column("colliding_frames", "frames with collisions"),
@@ -39,8 +40,8 @@ export function collide(result) {
       "chain. Every pair was counted, so counts have no interval.",
     more: [
       closest ? `The closest pair of all frames is ${bead(closest, "i")} and ${bead(closest, "j")} in frame ` +
-        `${num(closest.frame)}: their surfaces ${closest.distance < 0 ? `overlap by ${num(-closest.distance)} Å`
-          : `are ${num(closest.distance)} Å apart`}.` : null,
+        `${num(closest.frame)}: their surfaces ${closest.distance < 0 ? `overlap by ${lengthText(-closest.distance, input)}`
+          : `are ${lengthText(closest.distance, input)} apart`}.` : null,
       rows.length > 1 ? `Method ${fastest.method} is the fastest with ` +
         `${times.find(({ method }) => method === fastest.method).text}; ` +
         `${agree ? `all ${rows.length} methods find the same pairs` : "the methods find different pairs"}.` : null,
@@ -64,14 +65,14 @@ export function collide(result) {
 function map({ map: { beads_in_group: size, groups }, input }) {
   if (groups.length === 0) return null;
   const count = Math.ceil(input.beads / size), most = Math.max(...groups.map(({ pairs }) => pairs));
-  const names = Array.from({ length: count }, (_, k) =>
-    (size === 1 ? String(k) : `${k * size} to ${Math.min(input.beads, (k + 1) * size) - 1}`));
+  const names = Array.from({ length: count }, (_, k) => String(k * size));
+  const range = (k) => (size === 1 ? names[k] : `${names[k]} to ${Math.min(input.beads, (k + 1) * size) - 1}`);
   const label = size === 1 ? "share of frames in which the pair collides" : "collisions, relative to the most of two groups";
-  const rows = groups.map((pair) => ({ ...pair, first: names[pair.i], second: names[pair.j],
+  const rows = groups.map((pair) => ({ ...pair, first: range(pair.i), second: range(pair.j),
       value: pair.pairs / (size === 1 ? input.frames : most),
     text: `${plural(pair.pairs, "collision")} in ${plural(input.frames, "frame")}` }));
   return { heading: "Where beads collide", parts: [{
     title: size === 1 ? "Map of colliding beads" : `Map of collisions, in groups of ${size} beads`,
-    draw: (place) => pairMap(rows, names, place, { label, axis: size === 1 ? "bead" : "beads", tickFormat: "%" }),
+    draw: (place) => pairMap(rows, names, place, { label, axis: size === 1 ? "bead" : `first of ${size} beads`, tickFormat: "%" }),
     columns: [column("first"), column("second"), column("pairs", "collisions")], rows }] };
 }

@@ -1,16 +1,17 @@
 // The page of kds contacts: which contacts persist, and how long contacts last.
 import { briefInterval, interval, known, num, percent, plural } from "../format.js";
 import { coursePlot, pairMap, seriesPlot, ticksAt } from "../plots.js";
-import { dataOf, filesOf } from "../result.js";
+import { leftOutSection, leftOutSentence } from "../left_out.js";
+import { dataOf, endOf, filesOf, lengthText } from "../result.js";
 import { column, withInterval } from "../table_text.js";
 
 const kPersistent = 0.9;
 
 // Returns "with a cutoff of 6 Å", or "for contacts that begin within 8 Å and end beyond 10 Å".
-function cutoffText({ cutoff, surface }) {
-  const [begin, end] = String(cutoff).split(":"), between = surface ? " between surfaces" : "";
-  return end ? `for contacts that begin within ${begin} Å and end beyond ${end} Å${between}`
-    : `with a cutoff of ${begin} Å${between}`;
+function cutoffText({ settings: { cutoff, surface }, input }) {
+  const [begin, end] = String(cutoff).split(":").map((length) => lengthText(length, input));
+  const between = surface ? " between surfaces" : "";
+  return end ? `for contacts that begin within ${begin} and end beyond ${end}${between}` : `with a cutoff of ${begin}${between}`;
 }
 
 const nouns = { residue: "residues", bead: "beads", chain: "chains" };
@@ -22,14 +23,14 @@ function sentences(result) {
   const { all, rows, unit, by } = result;
   const data = dataOf(result);
   if (rows.length === 0)
-    return [`No two ${nouns[by]} of ${data} come into contact ${cutoffText(result.settings)}. Try a larger --cutoff or a ` +
+    return [`No two ${nouns[by]} of ${data} come into contact ${cutoffText(result)}. Try a larger --cutoff or a ` +
       `smaller --apart.`, []];
   const often = rows.filter(({ occupancy }) => occupancy > kPersistent);
   const sure = often.filter((row) => row.occupancy === 1 || row.occupancy_lower > kPersistent);
-  const life = all.residence === null ? `no contact ends, so a contact lasts at least ${num(all.residence_lower)} ${unit} (95%)`
+  const life = all.residence === null ? `no contact ends within the run of ${num(result.run_length)} ${unit}`
     : `a contact lasts ${interval(all.residence, all.residence_lower, all.residence_upper, unit)} on average`;
   const answer = `${num(often.length)} of ${plural(all.pairs_asked, "pair")} of ${nouns[by]} ` +
-    `${often.length === 1 ? "is" : "are"} in contact for more than 90% of the time` +
+    `${often.length === 1 || all.pairs_asked === 1 ? "is" : "are"} in contact for more than 90% of the time` +
     (often.length > 0 ? ` (${num(sure.length)} of them also at the lower end of their 95% intervals)` : "") +
     `; ${life}.`;
   const more = [`${plural(all.pairs, "pair")} ${all.pairs === 1 ? "is" : "are"} ever in contact, in ` +
@@ -37,8 +38,9 @@ function sentences(result) {
     `A pair is in contact for ${interval(all.occupancy, all.occupancy_lower, all.occupancy_upper, "", percent)} of the ` +
       `time, averaged over all pairs.` +
     (!known(all.median) ? "" : ` Half of the contacts end within ` +
-      `${interval(all.median, all.median_lower, all.median_upper, unit)}; the mean is longer, because a few long contacts ` +
-      `raise it.`)];
+      `${interval(all.median, all.median_lower, all.median_upper, unit)}` +
+      `${all.residence > 1.2 * all.median ? "; the mean is longer, because a few long contacts raise it" : ""}.`)];
+  if (result.stride) more.push(leftOutSentence(result));
   if (all.residence_upper > result.run_length || all.residence > result.run_length)
     more.push(`The run lasts ${num(result.run_length)} ${unit}, which is short compared with the life of its contacts. A ` +
       `longer run narrows the interval.`);
@@ -78,14 +80,16 @@ function survival({ survival, unit, all }) {
   };
 }
 
-function course({ course }) {
+function course(result) {
+  const { course } = result;
   if (!course?.length) return null;
   const timed = course[0].picoseconds !== null;
   const points = course.map(({ frame, picoseconds, contacts }) =>
     ({ x: timed ? picoseconds : frame, y: contacts, text: num(contacts) }));
   return {
     title: "Pairs in contact over time", note: "mean of each span",
-    draw: (size) => coursePlot(points, size, { step: true, x: { label: timed ? "time (ps)" : "frame" },
+    draw: (size) => coursePlot([...points, { ...points.at(-1), x: endOf(result, timed) }], size,
+      { step: true, x: { label: timed ? "time (ps)" : "frame" },
         y: { label: "pairs in contact", zero: true } }),
     columns: [column("x", "", { key: timed ? "picoseconds" : "frame" }), column("y", "", { key: "pairs_in_contact" })],
     rows: points,
@@ -100,9 +104,10 @@ function samples(result) {
   const rows = result.frames.map((row) => ({ ...row, name: spacingText(row.spacing) }));
   const exact = rows.find(({ spacing }) => spacing === null),
     sampled = rows.filter(({ spacing }) => spacing !== null && spacing >= 1);
-  if (!exact || sampled.length === 0) return null;
+  if (!exact || exact.plain_contacts === 0 || sampled.length === 0) return null;
   const kinds = [["plain", "counted at frames alone"],
-    ["bridged", `absences of up to ${result.settings.intermittency ?? 1} samples bridged`], ["dual", "two cutoffs at frames"]]
+    ["bridged", `absences of up to ${plural(Number(result.settings.intermittency ?? 1), "sample")} bridged`],
+    ["dual", "two cutoffs at frames"]]
     .filter(([kind]) => sampled.some((row) => known(row[`${kind}_length`])));
   const series = [
     { name: "exact, for straight paths", points: sampled
@@ -138,7 +143,7 @@ export function contacts(result) {
   const [answer, more] = sentences(result);
   const rows = [...result.rows].sort(persistence), { unit } = result,
     times = result.input.picoseconds || rows[0]?.first_begin_picoseconds !== null;
-  const columns = [column("first"), column("second"),
+  const columns = [column("first", "first", { order: ({ i }) => i }), column("second", "second", { order: ({ j }) => j }),
     withInterval("occupancy", "occupancy (95%)", { write: percent, hint: "share of the time in contact" }),
     withInterval("residence", `mean life, ${unit} (95%)`, { hint: "time in contact divided by the number of ends" }),
     column("longest", `longest, ${unit}`), column("contacts", "contacts"),
@@ -153,7 +158,7 @@ export function contacts(result) {
   const top = others.slice(0, 10), pairText = ({ first, second }) => `${first} – ${second}`;
   return {
     title: `Contacts of ${filesOf(result).join(", ")}`, answer, more,
-    holds: rows.length > 0 ? `Holds for ${dataOf(result)}, ${cutoffText(result.settings)}.` : null,
+    holds: rows.length > 0 ? `Holds for ${dataOf(result)}, ${cutoffText(result)}.` : null,
     first: rows.length > 0 ? map(result, rows) : null,
     side: rows.length > 0 ? {
       title: "Contacts that persist most", columns: ["pair", "occupancy (95%)", `mean life, ${unit} (95%)`],
@@ -171,18 +176,7 @@ export function contacts(result) {
           "contacts of a pair begin and end at constant rates." }] },
       survival(result) && { heading: "How long contacts last", parts: [survival(result), course(result)] },
       samples(result),
-      certified(result),
+      leftOutSection(result),
     ].filter(Boolean),
   };
-}
-
-// Returns the section on frames left out by a stride, which results of --certify have, or null.
-function certified({ stride, unit }) {
-  if (!stride) return null;
-  const rows = ["pairs", "contacts", "time"].filter((name) => stride[name])
-    .map((name) => ({ name: name === "time" ? `time in contact (${unit})` : name, ...stride[name] }));
-  return { heading: "Frames left out", note: `${plural(stride.skipped, "frame")} left out, in which beads are at most ` +
-    `${num(stride.deviation?.largest)} Å from their positions in the run.`,
-    parts: [{ title: "What is sure", columns: [column("name", "figure"), column("found"), column("sure"), column("possible"),
-        column("least"), column("most")], rows }] };
 }

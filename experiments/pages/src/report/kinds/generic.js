@@ -1,5 +1,5 @@
 // The page of any other result: its rows and members as tables.
-import { capital, num, plural } from "../format.js";
+import { capital, list, num, plural } from "../format.js";
 import { dataOf, filesOf, kindOf, radiiText } from "../result.js";
 import { column } from "../table_text.js";
 
@@ -34,14 +34,15 @@ function answerOf(kind, result) {
   if (result.proper !== undefined) {
     const broken = rows.filter(({ holds }) => !holds).map(({ condition }) => condition);
     return `${data} ${result.proper ? "is a proper necklace: all conditions hold in all frames"
-      : `is not a proper necklace: ${broken.join(", ")} ${broken.length === 1 ? "fails" : "fail"}`}. The radius of its beads is ` +
+      : `is not a proper necklace, because ${broken.length === 1 ? "condition" : "conditions"} ${list(broken)} ` +
+        `${broken.length === 1 ? "fails" : "fail"}`}. The radius of its beads is ` +
       `${radiiText(result.input)}.`;
   }
   if (kind === "update" && rows.length > 0) {
-    const timed = rows.filter(({ ratio }) => ratio !== null);
+    const timed = rows.filter(({ ratio, stride }) => ratio !== null && stride === rows[0].stride);
     const best = timed.reduce((a, b) => (b.ratio < a.ratio ? b : a), timed[0]);
     return `Technique ${best.technique} is the fastest for ${data}: it takes ${num(best.ratio)} times as long as ` +
-      `rebuilding at every frame${best.stride > 1 ? `, with a stride of ${best.stride}` : ""}.`;
+      `rebuilding at every ${best.stride > 1 ? `${best.stride} frames` : "frame"}.`;
   }
   if (kind === "stability") {
     const sum = (name) => rows.reduce((all, row) => all + (row[name] ?? 0), 0);

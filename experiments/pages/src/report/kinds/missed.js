@@ -1,15 +1,15 @@
 // The page of kds missed: the share of contacts that are missed if only some frames are examined.
 import { capital, everyFrame, interval, known, num, percent, plural } from "../format.js";
 import { seriesPlot, ticksAt } from "../plots.js";
-import { dataOf, filesOf } from "../result.js";
+import { dataOf, filesOf, lengthText } from "../result.js";
 import { column, withInterval } from "../table_text.js";
 
 // Rows of one cutoff or factor, in the order of the result.
-export function groupsOf({ rows }) {
+export function groupsOf({ rows, input }) {
   const groups = new Map();
   for (const row of rows) {
     const by = known(row.cutoff) ? "cutoff" : "factor", key = `${by} ${row[by]}`;
-    if (!groups.has(key)) groups.set(key, { name: by === "cutoff" ? `within ${num(row.cutoff)} Å`
+    if (!groups.has(key)) groups.set(key, { name: by === "cutoff" ? `within ${lengthText(row.cutoff, input)}`
         : `radii times ${num(row.factor)}`, rows: [] });
     groups.get(key).rows.push(row);
   }

@@ -1,7 +1,8 @@
 // The page of kds run and kds replay: what changed and how often, audits, and times.
 import { capital, known, list, num, plural, seconds } from "../format.js";
 import { coursePlot, dotRows } from "../plots.js";
-import { dataOf, filesOf } from "../result.js";
+import { leftOutSection, leftOutSentence } from "../left_out.js";
+import { dataOf, endOf, filesOf, lengthText } from "../result.js";
 import { column } from "../table_text.js";
 
 // Returns the unit of time of rates, and the length of the run in this unit.
@@ -15,16 +16,19 @@ const kindsOf = (events) => Object.entries(events).filter(([kind]) => kind !== "
 
 function sentences(result, structures) {
   const { unit, length } = spanOf(result);
-  const changes = structures.map(([name, { events }]) =>
-    `${name} ${num(events.total)} times (${num(events.total / length)} per ${unit})`);
+  const changes = structures.filter(([, { events }]) => events.total > 0).map(([name, { events }]) =>
+    `${name} ${plural(events.total, "time")} (${num(events.total / length)} per ${unit})`);
+  const still = structures.filter(([, { events }]) => events.total === 0).map(([name]) => name);
   const run = structures.reduce((sum, [, { audits }]) => sum + (audits?.run ?? 0), 0);
   const failed = structures.reduce((sum, [, { audits }]) => sum + (audits?.failed ?? 0), 0);
   const audited = run === 0 ? "No audit was run" : failed === 0 ? `All ${plural(run, "audit")} passed`
     : `${num(failed)} of ${plural(run, "audit")} failed`;
   const again = result.replay ? (result.replay.same ? "The run repeats the log: all events are the same. "
     : `The run differs from the log: ${result.replay.difference}. `) : "";
-  const changed = changes.length === 1 ? changes[0].replace(/ /, " changed ") : `these structures changed: ${list(changes)}`;
-  const answer = `${again}${capital(changed)}. ${audited}.`;
+  const changed = changes.length === 0 ? "" : changes.length === 1 ? `${capital(changes[0].replace(/ /, " changed "))}. `
+    : `These structures changed: ${list(changes)}. `;
+  const unchanged = still.length === 0 ? "" : `${capital(list(still))} had no events. `;
+  const answer = `${again}${changed}${unchanged}${audited}.`;
   const timed = structures.filter(([, { static_seconds: anew }]) => anew > 0);
   const ratios = timed.map(([name, s]) => {
     const [least, most] = [s.seconds_least / s.static_seconds_most, s.seconds_most / s.static_seconds_least].map((x) => num(x));
@@ -36,9 +40,10 @@ function sentences(result, structures) {
     `(below 1: maintaining is faster).${rounds}`];
   if (result.closest_approach) {
     const { distance, beads, names, frame, u } = result.closest_approach;
-    more.push(`The least distance of two beads is ${num(distance[1], 4)} Å, between ` +
+    more.push(`The least distance of two beads is ${lengthText(distance[1], result.input, 4)}, between ` +
       `${names ? list(names) : `beads ${beads.join(" and ")}`} at frame ${num(frame + u, 6)}.`);
   }
+  if (result.stride) more.push(leftOutSentence(result));
   return [answer, more];
 }
 
@@ -68,6 +73,7 @@ export function run(result) {
     } : null,
     sections: [
       overTime(result, structures),
+      leftOutSection(result),
       { heading: "Tables", parts: [
         { title: "Events by kind", columns: eventColumns, rows: kinds,
           note: "Internal events change only bookkeeping. Totals leave them out." },
@@ -83,7 +89,8 @@ export function run(result) {
             ...["created", "never_failing", "cancelled", "failed", "peak", "per_bead_max"].map((key) =>
           column(key, { never_failing: "never failing", peak: "most at once", per_bead_max: "most on one bead" }[key] ?? key,
             { value: ({ certificates }) => certificates?.[key] ?? null }))],
-          note: "A certificate is a condition that proves the structure correct. Each one that fails is an event." },
+          note: "A certificate is a condition that proves the structure correct. A structure changes when certificates " +
+            "fail: one failure may cause several events, or none." },
         { title: "Decisions by stage of the arithmetic",
           rows: stages.map((stage) => ({ stage,
             ...Object.fromEntries(structures.map(([name, s]) => [name, s.stages?.[stage] ?? null])) })),
@@ -95,11 +102,12 @@ export function run(result) {
 
 // Returns the section of events over time, or null if the result has none.
 function overTime(result, structures) {
-  const parts = structures.filter(([, s]) => s.over_time).map(([name, { over_time: { steps, events, frames, picoseconds } }]) => {
+  const changing = structures.filter(([, s]) => s.over_time?.events.some((count) => count > 0));
+  const parts = changing.map(([name, { over_time: { steps, events, frames, picoseconds } }]) => {
     const points = events.map((count, k) => ({ x: (picoseconds ?? frames)[k], y: count / steps })),
       unit = picoseconds ? "time (ps)" : "frame";
     return { title: `Events of ${name} per step over time`,
-      draw: (size) => coursePlot(points, size,
+      draw: (size) => coursePlot([...points, { ...points.at(-1), x: endOf(result, picoseconds) }], size,
         { step: true, x: { label: unit }, y: { label: "events per step", zero: true }, height: 220 }),
       columns: [column("x", unit), column("y", "", { key: "events_per_step" })], rows: points };
   });

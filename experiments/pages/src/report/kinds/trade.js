@@ -20,14 +20,16 @@ const settingText = ({ structures, ...options }) =>
 
 // Returns groups of rows. Each begins with its exact run, whose ratio is 1.
 export function groupsOf(result) {
-  const frames = result.input.frames, groups = [];
+  const frames = result.input.frames, rounds = Number(result.settings.rounds), groups = [];
   for (const row of result.rows) {
     const { want, cost, error, setting } = row;
     const exact = Object.keys(setting).length === 1 && cost.ratio === 1;
     if (exact || groups.length === 0) groups.push({ want, structure: setting.structures, rows: [] });
-    const scale = 1e6 / frames;
-    groups.at(-1).rows.push({ ...error, name: settingText(setting), exact, front: row.pareto, time: scale * cost.seconds,
-        time_lower: cost.seconds_least * scale, time_upper: cost.seconds_most * scale,
+    // The ratio takes into account that a stride may leave out the last frames.
+    const first = groups.at(-1).rows[0], time = first ? first.time * cost.ratio : 1e6 * cost.seconds / frames;
+    const scale = rounds > 1 && cost.seconds > 0 ? time / cost.seconds : null;
+    groups.at(-1).rows.push({ ...error, name: settingText(setting), exact, front: row.pareto, time,
+      time_lower: scale && cost.seconds_least * scale, time_upper: scale && cost.seconds_most * scale,
       ratio: cost.ratio, events: cost.events, memory: cost.memory / 1e6, error: errors[want] ? error[errors[want].main] : null });
   }
   const texts = (result.recommendation ?? "").split(/(?<=\.) (?=For |Among )/);
@@ -67,7 +69,7 @@ const columnsOf = (want) => [column("name", "setting"),
   column("ratio", "time / exact"), ...(errors[want]
     ? [errors[want].main, ...errors[want].also]
     .map((name) => column(name, name.replaceAll("_", " "), shares.test(name) ? { write: percent } : {})) : []),
-  column("displacement", "beads moved by at most, Å"), column("front", "on the front"), column("events"),
+  column("displacement", "beads moved by at most"), column("front", "on the front"), column("events"),
   column("memory", "memory, MB")];
 
 const figureOf = (group) => (errors[group.want] && group.rows.some(({ error }) => error > 0)
@@ -83,9 +85,9 @@ const figureOf = (group) => (errors[group.want] && group.rows.some(({ error }) =
 function sentenceOf({ text, taken, rows }) {
   const clean = text.replaceAll("`", ""), exact = rows[0];
   if (!taken || taken === exact) return clean;
-  return `${clean} It takes ${interval(taken.time, null, null, "µs")} (${num(taken.time_lower)} to ` +
-    `${num(taken.time_upper)}) per frame, the exact run ${num(exact.time)} µs (${num(exact.time_lower)} to ` +
-    `${num(exact.time_upper)}).`;
+  const timeOf = ({ time, time_lower: least, time_upper: most }) =>
+    `${num(time)} µs${known(least) ? ` (${num(least)} to ${num(most)})` : ""}`;
+  return `${clean} It takes ${timeOf(taken)} per frame, the exact run ${timeOf(exact)}.`;
 }
 
 export function trade(result) {
@@ -95,8 +97,10 @@ export function trade(result) {
   const front = lead.rows.filter((row) => row.front || row.exact).sort((a, b) => a.time - b.time);
   return {
     title: `Speed and accuracy for ${filesOf(result).join(", ")}`, answer: sentenceOf(lead),
-    holds: `Holds for ${dataOf(result)}. Times are medians of ${plural(Number(result.settings.rounds), "round")}, with the range of the ` +
-      `rounds. Errors are measured at ${result.settings.times} times; the truth is straight motion between all frames.`,
+    holds: `Holds for ${dataOf(result)}. ${Number(result.settings.rounds) > 1
+      ? `Times are medians of ${result.settings.rounds} rounds, with the range of the rounds.`
+      : "One run was timed; --rounds 5 gives a range."} Errors are measured at ${result.settings.times} times; the ` +
+      "truth is straight motion between all frames.",
     first: figureOf(lead), side: figureOf(lead) && errors[lead.want]
       ? { title: "The front", columns: ["setting", "µs per frame", errors[lead.want].name],
       rows: front.map((row) => [row === lead.taken ? `${row.name} (take this)` : row.exact ? `${row.name} (exact)`
