@@ -53,14 +53,20 @@ void EventDistributions::on_event(const Event& event) {
   const EventKind& kind = event.kind;
   if (!kind.external || kind.counted_apart) return;
   EventDistribution& distribution = distributions_[event.structure_index];
+  named_.clear();
   event.for_roles([&](const IdRole& role, std::span<const BeadId> ids) {
     if (role.of == IdRole::Of::node) {
       if (const auto node = tree_.find({ids.front(), ids.back()})) ++distribution.by_level[levels_[*node]];
     } else if (role.of == IdRole::Of::beads) {
-      for (const BeadId bead : ids)
-        if (bead < distribution.by_bead.size()) ++distribution.by_bead[bead];
+      named_.insert(named_.end(), ids.begin(), ids.end());
     }
   });
+  // The pairs before and after a replacement may share a bead.
+  std::ranges::sort(named_);
+  const auto repeated = std::ranges::unique(named_);
+  named_.erase(repeated.begin(), repeated.end());
+  for (const BeadId bead : named_)
+    if (bead < distribution.by_bead.size()) ++distribution.by_bead[bead];
 }
 
 std::string bead_text(std::size_t bead, const std::string& name) {

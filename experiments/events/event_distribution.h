@@ -69,6 +69,7 @@ class EventDistributions final : public EventListener {
   NecklaceTree tree_;
   std::vector<std::size_t> levels_;  ///< levels of the tree's nodes
   std::vector<EventDistribution> distributions_;
+  std::vector<BeadId> named_;  // by the present event
 };
 
 /// Returns "bead 54, N of ALA 59 in chain A", or "bead 54" if `name` is empty.

@@ -8,13 +8,28 @@
 
 namespace kds {
 
+namespace {
+
+// Returns a relative URL. All bytes but those that every URL may contain are escaped.
+std::string url_of(const std::filesystem::path& path) {
+  std::string url;
+  for (const char c : path.generic_string()) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       std::string_view("-._~/").find(c) != std::string_view::npos;
+    url += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return url;
+}
+
+}  // namespace
+
 void write_report(AtomicFiles& files, const std::filesystem::path& file, std::string_view json,
                   const ReportLinks& links) {
   std::string page;
   for (const std::string_view piece : report_template()) page += piece;
   const Json meta{{"format", "kds-report"},
                   {"version", 1},
-                  {"replay", links.replay.empty() ? Json() : Json(links.replay.generic_string())},
+                  {"replay", links.replay.empty() ? Json() : Json(url_of(links.replay))},
                   {"data", links.data},
                   {"size", json.size()}};
   page.replace(page.find(page_data_mark), page_data_mark.size(),

@@ -89,9 +89,13 @@ void TakenPaths::write_page(const fs::path& page, const Destinations& destinatio
     write("--view", page);
     return ensure_writable_file(page, "--view");
   }
-  if (page.extension() != ".html" || page.filename() == report_name)
-    throw InputError(fmt::format("--view {}: is no name for a page in --out, expected {}", page.string(),
-                                 (*destinations.out / "replay.html").string()));
+  constexpr std::size_t longest = 255;  // of a name, on most file systems
+  const std::string name = page.filename().string();
+  if (page.extension() != ".html" || name == report_name || name.size() > longest ||
+      name.find('\n') != std::string::npos)
+    throw InputError(fmt::format(
+        "--view {}: expected a name of at most {} bytes that ends in .html and is not {}, such as {}",
+        one_line(page.string()), longest, report_name, (*destinations.out / "replay.html").string()));
 }
 
 void TakenPaths::require_directory(bool replace) const {

@@ -192,7 +192,7 @@ int view_command(const Arguments& arguments) {
       const double megabytes = static_cast<double>(large.expected) / kMegabyte;
       if (frames <= 2)
         throw InputError(
-            fmt::format("--max-mb {}: the page of 2 frames, the fewest of a run, has {:.1f} MB; expected at "
+            fmt::format("--max-mb {}: the page of the fewest frames has {:.1f} MB; expected at "
                         "least --max-mb {}",
                         options.most_megabytes, megabytes, std::ceil(megabytes)));
       const auto wanted = static_cast<std::size_t>(

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMostOnPage = 5'000, kBytesOnPage = 2'000'000, kMostNamed = 3;
+constexpr std::size_t kMostOnPage = 5'000, kBytesOnPage = 1'000'000, kMostNamed = 3;
 constexpr std::string_view kDone = "\"done\": ";
 
 Field field_from(const Json& json) {

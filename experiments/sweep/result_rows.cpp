@@ -12,8 +12,8 @@ namespace kds {
 namespace {
 
 // Members that say how a result was made, or that the row's task says.
-constexpr std::array<std::string_view, 7> kLeftOut{"command",  "version", "machine", "settings",
-                                                   "warnings", "file",    "files"};
+constexpr std::array<std::string_view, 8> kLeftOut{"command",     "version",  "machine", "settings",
+                                                   "length_unit", "warnings", "file",    "files"};
 constexpr std::array<std::string_view, 7> kKeys{"stride", "factor", "n", "frame", "i", "j", "seed"};
 
 bool is_left_out(std::string_view name) { return std::ranges::find(kLeftOut, name) != kLeftOut.end(); }
@@ -52,6 +52,7 @@ ResultRow row_of(const RowFields& of_result, const Json& json, const std::string
 bool is_time(std::string_view name) {
   const std::string_view last = name.substr(name.rfind('.') + 1);  // npos + 1 is 0
   if (last == "ratio" || last.starts_with("ratio_")) return true;
+  if (name == "recommendation" || name == "pareto") return true;  // follow from times
   for (const std::string& level : split(name, '.'))
     for (const std::string& word : split(level, '_'))
       if (word == "seconds" || word == "responsiveness" || word == "memory" || word == "speedup") return true;

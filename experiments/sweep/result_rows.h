@@ -20,7 +20,7 @@ struct ResultRow {
   RowFields times;   ///< depend on the machine and its load
 };
 
-/// Returns whether a field is a time, or a ratio of times, or memory.
+/// Returns whether a field is a time, a ratio of times or memory, or follows from times, as `pareto` does.
 [[nodiscard]] bool is_time(std::string_view name);
 
 /// Returns the rows of a command's result.

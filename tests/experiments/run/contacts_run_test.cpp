@@ -232,5 +232,16 @@ TEST(ContactsRun, CertifiesACutoff) {
   EXPECT_LT(balls["sure"], balls["possible"]);
 }
 
+// The pairs before and after the event share bead 1.
+TEST(EventsByBead, CountAnEventOnceForEachBead) {
+  const ScratchDirectory scratch;
+  const std::string path =
+      scratch.file("line.xyz", "3\n\nC 0 0 0\nC 1 0 0\nC 3 0 0\n3\n\nC 0 0 0\nC 2 0 0\nC 3 0 0\n");
+  const ProgramRun run = run_program({"run", path, "--structures", "closest", "--json", "-"});
+  const Json closest = Json::parse(run.out)["structures"]["closest"];
+  EXPECT_EQ(closest["events"]["replace"], 1);
+  EXPECT_EQ(closest["by_bead"], (Json{1, 1, 1}));
+}
+
 }  // namespace
 }  // namespace kds::test::contacts_run_test

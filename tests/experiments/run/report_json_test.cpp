@@ -31,8 +31,8 @@ TEST(ReportJson, HasTheShapeOfTheContract) {
   EXPECT_THAT(keys(json), ElementsAre("command", "input", "settings", "structures", "engine", "fingerprint",
                                       "version", "machine"));
   EXPECT_EQ(json["command"], "kds run chain.pdb");
-  EXPECT_THAT(keys(json["input"]),
-              ElementsAre("files", "beads", "frames", "dimension", "truncated", "radius_min", "radius_max"));
+  EXPECT_THAT(keys(json["input"]), ElementsAre("files", "beads", "frames", "dimension", "truncated",
+                                               "radius_min", "radius_max", "length_unit"));
   EXPECT_THAT(keys(json["machine"]), ElementsAre("cpu", "cores", "os", "compiler"));
   EXPECT_EQ(json["input"]["files"], Json::array({"chain.pdb"}));
   EXPECT_EQ(json["input"]["radius_max"], 1.5);
@@ -53,8 +53,8 @@ TEST(ReportJson, KeepsTheOrderOfStructuresAndKinds) {
   const Json structures = Json::parse(report_json(test::sample_report()))["structures"];
   EXPECT_THAT(keys(structures), ElementsAre("wrapped", "power"));
   EXPECT_THAT(keys(structures["power"]),
-              ElementsAre("events", "certificates", "stages", "seconds", "build_seconds", "static_seconds",
-                          "rebuilds", "audits"));
+              ElementsAre("events", "internal", "certificates", "stages", "seconds", "build_seconds",
+                          "static_seconds", "rebuilds", "audits"));
   EXPECT_THAT(keys(structures["power"]["events"]), ElementsAre("total", "2-3", "3-2", "wander"));
   EXPECT_EQ(structures["power"]["events"]["total"], 30);
   EXPECT_EQ(structures["power"]["rebuilds"], 1);

@@ -251,7 +251,7 @@ TEST(View, IsLinkedFromReports) {
   const ProgramRun run = run_program({"run", kVillin, "--frames", "0:4", "--out", report, "--view", page});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("\nreplay " + page + "\n"));
-  EXPECT_EQ(ReportData(report + "/report.html").links["replay"], "../a run #1.html");
+  EXPECT_EQ(ReportData(report + "/report.html").links["replay"], "../a%20run%20%231.html");
 }
 
 TEST(View, ShowsTheContactsThatKdsContactsFollows) {

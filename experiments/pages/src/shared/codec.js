@@ -11,7 +11,11 @@ export function fromBase64(text) {
 
 export async function inflate(bytes) {
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
+  try {
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+  } catch {
+    throw new Error("the data are damaged: the file is cut off or was edited");  // browsers say "Failed to fetch"
+  }
 }
 
 // Reads columns one after another. A varint is a zigzag LEB128 number.

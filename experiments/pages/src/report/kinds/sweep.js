@@ -1,5 +1,5 @@
 // The page of kds sweep collect: results of each input by each axis. Nothing is pooled but seeds.
-import { baseName, capital, interval, list, num, plural } from "../format.js";
+import { baseName, capital, interval, known, list, num, plural } from "../format.js";
 import { caption, seriesPlot, ticksAt } from "../plots.js";
 import { distinct } from "../result.js";
 import { column } from "../table_text.js";
@@ -81,12 +81,12 @@ function sentenceOf(view) {
 export function sweep(result) {
   const commands = distinct(result.rows.map(({ command }) => command)),
     views = commands.map((command) => viewOf(result, command));
-  const inputs = distinct(result.rows.map(({ input }) => baseName(input))), left = result.tasks - result.done;
-  const state = `${num(result.done)} of ${plural(result.tasks, "task")} have ` +
+  const inputs = distinct(result.rows.map(({ input }) => input).filter(known).map(baseName)), left = result.tasks - result.done;
+  const state = `${num(result.done)} of ${plural(result.tasks, "task")} ${result.done === 1 ? "has" : "have"} ` +
     `results${left > 0 ? `; ${num(left)} failed or are open` : ""}`;
   const claims = views.map(sentenceOf).filter(Boolean);
-  const title = `Sweep of ${list(commands.map((command) => `kds ${command}`))}`;
-  const holds = `Holds for ${plural(inputs.length, "input")}, each by itself: ` +
+  const title = commands.length === 0 ? "Sweep" : `Sweep of ${list(commands.map((command) => `kds ${command}`))}`;
+  const holds = inputs.length === 0 ? null : `Holds for ${plural(inputs.length, "input")}, each by itself: ` +
     `${list(inputs.slice(0, 6))}${inputs.length > 6 ? " and others" : ""}.`;
   const listed = (title, rows) => (rows.length > 0
     ? { title, rows, columns: distinct(rows.flatMap(Object.keys)).map((name) => column(name)) } : null);
