@@ -315,6 +315,7 @@ int trade_command(const Arguments& arguments) {
   json["settings"] = trade_options().settings_json(options);
   json["rows"] = trade_rows_json(rows);
   json["recommendation"] = recommendation(rows);
+  json["recommendations"] = recommendations_json(rows);
   json["warnings"] = command.warnings();
   command.deliver(json, trade_csv(rows), trade_table(rows));
   return 0;

@@ -204,17 +204,25 @@ std::string times_as_fast(double ratio) {
                    : few_figures(ratio) + " times as slow as the exact run";
 }
 
-std::string sentence_for_scenes(std::span<const TradeRow> group) {
+// A sentence for a group, and the setting to take; null if there is nothing to choose.
+struct Advice {
+  std::string sentence;
+  const TradeRow* taken;
+};
+
+Advice advice_for_scenes(std::span<const TradeRow> group) {
   const auto [least, most] = std::minmax_element(
       group.begin(), group.end(),
       [](const TradeRow& a, const TradeRow& b) { return a.cost.seconds < b.cost.seconds; });
-  return fmt::format("{}, `{}` costs least, and `{}` {} times as much.", subject_of(group.front()),
-                     words_of(least->setting), words_of(most->setting),
-                     few_figures(most->cost.seconds / least->cost.seconds));
+  return {fmt::format("{}, `{}` costs least, and `{}` {} times as much.", subject_of(group.front()),
+                      words_of(least->setting), words_of(most->setting),
+                      few_figures(most->cost.seconds / least->cost.seconds)),
+          &*least};
 }
 
-std::string sentence_for(std::span<const TradeRow> group) {
-  if (group.front().want == Want::scenes) return sentence_for_scenes(group);
+Advice advice_for(std::span<const TradeRow> group) {
+  const TradeRow& exact = group.front();
+  if (exact.want == Want::scenes) return advice_for_scenes(group);
   constexpr double hardly_quicker = 0.95;
   const TradeRow* best = nullptr;
   for (const TradeRow& row : group.subspan(1)) {
@@ -222,16 +230,17 @@ std::string sentence_for(std::span<const TradeRow> group) {
         (best == nullptr || row.cost.ratio < best->cost.ratio))
       best = &row;
   }
-  const std::string subject = subject_of(group.front());
-  const Want want = group.front().want;
-  if ((want == Want::contacts || want == Want::events) && group.front().cost.events == 0)
-    return fmt::format("{}, there is nothing to compare: the exact run has no event{}.", subject,
-                       group.front().setting.structure == "contacts"
-                           ? "; --radius makes balls larger, and a lower --apart allows more pairs"
-                           : "");
+  const std::string subject = subject_of(exact);
+  if ((exact.want == Want::contacts || exact.want == Want::events) && exact.cost.events == 0)
+    return {fmt::format("{}, there is nothing to compare: the exact run has no event{}.", subject,
+                        exact.setting.structure == "contacts"
+                            ? "; --radius makes balls larger, and a lower --apart allows more pairs"
+                            : ""),
+            nullptr};
   if (best != nullptr)
-    return fmt::format("{}, `{}` is {}: {}.", subject, words_of(best->setting),
-                       times_as_fast(best->cost.ratio), losses_of(*best));
+    return {fmt::format("{}, `{}` is {}: {}.", subject, words_of(best->setting),
+                        times_as_fast(best->cost.ratio), losses_of(*best)),
+            best};
   // No setting with small errors is quicker, so choose the quicker setting with the least errors.
   for (const TradeRow& row : group.subspan(1)) {
     const auto worst = [](const TradeRow& r) {
@@ -242,26 +251,40 @@ std::string sentence_for(std::span<const TradeRow> group) {
     if (row.cost.ratio < hardly_quicker && (best == nullptr || worst(row) < worst(*best))) best = &row;
   }
   if (best == nullptr)
-    return fmt::format("{}, nothing is quicker than the exact run `{}`.", subject,
-                       words_of(group.front().setting));
-  return fmt::format(
-      "{}, stay with the exact run: no quicker setting errs by less than {}; `{}` does the least harm, {}: "
-      "{}.",
-      subject, percent(small_error), words_of(best->setting), times_as_fast(best->cost.ratio),
-      losses_of(*best));
+    return {fmt::format("{}, nothing is quicker than the exact run `{}`.", subject, words_of(exact.setting)),
+            &exact};
+  return {fmt::format("{}, stay with the exact run: no quicker setting errs by less than {}; `{}` does the "
+                      "least harm, {}: {}.",
+                      subject, percent(small_error), words_of(best->setting), times_as_fast(best->cost.ratio),
+                      losses_of(*best)),
+          &exact};
+}
+
+// In the order of the groups.
+std::vector<Advice> advice(std::span<const TradeRow> rows) {
+  std::vector<Advice> all;
+  for (std::size_t first = 0; first < rows.size();) {
+    std::size_t end = first + 1;
+    while (end < rows.size() && !rows[end].is_exact) ++end;
+    all.push_back(advice_for(rows.subspan(first, end - first)));
+    first = end;
+  }
+  return all;
 }
 
 }  // namespace
 
 std::string recommendation(std::span<const TradeRow> rows) {
   std::string text;
-  for (std::size_t first = 0; first < rows.size();) {
-    std::size_t end = first + 1;
-    while (end < rows.size() && !rows[end].is_exact) ++end;
-    text += (text.empty() ? "" : " ") + sentence_for(rows.subspan(first, end - first));
-    first = end;
-  }
+  for (const Advice& one : advice(rows)) text += (text.empty() ? "" : " ") + one.sentence;
   return text;
+}
+
+Json recommendations_json(std::span<const TradeRow> rows) {
+  Json all = Json::array();
+  for (const auto& [sentence, taken] : advice(rows))
+    all.push_back({{"sentence", sentence}, {"row", taken != nullptr ? Json(taken - rows.data()) : Json()}});
+  return all;
 }
 
 }  // namespace kds

@@ -18,5 +18,7 @@ namespace kds {
 /// Returns one or two sentences per group: the quickest setting whose main errors are small, its errors and
 /// its gain. `rows` are in the order of measure_trade.
 [[nodiscard]] std::string recommendation(std::span<const TradeRow> rows);
+/// Returns {sentence, row} for each group. `row` is the index of the setting to take, or null.
+[[nodiscard]] Json recommendations_json(std::span<const TradeRow> rows);
 
 }  // namespace kds

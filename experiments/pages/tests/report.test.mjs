@@ -70,7 +70,7 @@ test("missed leads with every 8th frame", () => {
 
 test("each kind of result has a sentence with its numbers", () => {
   const sentence = (name) => describe(samples[name]).answer;
-  assert.equal(sentence("contacts"), "1 of 10 pairs of residues is in contact for more than 90% of the time (1 of them also at the lower end of their 95% intervals); a contact lasts 85.2 ps (95%: 74 to 97) on average.");
+  assert.equal(sentence("contacts"), "1 of 10 pairs of residues is in contact for more than 90% of the time (1 of 1 even at the lower end of the 95% interval); a contact lasts 85.2 ps (95%: 74 to 97) on average.");
   assert.equal(sentence("missed"), "Looking only at every 8th frame misses 67% (95%: 61% to 72%) of the 100 contacts (within 6 Å); every 2nd frame misses 20% (95%: 15% to 25%).");
   assert.match(sentence("missed_none"), /^No two beads come into contact.*--cutoff/);
   assert.equal(sentence("compare"), "Per ps, wrapped changes 4.50 (95%: 4 to 5) times in a.dcd and 6 times in b.dcd and contacts never changes.");

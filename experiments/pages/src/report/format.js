@@ -24,7 +24,8 @@ const united = (text, unit) => (unit ? `${text} ${unit}` : text);
 // Writes a value with its 95% interval, if it has one.
 export function interval(value, lower, upper, unit = "", write = num) {
   const text = united(write(value), unit);
-  return known(lower) && known(upper) ? `${text} (95%: ${write(lower)} to ${write(upper)})` : text;
+  if (!known(lower)) return text;
+  return `${text} (95%: ${known(upper) ? `${write(lower)} to ${write(upper)}` : `at least ${write(lower)}`})`;
 }
 
 // Writes a value with its interval for cells of tables whose heading names the level.

@@ -26,12 +26,16 @@ function sentences(result) {
     return [`No two ${nouns[by]} of ${data} come into contact ${cutoffText(result)}. Try a larger --cutoff or a ` +
       `smaller --apart.`, []];
   const often = rows.filter(({ occupancy }) => occupancy > kPersistent);
-  const sure = often.filter((row) => row.occupancy === 1 || row.occupancy_lower > kPersistent);
+  const sure = often.filter(({ occupancy_lower: lower }) => known(lower) && lower > kPersistent);
+  const always = often.filter(({ occupancy }) => occupancy === 1).length, others = often.length - always;
+  const howSure = [always > 0 && `${num(always)} all the time`,
+    others > 0 && `${num(sure.length)} of ${always > 0 ? "the other " : ""}${num(others)} even at the lower end of the 95% interval`]
+    .filter(Boolean);
   const life = all.residence === null ? `no contact ends within the run of ${num(result.run_length)} ${unit}`
     : `a contact lasts ${interval(all.residence, all.residence_lower, all.residence_upper, unit)} on average`;
   const answer = `${num(often.length)} of ${plural(all.pairs_asked, "pair")} of ${nouns[by]} ` +
     `${often.length === 1 || all.pairs_asked === 1 ? "is" : "are"} in contact for more than 90% of the time` +
-    (often.length > 0 ? ` (${num(sure.length)} of them also at the lower end of their 95% intervals)` : "") +
+    (often.length > 0 ? ` (${howSure.join(", ")})` : "") +
     `; ${life}.`;
   const more = [`${plural(all.pairs, "pair")} ${all.pairs === 1 ? "is" : "are"} ever in contact, in ` +
     `${plural(all.contacts, "contact")}. ` +

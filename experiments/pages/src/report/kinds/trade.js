@@ -21,22 +21,20 @@ const settingText = ({ structures, ...options }) =>
 // Returns groups of rows. Each begins with its exact run, whose ratio is 1.
 export function groupsOf(result) {
   const frames = result.input.frames, rounds = Number(result.settings.rounds), groups = [];
-  for (const row of result.rows) {
+  for (const [index, row] of result.rows.entries()) {
     const { want, cost, error, setting } = row;
     const exact = Object.keys(setting).length === 1 && cost.ratio === 1;
     if (exact || groups.length === 0) groups.push({ want, structure: setting.structures, rows: [] });
     // The ratio takes into account that a stride may leave out the last frames.
     const first = groups.at(-1).rows[0], time = first ? first.time * cost.ratio : 1e6 * cost.seconds / frames;
     const scale = rounds > 1 && cost.seconds > 0 ? time / cost.seconds : null;
-    groups.at(-1).rows.push({ ...error, name: settingText(setting), exact, front: row.pareto, time,
+    groups.at(-1).rows.push({ ...error, index, name: settingText(setting), exact, front: row.pareto, time,
       time_lower: scale && cost.seconds_least * scale, time_upper: scale && cost.seconds_most * scale,
       ratio: cost.ratio, events: cost.events, memory: cost.memory / 1e6, error: errors[want] ? error[errors[want].main] : null });
   }
-  const texts = (result.recommendation ?? "").split(/(?<=\.) (?=For |Among )/);
   return groups.map((group, k) => {
-    const text = texts[k] ?? "", best = /`([^`]*)`/.exec(text)?.[1].replace(/--frames \S*:(\d+)/, "--frames ::$1");
-    const stays = /stay with the exact run|nothing is quicker/.test(text);
-    return { ...group, text, taken: stays ? group.rows[0] : group.rows.find(({ name }) => name === best) ?? null };
+    const { sentence, row } = result.recommendations[k];
+    return { ...group, text: sentence, taken: group.rows.find(({ index }) => index === row) ?? null };
   });
 }
 
