@@ -28,6 +28,31 @@ COLUMNS = {
     "trade": ["want", "setting", "cost_seconds", "cost_ratio", "pareto"],
 }
 
+NUMBER = (int, float)
+KINDS = {dict: "an object", list: "a list", str: "a text", NUMBER: "a number", bool: "true or false"}
+
+
+def measured(name):
+    return {f"{name}{end}?": NUMBER for end in ("", "_lower", "_upper")}
+
+
+# What the results that are drawn must have (see check).
+WANTED = {
+    "contacts": {"by": str, "unit": str, "rows": [{"i": NUMBER, "j": NUMBER, "occupancy?": NUMBER, "total": NUMBER}],
+                 "frames": [{f"{name}?": NUMBER for name in ("spacing", "plain_length", "bridged_length", "dual_length")}],
+                 "survival": [{"length": NUMBER, "survival": NUMBER, "lower?": NUMBER, "upper?": NUMBER}],
+                 "course": [{"frame": NUMBER, "contacts": NUMBER}]},
+    "compare": {"rows": [{"input": str, "motion": str, "structure": str, "stride": NUMBER, **measured("events_per_step")}]},
+    "missed": {"rows": [{"stride": NUMBER, **measured("missed_fraction")}]},
+    "update": {"rows": [{"technique": str, "stride": NUMBER, **measured("ratio")}]},
+    "collide": {"rows": [{}], "course?": [{"frame": NUMBER, "closest?": {"distance": NUMBER}}]},
+    "trade": {"rows": [{"want": str, "setting": {"structures": str}, "cost": {"ratio?": NUMBER}, "error?": {"*?": NUMBER},
+                        "pareto": bool}]},
+    "run": {"structures": {"*": {"events": {"total": NUMBER, "*": NUMBER}, "certificates": {"created": NUMBER, "peak": NUMBER},
+                                 "audits": {"run": NUMBER, "failed": NUMBER}, "internal": [str],
+                                 "over_time?": {"steps": NUMBER, "events": [NUMBER]}}}},
+}
+
 
 def latex_text(text):
     return "".join(SPECIAL.get(character, character) for character in str(text))
@@ -97,10 +122,10 @@ def setting_text(setting):
 def tables_of(result, command):
     """Returns the tables of a result, lists of flat rows by name."""
     tables = {name: result[name] for name in ("rows", "pooled") if result.get(name)}
-    if "structures" in result:  # of a run
+    if command == "run":
         structures = result["structures"].items()
         tables["structures"] = [{"structure": name, "events": one["events"]["total"], "created": one["certificates"]["created"],
-                                 "peak": one["certificates"]["peak"], "seconds": one["seconds"], "static_seconds": one["static_seconds"],
+                                 "peak": one["certificates"]["peak"], "seconds": one.get("seconds"), "static_seconds": one.get("static_seconds"),
                                  "audits": one["audits"]["run"], "failed": one["audits"]["failed"]} for name, one in structures]
         tables["kinds"] = [{"structure": name, "kind": kind, "events": count, "internal": kind in one["internal"]}
                            for name, one in structures for kind, count in one["events"].items() if kind != "total"]
@@ -150,7 +175,7 @@ def draw_contacts(result, figure):
 
 def draw_spacings(rows, figure):
     """Draws the relative error of the mean length by the spacing of samples. The axes have no zero."""
-    exact = next(row for row in rows if row["spacing"] is None)["plain_length"]
+    exact = next((row.get("plain_length") for row in rows if row["spacing"] is None), None)
     axes = figure("spacings", "spacing of samples (frames)", "relative error of the mean length", log=True)
     for kind in ("plain", "bridged", "dual"):
         known = [(row["spacing"], row.get(f"{kind}_length")) for row in rows if row["spacing"] is not None]
@@ -214,13 +239,46 @@ def draw_run(result, figure):
         axes.stairs(course["events"], [course["steps"] * k for k in range(len(course["events"]) + 1)])
 
 
+def check(value, wanted, name):
+    """Raises ValueError unless the value is what is wanted: a type, [type of elements], or an object {member: type}.
+
+    A member "name?" may be missing or null; a member "*" stands for all.
+    """
+    kind = type(wanted) if isinstance(wanted, (dict, list)) else wanted
+    if not isinstance(value, kind):
+        raise ValueError(f"{name} must be {KINDS[kind]}")
+    if kind is list:
+        for number, element in enumerate(value):
+            check(element, wanted[0], f"{name}[{number}]")
+    elif kind is dict:
+        for member, inner in wanted.items():
+            for one in value if member.startswith("*") else [member.rstrip("?")]:
+                if value.get(one) is not None or not member.endswith("?"):
+                    check(value.get(one), inner, f"{name}.{one}")
+
+
+def read(path):
+    """Returns a result and its command, or raises ValueError that names the file and says what is wrong."""
+    expected = "expected the file that --json or --out of a single command writes"
+    try:
+        result = json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"{path}: is not JSON ({error}); {expected}") from error
+    found = isinstance(result, dict) and re.match(r"kds (\w+)", str(result.get("command")))
+    if not found:
+        raise ValueError(f"{path}: is not the result of a single command; {expected}")
+    command = "run" if "structures" in result else found[1]
+    try:
+        check(result, {"rows?": [{}], "pooled?": [{}], **WANTED.get(command, {})}, "result")
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}; {expected}") from error
+    return result, command
+
+
 def write(path, folder=None, plots="pdf"):
     """Writes the files of a result, plots in the format `plots`, and returns their paths."""
     path = pathlib.Path(path)
-    result = json.loads(path.read_text())
-    if not isinstance(result, dict) or not str(result.get("command", "")).startswith("kds "):
-        raise ValueError(f"{path}: is not the result of a single command; expected the file that --json or --out writes")
-    command = result["command"].split()[1]
+    result, command = read(path)
     folder = path.parent if folder is None else pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     written = []
@@ -237,7 +295,7 @@ def write(path, folder=None, plots="pdf"):
                 table = csv.DictWriter(file, list(dict.fromkeys(column for row in rows for column in row)))
                 table.writeheader()
                 table.writerows(rows)
-    draw = globals().get("draw_run" if "structures" in result else f"draw_{command}")
+    draw = globals().get(f"draw_{command}") if command in WANTED else None
     if draw is None:
         return written
     try:

@@ -2,8 +2,8 @@
 
 import csv
 import json
+import os
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
@@ -81,14 +81,30 @@ class Paper(unittest.TestCase):
         self.assertEqual(kds.paper.cell({"x": None}, "x"), "--")
 
     def test_what_is_no_result_is_refused_in_a_line(self):
-        with tempfile.TemporaryDirectory() as folder:
-            run, files = print_in(folder, "other", {"rows": []})
-            self.assertEqual((run.returncode, files), (2, {"other.json"}))
-            self.assertTrue(re.fullmatch("kds.paper: .*other.json: is no result of a command of kds\n", run.stderr), run.stderr)
-            missing = subprocess.run([sys.executable, "-m", "kds.paper", f"{folder}/none.json"], capture_output=True, text=True,
-                                     check=False)
-            self.assertEqual(missing.returncode, 2)
-            self.assertEqual(missing.stderr.count("\n"), 1)
+        for content, fault in {
+                '{"rows": []}': "is not the result of a single command",
+                '{"command": "kds "}': "is not the result of a single command",
+                "[1, 2]": "is not the result of a single command",
+                "": "is not JSON",
+                "{": "is not JSON",
+                "\udcff": "is not JSON",
+                '{"command": "kds contacts"}': "result.by must be a text",
+                '{"command": "kds missed x"}': "result.rows must be a list",
+                '{"command": "kds info", "rows": 5}': "result.rows must be a list",
+                '{"command": "kds info", "rows": [1]}': "result.rows[0] must be an object",
+                '{"command": "kds run", "structures": []}': "result.structures must be an object"}.items():
+            with self.subTest(content), tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder) / "other.json"
+                path.write_text(content, encoding="utf-8", errors="surrogateescape")
+                with self.assertRaises(ValueError) as refused:
+                    kds.paper.write(path, folder)
+                self.assertTrue(str(refused.exception).startswith(f"{path}: {fault}"), refused.exception)
+                self.assertTrue(str(refused.exception).endswith("expected the file that --json or --out of a single command writes"))
+                self.assertEqual(os.listdir(folder), ["other.json"])
+
+    def test_an_error_is_one_line(self):
+        run = subprocess.run([sys.executable, "-m", "kds.paper", "none.json"], capture_output=True, text=True, check=False)
+        self.assertEqual((run.returncode, run.stderr.count("\n")), (2, 1), run.stderr)
 
 
 if __name__ == "__main__":
