@@ -54,8 +54,19 @@ WANTED = {
 }
 
 
+def one_line(text):
+    return re.sub(r"[\s\x00-\x1f\x7f]+", " ", str(text))
+
+
 def latex_text(text):
-    return "".join(SPECIAL.get(character, character) for character in str(text))
+    escaped = "".join(SPECIAL.get(character, character) for character in one_line(text))
+    return re.sub("-(?=-)", "-{}", escaped)  # no ligature, which is a dash
+
+
+def latex_row(cells):
+    """Joins cells. An empty group keeps a first [ or * from being an argument of the command before it."""
+    row = " & ".join(cells) + r" \\"
+    return "{}" + row if row.lstrip().startswith(("[", "*")) else row
 
 
 def number_text(value):
@@ -106,8 +117,8 @@ def columns_of(rows, listed=None):
 def tabular(rows, columns):
     right = [all(not isinstance(row.get(name), str) for row in rows) for name in columns]
     lines = [rf"\begin{{tabular}}{{{''.join('r' if is_right else 'l' for is_right in right)}}}", r"\toprule",
-             " & ".join(latex_text(name.replace("_", " ")) for name in columns) + r" \\", r"\midrule"]
-    lines += [" & ".join(cell(row, name) for name in columns) + r" \\" for row in rows[:ROWS_ON_A_PAGE]]
+             latex_row(latex_text(name.replace("_", " ")) for name in columns), r"\midrule"]
+    lines += [latex_row(cell(row, name) for name in columns) for row in rows[:ROWS_ON_A_PAGE]]
     if len(rows) > ROWS_ON_A_PAGE:
         lines.append(f"% the first {ROWS_ON_A_PAGE} of {len(rows)} rows")
     return "\n".join([*lines, r"\bottomrule", r"\end{tabular}", ""])

@@ -79,6 +79,9 @@ class Paper(unittest.TestCase):
         self.assertEqual(kds.paper.cell({"x": 0.123456, "x_lower": 0.1, "x_upper": 0.2}, "x"), "0.1235 (0.1 to 0.2)")
         self.assertEqual(kds.paper.cell({"x": 1.5e-7}, "x"), r"$1.5 \cdot 10^{-7}$")
         self.assertEqual(kds.paper.cell({"x": None}, "x"), "--")
+        self.assertEqual(kds.paper.latex_text("a\r\nb --c"), "a b -{}-c")
+        rows = kds.paper.tabular([{"x": "[1]"}, {"x": "*"}, {"x": "a"}], ["x"]).splitlines()[4:7]
+        self.assertEqual(rows, [r"{}[1] \\", r"{}* \\", r"a \\"])
 
     def test_what_is_no_result_is_refused_in_a_line(self):
         for content, fault in {
