@@ -4,17 +4,21 @@
 
 RESULT.json is what a command of kds writes with --json, or into --out. Beside it, or in DIR, come RESULT-figure-NAME.pdf and
 RESULT-table-NAME.tex, a ``tabular`` with the rules of the LaTeX package booktabs. A table of more than 40 rows is cut to the
-first 40, and says so in a comment; RESULT-table-NAME.csv has all. Plots need matplotlib.
+first 40, and says so in a comment; RESULT-table-NAME.csv has all. Plots need matplotlib. A line on standard error names what is
+left out: a plot without values, and inputs of compare after the first 8.
 """
 
 import csv
+import io
 import json
+import math
 import pathlib
 import re
 import sys
 
 ROWS_ON_A_PAGE = 40
 COLUMNS_ON_A_PAGE = 8
+MOST_INPUTS = 8  # that compare's plots show
 SPECIAL = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
            **{character: "\\" + character for character in "&%$#_{}"}}
 
@@ -56,6 +60,11 @@ WANTED = {
 
 def one_line(text):
     return re.sub(r"[\s\x00-\x1f\x7f]+", " ", str(text))
+
+
+def plot_text(text):
+    """Returns a text that matplotlib prints as it is: a $ begins no formula."""
+    return one_line(text).replace("$", r"\$")
 
 
 def latex_text(text):
@@ -136,12 +145,13 @@ def tables_of(result, command):
     if command == "run":
         structures = result["structures"].items()
         tables["structures"] = [{"structure": name, "events": one["events"]["total"], "created": one["certificates"]["created"],
-                                 "peak": one["certificates"]["peak"], "seconds": one.get("seconds"), "static_seconds": one.get("static_seconds"),
-                                 "audits": one["audits"]["run"], "failed": one["audits"]["failed"]} for name, one in structures]
+                                 "peak": one["certificates"]["peak"], "seconds": one.get("seconds"),
+                                 "static_seconds": one.get("static_seconds"), "audits": one["audits"]["run"],
+                                 "failed": one["audits"]["failed"]} for name, one in structures]
         tables["kinds"] = [{"structure": name, "kind": kind, "events": count, "internal": kind in one["internal"]}
                            for name, one in structures for kind, count in one["events"].items() if kind != "total"]
     if command == "contacts":
-        tables["rows"] = sorted(tables.get("rows", []), key=lambda row: (-(row["occupancy"] or 0), -row["total"]))
+        tables["rows"] = sorted(tables.get("rows", []), key=lambda row: (-(row.get("occupancy") or 0), -row["total"]))
         tables["spacings"] = result["frames"]
     if command == "trade":
         tables["rows"] = [{**row, "setting": setting_text(row["setting"])} for row in tables["rows"]]
@@ -149,15 +159,19 @@ def tables_of(result, command):
     return {name: rows for name, rows in flat_tables.items() if columns_of(rows)}
 
 
-def error_bars(axes, rows, x, y, label=None, scale=1):
+def error_bars(axes, rows, x, y, label, scale=1):
     rows = [row for row in rows if row.get(y) is not None]
     if not rows:
         return
     values = [scale * row[y] for row in rows]
     low = [value if row.get(y + "_lower") is None else scale * row[y + "_lower"] for value, row in zip(values, rows)]
     high = [value if row.get(y + "_upper") is None else scale * row[y + "_upper"] for value, row in zip(values, rows)]
-    axes.errorbar([row[x] for row in rows], values, marker="o", capsize=2, label=label,
-                  yerr=[[v - l for v, l in zip(values, low)], [h - v for v, h in zip(values, high)]])
+    axes.errorbar([row[x] for row in rows], values, marker="o", capsize=2, label=plot_text(label),
+                  yerr=[[max(0, v - l) for v, l in zip(values, low)], [max(0, h - v) for v, h in zip(values, high)]])
+
+
+def say(text):
+    print(f"kds.paper: {text}", file=sys.stderr)
 
 
 def by(rows, *names):
@@ -169,76 +183,77 @@ def by(rows, *names):
 
 def draw_contacts(result, figure):
     survival = figure("survival", f"length of a contact ({result['unit']})", "share of contacts that last longer")
-    points = [{"length": 0, "survival": 1, "lower": 1, "upper": 1}, *result["survival"]]
+    points = [{"length": 0, "survival": 1, "lower": 1, "upper": 1}, *result["survival"]] if result["survival"] else []
     length = [point["length"] for point in points]
     survival.step(length, [point["survival"] for point in points], where="post")
-    ends = [[float("nan") if point[end] is None else point[end] for point in points] for end in ("lower", "upper")]
+    ends = [[float("nan") if point.get(end) is None else point[end] for point in points] for end in ("lower", "upper")]
     survival.fill_between(length, *ends, step="post", alpha=0.3, label="95% band")
-    survival.legend()
     course = figure("course", "frame", "contacts at once")
     course.plot([point["frame"] for point in result["course"]], [point["contacts"] for point in result["course"]])
     share = figure("map", result["by"], result["by"])
-    pairs = share.scatter([row["i"] for row in result["rows"]], [row["j"] for row in result["rows"]], s=4, vmin=0, vmax=1,
-                          c=[row["occupancy"] for row in result["rows"]])
+    known = [row for row in result["rows"] if row.get("occupancy") is not None]
+    pairs = share.scatter([row["i"] for row in known], [row["j"] for row in known], s=4, vmin=0, vmax=1,
+                          c=[row["occupancy"] for row in known])
     share.figure.colorbar(pairs, label="share of time in contact")
     draw_spacings(result["frames"], figure)
 
 
 def draw_spacings(rows, figure):
     """Draws the relative error of the mean length by the spacing of samples. The axes have no zero."""
-    exact = next((row.get("plain_length") for row in rows if row["spacing"] is None), None)
-    axes = figure("spacings", "spacing of samples (frames)", "relative error of the mean length", log=True)
+    exact = next((row.get("plain_length") for row in rows if row.get("spacing") is None), None)
+    axes = figure("spacings", "spacing of samples (frames)", "relative error of the mean length", log="xy")
     for kind in ("plain", "bridged", "dual"):
-        known = [(row["spacing"], row.get(f"{kind}_length")) for row in rows if row["spacing"] is not None]
+        known = [(row["spacing"], row.get(f"{kind}_length")) for row in rows if row.get("spacing") is not None]
         errors = [(spacing, abs(length / exact - 1)) for spacing, length in known if exact and length and length != exact]
         if errors:
             axes.plot(*zip(*errors), marker="o", label=kind)
-    axes.legend()
 
 
 def draw_compare(result, figure):
-    for number, ((name, motion), rows) in enumerate(by(result["rows"], "input", "motion")):
-        axes = figure(f"strides-{number + 1}", "stride", "events in a step", log=True)
-        axes.set_title(f"{pathlib.Path(name).name}, {motion}")
+    inputs = list(dict.fromkeys(row["input"] for row in result["rows"]))
+    if len(inputs) > MOST_INPUTS:
+        say(f"plots of the first {MOST_INPUTS} inputs are drawn, and {len(inputs) - MOST_INPUTS} inputs are left out")
+    drawn = [row for row in result["rows"] if row["input"] in inputs[:MOST_INPUTS]]
+    for number, ((name, motion), rows) in enumerate(by(drawn, "input", "motion")):
+        axes = figure(f"strides-{number + 1}", "stride", "events in a step", log="xy")
+        axes.set_title(plot_text(f"{pathlib.Path(name).name}, {motion}"))
         for (structure,), some in by(rows, "structure"):
             error_bars(axes, some, "stride", "events_per_step", structure)
-        axes.legend()
 
 
 def draw_missed(result, figure):
-    axes = figure("missed", "stride", "contacts that frames miss (%)")
-    rule = "cutoff" if "cutoff" in result["rows"][0] else "factor"
+    axes = figure("missed", "stride", "contacts that frames miss (%)", log="x")
+    rule = "cutoff" if any("cutoff" in row for row in result["rows"]) else "factor"
     for (length,), rows in by(result["rows"], rule):
         error_bars(axes, rows, "stride", "missed_fraction", f"{rule} {length}", 100)
-    axes.set_xscale("log", base=2)
-    axes.legend()
 
 
 def draw_update(result, figure):
     axes = figure("update", "stride", "time / time to rebuild")
     for (technique,), rows in by(result["rows"], "technique"):
         error_bars(axes, rows, "stride", "ratio", technique)
-    axes.legend()
 
 
 def draw_collide(result, figure):
     if not result.get("course"):
         return
     axes = figure("closest", "frame", "distance of the closest pair")
-    near = [point for point in result["course"] if point["closest"]]
+    near = [point for point in result["course"] if point.get("closest")]
     axes.plot([point["frame"] for point in near], [point["closest"]["distance"] for point in near])
 
 
 def draw_trade(result, figure):
     for (want,), rows in by(result["rows"], "want"):
-        errors = [name for name in rows[0]["error"] if any(row["error"][name] for row in rows)]
+        rows = [row for row in rows if row.get("error") and row["cost"].get("ratio") is not None]
+        errors = dict.fromkeys(name for row in rows for name, value in row["error"].items() if value)
+        if not errors:
+            say(f"no plot of {want}: its rows have no errors")
         for error in errors:
             axes = figure(f"{want}-{error}", "processor time / exact run", error.replace("_", " "))
             for front in (True, False):
-                some = [row for row in rows if row["pareto"] == front and row["error"][error] is not None]
+                some = [row for row in rows if row["pareto"] == front and row["error"].get(error) is not None]
                 axes.scatter([row["cost"]["ratio"] for row in some], [row["error"][error] for row in some],
                              label="quickest of its error" if front else "others", marker="o" if front else "x")
-            axes.legend()
 
 
 def draw_run(result, figure):
@@ -286,29 +301,8 @@ def read(path):
     return result, command
 
 
-def write(path, folder=None, plots="pdf"):
-    """Writes the files of a result, plots in the format `plots`, and returns their paths."""
-    path = pathlib.Path(path)
-    result, command = read(path)
-    folder = path.parent if folder is None else pathlib.Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    written = []
-
-    def place(kind, name, ending):
-        written.append(folder / f"{path.stem}-{kind}-{name}.{ending}")
-        return written[-1]
-
-    for name, rows in tables_of(result, command).items():
-        place("table", name, "tex").write_text(
-            tabular(rows, columns_of(rows, COLUMNS.get(command) if name == "rows" else None)))
-        if len(rows) > ROWS_ON_A_PAGE:
-            with open(place("table", name, "csv"), "w", newline="") as file:
-                table = csv.DictWriter(file, list(dict.fromkeys(column for row in rows for column in row)))
-                table.writeheader()
-                table.writerows(rows)
-    draw = globals().get(f"draw_{command}") if command in WANTED else None
-    if draw is None:
-        return written
+def draw(result, command, plots):
+    """Returns the plots of a result, files in the format `plots` by name."""
     try:
         import matplotlib
         from matplotlib.figure import Figure
@@ -316,21 +310,65 @@ def write(path, folder=None, plots="pdf"):
         raise ImportError("plots need matplotlib, which is not installed; the tables are written") from error
     figures = {}
 
-    def figure(name, x, y, log=False):
-        figures[name] = Figure(figsize=(3.4, 2.6), layout="constrained")
-        axes = figures[name].subplots()
-        axes.set_xlabel(x)
-        axes.set_ylabel(y)
-        if log:
-            axes.set_xscale("log", base=2)
-            axes.set_yscale("log")
+    def figure(name, x, y, log=""):
+        axes = Figure(figsize=(3.4, 2.6), layout="constrained").subplots()
+        axes.set_xlabel(plot_text(x))
+        axes.set_ylabel(plot_text(y))
+        figures[name] = axes, log
         return axes
 
+    files = {}
     with matplotlib.rc_context({"font.size": 8, "pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "kds"}):
-        draw(result, figure)
-        for name, drawn in figures.items():
-            drawn.savefig(place("figure", name, plots), metadata={"CreationDate" if plots == "pdf" else "Date": None})
-    return written
+        globals()[f"draw_{command}"](result, figure)
+        for name, (axes, log) in figures.items():
+            drawn = axes.dataLim
+            if drawn.x0 > drawn.x1 or any(getattr(drawn, f"minpos{axis}") == math.inf for axis in log):
+                say(f"plot {name} is left out: there is no value that its axes can show")
+                continue
+            for axis in log:
+                getattr(axes, f"set_{axis}scale")("log", base=2 if axis == "x" else 10)
+            if axes.get_legend_handles_labels()[1]:
+                axes.legend()
+            file = io.BytesIO()
+            axes.figure.savefig(file, format=plots, metadata={"CreationDate" if plots == "pdf" else "Date": None})
+            files[f"figure-{name}.{plots}"] = file.getvalue()
+    return files
+
+
+def print_tables(result, command):
+    """Returns the tables of a result, LaTeX and CSV by the name of the file."""
+    files = {}
+    for name, rows in tables_of(result, command).items():
+        files[f"table-{name}.tex"] = tabular(rows, columns_of(rows, COLUMNS.get(command) if name == "rows" else None))
+        if len(rows) > ROWS_ON_A_PAGE:
+            file = io.StringIO(newline="")
+            table = csv.DictWriter(file, list(dict.fromkeys(column for row in rows for column in row)))
+            table.writeheader()
+            table.writerows(rows)
+            files[f"table-{name}.csv"] = file.getvalue()
+    return {name: text.encode("utf-8", "replace") for name, text in files.items()}
+
+
+def write(path, folder=None, plots="pdf"):
+    """Writes the files of a result, plots in the format `plots`, and returns their paths."""
+    path = pathlib.Path(path)
+    folder = path.parent if folder is None else pathlib.Path(folder)
+    result, command = read(path)
+    files, missing = print_tables(result, command), None
+    if not files:
+        raise ValueError(f"{path}: has nothing to print; expected a result with rows or structures")
+    if command in WANTED:
+        try:
+            files.update(draw(result, command, plots))
+        except ImportError as error:
+            missing = error
+    folder.mkdir(parents=True, exist_ok=True)
+    places = {folder / f"{path.stem}-{name}": content for name, content in files.items()}
+    for place, content in places.items():
+        place.write_bytes(content)
+    if missing:
+        raise missing
+    return list(places)
 
 
 def main(arguments):
@@ -341,7 +379,7 @@ def main(arguments):
         for written in write(*arguments):
             print(written)
     except (OSError, ValueError, ImportError) as error:
-        print(f"kds.paper: {error}", file=sys.stderr)
+        say(error)
         return 2
     return 0
 

@@ -22,8 +22,8 @@ except ImportError:
 
 def print_in(folder, name, result):
     path = pathlib.Path(folder) / f"{name}.json"
-    path.write_text(json.dumps(result))
-    run = subprocess.run([sys.executable, "-m", "kds.paper", path], capture_output=True, text=True, check=False)
+    path.write_text(json.dumps(result), encoding="utf-8")
+    run = subprocess.run([sys.executable, "-m", "kds.paper", path, folder], capture_output=True, text=True, check=False)
     return run, {file.name for file in path.parent.iterdir()}
 
 
@@ -33,8 +33,8 @@ class Paper(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             run, files = print_in(folder, "contacts", result)
             self.assertEqual(run.returncode, 0 if HAS_PLOTS else 2, run.stderr)
-            text = (pathlib.Path(folder) / "contacts-table-rows.tex").read_text()
-            with open(pathlib.Path(folder) / "contacts-table-rows.csv", newline="") as file:
+            text = (pathlib.Path(folder) / "contacts-table-rows.tex").read_text(encoding="utf-8")
+            with open(pathlib.Path(folder) / "contacts-table-rows.csv", newline="", encoding="utf-8") as file:
                 everything = list(csv.DictReader(file))
         rows = [line.removesuffix(r" \\").split(" & ") for line in text.splitlines() if " & " in line]
         self.assertEqual(len(rows), 1 + kds.paper.ROWS_ON_A_PAGE)
@@ -57,6 +57,31 @@ class Paper(unittest.TestCase):
                 run, files = print_in(folder, "result", program(*arguments))
                 self.assertEqual(run.returncode, 0, run.stderr)
                 self.assertIn(f"result-figure-{name}.pdf", files)
+
+    def test_what_cannot_be_drawn_is_left_out_in_a_line(self):
+        if not HAS_PLOTS:
+            self.skipTest("matplotlib is missing")
+        step = {"motion": "linear", "structure": "wrapped", "stride": 1}
+        setting = {"setting": {"structures": "power"}, "cost": {"ratio": 1}, "pareto": True, "error": None}
+        for command, rows, line, plots in (
+                ("missed", [{"stride": 1, "cutoff": 8, "missed_fraction": None}], "plot missed is left out: ", 0),
+                ("compare", [{"input": "a", "events_per_step": 0, **step}], "plot strides-1 is left out: ", 0),
+                ("compare", [{"input": f"{k}$\\frac$", "events_per_step": 1, **step} for k in range(10)], ".* 2 inputs are left out", 8),
+                ("update", [{"technique": "$\\frac$", "stride": 1, "ratio": 1}], "", 1),
+                ("trade", [{"want": "scenes", **setting}], "no plot of scenes: ", 0)):
+            with self.subTest(command, line=line), tempfile.TemporaryDirectory() as folder:
+                run, files = print_in(folder, "x", {"command": f"kds {command} x", "rows": rows})
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertRegex(run.stderr, f"^kds.paper: {line}.*\n$" if line else "^$")
+                self.assertEqual(len([name for name in files if name.endswith(".pdf")]), plots)
+
+    @unittest.mock.patch("kds.paper.draw", side_effect=RuntimeError)
+    def test_nothing_is_written_if_drawing_fails(self, _):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "x.json"
+            path.write_text('{"command": "kds missed x", "rows": [{"stride": 1}]}', encoding="utf-8")
+            self.assertRaises(RuntimeError, kds.paper.write, path, folder)
+            self.assertEqual(os.listdir(folder), ["x.json"])
 
     def test_each_table_has_its_columns(self):
         contacts = program("contacts", DCD, "--topology", PDB, "--select", "ca", "--cutoff", "8", "--frames", "0:12")
