@@ -1,20 +1,23 @@
 """Writes a result for print: its plots as PDF, its tables as LaTeX.
 
-    python3 -m kds.paper RESULT.json [DIR]
+    python3 -m kds.paper RESULT.json [DIR] [--replace]
 
-RESULT.json is what a command of kds writes with --json, or into --out. Beside it, or in DIR, come RESULT-figure-NAME.pdf and
-RESULT-table-NAME.tex, a ``tabular`` with the rules of the LaTeX package booktabs. A table of more than 40 rows is cut to the
-first 40, and says so in a comment; RESULT-table-NAME.csv has all. Plots need matplotlib. A line on standard error names what is
-left out: a plot without values, and inputs of compare after the first 8.
+RESULT.json is what a command of kds writes with --json, or into --out. The current directory, or DIR, gets RESULT-figure-NAME.pdf
+and RESULT-table-NAME.tex, a ``tabular`` with the rules of the LaTeX package booktabs. Files that exist are replaced only with
+--replace. A table of more than 40 rows is cut to the first 40, and says so in a comment; RESULT-table-NAME.csv has all. Plots
+need matplotlib. A line on standard error names what is left out: a plot without values, and inputs of compare after the first 8.
 """
 
+import argparse
 import csv
 import io
 import json
 import math
+import os
 import pathlib
 import re
 import sys
+import tempfile
 
 ROWS_ON_A_PAGE = 40
 COLUMNS_ON_A_PAGE = 8
@@ -349,10 +352,12 @@ def print_tables(result, command):
     return {name: text.encode("utf-8", "replace") for name, text in files.items()}
 
 
-def write(path, folder=None, plots="pdf"):
-    """Writes the files of a result, plots in the format `plots`, and returns their paths."""
-    path = pathlib.Path(path)
-    folder = path.parent if folder is None else pathlib.Path(folder)
+def write(path, folder=".", plots="pdf", replace=False):
+    """Writes the files of a result, plots in the format `plots`, and returns their paths.
+
+    All files are made before the first is written. A file that exists is refused unless `replace`.
+    """
+    path, folder = pathlib.Path(path), pathlib.Path(folder)
     result, command = read(path)
     files, missing = print_tables(result, command), None
     if not files:
@@ -364,19 +369,27 @@ def write(path, folder=None, plots="pdf"):
             missing = error
     folder.mkdir(parents=True, exist_ok=True)
     places = {folder / f"{path.stem}-{name}": content for name, content in files.items()}
-    for place, content in places.items():
-        place.write_bytes(content)
+    for place in places:
+        if place.is_dir() or os.path.lexists(place) and not replace:
+            raise FileExistsError(f"{place} exists; expected another folder, or --replace to replace files")
+    with tempfile.TemporaryDirectory(prefix=".kds-paper-", dir=folder) as part:
+        for place, content in places.items():
+            (pathlib.Path(part) / place.name).write_bytes(content)
+        for place in places:
+            os.replace(pathlib.Path(part) / place.name, place)
     if missing:
         raise missing
     return list(places)
 
 
 def main(arguments):
-    if len(arguments) not in (1, 2) or arguments[0] in ("-h", "--help"):
-        print(__doc__.strip())
-        return 0 if arguments[:1] in (["-h"], ["--help"]) else 2
+    parser = argparse.ArgumentParser(prog="kds.paper", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("result", metavar="RESULT.json")
+    parser.add_argument("folder", metavar="DIR", nargs="?", default=".", help="where the files go (default: the current directory)")
+    parser.add_argument("--replace", action="store_true", help="replaces files that exist")
+    options = parser.parse_args(arguments)
     try:
-        for written in write(*arguments):
+        for written in write(options.result, options.folder, replace=options.replace):
             print(written)
     except (OSError, ValueError, ImportError) as error:
         say(error)

@@ -75,6 +75,18 @@ class Paper(unittest.TestCase):
                 self.assertRegex(run.stderr, f"^kds.paper: {line}.*\n$" if line else "^$")
                 self.assertEqual(len([name for name in files if name.endswith(".pdf")]), plots)
 
+    def test_files_that_exist_stay_without_replace(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path, table = pathlib.Path(folder) / "x.json", pathlib.Path(folder) / "x-table-rows.tex"
+            path.write_text('{"command": "kds info x", "rows": [{"a": "\u00e9"}]}', encoding="utf-8")
+            table.write_text("mine", encoding="utf-8")
+            with self.assertRaisesRegex(FileExistsError, "x-table-rows.tex exists; .* --replace"):
+                kds.paper.write(path, folder)
+            self.assertEqual(table.read_text(encoding="utf-8"), "mine")
+            self.assertEqual(kds.paper.write(path, folder, replace=True), [table])
+            self.assertIn("\u00e9", table.read_text(encoding="utf-8"))
+            self.assertEqual(sorted(os.listdir(folder)), ["x-table-rows.tex", "x.json"])
+
     @unittest.mock.patch("kds.paper.draw", side_effect=RuntimeError)
     def test_nothing_is_written_if_drawing_fails(self, _):
         with tempfile.TemporaryDirectory() as folder:
@@ -82,6 +94,14 @@ class Paper(unittest.TestCase):
             path.write_text('{"command": "kds missed x", "rows": [{"stride": 1}]}', encoding="utf-8")
             self.assertRaises(RuntimeError, kds.paper.write, path, folder)
             self.assertEqual(os.listdir(folder), ["x.json"])
+
+    def test_files_go_to_the_current_directory(self):
+        with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as current:
+            path = pathlib.Path(folder) / "x.json"
+            path.write_text('{"command": "kds info x", "rows": [{"a": 1}]}', encoding="utf-8")
+            run = subprocess.run([sys.executable, "-m", "kds.paper", path], capture_output=True, text=True, check=False, cwd=current)
+            self.assertEqual((run.returncode, run.stdout), (0, "x-table-rows.tex\n"), run.stderr)
+            self.assertEqual((os.listdir(folder), os.listdir(current)), (["x.json"], ["x-table-rows.tex"]))
 
     def test_each_table_has_its_columns(self):
         contacts = program("contacts", DCD, "--topology", PDB, "--select", "ca", "--cutoff", "8", "--frames", "0:12")
