@@ -61,8 +61,9 @@ struct CertificateCounts {
   std::uint64_t failed = 0;
   std::uint64_t touched = 0;  ///< touched zero without failing, if the structure asked for touches
   std::uint64_t alive = 0;
-  std::uint64_t peak = 0;          ///< most alive at once (compactness)
-  std::uint64_t per_bead_max = 0;  ///< most that name one bead (locality); 0 if the structure does not count them
+  std::uint64_t peak = 0;  ///< most alive at once (compactness)
+  std::uint64_t per_bead_max =
+      0;  ///< most that name one bead (locality); 0 if the structure does not count them
 };
 
 /// Counts the certificates that name each bead, and keeps the greatest of all counts in per_bead_max.

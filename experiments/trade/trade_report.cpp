@@ -205,12 +205,12 @@ std::string times_as_fast(double ratio) {
 }
 
 // A sentence for a group, and the setting to take; null if there is nothing to choose.
-struct Advice {
+struct Recommended {
   std::string sentence;
   const TradeRow* taken;
 };
 
-Advice advice_for_scenes(std::span<const TradeRow> group) {
+Recommended recommended_for_scenes(std::span<const TradeRow> group) {
   const auto [least, most] = std::minmax_element(
       group.begin(), group.end(),
       [](const TradeRow& a, const TradeRow& b) { return a.cost.seconds < b.cost.seconds; });
@@ -220,9 +220,9 @@ Advice advice_for_scenes(std::span<const TradeRow> group) {
           &*least};
 }
 
-Advice advice_for(std::span<const TradeRow> group) {
+Recommended recommended_for(std::span<const TradeRow> group) {
   const TradeRow& exact = group.front();
-  if (exact.want == Want::scenes) return advice_for_scenes(group);
+  if (exact.want == Want::scenes) return recommended_for_scenes(group);
   constexpr double hardly_quicker = 0.95;
   const TradeRow* best = nullptr;
   for (const TradeRow& row : group.subspan(1)) {
@@ -261,12 +261,12 @@ Advice advice_for(std::span<const TradeRow> group) {
 }
 
 // In the order of the groups.
-std::vector<Advice> advice(std::span<const TradeRow> rows) {
-  std::vector<Advice> all;
+std::vector<Recommended> recommended(std::span<const TradeRow> rows) {
+  std::vector<Recommended> all;
   for (std::size_t first = 0; first < rows.size();) {
     std::size_t end = first + 1;
     while (end < rows.size() && !rows[end].is_exact) ++end;
-    all.push_back(advice_for(rows.subspan(first, end - first)));
+    all.push_back(recommended_for(rows.subspan(first, end - first)));
     first = end;
   }
   return all;
@@ -276,13 +276,13 @@ std::vector<Advice> advice(std::span<const TradeRow> rows) {
 
 std::string recommendation(std::span<const TradeRow> rows) {
   std::string text;
-  for (const Advice& one : advice(rows)) text += (text.empty() ? "" : " ") + one.sentence;
+  for (const Recommended& one : recommended(rows)) text += (text.empty() ? "" : " ") + one.sentence;
   return text;
 }
 
 Json recommendations_json(std::span<const TradeRow> rows) {
   Json all = Json::array();
-  for (const auto& [sentence, taken] : advice(rows))
+  for (const auto& [sentence, taken] : recommended(rows))
     all.push_back({{"sentence", sentence}, {"row", taken != nullptr ? Json(taken - rows.data()) : Json()}});
   return all;
 }
