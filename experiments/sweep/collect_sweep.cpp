@@ -133,6 +133,31 @@ class Listing {
   std::size_t left_out_ = 0;  // rows that are only in the file because there are too many
 };
 
+// The results that the page shows: the first ones, up to kBytesOnPage.
+class RowsOnPage {
+ public:
+  // `bytes` is the size of the row's line.
+  void add(const Json& row, std::size_t bytes) {
+    bytes_ += bytes;
+    if (bytes_ > kBytesOnPage) {
+      ++left_out_;
+    } else {
+      rows_.add(row);
+    }
+  }
+  // Returns the text of the page's data with these rows.
+  [[nodiscard]] std::string text_within(Json page) const {
+    if (left_out_ > 0) page["left_out"]["rows"] = left_out_;
+    std::string text;
+    rows_.write_within(page, "rows", [&](std::string_view piece) { text += piece; });
+    return text;
+  }
+
+ private:
+  JsonItems rows_;
+  std::size_t bytes_ = 0, left_out_ = 0;
+};
+
 // Returns the tasks that are done in the order of their groups, whose first tasks are in the order of the
 // plan, and the number of the group of each.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> tasks_by_group(const SweepPlan& plan,
@@ -227,8 +252,7 @@ CollectedSweep collect_sweep(const SweepPlan& plan, const TaskStates& states, co
   of_times << times.header();
   json << fmt::format("{{\n  \"version\": \"{}\",\n  \"tasks\": {},\n  {}{},\n  \"rows\": [",
                       program_version(), collected.all.tasks, kDone, collected.all.done);
-  JsonItems on_page;
-  std::size_t rows_on_page = 0, bytes_on_page = 0;
+  RowsOnPage on_page;
   for (const SweepTask& task : plan.tasks()) {
     const TaskStatus status = states.of(task.name).status();
     if (status == TaskStatus::open && collected.first_missing.size() < kMostNamed)
@@ -243,11 +267,7 @@ CollectedSweep collect_sweep(const SweepPlan& plan, const TaskStates& states, co
       const Json object = results.json(texts, fields);
       const std::string line = json_line(object);
       json << (collected.rows++ > 0 ? ",\n    " : "\n    ") << line;
-      bytes_on_page += line.size();
-      if (bytes_on_page <= kBytesOnPage) {
-        on_page.add(object);
-        ++rows_on_page;
-      }
+      on_page.add(object, line.size());
       of_times << times.csv({texts.front(), std::to_string(row)}, times_of(result, row));
     }
     for (const std::string& warning : result.warnings) warnings.add(message_of(plan, task, warning));
@@ -255,18 +275,15 @@ CollectedSweep collect_sweep(const SweepPlan& plan, const TaskStates& states, co
   json << "\n  ]\n}\n";
   list_failures(plan, states, failed);
 
-  Json report{
+  Json page{
       {"kind", "sweep"},  {"tasks", collected.all.tasks}, {"done", collected.all.done}, {"axes", plan.axes()},
       {"pooled", pooled}, {"left_out", Json::object()},   {"warnings", plan.copies()}};
-  if (collected.rows > rows_on_page) report["left_out"]["rows"] = collected.rows - rows_on_page;
-  means.add_to(report, "means");
-  failed.add_to(report, "failed");
-  warnings.add_to(report, "warned");
-  add_provenance(report, command_line);
-  std::string text;
-  on_page.write_within(report, "rows", [&](std::string_view piece) { text += piece; });
-  ReportLinks links{{"results.csv", "results.json", "pooled.csv", "times.csv", "failed.csv", "warnings.csv"}};
-  write_report(out, folder / report_name, text, links);
+  means.add_to(page, "means");
+  failed.add_to(page, "failed");
+  warnings.add_to(page, "warned");
+  add_provenance(page, command_line);
+  write_report(out, folder / report_name, on_page.text_within(std::move(page)),
+               {{"results.csv", "results.json", "pooled.csv", "times.csv", "failed.csv", "warnings.csv"}});
   commit_together({&out});
   return collected;
 }

@@ -281,11 +281,8 @@ void ReplayPage::write_spheres(std::size_t index, const ReplayRecorder::Structur
 void ReplayPage::write_record(const ReplayRecorder& recorder) {
   write_beads();
   Json structures = Json::array();
-  std::size_t events = 0;
-  for (std::size_t s = 0; s < recorder.structures().size(); ++s) {
+  for (std::size_t s = 0; s < recorder.structures().size(); ++s)
     structures.push_back(write_structure(s, recorder.structures()[s]));
-    events += recorder.structures()[s].events.count();
-  }
   Json necklaces = Json::array();
   for (const BeadRange& necklace : scene_.necklaces())
     necklaces.push_back(necklace.last - necklace.first + 1);
@@ -305,7 +302,6 @@ void ReplayPage::write_record(const ReplayRecorder& recorder) {
                   {"frames", frame_count()},
                   {"stride", labels.stride},
                   {"has_times", has_times_},
-                  {"time_unit", "ps"},
                   {"length_unit", labels.in_angstrom ? "angstrom" : ""},
                   {"quantum", quantum_},
                   {"quantum_note", quantum_note_},
@@ -317,7 +313,6 @@ void ReplayPage::write_record(const ReplayRecorder& recorder) {
                   {"box", {{"low", numbers_json(low_)}, {"high", numbers_json(high_)}}},
                   {"names", scene_.names_beads()},
                   {"structures", structures},
-                  {"events_total", events},
                   {"blocks", blocks_}};
   put("<script type=\"application/json\" id=\"kds-replay\">\n");
   put(without_tags(text_of(meta)));

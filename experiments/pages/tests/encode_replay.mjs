@@ -171,7 +171,6 @@ export function encodeReplay(run) {
     frames: run.frames.length,
     stride: run.stride ?? 1,
     has_times: Boolean(run.times),
-    time_unit: "ps",
     length_unit: "angstrom",
     quantum,
     origin: low,

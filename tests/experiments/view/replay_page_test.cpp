@@ -129,7 +129,6 @@ void expect_events(const ReplayData& data, const EventLog& log) {
     all += events.step.size();
   }
   EXPECT_EQ(orders.size(), all);
-  EXPECT_EQ(data.meta["events_total"], all);
 }
 
 TEST(ShownTime, EnclosesBracketsAndKeepsTimesOfTheGrid) {

@@ -80,7 +80,7 @@ export class Panels {
     const place = byId("event");
     byId("event-now").replaceChildren(...this.sentence());
     if (!state.chosen) {
-      const way = ["None chosen. Press ", make("kbd", {}, "n"), ", or click a mark on the timeline."];
+      const way = ["None chosen. Press Next event (", make("kbd", {}, "n"), "), or click a mark on the timeline."];
       place.replaceChildren(make("p", {}, ...(filter.countedInAll ? way : ["This run has no events."])));
       return;
     }

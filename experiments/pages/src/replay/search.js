@@ -32,6 +32,7 @@ export class Search {
       return found(residue, named ?? beads.find((bead) => atom(bead) === "CA") ?? beads[0]);
     };
     box.addEventListener("change", go);
+    box.addEventListener("input", () => { byId("found").textContent = ""; });
     box.addEventListener("keydown", ({ key }) => {
       if (key === "Enter" && box.value.trim() === last) go();
       if (key === "Escape") box.blur();
