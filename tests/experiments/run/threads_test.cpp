@@ -66,9 +66,9 @@ TEST_F(Threads, GiveTheEventsOfOneThread) {
 /// cut (docs/exactness.md), or on how fast it is.
 bool is_of_machine(const std::string& name) {
   static const std::set<std::string> names{
-      "command",     "parts",         "parts_run_again", "threads",    "warnings",     "memory",
-      "ratio",       "pareto",        "stages",          "exact_work", "certificates", "close_comparisons",
-      "recommended", "recommendation"};
+      "command",     "parts",          "parts_run_again", "threads",    "warnings",     "memory",
+      "ratio",       "pareto",         "stages",          "exact_work", "certificates", "close_comparisons",
+      "recommended", "recommendation", "recommendations"};
   return names.contains(name) || name.find("seconds") != std::string::npos ||
          name.starts_with("responsiveness");
 }
