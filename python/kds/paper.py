@@ -43,7 +43,7 @@ def measured(name):
     return {f"{name}{end}?": NUMBER for end in ("", "_lower", "_upper")}
 
 
-# What the results that are drawn must have (see check).
+# The members that a result must have to be drawn (see check).
 WANTED = {
     "contacts": {"by": str, "unit": str, "rows": [{"i": NUMBER, "j": NUMBER, "occupancy?": NUMBER, "total": NUMBER}],
                  "frames": [{f"{name}?": NUMBER for name in ("spacing", "plain_length", "bridged_length", "dual_length")}],

@@ -221,7 +221,7 @@ def link_restores_what_is_seen(browser, replay):
     check(pixels_of() == picture, "the link shows another picture")
     check(not browser.run(f"return {KIND_SWITCH}.checked", "end"), "the link does not keep a kind switched off")
     # A page without an address: the copied state goes into the box that finds residues.
-    # What was chosen before and is not in the state goes.
+    # Choices that the state does not have are undone.
     browser.open(replay)
     browser.run("document.querySelector('.row:nth-child(3) input').click()")
     browser.wait("await kds.seek(2, 0)")

@@ -1,4 +1,4 @@
-// What the reader may choose to see beyond the layers: colours, which contacts are drawn, the contact map, found residues and
+// Choices of the reader beyond the layers: colours, which contacts are drawn, the contact map, found residues and
 // distances, names under the pointer.
 import { beadColours, colourModes } from "./bead_colours.js";
 import { contactFilter, ContactMap } from "./contact_map.js";
@@ -181,7 +181,7 @@ export class Look {
     this.measure.wait(false);
   }
 
-  // What a link says of it. `open` takes the same, with parts left out.
+  // Returns these choices for a link. `open` takes such an object; members may be missing.
   get view() {
     return {
       colour: byId("colour").value,
