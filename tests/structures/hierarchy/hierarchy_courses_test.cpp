@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "certificates/exact/exact_time.h"
@@ -123,6 +124,69 @@ TEST(HierarchyCourses, ThereMustBeSuchABead) {
   EXPECT_TRUE(rig.history.events.empty());
   rig.simulator.leave_step();
 }
+
+// Chords and roots that are kept of a bead's old course must not serve its new one.
+template <class M>
+void expect_right_after_each_change_of_course() {
+  for (unsigned seed = 0; seed < rounds(20U, 4U); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    M motion(bead_count);
+    const auto set_curve = [&](M& curves, BeadId b) {
+      for (int k = 0; k <= M::degree; ++k) {
+        for (int axis = 0; axis < M::dimension; ++axis)
+          curves.set_coordinate(b, k, axis, draw_coordinate(random, Positions::generic));
+        curves.set_radius(b, k, 0.125 * (1 + b % 3));
+      }
+    };
+    for (BeadId b = 0; b < bead_count; ++b) set_curve(motion, b);
+    Rig<WrappedHierarchy<M::dimension>, M> rig(motion, AuditMode::events, Kernel::filtered, necklaces,
+                                               Radii::any);
+    const auto change_course = [&] {
+      const auto b = static_cast<BeadId>(random() % bead_count);
+      const auto next = static_cast<BeadId>((b + 1) % bead_count);
+      const ExactTime& now = rig.simulator.now().exact();
+      switch (random() % 4) {
+        case 0:
+          rig.simulator.change_motion(std::array{b}, [&] { set_curve(rig.motion, b); });
+          break;
+        case 1:  // the next bead joins it
+          rig.simulator.change_motion(std::array{b, next}, [&] {
+            set_curve(rig.motion, b);
+            for (int k = 0; k <= M::degree; ++k)
+              for (int axis = 0; axis < M::dimension; ++axis)
+                rig.motion.set_coordinate(next, k, axis, rig.motion.coordinate(b, k, axis));
+          });
+          break;
+        case 2:
+          if (now.is_dyadic())
+            rig.simulator.change_motion(
+                std::array{b}, [&, u = now.lower().round_down()] { bend(rig.motion, b, u, random); });
+          break;
+        default:
+          std::array<BeadId, bead_count> all{};
+          std::iota(all.begin(), all.end(), BeadId{0});
+          rig.simulator.change_motion(all, [&] {
+            for (const BeadId each : all) set_curve(rig.motion, each);
+          });
+      }
+    };
+    rig.simulator.build();
+    rig.simulator.enter_step();
+    for (int stand = 0; stand < 12; ++stand) {
+      if (rig.simulator.now().lower() <= 0x1p-4 * stand) {
+        rig.simulator.run_until(Dyadic(0x1p-4 * stand));
+        change_course();
+        EXPECT_EQ(rig.structure.audit(Dyadic(0x1p-4 * stand)), std::nullopt);
+      }
+      if (rig.simulator.run_next()) change_course();
+    }
+    rig.simulator.leave_step();
+  }
+}
+
+TEST(HierarchyCourses, OfBallsInThePlane) { expect_right_after_each_change_of_course<BezierMotion<2, 1>>(); }
+TEST(HierarchyCourses, OfBallsInSpace) { expect_right_after_each_change_of_course<Space>(); }
 
 }  // namespace
 }  // namespace kds::hierarchy_courses_test

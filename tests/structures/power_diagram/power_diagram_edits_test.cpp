@@ -265,5 +265,53 @@ TEST(PowerDiagramEdits, CostFollowsTheDegree) {
   EXPECT_LT(certificates[1], 200);
 }
 
+// Facets rest for steps ahead while beads go straight on. A detour within a step, after which a bead is back
+// on its old course, ends that rest.
+TEST(PowerDiagramEdits, FacetsDoNotRestAcrossADetour) {
+  for (unsigned seed = 0; seed < rounds(3U); ++seed) {
+    SCOPED_TRACE(seed);
+    constexpr std::size_t beads = 40, count = 10;
+    Random random(seed);
+    std::vector<Space> steps(count, Space(beads));
+    for (BeadId b = 0; b < beads; ++b) {
+      for (int axis = 0; axis < 3; ++axis) {
+        double place = 0x1p-12 * pick(random, 0, 4095);
+        const double velocity = random() % 5 == 0 ? 0 : 0x1p-12 * pick(random, -160, 160);
+        for (Space& step : steps) {
+          step.set_coordinate(b, 0, axis, place);
+          place += velocity;
+          step.set_coordinate(b, 1, axis, place);
+        }
+      }
+    }
+    std::vector<std::uint64_t> fingerprints;
+    for (const Kernel kernel : {Kernel::filtered, Kernel::exact}) {
+      Rig<PowerDiagram<3>, Space> rig(steps.front(), AuditMode::events, kernel);
+      rig.simulator.build();
+      for (std::size_t k = 0; k < count; ++k) {
+        rig.motion = steps[k];
+        rig.simulator.enter_step();
+        const auto bead = static_cast<BeadId>(seed + k);
+        const auto bend_by = [&](double by) {
+          rig.structure.change_motion(bead, [&] {
+            rig.motion.set_coordinate(bead, 0, 0, steps[k].coordinate(bead, 0, 0) - by);
+            rig.motion.set_coordinate(bead, 1, 0, steps[k].coordinate(bead, 1, 0) + by);
+          });
+        };
+        if (k % 3 == 1) {
+          rig.simulator.run_until(Dyadic(0.5));
+          bend_by(0.25);
+          rig.simulator.run_until(Dyadic(0.75));
+          bend_by(0);
+        }
+        rig.simulator.leave_step();
+      }
+      rig.simulator.finish();
+      fingerprints.push_back(rig.simulator.fingerprint());
+    }
+    EXPECT_EQ(fingerprints[0], fingerprints[1]);
+  }
+}
+
 }  // namespace
 }  // namespace kds::power_diagram_edits_test
