@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "certificates/exact/exact_time.h"
 #include "certificates/exact/time_span.h"
@@ -127,12 +129,30 @@ class Scale {
   Rational begin_, length_;
 };
 
+/// Returns the number of most_digits digits that is nearest to all numbers from `least` to `most`, if doubles
+/// tell that there is one. Rounding is monotone, so both ends decide.
+std::optional<double> nearest_to_all(double least, double most) {
+  if (!(least > 1e-250 && most < 1e250)) return std::nullopt;  // no overflow, and no underflow
+  const auto text_of = [](double value) { return fmt::format("{:.{}e}", value, most_digits - 1); };
+  const std::string text = text_of(least);
+  if (text != text_of(most)) return std::nullopt;
+  double number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
 /// Rounds one time on several scales. Constructs the exact root only if the bracket does not suffice.
 class TimeOnScales {
  public:
   explicit TimeOnScales(const Instant& now) : now_(now), lower_(now.lower()), upper_(now.upper()) {}
 
   double on(double begin, double end) {
+    // The difference, the product and the sum have errors below 2^-52 of the largest number each.
+    const double spare = 0x1p-50 * (std::abs(begin) + std::abs(end)), length = end - begin;
+    const double at_lower = begin + now_.lower() * length, at_upper = begin + now_.upper() * length;
+    if (const auto nearest =
+            nearest_to_all(std::min(at_lower, at_upper) - spare, std::max(at_lower, at_upper) + spare))
+      return *nearest;
     const Scale scale(begin, end);
     if (scale.is_point()) return rounded(scale.at(lower_)).nearest();
     const Rational first = scale.at(lower_), last = scale.at(upper_);
