@@ -70,6 +70,10 @@ struct ConstantsInUse<Certificate> {
 
 }  // namespace detail
 
+/// The motion of a table's certificates. A structure with a motion of its own, such as one with other radii,
+/// has other functions of the same beads than the run's other structures.
+enum class TableMotion : std::uint8_t { of_run, of_structure };
+
 /// A table of certificates of one type, a NamedCertificate. The static assertions say in one sentence what a
 /// type lacks, before the compiler reports the violated concept at length.
 template <class Certificate>
@@ -90,14 +94,16 @@ class CertificateTable final : public FailureSource {
   /// run has certificates of another type with the same type number.
   template <int Dimension>
   CertificateTable(Simulator& simulator, KineticStructure& owner, std::size_t structure, unsigned number,
-                   const MotionRef<Dimension>& motion, TouchPolicy touches = TouchPolicy::ignored)
+                   const MotionRef<Dimension>& motion, TouchPolicy touches = TouchPolicy::ignored,
+                   TableMotion whose = TableMotion::of_run)
       : simulator_(simulator),
         owner_(owner),
         structure_(structure),
         number_(number),
         table_in_run_(structure, number),
         search_(search_over<Certificate>(motion)),
-        touches_(touches) {
+        touches_(touches),
+        whose_(whose) {
     simulator.add_table(*this, Certificate::type);
   }
 
@@ -226,9 +232,11 @@ class CertificateTable final : public FailureSource {
     return identity(slots_[slot].certificate);
   }
   /// Returns the identity of `certificate` in this table. The identity names the beads and, for a type with
-  /// constants, the table, because other constants give another function of the same beads.
+  /// constants, the table, because other constants give another function of the same beads. If the motion is
+  /// the structure's own, it names the structure.
   [[nodiscard]] Identity identity(const Certificate& certificate) const {
     Identity identity = certificate.identity();
+    if (whose_ == TableMotion::of_structure) identity.beads.back() = static_cast<BeadId>(structure_);
     if constexpr (HasConstants<Certificate>) identity.beads.back() = table_in_run_.value();
     return identity;
   }
@@ -356,6 +364,7 @@ class CertificateTable final : public FailureSource {
   NumberOfTable table_in_run_;
   std::unique_ptr<CertificateSearch<Certificate>> search_;
   TouchPolicy touches_;
+  TableMotion whose_;
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_;
   // The enqueued certificates with their places, births and failures. These arrays have room for more than
