@@ -2,6 +2,7 @@
 // Motions (motion.h) that store the control points of their beads: BezierMotion, whose degree is a
 // compile-time constant, and AnyDegreeMotion, whose degree is known only at run time.
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
@@ -13,6 +14,33 @@
 #include "motions/numbers/bernstein.h"
 
 namespace kds {
+
+/// The cell of a motion's step (HasCell); empty if there is none.
+template <int Dimension>
+class CellOfStep {
+ public:
+  /// Sets the cell of a motion of this degree from one frame to the next; the first `Dimension` columns and
+  /// rows of the matrices are used. Control points at the ends are those of the frames. Those between are
+  /// rounded once, so the vectors of a motion of degree 1 move linearly, and others do so up to rounding.
+  void set(const Eigen::Matrix3d& start, const Eigen::Matrix3d& end, int degree) {
+    points_.clear();
+    for (int vector = 0; vector < Dimension; ++vector)
+      for (int k = 0; k <= degree; ++k)
+        for (int axis = 0; axis < Dimension; ++axis)
+          points_.push_back(finite(point(start(axis, vector), end(axis, vector), k, degree)));
+  }
+  void clear() { points_.clear(); }
+  [[nodiscard]] const double* data() const { return points_.empty() ? nullptr : points_.data(); }
+
+ private:
+  [[nodiscard]] static double point(double start, double end, int k, int degree) {
+    if (k == 0 || start == end) return start;
+    if (k == degree) return end;
+    return start + (end - start) * (static_cast<double>(k) / degree);
+  }
+
+  std::vector<double> points_;
+};
 
 namespace detail {
 
@@ -61,6 +89,9 @@ class BezierMotion {
   [[nodiscard]] double radius(BeadId bead, int k) const { return radii_[bead].control[k]; }
   [[nodiscard]] const double* radii(BeadId bead) const { return radii_[bead].control; }
   void set_radius(BeadId bead, int k, double value) { radii_[bead].control[k] = finite(value); }
+  [[nodiscard]] const double* cell() const { return cell_.data(); }
+  /// Sets the cell of the step, which stays until another is set.
+  [[nodiscard]] CellOfStep<dimension>& own_cell() { return cell_; }
 
  private:
   // Stores the control points of a bead together. For linear motion in space they fill one cache line.
@@ -73,6 +104,7 @@ class BezierMotion {
     double control[degree + 1] = {};
   };
   std::vector<Radius> radii_;
+  CellOfStep<dimension> cell_;
 };
 
 static_assert(Motion<BezierMotion<3, 1>>);
@@ -108,6 +140,9 @@ class AnyDegreeMotion {
   void set_radius(BeadId bead, int k, double value) {
     radii_[bead * row() + static_cast<std::size_t>(k)] = finite(value);
   }
+  [[nodiscard]] const double* cell() const { return cell_.data(); }
+  /// Sets the cell of the step, which stays until another is set.
+  [[nodiscard]] CellOfStep<dimension>& own_cell() { return cell_; }
 
  private:
   [[nodiscard]] static int accepted(int wanted) {
@@ -124,6 +159,7 @@ class AnyDegreeMotion {
   int own_degree_;
   std::size_t beads_;
   std::vector<double> control_, radii_;
+  CellOfStep<dimension> cell_;
 };
 
 static_assert(Motion<AnyDegreeMotion<3>>);

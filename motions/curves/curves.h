@@ -35,6 +35,7 @@ class Curves {
     if (beads_ == 0) return;
     points_ = motion.control_point(0, 0);
     radii_ = motion.radii(0);
+    if constexpr (HasCell<M>) cell_ = motion.cell();
     if (beads_ > 1) {
       stride_ = motion.control_point(1, 0) - points_;
       radii_stride_ = motion.radii(1) - radii_;
@@ -50,9 +51,10 @@ class Curves {
       throw std::invalid_argument("radii do not lie equally spaced from bead to bead");
   }
 
-  /// Returns the beads at the end of the step, as curves of degree 0.
+  /// Returns the beads at the end of the step, as curves of degree 0 without a cell.
   [[nodiscard]] Curves at_end() const {
     Curves end = *this;
+    end.cell_ = nullptr;
     if (beads_ > 0) end.points_ += (dimension + 1) * degree_;
     if (beads_ > 0) end.radii_ += degree_;
     end.degree_ = 0;
@@ -75,7 +77,15 @@ class Curves {
   }
   [[nodiscard, gnu::always_inline]] double radius(BeadId bead, int k) const { return radii(bead)[k]; }
 
+  /// Returns the cell of the step (HasCell), or null if there is none.
+  [[nodiscard]] const double* cell() const { return cell_; }
+  /// Returns a coordinate of a cell vector at control point k. There must be a cell.
+  [[nodiscard]] double cell_coordinate(int vector, int k, int axis) const {
+    return cell_[(vector * (degree_ + 1) + k) * dimension + axis];
+  }
+
  private:
+  const double* cell_ = nullptr;
   const double* points_ = nullptr;
   const double* radii_ = nullptr;
   std::ptrdiff_t stride_ = 0, radii_stride_ = 0;  // from bead to bead, in doubles

@@ -13,6 +13,16 @@
 
 namespace kds {
 
+/// The cell of a periodic motion during one step, in `dimension` space: each of its `dimension` vectors is a
+/// Bezier curve of the motion's degree. A vector whose control points are zero spans nothing: the motion is
+/// not periodic along it. A motion of beads in a cell has a member `cell()`, which returns the control points
+/// in a row (coordinates of one point, then the next point of the vector, then the next vector), or null if
+/// there is no cell. The images of a bead are the bead moved by whole multiples of the vectors.
+template <class M>
+concept HasCell = requires(const M& motion) {
+  { motion.cell() } -> std::same_as<const double*>;
+};
+
 /// A motion step of beads in `dimension` space. All coordinates, weights and radii have degree `degree` in u,
 /// or `own_degree()` if the degree is not a constant (any_degree of bernstein.h). Control points must be
 /// equally spaced in memory, both those of one bead and the first ones of consecutive beads.

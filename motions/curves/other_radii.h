@@ -35,6 +35,7 @@ class OtherRadii {
     return radii_.data() + static_cast<std::size_t>(bead) * (static_cast<std::size_t>(own_degree()) + 1);
   }
   [[nodiscard]] double radius(BeadId bead, int k) const { return radii(bead)[k]; }
+  [[nodiscard]] const double* cell() const { return motion_.curves().cell(); }
 
  private:
   MotionRef<DimensionValue> motion_;

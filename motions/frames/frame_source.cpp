@@ -106,6 +106,10 @@ MemoryFrames::MemoryFrames(std::span<const Trajectory> necklaces) {
   const auto timed = std::find_if(necklaces.begin(), necklaces.end(), [&](const Trajectory& necklace) {
     return necklace.frames.size() == longest.frames.size() && !necklace.times.empty();
   });
+  const auto has_these_cells = [&](const Trajectory& necklace) {
+    return necklace.frames.size() < longest.frames.size() || necklace.cells == longest.cells;
+  };
+  if (std::ranges::all_of(necklaces, has_these_cells)) cells_ = longest.cells;
   const std::vector<double> times = timed == necklaces.end() ? std::vector<double>() : timed->times;
   own_.reserve(3 * count_beads(necklaces_) * longest.frames.size());
   for (std::size_t k = 0; k < longest.frames.size(); ++k) {
@@ -153,8 +157,8 @@ bool MemoryFrames::next(FrameRead& frame) {
   if (next_ >= stamps_.size()) return false;
   const double* const first = coordinates_.data() + next_ * 3 * static_cast<std::size_t>(beads_);
   frame.positions = Eigen::Map<const Eigen::Matrix3Xd>(first, 3, beads_);
+  frame.cell = next_ < cells_.size() ? std::optional(cells_[next_]) : std::nullopt;
   frame.stamp = stamps_[next_++];
-  frame.cell.reset();
   return true;
 }
 

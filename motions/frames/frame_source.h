@@ -97,6 +97,7 @@ class MemoryFrames final : public FrameSource {
   std::vector<double> own_;              // empty if the caller owns the array
   std::span<const double> coordinates_;  // `own_` or the caller's array
   std::vector<FrameStamp> stamps_;
+  std::vector<Cell> cells_;  // one per frame, or none
   std::size_t next_ = 0;
   bool truncated_ = false;
 };

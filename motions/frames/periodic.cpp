@@ -326,4 +326,32 @@ WholeChain::Outcome WholeChain::make_whole(Frame frame, const Images& images) {
   return joined ? Outcome::joined : all == start_ ? Outcome::unmoved : Outcome::shifted;
 }
 
+void UnwrappedBeads::follow(WholeChain::Frame frame, const Cell& cell) {
+  const Images images(cell);
+  if (last_.cols() != frame.cols()) {
+    shifts_ = Eigen::Matrix3Xd::Zero(3, frame.cols());
+    last_ = frame;
+    return;
+  }
+  for (Eigen::Index bead = 0; bead < frame.cols(); ++bead) {
+    const Eigen::Vector3d now = frame.col(bead);
+    shifts_.col(bead) += images.nearest(now - last_.col(bead));
+    last_.col(bead) = now;
+    frame.col(bead) = images.shifted(now, shifts_.col(bead));
+  }
+}
+
+bool are_strewn(const Eigen::Ref<const Eigen::Matrix3Xd>& beads, const Cell& cell) {
+  if (beads.cols() < 3) return false;
+  const Images images(cell);
+  std::vector<double> lengths;
+  for (Eigen::Index i = 1; i < beads.cols(); ++i) {
+    const Eigen::Vector3d bond = beads.col(i) - beads.col(i - 1);
+    lengths.push_back(images.shifted(bond, images.nearest(bond)).norm());
+  }
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return 4 * *middle > images.reduced().col(0).norm();
+}
+
 }  // namespace kds

@@ -49,6 +49,8 @@ class Images {
   [[nodiscard]] Eigen::Vector3d shifted(const Eigen::Vector3d& point, const Eigen::Vector3d& shift) const;
   /// The Minkowski-reduced basis; columns beyond its rank are zero.
   [[nodiscard]] const Eigen::Matrix3d& reduced() const { return reduced_; }
+  /// The whole multiples of the cell's vectors that make the vectors of the reduced basis, a column each.
+  [[nodiscard]] const Eigen::Matrix3d& steps() const { return steps_; }
 
  private:
   Cell cell_;
@@ -133,5 +135,23 @@ class WholeChain {
   std::optional<Eigen::Vector3d> last_centroid_;
   Eigen::Vector3d start_ = Eigen::Vector3d::Zero();
 };
+
+/// Follows single beads through the frames: a bead moves to the image nearest to where it was in the frame
+/// before, whatever the cell does in between. Beads of the first frame stay where they are. Each bead is
+/// moved by whole cell vectors of the present frame, in one rounding.
+class UnwrappedBeads {
+ public:
+  void follow(WholeChain::Frame frame, const Cell& cell);
+  /// Starts again: the next frame is the first.
+  void restart() { last_.resize(3, 0); }
+
+ private:
+  Eigen::Matrix3Xd last_;    // the frame before, as the file has it
+  Eigen::Matrix3Xd shifts_;  // of each bead, in cell vectors
+};
+
+/// Returns whether consecutive beads lie as far from each other as beads of a fluid do: the median of their
+/// distances across the walls is more than a quarter of the lattice's shortest vector.
+[[nodiscard]] bool are_strewn(const Eigen::Ref<const Eigen::Matrix3Xd>& beads, const Cell& cell);
 
 }  // namespace kds

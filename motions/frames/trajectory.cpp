@@ -91,9 +91,11 @@ Trajectory every_nth(const Trajectory& trajectory, std::size_t n) {
   some.frames.clear();
   some.frame_numbers.clear();
   some.times.clear();
+  some.cells.clear();
   for (std::size_t k = 0; k < trajectory.frames.size(); k += n) {
     some.frames.push_back(trajectory.frames[k]);
     some.frame_numbers.push_back(trajectory.frame_number(k));
+    if (!trajectory.cells.empty()) some.cells.push_back(trajectory.cells[k]);
   }
   return some;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "motions/base/bead_groups.h"
+#include "motions/frames/periodic.h"
 
 namespace kds {
 
@@ -20,6 +21,7 @@ struct Trajectory {
   std::string file;                        ///< where it was read, for messages
   std::vector<Eigen::Matrix3Xd> frames;    ///< one column a bead, in the file's length unit (angstrom)
   std::vector<std::size_t> frame_numbers;  ///< 0-based index of each frame in the file
+  std::vector<Cell> cells;                 ///< one a frame; empty unless all frames have a periodic cell
   std::vector<double> times;          ///< one a frame, in picoseconds; empty unless all frames have a time
   std::vector<double> element_radii;  ///< van der Waals radius of each bead; empty where elements are unknown
   std::string element_lack;           ///< a message that says why elements are unknown, if any are

@@ -161,6 +161,29 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
       heads_[n].bead_groups.assign(static_cast<std::size_t>(bead_counts_[n]),
                                    groups_without_names(opened_.file, options.groups));
   find_pieces();
+  is_strewn_ = !options.unwrap && is_no_chain(first);
+  unwrap_ = options.unwrap.value_or(is_strewn_ ? Unwrap::beads : Unwrap::chains);
+  if (unwrap_ == Unwrap::chains) place(first);
+  drop_guides(first.positions);
+  Eigen::Index begin = 0;
+  for (std::size_t n = 0; n < heads_.size(); ++n) {
+    const Eigen::Matrix3Xd& frame =
+        heads_[n].frames.emplace_back(first.positions.middleCols(begin, bead_counts_[n]));
+    if (opened_.chain_like) heads_[n].breaks = find_chain_breaks(frame, heads_[n].gaps);
+    heads_[n].frame_numbers.push_back(first.stamp.number);
+    begin += bead_counts_[n];
+  }
+  rewind();
+}
+
+bool NecklaceStream::is_no_chain(const FrameRead& first) const {
+  if (!first.cell || !opened_.bonds.pieces.empty()) return false;
+  return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& piece) {
+    return are_strewn(first.positions.middleCols(piece.first, piece.bead_count), *first.cell);
+  });
+}
+
+void NecklaceStream::place(FrameRead& first) {
   judge_cell(first);
   const std::optional<Images> images = first.cell ? std::optional<Images>(*first.cell) : std::nullopt;
   EarlierNecklaces earlier;
@@ -179,16 +202,6 @@ NecklaceStream::NecklaceStream(const std::filesystem::path& path, const ReadOpti
     piece.whole.restart();
     if (piece.placed) earlier.add(beads(first.positions), first.cell);
   }
-  drop_guides(first.positions);
-  Eigen::Index begin = 0;
-  for (std::size_t n = 0; n < heads_.size(); ++n) {
-    const Eigen::Matrix3Xd& frame =
-        heads_[n].frames.emplace_back(first.positions.middleCols(begin, bead_counts_[n]));
-    if (opened_.chain_like) heads_[n].breaks = find_chain_breaks(frame, heads_[n].gaps);
-    heads_[n].frame_numbers.push_back(first.stamp.number);
-    begin += bead_counts_[n];
-  }
-  rewind();
 }
 
 void NecklaceStream::find_pieces() {
@@ -268,7 +281,7 @@ void NecklaceStream::drop_guides(Eigen::Matrix3Xd& positions) const {
 }
 
 void NecklaceStream::judge_cell(FrameRead& frame) {
-  if (!frame.cell || bonds_joined_) return;
+  if (!frame.cell || bonds_joined_ || unwrap_ != Unwrap::chains) return;
   std::optional<LongerThanCell> longer;
   // Waters and lipids are always shorter than the cell.
   const auto any_chain = [&](const auto& holds) {
@@ -342,8 +355,13 @@ void NecklaceStream::follow(FrameRead& frame) {
   struct Moved {
     bool joined = false, shifted = false, doubtful = false;
   };
-  const std::optional<Images> images = frame.cell ? std::optional<Images>(*frame.cell) : std::nullopt;
   std::vector<Moved> moved(heads_.size());
+  if (unwrap_ == Unwrap::beads) {
+    frame.cell ? paths_.follow(frame.positions, *frame.cell) : paths_.restart();
+  }
+  const bool in_pieces = unwrap_ == Unwrap::chains;
+  const std::optional<Images> images =
+      frame.cell && in_pieces ? std::optional<Images>(*frame.cell) : std::nullopt;
   for (Piece& piece : pieces_) {
     const WholeChain::Outcome outcome = make_whole(piece, frame.positions, images);
     if (outcome == WholeChain::Outcome::joined) moved[piece.necklace].joined = bonds_joined_ = true;
@@ -362,7 +380,7 @@ void NecklaceStream::follow(FrameRead& frame) {
       note_breaks(n, frame.positions.middleCols(begin, bead_counts_[n]), frame.stamp.number);
     begin += bead_counts_[n];
   }
-  if (frame.cell) note_apart(frame);
+  if (images) note_apart(frame);
 }
 
 void NecklaceStream::note_apart(const FrameRead& frame) {
@@ -407,6 +425,7 @@ bool NecklaceStream::read(FrameRead& frame) {
     }
     if (!frame.asked && !frame.cell) {
       for (Piece& piece : pieces_) piece.whole.restart();
+      paths_.restart();
       continue;
     }
     check_finite(opened_.file, frame);
@@ -429,6 +448,7 @@ bool NecklaceStream::read(FrameRead& frame) {
 
 void NecklaceStream::rewind() {
   opened_.frames->rewind();
+  paths_.restart();
   for (Piece& piece : pieces_) {
     piece.whole.restart();
     piece.apart_at_first.reset();
@@ -473,7 +493,13 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
   const Notes& notes = notes_[necklace];
   const bool in_pieces = notes.pieces > 1;
   lines.insert(lines.end(), notes.placed.begin(), notes.placed.end());
-  if (notes.pieces_left > 0 && frames_with_cell_ > 0)
+  if (is_strewn_ && necklace == 0)
+    lines.push_back(
+        fmt::format("{}: names no molecules, and beads that follow one another are strewn over the cell, so "
+                    "each bead moves "
+                    "to its nearest image alone ({} chains joins them)",
+                    head.file, "--unwrap"_arg));
+  if (notes.pieces_left > 0 && frames_with_cell_ > 0 && unwrap_ == Unwrap::chains)
     lines.push_back(fmt::format(
         "{}: {} molecules are not bonded to the beads before them (waters, ions, lipids, residues of "
         "no known polymer); each starts in the periodic image that the file gives",
@@ -495,10 +521,9 @@ std::vector<std::string> NecklaceStream::warnings(std::size_t necklace) const {
   const auto placed = std::find_if(pieces_.begin(), pieces_.end(), [](const Piece& p) { return p.placed; });
   const std::string reference = placed == pieces_.end() ? "" : heads_[placed->necklace].file;
   if (notes.frames_apart > 0)
-    lines.push_back(
-        fmt::format("{}: frame {}: has drifted into another periodic image, nearer to {} by its centroid; "
-                    "contacts across the walls of the cell are not found ({})",
-                    head.file, notes.first_apart, reference, counted(notes.frames_apart, "frame")));
+    lines.push_back(fmt::format(
+        "{}: frame {}: has drifted into another periodic image, nearer to {} by its centroid ({})", head.file,
+        notes.first_apart, reference, counted(notes.frames_apart, "frame")));
   if (!head.breaks.empty()) lines.push_back(describe_chain_breaks(head.file, head.breaks));
   if (head.later_breaks.frames > 0)
     lines.push_back(fmt::format(

@@ -6,6 +6,8 @@
 // A chain consists of pieces of beads that follow one another by bonds (BondPaths). Each piece is made whole
 // on its own. Pieces that are not of a polymer, such as waters, begin in the image that the file gives.
 //
+// With Unwrap::beads, each bead moves on its own instead; with Unwrap::none, nothing is moved.
+//
 // Chains of one file are placed next to each other in the first frame: a chain moves to its periodic image
 // nearest to the chains before it if that is much nearer than the chain itself. From then on each chain moves
 // continuously: its image follows through all frames from the first one asked for, so that a stride finds the
@@ -76,6 +78,10 @@ class NecklaceStream {
   };
   /// Reads the next frame; `next` adds what --until-damage asks for.
   [[nodiscard]] bool read(FrameRead& frame);
+  /// Returns whether the file names no molecules, and beads lie where those of a fluid do.
+  [[nodiscard]] bool is_no_chain(const FrameRead& first) const;
+  /// Places the pieces of the first frame next to each other.
+  void place(FrameRead& first);
   /// Divides the necklaces into pieces. Notes the gaps between bonded beads.
   void find_pieces();
   /// Returns the shift of the first frame, in cell vectors, for a piece that has this image.
@@ -95,6 +101,9 @@ class NecklaceStream {
   void note_breaks(std::size_t n, const Eigen::Ref<const Eigen::Matrix3Xd>& chain, std::size_t frame);
 
   FramesOpened opened_;
+  Unwrap unwrap_ = Unwrap::chains;
+  bool is_strewn_ = false;  ///< `unwrap_` is beads because of the first frame
+  UnwrappedBeads paths_;    ///< if `unwrap_` is beads
   std::optional<double> time_step_;
   bool until_damage_;
   std::vector<Trajectory> heads_;

@@ -27,6 +27,18 @@ inline constexpr std::array<std::string_view, 4> lammps_units_names{"real", "met
   return lammps_units_names[static_cast<std::size_t>(units)];
 }
 
+/// How beads move through the walls of a periodic cell, from frame to frame.
+enum class Unwrap {
+  none,    ///< not at all: positions are those of the file
+  chains,  ///< molecules are made whole along their bonds, and move as a whole
+  beads,   ///< each bead moves to the image nearest to where it was
+};
+/// Names, in the order of the enumerators.
+inline constexpr std::array<std::string_view, 3> unwrap_names{"none", "chains", "beads"};
+[[nodiscard]] constexpr std::string_view name_of(Unwrap unwrap) {
+  return unwrap_names[static_cast<std::size_t>(unwrap)];
+}
+
 struct ReadOptions {
   std::optional<std::filesystem::path> topology = {};  ///< file that names the atoms of a trajectory
   Selection selection = Selection::automatic;
@@ -36,7 +48,9 @@ struct ReadOptions {
   std::optional<double> time_step = {};    ///< picoseconds between frames; none: times as in the file
   bool until_damage = false;               ///< reads the frames before a damaged one
   std::optional<LammpsUnits> units = {};   ///< for LAMMPS dumps; none: as the file says, else angstrom
-  std::vector<Selection> groups = {};      ///< groups of the selected beads, at most eight (BeadGroups)
+  /// None: chains; but beads for a file that names no molecules and whose beads are strewn (are_strewn).
+  std::optional<Unwrap> unwrap = {};
+  std::vector<Selection> groups = {};  ///< groups of the selected beads, at most eight (BeadGroups)
 };
 
 }  // namespace kds

@@ -21,6 +21,7 @@ std::vector<Trajectory> read_trajectories(const std::filesystem::path& path, con
       const auto beads = static_cast<Eigen::Index>(stream.heads()[n].bead_count());
       necklaces[n].frames.emplace_back(frame.positions.middleCols(begin, beads));
       necklaces[n].frame_numbers.push_back(frame.stamp.number);
+      if (frame.cell) necklaces[n].cells.push_back(*frame.cell);
       if (frame.stamp.picoseconds) necklaces[n].times.push_back(*frame.stamp.picoseconds);
       begin += beads;
     }
@@ -29,6 +30,7 @@ std::vector<Trajectory> read_trajectories(const std::filesystem::path& path, con
     necklaces[n].later_breaks = stream.heads()[n].later_breaks;
     necklaces[n].warnings = stream.warnings(n);
     necklaces[n].truncated = stream.is_truncated();
+    if (necklaces[n].cells.size() < necklaces[n].frames.size()) necklaces[n].cells.clear();
     const std::size_t frames = necklaces[n].frames.size(), timed = necklaces[n].times.size();
     if (timed == frames || timed == 0) continue;
     necklaces[n].times.clear();

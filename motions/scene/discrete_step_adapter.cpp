@@ -15,6 +15,7 @@ DiscreteStepAdapter::DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, co
     : source_(std::move(frames)),
       motion_(motion),
       plane_(survey.plane),
+      periodic_(survey.periodic),
       dimension_(survey.plane ? 2 : 3),
       beads_(count_beads(source_->necklaces())),
       frame_count_(survey.frame_count),
@@ -32,6 +33,7 @@ DiscreteStepAdapter::DiscreteStepAdapter(std::unique_ptr<FrameSource> frames, co
     : source_(std::move(frames)),
       motion_(like.motion_),
       plane_(like.plane_),
+      periodic_(like.periodic_),
       dimension_(like.dimension_),
       beads_(like.beads_),
       frame_count_(like.frame_count_),
@@ -131,6 +133,19 @@ double DiscreteStepAdapter::third_of_velocity(std::size_t frame, BeadId bead, in
 std::optional<LinearEnds> DiscreteStepAdapter::ends() const {
   if (degree() != 1) return std::nullopt;
   return LinearEnds{held(step_).positions.data(), held(step_ + 1).positions.data()};
+}
+
+std::optional<CellEnds> DiscreteStepAdapter::cells() const {
+  if (!periodic_) return std::nullopt;
+  const auto cell_of = [this](std::size_t frame) {
+    const std::optional<Cell>& read = held(frame).cell;
+    const std::optional<Cell> cell = read && plane_ ? plane_->laid(*read) : read;
+    if (!cell)
+      throw InputError(
+          fmt::format("frame {} has lost its cell since the input was first read", held(frame).stamp.number));
+    return *cell;
+  };
+  return CellEnds{cell_of(step_), cell_of(step_ + 1)};
 }
 
 Eigen::Vector3d DiscreteStepAdapter::mean_displacement() const {

@@ -64,6 +64,7 @@ class DiscreteStepAdapter final : public StepSource {
   void go_to(std::size_t k) override;
   [[nodiscard]] double coordinate(BeadId bead, int k, int axis) const override;
   [[nodiscard]] std::optional<LinearEnds> ends() const override;
+  [[nodiscard]] std::optional<CellEnds> cells() const override;
   [[nodiscard]] Eigen::Vector3d mean_displacement() const override;
 
  private:
@@ -86,6 +87,7 @@ class DiscreteStepAdapter final : public StepSource {
   FrameBuffer* buffer_ = nullptr;  ///< the source, once frames are read ahead
   FrameMotion motion_;
   std::optional<AxisPlane> plane_;  ///< none: frames are taken as they are
+  bool periodic_ = false;           ///< FrameSurvey::periodic
   int dimension_;
   std::size_t beads_;
   std::size_t frame_count_ = 0;

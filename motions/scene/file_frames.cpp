@@ -52,7 +52,7 @@ bool FileFrames::next(FrameRead& frame) {
   frame.stamp = stamp();
   last_number_ = frame.stamp.number;
   ++next_;
-  frame.cell.reset();
+  frame.cell = common_cell();
   frame.positions.resize(3, static_cast<Eigen::Index>(count_beads(necklaces_)));
   Eigen::Index begin = 0;
   for (const FrameRead& of_file : present_) {
@@ -60,6 +60,18 @@ bool FileFrames::next(FrameRead& frame) {
     begin += of_file.positions.cols();
   }
   return true;
+}
+
+std::optional<Cell> FileFrames::common_cell() const {
+  std::optional<Cell> cell;
+  bool first = true;
+  for (std::size_t f = 0; f < files_.size(); ++f) {
+    if (at_rest_[f]) continue;
+    if (!first && present_[f].cell != cell) return std::nullopt;
+    cell = present_[f].cell;
+    first = false;
+  }
+  return cell;
 }
 
 FrameStamp FileFrames::stamp() {
@@ -141,7 +153,7 @@ void FileFrames::add_nearer_images(std::vector<std::string>& lines) const {
       if (beside && beside->is_much_nearer())
         lines.push_back(
             fmt::format("{}: has a periodic image much nearer to the necklaces before it ({:.4g} away, not "
-                        "{:.4g}), left where it is; contacts across the walls of the cell are not found",
+                        "{:.4g}), left where it is",
                         head.file, beside->distance, beside->present));
       earlier.add(chain, first_cells_[f]);
     }

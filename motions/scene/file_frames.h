@@ -47,6 +47,8 @@ class FileFrames final : public FrameSource {
   /// Returns the number and the time of the present frame: those of the first file that moves. If this file
   /// has no time, another moving file gives the time. Notes times that differ.
   [[nodiscard]] FrameStamp stamp();
+  /// Returns the cell that all files that move have in the present frame, if they have one in common.
+  [[nodiscard]] std::optional<Cell> common_cell() const;
 
   std::vector<NecklaceStream> files_;
   std::vector<NecklaceBeads> necklaces_;

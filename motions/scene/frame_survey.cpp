@@ -8,6 +8,8 @@
 
 #include "motions/base/floating_point_scope.h"
 #include "motions/base/input_error.h"
+#include "motions/base/text_input.h"
+#include "motions/frames/periodic.h"
 #include "motions/numbers/exact_number.h"
 #include "motions/scene/length_unit.h"
 
@@ -16,6 +18,12 @@ namespace kds {
 namespace {
 
 using Ends = std::array<Eigen::Vector3d, 2>;
+
+// Returns the plane across an axis, at height 0.
+AxisPlane plane_across(std::size_t axis) {
+  constexpr std::array<std::array<Eigen::Index, 3>, 3> axes{{{1, 2, 0}, {0, 2, 1}, {0, 1, 2}}};
+  return {axes[axis], 0};
+}
 
 // Returns whether two balls of this radius meet, decided exactly.
 bool balls_meet(const Ends& centers, double radius) {
@@ -32,6 +40,21 @@ bool balls_meet(const Ends& centers, double radius) {
 void AxisPlane::lay(Eigen::Matrix3Xd& frame) const {
   frame = frame(axes, Eigen::all).eval();
   frame.row(2).setZero();
+}
+
+std::optional<Cell> AxisPlane::laid(const Cell& cell) const {
+  Cell in_plane = Cell::Zero();
+  Eigen::Index count = 0;
+  for (Eigen::Index vector = 0; vector < 3; ++vector) {
+    const Eigen::Vector3d turned = cell.col(vector)(axes);
+    if (turned.isZero(0)) continue;
+    if (turned[2] == 0) {
+      in_plane.col(count++) = turned;
+    } else if (turned[0] != 0 || turned[1] != 0) {
+      return std::nullopt;
+    }
+  }
+  return count == 0 ? std::nullopt : std::optional(in_plane);
 }
 
 void PlaneSearch::add(const Eigen::Matrix3Xd& frame) {
@@ -80,12 +103,76 @@ double LongestBond::radius() const {
   return radius_;
 }
 
+void CellSurvey::add(const FrameRead& frame) {
+  if (!frame.cell) {
+    ++without_cell_;
+    last_.resize(3, 0);
+    return;
+  }
+  ++with_cell_;
+  std::array<bool, 3> spans{};
+  for (std::size_t vector = 0; vector < 3; ++vector)
+    spans[vector] = !frame.cell->col(static_cast<Eigen::Index>(vector)).isZero(0);
+  if (!spans_) spans_ = spans;
+  alike_ = alike_ && spans == *spans_;
+  for (std::size_t across = 0; across < 3; ++across)
+    if (!plane_across(across).laid(*frame.cell)) in_plane_[across] = false;
+  if (last_.cols() == frame.positions.cols()) {
+    const double shortest = Images(*frame.cell).reduced().col(0).norm();
+    for (Eigen::Index bead = 0; bead < last_.cols(); ++bead) {
+      const double length = (frame.positions.col(bead) - last_.col(bead)).norm();
+      if (2 * length <= shortest) continue;
+      if (far_.count++ == 0)
+        far_ = {1, frame.stamp.number, static_cast<std::size_t>(bead), length, shortest / 2};
+    }
+  }
+  last_ = frame.positions;
+}
+
+bool CellSurvey::is_periodic(const std::optional<AxisPlane>& plane) const {
+  if (with_cell_ == 0 || without_cell_ > 0 || !alike_) return false;
+  return !plane || in_plane_[static_cast<std::size_t>(plane->axes[2])];
+}
+
+namespace {
+
+// Says which beads move too far to know their path, and where images of beads count for nothing.
+void warn_of_cells(const CellSurvey& cells, const FrameSurvey& survey,
+                   const std::vector<NecklaceBeads>& necklaces,
+                   const std::function<void(const std::string&)>& warn) {
+  const std::string& file = necklaces.front().file;
+  if (!survey.periodic) {
+    warn(fmt::format(
+        "{}: contacts across the walls of the cell are not found, because {}", file,
+        cells.without_cell() > 0
+            ? counted(cells.without_cell(), "frame") + " of the run " +
+                  (cells.without_cell() == 1 ? "has" : "have") + " no cell that all inputs share"
+            : "cells differ in which vectors are periodic, or lie askew to the plane of the beads"));
+    return;
+  }
+  const FarMoves& far = cells.far_moves();
+  if (far.count == 0) return;
+  const std::vector<std::string> names = names_of_beads(necklaces);
+  const std::string name = far.first_bead < names.size() && !names[far.first_bead].empty()
+                               ? fmt::format(" ({})", names[far.first_bead])
+                               : "";
+  warn(
+      fmt::format("{}: frame {}: bead {}{} has moved {:.4g} since the frame before, more than half of the "
+                  "cell's shortest "
+                  "vector ({:.4g}), so its path is a guess ({})",
+                  file, far.first_frame, far.first_bead, name, far.length, far.half_cell,
+                  counted(far.count, "such move")));
+}
+
+}  // namespace
+
 FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
                           const std::function<void(const std::string&)>& warn) {
   const FloatingPointScope to_nearest;
   const std::vector<NecklaceBeads>& necklaces = frames.necklaces();
   FrameSurvey survey;
   PlaneSearch planes;
+  CellSurvey cells;
   std::string doubt;  // about the first necklace whose unit is doubtful
   for (FrameRead frame; frames.next(frame); ++survey.frame_count) {
     if (survey.frame_count == 0) {
@@ -94,6 +181,7 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
     }
     survey.last = frame.stamp;
     planes.add(frame.positions);
+    cells.add(frame);
     Eigen::Index begin = 0;
     for (const NecklaceBeads& necklace : necklaces) {
       const auto beads = static_cast<Eigen::Index>(necklace.count);
@@ -107,9 +195,11 @@ FrameSurvey survey_frames(FrameSource& frames, bool with_bonds,
   }
   survey.truncated = frames.is_truncated();
   survey.plane = planes.plane();
+  survey.periodic = cells.is_periodic(survey.plane);
   if (!doubt.empty()) warn(doubt);
   if (warn)
     for (const std::string& line : frames.warnings()) warn(line);
+  if (warn && cells.any()) warn_of_cells(cells, survey, necklaces, warn);
   frames.seek(0);
   return survey;
 }

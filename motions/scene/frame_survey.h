@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "motions/frames/frame_source.h"
+#include "motions/frames/periodic.h"
 
 namespace kds {
 
@@ -21,6 +22,9 @@ struct AxisPlane {
 
   /// Converts a frame from the input's coordinates to those in the plane. The third coordinate becomes zero.
   void lay(Eigen::Matrix3Xd& frame) const;
+  /// Converts a cell. Its vectors in the plane come first; a vector across the plane is left out. Returns
+  /// nothing if a vector is neither in the plane nor across it, or if none is in it.
+  [[nodiscard]] std::optional<Cell> laid(const Cell& cell) const;
 };
 
 /// Finds a plane that contains all beads of all frames.
@@ -51,6 +55,36 @@ class LongestBond {
   double radius_ = 0;
 };
 
+/// Moves of single beads, from one frame to the next, that are longer than half of the shortest vector of the
+/// cell's lattice. Another image of the bead may be as near, so the path between the frames is a guess.
+struct FarMoves {
+  std::size_t count = 0;
+  std::size_t first_frame = 0;  ///< number in the file of the frame after the first of them
+  std::size_t first_bead = 0;   ///< in the scene
+  double length = 0;            ///< of the first of them
+  double half_cell = 0;         ///< half of the shortest vector there
+};
+
+/// Collects what the cells of all frames have in common, and moves that are far for them.
+class CellSurvey {
+ public:
+  void add(const FrameRead& frame);
+  /// Returns whether all frames are periodic along the same vectors, and, for a planar scene, in its plane.
+  [[nodiscard]] bool is_periodic(const std::optional<AxisPlane>& plane) const;
+  /// Returns whether any frame has a cell.
+  [[nodiscard]] bool any() const { return with_cell_ > 0; }
+  [[nodiscard]] std::size_t without_cell() const { return without_cell_; }
+  [[nodiscard]] const FarMoves& far_moves() const { return far_; }
+
+ private:
+  std::size_t with_cell_ = 0, without_cell_ = 0;
+  std::optional<std::array<bool, 3>> spans_;        // the vectors of the first cell that are not zero
+  bool alike_ = true;                               // all cells have these
+  std::array<bool, 3> in_plane_{true, true, true};  // for each axis: cells lie in the plane across it
+  Eigen::Matrix3Xd last_;                           // positions of the frame before
+  FarMoves far_;
+};
+
 struct FrameSurvey {
   std::size_t frame_count = 0;
   FrameStamp first, last;
@@ -58,6 +92,8 @@ struct FrameSurvey {
   Eigen::Matrix3Xd first_positions;
   std::optional<AxisPlane> plane;
   LongestBond bonds;  ///< empty unless requested
+  /// All frames have a cell that the scene can use: beads have images, and contacts are of nearest images.
+  bool periodic = false;
 };
 
 /// Reads all frames and starts again at the first. Passes the source's warnings to `warn`. Throws InputError

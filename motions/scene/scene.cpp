@@ -54,6 +54,7 @@ void Scene::take(std::unique_ptr<FrameSource> frames, const FrameSurvey& survey,
   bead_names_ = names_of_beads(necklaces);
   bead_groups_ = kds::bead_groups(necklaces);
   truncated_ = survey.truncated;
+  periodic_ = survey.periodic;
   plane_ = survey.plane.value_or(AxisPlane{});
   steps_ = std::make_unique<DiscreteStepAdapter>(std::move(frames), survey, motion);
 }
@@ -120,6 +121,7 @@ std::unique_ptr<const Scene> Scene::over(std::unique_ptr<FrameSource> frames) co
   scene->radii_ = radii_;
   scene->has_radii_ = has_radii_;
   scene->truncated_ = truncated_;
+  scene->periodic_ = periodic_;
   scene->plane_ = plane_;
   scene->steps_ = steps_->over(std::move(frames));
   return scene;

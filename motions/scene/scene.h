@@ -92,6 +92,9 @@ class Scene {
   // Functions with an index of a frame, step or bead throw std::invalid_argument if it is too large. The
   // message gives the number of elements.
 
+  /// Returns whether all beads lie in a periodic cell, so that they have images in each step
+  /// (FrameSurvey::periodic).
+  [[nodiscard]] bool is_periodic() const { return periodic_; }
   /// Returns whether frames are missing at the end of the input (FrameSource::is_truncated).
   [[nodiscard]] bool is_truncated() const { return truncated_; }
   /// Returns a frame's number in the file and its time, for messages and results.
@@ -126,6 +129,11 @@ class Scene {
     require_index("step", step, step_count());
     steps_->go_to(step);
     set_control_points(motion);
+    if (const std::optional<CellEnds> cells = steps_->cells()) {
+      motion.own_cell().set(cells->start, cells->end, degree());
+    } else {
+      motion.own_cell().clear();
+    }
     if constexpr (lifted<M>) motion.set_drift(drift<M>());
   }
   /// Returns centres and weights at a frame. Coordinates beyond the dimension are zero.
@@ -175,6 +183,7 @@ class Scene {
   std::vector<double> radii_;
   bool has_radii_ = true;
   bool truncated_ = false;
+  bool periodic_ = false;
   AxisPlane plane_;  // the plane of a planar scene; else the input's own axes
   std::unique_ptr<StepSource> steps_;
   FrameQueue* pushed_ = nullptr;  // the source of frames that are pushed; owned by `steps_`

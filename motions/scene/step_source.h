@@ -10,6 +10,7 @@
 #include "motions/base/bead.h"
 #include "motions/frames/frame_buffer.h"
 #include "motions/frames/frame_stamp.h"
+#include "motions/frames/periodic.h"
 #include "motions/readers/instance.h"
 
 namespace kds {
@@ -18,6 +19,11 @@ namespace kds {
 struct LinearEnds {
   const double* start = nullptr;
   const double* end = nullptr;
+};
+
+/// The cells of the first and last frame of a step, in the scene's coordinates.
+struct CellEnds {
+  Cell start, end;
 };
 
 class StepSource {
@@ -54,6 +60,8 @@ class StepSource {
   [[nodiscard]] virtual double coordinate(BeadId bead, int k, int axis) const = 0;
   /// Returns the ends of a linear step between two frames, or nothing if the step is another one.
   [[nodiscard]] virtual std::optional<LinearEnds> ends() const { return std::nullopt; }
+  /// Returns the cells of the step if the scene is periodic.
+  [[nodiscard]] virtual std::optional<CellEnds> cells() const { return std::nullopt; }
   /// Returns the mean displacement of all beads.
   [[nodiscard]] virtual Eigen::Vector3d mean_displacement() const = 0;
   /// Returns whether the source has weights of its own, which no radii give.

@@ -29,8 +29,8 @@ bool StraightenedFrames::next(FrameRead& frame) {
   if (next_ready_ == ready_.size()) fill();
   if (next_ready_ == ready_.size()) return false;
   frame.stamp = ready_[next_ready_].stamp;
+  frame.cell = ready_[next_ready_].cell;
   frame.positions = ready_[next_ready_++].positions;
-  frame.cell.reset();
   ++next_;
   return true;
 }
@@ -51,7 +51,7 @@ void StraightenedFrames::seek(std::size_t k) {
 void StraightenedFrames::fill() {
   go_to_next_block();
   for (FrameRead frame; samples_.size() <= begin_ + block + reach && source_->next(frame);)
-    samples_.push_back({frame.stamp, std::move(frame.positions), {}});
+    samples_.push_back({frame.stamp, std::move(frame.positions), frame.cell});
   straighten_block();
 }
 
