@@ -48,6 +48,9 @@ std::unique_ptr<CertificateSearch<Contact>> search_over(const MotionRef<1>& moti
 template std::unique_ptr<CertificateSearch<Contact>> search_over(const MotionRef<2>&);
 template std::unique_ptr<CertificateSearch<Contact>> search_over(const MotionRef<3>&);
 
+template std::unique_ptr<CertificateSearch<ImageContact>> search_over(const MotionRef<2>&);
+template std::unique_ptr<CertificateSearch<ImageContact>> search_over(const MotionRef<3>&);
+
 template <int Dimension>
 std::unique_ptr<CertificateSearch<SameTurn<Dimension>>> same_turn_search(const MotionRef<Dimension>& motion) {
   return detail::search_one_by_one<SameTurn<Dimension>>(motion);

@@ -2,6 +2,8 @@
 // Certificates about distances of beads. Exact; degree 2k for centres and radii of degree k.
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 #include "certificates/base/certificate.h"
 #include "certificates/base/certificate_type.h"
@@ -58,6 +60,35 @@ struct Contact {
   template <MotionView View>
   [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 2>& beads) {
     const auto d = view.difference(beads[1], beads[0]);
+    const auto reach = view.radius_sum(beads[1], beads[0]);
+    return dot(d, d) - reach * reach;
+  }
+};
+
+/// Contact of a ball with an image of another one in a periodic cell. The image is moved by a shift, which is
+/// given exactly as the difference of two points (shifted_beads.h). Like Contact otherwise.
+struct ImageContact {
+  static constexpr CertificateType type{15, "image_contact"};
+  static constexpr int lanes_up_to_degree = 3;
+  static constexpr bool uses_radii = true;
+
+  /// The two beads, ascending, and the points `to` and `from` of the second bead's shift to - from.
+  std::array<BeadId, 4> beads{};
+  int sign = 1;
+
+  [[nodiscard]] Identity identity() const {
+    Identity identity = identity_of(type, std::array<BeadId, 2>{beads[0], beads[1]});
+    identity.beads[4] = beads[2];  // behind the end of the beads that messages name
+    return identity;
+  }
+
+  [[nodiscard]] bool side() const { return sign > 0; }
+
+  template <MotionView View>
+  [[nodiscard]] static auto formula(const View& view, const std::array<BeadId, 4>& beads) {
+    auto d = view.difference(beads[1], beads[0]);
+    const auto shift = view.difference(beads[2], beads[3]);
+    for (std::size_t axis = 0; axis < d.size(); ++axis) d[axis] += shift[axis];
     const auto reach = view.radius_sum(beads[1], beads[0]);
     return dot(d, d) - reach * reach;
   }

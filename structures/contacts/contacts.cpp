@@ -1,15 +1,18 @@
 #include "structures/contacts/contacts.h"
 
 #include <fmt/format.h>
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "motions/base/interruption.h"
 #include "motions/curves/positions.h"
+#include "motions/numbers/bernstein.h"
 #include "motions/scene/near_pairs.h"
 #include "structures/necklace/pairs_in_question.h"
 
@@ -19,6 +22,8 @@ namespace {
 
 Contact disjoint(const BeadPair& pair) { return {{pair.first, pair.second}, 1}; }
 Contact overlapping(const BeadPair& pair) { return {{pair.first, pair.second}, -1}; }
+
+TableMotion whose_motion(bool own) { return own ? TableMotion::of_structure : TableMotion::of_run; }
 
 constexpr std::array<IdRole, 2> contact_pair{{{"first"}, {"second"}}};
 constexpr auto contact_kinds = with_edits(std::array{EventKind{"begin", true, false, contact_pair},
@@ -59,7 +64,7 @@ std::optional<std::string> contact_fault(const Curves<Dimension>& curves,
     const double gap = distance - radii[a] - radii[b];
     const bool is_clear = std::isfinite(gap) && std::abs(gap) > 4 * spare && spare > 0x1p-900;
     const int sign = is_clear ? (gap > 0 ? 1 : -1) : search.sign_at({{a, b}, 1}, time);
-    const bool in_contact = contacts.contains({a, b});
+    const bool in_contact = contacts.contains(BeadPair{a, b});
     met += in_contact ? 1 : 0;
     if (sign == 0 && at_end) return;
     if (in_contact != (sign <= 0))
@@ -80,6 +85,116 @@ std::optional<std::string> contact_fault(const Curves<Dimension>& curves,
   return fault;
 }
 
+/// The beads at one time, each moved into the cell, and the images around it that may be within reach.
+template <int D>
+class LaidImages {
+ public:
+  LaidImages(const Curves<D>& curves, double u)
+      : beads_(static_cast<BeadId>(curves.bead_count())), radii_(approximate_radii(curves, u)) {
+    const Eigen::Matrix3Xd centers = approximate_positions(curves, u);
+    const Eigen::Matrix3d cell = cell_at(curves, u);
+    Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();  // rows of vectors that span nothing stay zero
+    inverse = cell.completeOrthogonalDecomposition().pseudoInverse();
+    double reach = 0;
+    for (const double radius : radii_) reach = std::max(reach, 2 * radius);
+    Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Ones();
+    std::vector<CellShift<D>> homes(beads_);
+    largest_ = std::max(reach, centers.cwiseAbs().maxCoeff());
+    for (BeadId bead = 0; bead < beads_; ++bead) {
+      Eigen::Vector3d point = centers.col(bead);
+      for (Eigen::Index a = 0; a < D; ++a)
+        homes[bead][static_cast<std::size_t>(a)] =
+            static_cast<std::int32_t>(std::floor(inverse.row(a).dot(centers.col(bead))));
+      add(bead, point - shifted(cell, homes[bead]), {});
+    }
+    CellShift<D> most{};
+    for (Eigen::Index a = 0; a < D; ++a)
+      most[static_cast<std::size_t>(a)] =
+          static_cast<std::int32_t>(std::ceil(inverse.row(a).norm() * (reach + 0x1p-30 * largest_)));
+    CellShift<D> shift{};
+    for (std::size_t a = 0; a < shift.size(); ++a) shift[a] = -most[a] - (most[a] > 0 ? 1 : 0);
+    const CellShift<D> first = shift;
+    for (bool more = true; more;) {
+      if (shift != CellShift<D>{})
+        for (BeadId bead = 0; bead < beads_; ++bead) {
+          const Eigen::Vector3d point = points_[bead] + shifted(cell, shift);
+          const Eigen::Vector3d away = inverse * point;
+          bool is_near = true;
+          for (Eigen::Index a = 0; a < D; ++a) {
+            const double spare = inverse.row(a).norm() * (reach + 0x1p-30 * largest_);
+            is_near = is_near && away[a] >= low[a] - spare && away[a] <= high[a] + spare;
+          }
+          if (is_near) add(bead, point, shift);
+        }
+      more = false;
+      for (std::size_t a = 0; a < shift.size() && !more; ++a) {
+        more = ++shift[a] <= -first[a];
+        if (!more) shift[a] = first[a];
+      }
+    }
+    homes_ = std::move(homes);
+  }
+
+  /// Calls visit(a, b, shift of b, gap) for the images of beads a < b that are near or may be.
+  template <class Visit>
+  void visit_near(Visit visit) const {
+    Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(points_.size()));
+    std::vector<double> larger;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      points.col(static_cast<Eigen::Index>(i)) = points_[i];
+      larger.push_back(radii_[of_[i]] + 4 * spare());
+    }
+    visit_near_pairs(points, larger, [&](BeadId i, BeadId j) {
+      if (i >= beads_) return;  // two images, which are met elsewhere
+      const bool in_order = of_[i] < of_[j];
+      if (of_[i] == of_[j] || (j >= beads_ && !in_order)) return;
+      CellShift<D> shift = shifts_[j];
+      for (std::size_t a = 0; a < shift.size(); ++a) {
+        shift[a] += homes_[of_[i]][a] - homes_[of_[j]][a];
+        if (!in_order) shift[a] = -shift[a];
+      }
+      const double gap = (points_[i] - points_[j]).stableNorm() - radii_[of_[i]] - radii_[of_[j]];
+      visit(std::min(of_[i], of_[j]), std::max(of_[i], of_[j]), shift, gap);
+    });
+  }
+  [[nodiscard]] bool is_clear(double gap) const { return std::abs(gap) > 4 * spare(); }
+
+ private:
+  // Exceeds by far what the rounding of times, sums and squares can add to a distance.
+  [[nodiscard]] double spare() const { return 0x1p-40 * largest_; }
+  void add(BeadId bead, const Eigen::Vector3d& point, const CellShift<D>& shift) {
+    points_.push_back(point);
+    of_.push_back(bead);
+    shifts_.push_back(shift);
+    largest_ = std::max(largest_, point.cwiseAbs().maxCoeff());
+  }
+  static Eigen::Matrix3d cell_at(const Curves<D>& curves, double u) {
+    Eigen::Matrix3d cell = Eigen::Matrix3d::Zero();
+    const int degree = curves.own_degree();
+    for (int k = 0; k <= degree; ++k) {
+      const double share =
+          static_cast<double>(binomial(degree, k)) * std::pow(u, k) * std::pow(1 - u, degree - k);
+      for (int vector = 0; vector < D; ++vector)
+        for (int axis = 0; axis < D; ++axis)
+          cell(axis, vector) += share * curves.cell_coordinate(vector, k, axis);
+    }
+    return cell;
+  }
+  static Eigen::Vector3d shifted(const Eigen::Matrix3d& cell, const CellShift<D>& shift) {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    for (std::size_t a = 0; a < shift.size(); ++a) point += cell.col(static_cast<Eigen::Index>(a)) * shift[a];
+    return point;
+  }
+
+  BeadId beads_;
+  std::vector<double> radii_;
+  std::vector<CellShift<D>> homes_;
+  double largest_ = 0;
+  std::vector<Eigen::Vector3d> points_;  // the beads, then their images
+  std::vector<BeadId> of_;
+  std::vector<CellShift<D>> shifts_;
+};
+
 }  // namespace
 
 std::vector<double> contact_radii(const ContactDistance& distance, std::span<const double> radii) {
@@ -95,42 +210,84 @@ Contacts<D>::Contacts(Simulator& simulator, const MotionRef<D>& motion, PairsAsk
     : EditableBase(simulator, motion.bead_count(), "contacts", contact_kinds),
       own_radii_(radii.empty() ? nullptr : std::make_unique<OtherRadii<D>>(motion, radii)),
       motion_(own_radii_ ? MotionRef<D>(*own_radii_) : motion),
-      family_(std::move(asked), motion.degree()),
-      disjoint_(simulator, *this, index(), 0, motion_, TouchPolicy::reported),
-      overlapping_(simulator, *this, index(), 1, motion_),
+      family_(asked, motion.degree()),
+      near_images_(std::move(asked)),
+      shifted_(motion.degree()),
+      disjoint_(simulator, *this, index(), 0, motion_, TouchPolicy::reported,
+                whose_motion(own_radii_ != nullptr)),
+      overlapping_(simulator, *this, index(), 1, motion_, TouchPolicy::ignored,
+                   whose_motion(own_radii_ != nullptr)),
+      disjoint_images_(simulator, *this, index(), 2, MotionRef<D>(shifted_), TouchPolicy::reported,
+                       TableMotion::of_structure),
+      overlapping_images_(simulator, *this, index(), 3, MotionRef<D>(shifted_), TouchPolicy::ignored,
+                          TableMotion::of_structure),
       per_bead_(statistics.certificates, motion.bead_count()) {}
 
 template <int D>
 void Contacts<D>::find_pairs(typename MovingFamily<D>::Resting resting, bool list_overlapping,
-                             PairsOfBlocks& pairs) {
-  if (simulator().kernel() != Kernel::exact) {
-    family_.find_pairs(motion_.curves(), resting, list_overlapping, pairs);
+                             PairsOfImages& found) {
+  const Curves<D> curves = motion_.curves();
+  if (curves.cell() != nullptr) {
+    if (simulator().kernel() == Kernel::exact) {
+      near_images_.find_by_boxes(curves, shifts_, found);
+    } else {
+      near_images_.find(curves, list_overlapping, shifts_, found);
+    }
+    if (shifts_.size() > 1) shifted_.set(curves, shifts_);
   } else {
-    pairs.clear();
-    PairsInQuestion(family_.asked()).for_each([&](BeadId i, BeadId j) { pairs.unclear.push_back({i, j}); });
+    found.clear();
+    if (simulator().kernel() == Kernel::exact) {
+      PairsInQuestion(family_.asked()).for_each([&](BeadId i, BeadId j) {
+        found.unclear.push_back({{i, j}});
+      });
+    } else {
+      family_.find_pairs(curves, resting, list_overlapping, of_blocks_);
+      for (const BeadPair& pair : of_blocks_.unclear) found.unclear.push_back({pair});
+      for (const BeadPair& pair : of_blocks_.overlapping) found.overlapping.push_back({pair});
+      found.proved = family_.size() + of_blocks_.proved_apart;
+    }
   }
   const std::span<const char> absent = present().absent();
   if (absent.empty()) return;
-  const auto names_absent = [absent](const BeadPair& p) {
-    return absent[p.first] != 0 || absent[p.second] != 0;
+  const auto names_absent = [absent](const ImagePair& p) {
+    return absent[p.pair.first] != 0 || absent[p.pair.second] != 0;
   };
-  std::erase_if(pairs.unclear, names_absent);
-  std::erase_if(pairs.overlapping, names_absent);
+  std::erase_if(found.unclear, names_absent);
+  std::erase_if(found.overlapping, names_absent);
+}
+
+template <int D>
+int Contacts<D>::sign_of(const ImagePair& image, Moment moment, const Instant& time) {
+  const auto sign = [&](const auto& search, const auto& certificate) {
+    return moment == Moment::now
+               ? search.sign_now(simulator().kernel(), certificate, time, statistics.stages)
+               : search.sign_just_after(simulator().kernel(), certificate, time, statistics.stages);
+  };
+  return image.shift == 0 ? sign(disjoint_.search(), disjoint(image.pair))
+                          : sign(disjoint_images_.search(), image_contact(image, 1));
 }
 
 template <int D>
 void Contacts<D>::build() {
   present().structure_is_built();
   contacts_.clear();
+  several_.clear();
+  knows_images_ = true;
   family_.forget_rest();
-  find_pairs(MovingFamily<D>::Resting::looked_at, true, pairs_);
-  for (const BeadPair& pair : pairs_.overlapping) contacts_.insert(pair);
+  find_pairs(MovingFamily<D>::Resting::looked_at, true, found_);
   const Instant start(0.0);
-  for (const BeadPair& pair : pairs_.unclear) {
+  for (const ImagePair& image : found_.unclear) {
     InterruptionCheck::ask();
-    const int sign =
-        disjoint_.search().sign_just_after(simulator().kernel(), disjoint(pair), start, statistics.stages);
-    if (sign <= 0) contacts_.insert(pair);
+    if (sign_of(image, Moment::just_after, start) <= 0) found_.overlapping.push_back(image);
+  }
+  for (const ImagePair& image : found_.overlapping) {
+    if (contacts_.contains(image.pair)) {
+      std::vector<std::uint32_t> shifts = shifts_in_contact(image.pair);
+      shifts.push_back(image.shift);
+      set_in_contact(image.pair, shifts);
+    } else {
+      contacts_.insert(image.pair, image.shift);
+    }
   }
 }
 
@@ -141,17 +298,29 @@ std::vector<Change> Contacts<D>::built() const {
   return begun;
 }
 
+// Shifts have other numbers in another run, so the state has the shifts themselves.
 template <int D>
 std::vector<BeadId> Contacts<D>::state() const {
   std::vector<BeadId> state;
-  for (const BeadPair& pair : pairs()) state.insert(state.end(), {pair.first, pair.second});
+  for (const BeadPair& pair : pairs()) {
+    state.insert(state.end(), {pair.first, pair.second});
+    if (shifts_.size() == 1) continue;
+    std::vector<CellShift<D>> shifts;
+    for (const std::uint32_t number : shifts_in_contact(pair)) shifts.push_back(shifts_.shift(number));
+    std::sort(shifts.begin(), shifts.end());
+    for (const CellShift<D>& shift : shifts)
+      if (shift != CellShift<D>{} || shifts.size() > 1)
+        for (const std::int32_t multiple : shift) state.push_back(static_cast<BeadId>(multiple));
+  }
   return state;
 }
 
 template <int D>
 void Contacts<D>::start_step() {
-  find_pairs(MovingFamily<D>::Resting::left_out, false, pairs_);
-  disjoint_.hold_never(family_.size() + pairs_.proved_apart);
+  end_several();
+  find_pairs(MovingFamily<D>::Resting::left_out, false, found_);
+  disjoint_.hold_never(found_.proved);
+  gather_several();
   at_once_.clear();
   watch_from(0, true);
   if (!at_once_.empty()) settle_now();
@@ -160,43 +329,78 @@ void Contacts<D>::start_step() {
 
 template <int D>
 void Contacts<D>::watch_from(std::uint32_t place, bool at_start) {
-  for (; place < pairs_.unclear.size(); ++place) {
-    const BeadPair& pair = pair_at(place);
-    if (contacts_.contains(pair)) {
-      overlapping_.one_of_many(place, KnownAtStart::unknown) = overlapping(pair);
+  for (; place < found_.unclear.size(); ++place) {
+    const ImagePair& image = image_at(place);
+    const bool in_contact = is_in_contact(image);
+    if (image.shift != 0) {
+      (in_contact ? overlapping_images_ : disjoint_images_).one_of_many(place, KnownAtStart::unknown) =
+          image_contact(image, in_contact ? -1 : 1);
+    } else if (in_contact) {
+      overlapping_.one_of_many(place, KnownAtStart::unknown) = overlapping(image.pair);
     } else {
-      disjoint_.one_of_many(place, KnownAtStart::unknown) = disjoint(pair);
+      disjoint_.one_of_many(place, KnownAtStart::unknown) = disjoint(image.pair);
     }
   }
   const Curves<D> curves = motion_.curves();
-  disjoint_.watch_enqueued([&](std::uint32_t at, CertificateHandle handle) {
+  const auto begins = [&](std::uint32_t at, CertificateHandle handle) {
     InterruptionCheck::ask();
-    const BeadPair& pair = pair_at(at);
+    const ImagePair& image = image_at(at);
     if (handle == CertificateHandle::violated || handle == CertificateHandle::zero) {
-      at_once_.push_back({pair, begin, handle == CertificateHandle::violated ? at : no_place});
-    } else if (at_start && is_zero_at_start(curves, pair)) {
-      at_once_.push_back({pair, touch, no_place});
+      at_once_.push_back({image, begin, handle == CertificateHandle::violated ? at : no_place});
+    } else if (at_start && is_zero_at_start(curves, image)) {
+      at_once_.push_back({image, touch, no_place});
     }
-  });
-  overlapping_.watch_enqueued([&](std::uint32_t at, CertificateHandle handle) {
+  };
+  const auto ends = [&](std::uint32_t at, CertificateHandle handle) {
     InterruptionCheck::ask();
-    if (handle == CertificateHandle::violated) at_once_.push_back({pair_at(at), end, at});
-  });
+    if (handle == CertificateHandle::violated) at_once_.push_back({image_at(at), end, at});
+  };
+  disjoint_.watch_enqueued(begins);
+  overlapping_.watch_enqueued(ends);
+  disjoint_images_.watch_enqueued(begins);
+  overlapping_images_.watch_enqueued(ends);
+}
+
+template <int D>
+void Contacts<D>::watch(std::uint32_t place, bool in_contact, KnownAtStart birth) {
+  const ImagePair& image = image_at(place);
+  if (image.shift != 0) {
+    (void)(in_contact ? overlapping_images_ : disjoint_images_)
+        .watch(image_contact(image, in_contact ? -1 : 1), place, birth);
+  } else if (in_contact) {
+    (void)overlapping_.watch(overlapping(image.pair), place, birth);
+  } else {
+    (void)disjoint_.watch(disjoint(image.pair), place, birth);
+  }
 }
 
 // Settles the changes of the present moment, at a frame or after edits, in the order of the beads, like all
-// simultaneous events. Then watches the certificates of the pairs that changed.
+// simultaneous events. Then watches the certificates of the pairs that changed. The images of a pair change
+// together.
 template <int D>
 void Contacts<D>::settle_now() {
   std::sort(at_once_.begin(), at_once_.end());
-  for (const Happens& event : at_once_) {
-    record_contact(event.kind, event.pair);
-    if (event.place == no_place) continue;
-    if (event.kind == begin) {
-      (void)overlapping_.watch(overlapping(event.pair), event.place);
-    } else {
-      (void)disjoint_.watch(disjoint(event.pair), event.place);
+  for (std::size_t from = 0, to = 0; from < at_once_.size(); from = to) {
+    const BeadPair pair = at_once_[from].image.pair;
+    while (to < at_once_.size() && at_once_[to].image.pair == pair) ++to;
+    const std::span<const Happens> of_pair = std::span(at_once_).subspan(from, to - from);
+    std::vector<std::uint32_t> shifts = shifts_in_contact(pair);
+    const bool before = !shifts.empty();
+    bool touches = false;
+    for (const Happens& change : of_pair) {
+      if (change.kind == begin) shifts.push_back(change.image.shift);
+      if (change.kind == end) std::erase(shifts, change.image.shift);
+      touches = touches || change.kind == touch;
     }
+    const bool after = !shifts.empty();
+    if (before != after) {
+      record_contact(after ? begin : end, of_pair.front().image);
+    } else if (touches && !before) {
+      record_contact(touch, of_pair.front().image);
+    }
+    set_in_contact(pair, shifts);
+    for (const Happens& change : of_pair)
+      if (change.place != no_place) watch(change.place, change.kind == begin);
   }
 }
 
@@ -210,8 +414,11 @@ void Contacts<D>::edit(std::uint8_t kind, BeadId bead) {
     find_of({&bead, 1});
   } else {
     drop_of({&bead, 1});
-    for (const BeadPair& pair : contacts_.pairs())
-      if (pair.first == bead || pair.second == bead) record_contact(end, pair);
+    for (const BeadPair& pair : contacts_.pairs()) {
+      if (pair.first != bead && pair.second != bead) continue;
+      record_contact(end, {pair});
+      several_.erase(key_of(pair));
+    }
     present().set_absent(bead, true);
     record(erases, {bead});
   }
@@ -227,9 +434,11 @@ std::vector<char> Contacts<D>::marked(std::span<const BeadId> beads) const {
 template <int D>
 void Contacts<D>::drop_of(std::span<const BeadId> beads) {
   const std::vector<char> marks = marked(beads);
-  const auto names_one = [&](const Contact& c) { return marks[c.beads[0]] != 0 || marks[c.beads[1]] != 0; };
+  const auto names_one = [&](const auto& c) { return marks[c.beads[0]] != 0 || marks[c.beads[1]] != 0; };
   disjoint_.drop_if(names_one);
   overlapping_.drop_if(names_one);
+  disjoint_images_.drop_if(names_one);
+  overlapping_images_.drop_if(names_one);
 }
 
 template <int D>
@@ -241,72 +450,181 @@ void Contacts<D>::release(std::span<const BeadId> beads) {
 template <int D>
 void Contacts<D>::find_of(std::span<const BeadId> beads) {
   const std::vector<char> marks = marked(beads);
-  const auto names_none = [&](const BeadPair& p) { return marks[p.first] == 0 && marks[p.second] == 0; };
-  PairsOfBlocks found;
+  const auto names_none = [&](const ImagePair& p) {
+    return marks[p.pair.first] == 0 && marks[p.pair.second] == 0;
+  };
+  PairsOfImages found;
   find_pairs(MovingFamily<D>::Resting::looked_at, true, found);
   std::erase_if(found.unclear, names_none);
   std::erase_if(found.overlapping, names_none);
   at_once_.clear();
-  for (const BeadPair& pair : found.overlapping)
-    if (!contacts_.contains(pair)) at_once_.push_back({pair, begin, no_place});
-  ContactSet may_meet;
-  for (const BeadPair& pair : found.overlapping) may_meet.insert(pair);
-  for (const BeadPair& pair : found.unclear) may_meet.insert(pair);
-  for (const BeadPair& pair : contacts_.pairs())
-    if (!names_none(pair) && !may_meet.contains(pair)) at_once_.push_back({pair, end, no_place});
-  const auto first = static_cast<std::uint32_t>(pairs_.unclear.size());
-  pairs_.unclear.insert(pairs_.unclear.end(), found.unclear.begin(), found.unclear.end());
+  for (const ImagePair& image : found.overlapping)
+    if (!is_in_contact(image)) at_once_.push_back({image, begin, no_place});
+  std::vector<ImagePair> may_meet = found.overlapping;
+  may_meet.insert(may_meet.end(), found.unclear.begin(), found.unclear.end());
+  std::sort(may_meet.begin(), may_meet.end());
+  for (const BeadPair& pair : contacts_.pairs()) {
+    for (const std::uint32_t shift : shifts_in_contact(pair)) {
+      const ImagePair image{pair, shift};
+      if (!names_none(image) && !std::binary_search(may_meet.begin(), may_meet.end(), image))
+        at_once_.push_back({image, end, no_place});
+    }
+  }
+  const auto first = static_cast<std::uint32_t>(found_.unclear.size());
+  found_.unclear.insert(found_.unclear.end(), found.unclear.begin(), found.unclear.end());
+  found_.may_repeat = found_.may_repeat || found.may_repeat;
+  gather_several();
   watch_from(first, false);
   settle_now();
 }
 
 template <int D>
 void Contacts<D>::fail(unsigned table, std::uint32_t slot) {
-  const bool ends = table == overlapping_.number();
-  const std::uint32_t place = (ends ? overlapping_ : disjoint_).place_in_structure(slot);
-  const BeadPair pair = pair_at(place);
-  if (ends) {
-    record_contact(end, pair);
-    (void)disjoint_.watch(disjoint(pair), place, KnownAtStart::at_own_root);
-  } else if (disjoint_.touches(slot)) {
-    record_contact(touch, pair);
-    (void)disjoint_.watch(disjoint(pair), place);
-  } else {
-    record_contact(begin, pair);
-    (void)overlapping_.watch(overlapping(pair), place, KnownAtStart::at_own_root);
-  }
+  if (table == overlapping_.number()) return fail_at(overlapping_.place_in_structure(slot), end);
+  if (table == overlapping_images_.number())
+    return fail_at(overlapping_images_.place_in_structure(slot), end);
+  const auto fails = [&](const auto& disjoint) {
+    fail_at(disjoint.place_in_structure(slot), disjoint.touches(slot) ? touch : begin);
+  };
+  table == disjoint_.number() ? fails(disjoint_) : fails(disjoint_images_);
 }
 
 template <int D>
-void Contacts<D>::record_contact(Kind kind, const BeadPair& pair) {
-  if (kind == begin) contacts_.insert(pair);
-  if (kind == end) contacts_.erase(pair);
-  record(kind, {pair.first, pair.second});
+void Contacts<D>::fail_at(std::uint32_t place, Kind kind) {
+  const ImagePair image = image_at(place);
+  const auto several = several_.empty() ? several_.end() : several_.find(key_of(image.pair));
+  if (several == several_.end()) {
+    record_contact(kind, image);
+  } else {
+    settle_several(several->second, image.pair);
+    if (kind == begin) several->second.in_contact.push_back(image.shift);
+    if (kind == end) std::erase(several->second.in_contact, image.shift);
+  }
+  const bool at_root = kind != touch;
+  watch(place, kind == begin, at_root ? KnownAtStart::at_own_root : KnownAtStart::unknown);
+}
+
+template <int D>
+void Contacts<D>::record_contact(Kind kind, const ImagePair& image) {
+  if (kind == begin) contacts_.insert(image.pair, image.shift);
+  if (kind == end) contacts_.erase(image.pair);
+  record(kind, {image.pair.first, image.pair.second});
 }
 
 // Decides in double if that is certain: the sum has an error below 2^-48 of its terms unless these underflow.
 template <int D>
-bool Contacts<D>::is_zero_at_start(const Curves<D>& curves, const BeadPair& pair) {
-  const double reach = curves.radius(pair.first, 0) + curves.radius(pair.second, 0);
-  double distance = 0;
+bool Contacts<D>::is_zero_at_start(const Curves<D>& curves, const ImagePair& image) {
+  const auto [first, second] = image.pair;
+  const double reach = curves.radius(first, 0) + curves.radius(second, 0);
+  double distance = 0, largest = 0;
   for (int axis = 0; axis < D; ++axis) {
-    const double d = curves.coordinate(pair.second, 0, axis) - curves.coordinate(pair.first, 0, axis);
+    double d = curves.coordinate(second, 0, axis) - curves.coordinate(first, 0, axis);
+    if (image.shift != 0) {
+      largest = std::max(largest, std::abs(d));
+      d += shifted_.coordinate(shifted_.to(image.shift), 0, axis);
+    }
     distance += d * d;
   }
-  const double size = distance + reach * reach;
+  const double size = distance + reach * reach + largest * largest;
   if (simulator().kernel() != Kernel::exact && size > 0x1p-900 &&
-      std::abs(distance - reach * reach) > 0x1p-48 * size)
+      std::abs(distance - reach * reach) > 0x1p-46 * size)
     return false;
-  return disjoint_.search().sign_now(simulator().kernel(), disjoint(pair), Instant(0.0), statistics.stages) ==
-         0;
+  return sign_of(image, Moment::now, Instant(0.0)) == 0;
+}
+
+// Pairs with several images.
+
+template <int D>
+bool Contacts<D>::is_in_contact(const ImagePair& image) const {
+  if (!several_.empty()) {
+    const auto several = several_.find(key_of(image.pair));
+    if (several != several_.end()) return std::ranges::count(several->second.in_contact, image.shift) > 0;
+  }
+  return contacts_.contains(image);
+}
+
+template <int D>
+std::vector<std::uint32_t> Contacts<D>::shifts_in_contact(const BeadPair& pair) const {
+  const auto several = several_.find(key_of(pair));
+  if (several != several_.end()) return several->second.in_contact;
+  if (!contacts_.contains(pair)) return {};
+  return {contacts_.shift_of(pair)};
+}
+
+template <int D>
+void Contacts<D>::set_in_contact(const BeadPair& pair, const std::vector<std::uint32_t>& shifts) {
+  const auto several = several_.find(key_of(pair));
+  if (several != several_.end()) {
+    several->second.in_contact = shifts;
+  } else if (shifts.size() > 1) {
+    several_[key_of(pair)].in_contact = shifts;
+  } else if (shifts.size() == 1) {
+    contacts_.insert(pair, shifts.front());
+  }
+}
+
+template <int D>
+void Contacts<D>::end_several() {
+  std::erase_if(several_, [this](auto& entry) {
+    const auto& [key, several] = entry;
+    const BeadPair pair{static_cast<BeadId>(key >> 32U), static_cast<BeadId>(key)};
+    if (several.in_contact.size() > 1) return false;
+    if (several.in_contact.size() == 1) contacts_.insert(pair, several.in_contact.front());
+    return true;
+  });
+}
+
+template <int D>
+void Contacts<D>::gather_several() {
+  if (!found_.may_repeat && several_.empty()) return;
+  for (auto& [key, several] : several_) several.places.clear();
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> places;
+  for (std::uint32_t place = 0; place < found_.unclear.size(); ++place)
+    places.emplace_back(key_of(image_at(place).pair), place);
+  std::sort(places.begin(), places.end());
+  for (std::size_t from = 0, to = 0; from < places.size(); from = to) {
+    while (to < places.size() && places[to].first == places[from].first) ++to;
+    const ImagePair& image = image_at(places[from].second);
+    const bool other_in_contact = contacts_.contains(image.pair) && !contacts_.contains(image);
+    if (to - from == 1 && !other_in_contact && !several_.contains(places[from].first)) continue;
+    std::vector<std::uint32_t> in_contact = shifts_in_contact(image.pair);
+    SeveralImages& several = several_[places[from].first];
+    several.in_contact = std::move(in_contact);
+    for (std::size_t i = from; i < to; ++i) several.places.push_back(places[i].second);
+  }
+}
+
+// The first of the pair's images that fail at this moment settles what happens to the pair.
+template <int D>
+void Contacts<D>::settle_several(SeveralImages& several, const BeadPair& pair) {
+  if (several.settled == simulator().moment()) return;
+  several.settled = simulator().moment();
+  const bool before = !several.in_contact.empty();
+  bool now = false;
+  std::optional<ImagePair> after;
+  for (const std::uint32_t shift : several.in_contact) {  // those not in question stay in contact
+    const auto is_it = [&](std::uint32_t place) { return image_at(place).shift == shift; };
+    if (std::ranges::none_of(several.places, is_it)) after = ImagePair{pair, shift};
+  }
+  for (const std::uint32_t place : several.places) {
+    if (sign_of(image_at(place), Moment::now, simulator().now()) <= 0) now = true;
+    if (sign_of(image_at(place), Moment::just_after, simulator().now()) <= 0) after = image_at(place);
+  }
+  if (before && !after) {
+    record_contact(end, {pair});
+  } else if (!before && after) {
+    record_contact(begin, *after);
+  } else if (!before && now) {
+    record_contact(touch, {pair});
+  }
 }
 
 template <int D>
 void Contacts<D>::count_per_bead() {
-  for (const BeadPair& pair : pairs_.unclear)
-    for (const BeadId bead : {pair.first, pair.second}) per_bead_.add(bead);
-  for (const BeadPair& pair : pairs_.unclear)
-    for (const BeadId bead : {pair.first, pair.second}) per_bead_.reset(bead);
+  for (const ImagePair& image : found_.unclear)
+    for (const BeadId bead : {image.pair.first, image.pair.second}) per_bead_.add(bead);
+  for (const ImagePair& image : found_.unclear)
+    for (const BeadId bead : {image.pair.first, image.pair.second}) per_bead_.reset(bead);
 }
 
 template <int D>
@@ -319,6 +637,7 @@ void Contacts<D>::apply(const Change& change) {
       is_absent(pair.first) || is_absent(pair.second))
     throw std::invalid_argument(
         fmt::format("beads {} and {} are no pair that is asked about", pair.first, pair.second));
+  knows_images_ = false;
   const bool in_contact = contacts_.contains(pair);
   if (in_contact != (change.kind == end))
     throw std::invalid_argument(fmt::format("beads {} and {} are {}in contact already", pair.first,
@@ -329,8 +648,48 @@ void Contacts<D>::apply(const Change& change) {
 
 template <int D>
 std::optional<std::string> Contacts<D>::audit(const Dyadic& time) {
+  if (is_periodic()) return fault_of_images(time);
   return contact_fault<D>(motion_.curves(), disjoint_.search(), time, family_.asked(), present().absent(),
                           contacts_);
+}
+
+// Returns a fault of the images in contact at a given time, or none. Beads are moved into the cell, and all
+// their images within reach of it are laid around it. Otherwise like contact_fault.
+template <int D>
+std::optional<std::string> Contacts<D>::fault_of_images(const Dyadic& time) {
+  const Curves<D> curves = motion_.curves();
+  const LaidImages<D> laid(curves, time.round_down());
+  const bool at_end = time == Dyadic(0.0) || time == Dyadic(1.0);
+  const std::span<const char> absent = present().absent();
+  std::map<BeadPair, int> least;  // sign of the nearest image, where it is not positive
+  std::optional<std::string> fault;
+  laid.visit_near([&](BeadId a, BeadId b, const CellShift<D>& shift, double gap) {
+    const BeadPair pair{a, b};
+    if (fault || !family_.asked().asks(pair)) return;
+    if (!absent.empty() && (absent[a] != 0 || absent[b] != 0)) return;
+    const ImagePair image{pair, shifts_.number_of(shift)};
+    int sign = gap > 0 ? 1 : -1;
+    if (!laid.is_clear(gap)) {
+      shifted_.set(curves, shifts_);
+      sign = image.shift == 0 ? disjoint_.search().sign_at(disjoint(pair), time)
+                              : disjoint_images_.search().sign_at(image_contact(image, 1), time);
+    }
+    if (sign <= 0) least[pair] = std::min(sign, least[pair]);
+    if (sign == 0 && at_end) return;
+    if (knows_images_ && is_in_contact(image) != (sign <= 0))
+      fault = fmt::format("bead {} and an image of bead {} {}, but are {} as in contact", a, b,
+                          sign > 0 ? "are apart" : "meet", sign > 0 ? "known" : "not known");
+  });
+  if (fault) return fault;
+  for (const auto& [pair, sign] : least) {
+    if (sign == 0 && at_end) continue;
+    if (!contacts_.contains(pair))
+      return fmt::format("beads {} and {} meet, but are not known as in contact", pair.first, pair.second);
+  }
+  for (const BeadPair& pair : contacts_.pairs())
+    if (!least.contains(pair))
+      return fmt::format("beads {} and {} are apart, but are known as in contact", pair.first, pair.second);
+  return std::nullopt;
 }
 
 template class Contacts<2>;

@@ -11,6 +11,12 @@
 // With groups of beads (PairsAsked::groups), only pairs of a bead of each group are followed. The contacts of
 // these pairs are those of the run without groups.
 //
+// In a periodic cell (HasCell), two beads are in contact while any image of one is within reach of the other.
+// Each pair of a bead and an image in question has a certificate of its own (shifted_beads.h), and a pair
+// begins or ends to be in contact when the first of its images begins or the last one ends. If one image ends
+// at the moment at which another begins, the pair stays in contact, because balls are closed. Images are
+// found in space (near_images.h). A bead is never in contact with its own image.
+//
 // Contacts present at the first frame are part of the built structure and cause no events. All results are
 // exact. With the kernel `exact`, every pair is decided on integers and none is left to the family.
 //
@@ -25,6 +31,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "certificates/search/certificate_search.h"
@@ -34,24 +41,35 @@
 #include "motions/curves/other_radii.h"
 #include "structures/contacts/contact_distance.h"
 #include "structures/contacts/moving_family.h"
+#include "structures/contacts/near_images.h"
+#include "structures/contacts/shifted_beads.h"
 #include "structures/necklace/bead_pairs.h"
 
 namespace kds {
 
 /// The pairs of beads in contact, in a hash table with open addressing. The table is queried for each pair
-/// that may change.
+/// that may change. Each pair has the shift of an image that is in contact.
 class ContactSet {
  public:
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool contains(const BeadPair& pair) const {
     return size_ > 0 && slots_[slot_of(key_of(pair))] != empty;
   }
-  /// Returns false if the pair was in the set already.
-  bool insert(const BeadPair& pair) {
+  /// Returns the shift of a pair that is in the set.
+  [[nodiscard]] std::uint32_t shift_of(const BeadPair& pair) const {
+    return shifts_.empty() ? 0 : shifts_[slot_of(key_of(pair))];
+  }
+  [[nodiscard]] bool contains(const ImagePair& image) const {
+    return contains(image.pair) && shift_of(image.pair) == image.shift;
+  }
+  /// Returns false if the pair was in the set already, whose shift is then replaced.
+  bool insert(const BeadPair& pair, std::uint32_t shift = 0) {
     if (2 * (size_ + 1) > slots_.size()) grow();
-    std::uint64_t& slot = slots_[slot_of(key_of(pair))];
-    if (slot != empty) return false;
-    slot = key_of(pair);
+    const std::size_t at = slot_of(key_of(pair));
+    if (shift != 0 && shifts_.empty()) shifts_.resize(slots_.size(), 0);
+    if (!shifts_.empty()) shifts_[at] = shift;
+    if (slots_[at] != empty) return false;
+    slots_[at] = key_of(pair);
     ++size_;
     return true;
   }
@@ -64,6 +82,7 @@ class ContactSet {
       const std::size_t home = home_of(slots_[at]);
       if (((at - home) & mask()) < ((at - gap) & mask())) continue;
       slots_[gap] = slots_[at];
+      if (!shifts_.empty()) shifts_[gap] = shifts_[at];
       gap = at;
     }
     slots_[gap] = empty;
@@ -72,6 +91,7 @@ class ContactSet {
   }
   void clear() {
     std::fill(slots_.begin(), slots_.end(), empty);
+    shifts_.clear();
     size_ = 0;
   }
   /// Returns all pairs, ascending.
@@ -104,11 +124,18 @@ class ContactSet {
   void grow() {
     std::vector<std::uint64_t> old(std::max<std::size_t>(64, 2 * slots_.size()), empty);
     old.swap(slots_);
-    for (const std::uint64_t key : old)
-      if (key != empty) slots_[slot_of(key)] = key;
+    std::vector<std::uint32_t> old_shifts(shifts_.empty() ? 0 : slots_.size(), 0);
+    old_shifts.swap(shifts_);
+    for (std::size_t from = 0; from < old.size(); ++from) {
+      if (old[from] == empty) continue;
+      const std::size_t to = slot_of(old[from]);
+      slots_[to] = old[from];
+      if (!shifts_.empty()) shifts_[to] = old_shifts[from];
+    }
   }
 
-  std::vector<std::uint64_t> slots_;  // size is a power of two
+  std::vector<std::uint64_t> slots_;   // size is a power of two
+  std::vector<std::uint32_t> shifts_;  // empty as long as all are 0
   std::size_t size_ = 0;
 };
 
@@ -138,10 +165,16 @@ class Contacts final : public EditableBase {
  private:
   static constexpr std::uint32_t no_place = 0xffffffffU;  // no certificate is left
   struct Happens {                                        // an event at the present time
-    BeadPair pair;
+    ImagePair image;
     Kind kind;
     std::uint32_t place;
-    friend bool operator<(const Happens& a, const Happens& b) { return a.pair < b.pair; }
+    friend bool operator<(const Happens& a, const Happens& b) { return a.image < b.image; }
+  };
+  /// Several images of one bead that are in contact with another, or in question in this step.
+  struct SeveralImages {
+    std::vector<std::uint32_t> in_contact;      // shifts
+    std::vector<std::uint32_t> places;          // of those in question
+    std::uint64_t settled = ~std::uint64_t{0};  // the moment at which the pair was settled last
   };
 
   void edit(std::uint8_t kind, BeadId bead) override;
@@ -153,22 +186,57 @@ class Contacts final : public EditableBase {
   void find_of(std::span<const BeadId> beads);
 
   void find_pairs(typename MovingFamily<Dimension>::Resting resting, bool list_overlapping,
-                  PairsOfBlocks& pairs);
+                  PairsOfImages& found);
+  [[nodiscard]] bool is_periodic() const { return motion_.curves().cell() != nullptr; }
   /// Creates the certificates of the pairs from this place on.
   void watch_from(std::uint32_t place, bool at_start);
-  [[nodiscard]] const BeadPair& pair_at(std::uint32_t place) const { return pairs_.unclear[place]; }
-  [[nodiscard]] bool is_zero_at_start(const Curves<Dimension>& curves, const BeadPair& pair);
+  /// Watches whether the image at this place stays apart, or in contact.
+  void watch(std::uint32_t place, bool in_contact, KnownAtStart birth = KnownAtStart::unknown);
+  [[nodiscard]] const ImagePair& image_at(std::uint32_t place) const { return found_.unclear[place]; }
+  [[nodiscard]] ImageContact image_contact(const ImagePair& image, int sign) const {
+    return {{image.pair.first, image.pair.second, shifted_.to(image.shift), shifted_.from(image.shift)},
+            sign};
+  }
+  /// Returns the sign of the distance of an image less its reach, at or just after the present time.
+  enum class Moment : std::uint8_t { now, just_after };
+  [[nodiscard]] int sign_of(const ImagePair& image, Moment moment, const Instant& time);
+  [[nodiscard]] bool is_zero_at_start(const Curves<Dimension>& curves, const ImagePair& image);
+  void fail_at(std::uint32_t place, Kind kind);
   /// Changes the set of contacts and records the change.
-  void record_contact(Kind kind, const BeadPair& pair);
+  void record_contact(Kind kind, const ImagePair& image);
   void settle_now();
   void count_per_bead();
+
+  // Pairs with several images.
+
+  [[nodiscard]] static std::uint64_t key_of(const BeadPair& pair) {
+    return (std::uint64_t{pair.first} << 32U) | pair.second;
+  }
+  [[nodiscard]] bool is_in_contact(const ImagePair& image) const;
+  /// Returns the shifts of the pair's images that are in contact.
+  [[nodiscard]] std::vector<std::uint32_t> shifts_in_contact(const BeadPair& pair) const;
+  /// Sets these without recording a change of the pair.
+  void set_in_contact(const BeadPair& pair, const std::vector<std::uint32_t>& shifts);
+  /// Forgets pairs that have at most one image in contact.
+  void end_several();
+  /// Finds the pairs that have several images in question or in contact.
+  void gather_several();
+  void settle_several(SeveralImages& several, const BeadPair& pair);
+  [[nodiscard]] std::optional<std::string> fault_of_images(const Dyadic& time);
 
   std::unique_ptr<const OtherRadii<Dimension>> own_radii_;  // null: the motion's
   MotionRef<Dimension> motion_;
   MovingFamily<Dimension> family_;
+  NearImages<Dimension> near_images_;  // in place of the family if there is a cell
+  ShiftNumbers<Dimension> shifts_;
+  ShiftedBeads<Dimension> shifted_;
   CertificateTable<Contact> disjoint_, overlapping_;
+  CertificateTable<ImageContact> disjoint_images_, overlapping_images_;  // of shifts other than 0
   ContactSet contacts_;
-  PairsOfBlocks pairs_;  // pairs of beads that may meet in the present step
+  std::unordered_map<std::uint64_t, SeveralImages> several_;
+  PairsOfBlocks of_blocks_;    // what the family finds
+  PairsOfImages found_;        // images that may meet in the present step
+  bool knows_images_ = false;  // not after changes from a log, which names pairs only
   std::vector<Happens> at_once_;
   CertificatesPerBead per_bead_;  // all zero between steps
 };

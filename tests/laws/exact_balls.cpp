@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace kds::test {
 
@@ -95,12 +97,31 @@ Beads supports_of(const ExactBalls& balls, const Beads& present, const std::vect
 }
 
 Beads contacts_of(const ExactBalls& balls, const Beads& present, const PairsAsked& asked) {
+  constexpr int most = 6;
+  std::vector<std::vector<Integer>> shifts{std::vector<Integer>(balls.dimension(), 0)};
+  for (const std::vector<Integer>& vector : balls.cell) {
+    const std::vector<std::vector<Integer>> before = std::exchange(shifts, {});
+    for (const std::vector<Integer>& shift : before)
+      for (int multiple = -most; multiple <= most; ++multiple) {
+        if (multiple != 0 && std::ranges::count(vector, Integer(0)) == std::ssize(vector)) continue;
+        std::vector<Integer>& more = shifts.emplace_back(shift);
+        for (std::size_t axis = 0; axis < vector.size(); ++axis) more[axis] += multiple * vector[axis];
+      }
+  }
   Beads pairs;
   for (const BeadId a : present) {
     for (const BeadId b : present) {
       if (a >= b || !asked.asks({a, b})) continue;
       const Integer reach = balls.radii[a] + balls.radii[b];
-      if (balls.square(a, b) <= reach * reach) pairs.insert(pairs.end(), {a, b});
+      const auto meets = [&](const std::vector<Integer>& shift) {
+        Integer square = 0;
+        for (std::size_t axis = 0; axis < shift.size(); ++axis) {
+          const Integer along = balls.centers[b][axis] + shift[axis] - balls.centers[a][axis];
+          square += along * along;
+        }
+        return square <= reach * reach;
+      };
+      if (std::ranges::any_of(shifts, meets)) pairs.insert(pairs.end(), {a, b});
     }
   }
   return pairs;

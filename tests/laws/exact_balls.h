@@ -21,6 +21,7 @@ namespace kds::test {
 struct ExactBalls {
   std::vector<std::vector<second::Integer>> centers;
   std::vector<second::Integer> radii, weights;
+  std::vector<std::vector<second::Integer>> cell;  ///< the vectors of a periodic cell; empty if there is none
 
   [[nodiscard]] std::size_t dimension() const { return centers.front().size(); }
   /// Returns the square of the distance of two centres.
@@ -50,12 +51,20 @@ template <int Dimension>
       lengths.push_back(curves.radius(b, k));
       squares.push_back(curves.weight(b, k));
     }
+  for (int i = 0; curves.cell() != nullptr && i < Dimension * (curves.own_degree() + 1) * Dimension; ++i)
+    lengths.push_back(curves.cell()[i]);
   // Rounds the unit of squares down to twice a unit of lengths.
   const int of_squares = second::unit_of(squares);
   const int unit = std::min(second::unit_of(lengths), of_squares / 2 - 1);
   const second::Rational time = second::of(u);
   const second::Integer power = pow(denominator(time), static_cast<unsigned>(curves.own_degree()));
   ExactBalls balls;
+  for (int vector = 0; curves.cell() != nullptr && vector < Dimension; ++vector) {
+    auto& along = balls.cell.emplace_back();
+    for (int axis = 0; axis < Dimension; ++axis)
+      along.push_back(second::whole_value(
+          column([&](int k) { return curves.cell_coordinate(vector, k, axis); }), time, unit));
+  }
   for (BeadId b = 0; b < rows; ++b) {
     auto& center = balls.centers.emplace_back();
     for (int axis = 0; axis < Dimension; ++axis)
@@ -84,7 +93,8 @@ using Beads = std::vector<BeadId>;
 [[nodiscard]] Beads supports_of(const ExactBalls& balls, const Beads& present,
                                 const std::vector<BeadRange>& nodes,
                                 std::span<const SlabDirection> directions);
-/// Returns the pairs in question whose closed balls intersect, two ids for each pair.
+/// Returns the pairs in question whose closed balls intersect, two ids for each pair. In a cell, all images
+/// of a ball count that are at most six cells away along each vector.
 [[nodiscard]] Beads contacts_of(const ExactBalls& balls, const Beads& present, const PairsAsked& asked);
 
 /// Explains why the order is not that along the first axis, or returns nothing. Beads may tie in any order.

@@ -47,6 +47,36 @@ std::vector<double> some_radii(Random& random, std::size_t beads, double unit, b
   return radii;
 }
 
+// Beads in a cell that may be skewed, change, be narrow, or span one or two vectors only. Most coordinates
+// are multiples of 1/2, so that images touch and nearest images change at frames.
+Scene cells(std::uint64_t seed) {
+  Random random(static_cast<unsigned>(seed));
+  const std::size_t beads = 7, frames = 4;
+  const bool plane = seed % 4 == 3, on_grid = seed % 3 != 0, narrow = seed % 5 == 0;
+  Cell cell = Cell::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i) cell(i, i) = pick(random, narrow ? 2 : 5, narrow ? 3 : 9);
+  if (seed % 2 == 1) {
+    cell(0, 1) = 0.5 * pick(random, -4, 4);
+    if (!plane) cell(1, 2) = 0.5 * pick(random, -4, 4);
+  }
+  if (seed % 7 == 1) cell.col(2).setZero();
+  Trajectory necklace;
+  necklace.file = "cells";
+  for (std::size_t k = 0; k < frames; ++k) {
+    Eigen::Matrix3Xd& frame = necklace.frames.emplace_back(3, beads);
+    for (double& x : frame.reshaped())
+      x = on_grid ? 0.5 * pick(random, -6, narrow ? 6 : 18) : 4 * uniform(random);
+    if (k > 0 && !on_grid)
+      for (Eigen::Index i = 0; i < frame.size(); ++i)
+        frame.data()[i] = necklace.frames[k - 1].data()[i] + uniform(random);
+    if (plane) frame.row(2).setZero();
+    necklace.cells.push_back(cell);
+    if (seed % 3 == 1) cell(0, 0) += 0.25 * pick(random, -1, 1);
+  }
+  return {std::span(&necklace, 1), some_radii(random, beads, 1, seed % 2 == 0),
+          seed % 6 == 5 ? FrameMotion::hermite : FrameMotion::linear};
+}
+
 // An extreme of `kds stability`: dimension, degree and radii follow from the seed.
 Scene extreme_scene(const Extreme& extreme, std::uint64_t seed) {
   constexpr std::array<std::pair<int, int>, 5> shapes{{{3, 1}, {2, 1}, {3, 3}, {1, 1}, {2, 3}}};
@@ -368,6 +398,7 @@ std::vector<LawScene> make_rows() {
       {"wandering chain", 4, wandering_chain},
       {"creeping", 3, creeping},
       {"straight on", 8, straight_on},
+      {"cells", 42, cells, {"contacts"}},
       {"regular", 11, regular},
       {"handmade", 32, handmade},
       {.name = "wild",

@@ -29,8 +29,8 @@ struct PairHistory {
   std::vector<PairEvent> events;
 };
 
-/// Returns a positive multiple of |c_j - c_i|^2 - (r_i + r_j)^2 in powers of u.
-template <Motion M>
+/// Returns a positive multiple of |c_j - c_i|^2 - (r_i + r_j)^2 in powers of u. Coordinates may be rational.
+template <class M>
 sturm::Polynomial contact_polynomial(const M& motion, const BeadPair& pair) {
   constexpr int degree = M::degree;
   const auto powers_of = [&](auto control) {  // powers of a Bezier curve
@@ -125,12 +125,13 @@ inline bool is_in_bracket(const PairEvent& event, double lower, double upper) {
 }
 
 /// Explains what is wrong with a run's history; returns nothing if each pair in question has exactly its
-/// events, in order and at the right times.
-template <Motion M>
+/// events, in order and at the right times. `judge` returns the history of a pair.
+template <Motion M, class Judge = PairHistory (*)(const std::vector<M>&, const BeadPair&)>
 std::optional<std::string> contact_history_fault(const std::vector<M>& steps, const PairsAsked& asked,
                                                  const History& history,
                                                  const std::vector<BeadPair>& at_start,
-                                                 const std::vector<BeadPair>& at_end) {
+                                                 const std::vector<BeadPair>& at_end,
+                                                 const Judge& judge = judged_history<M>) {
   std::map<BeadPair, std::vector<const Event*>> of_pair;
   double earliest = 0;
   for (const Event& event : history.events) {
@@ -151,7 +152,7 @@ std::optional<std::string> contact_history_fault(const std::vector<M>& steps, co
         if (!found.empty() || has(at_start, pair)) return name + "not asked about";
         continue;
       }
-      const PairHistory expected = judged_history(steps, pair);
+      const PairHistory expected = judge(steps, pair);
       if (has(at_start, pair) != expected.in_contact_at_start) return name + "wrong at the start";
       if (has(at_end, pair) != expected.in_contact_at_end) return name + "wrong at the end";
       if (found.size() != expected.events.size())

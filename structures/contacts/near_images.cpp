@@ -1,0 +1,529 @@
+#include "structures/contacts/near_images.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "motions/base/input_error.h"
+#include "motions/base/interruption.h"
+
+namespace kds {
+
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+/// A cell that changes by more in a step is laid into no grid.
+constexpr double most_strain = 0.25;
+
+/// Replaces the control points of a curve, `columns` numbers each, by those of its part between two times.
+void restrict_curve(double* points, std::size_t row, std::size_t columns, double from, double to) {
+  const auto halve = [&](double share, bool keeps_end) {
+    for (std::size_t level = 1; level < row; ++level) {
+      for (std::size_t i = 0; i + level < row; ++i) {
+        const std::size_t at = keeps_end ? i : row - 1 - i;
+        const std::size_t first = keeps_end ? at : at - 1;
+        for (std::size_t c = 0; c < columns; ++c) {
+          const double a = points[first * columns + c], b = points[(first + 1) * columns + c];
+          points[at * columns + c] = a + share * (b - a);
+        }
+      }
+    }
+  };
+  if (from > 0) halve(from, true);
+  if (to < 1) halve((to - from) / (1 - from), false);
+}
+
+/// Returns integer numbers that add up.
+template <std::size_t N>
+std::array<std::int32_t, N> sum(std::array<std::int32_t, N> a, const std::array<std::int32_t, N>& b,
+                                int sign) {
+  for (std::size_t i = 0; i < N; ++i) a[i] += sign * b[i];
+  return a;
+}
+template <std::size_t N>
+bool is_zero(const std::array<std::int32_t, N>& shift) {
+  return std::all_of(shift.begin(), shift.end(), [](std::int32_t i) { return i == 0; });
+}
+
+}  // namespace
+
+template <int D>
+NearImages<D>::NearImages(PairsAsked asked) : asked_(std::move(asked)) {
+  check_groups(asked_);
+  for (std::uint32_t n = 0; n < asked_.necklaces.size(); ++n)
+    necklaces_.resize(std::size_t{asked_.necklaces[n].last} + 1, n);
+}
+
+template <int D>
+void NearImages<D>::lay_lattice(const Curves<D>& curves) {
+  lattice_ = {};
+  std::vector<Cell> cells(row_, Cell::Zero());
+  for (std::size_t k = 0; k < row_; ++k)
+    for (int vector = 0; vector < D; ++vector)
+      for (int axis = 0; axis < D; ++axis)
+        cells[k](axis, vector) = curves.cell_coordinate(vector, static_cast<int>(k), axis);
+  const Images images(0.5 * (cells.front() + cells.back()));
+  lattice_.steps = images.steps();
+  lattice_.middle = images.reduced();
+  int rank = 0;
+  while (rank < D && !lattice_.middle.col(rank).isZero(0))
+    lattice_.periodic[static_cast<std::size_t>(rank++)] = true;
+  lattice_.shortest = rank > 0 ? lattice_.middle.col(0).norm() : unbounded;
+  // Completes the basis by unit vectors across all vectors before, in the plane first.
+  std::vector<Eigen::Vector3d> units;
+  const auto across = [&](Eigen::Vector3d vector) {
+    for (const Eigen::Vector3d& unit : units) vector -= vector.dot(unit) * unit;
+    return vector;
+  };
+  for (int vector = 0; vector < 3; ++vector) {
+    Eigen::Vector3d best = across(lattice_.middle.col(vector));
+    for (int axis = 0; vector >= rank && axis < (vector < D ? D : 3); ++axis)
+      if (across(Eigen::Vector3d::Unit(axis)).norm() > best.norm())
+        best = across(Eigen::Vector3d::Unit(axis));
+    units.push_back(best.normalized());
+    if (vector >= rank) lattice_.middle.col(vector) = units.back();
+  }
+  lattice_.inverse = lattice_.middle.inverse();
+  for (const Cell& cell : cells) {
+    Eigen::Matrix3d control = lattice_.middle;
+    control.leftCols(rank) = cell * lattice_.steps.leftCols(rank);
+    lattice_.controls.push_back(control);
+    lattice_.strain =
+        std::max(lattice_.strain, ((control - lattice_.middle) * lattice_.inverse).norm() * (1 + 0x1p-40));
+  }
+}
+
+template <int D>
+void NearImages<D>::measure(const Curves<D>& curves) {
+  homes_.assign(curves.bead_count(), {});
+  largest_ = radius_ = longest_move_ = 0;
+  double squares = 0;
+  for (int vector = 0; vector < D; ++vector)
+    if (lattice_.periodic[static_cast<std::size_t>(vector)])
+      largest_ = std::max(largest_, 2 * lattice_.middle.col(vector).norm());
+  std::vector<Eigen::Vector3d> points(row_, Eigen::Vector3d::Zero());
+  std::size_t asked = 0;
+  for (BeadId bead = 0; bead < curves.bead_count(); ++bead) {
+    if (groups_of(bead) == 0) continue;
+    ++asked;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (std::size_t k = 0; k < row_; ++k) {
+      for (int axis = 0; axis < D; ++axis) {
+        points[k][axis] = curves.coordinate(bead, static_cast<int>(k), axis);
+        largest_ = std::max(largest_, std::abs(points[k][axis]));
+      }
+      mean += points[k] / static_cast<double>(row_);
+      radius_ = std::max(radius_, curves.radius(bead, static_cast<int>(k)));
+    }
+    const Eigen::Vector3d share = lattice_.inverse * mean;
+    for (std::size_t a = 0; a < dimension; ++a) {
+      if (!lattice_.periodic[a]) continue;
+      const double home = std::floor(share[static_cast<Eigen::Index>(a)]);
+      if (!(std::abs(home) < ShiftedBeads<D>::most / 8))
+        throw InputError("beads are more than a hundred thousand cells away from the origin; expected fewer");
+      homes_[bead][a] = static_cast<std::int32_t>(home);
+    }
+    double move = 0;
+    Eigen::Vector3d first = points[0] - shifted(lattice_.controls[0], homes_[bead]);
+    for (std::size_t k = 1; k < row_; ++k)
+      move = std::max(move, (points[k] - shifted(lattice_.controls[k], homes_[bead]) - first).norm());
+    longest_move_ = std::max(longest_move_, move);
+    squares += move * move;
+  }
+  usual_move_ = std::sqrt(squares / std::max<double>(1, static_cast<double>(asked)));
+  largest_ = std::max(largest_, radius_);
+  margin_ = 0x1p-44 * largest_;
+}
+
+/// Returns the largest stray of a swept ball that the grid is laid for.
+template <int D>
+double NearImages<D>::stray_wanted() const {
+  double volume = 1;
+  for (int a = 0; a < D; ++a)
+    if (lattice_.periodic[static_cast<std::size_t>(a)]) volume *= lattice_.middle.col(a).norm();
+  const double spacing = std::pow(volume / std::max<double>(1, static_cast<double>(homes_.size())), 1.0 / D);
+  return std::max({0.5 * radius_, 0.125 * spacing, margin_});
+}
+
+template <int D>
+void NearImages<D>::enter_piece(const Curves<D>& curves, double from, double to, double most_stray) {
+  const std::size_t beads = curves.bead_count();
+  points_.resize(beads * row_ * dimension);
+  radii_.resize(beads * row_);
+  piece_ = lattice_.controls;
+  if (from > 0 || to < 1) restrict_curve(piece_.front().data(), row_, 9, from, to);
+  swept_.clear();
+  for (BeadId bead = 0; bead < beads; ++bead) {
+    if (groups_of(bead) == 0) continue;
+    double* const points = &points_[bead * row_ * dimension];
+    for (std::size_t k = 0; k < row_; ++k) {
+      const Eigen::Vector3d home = shifted(lattice_.controls[k], homes_[bead]);
+      for (std::size_t axis = 0; axis < dimension; ++axis)
+        points[k * dimension + axis] = curves.coordinate(bead, static_cast<int>(k), static_cast<int>(axis)) -
+                                       home[static_cast<Eigen::Index>(axis)];
+    }
+    double* const radii = &radii_[bead * row_];
+    std::copy_n(curves.radii(bead), row_, radii);
+    if (from > 0 || to < 1) {
+      restrict_curve(points, row_, dimension, from, to);
+      restrict_curve(radii, row_, 1, from, to);
+    }
+    const double stray = ball_around(points).second;
+    const double radius = *std::max_element(radii, radii + row_);
+    if (stray <= most_stray) {
+      add_swept(bead, points, radius);
+      continue;
+    }
+    const auto parts = static_cast<std::size_t>(std::ceil(stray / most_stray));
+    std::vector<double> part(row_ * dimension);
+    for (std::size_t p = 0; p < parts; ++p) {
+      std::copy_n(points, part.size(), part.begin());
+      restrict_curve(part.data(), row_, dimension, static_cast<double>(p) / static_cast<double>(parts),
+                     static_cast<double>(p + 1) / static_cast<double>(parts));
+      add_swept(bead, part.data(), radius);
+    }
+    in_parts_ = true;
+  }
+}
+
+template <int D>
+auto NearImages<D>::ball_around(const double* points) const -> std::pair<Point, double> {
+  Point center{};
+  for (std::size_t axis = 0; axis < dimension; ++axis) {
+    double low = points[axis], high = low;
+    for (std::size_t k = 1; k < row_; ++k) {
+      low = std::min(low, points[k * dimension + axis]);
+      high = std::max(high, points[k * dimension + axis]);
+    }
+    center[axis] = 0.5 * (low + high);
+  }
+  double most = 0;
+  for (std::size_t k = 0; k < row_; ++k) {
+    double square = 0;
+    for (std::size_t axis = 0; axis < dimension; ++axis) {
+      const double d = points[k * dimension + axis] - center[axis];
+      square += d * d;
+    }
+    most = std::max(most, square);
+  }
+  return {center, std::sqrt(most)};
+}
+
+template <int D>
+void NearImages<D>::add_swept(BeadId bead, const double* points, double radius) {
+  const auto [center, stray] = ball_around(points);
+  Swept& swept =
+      swept_.emplace_back(Swept{center, radius + stray + margin_, bead, groups_of(bead), homes_[bead]});
+  for (std::size_t a = 0; a < dimension; ++a) {
+    if (!lattice_.periodic[a]) continue;
+    const double away = std::floor(coordinate_of(swept.center, a));
+    if (away == 0) continue;
+    swept.wrapped[a] += static_cast<std::int32_t>(away);
+    for (std::size_t axis = 0; axis < dimension; ++axis)
+      swept.center[axis] -=
+          away * lattice_.middle(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(a));
+  }
+}
+
+template <int D>
+void NearImages<D>::fill_grid() {
+  double reach = 0;
+  Point low, high;
+  low.fill(unbounded);
+  high.fill(-unbounded);
+  for (const Swept& swept : swept_) {
+    reach = std::max(reach, swept.reach);
+    for (std::size_t a = 0; a < dimension; ++a) {
+      const double at = coordinate_of(swept.center, a);
+      low[a] = std::min(low[a], at);
+      high[a] = std::max(high[a], at);
+    }
+  }
+  double spread = 0;
+  for (int a = 0; a < D; ++a)
+    if (lattice_.periodic[static_cast<std::size_t>(a)]) spread += lattice_.middle.col(a).norm();
+  wobble_ = lattice_.strain * (2 * reach + spread) / (1 - lattice_.strain);
+  const double width = 2 * reach + wobble_;
+  std::array<double, dimension> heights{};  // between cells of the lattice, or one unit
+  double wanted = 1;
+  std::array<double, dimension> counts{};
+  for (std::size_t a = 0; a < dimension; ++a) {
+    heights[a] = 1 / lattice_.inverse.row(static_cast<Eigen::Index>(a)).norm();
+    const double length = lattice_.periodic[a] ? heights[a] : (high[a] - low[a]) * heights[a];
+    counts[a] = std::max(1.0, std::floor(length / (width * (1 + 0x1p-20))));
+    wanted *= counts[a];
+  }
+  // At most a few cells per swept ball.
+  const double most = 4 * static_cast<double>(swept_.size()) + 64;
+  const double shrink = std::pow(std::max(1.0, wanted / most), 1.0 / D);
+  std::size_t cells = 1;
+  for (std::size_t a = 0; a < dimension; ++a) {
+    cells_[a] = static_cast<std::int32_t>(std::clamp(std::floor(counts[a] / shrink), 1.0, most));
+    low_[a] = lattice_.periodic[a] ? 0 : low[a];
+    const double length = lattice_.periodic[a] ? 1 : high[a] - low[a];
+    width_[a] = length / cells_[a];
+    const double apart = width_[a] * heights[a];
+    reach_[a] = !lattice_.periodic[a] && cells_[a] == 1
+                    ? 0
+                    : static_cast<std::int32_t>(std::ceil(width / apart * (1 + 0x1p-30)));
+    cells *= static_cast<std::size_t>(cells_[a]);
+  }
+  begins_.assign(cells + 1, 0);
+  groups_.assign(cells, 0);
+  in_cells_.resize(swept_.size());
+  for (std::size_t i = 0; i < swept_.size(); ++i) {
+    std::size_t cell = 0;
+    for (std::size_t a = 0; a < dimension; ++a) {
+      const double at = width_[a] > 0 ? (coordinate_of(swept_[i].center, a) - low_[a]) / width_[a] : 0;
+      const auto index = static_cast<std::int32_t>(std::clamp(std::floor(at), 0.0, cells_[a] - 1.0));
+      cell = cell * static_cast<std::size_t>(cells_[a]) + static_cast<std::size_t>(index);
+    }
+    in_cells_[i] = static_cast<std::uint32_t>(cell);
+    ++begins_[cell + 1];
+    groups_[cell] |= swept_[i].groups;
+  }
+  std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+  sorted_.resize(swept_.size());
+  std::vector<std::uint32_t>& next = next_;
+  next.assign(begins_.begin(), begins_.end() - 1);
+  for (std::size_t i = 0; i < swept_.size(); ++i) sorted_[next[in_cells_[i]]++] = swept_[i];
+}
+
+// Looks at each pair of a cell and a cell not before it, counted across the walls, so that each pair of a
+// bead and an image is met once.
+template <int D>
+void NearImages<D>::compare_cells(bool list_overlapping, ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
+  std::vector<Shift> offsets;
+  Shift offset{};
+  const auto fill = [&](const auto& self, std::size_t a) -> void {
+    if (a == dimension) {
+      if (offset >= Shift{}) offsets.push_back(offset);
+      return;
+    }
+    for (offset[a] = -reach_[a]; offset[a] <= reach_[a]; ++offset[a]) self(self, a + 1);
+    offset[a] = 0;
+  };
+  fill(fill, 0);
+  Shift cell{};
+  for (std::size_t at = 0; at + 1 < begins_.size(); ++at) {
+    InterruptionCheck::ask();
+    if (begins_[at] != begins_[at + 1]) {
+      for (const Shift& by : offsets) compare(cell, at, by, list_overlapping, shifts, pairs);
+    }
+    for (std::size_t a = dimension; a-- > 0;) {
+      if (++cell[a] < cells_[a]) break;
+      cell[a] = 0;
+    }
+  }
+}
+
+template <int D>
+void NearImages<D>::compare(const Shift& cell, std::size_t at, const Shift& by, bool list_overlapping,
+                            ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
+  Shift image{};
+  std::size_t other_at = 0;
+  Point moved{};
+  for (std::size_t a = 0; a < dimension; ++a) {
+    std::int32_t index = cell[a] + by[a];
+    if (index < 0 || index >= cells_[a]) {
+      if (!lattice_.periodic[a]) return;
+      image[a] = index < 0 ? -((cells_[a] - 1 - index) / cells_[a]) : index / cells_[a];
+      index -= image[a] * cells_[a];
+      for (std::size_t axis = 0; axis < dimension; ++axis)
+        moved[axis] +=
+            image[a] * lattice_.middle(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(a));
+    }
+    other_at = other_at * static_cast<std::size_t>(cells_[a]) + static_cast<std::size_t>(index);
+  }
+  if (begins_[other_at] == begins_[other_at + 1] || !PairsAsked::joins(groups_[at], groups_[other_at]))
+    return;
+  const bool within = is_zero(by);
+  const std::uint32_t end = begins_[other_at + 1];
+  const bool grouped = !asked_.groups.empty();
+  const double wobble = is_zero(image) ? 0 : wobble_;
+  for (std::uint32_t i = begins_[at]; i < begins_[at + 1]; ++i) {
+    const Swept& one = sorted_[i];
+    Point from;
+    for (std::size_t axis = 0; axis < dimension; ++axis) from[axis] = one.center[axis] - moved[axis];
+    const double reach = one.reach + wobble;
+    for (std::uint32_t j = within ? i + 1 : begins_[other_at]; j < end; ++j) {
+      const Swept& other = sorted_[j];
+      if (grouped && !PairsAsked::joins(one.groups, other.groups)) continue;
+      double square = 0;
+      for (std::size_t axis = 0; axis < dimension; ++axis) {
+        const double d = other.center[axis] - from[axis];
+        square += d * d;
+      }
+      const double sum_of_reaches = reach + other.reach;
+      if (square <= sum_of_reaches * sum_of_reaches)
+        look_at(one, other, image, list_overlapping, shifts, pairs);
+    }
+  }
+}
+
+template <int D>
+bool NearImages<D>::asks(BeadId one, BeadId other) const {
+  const BeadPair pair = one < other ? BeadPair{one, other} : BeadPair{other, one};
+  const std::uint32_t first = necklaces_[pair.first], second = necklaces_[pair.second];
+  return asked_.asks_of(first, second) && (first != second || pair.second - pair.first >= asked_.apart);
+}
+
+template <int D>
+void NearImages<D>::look_at(const Swept& one, const Swept& other, const Shift& image, bool list_overlapping,
+                            ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
+  if (one.bead == other.bead || !asks(one.bead, other.bead)) return;
+  const bool in_order = one.bead < other.bead;
+  const Swept& first = in_order ? one : other;
+  const Swept& second = in_order ? other : one;
+  // The second bead's shift in the reduced lattice, from the images that have been compared.
+  Shift shift = sum(first.wrapped, second.wrapped, -1);
+  shift = sum(shift, image, in_order ? 1 : -1);
+  const Shift from_homes = sum(sum(shift, homes_[second.bead], 1), homes_[first.bead], -1);
+  const double* const a = &points_[first.bead * row_ * dimension];
+  const double* const b = &points_[second.bead * row_ * dimension];
+  differences_.resize(row_);
+  Point toward{};
+  for (std::size_t k = 0; k < row_; ++k) {
+    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+    if (!is_zero(from_homes)) moved = shifted(piece_[k], from_homes);
+    for (std::size_t axis = 0; axis < dimension; ++axis) {
+      const double d =
+          b[k * dimension + axis] - a[k * dimension + axis] + moved[static_cast<Eigen::Index>(axis)];
+      differences_[k][axis] = d;
+      if (k == 0 || k + 1 == row_) toward[axis] += d;
+    }
+  }
+  double length = 0;
+  for (const double x : toward) length += x * x;
+  bool apart = true, inside = is_whole_step_;
+  for (std::size_t k = 0; k < row_; ++k) {
+    const double reach = radii_[first.bead * row_ + k] + radii_[second.bead * row_ + k];
+    double along = 0, square = 0;
+    for (std::size_t axis = 0; axis < dimension; ++axis) {
+      along += toward[axis] * differences_[k][axis];
+      square += differences_[k][axis] * differences_[k][axis];
+    }
+    const double outer = reach + margin_, inner = reach - margin_;
+    apart = apart && along > 0 && along * along > outer * outer * length * (1 + 0x1p-40);
+    inside = inside && inner > 0 && square * (1 + 0x1p-40) < inner * inner;
+  }
+  if (apart || (inside && !list_overlapping)) {
+    ++pairs.proved;
+    return;
+  }
+  const ImagePair found{{first.bead, second.bead}, number_of(shift, shifts)};
+  (inside ? pairs.overlapping : pairs.unclear).push_back(found);
+}
+
+template <int D>
+std::uint32_t NearImages<D>::number_of(const Shift& reduced, ShiftNumbers<D>& shifts) const {
+  if (is_zero(reduced)) return 0;
+  Shift shift{};
+  for (std::size_t a = 0; a < dimension; ++a) {
+    if (reduced[a] == 0) continue;
+    for (std::size_t v = 0; v < dimension; ++v)
+      shift[v] += reduced[a] * static_cast<std::int32_t>(lattice_.steps(static_cast<Eigen::Index>(v),
+                                                                        static_cast<Eigen::Index>(a)));
+  }
+  return shifts.number_of(shift);
+}
+
+template <int D>
+void NearImages<D>::find(const Curves<D>& curves, bool list_overlapping, ShiftNumbers<D>& shifts,
+                         PairsOfImages& pairs) {
+  pairs.clear();
+  row_ = static_cast<std::size_t>(curves.own_degree()) + 1;
+  lay_lattice(curves);
+  if (lattice_.strain > most_strain) return find_by_boxes(curves, shifts, pairs);
+  measure(curves);
+  const double wanted = stray_wanted();
+  const auto pieces =
+      static_cast<std::size_t>(std::clamp(std::ceil(0.5 * usual_move_ / wanted), 1.0, 1024.0));
+  in_parts_ = false;
+  is_whole_step_ = pieces == 1;
+  for (std::size_t p = 0; p < pieces; ++p) {
+    const double from = static_cast<double>(p) / static_cast<double>(pieces);
+    const double to = p + 1 == pieces ? 1 : static_cast<double>(p + 1) / static_cast<double>(pieces);
+    enter_piece(curves, from, to, wanted);
+    fill_grid();
+    compare_cells(list_overlapping, shifts, pairs);
+  }
+  if (pieces > 1 || in_parts_) {
+    for (auto* const found : {&pairs.unclear, &pairs.overlapping}) {
+      std::sort(found->begin(), found->end());
+      found->erase(std::unique(found->begin(), found->end()), found->end());
+    }
+  }
+  pairs.may_repeat = (1 - lattice_.strain) * lattice_.shortest <=
+                     (1 + 0x1p-20) * (4 * radius_ + 2 * longest_move_) + 8 * margin_;
+}
+
+// With d_k the differences of two beads' control points and R_k the vectors at these, an image t meets at
+// some time only if |R t + d| <= r. For a row n of the inverse of the vectors in the middle, n R t differs
+// from t's multiple by at most |n| strain |R' t|, R' in the middle, and |R' t| is at most (|d| + r) / (1 -
+// strain).
+template <int D>
+void NearImages<D>::find_by_boxes(const Curves<D>& curves, ShiftNumbers<D>& shifts, PairsOfImages& pairs) {
+  pairs.clear();
+  pairs.may_repeat = true;
+  row_ = static_cast<std::size_t>(curves.own_degree()) + 1;
+  lay_lattice(curves);
+  measure(curves);
+  if (lattice_.strain > 0.9)
+    throw InputError("the periodic cell changes by almost its own size in one step; expected less");
+  std::vector<Eigen::Vector3d> differences(row_, Eigen::Vector3d::Zero());
+  for (BeadId first = 0; first < curves.bead_count(); ++first) {
+    InterruptionCheck::ask();
+    for (BeadId second = first + 1; second < curves.bead_count(); ++second) {
+      if (!asked_.joins_groups({first, second}) || !asks(first, second)) continue;
+      double reach = 0, longest = 0;
+      for (std::size_t k = 0; k < row_; ++k) {
+        const int point = static_cast<int>(k);
+        reach = std::max(reach, curves.radius(first, point) + curves.radius(second, point));
+        for (int axis = 0; axis < D; ++axis)
+          differences[k][axis] =
+              curves.coordinate(second, point, axis) - curves.coordinate(first, point, axis);
+        longest = std::max(longest, differences[k].norm());
+      }
+      const double half =
+          (reach + lattice_.strain * (longest + reach) / (1 - lattice_.strain) + margin_) * (1 + 0x1p-20);
+      Shift low{}, high{};
+      for (std::size_t a = 0; a < dimension; ++a) {
+        if (!lattice_.periodic[a]) continue;
+        const auto row = lattice_.inverse.row(static_cast<Eigen::Index>(a));
+        double least = unbounded, most = -unbounded;
+        for (const Eigen::Vector3d& d : differences) {
+          least = std::min(least, -row.dot(d));
+          most = std::max(most, -row.dot(d));
+        }
+        low[a] = static_cast<std::int32_t>(std::ceil(least - row.norm() * half));
+        high[a] = static_cast<std::int32_t>(std::floor(most + row.norm() * half));
+      }
+      add_box({first, second}, low, high, shifts, pairs);
+    }
+  }
+}
+
+template <int D>
+void NearImages<D>::add_box(const BeadPair& pair, const Shift& low, const Shift& high,
+                            ShiftNumbers<D>& shifts, PairsOfImages& pairs) const {
+  for (std::size_t a = 0; a < dimension; ++a)
+    if (low[a] > high[a]) return;
+  for (Shift at = low;;) {
+    pairs.unclear.push_back({pair, number_of(at, shifts)});
+    std::size_t a = 0;
+    for (; a < dimension; ++a) {
+      if (++at[a] <= high[a]) break;
+      at[a] = low[a];
+    }
+    if (a == dimension) return;
+  }
+}
+
+template class NearImages<2>;
+template class NearImages<3>;
+
+}  // namespace kds

@@ -1,0 +1,122 @@
+#pragma once
+// Images of beads in a periodic cell, for exact certificates. An image of a bead is the bead moved by a
+// shift, a whole multiple of the cell's vectors, which change with time as the cell does.
+//
+// A shift is hardly ever a double, but it is the sum of two: its control points are kept as the difference of
+// two points, which `image_contact` certificates name like beads. Such a certificate is therefore exact, for
+// any cell that changes, and its function has the degree of the motion's squares.
+//
+// The vectors' control points are rounded once: to multiples of 2^-80 of the largest coordinate among the
+// vectors at the same control point, so the vectors of a frame are the same in both steps that it joins. Any
+// coordinate above 2^-27 of the largest one is such a multiple already.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "motions/base/input_error.h"
+#include "motions/curves/curves.h"
+
+namespace kds {
+
+/// A whole multiple of each vector of the cell.
+template <int Dimension>
+using CellShift = std::array<std::int32_t, static_cast<std::size_t>(Dimension)>;
+
+/// Numbers shifts in the order in which they are first asked for. Shift 0 is none.
+template <int Dimension>
+class ShiftNumbers {
+ public:
+  ShiftNumbers() { (void)number_of({}); }
+
+  [[nodiscard]] std::uint32_t number_of(const CellShift<Dimension>& shift) {
+    const auto [found, is_new] = numbers_.try_emplace(shift, static_cast<std::uint32_t>(shifts_.size()));
+    if (is_new) shifts_.push_back(shift);
+    return found->second;
+  }
+  [[nodiscard]] const CellShift<Dimension>& shift(std::uint32_t number) const { return shifts_[number]; }
+  [[nodiscard]] std::size_t size() const { return shifts_.size(); }
+
+ private:
+  std::map<CellShift<Dimension>, std::uint32_t> numbers_;
+  std::vector<CellShift<Dimension>> shifts_;
+};
+
+/// A motion of the beads of another motion and of two points for each shift, with radii 0.
+template <int Dimension>
+class ShiftedBeads {
+ public:
+  static constexpr int dimension = Dimension;
+  static constexpr int degree = any_degree;
+  /// The largest multiple of a cell vector.
+  static constexpr std::int32_t most = 1 << 20;
+
+  explicit ShiftedBeads(int own_degree) : row_(static_cast<std::size_t>(own_degree) + 1) {}
+
+  /// Copies the beads of the step, which must have a cell, and computes the shifts.
+  void set(const Curves<Dimension>& curves, const ShiftNumbers<Dimension>& shifts) {
+    beads_ = curves.bead_count();
+    points_.resize((beads_ + 2 * shifts.size()) * row_ * stride);
+    radii_.assign((beads_ + 2 * shifts.size()) * row_, 0);
+    for (BeadId bead = 0; bead < beads_; ++bead) {
+      std::copy_n(curves.control_point(bead, 0), row_ * stride, &points_[bead * row_ * stride]);
+      std::copy_n(curves.radii(bead), row_, &radii_[bead * row_]);
+    }
+    for (std::uint32_t number = 0; number < shifts.size(); ++number)
+      for (std::size_t k = 0; k < row_; ++k)
+        set_shift(curves, shifts.shift(number), number, static_cast<int>(k));
+  }
+  /// Returns the points whose difference is the shift of this number.
+  [[nodiscard]] BeadId to(std::uint32_t number) const { return static_cast<BeadId>(beads_ + 2 * number); }
+  [[nodiscard]] BeadId from(std::uint32_t number) const { return to(number) + 1; }
+
+  [[nodiscard]] int own_degree() const { return static_cast<int>(row_) - 1; }
+  [[nodiscard]] std::size_t bead_count() const { return radii_.size() / row_; }
+  [[nodiscard]] const double* control_point(BeadId bead, int k) const {
+    return &points_[(bead * row_ + static_cast<std::size_t>(k)) * stride];
+  }
+  [[nodiscard]] double coordinate(BeadId bead, int k, int axis) const { return control_point(bead, k)[axis]; }
+  [[nodiscard]] double weight(BeadId bead, int k) const { return control_point(bead, k)[dimension]; }
+  [[nodiscard]] const double* radii(BeadId bead) const { return &radii_[bead * row_]; }
+  [[nodiscard]] double radius(BeadId bead, int k) const { return radii(bead)[k]; }
+
+ private:
+  static constexpr std::size_t stride = Dimension + 1;
+  __extension__ using Integer = __int128;
+
+  void set_shift(const Curves<Dimension>& curves, const CellShift<Dimension>& shift, std::uint32_t number,
+                 int k) {
+    double largest = 0;
+    for (int vector = 0; vector < Dimension; ++vector)
+      for (int axis = 0; axis < Dimension; ++axis)
+        largest = std::max(largest, std::abs(curves.cell_coordinate(vector, k, axis)));
+    const int unit = largest > 0 ? std::ilogb(largest) + 1 - 80 : 0;  // a power of two
+    double* const high = &points_[(to(number) * row_ + static_cast<std::size_t>(k)) * stride];
+    double* const low = &points_[(from(number) * row_ + static_cast<std::size_t>(k)) * stride];
+    for (int axis = 0; axis < Dimension; ++axis) {
+      Integer sum = 0;  // below 3 * 2^100
+      for (std::size_t vector = 0; vector < shift.size(); ++vector) {
+        if (std::abs(shift[vector]) > most)
+          throw InputError("beads have moved more than a million cells apart; expected fewer");
+        const double coordinate = curves.cell_coordinate(static_cast<int>(vector), k, axis);
+        sum += static_cast<Integer>(std::nearbyint(std::ldexp(coordinate, -unit))) * shift[vector];
+      }
+      const auto rounded = static_cast<double>(sum);
+      const auto rest = static_cast<double>(sum - static_cast<Integer>(rounded));  // exact
+      high[axis] = std::ldexp(rounded, unit);
+      low[axis] = -std::ldexp(rest, unit);
+    }
+    high[dimension] = low[dimension] = 0;
+  }
+
+  std::size_t row_;  // control points per bead
+  std::size_t beads_ = 0;
+  std::vector<double> points_, radii_;
+};
+
+static_assert(Motion<ShiftedBeads<3>>);
+
+}  // namespace kds

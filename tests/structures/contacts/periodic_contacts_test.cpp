@@ -1,0 +1,263 @@
+// Contacts by nearest image, judged by all images of each pair over rationals.
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "motions/frames/periodic.h"
+#include "structures/contacts/contacts.h"
+#include "tests/support/inputs/moving_beads.h"
+#include "tests/support/inputs/random.h"
+#include "tests/support/judges/image_events.h"
+#include "tests/support/rounds.h"
+#include "tests/support/text_of.h"
+
+namespace kds::periodic_contacts_test {
+namespace {
+
+using namespace test;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+template <Motion M>
+using ContactRig = Rig<Contacts<M::dimension>, M>;
+
+PairsAsked all_pairs(std::size_t beads) { return {{{0, static_cast<BeadId>(beads - 1)}}, true, 1, true}; }
+
+Cell box(double x, double y, double z) { return Eigen::Vector3d(x, y, z).asDiagonal(); }
+
+template <Motion M>
+void expect_right(const std::vector<M>& steps, int most_shift = 6) {
+  const PairsAsked asked = all_pairs(steps.front().bead_count());
+  ContactRig<M> filtered(steps.front(), AuditMode::events, Kernel::filtered, asked);
+  filtered.motion = steps.front();
+  filtered.simulator.build();
+  const std::vector<BeadPair> at_start = filtered.structure.pairs();
+  for (const M& step : steps) ASSERT_NO_THROW(filtered.step(step));
+  filtered.simulator.finish();
+  const auto judge = [&](const std::vector<M>& all, const BeadPair& pair) {
+    return history_of_images(all, pair, most_shift);
+  };
+  EXPECT_EQ(
+      contact_history_fault(steps, asked, filtered.history, at_start, filtered.structure.pairs(), judge),
+      std::nullopt);
+  EXPECT_TRUE(books_balance(filtered.structure.statistics));
+
+  ContactRig<M> exact(steps.front(), AuditMode::none, Kernel::exact, asked);
+  exact.run(steps);
+  EXPECT_EQ(exact.simulator.fingerprint(), filtered.simulator.fingerprint());
+  EXPECT_EQ(exact.structure.pairs(), filtered.structure.pairs());
+}
+
+/// Runs two balls of radius 1 in a cell: the first rests, the second is at the given places in the frames.
+std::vector<std::string> told_of(const Points& places, const Cell& cell,
+                                 const std::array<double, 3>& rests = {}) {
+  std::vector<Points> frames;
+  for (const auto& place : places) frames.push_back({rests, place});
+  std::vector<Space> steps = through(frames);
+  for (Space& step : steps) {
+    for (BeadId b = 0; b < 2; ++b)
+      for (int k = 0; k <= 1; ++k) step.set_radius(b, k, 1);
+    step.own_cell().set(cell, cell, 1);
+  }
+  expect_right(steps);
+  ContactRig<Space> rig(steps.front(), AuditMode::events, all_pairs(2));
+  rig.run(steps);
+  std::vector<std::string> lines;
+  for (const Event& e : rig.history.events)
+    lines.push_back(text_of(rig.structure.kinds()[e.change.kind].name, " at ",
+                            static_cast<double>(e.step) + 0.5 * (e.lower + e.upper)));
+  return lines;
+}
+
+TEST(PeriodicContacts, AcrossAWall) {
+  EXPECT_THAT(told_of({{4, 0, 0}, {12, 0, 0}}, box(16, 16, 16)), IsEmpty());
+  EXPECT_THAT(told_of({{12, 0, 0}, {20, 0, 0}}, box(16, 16, 16)),
+              ElementsAre("begin at 0.25", "end at 0.75"));
+  EXPECT_THAT(told_of({{12, 0, 0}, {16, 0, 0}, {20, 0, 0}}, box(16, 16, 16)),
+              ElementsAre("begin at 0.5", "end at 1.5"));
+  EXPECT_THAT(told_of({{-20, 2, 16}, {-12, 2, 16}}, box(16, 16, 16)), ElementsAre("touch at 0.5"));
+  EXPECT_THAT(told_of({{4, 0, 0}, {68, 0, 0}}, box(16, 16, 16)),
+              ElementsAre("begin at 0.15625", "end at 0.21875", "begin at 0.40625", "end at 0.46875",
+                          "begin at 0.65625", "end at 0.71875", "begin at 0.90625", "end at 0.96875"));
+}
+
+TEST(PeriodicContacts, OneVectorOnly) {
+  EXPECT_THAT(told_of({{12, 0, 0}, {20, 0, 0}}, box(16, 0, 0)), ElementsAre("begin at 0.25", "end at 0.75"));
+  EXPECT_THAT(told_of({{12, 0, 0}, {20, 0, 0}}, box(0, 16, 0)), IsEmpty());
+}
+
+// Between two images that are as far apart as twice the reach, one ends as the other begins.
+TEST(PeriodicContacts, HalfACellIsTheReach) {
+  EXPECT_THAT(told_of({{0, 0, 0}, {8, 0, 0}}, box(4, 16, 16)), IsEmpty());
+  EXPECT_THAT(told_of({{2, 0, 0}, {2, 0, 0}}, box(4, 16, 16)), IsEmpty());
+  EXPECT_THAT(told_of({{2, 0, 0}, {2, 1, 0}}, box(4, 16, 16)), ElementsAre("touch at 0"));
+  EXPECT_THAT(told_of({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}}, box(4, 16, 16)), ElementsAre("end at 1"));
+  EXPECT_THAT(told_of({{2, -1, 0}, {2, 1, 0}}, box(4, 16, 16)), ElementsAre("touch at 0.5"));
+  EXPECT_THAT(told_of({{2, -1, 0}, {2, 0, 0}, {2, 1, 0}}, box(4, 16, 16)), ElementsAre("touch at 1"));
+  EXPECT_THAT(told_of({{2, 1, 0}, {2, 0, 0}, {3, 0, 0}}, box(4, 16, 16)), ElementsAre("begin at 1"));
+}
+
+// Several images are in contact at once.
+TEST(PeriodicContacts, SmallCell) {
+  EXPECT_THAT(told_of({{0, 4, 0}, {0, 0, 0}, {0, 4, 0}}, box(1.5, 16, 16)),
+              ElementsAre("begin at 0.5", "end at 1.5"));
+  EXPECT_THAT(told_of({{0, 0, 0}, {4, 4, 4}}, box(1.5, 1.5, 1.5)), IsEmpty());
+}
+
+/// The kinds of cells of random scenes.
+enum class CellKind { box, small, skewed, changing, one_vector, two_vectors };
+
+Cell random_cell(Random& random, CellKind kind, int dimension) {
+  const auto whole = [&](int from, int to) { return static_cast<double>(pick(random, from, to)); };
+  Cell cell = box(whole(6, 9), whole(6, 9), whole(6, 9));
+  if (kind == CellKind::small) cell = box(whole(2, 4), whole(2, 4), whole(2, 4));
+  if (kind == CellKind::skewed || kind == CellKind::changing) {
+    cell(0, 1) = 0.5 * whole(-6, 6);
+    cell(0, 2) = 0.5 * whole(-6, 6);
+    cell(1, 2) = 0.5 * whole(-6, 6);
+  }
+  if (kind == CellKind::one_vector) cell.rightCols(2).setZero();
+  if (kind == CellKind::two_vectors) cell.col(1).setZero();
+  if (dimension == 2) {
+    cell.col(2).setZero();
+    cell.row(2).setZero();
+  }
+  return cell;
+}
+
+template <class M>
+std::vector<M> random_steps(Random& random, CellKind kind, std::size_t beads, bool on_grid) {
+  std::vector<M> steps;
+  Cell start = random_cell(random, kind, M::dimension);
+  for (int s = 0; s < 2; ++s) {
+    M& step = steps.emplace_back(beads);
+    Cell end = start;
+    if (kind == CellKind::changing)
+      for (int i = 0; i < M::dimension; ++i)
+        for (int j = 0; j < M::dimension; ++j) end(i, j) += 0.125 * pick(random, -3, 3);
+    for (BeadId b = 0; b < beads; ++b) {
+      for (int k = 0; k <= M::degree; ++k) {
+        step.set_radius(b, k, b % 3 == 0 ? 1 : 0.5);
+        for (int axis = 0; axis < M::dimension; ++axis) {
+          double x = on_grid ? 0.5 * pick(random, -8, 16) : 6 * uniform(random);
+          if (k > 0 && !on_grid) x = step.coordinate(b, 0, axis) + 2 * uniform(random);
+          if (s > 0 && k == 0) x = steps[0].coordinate(b, M::degree, axis);
+          step.set_coordinate(b, k, axis, x);
+        }
+      }
+    }
+    step.own_cell().set(start, end, M::degree);
+    start = end;
+  }
+  return steps;
+}
+
+template <class M>
+void expect_random_scenes_right(int count) {
+  Random random(52);
+  for (int round = 0; round < rounds(count, 1); ++round) {
+    for (const CellKind kind : {CellKind::box, CellKind::small, CellKind::skewed, CellKind::changing,
+                                CellKind::one_vector, CellKind::two_vectors}) {
+      if (M::dimension == 2 && kind == CellKind::two_vectors) continue;
+      for (const bool on_grid : {false, true}) {
+        SCOPED_TRACE(text_of("round ", round, ", cell ", static_cast<int>(kind), on_grid ? ", grid" : ""));
+        expect_right(random_steps<M>(random, kind, 4, on_grid), kind == CellKind::small ? 12 : 6);
+        if (testing::Test::HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(PeriodicContacts, RandomInSpace) { expect_random_scenes_right<BezierMotion<3, 1>>(3); }
+TEST(PeriodicContacts, RandomInThePlane) { expect_random_scenes_right<BezierMotion<2, 1>>(12); }
+TEST(PeriodicContacts, RandomOfHigherDegree) {
+  expect_random_scenes_right<BezierMotion<2, 2>>(1);
+  expect_random_scenes_right<BezierMotion<2, 3>>(1);
+}
+
+/// Frames of beads that take small steps in dyadic numbers, in a cell, and the events of their contacts.
+struct Wanderers {
+  Cell cell = box(8, 12, 16);
+  std::vector<Eigen::Matrix3Xd> frames;
+
+  Wanderers() {
+    Random random(7);
+    cell(0, 1) = 3;
+    Eigen::Matrix3Xd at(3, 30);
+    for (double& x : at.reshaped()) x = 0.125 * pick(random, 0, 96);
+    for (int frame = 0; frame < 12; ++frame) {
+      frames.push_back(at);
+      for (double& x : at.reshaped()) x += 0.125 * pick(random, -12, 12);
+    }
+  }
+  /// Returns the frames, moved by a vector and wrapped into the cell again.
+  [[nodiscard]] std::vector<Eigen::Matrix3Xd> wrapped(const Eigen::Vector3d& by) const {
+    std::vector<Eigen::Matrix3Xd> moved = frames;
+    for (Eigen::Matrix3Xd& frame : moved) {
+      frame.colwise() += by;
+      for (Eigen::Index b = 0; b < frame.cols(); ++b) {
+        const Eigen::Vector3d share = cell.triangularView<Eigen::Upper>().solve(frame.col(b));
+        frame.col(b) -= cell * share.array().floor().matrix();
+      }
+    }
+    return moved;
+  }
+};
+
+/// Returns the events of a run through frames whose beads are unwrapped, as lines in order, and counts those
+/// at the start.
+std::vector<std::string> events_through(std::vector<Eigen::Matrix3Xd> frames, const Cell& cell) {
+  UnwrappedBeads beads;
+  for (Eigen::Matrix3Xd& frame : frames) beads.follow(frame, cell);
+  const auto count = static_cast<std::size_t>(frames.front().cols());
+  std::vector<Space> steps;
+  for (std::size_t k = 0; k + 1 < frames.size(); ++k) {
+    Space& step = steps.emplace_back(count);
+    step.set_ends(frames[k].data(), frames[k + 1].data(), std::vector<double>(count, 1).data());
+    step.own_cell().set(cell, cell, 1);
+  }
+  ContactRig<Space> rig(steps.front(), AuditMode::frames, all_pairs(count));
+  rig.motion = steps.front();
+  rig.simulator.build();
+  std::vector<std::string> lines;
+  for (const BeadPair& pair : rig.structure.pairs())
+    lines.push_back(text_of("at first ", pair.first, " ", pair.second));
+  for (const Space& step : steps) rig.step(step);
+  rig.simulator.finish();
+  for (const Event& e : rig.history.events)
+    lines.push_back(text_of(rig.structure.kinds()[e.change.kind].name, " ", e.change.ids[0], " ",
+                            e.change.ids[1], " at ", e.step, " ", e.lower, " ", e.upper));
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+TEST(PeriodicContacts, DoNotDependOnWhereTheWallsAre) {
+  const Wanderers wanderers;
+  const auto lines = events_through(wanderers.wrapped({0, 0, 0}), wanderers.cell);
+  EXPECT_GT(lines.size(), 100U);
+  for (const Eigen::Vector3d& by : {Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(-40.5, 7.25, 111.125)})
+    EXPECT_EQ(events_through(wanderers.wrapped(by), wanderers.cell), lines);
+}
+
+TEST(PeriodicContacts, OfASupercellAreEightTimesAsMany) {
+  const Wanderers wanderers;
+  const std::vector<Eigen::Matrix3Xd> frames = wanderers.wrapped({0, 0, 0});
+  std::vector<Eigen::Matrix3Xd> copies;
+  UnwrappedBeads beads;
+  for (Eigen::Matrix3Xd frame : frames) {
+    beads.follow(frame, wanderers.cell);
+    Eigen::Matrix3Xd& all = copies.emplace_back(3, 8 * frame.cols());
+    for (int copy = 0; copy < 8; ++copy) {
+      const Eigen::Vector3d shift = wanderers.cell * Eigen::Vector3d(copy % 2, copy / 2 % 2, copy / 4);
+      all.middleCols(copy * frame.cols(), frame.cols()) = frame.colwise() + shift;
+    }
+  }
+  EXPECT_EQ(events_through(copies, 2 * wanderers.cell).size(),
+            8 * events_through(frames, wanderers.cell).size());
+}
+
+}  // namespace
+}  // namespace kds::periodic_contacts_test
