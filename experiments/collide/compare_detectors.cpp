@@ -23,6 +23,7 @@ namespace kds {
 CollideFrames::CollideFrames(const InputOptions& options, const std::function<void(const std::string&)>& warn)
     : frames_(open_frames(options, warn)) {
   const FrameSurvey survey = survey_frames(*frames_, options.radius == "auto", warn);
+  if (survey.periodic && options.periodic) warn_of_images("collide", warn);
   radii_ = bead_radii(options.radius, frames_->necklaces(), survey);
   plane_ = survey.plane;
   truncated_ = survey.truncated;

@@ -194,6 +194,21 @@ OptionList<InputOptions> make_input_options() {
        [](const InputOptions& o) { return o.reading.until_damage ? "yes" : ""; },
        nullptr,
        [](const InputOptions& o) { return Json(o.reading.until_damage); }},
+      {{"--unwrap", "HOW",
+        "how beads move through the walls of a periodic cell: chains (molecules are made whole and move as a "
+        "whole), beads (each to its nearest image of the frame before) or none (as the file has them) "
+        "(default: "
+        "chains, or beads for a file that names no molecules and whose beads are strewn over the cell)"},
+       [](InputOptions& o, const std::string& text) {
+         o.reading.unwrap = choice_of("--unwrap", text, unwrap_names, Unwrap::none);
+       },
+       [](const InputOptions& o) { return std::string(o.reading.unwrap ? name_of(*o.reading.unwrap) : ""); }},
+      {{"--no-periodic", "",
+        "contacts of beads only, not of their images across the walls of a periodic cell"},
+       [](InputOptions& o, const std::string&) { o.periodic = false; },
+       [](const InputOptions& o) { return o.periodic ? "" : "yes"; },
+       nullptr,
+       [](const InputOptions& o) { return Json(!o.periodic); }},
       {{"--radius", "RULE",
         "radii of the beads: auto (half of the longest bond in the frames read), a number, element (van der "
         "Waals), element:fit (element times one factor, at most 1, at which only neighbours may touch in the "

@@ -40,6 +40,8 @@ std::optional<Instance> read_lone_instance(const InputOptions& options) {
   refuse(reading.time_step.has_value(), "--dt");
   refuse(reading.units.has_value(), "--units");
   refuse(reading.until_damage, "--until-damage");
+  refuse(reading.unwrap.has_value(), "--unwrap");
+  refuse(!options.periodic, "--no-periodic");
   refuse(options.radius != "auto", "--radius");
   refuse(options.obstacle.has_value(), "--obstacle");
   return read_instance(*instance);
@@ -239,6 +241,7 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
                      const std::optional<MotionTolerance>& tolerance, bool* lone_frame) {
   std::unique_ptr<FileFrames> files = open_frames(input, warn);
   FrameSurvey survey = survey_frames(*files, input.radius == "auto", warn);
+  survey.periodic = survey.periodic && input.periodic;
   const bool repeats = lone_frame != nullptr && survey.frame_count == 1;
   if (survey.frame_count < 2 && !repeats && !files->early_end().empty())
     throw InputError(fmt::format("{}; a run needs at least two frames", files->early_end()));
@@ -254,6 +257,11 @@ Scene load_necklaces(const InputOptions& input, FrameMotion motion, double radiu
   return {std::move(frames), survey, std::move(radii), motion};
 }
 
+void warn_of_images(std::string_view what, const std::function<void(const std::string&)>& warn) {
+  warn(fmt::format("{} takes beads as they lie, without their images across the walls of the periodic cell",
+                   what));
+}
+
 Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn,
                  bool* lone_frame) {
   const InputOptions& input = options;
@@ -266,7 +274,14 @@ Scene load_scene(const RunOptions& options, const std::function<void(const std::
                                                   options.inputs.front().string()));
     return Scene(std::move(*instance));
   }
-  return load_necklaces(input, options.motion, 1, warn, options.tolerance, lone_frame);
+  Scene scene = load_necklaces(input, options.motion, 1, warn, options.tolerance, lone_frame);
+  if (!scene.is_periodic()) return scene;
+  for (const std::string& name :
+       options.structures.empty() ? default_structures(scene) : options.structures) {
+    const StructureSpec* const spec = structure_registry().find(name);
+    if (spec != nullptr && spec->lacks_images) warn_of_images(name, warn);
+  }
+  return scene;
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/program/input_options.h"
@@ -40,6 +41,8 @@ void refuse_instance(const InputOptions& options, std::string_view what = "no fr
                                    const std::function<void(const std::string&)>& warn,
                                    const std::optional<MotionTolerance>& tolerance = {},
                                    bool* lone_frame = nullptr);
+/// Says to `warn` that `what` leaves out the images of beads across the walls of a periodic cell.
+void warn_of_images(std::string_view what, const std::function<void(const std::string&)>& warn);
 /// Loads the scene of a `kds run`, whose input may also be an instance file. `lone_frame` is as in
 /// load_necklaces.
 [[nodiscard]] Scene load_scene(const RunOptions& options, const std::function<void(const std::string&)>& warn,

@@ -222,7 +222,9 @@ std::vector<Trajectory> read_necklaces(const TradeOptions& options,
   std::vector<std::vector<Eigen::Matrix3Xd>> frames(files->necklaces().size());
   std::vector<std::size_t> numbers;
   std::vector<double> times;
+  bool has_cell = false;
   for (FrameRead frame; files->next(frame);) {
+    has_cell = has_cell || frame.cell;
     numbers.push_back(frame.stamp.number);
     if (frame.stamp.picoseconds) times.push_back(*frame.stamp.picoseconds);
     Eigen::Index begin = 0;
@@ -234,6 +236,7 @@ std::vector<Trajectory> read_necklaces(const TradeOptions& options,
     }
   }
   for (const std::string& warning : files->warnings()) warn(warning);
+  if (has_cell && options.periodic) warn_of_images("trade", warn);
   if (times.size() < numbers.size()) times.clear();
   std::vector<Trajectory> necklaces = files->heads();  // complete now that all frames have been read
   for (std::size_t n = 0; n < necklaces.size(); ++n) {

@@ -14,7 +14,7 @@ InputError = _kds.InputError
 # Arguments of every input. They are in front of the options of the program in every signature.
 INPUT = ("start", "stop", "step", "radius", "units", "necklaces", "times", "groups")
 # Options of the program that say how files are read.
-OF_FILES = ("topology", "select", "chain", "obstacle", "dt", "until_damage")
+OF_FILES = ("topology", "select", "chain", "obstacle", "dt", "until_damage", "unwrap", "no_periodic")
 OF_THE_INPUT = (*INPUT, *OF_FILES)
 # Options of the program that are no arguments, and why.
 _NO_ARGUMENTS = {

@@ -161,6 +161,7 @@ void add_ball_structures(StructureRegistry& registry) {
          if (scene.dimension() < 2) return needs_plane_or_space(scene);
          return std::nullopt;
        },
+       .lacks_images = true,
        .make = make_of_motion<PowerInRun, 2>()});
   registry.add(
       {.name = "contacts",

@@ -147,6 +147,8 @@ struct StructureSpec {
   std::function<std::optional<std::string>(const Scene&)> refusal = [](const Scene&) {
     return std::optional<std::string>();
   };
+  /// Whether the structure is about near beads, but takes no images of them in a periodic cell.
+  bool lacks_images = false;
   /// Returns whether the structure has events at all, and can be logged, replayed and audited between events.
   std::function<bool(const StructureSettings&)> has_events = [](const StructureSettings&) { return true; };
   /// Makes the structure. Simulator, scene and motion outlive it.
